@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One discretised field (axial or bending) on n equal elements, and the
+ * element's exact integrals. Nodal arrays hold, node by node from the clamped
+ * end, u for axial and the pair (w, s) with the scaled slope s = h w_x for
+ * bending, all in metres; the clamped node 0 is stored and stays zero. */
+#ifndef BR_FIELD_H
+#define BR_FIELD_H
+
+#include "solver/scene.h"
+
+enum br_field_kind { BR_AXIAL, BR_BENDING };
+
+/* The operator of one Euler step in velocity form: M/k + C + k K. */
+struct br_field {
+    enum br_field_kind kind;
+    size_t n;         /* elements */
+    double h;         /* element length, m */
+    double density;   /* rho, kg/m */
+    double stiffness; /* a, N or N m^2 */
+    double viscosity; /* c, N s or N m^2 s */
+    double k;         /* time step, s */
+};
+
+/* The field of the given kind of a scene, on n elements with the time step k. */
+struct br_field br_field_of_scene(const struct br_scene *scene, enum br_field_kind kind, size_t n,
+                                  double k);
+
+/* Unknowns a node: 1 axial, 2 bending. */
+size_t br_field_unknowns(enum br_field_kind kind);
+
+/* Length of a nodal array, clamped node included: unknowns * (n + 1). */
+size_t br_field_size(const struct br_field *field);
+
+/* Consistent mass of one element over h: symmetric, for (u0, u1) and for
+ * (w0, s0, w1, s1), so that rho h * mass is the element's matrix. */
+extern const double br_axial_mass[2][2];
+extern const double br_bending_mass[4][4];
+
+/* An element's two curvature coefficients, m, from its nodal values: with xi in
+ * [0, 1] along the element, h^2 w_xx = curvature[0] + curvature[1] (2 xi - 1).
+ * node: in, (w0, s0, w1, s1), m. */
+static inline void br_curvature(const double node[4], double curvature[2])
+{
+    curvature[0] = node[3] - node[1];
+    curvature[1] = 3 * (node[1] + node[3]) - 6 * (node[2] - node[0]);
+}
+
+/* Load vector of f = space(x, t), N/m, on the field's mesh into `vector` (out,
+ * br_field_size values; N, and N for the scaled slope): closed form where space
+ * does not use x, five Gauss points an element otherwise.
+ * Fails with BR_NOT_FINITE, naming x and t; BR_NO_MEMORY. */
+enum br_status br_assemble_load(const struct br_field *field, const struct br_function *space,
+                                double t, double *vector, struct br_error *err);
+
+/* Nodal interpolant (Lagrange or Hermite) of a function of x, m or m/s, into
+ * `nodal` (out, br_field_size values). slope: the function's derivative, for
+ * bending only. The clamped node is set to zero.
+ * Fails with BR_NOT_FINITE; BR_NO_MEMORY. */
+enum br_status br_interpolate(const struct br_field *field, const struct br_function *value,
+                              const struct br_function *slope, double *nodal,
+                              struct br_error *err);
+
+#endif

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/friction.h"
+
+#include <string.h>
+
+#include "solver/contact.h"
+
+double br_friction_bound(const struct br_scene *scene, double u)
+{
+    switch (scene->friction.law) {
+    case BR_TRESCA:
+        return scene->friction.coefficient;
+    case BR_COULOMB:
+        return scene->friction.coefficient * br_penetration(&scene->contact, u);
+    case BR_FRICTIONLESS:
+        break;
+    }
+    return 0;
+}
+
+/* lambda into [-bound, bound]; NaN stays NaN. */
+static double clamp(double lambda, double bound)
+{
+    if (lambda > bound)
+        return bound;
+    return lambda < -bound ? -bound : lambda;
+}
+
+/* (12): stick, v = 0, while |lambda| <= h; slip with |lambda| = h otherwise. */
+static double exact_force(const struct br_friction_state *s)
+{
+    return clamp(s->free_velocity / s->compliance, s->bound);
+}
+
+/* (29), corrected: lambda = h v / mu for |v| <= mu, h sign(v) beyond. */
+static double regularised_force(const struct br_friction_state *s)
+{
+    const double denominator = s->regularisation + s->bound * s->compliance;
+    return clamp(s->bound * s->free_velocity / denominator, s->bound);
+}
+
+static const struct br_friction_rule exact = {
+    .name = "exact",
+    .title = "the law itself: stick is v = 0",
+    .citation = "Campo et al. 2006, (12) and (17)",
+    .force = exact_force,
+};
+
+static const struct br_friction_rule regularised = {
+    .name = "regularised",
+    .title = "smoothed over |v| <= mu with the scene's mu",
+    .citation = "Campo et al. 2006, (29)-(30), misprints corrected",
+    .needs_regularisation = true,
+    .force = regularised_force,
+};
+
+const struct br_friction_rule *const br_friction_rules[] = {&exact, &regularised, NULL};
+
+const struct br_friction_rule *br_friction_rule_find(const char *name)
+{
+    for (const struct br_friction_rule *const *rule = br_friction_rules; *rule; rule++)
+        if (strcmp((*rule)->name, name) == 0)
+            return *rule;
+    return NULL;
+}

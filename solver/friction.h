@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The friction law (12) at the tip, one scalar problem a step: a registry. */
+#ifndef BR_FRICTION_H
+#define BR_FRICTION_H
+
+#include "solver/scene.h"
+
+/* With v = v* - lambda z: find lambda in bound * Sign(v), or its regularisation. */
+struct br_friction_state {
+    double free_velocity;  /* v*, m/s */
+    double compliance;     /* z_tip, m/s per N */
+    double bound;          /* h(t_n) >= 0, N */
+    double regularisation; /* mu, m/s */
+};
+
+struct br_friction_rule {
+    const char *name;     /* as on the command line */
+    const char *title;    /* one line for a person */
+    const char *citation;
+    bool needs_regularisation; /* the scene must give mu > 0 */
+    /* lambda = -sigma_V(L), N: the friction force that resists the tip. */
+    double (*force)(const struct br_friction_state *state);
+};
+
+/* NULL-terminated; the first is the default. */
+extern const struct br_friction_rule *const br_friction_rules[];
+const struct br_friction_rule *br_friction_rule_find(const char *name);
+
+/* The friction bound h, N, with the tip at the axial displacement u, m. */
+double br_friction_bound(const struct br_scene *scene, double u);
+
+#endif

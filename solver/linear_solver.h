@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Linear solvers: one interface, one row each in the registry.
+ *
+ * A solver owns the state (displacement and velocity) of one field and takes it
+ * through implicit Euler steps of equation (27) or (28). Contact and friction
+ * act on the tip alone, so a step is two halves: `predict` solves with no tip
+ * force and tells the tip's velocity v*; the laws then find the force r that
+ * resists the tip's motion; `finish` completes the step with v = v* - r z, where
+ * z = (M/k + C + kK)^-1 e_tip is computed once.
+ *
+ * To add a solver: one file that defines a `const struct br_linear_solver`, and
+ * one row in linear_solver.c. */
+#ifndef BR_LINEAR_SOLVER_H
+#define BR_LINEAR_SOLVER_H
+
+#include "solver/field.h"
+
+/* Options that solvers may heed; each says which in its `options` text. */
+struct br_linear_options {
+    const char *scaling; /* umfpack: "none", "sum" or "max" */
+    int refinement;      /* umfpack: largest number of refinement steps a solve */
+};
+
+extern const struct br_linear_options br_linear_defaults;
+
+/* A march of one field: create, then predict and finish once a step. */
+struct br_field_solver {
+    /* Prepares the field's operator; the state starts at rest. Fails with
+     * BR_SINGULAR, BR_BAD_INPUT (an option), BR_NO_MEMORY; free *self even then. */
+    enum br_status (*create)(const struct br_field *field, const struct br_linear_options *options,
+                             void **self, struct br_error *err);
+    void (*free)(void *self); /* accepts NULL */
+
+    /* The tip's velocity per unit of tip force, z_tip > 0, m/s per N. */
+    double (*tip_compliance)(const void *self);
+
+    /* Set or get nodal displacement, m, and velocity, m/s: arrays of
+     * br_field_size values laid out as in field.h. get: either may be NULL. */
+    void (*set)(void *self, const double *displacement, const double *velocity);
+    void (*get)(const void *self, double *displacement, double *velocity);
+
+    /* First half of a step: solves with the load vector factor * load (in, N) and
+     * no tip force; *velocity is the tip's free velocity v*, m/s. load may be
+     * NULL: no load. Fails with BR_SINGULAR where the solver itself finds it. */
+    enum br_status (*predict)(void *self, const double *load, double factor, double *velocity,
+                              struct br_error *err);
+
+    /* Second half: the force r, N, resists the tip; advances the state by k and
+     * returns the tip's velocity, m/s. */
+    double (*finish)(void *self, double force);
+
+    /* The tip's displacement, m. Cheap for axial; a pass over the elements for
+     * bending, whose laws do not need it. */
+    double (*tip_displacement)(const void *self);
+};
+
+/* A row of the registry. */
+struct br_linear_solver {
+    const char *name;     /* as on the command line */
+    const char *title;    /* one line for a person */
+    const char *citation; /* where the method comes from */
+    const char *options;  /* which br_linear_options it heeds; "" for none */
+    const struct br_field_solver *axial, *bending;
+
+    /* Predicted round-off of a march's displacement relative to the exact discrete
+     * solution, from measurements (the benchmark prints both). */
+    double (*round_off)(const struct br_field *field);
+};
+
+extern const struct br_linear_solver br_riccati, br_umfpack;
+
+/* The registry, in the order of help texts; NULL-terminated. The first is the default. */
+extern const struct br_linear_solver *const br_linear_solvers[];
+
+/* The solver of that name, or NULL. */
+const struct br_linear_solver *br_linear_solver_find(const char *name);
+
+#endif

@@ -1,0 +1,329 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/march.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A load as it is stepped: factor * vector. */
+struct load_vector {
+    struct br_load functions; /* clones */
+    double *vector;           /* br_field_size values, N */
+    double factor;
+    bool absent;   /* identically zero */
+    bool reassemble; /* space uses t */
+};
+
+struct part {
+    bool modelled;
+    struct br_field field;
+    const struct br_field_solver *solver;
+    void *state;
+    struct load_vector load;
+};
+
+struct br_march {
+    const struct br_scene *scene;
+    struct br_method method;
+    size_t steps, done;
+    struct part part[2]; /* by br_field_kind */
+    struct br_tip tip;
+};
+
+struct br_method br_method_default(void)
+{
+    return (struct br_method){
+        .solver = br_linear_solvers[0],
+        .linear = br_linear_defaults,
+        .contact = br_contact_rules[0],
+        .friction = br_friction_rules[0],
+    };
+}
+
+/* t_n = n T / N, never summed. */
+static double time_level(const struct br_march *m, size_t n)
+{
+    return m->scene->duration * (double)n / (double)m->steps;
+}
+
+static enum br_status create_load(struct load_vector *load, const struct br_load *source,
+                                  const struct br_field *field, struct br_error *err)
+{
+    load->absent = br_function_is_zero(&source->space) || br_function_is_zero(&source->time);
+    load->reassemble = source->space.uses_t;
+    load->factor = 1;
+    if (load->absent)
+        return BR_OK;
+    load->vector = br_allocate(br_field_size(field), sizeof *load->vector);
+    if (!load->vector)
+        return br_no_memory(err, "a load vector");
+    enum br_status status = br_function_clone(&source->space, &load->functions.space, err);
+    if (!status)
+        status = br_function_clone(&source->time, &load->functions.time, err);
+    if (!status && !load->reassemble)
+        status = br_assemble_load(field, &load->functions.space, 0, load->vector, err);
+    return status;
+}
+
+/* The load vector at time t. */
+static enum br_status update_load(struct load_vector *load, const struct br_field *field, double t,
+                                  struct br_error *err)
+{
+    if (load->absent)
+        return BR_OK;
+    const double x = 0;
+    br_function_evaluate(&load->functions.time, 1, &x, t, &load->factor);
+    if (!isfinite(load->factor))
+        return br_fail(err, BR_NOT_FINITE, "the load's time factor is %g at t = %.17g s",
+                       load->factor, t);
+    if (load->reassemble)
+        return br_assemble_load(field, &load->functions.space, t, load->vector, err);
+    return BR_OK;
+}
+
+static enum br_status set_initial(struct part *part, const struct br_function *displacement,
+                                  const struct br_function *displacement_slope,
+                                  const struct br_function *velocity,
+                                  const struct br_function *velocity_slope, struct br_error *err)
+{
+    if (br_function_is_zero(displacement) && br_function_is_zero(velocity))
+        return BR_OK; /* a solver starts at rest */
+    const size_t size = br_field_size(&part->field);
+    double *nodal = br_allocate(2 * size, sizeof *nodal);
+    if (!nodal)
+        return br_no_memory(err, "the initial data");
+    enum br_status status =
+        br_interpolate(&part->field, displacement, displacement_slope, nodal, err);
+    if (!status)
+        status = br_interpolate(&part->field, velocity, velocity_slope, nodal + size, err);
+    if (!status)
+        part->solver->set(part->state, nodal, nodal + size);
+    free(nodal);
+    return status;
+}
+
+static enum br_status create_part(struct br_march *m, enum br_field_kind kind, size_t n,
+                                  struct br_error *err)
+{
+    struct part *part = &m->part[kind];
+    const struct br_scene *s = m->scene;
+    part->modelled = kind == BR_AXIAL ? s->axial.modelled : s->bending.modelled;
+    part->field = br_field_of_scene(s, kind, n, s->duration / (double)m->steps);
+    if (!part->modelled)
+        return BR_OK;
+    part->solver = kind == BR_AXIAL ? m->method.solver->axial : m->method.solver->bending;
+    enum br_status status =
+        part->solver->create(&part->field, &m->method.linear, &part->state, err);
+    if (!status)
+        status = create_load(&part->load, kind == BR_AXIAL ? &s->axial.load : &s->bending.load,
+                             &part->field, err);
+    if (status)
+        return status;
+    if (kind == BR_AXIAL)
+        return set_initial(part, &s->axial.displacement, NULL, &s->axial.velocity, NULL, err);
+    return set_initial(part, &s->bending.displacement, &s->bending.displacement_slope,
+                       &s->bending.velocity, &s->bending.velocity_slope, err);
+}
+
+static enum br_status check_method(const struct br_scene *scene, size_t n, size_t steps,
+                                   const struct br_method *method, struct br_error *err)
+{
+    if (n < 1)
+        return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
+    if (steps < 1)
+        return br_fail(err, BR_BAD_INPUT, "there are no time steps, expected at least one");
+    if (scene->friction.law != BR_FRICTIONLESS && method->friction->needs_regularisation &&
+        !(scene->friction.regularisation > 0))
+        return br_fail(err, BR_BAD_INPUT,
+                       "friction rule '%s' needs the scene's regularisation, mu > 0",
+                       method->friction->name);
+    return br_scene_check(scene, err);
+}
+
+enum br_status br_march_create(struct br_march **out, const struct br_scene *scene, size_t n,
+                               size_t steps, const struct br_method *method, struct br_error *err)
+{
+    *out = NULL;
+    enum br_status status = check_method(scene, n, steps, method, err);
+    if (status)
+        return status;
+    struct br_march *m = br_allocate(1, sizeof *m);
+    if (!m)
+        return br_no_memory(err, "a march");
+    m->scene = scene;
+    m->method = *method;
+    m->steps = steps;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        status = create_part(m, (enum br_field_kind)kind, n, err);
+    if (status) {
+        br_march_free(m);
+        return status;
+    }
+    m->tip.displacement = br_march_tip_displacement(m, BR_AXIAL);
+    *out = m;
+    return BR_OK;
+}
+
+void br_march_free(struct br_march *m)
+{
+    if (!m)
+        return;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct part *part = &m->part[kind];
+        if (part->solver)
+            part->solver->free(part->state);
+        br_function_free(&part->load.functions.space);
+        br_function_free(&part->load.functions.time);
+        free(part->load.vector);
+    }
+    free(m);
+}
+
+/* v*: the tip's velocity at t_n with no tip force. */
+static enum br_status predict(struct br_march *m, enum br_field_kind kind, double *velocity,
+                              struct br_error *err)
+{
+    struct part *part = &m->part[kind];
+    const enum br_status status =
+        update_load(&part->load, &part->field, time_level(m, m->done + 1), err);
+    if (status)
+        return status;
+    return part->solver->predict(part->state, part->load.absent ? NULL : part->load.vector,
+                                 part->load.factor, velocity, err);
+}
+
+/* Equation (16), or (27): v_n with the contact force at u_{n-1} or at u_n. */
+static enum br_status step_axial(struct br_march *m, struct br_error *err)
+{
+    struct part *part = &m->part[BR_AXIAL];
+    struct br_contact_state contact = {
+        .displacement = m->tip.displacement,
+        .compliance = part->solver->tip_compliance(part->state),
+        .k = part->field.k,
+    };
+    const enum br_status status = predict(m, BR_AXIAL, &contact.free_velocity, err);
+    if (status)
+        return status;
+    m->tip.contact_force = m->scene->contact.modelled
+                               ? m->method.contact->force(&m->scene->contact, &contact)
+                               : 0;
+    m->tip.velocity[BR_AXIAL] = part->solver->finish(part->state, m->tip.contact_force);
+    m->tip.displacement = part->solver->tip_displacement(part->state);
+    return BR_OK;
+}
+
+/* Inequality (17), or (28) and (30): A v + lambda e_tip = rhs with lambda from
+ * the friction law, whose bound takes u_n. */
+static enum br_status step_bending(struct br_march *m, struct br_error *err)
+{
+    struct part *part = &m->part[BR_BENDING];
+    struct br_friction_state friction = {
+        .compliance = part->solver->tip_compliance(part->state),
+        .bound = br_friction_bound(m->scene, m->tip.displacement),
+        .regularisation = m->scene->friction.regularisation,
+    };
+    const enum br_status status = predict(m, BR_BENDING, &friction.free_velocity, err);
+    if (status)
+        return status;
+    m->tip.friction_bound = friction.bound;
+    m->tip.friction_force =
+        m->scene->friction.law == BR_FRICTIONLESS ? 0 : m->method.friction->force(&friction);
+    m->tip.velocity[BR_BENDING] = part->solver->finish(part->state, m->tip.friction_force);
+    return BR_OK;
+}
+
+/* A march that has left the numbers says so at once. */
+static enum br_status check_finite(const struct br_march *m, struct br_error *err)
+{
+    static const char *const names[] = {"axial", "bending"};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (!isfinite(m->tip.velocity[kind]))
+            return br_fail(err, BR_NOT_FINITE,
+                           "the march blew up at t = %g s (step %zu of %zu, k = %g s): the %s "
+                           "velocity of the tip is %g m/s",
+                           br_march_time(m), m->done, m->steps, m->part[kind].field.k, names[kind],
+                           m->tip.velocity[kind]);
+    return BR_OK;
+}
+
+enum br_status br_march_step(struct br_march *m, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    if (m->part[BR_AXIAL].modelled)
+        status = step_axial(m, err);
+    if (!status && m->part[BR_BENDING].modelled)
+        status = step_bending(m, err);
+    if (status)
+        return status;
+    m->done++;
+    return check_finite(m, err);
+}
+
+size_t br_march_steps_done(const struct br_march *m)
+{
+    return m->done;
+}
+
+double br_march_time(const struct br_march *m)
+{
+    return time_level(m, m->done);
+}
+
+const struct br_tip *br_march_tip(const struct br_march *m)
+{
+    return &m->tip;
+}
+
+double br_march_tip_displacement(const struct br_march *m, enum br_field_kind kind)
+{
+    const struct part *part = &m->part[kind];
+    return part->modelled ? part->solver->tip_displacement(part->state) : 0;
+}
+
+void br_march_get(const struct br_march *m, enum br_field_kind kind, double *displacement,
+                  double *velocity)
+{
+    const struct part *part = &m->part[kind];
+    if (part->modelled) {
+        part->solver->get(part->state, displacement, velocity);
+        return;
+    }
+    const size_t bytes = br_field_size(&part->field) * sizeof(double);
+    if (displacement)
+        memset(displacement, 0, bytes);
+    if (velocity)
+        memset(velocity, 0, bytes);
+}
+
+const struct br_field *br_march_field(const struct br_march *m, enum br_field_kind kind)
+{
+    return &m->part[kind].field;
+}
+
+bool br_march_models(const struct br_march *m, enum br_field_kind kind)
+{
+    return m->part[kind].modelled;
+}
+
+void br_march_load(const struct br_march *m, enum br_field_kind kind, double *load)
+{
+    const struct part *part = &m->part[kind];
+    const size_t size = br_field_size(&part->field);
+    for (size_t i = 0; i < size; i++)
+        load[i] = part->load.absent || !part->modelled ? 0
+                                                       : part->load.factor * part->load.vector[i];
+}
+
+double br_march_compliance(const struct br_march *m, enum br_field_kind kind)
+{
+    const struct part *part = &m->part[kind];
+    return part->modelled ? part->solver->tip_compliance(part->state) : 0;
+}
+
+double br_march_round_off(const struct br_march *m)
+{
+    double largest = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (m->part[kind].modelled)
+            largest = fmax(largest, m->method.solver->round_off(&m->part[kind].field));
+    return largest;
+}

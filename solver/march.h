@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The fully discrete problem VP^hk, equations (16) and (17): implicit Euler in
+ * velocity form on n equal elements and `steps` equal steps of k = T/steps. */
+#ifndef BR_MARCH_H
+#define BR_MARCH_H
+
+#include "solver/contact.h"
+#include "solver/friction.h"
+#include "solver/linear_solver.h"
+
+/* How a scene is marched. */
+struct br_method {
+    const struct br_linear_solver *solver;
+    struct br_linear_options linear;
+    const struct br_contact_rule *contact;
+    const struct br_friction_rule *friction;
+};
+
+/* The defaults: the first row of each registry. */
+struct br_method br_method_default(void);
+
+struct br_march;
+
+/* The tip after a step; what is not modelled is zero. */
+struct br_tip {
+    double displacement;   /* axial, u_n(L), m */
+    double velocity[2];    /* axial and bending, by br_field_kind, m/s */
+    double contact_force;  /* c_H (u - g)_+ as this step used it, N */
+    double friction_force; /* lambda = -sigma_V(L), N */
+    double friction_bound; /* h(t_n), N */
+};
+
+/* Sets up the march at t = 0. The scene must outlive it; its functions are
+ * cloned, so that marches of one scene may run in different threads. Fails with
+ * BR_BAD_INPUT, BR_SINGULAR, BR_NOT_FINITE or BR_NO_MEMORY, *march then NULL. */
+enum br_status br_march_create(struct br_march **march, const struct br_scene *scene, size_t n,
+                               size_t steps, const struct br_method *method,
+                               struct br_error *err);
+void br_march_free(struct br_march *march); /* accepts NULL */
+
+/* One step, from t_{n-1} to t_n = n T/steps. Fails with BR_NOT_FINITE (a load, or
+ * a march that blows up), BR_SINGULAR; the state is then lost. */
+enum br_status br_march_step(struct br_march *march, struct br_error *err);
+
+/* Steps done so far, and the time reached, s. */
+size_t br_march_steps_done(const struct br_march *march);
+double br_march_time(const struct br_march *march);
+
+const struct br_tip *br_march_tip(const struct br_march *march);
+
+/* The tip's displacement in one field, m. */
+double br_march_tip_displacement(const struct br_march *march, enum br_field_kind kind);
+
+/* Nodal displacement and velocity of one field (out, br_field_size values each, m
+ * and m/s; either may be NULL). All zero where the field is not modelled. */
+void br_march_get(const struct br_march *march, enum br_field_kind kind, double *displacement,
+                  double *velocity);
+
+/* The mesh and operator of one field; whether it is modelled. */
+const struct br_field *br_march_field(const struct br_march *march, enum br_field_kind kind);
+bool br_march_models(const struct br_march *march, enum br_field_kind kind);
+
+/* The load vector F_n of the last step (out, br_field_size values). */
+void br_march_load(const struct br_march *march, enum br_field_kind kind, double *load);
+
+/* z_tip of the field, m/s per N. */
+double br_march_compliance(const struct br_march *march, enum br_field_kind kind);
+
+/* Predicted round-off of the displacements relative to the exact discrete
+ * solution: the larger of the modelled fields'. */
+double br_march_round_off(const struct br_march *march);
+
+#endif

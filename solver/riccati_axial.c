@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The recursions of riccati.h for the rod: 1 by 1 blocks, T = G = 1, the control
+ * is the element's elongation h u_x, R = (c + ka)/h, element mass m [2 1; 1 2]
+ * with m = rho h / (6 k). */
+#include <math.h>
+
+#include "solver/riccati.h"
+#include "solver/sweep.h"
+
+struct gain {
+    double closed;   /* A = 1 - K */
+    double feedback; /* K */
+    double inverse;  /* S^-1 */
+    double tip;      /* zeta */
+};
+
+struct element {
+    double elongation; /* h u_x, m */
+    double strain;     /* g = alpha * elongation + its rate, m/s */
+    double drive;      /* workspace: S^-1 s, m/s */
+};
+
+struct axial {
+    size_t n;
+    double k, alpha;
+    double r;                /* R */
+    double tip_displacement; /* m */
+    double tip_velocity;     /* m/s */
+    double compliance;       /* z_tip */
+    struct gain *gain;       /* n */
+    struct element *element; /* n */
+};
+
+static void axial_free(void *self)
+{
+    struct axial *a = self;
+    if (!a)
+        return;
+    free(a->gain);
+    free(a->element);
+    free(a);
+}
+
+/* Q = 2m + P, S = R + Q, H = Q + m; P = 2m + 2mA + QA^2 + RK^2. */
+static enum br_status fill_gains(struct axial *a, const struct br_field *field,
+                                 struct br_error *err)
+{
+    const long double m = (long double)field->density * field->h / field->k / 6;
+    const long double r =
+        ((long double)field->viscosity + (long double)field->k * field->stiffness) / field->h;
+    long double p = 0, influence = 1, compliance = 0;
+    for (size_t i = field->n; i-- > 0;) {
+        const long double q = 2 * m + p;
+        const long double s = r + q;
+        if (!(s > 0 && isfinite(s)))
+            return br_fail(err, BR_SINGULAR,
+                           "axial: the step is not positive definite at element %zu of %zu", i,
+                           field->n);
+        const long double feedback = (q + m) / s;
+        const long double closed = (r - m) / s; /* 1 - K */
+        const long double zeta = influence / s;
+        compliance += zeta * influence;
+        influence *= closed;
+        p = 2 * m + 2 * m * closed + q * closed * closed + r * feedback * feedback;
+        a->gain[i] = (struct gain){(double)closed, (double)feedback, (double)(1 / s), (double)zeta};
+    }
+    a->r = (double)r;
+    a->compliance = (double)compliance;
+    return BR_OK;
+}
+
+static enum br_status axial_create(const struct br_field *field,
+                                   const struct br_linear_options *options, void **self,
+                                   struct br_error *err)
+{
+    (void)options;
+    struct axial *a = br_allocate(1, sizeof *a);
+    *self = a;
+    if (!a)
+        return br_no_memory(err, "the axial solver");
+    a->n = field->n;
+    a->k = field->k;
+    a->alpha = field->stiffness / (field->viscosity + field->k * field->stiffness);
+    a->gain = br_allocate(field->n, sizeof *a->gain);
+    a->element = br_allocate(field->n, sizeof *a->element);
+    if (!a->gain || !a->element)
+        return br_no_memory(err, "the axial solver");
+    return fill_gains(a, field, err);
+}
+
+static double axial_compliance(const void *self)
+{
+    return ((const struct axial *)self)->compliance;
+}
+
+static void axial_set(void *self, const double *displacement, const double *velocity)
+{
+    struct axial *a = self;
+    for (size_t i = 0; i < a->n; i++) {
+        struct element *e = &a->element[i];
+        e->elongation = displacement[i + 1] - displacement[i];
+        e->strain = a->alpha * e->elongation + (velocity[i + 1] - velocity[i]);
+    }
+    a->tip_displacement = displacement[a->n];
+    a->tip_velocity = velocity[a->n];
+}
+
+static void axial_get(const void *self, double *displacement, double *velocity)
+{
+    const struct axial *a = self;
+    double u = 0, v = 0;
+    for (size_t i = 0; i <= a->n; i++) {
+        if (displacement)
+            displacement[i] = u;
+        if (velocity)
+            velocity[i] = v;
+        if (i == a->n)
+            break;
+        const struct element *e = &a->element[i];
+        u += e->elongation;
+        v += e->strain - a->alpha * e->elongation;
+    }
+}
+
+BR_SWEEP
+static enum br_status axial_predict(void *self, const double *load, double factor,
+                                    double *velocity, struct br_error *err)
+{
+    (void)err;
+    struct axial *a = self;
+    const double r = a->r;
+    const double zero = 0;
+    const size_t stride = load ? 1 : 0;
+    if (!load)
+        load = &zero;
+    double p = -factor * load[stride * a->n];
+    double tip = 0;
+    for (size_t i = a->n; i-- > 0;) {
+        const struct gain *gain = &a->gain[i];
+        struct element *e = &a->element[i];
+        const double rg = r * e->strain;
+        const double s = rg + p; /* s = R g + G'p */
+        e->drive = gain->inverse * s;
+        tip -= gain->tip * s;
+        p = gain->closed * p - (gain->feedback * rg + factor * load[stride * i]);
+    }
+    *velocity = a->tip_velocity + tip;
+    return BR_OK;
+}
+
+/* As for bending; the tip's displacement and velocity are sums over the field. */
+BR_SWEEP
+static double axial_finish(void *self, double force)
+{
+    struct axial *a = self;
+    const double alpha = a->alpha, k = a->k;
+    double y = 0, u = 0, v = 0;
+    for (size_t i = 0; i < a->n; i++) {
+        const struct gain *gain = &a->gain[i];
+        struct element *e = &a->element[i];
+        const double drive = e->drive + force * gain->tip;
+        const double kappa = -(gain->feedback * y + drive);
+        y = gain->closed * y - drive;
+
+        const double rate = e->strain - alpha * e->elongation + kappa;
+        e->elongation += k * rate;
+        e->strain = alpha * e->elongation + rate;
+        u += e->elongation;
+        v += rate;
+    }
+    a->tip_velocity = v;
+    a->tip_displacement = u;
+    return v;
+}
+
+static double axial_tip_displacement(const void *self)
+{
+    return ((const struct axial *)self)->tip_displacement;
+}
+
+const struct br_field_solver br_riccati_axial = {
+    .create = axial_create,
+    .free = axial_free,
+    .tip_compliance = axial_compliance,
+    .set = axial_set,
+    .get = axial_get,
+    .predict = axial_predict,
+    .finish = axial_finish,
+    .tip_displacement = axial_tip_displacement,
+};

@@ -1,0 +1,348 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The recursions of riccati.h for bending: 2 by 2 blocks,
+ *     T = [1 1; 0 1],   G = [1/2 -1/6; 1 0],   y = (w, h w_x). */
+#include <math.h>
+#include <string.h>
+
+#include "solver/pair.h"
+#include "solver/riccati.h"
+#include "solver/sweep.h"
+
+typedef long double real; /* of the tables, which are computed once */
+
+/* What a sweep needs of an element; depends on the distance to the tip only. */
+struct gain {
+    struct br_matrix closed;   /* A */
+    struct br_matrix feedback; /* K */
+    struct br_matrix inverse;  /* S^-1, symmetric */
+    br_pair tip;               /* zeta */
+};
+
+struct element {
+    br_pair curvature; /* kappa_w, displacement, m */
+    br_pair strain;    /* g = alpha kappa_w + kappa_v, m/s */
+    br_pair drive;     /* workspace: S^-1 s, m/s */
+};
+
+struct bending {
+    size_t n;
+    double k, alpha;
+    br_pair r;           /* R, diagonal */
+    double tip_velocity; /* m/s */
+    double compliance;   /* z_tip */
+    struct gain *gain;       /* n */
+    struct element *element; /* n */
+};
+
+struct block {
+    real e[2][2];
+};
+
+static const struct block transition = {{{1, 1}, {0, 1}}};                   /* T */
+static const struct block control = {{{0.5L, -1.0L / 6}, {1, 0}}};           /* G */
+
+/* The product of two blocks, with the left one transposed if asked for. */
+static struct block multiply(const struct block *a, bool transposed, const struct block *b)
+{
+    struct block c;
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++)
+            c.e[i][j] = transposed ? a->e[0][i] * b->e[0][j] + a->e[1][i] * b->e[1][j]
+                                   : a->e[i][0] * b->e[0][j] + a->e[i][1] * b->e[1][j];
+    return c;
+}
+
+static struct block add(const struct block *a, const struct block *b, real factor)
+{
+    struct block c;
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++)
+            c.e[i][j] = a->e[i][j] + factor * b->e[i][j];
+    return c;
+}
+
+static struct block transpose(const struct block *a)
+{
+    return (struct block){{{a->e[0][0], a->e[1][0]}, {a->e[0][1], a->e[1][1]}}};
+}
+
+/* The 2 by 2 block of rho h / k times the element mass that starts at (row, column). */
+static struct block mass_block(const struct br_field *field, int row, int column)
+{
+    const real factor = (real)field->density * field->h / field->k;
+    struct block m;
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++)
+            m.e[i][j] = factor * br_bending_mass[row + i][column + j];
+    return m;
+}
+
+/* One backward step of the Riccati recursion: the gains of an element from P_{i+1},
+ * which becomes P_i, and from pi_{i+1}, which becomes pi_i. */
+struct recursion {
+    struct block maa, mab, mbb; /* element mass over k */
+    real r[2];                  /* R */
+    struct block p;             /* P */
+    real influence[2];          /* pi */
+    real compliance;            /* sum of zeta'S zeta so far */
+};
+
+static void recursion_start(struct recursion *rec, const struct br_field *field)
+{
+    const real stiff = (real)field->viscosity + (real)field->k * field->stiffness;
+    const real h = field->h;
+    *rec = (struct recursion){
+        .maa = mass_block(field, 0, 0),
+        .mab = mass_block(field, 0, 2),
+        .mbb = mass_block(field, 2, 2),
+        .r = {stiff / (h * h * h), stiff / (3 * h * h * h)},
+        .influence = {1, 0},
+    };
+}
+
+/* S^-1 for S = R + G'QG; false when S is not positive definite. */
+static bool invert(const struct block *s, struct block *inverse)
+{
+    const real det = s->e[0][0] * s->e[1][1] - s->e[0][1] * s->e[1][0];
+    if (!(s->e[0][0] > 0 && det > 0 && isfinite(det)))
+        return false;
+    *inverse = (struct block){{{s->e[1][1] / det, -s->e[0][1] / det},
+                               {-s->e[1][0] / det, s->e[0][0] / det}}};
+    return true;
+}
+
+static struct br_matrix rounded(const struct block *a)
+{
+    return (struct br_matrix){{{(double)a->e[0][0], (double)a->e[0][1]},
+                               {(double)a->e[1][0], (double)a->e[1][1]}}};
+}
+
+/* zeta = S^-1 G'pi;  z += zeta'S zeta = zeta'G'pi;  pi = A'pi. */
+static void recursion_influence(struct recursion *rec, const struct block *inverse,
+                                const struct block *closed, real zeta[2])
+{
+    const real *pi = rec->influence;
+    const real q[2] = {0.5L * pi[0] + pi[1], -pi[0] / 6};
+    for (int i = 0; i < 2; i++)
+        zeta[i] = inverse->e[i][0] * q[0] + inverse->e[i][1] * q[1];
+    rec->compliance += zeta[0] * q[0] + zeta[1] * q[1];
+    const real next[2] = {closed->e[0][0] * pi[0] + closed->e[1][0] * pi[1],
+                          closed->e[0][1] * pi[0] + closed->e[1][1] * pi[1]};
+    rec->influence[0] = next[0];
+    rec->influence[1] = next[1];
+}
+
+static bool recursion_step(struct recursion *rec, struct gain *out)
+{
+    const struct block q = add(&rec->mbb, &rec->p, 1);
+    const struct block qg = multiply(&q, false, &control);
+    struct block s = multiply(&control, true, &qg); /* S = R + G'QG */
+    s.e[0][0] += rec->r[0];
+    s.e[1][1] += rec->r[1];
+    struct block inverse;
+    if (!invert(&s, &inverse))
+        return false;
+
+    const struct block qt = multiply(&q, false, &transition);
+    const struct block mba = transpose(&rec->mab);
+    const struct block inner = add(&qt, &mba, 1);
+    const struct block h = multiply(&control, true, &inner);     /* H = G'(QT + Mab') */
+    const struct block feedback = multiply(&inverse, false, &h); /* K = S^-1 H */
+    const struct block gk = multiply(&control, false, &feedback);
+    const struct block closed = add(&transition, &gk, -1);       /* A = T - GK */
+
+    /* P = Maa + Mab A + (Mab A)' + A'QA + K'RK */
+    const struct block mab_a = multiply(&rec->mab, false, &closed);
+    const struct block mab_a_t = transpose(&mab_a);
+    const struct block qa = multiply(&q, false, &closed);
+    const struct block aqa = multiply(&closed, true, &qa);
+    struct block rk = feedback;
+    for (int j = 0; j < 2; j++) {
+        rk.e[0][j] *= rec->r[0];
+        rk.e[1][j] *= rec->r[1];
+    }
+    const struct block krk = multiply(&feedback, true, &rk);
+    struct block p = add(&rec->maa, &mab_a, 1);
+    p = add(&p, &mab_a_t, 1);
+    p = add(&p, &aqa, 1);
+    rec->p = add(&p, &krk, 1);
+
+    real zeta[2];
+    recursion_influence(rec, &inverse, &closed, zeta);
+    *out = (struct gain){
+        .closed = rounded(&closed),
+        .feedback = rounded(&feedback),
+        .inverse = rounded(&inverse),
+        .tip = {(double)zeta[0], (double)zeta[1]},
+    };
+    return true;
+}
+
+static void bending_free(void *self)
+{
+    struct bending *b = self;
+    if (!b)
+        return;
+    free(b->gain);
+    free(b->element);
+    free(b);
+}
+
+static enum br_status bending_create(const struct br_field *field,
+                                     const struct br_linear_options *options, void **self,
+                                     struct br_error *err)
+{
+    (void)options;
+    struct bending *b = br_allocate(1, sizeof *b);
+    *self = b;
+    if (!b)
+        return br_no_memory(err, "the bending solver");
+    b->n = field->n;
+    b->k = field->k;
+    b->gain = br_allocate(field->n, sizeof *b->gain);
+    b->element = br_allocate(field->n, sizeof *b->element);
+    if (!b->gain || !b->element)
+        return br_no_memory(err, "the bending solver");
+
+    struct recursion rec;
+    recursion_start(&rec, field);
+    for (size_t i = field->n; i-- > 0;)
+        if (!recursion_step(&rec, &b->gain[i]))
+            return br_fail(err, BR_SINGULAR,
+                           "bending: the step is not positive definite at element %zu of %zu", i,
+                           field->n);
+    b->alpha = field->stiffness / (field->viscosity + field->k * field->stiffness);
+    b->r = (br_pair){(double)rec.r[0], (double)rec.r[1]};
+    b->compliance = (double)rec.compliance;
+    return BR_OK;
+}
+
+static double bending_compliance(const void *self)
+{
+    return ((const struct bending *)self)->compliance;
+}
+
+static void bending_set(void *self, const double *displacement, const double *velocity)
+{
+    struct bending *b = self;
+    for (size_t i = 0; i < b->n; i++) {
+        struct element *e = &b->element[i];
+        double curvature[2], rate[2];
+        br_curvature(displacement + 2 * i, curvature);
+        br_curvature(velocity + 2 * i, rate);
+        e->curvature = (br_pair){curvature[0], curvature[1]};
+        e->strain = b->alpha * e->curvature + (br_pair){rate[0], rate[1]};
+    }
+    b->tip_velocity = velocity[2 * b->n];
+}
+
+/* G kappa */
+static inline br_pair control_times(br_pair kappa)
+{
+    return (br_pair){0.5, 1} * br_splat(kappa[0]) - (br_pair){1.0 / 6, 0} * br_splat(kappa[1]);
+}
+
+/* G' p */
+static inline br_pair control_transposed_times(br_pair p)
+{
+    return (br_pair){0.5, -1.0 / 6} * br_splat(p[0]) + (br_pair){1, 0} * br_splat(p[1]);
+}
+
+/* T y + G kappa */
+static inline br_pair carry(br_pair y, br_pair kappa)
+{
+    return y + ((br_pair){y[1], 0} + control_times(kappa));
+}
+
+static void bending_get(const void *self, double *displacement, double *velocity)
+{
+    const struct bending *b = self;
+    br_pair w = {0, 0}, v = {0, 0};
+    for (size_t i = 0; i <= b->n; i++) {
+        if (displacement)
+            memcpy(displacement + 2 * i, &w, sizeof w);
+        if (velocity)
+            memcpy(velocity + 2 * i, &v, sizeof v);
+        if (i == b->n)
+            break;
+        const struct element *e = &b->element[i];
+        w = carry(w, e->curvature);
+        v = carry(v, e->strain - b->alpha * e->curvature);
+    }
+}
+
+/* factor * F_i, or zero */
+static inline br_pair scaled_load(const double *load, size_t i, double factor)
+{
+    return load ? factor * (br_pair){load[2 * i], load[2 * i + 1]} : br_splat(0);
+}
+
+/* Backward sweep: drive = S^-1 s on every element; *velocity = v*. */
+BR_SWEEP
+static enum br_status bending_predict(void *self, const double *load, double factor,
+                                      double *velocity, struct br_error *err)
+{
+    (void)err;
+    struct bending *b = self;
+    const br_pair r = b->r;
+    br_pair p = -scaled_load(load, b->n, factor);
+    br_pair tip = {0, 0};
+    for (size_t i = b->n; i-- > 0;) {
+        const struct gain *gain = &b->gain[i];
+        struct element *e = &b->element[i];
+        const br_pair rg = r * e->strain;
+        const br_pair s = rg + control_transposed_times(p);  /* s = R g + G'p */
+        e->drive = br_transposed_times(&gain->inverse, s);   /* S^-1 s */
+        tip -= gain->tip * s;                                /* - zeta's */
+        const br_pair q = -scaled_load(load, i, factor) - br_transposed_times(&gain->feedback, rg);
+        p = br_add_transposed_times(q, &gain->closed, p);    /* A'p - K'R g - F */
+    }
+    *velocity = b->tip_velocity + (tip[0] + tip[1]);
+    return BR_OK;
+}
+
+/* Forward sweep: the increment kappa of every element's curvature rate, with the
+ * tip force in it, and the update of the state. The tip's velocity is rebuilt
+ * from the rates: one that is only incremented drifts. */
+BR_SWEEP
+static double bending_finish(void *self, double force)
+{
+    struct bending *b = self;
+    const double alpha = b->alpha, k = b->k;
+    br_pair y = {0, 0}; /* the increment's nodal state */
+    br_pair v = {0, 0}; /* the velocity's */
+    for (size_t i = 0; i < b->n; i++) {
+        const struct gain *gain = &b->gain[i];
+        struct element *e = &b->element[i];
+        const br_pair drive = e->drive + force * gain->tip;
+        const br_pair kappa = -br_add_times(drive, &gain->feedback, y); /* -(K y + S^-1 s) */
+        y = br_add_times(-control_times(drive), &gain->closed, y);      /* A y - G S^-1 s */
+
+        const br_pair rate = e->strain - alpha * e->curvature + kappa;
+        e->curvature += k * rate;
+        e->strain = alpha * e->curvature + rate;
+        v = carry(v, rate);
+    }
+    b->tip_velocity = v[0];
+    return v[0];
+}
+
+static double bending_tip_displacement(const void *self)
+{
+    const struct bending *b = self;
+    br_pair w = {0, 0};
+    for (size_t i = 0; i < b->n; i++)
+        w = carry(w, b->element[i].curvature);
+    return w[0];
+}
+
+const struct br_field_solver br_riccati_bending = {
+    .create = bending_create,
+    .free = bending_free,
+    .tip_compliance = bending_compliance,
+    .set = bending_set,
+    .get = bending_get,
+    .predict = bending_predict,
+    .finish = bending_finish,
+    .tip_displacement = bending_tip_displacement,
+};

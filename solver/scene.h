@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A scene: all the data of problem (1)-(12), and nothing of how it is solved.
+ * A part that is not modelled costs nothing. */
+#ifndef BR_SCENE_H
+#define BR_SCENE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "solver/status.h"
+
+/* How a function of (x, t) is evaluated, copied and released. An instance may
+ * be used by one thread at a time; clone it for another. */
+struct br_function_ops {
+    /* x: in, m, count values; t: s; value: out, count values */
+    void (*evaluate)(void *self, size_t count, const double *x, double t, double *value);
+    void *(*clone)(const void *self); /* NULL when out of memory */
+    void (*free)(void *self);         /* accepts NULL */
+};
+
+/* A function of x and t. With ops == NULL it is the constant `constant`. */
+struct br_function {
+    const struct br_function_ops *ops;
+    void *self;
+    double constant;
+    bool uses_x, uses_t;
+};
+
+/* A load per length, N/m: f(x, t) = space(x, t) * time(t). Where space does not
+ * use t it is assembled once; where it does not use x either, without
+ * quadrature. */
+struct br_load {
+    struct br_function space, time;
+};
+
+/* The rod of (3) and (8). */
+struct br_axial {
+    bool modelled;
+    double stiffness; /* a1, N */
+    double viscosity; /* c1, N s */
+    struct br_load load;
+    struct br_function displacement; /* u0(x), m */
+    struct br_function velocity;     /* v0(x), m/s */
+};
+
+/* The beam of (4), (9) and (11). Hermite interpolation of the initial data
+ * needs their slopes. */
+struct br_bending {
+    bool modelled;
+    double stiffness; /* a2, N m^2 */
+    double viscosity; /* c2, N m^2 s */
+    struct br_load load;
+    struct br_function displacement, displacement_slope; /* w0(x), m, and w0'(x), 1 */
+    struct br_function velocity, velocity_slope;         /* m/s and 1/s */
+};
+
+/* Normal compliance (10). */
+struct br_contact {
+    bool modelled;
+    double gap;       /* g, m */
+    double stiffness; /* c_H, N/m */
+};
+
+enum br_friction_law { BR_FRICTIONLESS, BR_TRESCA, BR_COULOMB };
+
+/* Friction (12); the bound h(t) is c_V (Tresca) or c_V (u(L,t) - g)_+ (Coulomb). */
+struct br_friction {
+    enum br_friction_law law;
+    double coefficient;    /* c_V, N for Tresca, N/m for Coulomb */
+    double regularisation; /* mu of (29), m/s; 0: none given */
+};
+
+struct br_scene {
+    char *name;      /* owned; one word */
+    char *title;     /* owned; one line for a person */
+    double length;   /* L, m */
+    double duration; /* T, s */
+    double density;  /* rho, kg/m */
+    struct br_axial axial;
+    struct br_bending bending;
+    struct br_contact contact;
+    struct br_friction friction;
+};
+
+/* Values of f at count points x (in, m) and time t (s) into value (out). */
+void br_function_evaluate(const struct br_function *f, size_t count, const double *x, double t,
+                          double *value);
+
+/* out becomes an independent copy of f. Fails with BR_NO_MEMORY. */
+enum br_status br_function_clone(const struct br_function *f, struct br_function *out,
+                                 struct br_error *err);
+void br_function_free(struct br_function *f);
+
+/* Whether f is the constant zero. */
+bool br_function_is_zero(const struct br_function *f);
+
+/* Refuses (BR_BAD_INPUT) numbers that are not finite or have a sign that makes
+ * no sense, and combinations that mean nothing (Coulomb without contact). */
+enum br_status br_scene_check(const struct br_scene *scene, struct br_error *err);
+
+/* Releases what the scene owns; accepts a zeroed scene. */
+void br_scene_clear(struct br_scene *scene);
+
+#endif

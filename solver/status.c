@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/status.h"
+
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdio.h>
+
+static const struct {
+    const char *text;
+    int exit_code;
+} statuses[] = {
+#define X(name, code, text) [name] = {text, code},
+    BR_STATUS_LIST(X)
+#undef X
+};
+
+enum br_status br_fail(struct br_error *err, enum br_status status, const char *format, ...)
+{
+    if (err) {
+        va_list args;
+        va_start(args, format);
+        vsnprintf(err->message, sizeof err->message, format, args);
+        va_end(args);
+        err->status = status;
+    }
+    return status;
+}
+
+enum br_status br_no_memory(struct br_error *err, const char *what)
+{
+    return br_fail(err, BR_NO_MEMORY, "out of memory for %s", what);
+}
+
+const char *br_status_text(enum br_status status)
+{
+    return statuses[status].text;
+}
+
+int br_status_exit_code(enum br_status status)
+{
+    return statuses[status].exit_code;
+}
+
+static atomic_long until_failure = -1;
+
+void br_allocation_fails_at(long i)
+{
+    atomic_store(&until_failure, i);
+}
+
+void *br_allocate(size_t count, size_t size)
+{
+    if (atomic_load(&until_failure) >= 0 && atomic_fetch_sub(&until_failure, 1) == 0)
+        return NULL;
+    return calloc(count ? count : 1, size);
+}

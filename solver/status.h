@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Outcomes: one list, expanded into the enum, the names and the exit codes. */
+#ifndef BR_STATUS_H
+#define BR_STATUS_H
+
+#include <stdlib.h>
+
+/* X(name, exit code, text). The exit codes are the program's: 0 done, 1 a
+ * verdict failed, 2 bad input, 3 the computation failed. */
+#define BR_STATUS_LIST(X)                                   \
+    X(BR_OK, 0, "done")                                     \
+    X(BR_VERDICT, 1, "a verdict failed")                    \
+    X(BR_BAD_INPUT, 2, "bad input")                         \
+    X(BR_NO_MEMORY, 3, "out of memory")                     \
+    X(BR_SINGULAR, 3, "the system is not positive definite") \
+    X(BR_NOT_FINITE, 3, "not a finite number")              \
+    X(BR_IO, 3, "input or output failed")                   \
+    X(BR_INTERRUPTED, 3, "interrupted")
+
+enum br_status {
+#define X(name, code, text) name,
+    BR_STATUS_LIST(X)
+#undef X
+};
+
+/* What went wrong, for a person. After anything but BR_OK the object that was
+ * being worked on can only be freed. */
+struct br_error {
+    enum br_status status;
+    char message[1024];
+};
+
+/* Record a failure: sets err->status and the formatted message (err may be
+ * NULL), and returns status, so that callers write
+ *     return br_fail(err, BR_BAD_INPUT, "n is %zu, expected at least 1", n); */
+__attribute__((format(printf, 3, 4))) enum br_status br_fail(struct br_error *err,
+                                                             enum br_status status,
+                                                             const char *format, ...);
+
+/* Out of memory, with the name of what was being made. */
+enum br_status br_no_memory(struct br_error *err, const char *what);
+
+const char *br_status_text(enum br_status status);
+int br_status_exit_code(enum br_status status);
+
+/* calloc with a test hook: br_allocation_fails_at(i) makes the i-th allocation
+ * from now on (0 = the next one) fail once; a negative i switches it off. */
+void *br_allocate(size_t count, size_t size);
+void br_allocation_fails_at(long i);
+
+#endif

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scenes as YAML files; the format is described by the table in scene_file.c. */
+#ifndef BR_SCENE_FILE_H
+#define BR_SCENE_FILE_H
+
+#include "solver/scene.h"
+
+/* Reads and checks a scene. Every refusal (BR_BAD_INPUT) names file, line, key,
+ * what was found and what was expected. The caller clears the scene with
+ * br_scene_clear, even after a failure. */
+enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br_error *err);
+
+/* Writes the path of a scene into `path` (out, size bytes): `name` itself where it
+ * names a file, else the bundled scene of that name. Fails with BR_BAD_INPUT. */
+enum br_status br_scene_find(const char *name, char *path, size_t size, struct br_error *err);
+
+/* The folder of the program's data files: $BEAMRATE_DATA, or where the program
+ * was built or installed. `relative` is appended. */
+void br_data_path(const char *relative, char *path, size_t size);
+
+#endif

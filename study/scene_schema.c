@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/scene_schema.h"
+
+#include <gsl/gsl_deriv.h>
+#include <math.h>
+
+#define AT(member) offsetof(struct br_scene, member)
+
+const struct br_scene_key br_scene_keys[] = {
+    {"", "title", BR_KEY_TEXT, true, 0, "", AT(title), "one line for a person"},
+    {"", "length", BR_KEY_POSITIVE, true, 0, "m", AT(length), "the beam's length L"},
+    {"", "duration", BR_KEY_POSITIVE, true, 0, "s", AT(duration), "the time interval T"},
+    {"", "density", BR_KEY_NOT_NEGATIVE, true, 0, "kg/m", AT(density), "mass per length rho"},
+    {"", "axial", BR_KEY_SECTION, false, 0, "", 0, "the rod, u"},
+    {"", "bending", BR_KEY_SECTION, false, 0, "", 0, "the beam, w"},
+    {"", "contact", BR_KEY_SECTION, false, 0, "", 0, "normal compliance (10)"},
+    {"", "friction", BR_KEY_SECTION, false, 0, "", 0, "friction at the tip (12)"},
+
+    {"axial", "stiffness", BR_KEY_NOT_NEGATIVE, true, 0, "N", AT(axial.stiffness), "a1"},
+    {"axial", "viscosity", BR_KEY_NOT_NEGATIVE, true, 0, "N s", AT(axial.viscosity), "c1"},
+    {"axial", "load", BR_KEY_LOAD, false, 0, "N/m", AT(axial.load), "f_H(x, t)"},
+    {"axial", "displacement", BR_KEY_INITIAL, false, 0, "m", AT(axial.displacement), "u_0(x)"},
+    {"axial", "velocity", BR_KEY_INITIAL, false, 0, "m/s", AT(axial.velocity), "v_0(x)"},
+
+    {"bending", "stiffness", BR_KEY_NOT_NEGATIVE, true, 0, "N m^2", AT(bending.stiffness), "a2"},
+    {"bending", "viscosity", BR_KEY_NOT_NEGATIVE, true, 0, "N m^2 s", AT(bending.viscosity),
+     "c2"},
+    {"bending", "load", BR_KEY_LOAD, false, 0, "N/m", AT(bending.load), "f_V(x, t)"},
+    {"bending", "displacement", BR_KEY_INITIAL, false, 0, "m", AT(bending.displacement),
+     "w_0(x)"},
+    {"bending", "displacement_slope", BR_KEY_INITIAL, false, 0, "1",
+     AT(bending.displacement_slope), "the derivative of w_0"},
+    {"bending", "velocity", BR_KEY_INITIAL, false, 0, "m/s", AT(bending.velocity),
+     "the initial bending velocity"},
+    {"bending", "velocity_slope", BR_KEY_INITIAL, false, 0, "1/s", AT(bending.velocity_slope),
+     "the derivative of the initial bending velocity"},
+
+    {"contact", "gap", BR_KEY_NOT_NEGATIVE, true, 0, "m", AT(contact.gap), "g"},
+    {"contact", "stiffness", BR_KEY_NOT_NEGATIVE, true, 0, "N/m", AT(contact.stiffness), "c_H"},
+
+    {"friction", "law", BR_KEY_LAW, true, 0, "", 0, "tresca or coulomb"},
+    {"friction", "bound", BR_KEY_NOT_NEGATIVE, true, BR_TRESCA, "N", AT(friction.coefficient),
+     "c_V of Tresca's law"},
+    {"friction", "coefficient", BR_KEY_NOT_NEGATIVE, true, BR_COULOMB, "N/m",
+     AT(friction.coefficient), "c_V of Coulomb's law"},
+    {"friction", "regularisation", BR_KEY_NOT_NEGATIVE, false, 0, "m/s",
+     AT(friction.regularisation), "mu of (29)"},
+    {0},
+};
+
+/* An initial function, for messages and its checks. */
+struct initial {
+    const char *name;
+    const struct br_function *value;
+    const char *slope_name; /* NULL: needs none */
+    const struct br_function *slope;
+    double length;
+};
+
+static double value_at(double x, void *f)
+{
+    double value;
+    br_function_evaluate(f, 1, &x, 0, &value);
+    return value;
+}
+
+enum { SAMPLES = 65 };
+
+/* Largest |f| over equidistant points of [0, length]; NaN where f is not finite. */
+static double largest(const struct br_function *f, double length)
+{
+    double most = 0;
+    for (int i = 0; i < SAMPLES; i++) {
+        const double v = fabs(value_at(length * i / (SAMPLES - 1), (void *)f));
+        if (!isfinite(v))
+            return NAN;
+        most = fmax(most, v);
+    }
+    return most;
+}
+
+static enum br_status check_slope(const struct initial *d, double scale, struct br_error *err)
+{
+    gsl_function f = {.function = value_at, .params = (void *)d->value};
+    const double slope_scale = fmax(largest(d->slope, d->length), scale / d->length);
+    for (int i = 1; i < SAMPLES - 1; i++) {
+        const double x = d->length * i / (SAMPLES - 1);
+        double derivative, uncertainty;
+        gsl_deriv_central(&f, x, 1e-4 * d->length, &derivative, &uncertainty);
+        const double given = value_at(x, (void *)d->slope);
+        const double allowed = 1e-6 * slope_scale + 10 * uncertainty;
+        if (!(fabs(given - derivative) <= allowed))
+            return br_fail(err, BR_BAD_INPUT,
+                           "bending %s is %g at x = %g m, expected the derivative of %s there, %g",
+                           d->slope_name, given, x, d->name, derivative);
+    }
+    return BR_OK;
+}
+
+static enum br_status check_initial(const struct initial *d, struct br_error *err)
+{
+    const double scale = largest(d->value, d->length);
+    if (!isfinite(scale))
+        return br_fail(err, BR_BAD_INPUT, "initial %s is not finite everywhere in [0, L]", d->name);
+    const double clamp = value_at(0, (void *)d->value);
+    if (!(fabs(clamp) <= 1e-12 * scale))
+        return br_fail(err, BR_BAD_INPUT,
+                       "initial %s is %g at x = 0, expected 0 where the beam is clamped", d->name,
+                       clamp);
+    if (!d->slope || scale == 0)
+        return BR_OK;
+    if (br_function_is_zero(d->slope))
+        return br_fail(err, BR_BAD_INPUT, "initial bending %s needs %s, its derivative", d->name,
+                       d->slope_name);
+    const double slope = value_at(0, (void *)d->slope);
+    if (!(fabs(slope) <= 1e-12 * scale / d->length))
+        return br_fail(err, BR_BAD_INPUT,
+                       "initial %s is %g at x = 0, expected 0 where the beam is clamped",
+                       d->slope_name, slope);
+    return check_slope(d, scale, err);
+}
+
+enum br_status br_scene_check_initial(const struct br_scene *s, struct br_error *err)
+{
+    const struct br_bending *b = &s->bending;
+    const struct initial data[] = {
+        {"axial displacement", &s->axial.displacement, NULL, NULL, s->length},
+        {"axial velocity", &s->axial.velocity, NULL, NULL, s->length},
+        {"bending displacement", &b->displacement, "displacement_slope", &b->displacement_slope,
+         s->length},
+        {"bending velocity", &b->velocity, "velocity_slope", &b->velocity_slope, s->length},
+    };
+    for (size_t i = 0; i < sizeof data / sizeof *data; i++) {
+        const enum br_status status = check_initial(&data[i], err);
+        if (status)
+            return status;
+    }
+    return BR_OK;
+}

@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/study.h"
+
+#include <math.h>
+
+#include "study/lockstep.h"
+
+const char *const br_part_names[BR_PARTS] = {"total", "axial", "bending"};
+
+const char *br_flag_name(enum br_flag flag)
+{
+    static const char *const names[] = {"", "reference", "round-off", "failed"};
+    return names[flag];
+}
+
+const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size_t j)
+{
+    return &study->cell[i * study->k_count + j];
+}
+
+double br_time_step(const struct br_scene *scene, size_t steps)
+{
+    return scene->duration / (double)steps;
+}
+
+double br_mesh_size(const struct br_scene *scene, size_t n)
+{
+    return scene->length / (double)n;
+}
+
+void br_study_clear(struct br_study *study)
+{
+    free(study->cell);
+    study->cell = NULL;
+}
+
+enum br_status br_steps_of(const struct br_scene *scene, double k, size_t *steps,
+                           struct br_error *err)
+{
+    const double ratio = scene->duration / k;
+    if (!(k > 0 && isfinite(k)))
+        return br_fail(err, BR_BAD_INPUT, "k is %g s, expected a finite number > 0", k);
+    if (!(ratio >= 1 - 1e-9))
+        return br_fail(err, BR_BAD_INPUT, "k = %g s is longer than the duration, %g s", k,
+                       scene->duration);
+    if (!(ratio <= 1e12))
+        return br_fail(err, BR_BAD_INPUT, "k = %g s makes %g steps, expected at most 1e12", k,
+                       ratio);
+    const double whole = round(ratio);
+    if (!(fabs(ratio - whole) <= 1e-9 * whole))
+        return br_fail(err, BR_BAD_INPUT,
+                       "k = %.10g s does not divide the duration of %g s; the nearest that do are "
+                       "%.10g and %.10g",
+                       k, scene->duration, scene->duration / floor(ratio),
+                       scene->duration / ceil(ratio));
+    *steps = (size_t)whole;
+    return BR_OK;
+}
+
+/* The largest divisor of `of` that is <= a, and the smallest that is >= a. */
+static void nearest_divisors(size_t of, size_t a, size_t *below, size_t *above)
+{
+    *below = a < of ? a : of;
+    while (of % *below != 0)
+        (*below)--;
+    *above = a < of ? a : of;
+    while (of % *above != 0)
+        (*above)++;
+}
+
+static enum br_status check_nesting(const struct br_study *s, struct br_error *err)
+{
+    size_t below, above;
+    for (size_t i = 0; i < s->n_count; i++) {
+        if (s->n[i] < 1)
+            return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
+        if (s->reference.n % s->n[i] == 0)
+            continue;
+        nearest_divisors(s->reference.n, s->n[i], &below, &above);
+        return br_fail(err, BR_BAD_INPUT,
+                       "n = %zu does not nest in the reference's %zu elements; the nearest that do "
+                       "are %zu and %zu",
+                       s->n[i], s->reference.n, below, above);
+    }
+    for (size_t j = 0; j < s->k_count; j++) {
+        if (s->steps[j] >= 1 && s->reference.steps % s->steps[j] == 0)
+            continue;
+        nearest_divisors(s->reference.steps, s->steps[j] ? s->steps[j] : 1, &below, &above);
+        return br_fail(err, BR_BAD_INPUT,
+                       "the time levels of k = %g s are not all among the reference's (k = %g s); "
+                       "the nearest k that would do are %.10g and %.10g s",
+                       br_time_step(s->scene, s->steps[j]),
+                       br_time_step(s->scene, s->reference.steps), br_time_step(s->scene, above),
+                       br_time_step(s->scene, below));
+    }
+    return BR_OK;
+}
+
+static enum br_status prepare(struct br_study *s, struct br_error *err)
+{
+    if (s->n_count == 0 || s->k_count == 0)
+        return br_fail(err, BR_BAD_INPUT, "the list of %s is empty, expected at least one value",
+                       s->n_count == 0 ? "n" : "k");
+    if (s->reference.n < 1 || s->reference.steps < 1)
+        return br_fail(err, BR_BAD_INPUT, "the reference needs at least one element and one step");
+    const enum br_status status = check_nesting(s, err);
+    if (status)
+        return status;
+    s->cell = br_allocate(s->n_count * s->k_count, sizeof *s->cell);
+    if (!s->cell)
+        return br_no_memory(err, "the table");
+    for (size_t i = 0; i < s->n_count; i++)
+        for (size_t j = 0; j < s->k_count; j++)
+            s->cell[i * s->k_count + j].at = (struct br_resolution){s->n[i], s->steps[j]};
+    return BR_OK;
+}
+
+enum br_status br_study_run(struct br_study *studies, size_t count, int threads,
+                            const struct br_observer *observer, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < count; i++)
+        studies[i].cell = NULL;
+    for (size_t i = 0; i < count && !status; i++)
+        status = prepare(&studies[i], err);
+    if (!status)
+        status = br_lockstep(studies, count, threads, observer, err);
+    for (size_t i = 0; i < count && status; i++)
+        br_study_clear(&studies[i]);
+    return status;
+}

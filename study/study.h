@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A convergence study: a grid of cells (n, k) against one reference run, with the
+ * error (31) over all the time levels of each cell. */
+#ifndef BR_STUDY_H
+#define BR_STUDY_H
+
+#include "solver/march.h"
+
+/* A discretisation: n equal elements, `steps` equal time steps of T/steps. */
+struct br_resolution {
+    size_t n, steps;
+};
+
+/* The error (31) and its parts, each with its own maximum over the time levels. */
+enum br_part { BR_PART_TOTAL, BR_PART_AXIAL, BR_PART_BENDING, BR_PARTS };
+extern const char *const br_part_names[BR_PARTS];
+
+/* Why a cell is left out of the fits. */
+enum br_flag {
+    BR_FLAG_NONE,
+    BR_FLAG_REFERENCE, /* the reference's own error is not small beside it */
+    BR_FLAG_ROUND_OFF, /* it is at the round-off of a solver */
+    BR_FLAG_FAILED,    /* the march failed, or its error is not a number */
+};
+const char *br_flag_name(enum br_flag flag); /* "", "reference", "round-off", "failed" */
+
+struct br_cell {
+    struct br_resolution at;
+    double error[BR_PARTS];      /* m^(3/2); NaN: failed */
+    double worst_time[BR_PARTS]; /* where the maximum was, s */
+    double seconds;              /* of the march alone, one thread */
+    enum br_flag flag[BR_PARTS];
+    struct br_error failure;     /* status BR_OK where the march went well */
+};
+
+struct br_study {
+    /* in */
+    const struct br_scene *scene;
+    struct br_method method;           /* of the cells */
+    struct br_method reference_method;
+    struct br_resolution reference;
+    size_t n_count, k_count;
+    const size_t *n;     /* n_count, borrowed */
+    const size_t *steps; /* k_count, borrowed */
+    /* out */
+    struct br_cell *cell;         /* n_count * k_count, by rows of equal n; owned */
+    double reference_seconds;     /* of its march alone */
+    double reference_scale;       /* largest L2 norm |u| + |w| of the reference, m^(3/2) */
+    double round_off;             /* predicted, of the reference, relative */
+};
+
+/* How a long run tells of itself, and is told to stop. May be called from any thread. */
+struct br_observer {
+    void (*progress)(void *self, double fraction); /* of the whole work, 0 to 1 */
+    bool (*stop)(void *self);                      /* true: give up soon */
+    void *self;
+};
+
+/* Runs studies on `threads` threads (0: all cores), all at once: the reference and
+ * the cells march in lockstep, a few time levels at a time, so that neither is
+ * ever stored as a whole. The results do not depend on the number of threads.
+ * A cell that fails is marked; the reference failing, or grids that do not nest,
+ * fail the call (BR_BAD_INPUT names the nearest values that would do). */
+enum br_status br_study_run(struct br_study *studies, size_t count, int threads,
+                            const struct br_observer *observer, struct br_error *err);
+void br_study_clear(struct br_study *study);
+
+/* The cell of row i (n) and column j (k). */
+const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size_t j);
+
+/* Steps of size k that make up the scene's duration. Refuses k that does not
+ * divide it (BR_BAD_INPUT) with the nearest that do. */
+enum br_status br_steps_of(const struct br_scene *scene, double k, size_t *steps,
+                           struct br_error *err);
+
+/* k = T/steps, s, and h = L/n, m. */
+double br_time_step(const struct br_scene *scene, size_t steps);
+double br_mesh_size(const struct br_scene *scene, size_t n);
+
+#endif
