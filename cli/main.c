@@ -1,11 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include "study/study.h"
-#include "study/scene_file.h"
-int main(int c,char**a){ struct br_study st[2]={0}; struct br_scene sc[2]; struct br_error e={0}; char path[1000];
- size_t n[]={100,200,400,800,1600,3200}, s[]={100,200,500,1000,2000,10000};
- for(int i=0;i<2;i++){ if(br_scene_find(i?"example2":"example1",path,1000,&e)||br_scene_read(path,&sc[i],&e)){puts(e.message);return 2;}
-  st[i].scene=&sc[i]; st[i].method=st[i].reference_method=br_method_default(); st[i].reference.n=atoi(a[2]); st[i].reference.steps=atoi(a[3]); st[i].n=n; st[i].steps=s; st[i].n_count=6; st[i].k_count=6; }
- if(br_study_run(st,2,atoi(a[1]),NULL,&e)){puts(e.message);return 3;}
- for(int i=0;i<2;i++) {printf("ref %.2f s\n",st[i].reference_seconds); for(int p=0;p<3;p++) for(int r=0;r<6;r++){ for(int k=0;k<6;k++) printf(" %.3e",br_study_cell(&st[i],r,k)->error[p]); puts("");}}
- (void)c; return 0;}
+#include <string.h>
+
+#include "cli/command.h"
+#include "cli/provenance.h"
+#include "cli/signals.h"
+
+extern const struct br_command br_command_study, br_command_tables;
+
+const struct br_command *const br_commands[] = {&br_command_tables, &br_command_study, NULL};
+
+static void print_help(FILE *out)
+{
+    fprintf(out, "beamrate: convergence studies of the dynamic frictional contact of a viscoelastic "
+                 "beam\n\nUsage: beamrate COMMAND [OPTION...]\n\nCommands:\n");
+    for (const struct br_command *const *c = br_commands; *c; c++)
+        fprintf(out, "  %-8s %-10s %s\n", (*c)->name, (*c)->arguments, (*c)->title);
+    fprintf(out, "\n'beamrate COMMAND --help' lists a command's options.\n"
+                 "Exit codes: 0 done, 1 a verdict failed, 2 bad input, 3 the computation failed.\n");
+}
+
+static const struct br_command *find_command(const char *name)
+{
+    for (const struct br_command *const *c = br_commands; *c; c++)
+        if (strcmp((*c)->name, name) == 0)
+            return *c;
+    return NULL;
+}
+
+/* Standard output closed or full is a failure too. */
+static enum br_status check_stdout(struct br_error *err)
+{
+    if (fflush(stdout) != 0 || ferror(stdout))
+        return br_fail(err, BR_IO, "standard output could not be written");
+    return BR_OK;
+}
+
+int main(int argc, const char **argv)
+{
+    if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0) {
+        print_help(argc < 2 ? stderr : stdout);
+        return br_status_exit_code(argc < 2 ? BR_BAD_INPUT : BR_OK);
+    }
+    if (strcmp(argv[1], "--version") == 0) {
+        printf("beamrate %s (%s)\n", br_version(), br_commit());
+        return 0;
+    }
+    const struct br_command *command = find_command(argv[1]);
+    if (!command) {
+        fprintf(stderr, "beamrate: '%s' is no command; 'beamrate --help' lists them\n", argv[1]);
+        return br_status_exit_code(BR_BAD_INPUT);
+    }
+    br_signals_install();
+    br_remember_command_line(argc, argv);
+    struct br_error err = {0};
+    enum br_status status = command->run(argc - 1, argv + 1, &err);
+    if (!status)
+        status = check_stdout(&err);
+    if (status == BR_INTERRUPTED) {
+        fprintf(stderr, "beamrate: interrupted; nothing was written\n");
+        br_signals_raise_again();
+    }
+    if (status)
+        fprintf(stderr, "beamrate: %s\n", err.message);
+    return br_status_exit_code(status);
+}

@@ -25,7 +25,5 @@ void br_printed_clear(struct br_printed *printed);
 /* The printed error of (n, k), or NaN where the paper has none. */
 double br_printed_error(const struct br_printed *printed, size_t n, double k);
 
-/* Half a unit of the last printed digit: the paper prints four. */
-double br_printed_uncertainty(double error);
 
 #endif

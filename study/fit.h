@@ -10,6 +10,9 @@ struct br_estimate {
     double value, low, high;
 };
 
+/* Whether an order's interval is narrow enough, 1 wide, to say anything. */
+bool br_order_determined(const struct br_estimate *order);
+
 /* Slope of log(error) against log(h) or log(k): what a reader would draw. It means
  * an order only where one of the two errors dominates. */
 struct br_slope {
@@ -20,22 +23,32 @@ struct br_slope {
 /* The joint model of a grid. The space and the time error are fields with signs,
  * so their norms do not add; and the reference has a resolution of its own:
  *     e^2 = a^2 + 2 r a b + b^2,   -1 <= r <= 1,
- *     a = C_h (h^p - h_ref^p),     b = C_k (k^q - k_ref^q). */
+ *     a = C_h (h^p - h_ref^p),     b = C_k (k^q - k_ref^q).
+ * Where one of the two errors cannot be seen in the cells, the model without it
+ * explains them as well with fewer parameters (by the corrected Akaike
+ * criterion), and what belongs to the other is NaN. */
+enum br_joint_kind { BR_JOINT_BOTH, BR_JOINT_TIME, BR_JOINT_SPACE };
+
 struct br_joint_fit {
+    enum br_joint_kind kind;
     struct br_estimate c_h, p, c_k, q, r;
-    double misfit;       /* root mean square of log(model/error) */
-    double worst;        /* its largest magnitude */
-    double r_squared;    /* of the logarithms */
+    double misfit;    /* root mean square of log(model/error) */
+    double worst;     /* its largest magnitude */
+    double r_squared; /* of the logarithms */
     size_t points, freedom;
-    bool converged;      /* false: the rest is NaN */
+    bool converged; /* false: the rest is NaN */
 };
 
 struct br_fits {
     struct br_slope *by_n; /* n_count: over k at fixed n */
     struct br_slope *by_k; /* k_count: over h at fixed k */
     struct br_joint_fit joint;
-    double reference_error; /* the reference's own, by the joint model, m^(3/2) */
+    double reference_error; /* the reference's own, by the joint model, m^(3/2); NaN where
+                               the model does not describe the errors */
 };
+
+/* Whether the joint model describes the errors: a misfit of at most 10 %. */
+bool br_joint_describes(const struct br_joint_fit *fit);
 
 /* Fits one part of a study's errors, leaving out flagged cells, and sets the flags
  * of that part: cells whose error is less than `margin` times what limits them.

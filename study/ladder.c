@@ -126,24 +126,26 @@ size_t br_ladder_size(const struct br_ladder *ladder)
     return ladder->size;
 }
 
-/* One element: coarse = sum_j E_j' fine_j; returns sum_j |fine_j - E_j coarse|^2. */
-static double project_element(const struct rung *rung, const double *fine, double *coarse)
+/* One element: coarse = sum_j E_j' fine_j; returns sum_j |fine_j - E_j coarse|^2.
+ * Inlined with `modes` a constant; E_j is upper triangular. */
+static inline double project_element(const double *prolong, size_t ratio, const double *fine,
+                                     double *coarse, const size_t modes)
 {
-    const size_t modes = rung->modes;
-    for (size_t m = 0; m < modes; m++) {
-        coarse[m] = 0;
-        for (size_t j = 0; j < rung->ratio; j++)
-            for (size_t i = 0; i <= m; i++)
-                coarse[m] += rung->prolong[(j * MODES + i) * MODES + m] * fine[j * modes + i];
-    }
+    double sum[MODES] = {0};
+    for (size_t j = 0; j < ratio; j++)
+        for (size_t i = 0; i < modes; i++)
+            for (size_t m = i; m < modes; m++)
+                sum[m] += prolong[(j * MODES + i) * MODES + m] * fine[j * modes + i];
     double loss = 0;
-    for (size_t j = 0; j < rung->ratio; j++)
+    for (size_t j = 0; j < ratio; j++)
         for (size_t i = 0; i < modes; i++) {
             double rest = fine[j * modes + i];
             for (size_t m = i; m < modes; m++)
-                rest -= rung->prolong[(j * MODES + i) * MODES + m] * coarse[m];
+                rest -= prolong[(j * MODES + i) * MODES + m] * sum[m];
             loss += rest * rest;
         }
+    for (size_t m = 0; m < modes; m++)
+        coarse[m] = sum[m];
     return loss;
 }
 
@@ -151,11 +153,17 @@ static void project_rung(const struct br_ladder *ladder, size_t r, double *proje
 {
     const struct rung *rung = &ladder->rung[r];
     const struct rung *parent = &ladder->rung[rung->parent];
+    const double *fine = projection + parent->offset;
+    double *coarse = projection + rung->offset;
     double loss = projection[parent->offset - 1];
-    for (size_t e = 0; e < rung->n; e++)
-        loss += project_element(rung,
-                                projection + parent->offset + e * rung->ratio * rung->modes,
-                                projection + rung->offset + e * rung->modes);
+    if (ladder->modes == MODES)
+        for (size_t e = 0; e < rung->n; e++)
+            loss += project_element(rung->prolong, rung->ratio, fine + e * rung->ratio * MODES,
+                                    coarse + e * MODES, MODES);
+    else
+        for (size_t e = 0; e < rung->n; e++)
+            loss += project_element(rung->prolong, rung->ratio, fine + e * rung->ratio * 2,
+                                    coarse + e * 2, 2);
     projection[rung->offset - 1] = loss;
 }
 
@@ -182,12 +190,14 @@ double br_ladder_distance(const struct br_ladder *ladder, size_t r, const double
                           const double *projection)
 {
     const struct rung *rung = &ladder->rung[r];
-    double sum = 0;
-    for (size_t i = 0; i < rung->n * rung->modes; i++) {
-        const double difference = modes[i] - projection[rung->offset + i];
-        sum += difference * difference;
+    const double *reference = projection + rung->offset;
+    double even = 0, odd = 0; /* two chains; the modes are even in number */
+    for (size_t i = 0; i < rung->n * rung->modes; i += 2) {
+        const double a = modes[i] - reference[i], b = modes[i + 1] - reference[i + 1];
+        even += a * a;
+        odd += b * b;
     }
-    return sqrt(sum + projection[rung->offset - 1]);
+    return sqrt(even + odd + projection[rung->offset - 1]);
 }
 
 static void axial_modes(double root, const double *nodal, double modes[2])

@@ -9,14 +9,24 @@
 enum { BR_MOST_TRIANGLES = 4 };
 
 struct br_report {
-    const char *name;        /* file name stem: "table1", or the scene's name; borrowed */
-    const char *caption;     /* one line; borrowed */
-    struct br_study *study;  /* borrowed */
+    const char *name;       /* file name stem: "table1", or the scene's name; borrowed */
+    const char *caption;    /* one line; borrowed */
+    struct br_study *study; /* borrowed */
+    double *printed;        /* n_count * k_count, m^(3/2), by rows, NaN where the paper has
+                               none; NULL: there is no printed table. Owned */
     struct br_fits fits[BR_PARTS];
-    double *printed;         /* n_count * k_count, m^(3/2), by rows; NaN: none; NULL: no table */
     struct br_triangle triangle[BR_MOST_TRIANGLES];
     size_t triangles;
-    double wall_seconds;     /* of the whole study */
+    double wall_seconds;    /* of the whole study */
 };
+
+/* Fits all parts of the study's errors, and holds the printed values, where there
+ * are some, against the triangle inequality. name, caption, study and printed
+ * have been set. Fails with BR_NO_MEMORY or as br_study_run does. */
+enum br_status br_report_finish(struct br_report *report, int threads, struct br_error *err);
+void br_report_clear(struct br_report *report);
+
+/* Ours over printed, of a cell; NaN where nothing is printed. */
+double br_report_ratio(const struct br_report *report, size_t cell);
 
 #endif

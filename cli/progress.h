@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Long work shows itself on stderr: a bar with the time left on a terminal, a
+ * plain line every tenth elsewhere, nothing when quiet. */
+#ifndef BR_PROGRESS_H
+#define BR_PROGRESS_H
+
+#include "study/study.h"
+
+/* An observer that shows progress and stops when a signal has come. One run at a time. */
+const struct br_observer *br_progress_start(const char *what, bool quiet);
+
+/* Clears the bar. */
+void br_progress_end(void);
+
+#endif

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/provenance.h"
+
+#include <string.h>
+#include <sys/utsname.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "build_info.h"
+
+static char command_line[4096], machine[512], date[32];
+
+const char *br_version(void)
+{
+    return BR_VERSION;
+}
+
+const char *br_commit(void)
+{
+    return BR_COMMIT;
+}
+
+/* text += part, in single quotes where a shell would need them. */
+static void append_quoted(const char *part)
+{
+    const size_t used = strlen(command_line);
+    const char *quote = *part && !part[strcspn(part, " \t\n'\"\\$*?;&|<>()[]{}#~`!")] ? "" : "'";
+    snprintf(command_line + used, sizeof command_line - used, "%s%s%s%s", used ? " " : "", quote,
+             part, quote);
+}
+
+void br_remember_command_line(int argc, const char **argv)
+{
+    command_line[0] = '\0';
+    for (int i = 0; i < argc; i++)
+        append_quoted(argv[i]);
+}
+
+/* The processor's name as Linux tells it, or "". */
+static void find_processor(char *name, size_t size)
+{
+    name[0] = '\0';
+    FILE *file = fopen("/proc/cpuinfo", "r");
+    char line[256];
+    while (file && fgets(line, sizeof line, file)) {
+        const char *colon = strchr(line, ':');
+        if (strncmp(line, "model name", 10) != 0 || !colon)
+            continue;
+        snprintf(name, size, "%s", colon + 2);
+        name[strcspn(name, "\n")] = '\0';
+        break;
+    }
+    if (file)
+        fclose(file);
+}
+
+static void describe_machine(void)
+{
+    struct utsname system;
+    char processor[256];
+    find_processor(processor, sizeof processor);
+    if (uname(&system) < 0)
+        memset(&system, 0, sizeof system);
+    snprintf(machine, sizeof machine, "%.32s %.64s %.32s, %s, %ld cores", system.sysname,
+             system.release, system.machine, processor, sysconf(_SC_NPROCESSORS_ONLN));
+}
+
+void br_provenance_fill(struct br_provenance *p, int threads)
+{
+    const time_t now = time(NULL);
+    struct tm utc;
+    gmtime_r(&now, &utc);
+    strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    describe_machine();
+    *p = (struct br_provenance){
+        .version = BR_VERSION,
+        .commit = BR_COMMIT,
+        .compiler = BR_COMPILER,
+        .flags = BR_FLAGS,
+        .command_line = command_line,
+        .machine = machine,
+        .date = date,
+        .threads = threads,
+    };
+}

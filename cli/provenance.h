@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where a result comes from: program, compiler, command line, machine, date. */
+#ifndef BR_CLI_PROVENANCE_H
+#define BR_CLI_PROVENANCE_H
+
+#include "tables/emitter.h"
+
+const char *br_version(void);
+const char *br_commit(void);
+
+void br_remember_command_line(int argc, const char **argv);
+
+/* Fills all but the scene. The strings are static, so one call a run. */
+void br_provenance_fill(struct br_provenance *provenance, int threads);
+
+#endif

@@ -1,0 +1,276 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/study_options.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/number_list.h"
+#include "tables/emitter.h"
+
+/* The names of a registry as "a, b", for help and messages. */
+static void join(char *text, size_t size, const char *name)
+{
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s%s", used ? ", " : "", name);
+}
+
+static const char *solver_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
+        join(text, sizeof text, (*s)->name);
+    return text;
+}
+
+static const char *contact_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_contact_rule *const *c = br_contact_rules; *c; c++)
+        join(text, sizeof text, (*c)->name);
+    return text;
+}
+
+static const char *friction_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_friction_rule *const *f = br_friction_rules; *f; f++)
+        join(text, sizeof text, (*f)->name);
+    return text;
+}
+
+static const char *format_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_emitter *const *e = br_emitters; *e; e++)
+        join(text, sizeof text, (*e)->name);
+    return text;
+}
+
+/* One line a row of each registry, below the options. */
+static void print_registries(FILE *out)
+{
+    fprintf(out, "\nLinear solvers (--solver, --reference-solver), the first is the default:\n");
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
+        fprintf(out, "  %-12s %s%s%s\n", (*s)->name, (*s)->title,
+                *(*s)->options ? "; heeds " : "", (*s)->options);
+    fprintf(out, "Contact (--contact):\n");
+    for (const struct br_contact_rule *const *c = br_contact_rules; *c; c++)
+        fprintf(out, "  %-12s %s\n", (*c)->name, (*c)->title);
+    fprintf(out, "Friction (--friction):\n");
+    for (const struct br_friction_rule *const *f = br_friction_rules; *f; f++)
+        fprintf(out, "  %-12s %s\n", (*f)->name, (*f)->title);
+    fprintf(out, "Formats (--format):\n");
+    for (const struct br_emitter *const *e = br_emitters; *e; e++)
+        fprintf(out, "  %-12s %s\n", (*e)->name, (*e)->title);
+}
+
+enum { HELP = 1 };
+
+/* Reads options until the end; returns popt's verdict, -1 for all well. */
+static int read_all(poptContext context, struct br_study_options *o)
+{
+    int code;
+    while ((code = poptGetNextOpt(context)) > 0)
+        if (code == HELP) {
+            o->help = 1;
+            poptPrintHelp(context, stdout, 0);
+            print_registries(stdout);
+        }
+    return code;
+}
+
+/* The words that are no options: one if wanted, else none. */
+static enum br_status read_argument(poptContext context, char **argument, struct br_error *err)
+{
+    const char *word = poptGetArg(context);
+    if (argument && !word)
+        return br_fail(err, BR_BAD_INPUT,
+                       "no scene is given, expected a file or the name of a bundled scene");
+    if (argument) {
+        *argument = strdup(word);
+        if (!*argument)
+            return br_no_memory(err, "the options");
+        word = poptGetArg(context);
+    }
+    if (word)
+        return br_fail(err, BR_BAD_INPUT, "found '%s', expected nothing more", word);
+    return BR_OK;
+}
+
+enum br_status br_study_options_parse(int argc, const char **argv, const char *usage,
+                                      struct br_study_options *o, char **argument,
+                                      struct br_error *err)
+{
+    struct poptOption table[] = {
+        {"n", 0, POPT_ARG_STRING, &o->n, 0, "elements of the meshes", "LIST"},
+        {"k", 0, POPT_ARG_STRING, &o->k, 0, "time steps, s", "LIST"},
+        {"reference", 0, POPT_ARG_STRING, &o->reference, 0,
+         "judge by a fine run of N elements and steps of K seconds", "fine:N,K"},
+        {"solver", 0, POPT_ARG_STRING, &o->solver, 0, "linear solver", "NAME"},
+        {"reference-solver", 0, POPT_ARG_STRING, &o->reference_solver, 0,
+         "that of the reference, where it differs", "NAME"},
+        {"contact", 0, POPT_ARG_STRING, &o->contact, 0, "where contact takes its force", "NAME"},
+        {"friction", 0, POPT_ARG_STRING, &o->friction, 0, "friction law", "NAME"},
+        {"scaling", 0, POPT_ARG_STRING, &o->scaling, 0,
+         "umfpack's row scaling: none (default), sum or max", "NAME"},
+        {"refinement", 0, POPT_ARG_INT, &o->refinement, 0,
+         "umfpack's refinement steps a solve, at most (default 0)", "COUNT"},
+        {"threads", 0, POPT_ARG_INT, &o->threads, 0, "threads; 0, the default: all cores",
+         "COUNT"},
+        {"out", 0, POPT_ARG_STRING, &o->out, 0, "folder of the results (default results)", "DIR"},
+        {"format", 0, POPT_ARG_STRING, &o->format, 0,
+         "formats to write (default all): any of those below", "LIST"},
+        {"no-plots", 0, POPT_ARG_NONE, &o->no_plots, 0, "write no plots", NULL},
+        {"quiet", 0, POPT_ARG_NONE, &o->quiet, 0, "no progress, no table on the terminal", NULL},
+        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        POPT_TABLEEND,
+    };
+    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
+    if (!context)
+        return br_no_memory(err, "the options");
+    poptSetOtherOptionHelp(context, usage);
+    const int code = read_all(context, o);
+    enum br_status status = BR_OK;
+    if (code < -1)
+        status = br_fail(err, BR_BAD_INPUT, "%s: %s; '--help' lists the options",
+                         poptBadOption(context, POPT_BADOPTION_NOALIAS), poptStrerror(code));
+    else if (!o->help)
+        status = read_argument(context, argument, err);
+    poptFreeContext(context);
+    return status;
+}
+
+void br_study_options_clear(struct br_study_options *o)
+{
+    char **texts[] = {&o->n,       &o->k,       &o->reference, &o->solver, &o->reference_solver,
+                      &o->contact, &o->friction, &o->scaling,  &o->out,    &o->format};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        free(*texts[i]);
+        *texts[i] = NULL;
+    }
+}
+
+/* "fine:N,K" */
+static enum br_status read_reference(const char *text, struct br_study_request *r,
+                                     struct br_error *err)
+{
+    static const char prefix[] = "fine:";
+    double values[2];
+    const bool fine = strncmp(text, prefix, strlen(prefix)) == 0;
+    const char *rest = fine ? br_read_number(text + strlen(prefix), &values[0]) : NULL;
+    if (rest && *rest == ',')
+        rest = br_read_number(rest + 1, &values[1]);
+    if (!rest || *rest || !(values[0] >= 1 && values[0] <= 1e9) || values[0] != floor(values[0]) ||
+        !(values[1] > 0))
+        return br_fail(err, BR_BAD_INPUT,
+                       "--reference: found '%s', expected fine:N,K with a number of elements N >= 1 "
+                       "and a time step K > 0 in seconds, like fine:12800,1e-5",
+                       text);
+    r->reference_n = (size_t)values[0];
+    r->reference_k = values[1];
+    return BR_OK;
+}
+
+static enum br_status unknown(const char *option, const char *found, const char *names,
+                              struct br_error *err)
+{
+    return br_fail(err, BR_BAD_INPUT, "--%s: found '%s', expected one of: %s", option, found, names);
+}
+
+static enum br_status read_method(const struct br_study_options *o, struct br_study_request *r,
+                                  struct br_error *err)
+{
+    struct br_method m = br_method_default();
+    if (o->contact && !(m.contact = br_contact_rule_find(o->contact)))
+        return unknown("contact", o->contact, contact_names(), err);
+    if (o->friction && !(m.friction = br_friction_rule_find(o->friction)))
+        return unknown("friction", o->friction, friction_names(), err);
+    if (o->solver && !(m.solver = br_linear_solver_find(o->solver)))
+        return unknown("solver", o->solver, solver_names(), err);
+    if (o->scaling)
+        m.linear.scaling = o->scaling;
+    m.linear.refinement = o->refinement;
+    r->method = r->reference_method = m;
+    if (o->reference_solver &&
+        !(r->reference_method.solver = br_linear_solver_find(o->reference_solver)))
+        return unknown("reference-solver", o->reference_solver, solver_names(), err);
+    return BR_OK;
+}
+
+/* Options that a solver would not heed are refused, not ignored. */
+static enum br_status check_heeded(const struct br_study_options *o,
+                                   const struct br_study_request *r, struct br_error *err)
+{
+    const char *heeded[] = {r->method.solver->options, r->reference_method.solver->options};
+    const struct {
+        const char *option;
+        bool given;
+    } given[] = {{"--scaling", o->scaling != NULL}, {"--refinement", o->refinement != 0}};
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++)
+        if (given[i].given && !strstr(heeded[0], given[i].option) &&
+            !strstr(heeded[1], given[i].option))
+            return br_fail(err, BR_BAD_INPUT, "%s: solver %s does not heed it", given[i].option,
+                           r->method.solver->name);
+    return BR_OK;
+}
+
+static enum br_status check_numbers(const struct br_study_options *o, struct br_error *err)
+{
+    if (o->threads < 0 || o->threads > 4096)
+        return br_fail(err, BR_BAD_INPUT, "--threads: found %d, expected 0 to 4096", o->threads);
+    if (o->refinement < 0 || o->refinement > 100)
+        return br_fail(err, BR_BAD_INPUT, "--refinement: found %d, expected 0 to 100",
+                       o->refinement);
+    if (o->scaling && strcmp(o->scaling, "none") != 0 && strcmp(o->scaling, "sum") != 0 &&
+        strcmp(o->scaling, "max") != 0)
+        return unknown("scaling", o->scaling, "none, sum, max", err);
+    return BR_OK;
+}
+
+static enum br_status check_formats(const struct br_study_options *o, struct br_error *err)
+{
+    char name[64];
+    for (const char *rest = o->format; rest && *rest;) {
+        const size_t length = strcspn(rest, ",");
+        snprintf(name, sizeof name, "%.*s", (int)(length < 63 ? length : 63), rest);
+        if (!br_emitter_find(name))
+            return unknown("format", name, format_names(), err);
+        rest += length + (rest[length] == ',');
+    }
+    return BR_OK;
+}
+
+enum br_status br_study_request_read(const struct br_study_options *o, struct br_study_request *r,
+                                     struct br_error *err)
+{
+    *r = (struct br_study_request){0};
+    enum br_status status = check_numbers(o, err);
+    if (!status)
+        status = check_formats(o, err);
+    if (!status)
+        status = read_method(o, r, err);
+    if (!status)
+        status = check_heeded(o, r, err);
+    if (!status && o->n)
+        status = br_read_counts("--n", o->n, &r->n, &r->n_count, err);
+    if (!status && o->k)
+        status = br_read_numbers("--k", o->k, &r->k, &r->k_count, err);
+    if (!status && o->reference)
+        status = read_reference(o->reference, r, err);
+    return status;
+}
+
+void br_study_request_clear(struct br_study_request *r)
+{
+    free(r->n);
+    free(r->k);
+    *r = (struct br_study_request){0};
+}

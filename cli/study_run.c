@@ -1,0 +1,336 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/study_run.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/provenance.h"
+#include "cli/signals.h"
+#include "plots/plots.h"
+#include "reference/printed.h"
+#include "study/scene_file.h"
+
+/* A job on its way. */
+struct work {
+    char path[1024]; /* the scene's file */
+    char *text;      /* its contents */
+    struct br_scene scene;
+    size_t *n, *steps; /* the grid */
+    struct br_report report;
+};
+
+struct session {
+    const struct br_study_options *options;
+    struct br_study_request request;
+    struct work *work;
+    struct br_study *study; /* count, in one array for br_study_run */
+    size_t count;
+    struct br_output output;
+    struct br_provenance provenance;
+};
+
+static enum br_status read_whole(const char *path, char **text, struct br_error *err)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno));
+    const size_t most = 1u << 20;
+    *text = br_allocate(most, 1);
+    if (*text)
+        (*text)[fread(*text, 1, most - 1, file)] = '\0';
+    fclose(file);
+    return *text ? BR_OK : br_no_memory(err, "the scene");
+}
+
+/* ---- the grid ---- */
+
+/* Without --n: 25, 50, 100, 200; without --k: T over 100, 200, 400, 800; without
+ * --reference: four times the finest of each. */
+enum { DEFAULT_COUNT = 4, DEFAULT_N = 25, DEFAULT_STEPS = 100, DEFAULT_FINER = 4 };
+
+static size_t largest(const size_t *values, size_t count)
+{
+    size_t most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = values[i] > most ? values[i] : most;
+    return most;
+}
+
+/* values, sorted in ascending order, or the default sequence. */
+static enum br_status fill_counts(const size_t *given, size_t count, size_t first, size_t **out,
+                                  struct br_error *err)
+{
+    *out = br_allocate(count, sizeof **out);
+    if (!*out)
+        return br_no_memory(err, "the grid");
+    for (size_t i = 0; i < count; i++) {
+        const size_t value = given ? given[i] : first << i;
+        size_t j = i;
+        for (; j > 0 && (*out)[j - 1] > value; j--)
+            (*out)[j] = (*out)[j - 1];
+        (*out)[j] = value;
+    }
+    return BR_OK;
+}
+
+static enum br_status make_steps(const struct br_scene *scene, const struct br_study_request *r,
+                                 size_t **steps, struct br_error *err)
+{
+    if (!r->k)
+        return fill_counts(NULL, DEFAULT_COUNT, DEFAULT_STEPS, steps, err);
+    size_t *given = br_allocate(r->k_count, sizeof *given);
+    enum br_status status = given ? BR_OK : br_no_memory(err, "the grid");
+    struct br_error inner = {0};
+    for (size_t j = 0; j < r->k_count && !status; j++)
+        if (br_steps_of(scene, r->k[j], &given[j], &inner))
+            status = br_fail(err, BR_BAD_INPUT, "--k: %s", inner.message);
+    if (!status)
+        status = fill_counts(given, r->k_count, 0, steps, err);
+    free(given);
+    return status;
+}
+
+static enum br_status make_grid(struct session *s, size_t i, struct br_error *err)
+{
+    struct work *w = &s->work[i];
+    struct br_study *study = &s->study[i];
+    const struct br_study_request *r = &s->request;
+    study->n_count = r->n ? r->n_count : DEFAULT_COUNT;
+    study->k_count = r->k ? r->k_count : DEFAULT_COUNT;
+    enum br_status status = fill_counts(r->n, study->n_count, DEFAULT_N, &w->n, err);
+    if (!status)
+        status = make_steps(&w->scene, r, &w->steps, err);
+    if (status)
+        return status;
+    study->scene = &w->scene;
+    study->method = r->method;
+    study->reference_method = r->reference_method;
+    study->n = w->n;
+    study->steps = w->steps;
+    study->reference.n = r->reference_n ? r->reference_n
+                                        : DEFAULT_FINER * largest(w->n, study->n_count);
+    study->reference.steps = DEFAULT_FINER * largest(w->steps, study->k_count);
+    struct br_error inner = {0};
+    if (r->reference_n &&
+        br_steps_of(&w->scene, r->reference_k, &study->reference.steps, &inner))
+        return br_fail(err, BR_BAD_INPUT, "--reference: %s", inner.message);
+    return BR_OK;
+}
+
+/* ---- the printed values ---- */
+
+static enum br_status read_printed(const char *relative, struct work *w,
+                                   const struct br_study *study, struct br_error *err)
+{
+    char path[1024];
+    br_data_path(relative, path, sizeof path);
+    struct br_printed printed;
+    enum br_status status = br_printed_read(path, &printed, err);
+    const size_t cells = study->n_count * study->k_count;
+    if (!status && !(w->report.printed = br_allocate(cells, sizeof(double))))
+        status = br_no_memory(err, "the printed values");
+    for (size_t c = 0; c < cells && !status; c++)
+        w->report.printed[c] =
+            br_printed_error(&printed, study->n[c / study->k_count],
+                             br_time_step(study->scene, study->steps[c % study->k_count]));
+    br_printed_clear(&printed);
+    return status;
+}
+
+static enum br_status prepare(struct session *s, size_t i, const struct br_study_job *job,
+                              struct br_error *err)
+{
+    struct work *w = &s->work[i];
+    enum br_status status = br_scene_find(job->scene, w->path, sizeof w->path, err);
+    if (!status)
+        status = br_scene_read(w->path, &w->scene, err);
+    if (!status)
+        status = read_whole(w->path, &w->text, err);
+    if (!status)
+        status = make_grid(s, i, err);
+    if (!status && job->printed)
+        status = read_printed(job->printed, w, &s->study[i], err);
+    w->report.name = job->name ? job->name : w->scene.name;
+    w->report.caption = job->caption ? job->caption : w->scene.title;
+    w->report.study = &s->study[i];
+    return status;
+}
+
+/* ---- running and writing ---- */
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static enum br_status compute(struct session *s, struct br_error *err)
+{
+    const double start = now();
+    const struct br_observer *observer = br_progress_start("marching", s->options->quiet);
+    enum br_status status =
+        br_study_run(s->study, s->count, s->options->threads, observer, err);
+    br_progress_end();
+    for (size_t i = 0; i < s->count && !status; i++) {
+        s->work[i].report.wall_seconds = now() - start;
+        status = br_report_finish(&s->work[i].report, s->options->threads, err);
+    }
+    return status;
+}
+
+static void describe(struct session *s, size_t i)
+{
+    s->provenance.scene_path = s->work[i].path;
+    s->provenance.scene_text = s->work[i].text;
+}
+
+static bool wanted(const char *list, const char *name)
+{
+    if (!list)
+        return true;
+    const size_t length = strlen(name);
+    for (const char *rest = list; *rest; rest += strcspn(rest, ","), rest += *rest == ',')
+        if (strcspn(rest, ",") == length && strncmp(rest, name, length) == 0)
+            return true;
+    return false;
+}
+
+static enum br_status write_tables(struct session *s, size_t i, struct br_error *err)
+{
+    describe(s, i);
+    for (const struct br_emitter *const *e = br_emitters; *e; e++) {
+        if (!wanted(s->options->format, (*e)->name))
+            continue;
+        char name[512];
+        snprintf(name, sizeof name, "%s%s", s->work[i].report.name, (*e)->extension);
+        FILE *file;
+        enum br_status status = br_output_file(&s->output, name, &file, err);
+        if (status)
+            return status;
+        status = (*e)->emit(file, &s->work[i].report, &s->provenance, err);
+        struct br_error closing = {0};
+        if (br_output_close(file, name, &closing) && !status)
+            status = br_fail(err, closing.status, "%s", closing.message);
+        if (status)
+            return status;
+    }
+    return BR_OK;
+}
+
+static enum br_status write_plots(struct session *s, size_t i, bool *missing,
+                                  struct br_error *err)
+{
+    const struct br_report *report = &s->work[i].report;
+    for (const struct br_plot *const *p = br_plots; *p; p++) {
+        char script[512];
+        if (!(*p)->applies(report))
+            continue;
+        enum br_status status = br_plot_file(*p, report, "gp", script, sizeof script, err);
+        if (!status)
+            status = br_plot_write(*p, report, s->output.staging, err);
+        if (status)
+            return status;
+        if (!*missing)
+            status = br_plot_render(s->output.staging, script, missing, err);
+        if (status && !*missing)
+            return status;
+        if (br_signals_caught())
+            return br_fail(err, BR_INTERRUPTED, "interrupted");
+    }
+    return BR_OK;
+}
+
+static enum br_status write_all(struct session *s, struct br_error *err)
+{
+    bool missing = false;
+    for (size_t i = 0; i < s->count; i++) {
+        enum br_status status = write_tables(s, i, err);
+        if (!status && !s->options->no_plots)
+            status = write_plots(s, i, &missing, err);
+        if (status)
+            return status;
+    }
+    if (missing)
+        fprintf(stderr, "beamrate: gnuplot is not installed: the plots are written as scripts "
+                        "(*.gp) and data, but not rendered\n");
+    return br_output_commit(&s->output, err);
+}
+
+static enum br_status show(struct session *s, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < s->count && !status && !s->options->quiet; i++) {
+        describe(s, i);
+        status = br_emitters[0]->emit(stdout, &s->work[i].report, &s->provenance, err);
+        putchar('\n');
+    }
+    return status;
+}
+
+/* A failed cell fails the run, after everything has been written. */
+static enum br_status check_cells(const struct session *s, struct br_error *err)
+{
+    size_t failed = 0;
+    const struct br_cell *first = NULL;
+    for (size_t i = 0; i < s->count; i++)
+        for (size_t c = 0; c < s->study[i].n_count * s->study[i].k_count; c++)
+            if (s->study[i].cell[c].flag[BR_PART_TOTAL] == BR_FLAG_FAILED) {
+                first = first ? first : &s->study[i].cell[c];
+                failed++;
+            }
+    if (!failed)
+        return BR_OK;
+    return br_fail(err, BR_NOT_FINITE, "%zu cells failed; the first is n = %zu: %s", failed,
+                   first->at.n,
+                   first->failure.status ? first->failure.message : "its error is not a number");
+}
+
+static void session_clear(struct session *s)
+{
+    for (size_t i = 0; s->work && i < s->count; i++) {
+        br_report_clear(&s->work[i].report);
+        br_scene_clear(&s->work[i].scene);
+        free(s->work[i].text);
+        free(s->work[i].n);
+        free(s->work[i].steps);
+    }
+    for (size_t i = 0; s->study && i < s->count; i++)
+        br_study_clear(&s->study[i]);
+    free(s->work);
+    free(s->study);
+    br_output_discard(&s->output);
+    br_study_request_clear(&s->request);
+}
+
+enum br_status br_study_run_jobs(const struct br_study_job *jobs, size_t count,
+                                 const struct br_study_options *options, struct br_error *err)
+{
+    struct session s = {.options = options, .count = count};
+    s.work = br_allocate(count, sizeof *s.work);
+    s.study = br_allocate(count, sizeof *s.study);
+    enum br_status status = s.work && s.study ? BR_OK : br_no_memory(err, "the studies");
+    if (!status)
+        status = br_study_request_read(options, &s.request, err);
+    for (size_t i = 0; i < count && !status; i++)
+        status = prepare(&s, i, &jobs[i], err);
+    if (!status)
+        status = br_output_open(&s.output, options->out ? options->out : "results", err);
+    br_provenance_fill(&s.provenance, options->threads);
+    if (!status)
+        status = compute(&s, err);
+    if (!status)
+        status = show(&s, err);
+    if (!status)
+        status = write_all(&s, err);
+    if (!status && !options->quiet)
+        printf("Written to %s/\n", s.output.folder);
+    if (!status)
+        status = check_cells(&s, err);
+    session_clear(&s);
+    return status;
+}

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The total error against h, one curve per k, and against k, one curve per n. */
+#include "plots/page.h"
+
+#include <math.h>
+
+static const struct br_columns columns = {.parts = 1, .part = {BR_PART_TOTAL}};
+
+static bool always(const struct br_report *report)
+{
+    return report->study->n_count > 0 && report->study->k_count > 0;
+}
+
+/* One curve, and its key entry, for each value of the other axis. */
+static void write_curves(FILE *out, const struct br_report *report, enum br_axis axis)
+{
+    const enum br_axis other = axis == BR_OVER_H ? BR_OVER_K : BR_OVER_H;
+    size_t count, curve = 0;
+    const size_t *list = br_axis_list(report, other, &count);
+    const size_t curves = br_distinct(list, count);
+    fputs("plot ", out);
+    for (size_t i = br_next(list, count, 0); i < count; i = br_next(list, count, list[i])) {
+        const struct br_pen pen = br_pen_of(curve, curves);
+        fprintf(out,
+                "%sdata index %zu using 2:3:(mark(%d, strcol(4))) with linespoints ls %zu "
+                "pt variable notitle, \\\n",
+                curve ? "     " : "", curve, pen.mark, curve + 1);
+        curve++;
+    }
+    curve = 0;
+    for (size_t i = br_next(list, count, 0); i < count; i = br_next(list, count, list[i])) {
+        fprintf(out, "%s     keyentry with linespoints ls %zu title '", curve ? ", \\\n" : "",
+                curve + 1);
+        if (axis == BR_OVER_H)
+            fprintf(out, "k = %.6g s'", br_axis_value(report, other, list[i]));
+        else
+            fprintf(out, "n = %zu'", list[i]);
+        curve++;
+    }
+    fputc('\n', out);
+}
+
+static void write_page(FILE *out, const struct br_report *report, const struct br_plot *plot,
+                       const char *stem, struct br_frame *frame)
+{
+    size_t count;
+    const size_t *list =
+        br_axis_list(report, frame->axis == BR_OVER_H ? BR_OVER_K : BR_OVER_H, &count);
+    const size_t curves = br_distinct(list, count);
+    frame->left = 0.11;
+    frame->right = 0.77;
+    frame->bottom = 0.125;
+    frame->top = 0.79;
+    frame->y = (struct br_range){INFINITY, 0};
+    frame->numbered = true;
+    frame->page = BR_PAGE_NARROW;
+    br_include_blocks(&frame->y, report, frame->axis, &columns);
+    br_write_head(out, report, plot, stem);
+    br_write_loop(out, stem, BR_PAGE_NARROW);
+    br_write_pens(out, curves);
+    br_write_caption(out, report, BR_PAGE_NARROW);
+    br_write_orders(out, report, BR_PART_TOTAL, 0.9);
+    br_write_frame(out, report, frame);
+    fprintf(out,
+            "set key at screen 0.785,%.3f left top Left reverse samplen 2.5 spacing %s "
+            "font ',%d'\n",
+            frame->top, curves > 9 ? "1" : "1.25", curves > 9 ? 15 : 21);
+    write_curves(out, report, frame->axis);
+    br_write_foot(out);
+}
+
+static void write_data_h(FILE *out, const struct br_report *report)
+{
+    br_write_heading(out, report, &br_plot_h);
+    br_write_blocks(out, report, BR_OVER_H, &columns);
+}
+
+static void write_data_k(FILE *out, const struct br_report *report)
+{
+    br_write_heading(out, report, &br_plot_k);
+    br_write_blocks(out, report, BR_OVER_K, &columns);
+}
+
+/* The bounds of the theory, and what the elements can do on smooth solutions, in L2. */
+static void write_script_h(FILE *out, const struct br_report *report, const char *stem)
+{
+    struct br_order order[4] = {{0.5, "1/2  bound (26)"}, {1, "1  Remark 2.5"}};
+    size_t orders = 2;
+    if (report->study->scene->axial.modelled)
+        order[orders++] = (struct br_order){2, "2  axial, P1"};
+    if (report->study->scene->bending.modelled)
+        order[orders++] = (struct br_order){4, "4  bending, C^1"};
+    write_page(out, report, &br_plot_h, stem,
+               &(struct br_frame){.axis = BR_OVER_H, .order = order, .orders = orders});
+}
+
+static void write_script_k(FILE *out, const struct br_report *report, const char *stem)
+{
+    static const struct br_order order = {1, "1  (26), Euler"};
+    write_page(out, report, &br_plot_k, stem,
+               &(struct br_frame){.axis = BR_OVER_K, .order = &order, .orders = 1});
+}
+
+const struct br_plot br_plot_h = {
+    .name = "h",
+    .title = "The error (31) against the mesh size h, one curve per time step k.",
+    .applies = always,
+    .write_data = write_data_h,
+    .write_script = write_script_h,
+};
+
+const struct br_plot br_plot_k = {
+    .name = "k",
+    .title = "The error (31) against the time step k, one curve per number of elements n.",
+    .applies = always,
+    .write_data = write_data_k,
+    .write_script = write_script_k,
+};

@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/fit.h"
+
+#include <gsl/gsl_fit.h>
+#include <math.h>
+
+#include "study/joint_fit.h"
+
+const double br_flag_margin = 3;
+
+bool br_order_determined(const struct br_estimate *order)
+{
+    return order->high - order->low <= 1; /* false for NaN */
+}
+
+bool br_joint_describes(const struct br_joint_fit *fit)
+{
+    return fit->converged && fit->misfit <= 0.1;
+}
+
+static double mesh_of(const struct br_study *s, const struct br_cell *c)
+{
+    return br_mesh_size(s->scene, c->at.n);
+}
+
+static double step_of(const struct br_study *s, const struct br_cell *c)
+{
+    return br_time_step(s->scene, c->at.steps);
+}
+
+static size_t cell_count(const struct br_study *s)
+{
+    return s->n_count * s->k_count;
+}
+
+static bool usable(const struct br_cell *c, enum br_part part)
+{
+    return c->flag[part] == BR_FLAG_NONE && c->error[part] > 0 && isfinite(c->error[part]);
+}
+
+/* Slope of y over x with its interval. */
+static struct br_slope slope_of(const double *x, const double *y, size_t count)
+{
+    struct br_slope slope = {.order = {NAN, NAN, NAN}, .points = count};
+    if (count < 2)
+        return slope;
+    double c0, c1, cov00, cov01, cov11, sum;
+    gsl_fit_linear(x, 1, y, 1, count, &c0, &c1, &cov00, &cov01, &cov11, &sum);
+    slope.order = br_estimate_of(c1, sqrt(fmax(0, cov11)), count - 2);
+    return slope;
+}
+
+/* Slopes along one direction of the grid: `outer` lines of `inner` cells. */
+struct lines {
+    size_t outer, inner;
+    size_t outer_stride, inner_stride;
+    double (*abscissa)(const struct br_study *, const struct br_cell *);
+};
+
+static enum br_status fit_lines(const struct br_study *s, enum br_part part,
+                                const struct lines *lines, struct br_slope **slopes,
+                                struct br_error *err)
+{
+    double *x = br_allocate(2 * lines->inner, sizeof *x);
+    *slopes = br_allocate(lines->outer, sizeof **slopes);
+    if (!x || !*slopes) {
+        free(x);
+        return br_no_memory(err, "the fits");
+    }
+    double *y = x + lines->inner;
+    for (size_t i = 0; i < lines->outer; i++) {
+        size_t count = 0;
+        for (size_t j = 0; j < lines->inner; j++) {
+            const struct br_cell *c =
+                &s->cell[i * lines->outer_stride + j * lines->inner_stride];
+            if (!usable(c, part))
+                continue;
+            x[count] = log(lines->abscissa(s, c));
+            y[count++] = log(c->error[part]);
+        }
+        (*slopes)[i] = slope_of(x, y, count);
+    }
+    free(x);
+    return BR_OK;
+}
+
+static enum br_status fit_joint(const struct br_study *s, enum br_part part,
+                                struct br_joint_fit *fit, struct br_error *err)
+{
+    struct br_observation *o = br_allocate(cell_count(s), sizeof *o);
+    if (!o)
+        return br_no_memory(err, "the fits");
+    size_t count = 0;
+    for (size_t i = 0; i < cell_count(s); i++)
+        if (usable(&s->cell[i], part))
+            o[count++] = (struct br_observation){mesh_of(s, &s->cell[i]), step_of(s, &s->cell[i]),
+                                                 s->cell[i].error[part]};
+    const enum br_status status =
+        br_joint_fit_solve(o, count, br_mesh_size(s->scene, s->reference.n),
+                           br_time_step(s->scene, s->reference.steps), fit, err);
+    free(o);
+    return status;
+}
+
+/* The reference's own error: the model's, against a reference without one. */
+static double reference_error(const struct br_study *s, const struct br_joint_fit *fit)
+{
+    if (!br_joint_describes(fit))
+        return NAN;
+    return br_joint_model(fit, br_mesh_size(s->scene, s->reference.n),
+                          br_time_step(s->scene, s->reference.steps), 0, 0);
+}
+
+/* Predicted round-off of a cell and of the reference, m^(3/2). */
+static double round_off(const struct br_study *s, const struct br_cell *c)
+{
+    double relative = s->round_off;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const bool modelled = kind == BR_AXIAL ? s->scene->axial.modelled
+                                               : s->scene->bending.modelled;
+        const struct br_field field =
+            br_field_of_scene(s->scene, (enum br_field_kind)kind, c->at.n, step_of(s, c));
+        if (modelled)
+            relative = fmax(relative, s->method.solver->round_off(&field));
+    }
+    return relative * s->reference_scale;
+}
+
+/* Sets the flags of one part; returns how many changed. */
+static size_t set_flags(struct br_study *s, enum br_part part, double reference)
+{
+    size_t changed = 0;
+    for (size_t i = 0; i < cell_count(s); i++) {
+        struct br_cell *c = &s->cell[i];
+        enum br_flag flag = BR_FLAG_NONE;
+        if (c->failure.status || !isfinite(c->error[part]))
+            flag = BR_FLAG_FAILED;
+        else if (!(c->error[part] >= br_flag_margin * round_off(s, c)))
+            flag = BR_FLAG_ROUND_OFF;
+        else if (isfinite(reference) && !(c->error[part] >= br_flag_margin * reference))
+            flag = BR_FLAG_REFERENCE;
+        changed += flag != c->flag[part];
+        c->flag[part] = flag;
+    }
+    return changed;
+}
+
+enum br_status br_fit(struct br_study *s, enum br_part part, struct br_fits *fits,
+                      struct br_error *err)
+{
+    enum { MOST_ROUNDS = 8 };
+    *fits = (struct br_fits){0};
+    set_flags(s, part, 0);
+    enum br_status status = BR_OK;
+    for (int round = 0; round < MOST_ROUNDS && !status; round++) {
+        status = fit_joint(s, part, &fits->joint, err);
+        fits->reference_error = reference_error(s, &fits->joint);
+        if (set_flags(s, part, fits->reference_error) == 0)
+            break;
+    }
+    const struct lines rows = {s->n_count, s->k_count, s->k_count, 1, step_of};
+    const struct lines columns = {s->k_count, s->n_count, 1, s->k_count, mesh_of};
+    if (!status)
+        status = fit_lines(s, part, &rows, &fits->by_n, err);
+    if (!status)
+        status = fit_lines(s, part, &columns, &fits->by_k, err);
+    return status;
+}
+
+void br_fits_clear(struct br_fits *fits)
+{
+    free(fits->by_n);
+    free(fits->by_k);
+    *fits = (struct br_fits){0};
+}

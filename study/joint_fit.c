@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/joint_fit.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <math.h>
+
+/* The unknowns are log C_h, p, log C_k, q and theta with r = sin(theta). */
+enum { LOG_C_H, P, LOG_C_K, Q, THETA, UNKNOWNS };
+
+/* Which of the unknowns a kind of model has, and how many. */
+static const struct {
+    int unknown[UNKNOWNS];
+    size_t count;
+} kinds[] = {
+    [BR_JOINT_BOTH] = {{LOG_C_H, P, LOG_C_K, Q, THETA}, 5},
+    [BR_JOINT_TIME] = {{LOG_C_K, Q}, 2},
+    [BR_JOINT_SPACE] = {{LOG_C_H, P}, 2},
+};
+
+struct problem {
+    const struct br_observation *observation;
+    size_t count;
+    double h_ref, k_ref;
+    enum br_joint_kind kind;
+};
+
+struct br_estimate br_estimate_of(double value, double deviation, size_t freedom)
+{
+    const double half =
+        freedom > 0 ? gsl_cdf_tdist_Pinv(0.975, (double)freedom) * deviation : NAN;
+    return (struct br_estimate){value, value - half, value + half};
+}
+
+/* C (x^order - x_ref^order); an order is positive. */
+static double signed_error(double log_c, double order, double x, double x_ref)
+{
+    if (!(order > 0))
+        return NAN;
+    return exp(log_c + order * log(x)) - exp(log_c + order * log(x_ref));
+}
+
+static double combine(double a, double b, double r)
+{
+    const double square = a * a + 2 * r * a * b + b * b;
+    return sqrt(square < 0 ? 0 : square); /* NaN stays */
+}
+
+static double model(const struct problem *problem, const gsl_vector *v,
+                    const struct br_observation *o)
+{
+    double full[UNKNOWNS] = {0};
+    for (size_t i = 0; i < kinds[problem->kind].count; i++)
+        full[kinds[problem->kind].unknown[i]] = gsl_vector_get(v, i);
+    const double a = problem->kind == BR_JOINT_TIME
+                         ? 0
+                         : signed_error(full[LOG_C_H], full[P], o->h, problem->h_ref);
+    const double b = problem->kind == BR_JOINT_SPACE
+                         ? 0
+                         : signed_error(full[LOG_C_K], full[Q], o->k, problem->k_ref);
+    return combine(a, b, sin(full[THETA]));
+}
+
+/* Residuals log(model / error). */
+static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
+{
+    const struct problem *problem = params;
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct br_observation *o = &problem->observation[i];
+        const double m = model(problem, v, o);
+        const double f = log((m < 1e-300 ? 1e-300 : m) / o->error);
+        if (!isfinite(f))
+            return GSL_EDOM;
+        gsl_vector_set(out, i, f);
+    }
+    return GSL_SUCCESS;
+}
+
+/* The least and the largest error stand for the two scales. */
+static void start_at(const struct problem *problem, double p, double r, double full[UNKNOWNS])
+{
+    double h = 0, k = 0, at_coarse_h = INFINITY, at_coarse_k = INFINITY;
+    for (size_t i = 0; i < problem->count; i++) {
+        h = fmax(h, problem->observation[i].h);
+        k = fmax(k, problem->observation[i].k);
+    }
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct br_observation *o = &problem->observation[i];
+        if (o->h == h)
+            at_coarse_h = fmin(at_coarse_h, o->error);
+        if (o->k == k)
+            at_coarse_k = fmin(at_coarse_k, o->error);
+    }
+    full[LOG_C_H] = log(at_coarse_h) - p * log(h);
+    full[P] = p;
+    full[LOG_C_K] = log(at_coarse_k) - log(k);
+    full[Q] = 1;
+    full[THETA] = asin(r);
+}
+
+/* One start of one kind; returns the sum of squares, or infinity. */
+struct attempt {
+    double sum;
+    double value[UNKNOWNS], deviation[UNKNOWNS]; /* NaN where not in the model */
+};
+
+static void read_attempt(const struct problem *problem, gsl_multifit_nlinear_workspace *w,
+                         struct attempt *out)
+{
+    const size_t unknowns = kinds[problem->kind].count;
+    const gsl_vector *f = gsl_multifit_nlinear_residual(w);
+    double sum = 0;
+    for (size_t i = 0; i < f->size; i++)
+        sum += gsl_vector_get(f, i) * gsl_vector_get(f, i);
+    if (!isfinite(sum))
+        return;
+    gsl_matrix *covariance = gsl_matrix_alloc(unknowns, unknowns);
+    if (!covariance)
+        return;
+    gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(w), 1e-12, covariance);
+    const double variance = sum / (double)(problem->count - unknowns);
+    for (size_t i = 0; i < unknowns; i++) {
+        const int u = kinds[problem->kind].unknown[i];
+        const double c = gsl_matrix_get(covariance, i, i);
+        out->value[u] = gsl_vector_get(gsl_multifit_nlinear_position(w), i);
+        out->deviation[u] = c > 0 ? sqrt(variance * c) : INFINITY; /* 0: rank deficient */
+    }
+    out->sum = sum;
+    gsl_matrix_free(covariance);
+}
+
+static struct attempt attempt_from(const struct problem *problem, double p, double r)
+{
+    struct attempt out = {.sum = INFINITY};
+    for (int i = 0; i < UNKNOWNS; i++)
+        out.value[i] = out.deviation[i] = NAN;
+    const size_t unknowns = kinds[problem->kind].count;
+    gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
+    parameters.fdtype = GSL_MULTIFIT_NLINEAR_CTRDIFF;
+    gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(
+        gsl_multifit_nlinear_trust, &parameters, problem->count, unknowns);
+    gsl_vector *start = gsl_vector_alloc(unknowns);
+    if (w && start) {
+        double full[UNKNOWNS];
+        start_at(problem, p, r, full);
+        for (size_t i = 0; i < unknowns; i++)
+            gsl_vector_set(start, i, full[kinds[problem->kind].unknown[i]]);
+        gsl_multifit_nlinear_fdf fdf = {
+            .f = residuals, .n = problem->count, .p = unknowns, .params = (void *)problem};
+        int info;
+        if (gsl_multifit_nlinear_init(start, &fdf, w) == GSL_SUCCESS) {
+            gsl_multifit_nlinear_driver(500, 1e-10, 1e-10, 0, NULL, NULL, &info, w);
+            read_attempt(problem, w, &out);
+        }
+    }
+    gsl_vector_free(start);
+    gsl_multifit_nlinear_free(w);
+    return out;
+}
+
+/* The best of several starts: the sum of squares has local minima in r and p. */
+static struct attempt best_attempt(const struct problem *problem)
+{
+    static const double orders[] = {1, 2, 4}, correlations[] = {-0.9, 0, 0.9};
+    struct attempt best = {.sum = INFINITY};
+    for (size_t i = 0; i < sizeof orders / sizeof *orders; i++)
+        for (size_t j = 0; j < sizeof correlations / sizeof *correlations; j++) {
+            const struct attempt a = attempt_from(problem, orders[i], correlations[j]);
+            if (a.sum < best.sum || (i == 0 && j == 0))
+                best = a;
+        }
+    return best;
+}
+
+/* Akaike's criterion with its correction for few points. */
+static double akaike(double sum, size_t count, size_t unknowns)
+{
+    const double n = (double)count, u = (double)unknowns + 1; /* the variance is one too */
+    if (!(n > u + 1))
+        return INFINITY;
+    return n * log(fmax(sum, 1e-300) / n) + 2 * u + 2 * u * (u + 1) / (n - u - 1);
+}
+
+static struct br_estimate exponential(struct br_estimate e)
+{
+    return (struct br_estimate){exp(e.value), exp(e.low), exp(e.high)};
+}
+
+/* r = sin(theta), its interval by the slope of the sine, within [-1, 1]. */
+static struct br_estimate correlation(double theta, double deviation, size_t freedom)
+{
+    struct br_estimate e =
+        br_estimate_of(sin(theta), fabs(cos(theta)) * deviation, freedom);
+    e.low = e.low < -1 ? -1 : e.low; /* NaN stays */
+    e.high = e.high > 1 ? 1 : e.high;
+    return e;
+}
+
+static void describe(const struct problem *problem, const struct attempt *a,
+                     struct br_joint_fit *fit)
+{
+    const size_t freedom = problem->count - kinds[problem->kind].count;
+    fit->kind = problem->kind;
+    fit->converged = true;
+    fit->points = problem->count;
+    fit->freedom = freedom;
+    fit->c_h = exponential(br_estimate_of(a->value[LOG_C_H], a->deviation[LOG_C_H], freedom));
+    fit->p = br_estimate_of(a->value[P], a->deviation[P], freedom);
+    fit->c_k = exponential(br_estimate_of(a->value[LOG_C_K], a->deviation[LOG_C_K], freedom));
+    fit->q = br_estimate_of(a->value[Q], a->deviation[Q], freedom);
+    fit->r = correlation(a->value[THETA], a->deviation[THETA], freedom);
+
+    double mean = 0, total = 0, worst = 0;
+    for (size_t i = 0; i < problem->count; i++)
+        mean += log(problem->observation[i].error) / (double)problem->count;
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct br_observation *o = &problem->observation[i];
+        total += pow(log(o->error) - mean, 2);
+        worst = fmax(worst, fabs(log(br_joint_model(fit, o->h, o->k, problem->h_ref,
+                                                    problem->k_ref) / o->error)));
+    }
+    fit->misfit = sqrt(a->sum / (double)problem->count);
+    fit->worst = worst;
+    fit->r_squared = total > 0 ? 1 - a->sum / total : NAN;
+}
+
+double br_joint_model(const struct br_joint_fit *fit, double h, double k, double h_ref,
+                      double k_ref)
+{
+    const double a = fit->kind == BR_JOINT_TIME
+                         ? 0
+                         : signed_error(log(fit->c_h.value), fit->p.value, h, h_ref);
+    const double b = fit->kind == BR_JOINT_SPACE
+                         ? 0
+                         : signed_error(log(fit->c_k.value), fit->q.value, k, k_ref);
+    return combine(a, b, fit->kind == BR_JOINT_BOTH ? fit->r.value : 0);
+}
+
+static void nothing_fitted(struct br_joint_fit *fit)
+{
+    const struct br_estimate none = {NAN, NAN, NAN};
+    *fit = (struct br_joint_fit){.c_h = none, .p = none, .c_k = none, .q = none, .r = none,
+                                 .misfit = NAN, .worst = NAN, .r_squared = NAN};
+}
+
+enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
+                                  double h_ref, double k_ref, struct br_joint_fit *fit,
+                                  struct br_error *err)
+{
+    (void)err;
+    nothing_fitted(fit);
+    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    double best = INFINITY;
+    for (int kind = BR_JOINT_BOTH; kind <= BR_JOINT_SPACE; kind++) {
+        const struct problem problem = {observation, count, h_ref, k_ref,
+                                        (enum br_joint_kind)kind};
+        if (count < kinds[kind].count + 2)
+            continue;
+        const struct attempt a = best_attempt(&problem);
+        const double criterion = akaike(a.sum, count, kinds[kind].count);
+        if (!isfinite(a.sum) || !(criterion < best))
+            continue;
+        describe(&problem, &a, fit);
+        /* Two errors whose orders cannot be told are no explanation. */
+        const bool told = kind != BR_JOINT_BOTH ||
+                          (br_order_determined(&fit->p) && br_order_determined(&fit->q));
+        best = told ? criterion : INFINITY;
+    }
+    gsl_set_error_handler(handler);
+    fit->points = count;
+    return BR_OK;
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The joint model of fit.h, fitted to the logarithms of the errors. */
+#ifndef BR_JOINT_FIT_H
+#define BR_JOINT_FIT_H
+
+#include "study/fit.h"
+
+/* One cell as the fit sees it. */
+struct br_observation {
+    double h, k;  /* m, s */
+    double error; /* > 0, m^(3/2) */
+};
+
+/* Fits the model with what the observations can tell; a fit that cannot be done
+ * has converged == false. Fails with BR_NO_MEMORY. */
+enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
+                                  double h_ref, double k_ref, struct br_joint_fit *fit,
+                                  struct br_error *err);
+
+/* value -+ half width of the 95 % interval: t quantile times the deviation. */
+struct br_estimate br_estimate_of(double value, double deviation, size_t freedom);
+
+#endif

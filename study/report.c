@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/report.h"
+
+#include <math.h>
+
+enum br_status br_report_finish(struct br_report *r, int threads, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (int part = 0; part < BR_PARTS && !status; part++)
+        status = br_fit(r->study, (enum br_part)part, &r->fits[part], err);
+    if (!status && r->printed)
+        status = br_triangles(r->study, r->printed, BR_MOST_TRIANGLES, r->triangle, &r->triangles,
+                              threads, err);
+    return status;
+}
+
+void br_report_clear(struct br_report *r)
+{
+    for (int part = 0; part < BR_PARTS; part++)
+        br_fits_clear(&r->fits[part]);
+    free(r->printed);
+    r->printed = NULL;
+}
+
+double br_report_ratio(const struct br_report *r, size_t cell)
+{
+    return r->printed ? r->study->cell[cell].error[BR_PART_TOTAL] / r->printed[cell] : NAN;
+}

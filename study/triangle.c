@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/triangle.h"
+
+#include <math.h>
+
+/* A pair of cells and how plainly it may contradict the printed values. */
+struct candidate {
+    size_t a, b; /* indices of cells; every level of a is one of b */
+    double score;
+    bool too_near; /* which inequality: the printed values need a larger distance */
+};
+
+/* Half a unit of the last of four printed digits. */
+static double half_unit(double printed)
+{
+    return 0.5 * pow(10, floor(log10(printed)) - 3);
+}
+
+/* What the printed values of a pair allow for the distance of its solutions. */
+static void allowed(const struct br_cell *a, const struct br_cell *b, double printed_a,
+                    double printed_b, double *least, double *most)
+{
+    const double digits = half_unit(printed_a) + half_unit(printed_b);
+    const bool same_levels = a->at.steps == b->at.steps;
+    const double gap = same_levels ? fabs(printed_a - printed_b) : printed_a - printed_b;
+    *least = fmax(0, gap - digits);
+    *most = printed_a + printed_b + digits;
+}
+
+static bool comparable(const struct br_cell *a, const struct br_cell *b)
+{
+    return a != b && b->at.n % a->at.n == 0 && b->at.steps % a->at.steps == 0;
+}
+
+/* Our own errors bound the distance, |Ea - Eb| <= D <= Ea + Eb, so they tell where to
+ * look; the distance itself is then marched. */
+static struct candidate rate(const struct br_study *s, const double *printed, size_t i, size_t j)
+{
+    struct candidate c = {.a = i, .b = j, .score = 0};
+    const struct br_cell *a = &s->cell[i], *b = &s->cell[j];
+    if (!comparable(a, b) || !(printed[i] > 0) || !(printed[j] > 0))
+        return c;
+    const double ours_a = a->error[BR_PART_TOTAL], ours_b = b->error[BR_PART_TOTAL];
+    double least, most;
+    allowed(a, b, printed[i], printed[j], &least, &most);
+    const double near = least / (ours_a + ours_b);
+    const double far = fabs(ours_a - ours_b) / most;
+    c.too_near = near >= far;
+    c.score = fmax(near, far);
+    return isfinite(c.score) ? c : (struct candidate){.a = i, .b = j};
+}
+
+/* The best pair of the wanted inequality whose cells are not yet used. */
+static struct candidate best_pair(const struct br_study *s, const double *printed,
+                                  const bool *used, bool too_near)
+{
+    const size_t cells = s->n_count * s->k_count;
+    struct candidate best = {.score = 1}; /* below 1 there is nothing to show */
+    for (size_t i = 0; i < cells; i++)
+        for (size_t j = 0; j < cells; j++) {
+            if (used[i] || used[j])
+                continue;
+            const struct candidate c = rate(s, printed, i, j);
+            if (c.too_near == too_near && c.score > best.score)
+                best = c;
+        }
+    return best;
+}
+
+/* D(a, b): a study with one cell, a, and b as its reference. */
+static enum br_status march_pair(const struct br_study *s, struct br_triangle *t, int threads,
+                                 struct br_error *err)
+{
+    struct br_study pair = {
+        .scene = s->scene,
+        .method = s->method,
+        .reference_method = s->method,
+        .reference = t->b,
+        .n_count = 1,
+        .k_count = 1,
+        .n = &t->a.n,
+        .steps = &t->a.steps,
+    };
+    const enum br_status status = br_study_run(&pair, 1, threads, NULL, err);
+    if (!status)
+        t->distance = pair.cell[0].error[BR_PART_TOTAL];
+    br_study_clear(&pair);
+    return status;
+}
+
+static enum br_status show_pair(const struct br_study *s, const double *printed,
+                                const struct candidate *c, struct br_triangle *t, int threads,
+                                struct br_error *err)
+{
+    const struct br_cell *a = &s->cell[c->a], *b = &s->cell[c->b];
+    *t = (struct br_triangle){
+        .a = a->at, .b = b->at, .printed_a = printed[c->a], .printed_b = printed[c->b]};
+    allowed(a, b, t->printed_a, t->printed_b, &t->least, &t->most);
+    const enum br_status status = march_pair(s, t, threads, err);
+    t->contradiction = isfinite(t->distance) && !(t->least <= t->distance && t->distance <= t->most);
+    return status;
+}
+
+enum br_status br_triangles(const struct br_study *s, const double *printed, size_t most,
+                            struct br_triangle *triangles, size_t *count, int threads,
+                            struct br_error *err)
+{
+    *count = 0;
+    bool *used = br_allocate(s->n_count * s->k_count, sizeof *used);
+    if (!used)
+        return br_no_memory(err, "the pairs of cells");
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < most && !status; i++) {
+        struct candidate c = best_pair(s, printed, used, i % 2 == 0);
+        if (c.a == c.b)
+            c = best_pair(s, printed, used, i % 2 != 0);
+        if (c.a == c.b)
+            break;
+        used[c.a] = used[c.b] = true;
+        status = show_pair(s, printed, &c, &triangles[*count], threads, err);
+        *count += !status;
+    }
+    free(used);
+    return status;
+}

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tables as text: one const record a format. Emitters compute nothing. */
+#ifndef BR_EMITTER_H
+#define BR_EMITTER_H
+
+#include <stdio.h>
+
+#include "study/report.h"
+
+/* All that is needed to repeat a run. Strings are borrowed. */
+struct br_provenance {
+    const char *version, *commit;
+    const char *compiler, *flags;
+    const char *command_line;
+    const char *machine; /* operating system, processor, cores */
+    const char *date;    /* UTC, ISO 8601 */
+    int threads;
+    const char *scene_path;
+    const char *scene_text; /* the scene's file, whole */
+};
+
+struct br_emitter {
+    const char *name;      /* as on the command line */
+    const char *extension; /* of its file, with the dot */
+    const char *title;     /* one line for a person */
+    /* Writes one report; fails with BR_NO_MEMORY only: write errors stay in `out`. */
+    enum br_status (*emit)(FILE *out, const struct br_report *report,
+                           const struct br_provenance *provenance, struct br_error *err);
+};
+
+/* NULL-terminated; the first is the terminal's. */
+extern const struct br_emitter *const br_emitters[];
+const struct br_emitter *br_emitter_find(const char *name);
+
+#endif

@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Everything, for programs, by jansson; a number that is not there is null. */
+#include <jansson.h>
+#include <math.h>
+
+#include "tables/emitter.h"
+#include "tables/sentences.h"
+
+static json_t *number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static json_t *string(const char *text)
+{
+    return text ? json_string(text) : json_null();
+}
+
+static json_t *estimate(const struct br_estimate *e)
+{
+    return json_pack("{s:o, s:o, s:o}", "value", number(e->value), "low", number(e->low), "high",
+                     number(e->high));
+}
+
+static json_t *method(const struct br_method *m)
+{
+    return json_pack("{s:s, s:s, s:i, s:s, s:s}", "solver", m->solver->name, "scaling",
+                     m->linear.scaling, "refinement", m->linear.refinement, "contact",
+                     m->contact->name, "friction", m->friction->name);
+}
+
+static json_t *resolution(const struct br_scene *scene, struct br_resolution at)
+{
+    return json_pack("{s:I, s:o, s:I, s:o}", "n", (json_int_t)at.n, "h",
+                     number(br_mesh_size(scene, at.n)), "steps", (json_int_t)at.steps, "k",
+                     number(br_time_step(scene, at.steps)));
+}
+
+static json_t *cell(const struct br_report *r, size_t index)
+{
+    const struct br_cell *c = &r->study->cell[index];
+    json_t *o = resolution(r->study->scene, c->at);
+    static const char *const names[] = {"error", "axial", "bending"};
+    for (int part = 0; part < BR_PARTS; part++)
+        json_object_set_new(o, names[part], number(c->error[part]));
+    json_object_set_new(o, "printed", number(r->printed ? r->printed[index] : NAN));
+    json_object_set_new(o, "ratio", number(br_report_ratio(r, index)));
+    json_object_set_new(o, "seconds", number(c->seconds));
+    json_object_set_new(o, "flag", json_string(br_flag_name(c->flag[BR_PART_TOTAL])));
+    json_object_set_new(o, "axial_flag", json_string(br_flag_name(c->flag[BR_PART_AXIAL])));
+    json_object_set_new(o, "bending_flag", json_string(br_flag_name(c->flag[BR_PART_BENDING])));
+    json_object_set_new(o, "worst_time", number(c->worst_time[BR_PART_TOTAL]));
+    if (c->failure.status)
+        json_object_set_new(o, "failure", json_string(c->failure.message));
+    return o;
+}
+
+static json_t *cells(const struct br_report *r)
+{
+    json_t *a = json_array();
+    for (size_t i = 0; i < r->study->n_count * r->study->k_count; i++)
+        json_array_append_new(a, cell(r, i));
+    return a;
+}
+
+static json_t *slopes(const struct br_slope *slope, size_t count)
+{
+    json_t *a = json_array();
+    for (size_t i = 0; i < count; i++)
+        json_array_append_new(a, json_pack("{s:o, s:I}", "order", estimate(&slope[i].order),
+                                           "points", (json_int_t)slope[i].points));
+    return a;
+}
+
+static json_t *fits(const struct br_report *r, enum br_part part)
+{
+    static const char *const kinds[] = {"space and time", "time", "space"};
+    const struct br_fits *f = &r->fits[part];
+    const struct br_joint_fit *j = &f->joint;
+    json_t *joint = json_pack(
+        "{s:b, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:I, s:I}", "converged",
+        j->converged, "describes_the_errors", br_joint_describes(j), "model", kinds[j->kind],
+        "C_h", estimate(&j->c_h), "p", estimate(&j->p), "C_k", estimate(&j->c_k), "q",
+        estimate(&j->q), "r", estimate(&j->r), "misfit", number(j->misfit), "worst",
+        number(j->worst), "r_squared", number(j->r_squared), "points", (json_int_t)j->points,
+        "degrees_of_freedom", (json_int_t)j->freedom);
+    return json_pack("{s:o, s:o, s:o, s:o}", "joint", joint, "order_in_k_by_n",
+                     slopes(f->by_n, r->study->n_count), "order_in_h_by_k",
+                     slopes(f->by_k, r->study->k_count), "reference_error",
+                     number(f->reference_error));
+}
+
+static json_t *all_fits(const struct br_report *r)
+{
+    json_t *o = json_object();
+    for (int part = 0; part < BR_PARTS; part++)
+        if (br_part_shown(r, (enum br_part)part))
+            json_object_set_new(o, br_part_names[part], fits(r, (enum br_part)part));
+    return o;
+}
+
+static json_t *triangles(const struct br_report *r)
+{
+    json_t *a = json_array();
+    for (size_t i = 0; i < r->triangles; i++) {
+        const struct br_triangle *t = &r->triangle[i];
+        json_array_append_new(
+            a, json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "a",
+                         resolution(r->study->scene, t->a), "b",
+                         resolution(r->study->scene, t->b), "printed_a", number(t->printed_a),
+                         "printed_b", number(t->printed_b), "distance", number(t->distance),
+                         "least", number(t->least), "most", number(t->most), "contradiction",
+                         t->contradiction));
+    }
+    return a;
+}
+
+static void append(void *self, const char *text)
+{
+    json_array_append_new(self, json_string(text));
+}
+
+static json_t *sentences(const struct br_report *r)
+{
+    json_t *a = json_array();
+    const struct br_writer w = {append, a};
+    br_say_method(r, &w);
+    br_say_flags(r, &w);
+    br_say_orders(r, &w);
+    br_say_printed(r, &w);
+    return a;
+}
+
+static json_t *provenance(const struct br_provenance *p)
+{
+    json_t *o = json_object();
+    json_object_set_new(o, "version", string(p->version));
+    json_object_set_new(o, "commit", string(p->commit));
+    json_object_set_new(o, "compiler", string(p->compiler));
+    json_object_set_new(o, "flags", string(p->flags));
+    json_object_set_new(o, "command_line", string(p->command_line));
+    json_object_set_new(o, "machine", string(p->machine));
+    json_object_set_new(o, "date", string(p->date));
+    json_object_set_new(o, "threads", json_integer(p->threads));
+    return o;
+}
+
+static json_t *document(const struct br_report *r, const struct br_provenance *p)
+{
+    const struct br_study *s = r->study;
+    json_t *reference = resolution(s->scene, s->reference);
+    json_object_set_new(reference, "kind", json_string("fine"));
+    json_object_set_new(reference, "method", method(&s->reference_method));
+    json_object_set_new(reference, "seconds", number(s->reference_seconds));
+    json_object_set_new(reference, "scale", number(s->reference_scale));
+    json_object_set_new(reference, "round_off", number(s->round_off));
+    json_t *o = json_object();
+    json_object_set_new(o, "name", string(r->name));
+    json_object_set_new(o, "caption", string(r->caption));
+    json_object_set_new(o, "provenance", provenance(p));
+    json_object_set_new(o, "scene", json_pack("{s:s, s:o, s:o}", "name", s->scene->name, "path",
+                                              string(p->scene_path), "text",
+                                              string(p->scene_text)));
+    json_object_set_new(o, "method", method(&s->method));
+    json_object_set_new(o, "reference", reference);
+    json_object_set_new(o, "wall_seconds", number(r->wall_seconds));
+    json_object_set_new(o, "cells", cells(r));
+    json_object_set_new(o, "fits", all_fits(r));
+    json_object_set_new(o, "triangle_inequality", triangles(r));
+    json_object_set_new(o, "findings", sentences(r));
+    return o;
+}
+
+static enum br_status emit(FILE *out, const struct br_report *r, const struct br_provenance *p,
+                           struct br_error *err)
+{
+    json_t *o = document(r, p);
+    if (!o)
+        return br_no_memory(err, "the JSON document");
+    json_dumpf(o, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
+    fputc('\n', out);
+    json_decref(o);
+    return BR_OK;
+}
+
+const struct br_emitter br_emit_json = {"json", ".json", "everything, to repeat the run", emit};

@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tables/sentences.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+__attribute__((format(printf, 2, 3))) static void say(const struct br_writer *w,
+                                                      const char *format, ...)
+{
+    char text[1024];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    w->paragraph(w->self, text);
+}
+
+bool br_part_shown(const struct br_report *r, enum br_part part)
+{
+    const struct br_scene *s = r->study->scene;
+    return part == BR_PART_TOTAL || (s->axial.modelled && s->bending.modelled);
+}
+
+const char *br_order_text(const struct br_estimate *order, char *buffer, size_t size)
+{
+    if (!isfinite(order->value))
+        return "-";
+    if (!isfinite(order->low) || !isfinite(order->high))
+        snprintf(buffer, size, "%.2f [no interval]", order->value);
+    else
+        snprintf(buffer, size, "%.2f [%.2f, %.2f]", order->value, order->low, order->high);
+    return buffer;
+}
+
+static void describe_method(const struct br_study *s, const struct br_method *m, char *text,
+                            size_t size)
+{
+    const char *contact = s->scene->contact.modelled ? m->contact->name : "none";
+    const char *friction =
+        s->scene->friction.law == BR_FRICTIONLESS ? "none" : m->friction->name;
+    snprintf(text, size, "solver %s, contact %s, friction %s", m->solver->name, contact, friction);
+}
+
+void br_say_method(const struct br_report *r, const struct br_writer *w)
+{
+    const struct br_study *s = r->study;
+    char cells[128], reference[128];
+    describe_method(s, &s->method, cells, sizeof cells);
+    describe_method(s, &s->reference_method, reference, sizeof reference);
+    say(w, "Error (31): the largest |u - u_hk| + |w - w_hk| over all time levels of a cell, L2 norms, "
+           "m^(3/2). Cells: %s.", cells);
+    say(w, "Reference: a fine run of the same scheme, n = %zu, k = %g s; %s.", s->reference.n,
+        br_time_step(s->scene, s->reference.steps), reference);
+}
+
+/* "C_h = 0.0716, p = 2.03 [2.01, 2.04]" */
+static void describe_side(const char *constant, const struct br_estimate *c, const char *exponent,
+                          const struct br_estimate *order, char *text, size_t size)
+{
+    char buffer[64];
+    snprintf(text, size, "%s = %.3g, %s = %s", constant, c->value, exponent,
+             br_order_text(order, buffer, sizeof buffer));
+}
+
+static void say_joint(const struct br_report *r, enum br_part part, const struct br_writer *w)
+{
+    const struct br_joint_fit *fit = &r->fits[part].joint;
+    const char *name = br_part_names[part];
+    if (!fit->converged) {
+        say(w, "%s: no joint fit, %zu usable cells.", name, fit->points);
+        return;
+    }
+    char space[160], time[160];
+    describe_side("C_h", &fit->c_h, "p", &fit->p, space, sizeof space);
+    describe_side("C_k", &fit->c_k, "q", &fit->q, time, sizeof time);
+    if (!br_joint_describes(fit)) {
+        say(w, "%s: the joint model does not describe these errors (misfit %.0f %%, %zu cells); no "
+               "orders are claimed.", name, 100 * fit->misfit, fit->points);
+        return;
+    }
+    switch (fit->kind) {
+    case BR_JOINT_BOTH:
+        say(w, "%s: %s; %s; r = %.3f [%.3f, %.3f]; misfit %.2g %% (worst %.2g %%), R^2 = %.6f, %zu "
+               "cells.", name, space, time, fit->r.value, fit->r.low, fit->r.high,
+            100 * fit->misfit, 100 * fit->worst, fit->r_squared, fit->points);
+        return;
+    case BR_JOINT_TIME:
+        say(w, "%s: %s; no space error can be seen in these cells; misfit %.2g %% (worst %.2g %%), "
+               "R^2 = %.6f, %zu cells.", name, time, 100 * fit->misfit, 100 * fit->worst,
+            fit->r_squared, fit->points);
+        return;
+    case BR_JOINT_SPACE:
+        say(w, "%s: %s; no time error can be seen in these cells; misfit %.2g %% (worst %.2g %%), "
+               "R^2 = %.6f, %zu cells.", name, space, 100 * fit->misfit, 100 * fit->worst,
+            fit->r_squared, fit->points);
+    }
+}
+
+void br_say_orders(const struct br_report *r, const struct br_writer *w)
+{
+    say(w, "Joint fit with 95 %% intervals: e^2 = a^2 + 2 r a b + b^2, a = C_h (h^p - h_ref^p), "
+           "b = C_k (k^q - k_ref^q).");
+    for (int part = 0; part < BR_PARTS; part++)
+        if (br_part_shown(r, (enum br_part)part))
+            say_joint(r, (enum br_part)part, w);
+    say(w, "Theory: (26) bounds the error by c (h^(1/2) + k), Remark 2.5 by c (h + k).");
+}
+
+static size_t count_flag(const struct br_study *s, enum br_flag flag)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < s->n_count * s->k_count; i++)
+        count += s->cell[i].flag[BR_PART_TOTAL] == flag;
+    return count;
+}
+
+static void say_failures(const struct br_study *s, const struct br_writer *w)
+{
+    for (size_t i = 0; i < s->n_count * s->k_count; i++) {
+        const struct br_cell *c = &s->cell[i];
+        if (c->failure.status)
+            say(w, "Failed: n = %zu, k = %g s: %s.", c->at.n,
+                br_time_step(s->scene, c->at.steps), c->failure.message);
+    }
+}
+
+void br_say_flags(const struct br_report *r, const struct br_writer *w)
+{
+    const struct br_study *s = r->study;
+    const double own = r->fits[BR_PART_TOTAL].reference_error;
+    const double floor = s->round_off * s->reference_scale;
+    if (isfinite(own))
+        say(w, "The reference's own error is about %.1e by the joint fit, its round-off about %.0e.",
+            own, floor);
+    else
+        say(w, "The reference's own error is not known: the joint fit does not describe the errors. "
+               "Its round-off is about %.0e.", floor);
+    const size_t limited = count_flag(s, BR_FLAG_REFERENCE);
+    const size_t rounded = count_flag(s, BR_FLAG_ROUND_OFF);
+    if (limited)
+        say(w, "R marks %zu cells whose error is below %g times the reference's own; they are left "
+               "out of the fits.", limited, br_flag_margin);
+    if (rounded)
+        say(w, "F marks %zu cells whose error is below %g times the predicted round-off (floor); "
+               "they are left out of the fits.", rounded, br_flag_margin);
+    say_failures(s, w);
+}
+
+static void say_ratio(const struct br_report *r, const struct br_writer *w)
+{
+    double least = INFINITY, most = 0;
+    size_t differ = 0, compared = 0;
+    for (size_t i = 0; i < r->study->n_count * r->study->k_count; i++) {
+        const double ratio = br_report_ratio(r, i);
+        if (!isfinite(ratio))
+            continue;
+        compared++;
+        least = fmin(least, ratio);
+        most = fmax(most, ratio);
+        differ += !(ratio >= 0.95 && ratio <= 1.05);
+    }
+    if (compared == 0)
+        return;
+    if (differ == 0)
+        say(w, "Ours and the printed errors agree within 5 %% in all %zu cells.", compared);
+    else
+        say(w, "Ours and the printed errors DIFFER by more than 5 %% in %zu of %zu cells; ours over "
+               "printed goes from %.2g to %.2g. No choice of reference can repair that:", differ,
+            compared, least, most);
+}
+
+static void say_triangle(const struct br_report *r, const struct br_triangle *t,
+                         const struct br_writer *w)
+{
+    const struct br_scene *scene = r->study->scene;
+    const char *needed = t->distance < t->least ? "at least" : "at most";
+    const double bound = t->distance < t->least ? t->least : t->most;
+    if (!t->contradiction)
+        return;
+    say(w, "Cells (n = %zu, k = %g) and (n = %zu, k = %g): the printed %.3e and %.3e, against "
+           "whatever common reference, need solutions that are %s %.2e apart (triangle inequality); "
+           "the scheme's are %.2e apart.", t->a.n, br_time_step(scene, t->a.steps), t->b.n,
+        br_time_step(scene, t->b.steps), t->printed_a, t->printed_b, needed, bound, t->distance);
+}
+
+void br_say_printed(const struct br_report *r, const struct br_writer *w)
+{
+    if (!r->printed)
+        return;
+    say_ratio(r, w);
+    for (size_t i = 0; i < r->triangles; i++)
+        say_triangle(r, &r->triangle[i], w);
+}

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a table says in words, the same in every format: plain ASCII lines. */
+#ifndef BR_SENTENCES_H
+#define BR_SENTENCES_H
+
+#include <stdio.h>
+
+#include "study/report.h"
+
+/* Where the sentences go: one call a paragraph, without a line end. */
+struct br_writer {
+    void (*paragraph)(void *self, const char *text);
+    void *self;
+};
+
+/* What was measured and how: the error, the reference, the method. */
+void br_say_method(const struct br_report *report, const struct br_writer *w);
+
+/* The fitted orders of all modelled parts, with the theory's beside them. */
+void br_say_orders(const struct br_report *report, const struct br_writer *w);
+
+/* Which cells are flagged, and why. */
+void br_say_flags(const struct br_report *report, const struct br_writer *w);
+
+/* How ours and the printed values differ, and the triangle inequality. */
+void br_say_printed(const struct br_report *report, const struct br_writer *w);
+
+/* "1.02 [1.00, 1.04]", or why there is none; buffer: at least 64 characters. */
+const char *br_order_text(const struct br_estimate *order, char *buffer, size_t size);
+
+/* Whether a part is worth showing: with one field alone it is the total. */
+bool br_part_shown(const struct br_report *report, enum br_part part);
+
+#endif

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the test programs share. A check that fails ends its test with a message; none
+ * of them lets a NaN through. */
+#ifndef BR_TEST_SUPPORT_H
+#define BR_TEST_SUPPORT_H
+
+/* cmocka.h wants these before it. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "solver/march.h"
+
+/* |actual - expected| <= tolerance; `what` goes into the message. */
+#define CLOSE(actual, expected, tolerance) \
+    br_test_close(#actual, actual, expected, tolerance, __FILE__, __LINE__)
+#define AT_MOST(actual, limit) br_test_at_most(#actual, actual, limit, __FILE__, __LINE__)
+/* The call's status is BR_OK; else the error's message is shown. */
+#define MUST(call) br_test_must(call, &err, #call, __FILE__, __LINE__)
+/* The call is refused with the status, and its message contains the text. */
+#define REFUSED(call, status, text) \
+    br_test_refused(call, status, &err, text, #call, __FILE__, __LINE__)
+
+void br_test_close(const char *what, double actual, double expected, double tolerance,
+                   const char *file, int line);
+void br_test_at_most(const char *what, double actual, double limit, const char *file, int line);
+void br_test_must(enum br_status status, const struct br_error *err, const char *what,
+                  const char *file, int line);
+void br_test_refused(enum br_status status, enum br_status expected, const struct br_error *err,
+                     const char *text, const char *what, const char *file, int line);
+
+/* A reproducible generator: SplitMix64 (Steele, Lea and Flood 2014). */
+struct br_test_random {
+    uint64_t state;
+};
+double br_test_uniform(struct br_test_random *random, double low, double high);
+double br_test_log_uniform(struct br_test_random *random, double low, double high);
+size_t br_test_index(struct br_test_random *random, size_t count); /* 0 .. count - 1 */
+
+/* The bundled scene of that name; to be cleared. */
+struct br_scene br_test_bundled(const char *name);
+
+/* A bare scene with both parts, unit data and no load, contact or friction: it owns nothing. */
+struct br_scene br_test_bare(void);
+
+/* The function of an expression; to be freed with its scene. */
+struct br_function br_test_function(const char *expression);
+
+/* space * time from an expression in x and t. */
+struct br_load br_test_load(const char *expression);
+
+/* The default method with the solver and the rules of these names; NULL: the default. */
+struct br_method br_test_method(const char *solver, const char *contact, const char *friction);
+
+/* A march, which must succeed, and its steps up to `until`. */
+struct br_march *br_test_march(const struct br_scene *scene, size_t n, size_t steps,
+                               const struct br_method *method);
+void br_test_advance(struct br_march *march, size_t until);
+
+/* Tip values at the end: u(L), w(L) and w(L/2) of an even mesh, m. */
+struct br_test_end {
+    double u_tip, w_tip, w_middle;
+};
+struct br_test_end br_test_run(const struct br_scene *scene, size_t n, size_t steps,
+                               const struct br_method *method);
+
+/* Values of tests/data/discrete.csv, see generate_discrete.c. */
+struct br_test_golden {
+    char scene[32];
+    size_t n, steps;
+    struct br_test_end end;
+};
+enum { BR_TEST_MOST_GOLDEN = 16 };
+size_t br_test_golden(struct br_test_golden rows[BR_TEST_MOST_GOLDEN]);
+
+/* Largest error of the three values, relative to the largest golden value of its field. */
+double br_test_deviation(const struct br_test_end *end, const struct br_test_end *golden);
+
+/* sum of squares -> L2 distance of two finite element functions on nested meshes, the
+ * coarse one interpolated exactly, with the textbook mass matrix in long double. Nodal
+ * arrays as in solver/field.h; length L, m. */
+double br_test_distance(enum br_field_kind kind, double length, size_t coarse_n,
+                        const double *coarse, size_t fine_n, const double *fine);
+
+/* Whether long tests are to be left out (BR_TEST_QUICK is set: valgrind). */
+bool br_test_quick(void);
+
+/* 1, or more where long double has no more digits than double, as under valgrind. */
+double br_test_slack(void);
+
+#endif
