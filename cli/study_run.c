@@ -176,10 +176,13 @@ static enum br_status compute(struct session *s, struct br_error *err)
     enum br_status status =
         br_study_run(s->study, s->count, s->options->threads, observer, err);
     br_progress_end();
+    const double wall = now() - start;
     for (size_t i = 0; i < s->count && !status; i++) {
-        s->work[i].report.wall_seconds = now() - start;
+        s->work[i].report.wall_seconds = wall;
         status = br_report_finish(&s->work[i].report, s->options->threads, err);
     }
+    if (!status && br_signals_caught())
+        status = br_fail(err, BR_INTERRUPTED, "interrupted");
     return status;
 }
 

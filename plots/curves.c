@@ -6,36 +6,47 @@
 
 static const struct br_columns columns = {.parts = 1, .part = {BR_PART_TOTAL}};
 
+enum { MOST_ENTRIES = 8, MOST_SPACED_ENTRIES = 6 };
+
 static bool always(const struct br_report *report)
 {
     return report->study->n_count > 0 && report->study->k_count > 0;
 }
 
-/* One curve, and its key entry, for each value of the other axis. */
+/* The other axis' list: a curve for each entry. */
+static const size_t *curve_list(const struct br_report *report, enum br_axis axis, size_t *count)
+{
+    return br_axis_list(report, axis == BR_OVER_H ? BR_OVER_K : BR_OVER_H, count);
+}
+
 static void write_curves(FILE *out, const struct br_report *report, enum br_axis axis)
 {
-    const enum br_axis other = axis == BR_OVER_H ? BR_OVER_K : BR_OVER_H;
-    size_t count, curve = 0;
-    const size_t *list = br_axis_list(report, other, &count);
+    size_t count;
+    const size_t *list = curve_list(report, axis, &count);
     const size_t curves = br_distinct(list, count);
-    fputs("plot ", out);
-    for (size_t i = br_next(list, count, 0); i < count; i = br_next(list, count, list[i])) {
-        const struct br_pen pen = br_pen_of(curve, curves);
+    for (size_t curve = 0; curve < curves; curve++)
         fprintf(out,
                 "%sdata index %zu using 2:3:(mark(%d, strcol(4))) with linespoints ls %zu "
                 "pt variable notitle, \\\n",
-                curve ? "     " : "", curve, pen.mark, curve + 1);
-        curve++;
-    }
-    curve = 0;
+                curve ? "     " : "plot ", curve, br_pen_of(curve, curves).mark, curve + 1);
+}
+
+/* Ends the plot command. Beside the frame is room for MOST_ENTRIES; the pens change
+ * steadily, so that of more curves every second or third will do. */
+static void write_key_entries(FILE *out, const struct br_report *report, enum br_axis axis)
+{
+    size_t count, curve = 0;
+    const size_t *list = curve_list(report, axis, &count);
+    const size_t every = (br_distinct(list, count) + MOST_ENTRIES - 1) / MOST_ENTRIES;
     for (size_t i = br_next(list, count, 0); i < count; i = br_next(list, count, list[i])) {
-        fprintf(out, "%s     keyentry with linespoints ls %zu title '", curve ? ", \\\n" : "",
-                curve + 1);
+        if (curve++ % every != 0)
+            continue;
+        fprintf(out, "%s     keyentry with linespoints ls %zu title '", curve > 1 ? ", \\\n" : "",
+                curve);
         if (axis == BR_OVER_H)
-            fprintf(out, "k = %.6g s'", br_axis_value(report, other, list[i]));
+            fprintf(out, "k = %.3g s'", br_axis_value(report, BR_OVER_K, list[i]));
         else
             fprintf(out, "n = %zu'", list[i]);
-        curve++;
     }
     fputc('\n', out);
 }
@@ -44,28 +55,29 @@ static void write_page(FILE *out, const struct br_report *report, const struct b
                        const char *stem, struct br_frame *frame)
 {
     size_t count;
-    const size_t *list =
-        br_axis_list(report, frame->axis == BR_OVER_H ? BR_OVER_K : BR_OVER_H, &count);
+    const size_t *list = curve_list(report, frame->axis, &count);
     const size_t curves = br_distinct(list, count);
     frame->left = 0.11;
     frame->right = 0.77;
     frame->bottom = 0.125;
-    frame->top = 0.79;
+    frame->top = 0.775;
     frame->y = (struct br_range){INFINITY, 0};
     frame->numbered = true;
     frame->page = BR_PAGE_NARROW;
     br_include_blocks(&frame->y, report, frame->axis, &columns);
     br_write_head(out, report, plot, stem);
-    br_write_loop(out, stem, BR_PAGE_NARROW);
+    br_write_loop(out, BR_PAGE_NARROW);
     br_write_pens(out, curves);
     br_write_caption(out, report, BR_PAGE_NARROW);
-    br_write_orders(out, report, BR_PART_TOTAL, 0.9);
+    br_write_orders(out, report, BR_PART_TOTAL, 0.905);
     br_write_frame(out, report, frame);
+    br_write_hollow(out, report, &columns, 0.98, 0.905);
     fprintf(out,
-            "set key at screen 0.785,%.3f left top Left reverse samplen 2.5 spacing %s "
+            "set key at screen 0.785,%.3f left top Left reverse samplen 4 spacing %s "
             "font ',%d'\n",
-            frame->top, curves > 9 ? "1" : "1.25", curves > 9 ? 15 : 21);
+            frame->top, curves > MOST_SPACED_ENTRIES ? "1" : "1.25", BR_PAGE_SMALL);
     write_curves(out, report, frame->axis);
+    write_key_entries(out, report, frame->axis);
     br_write_foot(out);
 }
 
@@ -89,7 +101,7 @@ static void write_script_h(FILE *out, const struct br_report *report, const char
     if (report->study->scene->axial.modelled)
         order[orders++] = (struct br_order){2, "2  axial, P1"};
     if (report->study->scene->bending.modelled)
-        order[orders++] = (struct br_order){4, "4  bending, C^1"};
+        order[orders++] = (struct br_order){4, "4  bending, Hermite"};
     write_page(out, report, &br_plot_h, stem,
                &(struct br_frame){.axis = BR_OVER_H, .order = order, .orders = orders});
 }

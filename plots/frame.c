@@ -30,22 +30,25 @@ static struct br_range range_along(const struct br_report *report, enum br_axis 
     return range;
 }
 
-/* n or N along the top; a number too near to the one before it is left out. */
+/* n or N along the top; a number too near to the one before it is left out. pixel: the
+ * axis' decades in one. */
 static void write_entries(FILE *out, const struct br_report *report, enum br_axis axis,
-                          double room)
+                          double pixel)
 {
     size_t count;
     const size_t *list = br_axis_list(report, axis, &count);
+    const size_t first = br_next(list, count, 0);
     double last = INFINITY;
-    fputs("set x2tics scale 0.6 (", out);
-    for (size_t i = br_next(list, count, 0); i < count; i = br_next(list, count, list[i])) {
+    fputs("set x2tics offset 0,0.1 (", out);
+    for (size_t i = first; i < count; i = br_next(list, count, list[i])) {
         const double x = br_axis_value(report, axis, list[i]);
-        const bool far = !(fabs(log10(last / x)) < room);
-        fputs(isfinite(last) ? ", '" : "'", out);
-        if (far)
-            fprintf(out, "%zu", list[i]);
-        fprintf(out, "' %.9g", x);
-        last = far ? x : last;
+        char number[32] = "";
+        const int digits = snprintf(number, sizeof number, "%zu", list[i]);
+        if (log10(last / x) < (digits + 0.5) * 0.65 * BR_PAGE_FONT * pixel)
+            number[0] = '\0';
+        else
+            last = x;
+        fprintf(out, "%s'%s' %.9g", list[i] == list[first] ? "" : ", ", number, x);
     }
     fputs(")\n", out);
 }
@@ -64,32 +67,45 @@ static void write_fan(FILE *out, const struct br_frame *frame, double start, dou
     for (size_t i = 0; i < frame->orders; i++)
         fprintf(out,
                 "set arrow from fx,fy to fx*fw,fy*fw**%g nohead ls 101\n"
-                "set label '%s' at graph 1.015,first fy*fw**%g left font ',21'\n",
-                frame->order[i].value, frame->order[i].label, frame->order[i].value);
+                "set label '%s' at graph 1.015,first fy*fw**%g left font ',%d'\n",
+                frame->order[i].value, frame->order[i].label, frame->order[i].value, BR_PAGE_SMALL);
+}
+
+/* The axes' names are labels at fixed places, since terminals space their own ones
+ * differently. */
+static void write_names(FILE *out, const struct br_frame *frame)
+{
+    const bool over_h = frame->axis == BR_OVER_H;
+    const double middle = (frame->left + frame->right) / 2;
+    fprintf(out,
+            "set label '%s%s' at screen %.4f,%.4f center font ',%d'\n"
+            "set label '%s' at screen %.4f,%.4f center font ',%d'\n",
+            over_h ? "mesh size h (m)" : "time step k (s)", frame->note ? frame->note : "", middle,
+            frame->bottom - 0.095, BR_PAGE_FONT, over_h ? "elements n" : "steps N", middle,
+            frame->top + 0.08, BR_PAGE_FONT);
+    if (frame->numbered)
+        fprintf(out,
+                "set label 'error (31) (m^{3/2})' at screen %.4f,%.4f center rotate font ',%d'\n",
+                30.0 / frame->page, (frame->bottom + frame->top) / 2, BR_PAGE_FONT);
 }
 
 static void write_axes(FILE *out, const struct br_report *report, const struct br_frame *frame,
                        struct br_range x, struct br_range y)
 {
-    const bool over_h = frame->axis == BR_OVER_H;
     fprintf(out,
             "set lmargin at screen %.3f; set rmargin at screen %.3f\n"
             "set bmargin at screen %.3f; set tmargin at screen %.3f\n"
             "set logscale xyx2\n"
             "set xrange [%.4g:%.4g]; set x2range [%.4g:%.4g]; set yrange [%.4g:%.4g]\n"
-            "set xtics nomirror; set format x '10^{%%L}'\n"
-            "set xlabel '%s%s'; set x2label '%s' offset 0,-0.4\n",
+            "set tics scale 1.4,0.7 font ',%d'\n"
+            "set xtics nomirror offset 0,-0.5; set ytics offset -0.5,0; set format x '10^{%%L}'; "
+            "set format y '%s'\n"
+            "set grid xtics ytics ls 102\n",
             frame->left, frame->right, frame->bottom, frame->top, x.low, x.high, x.low, x.high,
-            y.low, y.high, over_h ? "mesh size h (m)" : "time step k (s)", frame->note ? frame->note : "",
-            over_h ? "elements n" : "steps N");
-    if (frame->numbered)
-        fputs("set ylabel 'error (31) (m^{3/2})'; set format y '10^{%L}'\n", out);
-    else
-        fputs("set ylabel; set format y ''\n", out);
-    fputs("set grid xtics ytics ls 102\n", out);
-    /* room for numbers of five digits */
+            y.low, y.high, BR_PAGE_FONT, frame->numbered ? "10^{%L}" : "");
     write_entries(out, report, frame->axis,
-                  decades(x) * 5 * 0.7 * BR_PAGE_FONT / frame->page / (frame->right - frame->left));
+                  decades(x) / (frame->right - frame->left) / frame->page);
+    write_names(out, frame);
 }
 
 void br_write_frame(FILE *out, const struct br_report *report, const struct br_frame *frame)

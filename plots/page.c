@@ -26,7 +26,7 @@ struct br_pen br_pen_of(size_t i, size_t count)
         .colour = colours[lround(along * (COLOURS - 1))],
         .dash = dashes[i % DASHES],
         .mark = marks[i % MARKS],
-        .size = 3.4 - 1.8 * along,
+        .size = 3.4 - 1.6 * along,
     };
 }
 
@@ -48,17 +48,16 @@ void br_write_head(FILE *out, const struct br_report *report, const struct br_pl
     br_write_comment(out, report->caption);
     fprintf(out,
             "# %s\n"
-            "# Reads %s.dat and writes %s.svg and %s.png. Edit it, and draw them again with\n"
-            "#     gnuplot %s.gp\n"
-            "# in this folder.\n\n"
+            "# Draws %s.svg and %s.png from %s.dat;\n"
+            "# edit it, and draw them again, in this folder, with\n"
+            "#     gnuplot %s.gp\n\n"
             "set encoding utf8\n"
-            "data = ",
+            "stem = ",
             plot->title, stem, stem, stem, stem);
     br_write_quoted(out, stem);
-    fputs(".'.dat'\n\n"
+    fputs("\ndata = stem.'.dat'\n\n"
           "# A cell with a flag, left out of the fits, has a hollow mark.\n"
           "mark(filled, flag) = flag eq '-' ? filled : filled - 1\n"
-          "set pointintervalbox 1.3\n"
           "set style line 101 lw 2 lc rgb '#444444' # slopes\n"
           "set style line 102 lw 1 lc rgb '#d0d0d0' # grid\n",
           out);
@@ -69,26 +68,29 @@ void br_write_pens(FILE *out, size_t pens)
     fputs("# One pen a curve; pi -1: the line leaves room for the marks.\n", out);
     for (size_t i = 0; i < pens; i++) {
         const struct br_pen pen = br_pen_of(i, pens);
-        fprintf(out, "set style line %zu lw 2.5 lc rgb '%s' dt %s pt %d ps %.2f*size pi -1\n", i + 1,
-                pen.colour, pen.dash, pen.mark, pen.size);
+        fprintf(out, "set style line %zu lw 2.5 lc rgb '%s' dt %s pt %d ps %.2f*size pi -1\n",
+                i + 1, pen.colour, pen.dash, pen.mark, pen.size);
     }
 }
 
-void br_write_loop(FILE *out, const char *stem, int width)
+void br_write_loop(FILE *out, int width)
 {
     fprintf(out,
-            "\ndo for [format in 'svg png'] {\n"
+            "\n# The default font only scales marks; every text has its own size.\n"
+            "do for [format in 'svg png'] {\n"
             "if (format eq 'svg') {\n"
-            "    set terminal svg size %d,%d font 'DejaVu Sans,%d' background rgb 'white'\n"
-            "    size = 0.42 # this terminal draws marks larger, and letters smaller\n"
+            "    set terminal svg size %d,%d font 'DejaVu Sans,12' background rgb 'white'\n"
+            "    size = 0.75\n"
+            "    set pointintervalbox 1.6\n"
             "} else {\n"
-            "    set terminal pngcairo size %d,%d font 'DejaVu Sans,%d' fontscale 0.75\n"
+            "    set terminal pngcairo size %d,%d font 'DejaVu Sans,12' fontscale 0.75\n"
             "    size = 1\n"
+            "    set pointintervalbox 1.7\n"
             "}\n"
-            "set output ",
-            width, HEIGHT, FONT, width, HEIGHT, FONT);
-    br_write_quoted(out, stem);
-    fputs(".'.'.format\nunset label\nunset arrow\n", out);
+            "set output stem.'.'.format\n"
+            "unset label\n"
+            "unset arrow\n",
+            width, HEIGHT, width, HEIGHT);
 }
 
 void br_write_foot(FILE *out)
@@ -96,20 +98,61 @@ void br_write_foot(FILE *out)
     fputs("unset output\n}\n", out);
 }
 
-void br_write_caption(FILE *out, const struct br_report *report, int width)
+/* One line of the caption, at most `size` pixels high and as wide as the page. */
+static void write_caption_line(FILE *out, const char *text, int width, double size, double y)
 {
-    const double letters = (double)strlen(report->caption), fit = width / 0.62 / (FONT + 2);
-    const double size = fmax(12, (FONT + 2) * fmin(1, fit / letters));
+    const double fits = 0.96 * width / 0.6 / (double)(strlen(text) + 1);
     fputs("set label ", out);
-    br_write_quoted(out, report->caption);
-    fprintf(out, " noenhanced at screen 0.02,0.955 left font ',%.0f'\n", floor(size));
+    br_write_quoted(out, text);
+    fprintf(out, " noenhanced at screen 0.02,%.3f left font ',%.0f'\n", y,
+            floor(fmax(10, fmin(size, fits))));
 }
 
-static void write_estimate(FILE *out, const char *name, const struct br_estimate *estimate)
+void br_write_caption(FILE *out, const struct br_report *report, int width)
 {
-    fprintf(out, "%s %.2f", name, estimate->value);
-    if (isfinite(estimate->low) && isfinite(estimate->high))
-        fprintf(out, " [%.2f, %.2f]", estimate->low, estimate->high);
+    char line[1024];
+    const double size = FONT + 2;
+    snprintf(line, sizeof line, "%s", report->caption);
+    char *second = line + strlen(line) / 2;
+    while (*second && *second != ' ')
+        second++;
+    if (!*second || 0.6 * size * (double)strlen(line) < 0.96 * width) {
+        write_caption_line(out, line, width, size, 0.955);
+        return;
+    }
+    *second++ = '\0';
+    write_caption_line(out, line, width, BR_PAGE_SMALL, 0.972);
+    write_caption_line(out, second, width, BR_PAGE_SMALL, 0.939);
+}
+
+/* Whether a curve of these parts has a hollow mark. */
+static bool has_hollow(const struct br_report *report, const struct br_columns *columns)
+{
+    const struct br_study *study = report->study;
+    for (size_t i = 0; i < study->n_count * study->k_count; i++)
+        for (size_t p = 0; p < columns->parts; p++) {
+            const enum br_flag flag = study->cell[i].flag[columns->part[p]];
+            if (flag != BR_FLAG_NONE && flag != BR_FLAG_FAILED)
+                return true;
+        }
+    return false;
+}
+
+void br_write_hollow(FILE *out, const struct br_report *report, const struct br_columns *columns,
+                     double x, double y)
+{
+    if (has_hollow(report, columns))
+        fprintf(out, "set label 'hollow: not in the fits' at screen %.3f,%.3f right font ',%d'\n",
+                x, y, BR_PAGE_SMALL);
+}
+
+static void write_order(FILE *out, const char *before, const struct br_estimate *order,
+                        const char *variable)
+{
+    fprintf(out, "%s %.2f", before, order->value);
+    if (isfinite(order->low) && isfinite(order->high))
+        fprintf(out, " [%.2f, %.2f]", order->low, order->high);
+    fprintf(out, " in %s", variable);
 }
 
 void br_write_orders(FILE *out, const struct br_report *report, enum br_part part, double y)
@@ -117,11 +160,11 @@ void br_write_orders(FILE *out, const struct br_report *report, enum br_part par
     const struct br_joint_fit *fit = &report->fits[part].joint;
     const bool space = fit->converged && isfinite(fit->p.value);
     const bool time = fit->converged && isfinite(fit->q.value);
-    fprintf(out, "set label 'Fitted orders (95 %%), %s:", br_part_names[part]);
+    fprintf(out, "set label 'Joint fit (95 %%), %s: ", br_part_names[part]);
+    fputs(space || time ? "order" : "none could be made", out);
     if (space)
-        write_estimate(out, " in h", &fit->p);
+        write_order(out, "", &fit->p, "h");
     if (time)
-        write_estimate(out, space ? ", in k" : " in k", &fit->q);
-    fprintf(out, "%s' at screen 0.02,%.3f left font ',%d'\n", space || time ? "" : " none",
-            y, BR_PAGE_SMALL);
+        write_order(out, space ? "," : "", &fit->q, "k");
+    fprintf(out, "' at screen 0.02,%.3f left font ',%d'\n", y, BR_PAGE_SMALL);
 }

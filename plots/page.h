@@ -6,7 +6,13 @@
 #include "plots/data.h"
 
 /* A page's size, pixels, and the size of its letters. */
-enum { BR_PAGE_HEIGHT = 800, BR_PAGE_NARROW = 1200, BR_PAGE_WIDE = 1500, BR_PAGE_FONT = 24, BR_PAGE_SMALL = 21 };
+enum {
+    BR_PAGE_HEIGHT = 800,
+    BR_PAGE_NARROW = 1200,
+    BR_PAGE_WIDE = 1500,
+    BR_PAGE_FONT = 24,
+    BR_PAGE_SMALL = 21
+};
 
 /* An order to compare with. */
 struct br_order {
@@ -19,12 +25,12 @@ struct br_order {
 struct br_frame {
     enum br_axis axis;
     double left, right, bottom, top;
-    struct br_range y; /* of the errors, m^(3/2) */
-    size_t orders;     /* 0: none are shown */
+    struct br_range y;            /* of the errors, m^(3/2) */
+    size_t orders;                /* 0: none are shown */
     const struct br_order *order; /* ascending, borrowed */
-    const char *note;  /* after the x axis' label, borrowed; NULL: none */
-    bool numbered;     /* along the y axis, which also has its label */
-    int page;          /* the page's width, pixels */
+    const char *note;             /* after the x axis' label, borrowed; NULL: none */
+    bool numbered;                /* along the y axis, which also has its label */
+    int page;                     /* the page's width, pixels */
 };
 
 /* The pen of curve i of count. Marks shrink and get lighter, so that curves that lie on
@@ -44,7 +50,7 @@ void br_write_head(FILE *out, const struct br_report *report, const struct br_pl
                    const char *stem);
 
 /* The beginning and the end of the loop over both formats; width: the page's, pixels. */
-void br_write_loop(FILE *out, const char *stem, int width);
+void br_write_loop(FILE *out, int width);
 void br_write_foot(FILE *out);
 
 /* In the loop: line styles 1 to `pens`, one a curve. */
@@ -53,6 +59,10 @@ void br_write_pens(FILE *out, size_t pens);
 /* The caption, and a line below it (y: screen) with the fitted orders of one part. */
 void br_write_caption(FILE *out, const struct br_report *report, int width);
 void br_write_orders(FILE *out, const struct br_report *report, enum br_part part, double y);
+
+/* Says what a hollow mark means, right-aligned at (x, y), screen, where there is one. */
+void br_write_hollow(FILE *out, const struct br_report *report, const struct br_columns *columns,
+                     double x, double y);
 
 /* Axes, ticks and slopes of a frame. */
 void br_write_frame(FILE *out, const struct br_report *report, const struct br_frame *frame);

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-static const struct br_columns columns = {
-    .parts = 3, .part = {BR_PART_TOTAL, BR_PART_AXIAL, BR_PART_BENDING}};
+static const struct br_columns columns = {.parts = 3,
+                                          .part = {BR_PART_TOTAL, BR_PART_AXIAL, BR_PART_BENDING}};
 
 static bool applies(const struct br_report *report)
 {
@@ -36,7 +36,7 @@ static void write_curves(FILE *out, int block, bool with_key)
     fputc('\n', out);
 }
 
-static void write_panels(FILE *out, const struct br_report *report, struct br_frame *frame)
+static void write_panels(FILE *out, const struct br_report *report, struct br_frame frame)
 {
     static const struct br_order over_h[] = {{1, "1"}, {2, "2"}, {4, "4"}}, over_k = {1, "1"};
     const struct br_study *study = report->study;
@@ -44,27 +44,27 @@ static void write_panels(FILE *out, const struct br_report *report, struct br_fr
     const size_t steps = study->steps[br_largest(study->steps, study->k_count)];
     char note[64];
 
-    frame->axis = BR_OVER_H;
-    frame->left = 0.085, frame->right = 0.445;
-    frame->order = over_h, frame->orders = 3;
-    frame->numbered = true;
-    snprintf(note, sizeof note, " at k = %.6g s", br_time_step(study->scene, steps));
-    frame->note = note;
-    br_write_frame(out, report, frame);
+    frame.axis = BR_OVER_H;
+    frame.left = 0.085, frame.right = 0.445;
+    frame.order = over_h, frame.orders = 3;
+    frame.numbered = true;
+    snprintf(note, sizeof note, ", at k = %.4g s", br_time_step(study->scene, steps));
+    frame.note = note;
+    br_write_frame(out, report, &frame);
     fputs("unset key\n", out);
     write_curves(out, 0, false);
 
     fputs("unset label\nunset arrow\n", out);
-    frame->axis = BR_OVER_K;
-    frame->left = 0.5, frame->right = 0.86;
-    frame->order = &over_k, frame->orders = 1;
-    frame->numbered = false;
-    snprintf(note, sizeof note, " at n = %zu", n);
-    br_write_frame(out, report, frame);
+    frame.axis = BR_OVER_K;
+    frame.left = 0.5, frame.right = 0.86;
+    frame.order = &over_k, frame.orders = 1;
+    frame.numbered = false;
+    snprintf(note, sizeof note, ", at n = %zu", n);
+    br_write_frame(out, report, &frame);
     fprintf(out,
-            "set key at screen 0.87,%.3f left top Left reverse samplen 2 spacing 1.25 "
-            "font ',21'\n",
-            frame->top);
+            "set key at screen 0.87,%.3f left top Left reverse samplen 3 spacing 1.25 "
+            "font ',%d'\n",
+            frame.top, BR_PAGE_SMALL);
     write_curves(out, 1, true);
 }
 
@@ -72,18 +72,19 @@ static void write_script(FILE *out, const struct br_report *report, const char *
 {
     const struct br_study *study = report->study;
     struct br_frame frame = {
-        .bottom = 0.125, .top = 0.76, .y = {INFINITY, 0}, .page = BR_PAGE_WIDE};
+        .bottom = 0.125, .top = 0.73, .y = {INFINITY, 0}, .page = BR_PAGE_WIDE};
     br_include_block(&frame.y, report, BR_OVER_H, br_largest(study->steps, study->k_count),
                      &columns);
     br_include_block(&frame.y, report, BR_OVER_K, br_largest(study->n, study->n_count), &columns);
     br_write_head(out, report, &br_plot_parts, stem);
-    br_write_loop(out, stem, BR_PAGE_WIDE);
+    br_write_loop(out, BR_PAGE_WIDE);
     br_write_pens(out, columns.parts);
     fputs("set multiplot\n", out);
     br_write_caption(out, report, BR_PAGE_WIDE);
     br_write_orders(out, report, BR_PART_AXIAL, 0.905);
     br_write_orders(out, report, BR_PART_BENDING, 0.865);
-    write_panels(out, report, &frame);
+    br_write_hollow(out, report, &columns, 0.98, 0.905);
+    write_panels(out, report, frame);
     fputs("unset multiplot\n", out);
     br_write_foot(out);
 }

@@ -5,8 +5,8 @@
 #include <errno.h>
 #include <string.h>
 
-const struct br_plot *const br_plots[] = {&br_plot_h, &br_plot_k, &br_plot_parts,
-                                          &br_plot_printed, NULL};
+const struct br_plot *const br_plots[] = {&br_plot_h, &br_plot_k, &br_plot_parts, &br_plot_printed,
+                                          NULL};
 
 const struct br_plot *br_plot_find(const char *name)
 {
@@ -29,16 +29,15 @@ static bool is_stem(const char *name)
 }
 
 enum br_status br_plot_file(const struct br_plot *plot, const struct br_report *report,
-                            const char *extension, char *file, size_t size,
-                            struct br_error *err)
+                            const char *extension, char *file, size_t size, struct br_error *err)
 {
     if (!is_stem(report->name))
         return br_fail(err, BR_BAD_INPUT,
                        "the report's name is \"%s\", expected the beginning of a file name: a "
                        "letter, digit or underscore, then no slash",
                        report->name);
-    const int length =
-        snprintf(file, size, "%s-%s%s%s", report->name, plot->name, *extension ? "." : "", extension);
+    const int length = snprintf(file, size, "%s-%s%s%s", report->name, plot->name,
+                                *extension ? "." : "", extension);
     if (length < 0 || (size_t)length >= size)
         return br_fail(err, BR_BAD_INPUT, "the report's name is too long for a file name");
     return BR_OK;
@@ -69,8 +68,8 @@ static enum br_status close_file(FILE *out, const char *folder, const struct br_
     const bool failed = ferror(out);
     errno = 0;
     if (fclose(out) != 0 || failed)
-        return br_fail(err, BR_IO, "the plot %s could not be written in %s: %s", plot->name,
-                       folder, errno ? strerror(errno) : "the disk may be full");
+        return br_fail(err, BR_IO, "the plot %s could not be written in %s: %s", plot->name, folder,
+                       errno ? strerror(errno) : "the disk may be full");
     return BR_OK;
 }
 
@@ -78,7 +77,7 @@ enum br_status br_plot_write(const struct br_plot *plot, const struct br_report 
                              const char *folder, struct br_error *err)
 {
     char stem[LONGEST_NAME];
-    FILE *out;
+    FILE *out = NULL;
     enum br_status status = br_plot_file(plot, report, "", stem, sizeof stem, err);
     if (!status)
         status = open_file(plot, report, folder, "dat", &out, err);

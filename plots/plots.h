@@ -32,8 +32,7 @@ const struct br_plot *br_plot_find(const char *name);
 /* Writes the name of a plot's file with that extension ("gp", "svg"...) into `file` (out,
  * size bytes). Fails with BR_BAD_INPUT where report->name makes no file name. */
 enum br_status br_plot_file(const struct br_plot *plot, const struct br_report *report,
-                            const char *extension, char *file, size_t size,
-                            struct br_error *err);
+                            const char *extension, char *file, size_t size, struct br_error *err);
 
 /* Writes data and script into an existing folder. Ask plot->applies first. Fails with
  * BR_BAD_INPUT (as br_plot_file) or BR_IO, perhaps leaving one of the files behind. */

@@ -4,8 +4,7 @@
 
 #include <math.h>
 
-static const struct br_columns columns = {
-    .parts = 1, .part = {BR_PART_TOTAL}, .printed = true};
+static const struct br_columns columns = {.parts = 1, .part = {BR_PART_TOTAL}, .printed = true};
 
 static bool applies(const struct br_report *report)
 {
@@ -30,25 +29,26 @@ static void write_styles(FILE *out)
 
 static void write_legend(FILE *out)
 {
-    fputs("set arrow from screen 0.02,0.9 to screen 0.07,0.9 nohead ls 1\n"
-          "set label 'computed by this program' at screen 0.08,0.9 left font ',21'\n"
-          "set arrow from screen 0.36,0.9 to screen 0.41,0.9 nohead ls 2\n"
-          "set label 'printed in the paper' at screen 0.42,0.9 left font ',21'\n",
-          out);
+    fprintf(out,
+            "set arrow from screen 0.02,0.905 to screen 0.07,0.905 nohead ls 1\n"
+            "set label 'computed by this program' at screen 0.08,0.905 left font ',%d'\n"
+            "set arrow from screen 0.36,0.905 to screen 0.41,0.905 nohead ls 2\n"
+            "set label 'printed in the paper' at screen 0.42,0.905 left font ',%d'\n",
+            BR_PAGE_SMALL, BR_PAGE_SMALL);
 }
 
 static void write_key(FILE *out, const struct br_frame *frame, size_t curves)
 {
     fprintf(out,
-            "set key at screen %.3f,0.155 center top horizontal Left reverse samplen 0.5 "
+            "set key at screen %.3f,0.13 center top horizontal Left reverse samplen 0.5 width %d "
             "maxcols %d spacing 1.1 font ',%d'\n",
-            (frame->left + frame->right) / 2, curves > 9 ? 5 : 3, curves > 9 ? 14 : 21);
+            (frame->left + frame->right) / 2, frame->axis == BR_OVER_H ? -2 : 0, curves > 9 ? 5 : 3,
+            curves > 9 ? 14 : BR_PAGE_SMALL);
 }
 
 /* Both errors along the frame's axis, one pair of curves for each entry of the other's
  * list, from block `first` on. */
-static void write_curves(FILE *out, const struct br_report *report, enum br_axis axis,
-                         size_t first)
+static void write_curves(FILE *out, const struct br_report *report, enum br_axis axis, size_t first)
 {
     const enum br_axis other = axis == BR_OVER_H ? BR_OVER_K : BR_OVER_H;
     size_t count, curve = 0;
@@ -59,12 +59,12 @@ static void write_curves(FILE *out, const struct br_report *report, enum br_axis
         fprintf(out,
                 "%sdata index %zu using 2:5 with linespoints ls 2 pt %d ps %.2f*size notitle, \\\n"
                 "     '' index %zu using 2:3:(mark(%d, strcol(4))) with linespoints ls 1 "
-                "pt variable ps %.2f*size notitle, \\\n     keyentry with points ls 3 pt %d ps 1.8*size "
-                "title '",
+                "pt variable ps %.2f*size notitle, \\\n"
+                "     keyentry with points ls 3 pt %d ps 1.8*size title '",
                 curve ? ", \\\n     " : "plot ", first + curve, pen.mark, pen.size, first + curve,
                 pen.mark, pen.size, pen.mark);
         if (axis == BR_OVER_H)
-            fprintf(out, "k = %.6g s'", br_axis_value(report, other, list[i]));
+            fprintf(out, "k = %.3g s'", br_axis_value(report, other, list[i]));
         else
             fprintf(out, "n = %zu'", list[i]);
         curve++;
@@ -88,18 +88,19 @@ static void write_script(FILE *out, const struct br_report *report, const char *
     struct br_frame frame = {.axis = BR_OVER_K,
                              .left = 0.085,
                              .right = 0.515,
-                             .bottom = 0.285,
-                             .top = 0.78,
+                             .bottom = 0.265,
+                             .top = 0.775,
                              .y = {INFINITY, 0},
                              .numbered = true,
                              .page = BR_PAGE_WIDE};
     br_include_blocks(&frame.y, report, BR_OVER_K, &columns);
     br_write_head(out, report, &br_plot_printed, stem);
-    br_write_loop(out, stem, BR_PAGE_WIDE);
+    br_write_loop(out, BR_PAGE_WIDE);
     write_styles(out);
     fputs("set multiplot\n", out);
     br_write_caption(out, report, BR_PAGE_WIDE);
     write_legend(out);
+    br_write_hollow(out, report, &columns, 0.98, 0.905);
     write_panel(out, report, &frame, over_k, 0);
     fputs("unset label\nunset arrow\n", out);
     frame.axis = BR_OVER_H;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <spawn.h>
@@ -43,8 +44,8 @@ static void read_all(int from, char *text, size_t size)
     size_t length = 0;
     for (;;) {
         const bool full = length + 1 >= size;
-        const ssize_t got = full ? read(from, rest, sizeof rest)
-                                 : read(from, text + length, size - 1 - length);
+        const ssize_t got =
+            full ? read(from, rest, sizeof rest) : read(from, text + length, size - 1 - length);
         if (got == 0 || (got < 0 && errno != EINTR))
             break;
         if (got > 0 && !full)
@@ -67,60 +68,74 @@ static const char *reason(char *text)
     return why ? why : "it does not say why";
 }
 
+/* Whether the script's picture ends like this, but for white space. */
 static bool ends_with(const char *folder, const char *script, const char *extension,
                       const char *ending)
 {
-    char path[4096], tail[16];
+    char path[4096], tail[32];
     const char *dot = strrchr(script, '.');
     const int stem = (int)(dot ? (size_t)(dot - script) : strlen(script));
     const int length = snprintf(path, sizeof path, "%s/%.*s.%s", folder, stem, script, extension);
     FILE *file = length > 0 && (size_t)length < sizeof path ? fopen(path, "rb") : NULL;
     if (!file)
         return false;
-    const size_t size = strlen(ending);
-    const bool same = fseek(file, -(long)size, SEEK_END) == 0 &&
-                      fread(tail, 1, size, file) == size && memcmp(tail, ending, size) == 0;
+    size_t got = 0;
+    if (fseek(file, -(long)sizeof tail, SEEK_END) == 0)
+        got = fread(tail, 1, sizeof tail, file);
     fclose(file);
-    return same;
+    while (got > 0 && isspace((unsigned char)tail[got - 1]))
+        got--;
+    const size_t size = strlen(ending);
+    return got >= size && memcmp(tail + got - size, ending, size) == 0;
 }
 
 /* gnuplot does not look whether its files were written. */
-static enum br_status check_pictures(const char *folder, const char *script,
-                                     struct br_error *err)
+static enum br_status check_pictures(const char *folder, const char *script, struct br_error *err)
 {
-    if (!ends_with(folder, script, "svg", "</svg>\n\n"))
-        return br_fail(err, BR_IO, "%s/%s: the SVG is not complete; the disk may be full", folder,
-                       script);
-    if (!ends_with(folder, script, "png", "IEND\xae\x42\x60\x82"))
-        return br_fail(err, BR_IO, "%s/%s: the PNG is not complete; the disk may be full", folder,
-                       script);
+    static const struct {
+        const char *extension, *ending;
+    } pictures[] = {{"svg", "</svg>"}, {"png", "IEND\xae\x42\x60\x82"}};
+    for (size_t i = 0; i < sizeof pictures / sizeof *pictures; i++)
+        if (!ends_with(folder, script, pictures[i].extension, pictures[i].ending))
+            return br_fail(err, BR_IO,
+                           "gnuplot wrote no complete .%s for %s/%s; the disk may be full",
+                           pictures[i].extension, folder, script);
+    return BR_OK;
+}
+
+static enum br_status run(const char *folder, const char *script, const int ends[2], bool *missing,
+                          struct br_error *err)
+{
+    char said[4096];
+    int ending = 0;
+    pid_t child;
+    const int failure = start(folder, script, ends[1], &child);
+    close(ends[1]);
+    *missing = failure == ENOENT;
+    if (failure)
+        return br_fail(err, BR_IO, "gnuplot cannot be run: %s",
+                       *missing ? "it is not installed" : strerror(failure));
+    read_all(ends[0], said, sizeof said);
+    while (waitpid(child, &ending, 0) < 0 && errno == EINTR)
+        ;
+    if (!(WIFEXITED(ending) && WEXITSTATUS(ending) == 0))
+        return br_fail(err, BR_IO, "gnuplot failed in %s: %s", folder, reason(said));
     return BR_OK;
 }
 
 enum br_status br_plot_render(const char *folder, const char *script, bool *missing,
                               struct br_error *err)
 {
-    char said[4096];
-    int ends[2], ending = 0;
-    pid_t child;
+    int ends[2];
     struct stat there;
     *missing = false;
-    if (stat(folder, &there) != 0)
+    if (stat(folder, &there) != 0) /* else a missing folder looks like a missing gnuplot */
         return br_fail(err, BR_IO, "%s: %s", folder, strerror(errno));
     if (pipe2(ends, O_CLOEXEC) != 0)
         return br_fail(err, BR_IO, "no pipe for gnuplot: %s", strerror(errno));
-    const int failure = start(folder, script, ends[1], &child);
-    close(ends[1]);
-    if (!failure)
-        read_all(ends[0], said, sizeof said);
+    enum br_status status = run(folder, script, ends, missing, err);
     close(ends[0]);
-    *missing = failure == ENOENT;
-    if (failure)
-        return br_fail(err, BR_IO, "gnuplot cannot be run: %s",
-                       *missing ? "it is not installed" : strerror(failure));
-    while (waitpid(child, &ending, 0) < 0 && errno == EINTR)
-        ;
-    if (!(WIFEXITED(ending) && WEXITSTATUS(ending) == 0))
-        return br_fail(err, BR_IO, "gnuplot failed in %s: %s", folder, reason(said));
-    return check_pictures(folder, script, err);
+    if (!status)
+        status = check_pictures(folder, script, err);
+    return status;
 }

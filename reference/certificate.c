@@ -7,14 +7,16 @@
 
 typedef long double real;
 
-/* The terms of (27) and (28); their sum is the residual. */
+/* The terms of (27) and (28), whose sum is the residual. C v_{n-1} is none, but is what a
+ * motion that stops in this step is measured by. */
 enum term {
-    INERTIA_AFTER, /*  M v_n / k */
-    INERTIA_BEFORE,/* -M v_{n-1} / k */
-    VISCOUS,       /*  C v_n */
-    ELASTIC,       /*  K w_n */
-    LOAD,          /* -F_n */
-    TIP,           /*  the force that resists the tip */
+    INERTIA_AFTER,  /*  M v_n / k */
+    INERTIA_BEFORE, /* -M v_{n-1} / k */
+    VISCOUS,        /*  C v_n */
+    VISCOUS_BEFORE, /*  C v_{n-1}, for the size alone */
+    ELASTIC,        /*  K w_n */
+    LOAD,           /* -F_n */
+    TIP,            /*  the force that resists the tip */
     RESIDUAL,
     TERMS
 };
@@ -98,11 +100,13 @@ static void element_terms(const struct balance *b, size_t e, real out[TERMS][4])
     mass_times(b, f->velocity + first, out[INERTIA_AFTER]);
     mass_times(b, f->velocity_before + first, out[INERTIA_BEFORE]);
     stiffness_times(b, f->velocity + first, out[VISCOUS]);
+    stiffness_times(b, f->velocity_before + first, out[VISCOUS_BEFORE]);
     stiffness_times(b, f->displacement + first, out[ELASTIC]);
     for (size_t i = 0; i < 2 * b->unknowns; i++) {
         out[INERTIA_AFTER][i] /= b->k;
         out[INERTIA_BEFORE][i] /= -b->k;
         out[VISCOUS][i] *= b->viscosity;
+        out[VISCOUS_BEFORE][i] *= b->viscosity;
         out[ELASTIC][i] *= b->stiffness;
         out[RESIDUAL][i] =
             out[INERTIA_AFTER][i] + out[INERTIA_BEFORE][i] + out[VISCOUS][i] + out[ELASTIC][i];
@@ -111,8 +115,8 @@ static void element_terms(const struct balance *b, size_t e, real out[TERMS][4])
 
 static void add_element_node(struct balance *b, real forces[TERMS][4], size_t node)
 {
-    static const enum term of_elements[] = {INERTIA_AFTER, INERTIA_BEFORE, VISCOUS, ELASTIC,
-                                            RESIDUAL};
+    static const enum term of_elements[] = {INERTIA_AFTER,  INERTIA_BEFORE, VISCOUS,
+                                            VISCOUS_BEFORE, ELASTIC,        RESIDUAL};
     for (size_t i = 0; i < sizeof of_elements / sizeof *of_elements; i++)
         add_node(b, of_elements[i], forces[of_elements[i]] + node * b->unknowns, 1);
 }
@@ -188,12 +192,12 @@ static double ratio(double a, double size)
     return a == 0 ? 0 : a / size;
 }
 
-/* Largest magnitude of every stride-th of count values. */
-static double magnitude(const double *x, size_t count, size_t stride)
+/* Largest magnitude of count values. */
+static double magnitude(const double *x, size_t count)
 {
     double most = 0;
     for (size_t i = 0; i < count; i++)
-        most = larger(fabs(x[i * stride]), most);
+        most = larger(fabs(x[i]), most);
     return most;
 }
 
@@ -205,6 +209,16 @@ static bool modelled(const struct br_step *s, enum br_field_kind kind)
 static double at_tip(const struct br_step *s, enum br_field_kind kind, const double *nodal)
 {
     return nodal[s->n * (kind == BR_AXIAL ? 1 : 2)];
+}
+
+/* What a field's displacements are rounded to; over k, what its velocities are: a solver
+ * finds them from differences of displacements. */
+static double field_scale(const struct br_step *s, enum br_field_kind kind)
+{
+    const size_t size = (kind == BR_AXIAL ? 1 : 2) * (s->n + 1);
+    const struct br_step_field *f = &s->field[kind];
+    return magnitude(f->displacement, size) + magnitude(f->displacement_before, size) +
+           s->k * magnitude(f->velocity, size);
 }
 
 /* u_n = u_{n-1} + k v_n, and the tip's velocity as told. */
@@ -220,12 +234,8 @@ static double update_error(const struct br_step *s, enum br_field_kind kind)
             (real)f->displacement[i] - f->displacement_before[i] - (real)s->k * f->velocity[i];
         most = larger((double)fabsl(error), most);
     }
-    const double speed = magnitude(f->velocity, size, 1);
-    const double scale =
-        magnitude(f->displacement, size, 1) + magnitude(f->displacement_before, size, 1) +
-        s->k * speed;
     const double told = fabs(s->tip.velocity[kind] - at_tip(s, kind, f->velocity));
-    return larger(ratio(most, scale), ratio(told, speed));
+    return ratio(larger(most, s->k * told), field_scale(s, kind));
 }
 
 static double tip_displacement_error(const struct br_step *s)
@@ -233,7 +243,7 @@ static double tip_displacement_error(const struct br_step *s)
     if (!s->scene->axial.modelled)
         return s->tip.displacement == 0 ? 0 : NAN;
     const double *u = s->field[BR_AXIAL].displacement;
-    return ratio(fabs(s->tip.displacement - at_tip(s, BR_AXIAL, u)), magnitude(u, s->n + 1, 1));
+    return ratio(fabs(s->tip.displacement - at_tip(s, BR_AXIAL, u)), magnitude(u, s->n + 1));
 }
 
 /* (10): at u_{n-1} or u_n, as the method's contact rule has it. */
@@ -252,7 +262,7 @@ static double contact_error(const struct br_step *s)
     else
         return NAN;
     const double wanted = c->stiffness * positive(at_tip(s, BR_AXIAL, u) - c->gap);
-    const double scale = fabs(force) + c->stiffness * (magnitude(u, s->n + 1, 1) + c->gap);
+    const double scale = fabs(force) + c->stiffness * (magnitude(u, s->n + 1) + c->gap);
     return ratio(fabs(force - wanted), scale);
 }
 
@@ -294,7 +304,7 @@ static double friction_error(const struct br_step *s)
     if (s->scene->friction.law == BR_FRICTIONLESS)
         return lambda == 0 ? 0 : NAN;
     const double *nodal = s->field[BR_BENDING].velocity;
-    const double speed = magnitude(nodal, s->n + 1, 2);
+    const double speed = field_scale(s, BR_BENDING) / s->k;
     const double bound = bound_of(s);
     const double force = larger(fabs(lambda), bound);
     const double told = ratio(fabs(s->tip.friction_bound - bound), force);
@@ -319,7 +329,7 @@ static bool all_finite(const struct br_step *s)
         const double *arrays[] = {f->displacement_before, f->displacement, f->velocity_before,
                                   f->velocity, f->load};
         for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
-            good = good && isfinite(magnitude(arrays[a], (kind == BR_AXIAL ? 1 : 2) * (s->n + 1), 1));
+            good = good && isfinite(magnitude(arrays[a], (kind == BR_AXIAL ? 1 : 2) * (s->n + 1)));
     }
     return good;
 }

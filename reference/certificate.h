@@ -24,7 +24,7 @@ struct br_certificate {
     double bending_residual; /* of (28) */
     double update;   /* u_n - u_{n-1} - k v_n of both fields, and the tip's values told */
     double friction; /* distance of (v, lambda) from the graph of (12) or (29), lambda
-                        relative to the bound and v to the largest nodal velocity */
+                        relative to the bound, k v to the largest nodal value */
     double contact;  /* force - c_H (u - g)_+ at u_{n-1} or u_n */
 };
 

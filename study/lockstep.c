@@ -17,7 +17,7 @@
 #include "study/ladder.h"
 
 enum { BUFFERS = 2 };
-static const size_t buffer_bytes = 16u << 20; /* of a batch's projections, at most */
+static const size_t buffer_bytes = 8u << 20;  /* of a batch's projections, at most */
 static const size_t most_levels = 32;         /* in a batch */
 
 /* One field of the reference and the cells. */
@@ -147,6 +147,15 @@ static void reference_batch(struct lockstep *l, size_t b)
 
 /* ---- a cell ---- */
 
+static void cell_failed(struct br_cell *cell, const struct br_error *error)
+{
+    cell->failure = *error;
+    for (int part = 0; part < BR_PARTS; part++) {
+        cell->error[part] = NAN;
+        cell->flag[part] = BR_FLAG_FAILED;
+    }
+}
+
 static void measure(struct lockstep *l, size_t index, size_t buffer, size_t slot)
 {
     struct br_cell *cell = &l->study->cell[index];
@@ -164,20 +173,17 @@ static void measure(struct lockstep *l, size_t index, size_t buffer, size_t slot
         error[kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING] = distance;
         error[BR_PART_TOTAL] += distance;
     }
+    if (!isfinite(error[BR_PART_TOTAL])) {
+        br_fail(&r->error, BR_NOT_FINITE, "the error at t = %g s is %g", br_march_time(r->march),
+                error[BR_PART_TOTAL]);
+        cell_failed(cell, &r->error);
+        return;
+    }
     for (int part = 0; part < BR_PARTS; part++)
-        if (!(error[part] <= cell->error[part])) { /* a NaN stays */
+        if (error[part] > cell->error[part]) {
             cell->error[part] = error[part];
             cell->worst_time[part] = br_march_time(r->march);
         }
-}
-
-static void cell_failed(struct br_cell *cell, const struct br_error *error)
-{
-    cell->failure = *error;
-    for (int part = 0; part < BR_PARTS; part++) {
-        cell->error[part] = NAN;
-        cell->flag[part] = BR_FLAG_FAILED;
-    }
 }
 
 static void cell_batch(struct lockstep *l, size_t b, size_t index)

@@ -110,7 +110,7 @@ static enum br_status check_initial(const struct initial *d, struct br_error *er
     if (!d->slope || scale == 0)
         return BR_OK;
     if (br_function_is_zero(d->slope))
-        return br_fail(err, BR_BAD_INPUT, "initial bending %s needs %s, its derivative", d->name,
+        return br_fail(err, BR_BAD_INPUT, "initial %s needs %s, its derivative", d->name,
                        d->slope_name);
     const double slope = value_at(0, (void *)d->slope);
     if (!(fabs(slope) <= 1e-12 * scale / d->length))

@@ -67,37 +67,60 @@ static struct candidate best_pair(const struct br_study *s, const double *printe
     return best;
 }
 
-/* D(a, b): a study with one cell, a, and b as its reference. */
-static enum br_status march_pair(const struct br_study *s, struct br_triangle *t, int threads,
-                                 struct br_error *err)
-{
-    struct br_study pair = {
-        .scene = s->scene,
-        .method = s->method,
-        .reference_method = s->method,
-        .reference = t->b,
-        .n_count = 1,
-        .k_count = 1,
-        .n = &t->a.n,
-        .steps = &t->a.steps,
-    };
-    const enum br_status status = br_study_run(&pair, 1, threads, NULL, err);
-    if (!status)
-        t->distance = pair.cell[0].error[BR_PART_TOTAL];
-    br_study_clear(&pair);
-    return status;
-}
-
-static enum br_status show_pair(const struct br_study *s, const double *printed,
-                                const struct candidate *c, struct br_triangle *t, int threads,
-                                struct br_error *err)
+static struct br_triangle triangle_of(const struct br_study *s, const double *printed,
+                                      const struct candidate *c)
 {
     const struct br_cell *a = &s->cell[c->a], *b = &s->cell[c->b];
-    *t = (struct br_triangle){
+    struct br_triangle t = {
         .a = a->at, .b = b->at, .printed_a = printed[c->a], .printed_b = printed[c->b]};
-    allowed(a, b, t->printed_a, t->printed_b, &t->least, &t->most);
-    const enum br_status status = march_pair(s, t, threads, err);
-    t->contradiction = isfinite(t->distance) && !(t->least <= t->distance && t->distance <= t->most);
+    allowed(a, b, t.printed_a, t.printed_b, &t.least, &t.most);
+    return t;
+}
+
+static size_t choose_pairs(const struct br_study *s, const double *printed, size_t most,
+                           bool *used, struct br_triangle *triangles)
+{
+    size_t count = 0;
+    while (count < most) {
+        struct candidate c = best_pair(s, printed, used, count % 2 == 0);
+        if (c.a == c.b)
+            c = best_pair(s, printed, used, count % 2 != 0);
+        if (c.a == c.b)
+            break;
+        used[c.a] = used[c.b] = true;
+        triangles[count++] = triangle_of(s, printed, &c);
+    }
+    return count;
+}
+
+/* D(a, b) of every pair: a study with one cell, a, and b as its reference. */
+static enum br_status march_pairs(const struct br_study *s, struct br_triangle *triangles,
+                                  size_t count, int threads, struct br_error *err)
+{
+    struct br_study *pair = br_allocate(count, sizeof *pair);
+    if (!pair)
+        return br_no_memory(err, "the pairs of cells");
+    for (size_t i = 0; i < count; i++)
+        pair[i] = (struct br_study){
+            .scene = s->scene,
+            .method = s->method,
+            .reference_method = s->method,
+            .reference = triangles[i].b,
+            .n_count = 1,
+            .k_count = 1,
+            .n = &triangles[i].a.n,
+            .steps = &triangles[i].a.steps,
+        };
+    const enum br_status status = br_study_run(pair, count, threads, NULL, err);
+    for (size_t i = 0; i < count && !status; i++) {
+        struct br_triangle *t = &triangles[i];
+        t->distance = pair[i].cell[0].error[BR_PART_TOTAL];
+        t->contradiction =
+            isfinite(t->distance) && !(t->least <= t->distance && t->distance <= t->most);
+    }
+    for (size_t i = 0; i < count; i++)
+        br_study_clear(&pair[i]);
+    free(pair);
     return status;
 }
 
@@ -109,17 +132,9 @@ enum br_status br_triangles(const struct br_study *s, const double *printed, siz
     bool *used = br_allocate(s->n_count * s->k_count, sizeof *used);
     if (!used)
         return br_no_memory(err, "the pairs of cells");
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < most && !status; i++) {
-        struct candidate c = best_pair(s, printed, used, i % 2 == 0);
-        if (c.a == c.b)
-            c = best_pair(s, printed, used, i % 2 != 0);
-        if (c.a == c.b)
-            break;
-        used[c.a] = used[c.b] = true;
-        status = show_pair(s, printed, &c, &triangles[*count], threads, err);
-        *count += !status;
-    }
+    const size_t chosen = choose_pairs(s, printed, most, used, triangles);
     free(used);
+    const enum br_status status = march_pairs(s, triangles, chosen, threads, err);
+    *count = status ? 0 : chosen;
     return status;
 }

@@ -106,6 +106,7 @@ static void compare(const struct br_march *a, const struct br_march *b, enum br_
 
 /* One march of each solver, each watched by a witness. */
 struct pair {
+    uint64_t seed;
     struct br_method method[2];
     struct br_march *march[2];
     struct br_witness *witness[2];
@@ -120,7 +121,10 @@ static void check_step(struct pair *p, double scale[2])
         const struct br_certificate certificate = br_witness_step(p->witness[i]);
         const struct br_certificate limits = br_certificate_limits(
             f->n, br_test_slack() * br_march_round_off(p->march[i]));
-        MUST(br_certificate_check(&certificate, &limits, &err));
+        if (br_certificate_check(&certificate, &limits, &err))
+            fail_msg("seed %ju, %s, n = %zu, step %zu: %s", (uintmax_t)p->seed,
+                     p->method[i].solver->name, f->n, br_march_steps_done(p->march[i]),
+                     err.message);
     }
     const double tolerance = 4e-15 + 10 * br_test_slack() * br_march_round_off(p->march[1]);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
@@ -133,7 +137,7 @@ static void check_case(const struct br_linear_solver *solver, uint64_t seed)
     struct br_error err = {0};
     struct br_scene scene = random_scene(&r);
     const size_t n = br_test_index(&r, 3) ? 1 + br_test_index(&r, MOST_N) : 1 + br_test_index(&r, 3);
-    struct pair p;
+    struct pair p = {.seed = seed};
     for (int i = 0; i < 2; i++)
         p.method[i] = br_method_default();
     p.method[1].solver = solver;

@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Allocation 0, 1, 2, ... fails: each time the call says so and leaves nothing behind
+ * (the leaks show under the address sanitizer and under valgrind). */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "reference/certificate.h"
+#include "study/ladder.h"
+#include "study/scene_file.h"
+#include "study/study.h"
+#include "support.h"
+
+/* Fails every allocation in turn until the attempt succeeds; at least `least` of them.
+ * attempt: allocates, and cleans up after itself whatever happens. */
+static void sweep(enum br_status (*attempt)(const void *data, struct br_error *err),
+                  const void *data, long least)
+{
+    long i = 0;
+    for (;; i++) {
+        struct br_error err = {0};
+        br_allocation_fails_at(i);
+        const enum br_status status = attempt(data, &err);
+        br_allocation_fails_at(-1);
+        if (!status)
+            break;
+        assert_int_equal(status, BR_NO_MEMORY);
+        REFUSED(status, BR_NO_MEMORY, "out of memory");
+        assert_true(i < 10000);
+    }
+    if (i < least)
+        fail_msg("%ld allocations failed, expected at least %ld", i, least);
+}
+
+static enum br_status read_scene(const void *path, struct br_error *err)
+{
+    struct br_scene scene;
+    const enum br_status status = br_scene_read(path, &scene, err);
+    br_scene_clear(&scene);
+    return status;
+}
+
+/* Loads in x and t, initial data, contact and friction: everything that allocates. */
+static const char *const full_scene =
+    "title: everything\n"
+    "length: 1 m\n"
+    "duration: 1 s\n"
+    "density: 1 kg/m\n"
+    "axial:\n"
+    "  stiffness: 1000 N\n"
+    "  viscosity: 1 N s\n"
+    "  load: {shape: 'x [1]', history: 't [N/m]'}\n"
+    "  displacement: 0.01*x [m]\n"
+    "  velocity: 0.01*x [m/s]\n"
+    "bending:\n"
+    "  stiffness: 1000 N m^2\n"
+    "  viscosity: 1 N m^2 s\n"
+    "  load: x*t [N/m]\n"
+    "  displacement: 0.01*x^2 [m]\n"
+    "  displacement_slope: 0.02*x [1]\n"
+    "  velocity: 0.01*x^2 [m/s]\n"
+    "  velocity_slope: 0.02*x [1/s]\n"
+    "contact: {gap: 0 m, stiffness: 1 N/m}\n"
+    "friction: {law: coulomb, coefficient: 1 N/m, regularisation: 1e-3 m/s}\n";
+
+static char scene_path[] = "/tmp/br_test_allocation_XXXXXX";
+
+static int write_scene(void **state)
+{
+    (void)state;
+    const int descriptor = mkstemp(scene_path);
+    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
+    if (!file)
+        return -1;
+    fputs(full_scene, file);
+    return fclose(file);
+}
+
+static int remove_scene(void **state)
+{
+    (void)state;
+    return remove(scene_path);
+}
+
+static struct br_scene full(void)
+{
+    struct br_error err = {0};
+    struct br_scene scene;
+    MUST(br_scene_read(scene_path, &scene, &err));
+    return scene;
+}
+
+static void test_scene(void **state)
+{
+    (void)state;
+    sweep(read_scene, scene_path, 10);
+}
+
+struct march_data {
+    struct br_scene scene;
+    struct br_method method;
+};
+
+/* A march, a witness, and two steps: the load in x and t allocates in each. */
+static enum br_status march(const void *data, struct br_error *err)
+{
+    const struct march_data *d = data;
+    struct br_march *m = NULL;
+    struct br_witness *witness = NULL;
+    enum br_status status = br_march_create(&m, &d->scene, 4, 5, &d->method, err);
+    if (!status)
+        status = br_witness_create(&witness, m, &d->scene, &d->method, err);
+    for (int i = 0; i < 2 && !status; i++)
+        status = br_march_step(m, err);
+    br_witness_free(witness);
+    br_march_free(m);
+    return status;
+}
+
+static void test_march(void **state)
+{
+    (void)state;
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
+        struct march_data data = {full(), br_method_default()};
+        data.method.solver = *s;
+        sweep(march, &data, 15);
+        br_scene_clear(&data.scene);
+    }
+}
+
+static enum br_status ladder(const void *data, struct br_error *err)
+{
+    (void)data;
+    struct br_ladder *l = NULL;
+    const enum br_status status =
+        br_ladder_create(&l, BR_BENDING, 12, 3, (const size_t[]){4, 6, 2}, err);
+    br_ladder_free(l);
+    return status;
+}
+
+static void test_ladder(void **state)
+{
+    (void)state;
+    sweep(ladder, NULL, 5);
+}
+
+static enum br_status study(const void *data, struct br_error *err)
+{
+    const struct march_data *d = data;
+    static const size_t n[] = {2, 4}, steps[] = {5, 10};
+    struct br_study s = {
+        .scene = &d->scene,
+        .method = d->method,
+        .reference_method = d->method,
+        .reference = {8, 10},
+        .n_count = 2,
+        .k_count = 2,
+        .n = n,
+        .steps = steps,
+    };
+    enum br_status status = br_study_run(&s, 1, 1, NULL, err);
+    /* In the middle of a march it costs a cell, not the study. */
+    for (size_t i = 0; !status && i < 4; i++)
+        if (s.cell[i].failure.status) {
+            *err = s.cell[i].failure;
+            status = err->status;
+        }
+    br_study_clear(&s);
+    return status;
+}
+
+static void test_study(void **state)
+{
+    (void)state;
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
+        struct march_data data = {full(), br_method_default()};
+        data.method.solver = *s;
+        sweep(study, &data, 60);
+        br_scene_clear(&data.scene);
+    }
+}
+
+/* The hook itself: it fails the allocation it was told to, once. */
+static void test_hook(void **state)
+{
+    (void)state;
+    br_allocation_fails_at(1);
+    void *first = br_allocate(1, 8), *second = br_allocate(1, 8), *third = br_allocate(0, 8);
+    assert_true(first && !second && third);
+    free(first);
+    free(third);
+    br_allocation_fails_at(-1);
+    /* Errors may be told to nobody. */
+    assert_int_equal(br_fail(NULL, BR_IO, "%d", 1), BR_IO);
+    assert_int_equal(br_no_memory(NULL, "x"), BR_NO_MEMORY);
+}
+
+/* The exit codes that the program promises. */
+static void test_exit_codes(void **state)
+{
+    (void)state;
+    assert_int_equal(br_status_exit_code(BR_OK), 0);
+    assert_int_equal(br_status_exit_code(BR_VERDICT), 1);
+    assert_int_equal(br_status_exit_code(BR_BAD_INPUT), 2);
+    for (int s = BR_NO_MEMORY; s <= BR_INTERRUPTED; s++)
+        assert_int_equal(br_status_exit_code((enum br_status)s), 3);
+    assert_string_equal(br_status_text(BR_NO_MEMORY), "out of memory");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_hook),   cmocka_unit_test(test_exit_codes),
+        cmocka_unit_test(test_scene),  cmocka_unit_test(test_march),
+        cmocka_unit_test(test_ladder), cmocka_unit_test(test_study),
+    };
+    return cmocka_run_group_tests(tests, write_scene, remove_scene);
+}

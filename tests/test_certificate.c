@@ -1,0 +1,317 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The certificate itself: it must pass good steps on any mesh, see every planted fault,
+ * and never let a NaN through. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "reference/certificate.h"
+#include "support.h"
+
+enum { N = 20, BENDING = 2 * (N + 1), AXIAL = N + 1 };
+
+/* A step taken apart, so that it can be spoilt. */
+struct recorded {
+    struct br_scene scene;
+    struct br_method method;
+    double axial[5][AXIAL], bending[5][BENDING];
+    struct br_step step;
+};
+
+static void record(struct recorded *r, const char *contact, const char *friction, double mu)
+{
+    *r = (struct recorded){.scene = br_test_bundled("example2")};
+    r->scene.friction.regularisation = mu;
+    r->method = br_test_method(NULL, contact, friction);
+    struct br_march *march = br_test_march(&r->scene, N, 100, &r->method);
+    br_test_advance(march, 60);
+    br_march_get(march, BR_AXIAL, r->axial[0], r->axial[2]);
+    br_march_get(march, BR_BENDING, r->bending[0], r->bending[2]);
+    br_test_advance(march, 61);
+    br_march_get(march, BR_AXIAL, r->axial[1], r->axial[3]);
+    br_march_get(march, BR_BENDING, r->bending[1], r->bending[3]);
+    br_march_load(march, BR_AXIAL, r->axial[4]);
+    br_march_load(march, BR_BENDING, r->bending[4]);
+    r->step = (struct br_step){
+        .scene = &r->scene,
+        .method = &r->method,
+        .n = N,
+        .k = 0.01,
+        .field = {{r->axial[0], r->axial[1], r->axial[2], r->axial[3], r->axial[4]},
+                  {r->bending[0], r->bending[1], r->bending[2], r->bending[3], r->bending[4]}},
+        .tip = *br_march_tip(march),
+    };
+    br_march_free(march);
+}
+
+static struct br_certificate limits(void)
+{
+    return br_certificate_limits(N, 0);
+}
+
+/* The step is refused, by the entry whose description contains `what`. */
+static void assert_seen(struct recorded *r, const char *what)
+{
+    struct br_error err = {0};
+    const struct br_certificate certificate = br_certify(&r->step), most = limits();
+    REFUSED(br_certificate_check(&certificate, &most, &err), BR_VERDICT, what);
+}
+
+static void assert_good(struct recorded *r)
+{
+    struct br_error err = {0};
+    const struct br_certificate certificate = br_certify(&r->step), most = limits();
+    MUST(br_certificate_check(&certificate, &most, &err));
+}
+
+/* value * (1 + 1e-6), and back. */
+static void assert_seen_in(struct recorded *r, double *value, const char *what)
+{
+    const double good = *value;
+    *value = good * (1 + 1e-6);
+    assert_seen(r, what);
+    *value = good;
+}
+
+static void test_planted_faults(void **state)
+{
+    (void)state;
+    static struct recorded r;
+    record(&r, "lagged", "exact", 0);
+    assert_good(&r);
+    assert_seen_in(&r, &r.axial[4][N / 2], "(27)");
+    assert_seen_in(&r, &r.bending[4][N], "(28)");
+    assert_seen_in(&r, &r.scene.axial.stiffness, "(27)");
+    assert_seen_in(&r, &r.scene.axial.viscosity, "(27)");
+    assert_seen_in(&r, &r.scene.bending.stiffness, "(28)");
+    assert_seen_in(&r, &r.scene.bending.viscosity, "(28)");
+    assert_seen_in(&r, &r.axial[0][N], "");
+    assert_seen_in(&r, &r.axial[3][N / 2], "");
+    assert_seen_in(&r, &r.bending[0][N], "the update");
+    assert_seen_in(&r, &r.bending[3][N], "");
+    assert_seen_in(&r, &r.axial[1][N / 2], "(27)");
+    assert_seen_in(&r, &r.bending[1][N], "(28)");
+    assert_seen_in(&r, &r.step.tip.friction_force, "(28)");
+    assert_seen_in(&r, &r.step.tip.contact_force, "(27)");
+    assert_seen_in(&r, &r.step.tip.friction_bound, "(12)");
+    assert_seen_in(&r, &r.step.tip.displacement, "the update");
+    assert_seen_in(&r, &r.step.tip.velocity[BR_AXIAL], "the update");
+    assert_seen_in(&r, &r.step.tip.velocity[BR_BENDING], "the update");
+    assert_seen_in(&r, &r.scene.friction.coefficient, "(12)");
+    assert_seen_in(&r, &r.scene.contact.stiffness, "(10)");
+    assert_good(&r);
+    br_scene_clear(&r.scene);
+}
+
+/* The mass has little weight in Example 2: a thousandth of its velocity is still seen. */
+static void test_planted_velocity(void **state)
+{
+    (void)state;
+    static struct recorded r;
+    record(&r, "lagged", "exact", 0);
+    for (size_t i = 0; i < BENDING; i++)
+        r.bending[2][i] *= 1.001;
+    assert_seen(&r, "(28)");
+    for (size_t i = 0; i < BENDING; i++)
+        r.bending[2][i] /= 1.001;
+    for (size_t i = 0; i < AXIAL; i++)
+        r.axial[2][i] *= 1.001;
+    assert_seen(&r, "(27)");
+    for (size_t i = 0; i < AXIAL; i++)
+        r.axial[2][i] /= 1.001;
+    r.scene.density *= 1.001;
+    assert_seen(&r, "(27)");
+    br_scene_clear(&r.scene);
+}
+
+/* Each law taken for the other one. */
+static void test_wrong_law(void **state)
+{
+    (void)state;
+    static struct recorded r;
+    record(&r, "lagged", "exact", 0);
+    r.method.contact = br_contact_rule_find("implicit");
+    assert_seen(&r, "(10)");
+    const struct br_contact_rule unknown = {.name = "unknown"};
+    r.method.contact = &unknown;
+    assert_seen(&r, "(10)");
+    br_scene_clear(&r.scene);
+
+    record(&r, "implicit", "regularised", 0.1); /* |v| < mu: it sticks, and creeps */
+    assert_good(&r);
+    r.method.contact = br_contact_rule_find("lagged");
+    assert_seen(&r, "(10)");
+    r.method.contact = br_contact_rule_find("implicit");
+    r.method.friction = br_friction_rule_find("exact");
+    assert_seen(&r, "(12)");
+    br_scene_clear(&r.scene);
+}
+
+/* The graph of the exact law: on it, and off it in each direction. */
+static void test_friction_graph(void **state)
+{
+    (void)state;
+    static const struct {
+        double v, lambda;
+        bool good;
+    } points[] = {
+        {0, 0, true},     {0, 2.9, true},   {0, -3, true},   {0.5, 3, true},  {-0.5, -3, true},
+        {0.5, -3, false}, {-0.5, 3, false}, {0.5, 2, false}, {0.5, 0, false}, {0, 3.1, false},
+        {0.5, 3.1, false}, {-0.5, -3.1, false},
+    };
+    struct br_scene scene = br_test_bare();
+    scene.axial.modelled = false;
+    scene.friction = (struct br_friction){.law = BR_TRESCA, .coefficient = 3};
+    const struct br_method method = br_method_default();
+    for (size_t i = 0; i < sizeof points / sizeof *points; i++) {
+        const double zero[4] = {0}, velocity[4] = {0, 0, points[i].v, 1};
+        const struct br_step step = {
+            .scene = &scene,
+            .method = &method,
+            .n = 1,
+            .k = 1,
+            .field[BR_BENDING] = {zero, velocity, zero, velocity, zero},
+            .tip = {.velocity[BR_BENDING] = points[i].v,
+                    .friction_force = points[i].lambda,
+                    .friction_bound = 3},
+        };
+        const double distance = br_certify(&step).friction;
+        assert_true(points[i].good ? distance <= 1e-15 : distance >= 0.03);
+    }
+}
+
+/* The norm of a residual is that of the moment (or the force) that balances it: a force P
+ * too much at the tip of a beam at rest, P (L - x), so |m| = P (L^3/3)^1/2. */
+static void test_residual_norm(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bare();
+    scene.length = 3;
+    scene.friction = (struct br_friction){.law = BR_TRESCA, .coefficient = 10};
+    const struct br_method method = br_method_default();
+    const double zero[2 * 4] = {0};
+    double load[2 * 4] = {0};
+    load[2 * 3 + 1] = 2; /* a moment of 2 h = 2 N m at the tip: |m| = 2 L^1/2 */
+    const struct br_step step = {
+        .scene = &scene,
+        .method = &method,
+        .n = 3,
+        .k = 1,
+        .field = {{zero, zero, zero, zero, zero}, {zero, zero, zero, zero, load}},
+        .tip = {.friction_force = 1, .friction_bound = 10},
+    };
+    /* m = (L - x) - 2 over L = 3: its square integrates to 3; the terms to 9 and 12 */
+    CLOSE(br_certify(&step).bending_residual, sqrt(3) / (sqrt(9) + sqrt(12)), 1e-15);
+    assert_true(br_certify(&step).axial_residual == 0);
+}
+
+/* A NaN or an infinity anywhere fails every entry. */
+static void assert_all_nan(const struct recorded *r)
+{
+    const struct br_certificate c = br_certify(&r->step);
+    assert_true(isnan(c.axial_residual) && isnan(c.bending_residual) && isnan(c.update) &&
+                isnan(c.friction) && isnan(c.contact));
+}
+
+static void test_not_finite(void **state)
+{
+    (void)state;
+    static struct recorded r;
+    record(&r, "lagged", "exact", 0);
+    static const double bad[] = {NAN, INFINITY, -INFINITY};
+    for (size_t b = 0; b < 3; b++) {
+        double *values[] = {&r.step.tip.displacement,   &r.step.tip.velocity[0],
+                            &r.step.tip.velocity[1],    &r.step.tip.contact_force,
+                            &r.step.tip.friction_force, &r.step.tip.friction_bound};
+        for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+            const double good = *values[i];
+            *values[i] = bad[b];
+            assert_all_nan(&r);
+            *values[i] = good;
+        }
+        for (int a = 0; a < 5; a++)
+            for (size_t i = 0; i < BENDING; i += 5) {
+                double *value = i < AXIAL ? &r.axial[a][i] : &r.bending[a][i];
+                const double good = *value;
+                *value = bad[b];
+                assert_all_nan(&r);
+                *value = good;
+            }
+    }
+    assert_good(&r);
+    br_scene_clear(&r.scene);
+}
+
+/* The verdict on each entry, at and above its limit, and NaN. */
+static void test_verdict(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    const struct br_certificate most = {1, 2, 3, 4, 5};
+    struct br_certificate c = most;
+    MUST(br_certificate_check(&c, &most, &err));
+    double *const entries[] = {&c.axial_residual, &c.bending_residual, &c.update, &c.friction,
+                               &c.contact};
+    static const char *const names[] = {"(27)", "(28)", "update", "friction", "contact"};
+    for (size_t i = 0; i < 5; i++) {
+        const double good = *entries[i];
+        *entries[i] = nextafter(good, 9);
+        REFUSED(br_certificate_check(&c, &most, &err), BR_VERDICT, names[i]);
+        *entries[i] = NAN;
+        REFUSED(br_certificate_check(&c, &most, &err), BR_VERDICT, names[i]);
+        *entries[i] = good;
+    }
+}
+
+static void test_merge(void **state)
+{
+    (void)state;
+    struct br_certificate worst = {0};
+    br_certificate_merge(&worst, &(struct br_certificate){1, 5, NAN, 0, 2});
+    br_certificate_merge(&worst, &(struct br_certificate){3, 4, 1, 0, NAN});
+    assert_true(worst.axial_residual == 3 && worst.bending_residual == 5 && worst.friction == 0);
+    assert_true(isnan(worst.update) && isnan(worst.contact));
+}
+
+/* Every step of the paper's scenes, on meshes from one element to very fine ones. */
+static void test_good_steps(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"example1", "example2", "example3", "example4"};
+    static const size_t meshes[] = {1, 2, 7, 100, 400, 3200, 12800};
+    for (size_t i = 0; i < 4 * 7 * 4; i++) {
+        const size_t n = meshes[i / 4 % 7];
+        if (br_test_quick() && n > 100)
+            continue;
+        struct br_error err = {0};
+        struct br_scene scene = br_test_bundled(scenes[i / 28]);
+        struct br_method method = br_method_default();
+        method.contact = br_contact_rules[i % 2];
+        method.friction = br_friction_rules[i / 2 % 2];
+        struct br_march *march = br_test_march(&scene, n, 40, &method);
+        struct br_witness *witness;
+        MUST(br_witness_create(&witness, march, &scene, &method, &err));
+        const struct br_certificate most =
+            br_certificate_limits(n, br_test_slack() * br_march_round_off(march));
+        for (int step = 1; step <= 40; step++) {
+            MUST(br_march_step(march, &err));
+            const struct br_certificate certificate = br_witness_step(witness);
+            MUST(br_certificate_check(&certificate, &most, &err));
+        }
+        br_witness_free(witness);
+        br_march_free(march);
+        br_scene_clear(&scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_planted_faults), cmocka_unit_test(test_planted_velocity),
+        cmocka_unit_test(test_wrong_law),
+        cmocka_unit_test(test_friction_graph), cmocka_unit_test(test_residual_norm),
+        cmocka_unit_test(test_not_finite),     cmocka_unit_test(test_verdict),
+        cmocka_unit_test(test_merge),          cmocka_unit_test(test_good_steps),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Whole marches against values that were computed in other ways: the exact solution in
+ * closed form, quadruple precision (generate_discrete.c), and long double. */
+#include <math.h>
+#include <stdio.h>
+
+#include "support.h"
+
+/* The scheme as printed, to 1e-11 by the default solver whatever the mesh. */
+static void test_golden_riccati(void **state)
+{
+    (void)state;
+    struct br_test_golden rows[BR_TEST_MOST_GOLDEN];
+    const size_t count = br_test_golden(rows);
+    const struct br_method method = br_test_method("riccati", "lagged", "exact");
+    assert_true(count >= 6);
+    for (size_t i = 0; i < count; i++) {
+        if (br_test_quick() && rows[i].n > 400)
+            continue;
+        struct br_scene scene = br_test_bundled(rows[i].scene);
+        const struct br_test_end end = br_test_run(&scene, rows[i].n, rows[i].steps, &method);
+        AT_MOST(br_test_deviation(&end, &rows[i].end), 1e-11 * br_test_slack());
+        br_scene_clear(&scene);
+    }
+}
+
+/* Every other solver within the round-off that it predicts for itself. */
+static void test_golden_others(void **state)
+{
+    (void)state;
+    struct br_test_golden rows[BR_TEST_MOST_GOLDEN];
+    const size_t count = br_test_golden(rows);
+    for (const struct br_linear_solver *const *s = br_linear_solvers + 1; *s; s++)
+        for (size_t i = 0; i < count; i++) {
+            if (rows[i].n > (br_test_quick() ? 400 : 3200))
+                continue;
+            struct br_scene scene = br_test_bundled(rows[i].scene);
+            struct br_method method = br_test_method((*s)->name, "lagged", "exact");
+            struct br_march *march = br_test_march(&scene, rows[i].n, rows[i].steps, &method);
+            const double predicted = br_march_round_off(march);
+            br_march_free(march);
+            const struct br_test_end end = br_test_run(&scene, rows[i].n, rows[i].steps, &method);
+            AT_MOST(br_test_deviation(&end, &rows[i].end), predicted);
+            br_scene_clear(&scene);
+        }
+}
+
+/* u(1) and w(1) of Example 2 on other meshes and with other steps. */
+static void test_other_resolutions(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t n, steps;
+        const char *contact;
+        double u, w, tolerance; /* NaN: not known; relative */
+    } rows[] = {
+        {100, 100, "lagged", NAN, -0.07046467, 1e-7},
+        {100, 100, "implicit", NAN, -0.07159502, 1e-7},
+        {800, 100000, "lagged", NAN, -0.0715938939323, 1e-11},
+        {1000000, 100, "lagged", 0.0432626953501273, -0.0704646705265127, 2e-11},
+    };
+    struct br_scene scene = br_test_bundled("example2");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        if (br_test_quick() && rows[i].n * rows[i].steps > 100000)
+            continue;
+        const struct br_method method = br_test_method("riccati", rows[i].contact, "exact");
+        const struct br_test_end end = br_test_run(&scene, rows[i].n, rows[i].steps, &method);
+        CLOSE(end.w_tip, rows[i].w, rows[i].tolerance * fabs(rows[i].w));
+        if (!isnan(rows[i].u))
+            CLOSE(end.u_tip, rows[i].u, rows[i].tolerance * fabs(rows[i].u));
+    }
+    br_scene_clear(&scene);
+}
+
+/* Errors at t = 1 against the exact solution. */
+static struct br_test_end exact_errors(const char *name, const char *contact, size_t n,
+                                       size_t steps, const struct br_test_end *exact)
+{
+    struct br_scene scene = br_test_bundled(name);
+    const struct br_method method = br_test_method(NULL, contact, "exact");
+    const struct br_test_end end = br_test_run(&scene, n, steps, &method);
+    br_scene_clear(&scene);
+    return (struct br_test_end){end.u_tip - exact->u_tip, end.w_tip - exact->w_tip, 0};
+}
+
+static const struct br_test_end exact1 = {0.171692329889782302, 0, NAN};
+static const struct br_test_end exact2 = {0.0429230824724455755, -0.0715950242871993164, NAN};
+
+/* The contact force at u_n: first order in k, with constants below 1e-3. */
+static void test_implicit_contact(void **state)
+{
+    (void)state;
+    double last_u = NAN, last_w = NAN;
+    for (size_t steps = 50; steps <= 800; steps *= 2) {
+        const double k = 1.0 / (double)steps;
+        const struct br_test_end e1 = exact_errors("example1", "implicit", 400, steps, &exact1);
+        AT_MOST(fabs(e1.u_tip), 2e-4 * k + 1e-10);
+        AT_MOST(fabs(e1.w_tip), 1e-6); /* the tip's first slip, not seen at these k */
+        const struct br_test_end e2 = exact_errors("example2", "implicit", 400, steps, &exact2);
+        AT_MOST(fabs(e2.u_tip), 1e-4 * k + 1e-10);
+        AT_MOST(fabs(e2.w_tip), 1e-3 * k + 1e-10);
+        if (steps > 50) { /* halved, within a tenth */
+            CLOSE(e2.u_tip / last_u, 0.5, 0.05);
+            CLOSE(e2.w_tip / last_w, 0.5, 0.05);
+        }
+        last_u = e2.u_tip;
+        last_w = e2.w_tip;
+    }
+}
+
+/* The contact force at u_{n-1}: first order too, but with constants of 0.1. */
+static void test_lagged_contact(void **state)
+{
+    (void)state;
+    double last = NAN;
+    for (size_t steps = 100; steps <= 1600; steps *= 2) {
+        const struct br_test_end e = exact_errors("example2", "lagged", 50, steps, &exact2);
+        AT_MOST(fabs(e.w_tip), 0.2 / (double)steps);
+        AT_MOST(0.05 / (double)steps, fabs(e.w_tip));
+        if (steps > 100)
+            CLOSE(e.w_tip / last, 0.5, 0.05);
+        last = e.w_tip;
+    }
+}
+
+/* Example 3: propped until the reaction 3/8 q L reaches 3000 N, at t = 0.80 s; and the
+ * values at t = 1. */
+static void test_example3(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example3");
+    for (size_t steps = 100; steps <= 1600; steps *= 2) {
+        const struct br_method method = br_method_default();
+        struct br_march *march = br_test_march(&scene, 40, steps, &method);
+        double leaves = NAN;
+        for (size_t i = 1; i <= steps; i++) {
+            br_test_advance(march, i);
+            const struct br_tip *tip = br_march_tip(march);
+            assert_true(tip->friction_bound == 3000 && fabs(tip->friction_force) <= 3000);
+            if (isnan(leaves) && fabs(tip->friction_force) == 3000)
+                leaves = br_march_time(march);
+        }
+        CLOSE(leaves, 0.80, 1.0 / (double)steps + 1e-3);
+        double w[2 * 41];
+        br_march_get(march, BR_BENDING, w, NULL);
+        CLOSE(w[2 * 40], -0.24875, 2e-6 + 1e-3 / (double)steps);
+        CLOSE(w[2 * 20], -0.129765625, 2e-6 + 1e-3 / (double)steps);
+        br_march_free(march);
+    }
+    br_scene_clear(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_golden_riccati),   cmocka_unit_test(test_golden_others),
+        cmocka_unit_test(test_other_resolutions), cmocka_unit_test(test_implicit_contact),
+        cmocka_unit_test(test_lagged_contact),   cmocka_unit_test(test_example3),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* L2 distances on nested meshes against two oracles: the textbook mass matrix of the
+ * coarse function interpolated exactly (support.c), and Gauss quadrature of the two
+ * functions, both in long double. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "study/ladder.h"
+#include "support.h"
+
+static const double length = 1.75;
+
+static struct br_field field_of(enum br_field_kind kind, size_t n)
+{
+    return (struct br_field){.kind = kind, .n = n, .h = length / (double)n};
+}
+
+/* Random nodal values; bending slopes scaled by h as they should be. */
+static double *random_function(struct br_test_random *r, const struct br_field *f)
+{
+    const size_t size = br_field_size(f);
+    double *nodal = calloc(size, sizeof *nodal);
+    assert_non_null(nodal);
+    for (size_t i = br_field_unknowns(f->kind); i < size; i++)
+        nodal[i] = br_test_uniform(r, -1, 1);
+    return nodal;
+}
+
+static double *modes_of(const struct br_field *f, const double *nodal)
+{
+    double *modes = calloc(f->n * br_mode_count(f->kind), sizeof *modes);
+    assert_non_null(modes);
+    br_modes(f, nodal, modes);
+    return modes;
+}
+
+/* The function at element e, xi: Lagrange or Hermite shape functions. */
+static long double value_at(enum br_field_kind kind, const double *nodal, size_t e, long double xi)
+{
+    const long double eta = 1 - xi;
+    if (kind == BR_AXIAL)
+        return eta * nodal[e] + xi * nodal[e + 1];
+    const double *w = nodal + 2 * e;
+    return eta * eta * (1 + 2 * xi) * w[0] + xi * eta * eta * w[1] +
+           xi * xi * (3 - 2 * xi) * w[2] - xi * xi * eta * w[3];
+}
+
+/* Four Gauss points an element of the fine mesh: exact for the square of cubics. */
+static double quadrature(enum br_field_kind kind, size_t coarse_n, const double *coarse,
+                         size_t fine_n, const double *fine)
+{
+    const long double a = sqrtl(3.0L / 7 - 2.0L / 7 * sqrtl(1.2L)),
+                      b = sqrtl(3.0L / 7 + 2.0L / 7 * sqrtl(1.2L));
+    const long double x[4] = {(1 - b) / 2, (1 - a) / 2, (1 + a) / 2, (1 + b) / 2};
+    const long double wa = (18 + sqrtl(30)) / 72, wb = (18 - sqrtl(30)) / 72;
+    const long double weight[4] = {wb, wa, wa, wb};
+    const size_t ratio = fine_n / coarse_n;
+    long double sum = 0;
+    for (size_t e = 0; e < fine_n; e++)
+        for (int q = 0; q < 4; q++) {
+            const long double xi = ((long double)(e % ratio) + x[q]) / (long double)ratio;
+            const long double difference =
+                value_at(kind, fine, e, x[q]) - value_at(kind, coarse, e / ratio, xi);
+            sum += weight[q] * difference * difference;
+        }
+    return (double)sqrtl(sum * length / (long double)fine_n);
+}
+
+static struct br_ladder *create(enum br_field_kind kind, size_t finest, size_t count,
+                                const size_t *n)
+{
+    struct br_error err = {0};
+    struct br_ladder *ladder;
+    MUST(br_ladder_create(&ladder, kind, finest, count, n, &err));
+    return ladder;
+}
+
+static double *projection_of(const struct br_ladder *ladder, const struct br_field *f,
+                             const double *nodal)
+{
+    double *modes = modes_of(f, nodal);
+    double *projection = calloc(br_ladder_size(ladder), sizeof *projection);
+    assert_non_null(projection);
+    br_ladder_project(ladder, modes, projection);
+    free(modes);
+    return projection;
+}
+
+static double distance(const struct br_ladder *ladder, size_t rung, const struct br_field *f,
+                       const double *nodal, const double *projection)
+{
+    double *modes = modes_of(f, nodal);
+    const double d = br_ladder_distance(ladder, rung, modes, projection);
+    free(modes);
+    return d;
+}
+
+/* Ladders: chains, gaps, branches that do not divide each other, duplicates, the
+ * finest mesh itself, and ratios from 1 to 128. */
+static const struct {
+    size_t finest, count, n[5];
+} ladders[] = {
+    {1, 1, {1}},          {8, 1, {8}},           {8, 3, {1, 2, 4}},      {9, 2, {1, 3}},
+    {25, 2, {5, 1}},      {12, 2, {4, 6}},       {30, 2, {10, 15}},      {30, 5, {6, 10, 15, 1, 30}},
+    {16, 4, {4, 4, 8, 2}}, {128, 1, {1}},        {640, 2, {5, 40}},      {384, 3, {3, 128, 96}},
+    {77, 3, {7, 11, 1}},
+};
+enum { LADDERS = sizeof ladders / sizeof *ladders };
+
+static void check_ladder(struct br_test_random *r, enum br_field_kind kind, size_t l)
+{
+    const struct br_field fine = field_of(kind, ladders[l].finest);
+    struct br_ladder *ladder = create(kind, fine.n, ladders[l].count, ladders[l].n);
+    double *reference = random_function(r, &fine);
+    double *projection = projection_of(ladder, &fine, reference);
+    for (size_t rung = 0; rung < ladders[l].count; rung++) {
+        const struct br_field coarse = field_of(kind, ladders[l].n[rung]);
+        double *v = random_function(r, &coarse);
+        const double d = distance(ladder, rung, &coarse, v, projection);
+        CLOSE(d, quadrature(kind, coarse.n, v, fine.n, reference), 1e-14);
+        CLOSE(d, br_test_distance(kind, length, coarse.n, v, fine.n, reference), 1e-14);
+        free(v);
+    }
+    free(projection);
+    free(reference);
+    br_ladder_free(ladder);
+}
+
+static void test_random_functions(void **state)
+{
+    (void)state;
+    struct br_test_random r = {3};
+    for (int repeat = 0; repeat < 20; repeat++)
+        for (size_t l = 0; l < LADDERS; l++)
+            for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+                check_ladder(&r, (enum br_field_kind)kind, l);
+}
+
+/* The coarse function written on the fine mesh, plus something small. */
+static double *prolonged(const struct br_field *coarse, const double *v,
+                         const struct br_field *fine, const double *small, double factor)
+{
+    const size_t ratio = fine->n / coarse->n, unknowns = br_field_unknowns(fine->kind);
+    double *nodal = calloc(br_field_size(fine), sizeof *nodal);
+    assert_non_null(nodal);
+    for (size_t j = 0; j <= fine->n; j++) {
+        const size_t e = j == fine->n ? coarse->n - 1 : j / ratio;
+        const long double xi = (long double)(j - e * ratio) / (long double)ratio;
+        const long double eta = 1 - xi;
+        nodal[j * unknowns] =
+            (double)(value_at(fine->kind, v, e, xi) + (long double)factor * small[j * unknowns]);
+        if (fine->kind == BR_AXIAL)
+            continue;
+        const double *w = v + 2 * e;
+        const long double slope = 6 * xi * eta * ((long double)w[2] - w[0]) +
+                                  eta * (1 - 3 * xi) * w[1] - xi * (2 - 3 * xi) * w[3];
+        nodal[2 * j + 1] =
+            (double)(slope / (long double)ratio + (long double)factor * small[2 * j + 1]);
+    }
+    return nodal;
+}
+
+/* Functions that agree to 1e-9: the distance still has six digits; with the square of a
+ * norm less another's it would have none. And none at all: round-off only. */
+static void test_close_functions(void **state)
+{
+    (void)state;
+    struct br_test_random r = {4};
+    for (size_t l = 0; l < LADDERS; l++)
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+            for (size_t rung = 0; rung < ladders[l].count; rung++) {
+                const struct br_field fine = field_of((enum br_field_kind)kind, ladders[l].finest);
+                const struct br_field coarse =
+                    field_of((enum br_field_kind)kind, ladders[l].n[rung]);
+                struct br_ladder *ladder =
+                    create(fine.kind, fine.n, ladders[l].count, ladders[l].n);
+                double *v = random_function(&r, &coarse), *small = random_function(&r, &fine);
+                for (int i = 0; i < 2; i++) {
+                    const double factor = i ? 1e-9 : 0;
+                    double *reference = prolonged(&coarse, v, &fine, small, factor);
+                    double *projection = projection_of(ladder, &fine, reference);
+                    CLOSE(distance(ladder, rung, &coarse, v, projection),
+                          quadrature(fine.kind, coarse.n, v, fine.n, reference), 2e-15);
+                    free(projection);
+                    free(reference);
+                }
+                free(small);
+                free(v);
+                br_ladder_free(ladder);
+            }
+}
+
+/* |x| and |x^3| over [0, L]: L^3/3 and L^7/7 under the root. */
+static void test_norms(void **state)
+{
+    (void)state;
+    const size_t n = 6;
+    const struct br_field rod = field_of(BR_AXIAL, n), beam = field_of(BR_BENDING, n);
+    double u[7], w[14], zero[14] = {0};
+    for (size_t i = 0; i <= n; i++) {
+        const double x = rod.h * (double)i;
+        u[i] = x;
+        w[2 * i] = x * x * x;
+        w[2 * i + 1] = rod.h * 3 * x * x;
+    }
+    struct br_ladder *ladder[2] = {create(BR_AXIAL, n, 1, &n), create(BR_BENDING, n, 1, &n)};
+    double *projection = projection_of(ladder[0], &rod, u);
+    CLOSE(distance(ladder[0], 0, &rod, zero, projection), sqrt(pow(length, 3) / 3), 1e-14);
+    free(projection);
+    projection = projection_of(ladder[1], &beam, w);
+    CLOSE(distance(ladder[1], 0, &beam, zero, projection), sqrt(pow(length, 7) / 7), 1e-14);
+    free(projection);
+    br_ladder_free(ladder[0]);
+    br_ladder_free(ladder[1]);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_ladder *ladder;
+    REFUSED(br_ladder_create(&ladder, BR_AXIAL, 12, 2, (const size_t[]){4, 5}, &err), BR_BAD_INPUT,
+            "n = 5 does not divide the reference's 12");
+    br_ladder_free(ladder);
+    REFUSED(br_ladder_create(&ladder, BR_AXIAL, 12, 1, (const size_t[]){0}, &err), BR_BAD_INPUT,
+            "n = 0");
+    br_ladder_free(ladder);
+    br_ladder_free(NULL);
+}
+
+static void test_nan_stays(void **state)
+{
+    (void)state;
+    const size_t n[] = {2};
+    struct br_ladder *ladder = create(BR_BENDING, 4, 1, n);
+    const struct br_field fine = field_of(BR_BENDING, 4), coarse = field_of(BR_BENDING, 2);
+    double good[10] = {0}, bad[10] = {0};
+    bad[5] = NAN;
+    double *projection = projection_of(ladder, &fine, bad);
+    assert_true(isnan(distance(ladder, 0, &coarse, good, projection)));
+    free(projection);
+    projection = projection_of(ladder, &fine, good);
+    assert_true(distance(ladder, 0, &coarse, good, projection) == 0);
+    assert_true(isnan(distance(ladder, 0, &coarse, bad, projection)));
+    free(projection);
+    br_ladder_free(ladder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_random_functions), cmocka_unit_test(test_close_functions),
+        cmocka_unit_test(test_norms),            cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_nan_stays),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

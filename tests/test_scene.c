@@ -1,0 +1,419 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scene files: every refusal names line, key, what was found and what was expected; the
+ * bundled scenes hold the paper's data. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "study/expression.h"
+#include "study/scene_file.h"
+#include "study/scene_schema.h"
+#include "support.h"
+
+static char path[] = "/tmp/br_test_scene_XXXXXX.yaml";
+
+static int make_file(void **state)
+{
+    (void)state;
+    const int descriptor = mkstemps(path, 5);
+    return descriptor < 0 ? -1 : close(descriptor);
+}
+
+static int remove_file(void **state)
+{
+    (void)state;
+    return remove(path);
+}
+
+static enum br_status read_text(const char *text, struct br_scene *scene, struct br_error *err)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+    return br_scene_read(path, scene, err);
+}
+
+/* A good scene, which the tables below spoil in one place: lines 1 to 4, axial 5 to 8,
+ * bending 9 to 12, contact 13 to 15, friction 16 to 19. */
+static const char *const good[] = {
+    "title: A scene",
+    "length: 1 m",
+    "duration: 1 s",
+    "density: 1e-4 kg/m",
+    "axial:",
+    "  stiffness: 1000 N",
+    "  viscosity: 1 N s",
+    "  load: 400*(exp(t) - 1) [N/m]",
+    "bending:",
+    "  stiffness: 1000 N m^2",
+    "  viscosity: 1 N m^2 s",
+    "  load: -10000*(exp(t) - 1) [N/m]",
+    "contact:",
+    "  gap: 0 m",
+    "  stiffness: 1e3 N/m",
+    "friction:",
+    "  law: coulomb",
+    "  coefficient: 5e6 N/m",
+    "  regularisation: 1e-10 m/s",
+};
+enum { LINES = sizeof good / sizeof *good };
+
+/* The good scene with line `line` replaced; NULL: left out. */
+static void spoilt(size_t line, const char *replacement, char *text, size_t size)
+{
+    size_t used = 0;
+    for (size_t i = 1; i <= LINES; i++) {
+        const char *content = i == line ? replacement : good[i - 1];
+        if (content)
+            used += (size_t)snprintf(text + used, size - used, "%s\n", content);
+    }
+}
+
+/* One line spoilt, and what the message must say: where (line and key), and what. */
+static const struct {
+    size_t line;
+    const char *replacement;
+    size_t told; /* the line in the message */
+    const char *key, *text;
+} refusals[] = {
+    /* keys */
+    {4, "weight: 1e-4 kg/m", 4, "weight", "unknown key, expected one of: title, length, duration, density, axial, bending, contact, friction"},
+    {7, "  damping: 1 N s", 7, "damping", "unknown key in axial, expected one of: stiffness, viscosity, load, displacement, velocity"},
+    {14, "  stiffness: 0 m", 14, "stiffness", "expected a number and its unit, N/m"},
+    {3, "length: 1 s", 3, "length", "given twice"},
+    {13, "axial:", 13, "axial", "given twice"},
+    {19, "  coefficient: 1 N/m", 19, "coefficient", "given twice"},
+    {1, NULL, 1, "title", "missing, expected one line for a person"},
+    {2, NULL, 1, "length", "missing, expected the beam's length L, in m"},
+    {3, NULL, 1, "duration", "missing"},
+    {4, NULL, 1, "density", "missing"},
+    {6, NULL, 6, "stiffness", "missing in axial, expected a1, in N"},
+    {11, NULL, 10, "viscosity", "missing in bending, expected c2, in N m^2 s"},
+    {14, NULL, 14, "gap", "missing in contact, expected g, in m"},
+    {17, NULL, 17, "law", "missing in friction, expected tresca or coulomb"},
+    {18, NULL, 17, "coefficient", "missing in friction, expected c_V of Coulomb's law, in N/m"},
+    {17, "  law: tresca", 17, "bound", "missing in friction, expected c_V of Tresca's law, in N"},
+    {19, "  bound: 3000 N", 17, "bound", "does not belong to this friction law"},
+    {17, "  law: dry", 17, "law", "found 'dry', expected tresca or coulomb"},
+    {1, "? [a, b]\n: 1", 1, "scene", "a key must be a word"},
+    {5, "axial: 3\nspare:", 5, "axial", "expected a mapping of keys to values"},
+    {2, "length: [1 m]", 2, "length", "found a list or a mapping, expected the beam's length L"},
+    {1, "title: {a: b}", 1, "title", "found a list or a mapping"},
+    /* numbers and their units */
+    {2, "length: 1", 2, "length", "found '1', expected a number and its unit, m"},
+    {2, "length: 1 mm", 2, "length", "found '1 mm', expected a number and its unit, m"},
+    {2, "length: 1 m m", 2, "length", "found '1 m m', expected a number and its unit, m"},
+    {2, "length: 1m", 2, "length", "found '1m', expected a finite number in m"},
+    {2, "length: long m", 2, "length", "found 'long m', expected a finite number in m"},
+    {2, "length:", 2, "length", "found '', expected a finite number in m"},
+    {2, "length: 1,5 m", 2, "length", "found '1,5 m', expected a finite number in m"},
+    {2, "length: nan m", 2, "length", "found 'nan m', expected a finite number in m"},
+    {2, "length: inf m", 2, "length", "found 'inf m', expected a finite number in m"},
+    {2, "length: -inf m", 2, "length", "expected a finite number"},
+    {2, "length: 1e999 m", 2, "length", "expected a finite number"},
+    {2, "length: 0 m", 2, "length", "found 0 m, expected a value > 0 m"},
+    {2, "length: -1 m", 2, "length", "found -1 m, expected a value > 0 m"},
+    {3, "duration: 0 s", 3, "duration", "expected a value > 0 s"},
+    {4, "density: -1e-4 kg/m", 4, "density", "expected a value >= 0 kg/m"},
+    {6, "  stiffness: -1 N", 6, "stiffness", "expected a value >= 0 N"},
+    {7, "  viscosity: -1 N s", 7, "viscosity", "expected a value >= 0 N s"},
+    {10, "  stiffness: 1000 N", 10, "stiffness", "expected a number and its unit, N m^2"},
+    {14, "  gap: -0.1 m", 14, "gap", "expected a value >= 0 m"},
+    {15, "  stiffness: -1 N/m", 15, "stiffness", "expected a value >= 0 N/m"},
+    {18, "  coefficient: -1 N/m", 18, "coefficient", "expected a value >= 0 N/m"},
+    {19, "  regularisation: -1 m/s", 19, "regularisation", "expected a value >= 0 m/s"},
+    /* expressions */
+    {8, "  load: 400*(exp(t) - 1)", 8, "load", "expected an expression and its unit, like 'x*t [N/m]'"},
+    {8, "  load: 400*(exp(t) - 1) [N]", 8, "load", "expected an expression and its unit, like 'x*t [N/m]'"},
+    {8, "  load: 400*(exp(t) - [N/m]", 8, "load", "'400*(exp(t) -' is no expression in x and t"},
+    {8, "  load: y*t [N/m]", 8, "load", "'y*t' is no expression in x and t"},
+    {8, "  load: \"[N/m]\"", 8, "load", "is no expression in x and t"},
+    {8, "  load: 1/0 [N/m]", 8, "load", "expected a finite number"},
+    {8, "  load: sqrt(-1) [N/m]", 8, "load", "expected a finite number"},
+    {8, "  load: [1, 2]", 8, "load", "found a list or a mapping"},
+    {8, "  load: {shape: \"x [1]\"}", 8, "load", "expected 'shape: F(x) [1]' and 'history: G(t) [N/m]'"},
+    {8, "  load: {history: \"t [N/m]\"}", 8, "load", "expected 'shape: F(x) [1]' and 'history: G(t) [N/m]'"},
+    {8, "  load: {shape: \"t [1]\", history: \"t [N/m]\"}", 8, "load", "expected an expression without t"},
+    {8, "  load: {shape: \"x [1]\", history: \"x [N/m]\"}", 8, "load", "expected an expression without x"},
+    {8, "  load: {shape: \"x [N/m]\", history: \"t [1]\"}", 8, "load", "like 'x*t [1]'"},
+    {8, "  load: {form: \"x [1]\", history: \"t [N/m]\"}", 8, "load", "found 'form', expected"},
+    {8, "  load: {shape: \"x [1]\", shape: \"x [1]\"}", 8, "load", "'shape' is given twice"},
+    {8, "  load: {shape: [1], history: \"t [N/m]\"}", 8, "load", "expected 'shape"},
+    {8, "  displacement: x*t [m]", 8, "displacement", "found 'x*t [m]', expected an expression without t"},
+    /* initial data */
+    {8, "  displacement: 1 + x [m]", 1, "scene", "initial axial displacement is 1 at x = 0, expected 0 where the beam is clamped"},
+    {8, "  velocity: cos(x) [m/s]", 1, "scene", "initial axial velocity is 1 at x = 0"},
+    {8, "  velocity: x/(x - 0.5) [m/s]", 1, "scene", "initial axial velocity is not finite everywhere in [0, L]"},
+    {12, "  displacement: x^2 [m]", 1, "scene", "initial bending displacement needs displacement_slope, its derivative"},
+    {12, "  velocity: x^2 [m/s]", 1, "scene", "initial bending velocity needs velocity_slope, its derivative"},
+    {12, "  displacement: x^2 [m]\n  displacement_slope: 3*x [1]", 1, "scene", "expected the derivative of bending displacement there"},
+    {12, "  displacement: x [m]\n  displacement_slope: 1 [1]", 1, "scene", "initial displacement_slope is 1 at x = 0"},
+    {12, "  velocity: x^2 [m/s]\n  velocity_slope: 2*x - 1e-3 [1/s]", 1, "scene", "initial velocity_slope is -0.001 at x = 0"},
+    {12, "  velocity: x^2 [m/s]\n  velocity_slope: 2*x*(1 + 1e-4*x) [1/s]", 1, "scene", "expected the derivative of bending velocity there"},
+    {12, "  displacement: x^2 [m]\n  displacement_slope: 2*x/(x < 0.3) [1]", 1, "scene", "displacement_slope"},
+};
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
+        char text[4096], where[160];
+        struct br_error err = {0};
+        struct br_scene scene;
+        spoilt(refusals[i].line, refusals[i].replacement, text, sizeof text);
+        const enum br_status status = read_text(text, &scene, &err);
+        br_scene_clear(&scene);
+        REFUSED(status, BR_BAD_INPUT, refusals[i].text);
+        snprintf(where, sizeof where, "%s:%zu: %s: ", path, refusals[i].told, refusals[i].key);
+        REFUSED(status, BR_BAD_INPUT, where);
+    }
+}
+
+/* Whole files: not YAML, or parts that mean nothing without another. */
+#define TOP "title: t\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
+#define AXIAL "axial: {stiffness: 1 N, viscosity: 1 N s}\n"
+#define BENDING "bending: {stiffness: 1 N m^2, viscosity: 1 N m^2 s}\n"
+#define CONTACT "contact: {gap: 0 m, stiffness: 1 N/m}\n"
+static const struct {
+    const char *text, *message;
+} files[] = {
+    {"", ":1: scene: the file is empty"},
+    {"# nothing\n", ":1: scene: the file is empty"},
+    {"just words\n", ":1: scene: expected a mapping of keys to values"},
+    {"- a\n- b\n", ":1: scene: expected a mapping of keys to values"},
+    {"title: \"t\n", "not YAML: "},
+    {"title: t\nlength: {1 m\nduration: 1 s\n", "not YAML: "},
+    {"title: t\n\tlength: 1 m\n", ":2: not YAML: "},
+    {TOP, "neither axial nor bending is modelled"},
+    {TOP BENDING "friction: {law: coulomb, coefficient: 1 N/m}\n",
+     "Coulomb friction takes its bound from the contact, which is not modelled"},
+    {TOP AXIAL CONTACT "friction: {law: tresca, bound: 1 N}\n",
+     "friction needs the bending part, which is not modelled"},
+    {TOP BENDING CONTACT, "contact needs the axial part, which is not modelled"},
+    {TOP "axial: {stiffness: 0 N, viscosity: 0 N s}\n",
+     "axial: stiffness plus viscosity is 0, expected a finite number > 0"},
+    {TOP "bending: {stiffness: 0 N m^2, viscosity: 0 N m^2 s}\n",
+     "bending: stiffness plus viscosity is 0"},
+    {TOP "axial: {stiffness: 1e308 N, viscosity: 1e308 N s}\n", "stiffness plus viscosity is inf"},
+};
+
+static void test_files(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        struct br_error err = {0};
+        struct br_scene scene;
+        const enum br_status status = read_text(files[i].text, &scene, &err);
+        br_scene_clear(&scene);
+        REFUSED(status, BR_BAD_INPUT, files[i].message);
+        REFUSED(status, BR_BAD_INPUT, path);
+    }
+}
+
+/* A byte that is not UTF-8, and a file cut anywhere: refused or read, never a crash. */
+static void test_mangled(void **state)
+{
+    (void)state;
+    char text[4096];
+    struct br_error err = {0};
+    struct br_scene scene;
+    spoilt(0, NULL, text, sizeof text);
+    const size_t length = strlen(text);
+    for (size_t cut = 0; cut < length; cut++) {
+        char copy[4096];
+        memcpy(copy, text, cut);
+        copy[cut] = '\0';
+        if (read_text(copy, &scene, &err))
+            assert_int_equal(err.status, BR_BAD_INPUT);
+        br_scene_clear(&scene);
+        memcpy(copy, text, length + 1);
+        copy[cut] = (char)0xff;
+        assert_int_equal(read_text(copy, &scene, &err), BR_BAD_INPUT);
+        br_scene_clear(&scene);
+    }
+}
+
+static void test_no_file(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene;
+    REFUSED(br_scene_read("/nowhere/at/all.yaml", &scene, &err), BR_BAD_INPUT, "/nowhere/at/all");
+    br_scene_clear(&scene);
+    REFUSED(br_scene_read("/tmp", &scene, &err), BR_BAD_INPUT, "/tmp");
+    br_scene_clear(&scene);
+    char found[1024];
+    REFUSED(br_scene_find("example9", found, sizeof found, &err), BR_BAD_INPUT,
+            "scene 'example9' is no file and no bundled scene");
+    MUST(br_scene_find(path, found, sizeof found, &err));
+    assert_string_equal(found, path);
+}
+
+/* ---- good scenes ---- */
+
+static double load_at(const struct br_load *load, double x, double t)
+{
+    double space, time;
+    br_function_evaluate(&load->space, 1, &x, t, &space);
+    br_function_evaluate(&load->time, 1, &x, t, &time);
+    return space * time;
+}
+
+/* The data of section 3.2 of the paper. */
+static const struct {
+    const char *name;
+    double duration, axial, bending; /* loads at (x, t) = (0.3, 0.7) */
+    enum br_friction_law law;
+    double coefficient;
+} paper[] = {
+    {"example1", 1, 405.5010829881906, -10137.527074704765, BR_COULOMB, 5e6},
+    {"example2", 1, 101.37527074704765, -1013.7527074704765, BR_COULOMB, 1e4},
+    {"example3", 1, 0, -7000, BR_TRESCA, 3000},
+    {"example4", 3, 87.5, 8910.065241883679, BR_COULOMB, 5e4},
+};
+
+static void check_paper(size_t i)
+{
+    struct br_scene s = br_test_bundled(paper[i].name);
+    assert_string_equal(s.name, paper[i].name);
+    assert_non_null(strstr(s.title, "Example "));
+    assert_true(s.length == 1 && s.duration == paper[i].duration && s.density == 1e-4);
+    assert_true(s.bending.modelled && s.bending.stiffness == 1000 && s.bending.viscosity == 1);
+    assert_int_equal(s.friction.law, paper[i].law);
+    assert_true(s.friction.coefficient == paper[i].coefficient);
+    assert_true(s.friction.regularisation == 1e-10);
+    CLOSE(load_at(&s.bending.load, 0.3, 0.7), paper[i].bending, 1e-8);
+    const bool axial = paper[i].law == BR_COULOMB;
+    assert_true(s.axial.modelled == axial && s.contact.modelled == axial);
+    if (axial) {
+        assert_true(s.axial.stiffness == 1000 && s.axial.viscosity == 1);
+        assert_true(s.contact.gap == 0 && s.contact.stiffness == 1e3);
+        CLOSE(load_at(&s.axial.load, 0.3, 0.7), paper[i].axial, 1e-9);
+    }
+    const struct br_function *initial[] = {&s.axial.displacement, &s.axial.velocity,
+                                           &s.bending.displacement, &s.bending.velocity};
+    for (size_t f = 0; f < 4; f++)
+        assert_true(br_function_is_zero(initial[f]));
+    br_scene_clear(&s);
+}
+
+static void test_bundled(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof paper / sizeof *paper; i++)
+        check_paper(i);
+}
+
+/* Where a load goes: what depends on x is space, what depends on t alone is time. */
+static const struct {
+    const char *load;
+    bool space_x, space_t, time_x, time_t_;
+    double value; /* at x = 0.5, t = 2 */
+} loads[] = {
+    {"7 [N/m]", false, false, false, false, 7},
+    {"\"2*pi  [N/m]\"", false, false, false, false, 6.283185307179586},
+    {"3*t [N/m]", false, false, false, true, 6},
+    {"3*x [N/m]", true, false, false, false, 1.5},
+    {"x*t [N/m]", true, true, false, false, 1},
+    {"{shape: \"x^2 [1]\", history: \"expm1(t) [N/m]\"}", true, false, false, true,
+     1.5972640247326626},
+    {"{history: \"log(e) [N/m]\", shape: \"4 [1]\"}", false, false, false, false, 4},
+    {"\"t > 1 ? min(x, 3) : abs(-x) [N/m]\"", true, true, false, false, 0.5},
+};
+
+static void test_loads(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof loads / sizeof *loads; i++) {
+        struct br_error err = {0};
+        struct br_scene s;
+        char text[4096], line[256];
+        snprintf(line, sizeof line, "  load: %s", loads[i].load);
+        spoilt(12, line, text, sizeof text);
+        MUST(read_text(text, &s, &err));
+        const struct br_load *load = &s.bending.load;
+        assert_true(load->space.uses_x == loads[i].space_x);
+        assert_true(load->space.uses_t == loads[i].space_t);
+        assert_true(load->time.uses_x == loads[i].time_x);
+        assert_true(load->time.uses_t == loads[i].time_t_);
+        CLOSE(load_at(load, 0.5, 2), loads[i].value, 1e-14);
+        br_scene_clear(&s);
+    }
+}
+
+static void test_good_initial_data(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene s;
+    char text[4096];
+    spoilt(12,
+           "  displacement: 1 - cos(3*x) [m]\n  displacement_slope: 3*sin(3*x) [1]\n"
+           "  velocity: x^3*exp(-x) [m/s]\n  velocity_slope: (3*x^2 - x^3)*exp(-x) [1/s]",
+           text, sizeof text);
+    MUST(read_text(text, &s, &err));
+    assert_true(s.bending.displacement.uses_x && !s.bending.displacement.uses_t);
+    assert_true(br_function_is_zero(&s.bending.load.space) ||
+                br_function_is_zero(&s.bending.load.time)); /* no load is given */
+    const double x = 0.4;
+    double value;
+    br_function_evaluate(&s.bending.velocity_slope, 1, &x, 0, &value);
+    CLOSE(value, (3 * x * x - x * x * x) * exp(-x), 1e-15);
+    br_scene_clear(&s);
+}
+
+/* A clone lives on without its source, and is another instance. */
+static void test_clone(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_function f = br_test_function("x + 10*t"), copy;
+    MUST(br_function_clone(&f, &copy, &err));
+    assert_true(copy.self != f.self && copy.uses_x && copy.uses_t);
+    br_function_free(&f);
+    const double x[] = {1, 2, 3};
+    double value[3];
+    br_function_evaluate(&copy, 3, x, 0.5, value);
+    for (int i = 0; i < 3; i++)
+        CLOSE(value[i], x[i] + 5, 0);
+    br_function_free(&copy);
+    br_function_free(&copy);
+}
+
+/* Every number of a scene built by hand, as a NaN, an infinity and a negative one. */
+static void test_check(void **state)
+{
+    (void)state;
+    static const double bad[] = {NAN, INFINITY, -INFINITY, -1};
+    for (size_t b = 0; b < 4; b++) {
+        struct br_scene s = br_test_bare();
+        s.contact.modelled = true;
+        double *const numbers[] = {
+            &s.length, &s.duration, &s.density, &s.axial.stiffness, &s.axial.viscosity,
+            &s.bending.stiffness, &s.bending.viscosity, &s.contact.gap, &s.contact.stiffness,
+            &s.friction.coefficient, &s.friction.regularisation};
+        struct br_error err = {0};
+        MUST(br_scene_check(&s, &err));
+        for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+            const double value = *numbers[i];
+            *numbers[i] = bad[b];
+            REFUSED(br_scene_check(&s, &err), BR_BAD_INPUT, "expected a finite number");
+            *numbers[i] = value;
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_refusals),  cmocka_unit_test(test_files),
+        cmocka_unit_test(test_mangled),   cmocka_unit_test(test_no_file),
+        cmocka_unit_test(test_bundled),   cmocka_unit_test(test_loads),
+        cmocka_unit_test(test_good_initial_data), cmocka_unit_test(test_clone),
+        cmocka_unit_test(test_check),
+    };
+    return cmocka_run_group_tests(tests, make_file, remove_file);
+}
