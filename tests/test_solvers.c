@@ -227,13 +227,17 @@ static void test_not_finite(void **state)
         br_march_free(march);
         br_scene_clear(&scene);
 
-        scene = br_test_bare();
-        scene.axial.load = br_test_load("1e307*10^(100*t)");
-        march = br_test_march(&scene, 3, 10, &method);
+        scene = br_test_bare(); /* unstable: the lagged contact, without viscosity */
+        scene.duration = 1000;
+        scene.axial.viscosity = 0;
+        scene.axial.load = br_test_load("1");
+        scene.contact = (struct br_contact){.modelled = true, .gap = 0.1, .stiffness = 1000};
+        march = br_test_march(&scene, 4, 800, &method);
         enum br_status status = BR_OK;
-        while (!status && br_march_steps_done(march) < 10)
+        while (!status && br_march_steps_done(march) < 800)
             status = br_march_step(march, &err);
-        assert_int_equal(status, BR_NOT_FINITE);
+        REFUSED(status, BR_NOT_FINITE, "the march blew up at t = ");
+        REFUSED(status, BR_NOT_FINITE, "of 800, k = 1.25 s): the axial velocity of the tip is");
         br_march_free(march);
         br_scene_clear(&scene);
     }

@@ -312,9 +312,7 @@ static void test_unstable_cell(void **state)
     s.reference_method.contact = br_contact_rule_find("implicit");
     MUST(br_study_run(&s, 1, 2, NULL, &err));
     assert_failed(br_study_cell(&s, 0, 0), BR_NOT_FINITE);
-    assert_non_null(strstr(br_study_cell(&s, 0, 0)->failure.message, "the march blew up at t ="));
     assert_failed(br_study_cell(&s, 0, 1), BR_NOT_FINITE);
-    assert_non_null(strstr(br_study_cell(&s, 0, 1)->failure.message, "error"));
     assert_well(br_study_cell(&s, 0, 2));
     br_study_clear(&s);
     br_scene_clear(&scene);
