@@ -163,19 +163,17 @@ static enum br_status read_reference(const char *text, struct br_study_request *
                                      struct br_error *err)
 {
     static const char prefix[] = "fine:";
-    double values[2];
+    double n = 0, k = 0;
     const bool fine = strncmp(text, prefix, strlen(prefix)) == 0;
-    const char *rest = fine ? br_read_number(text + strlen(prefix), &values[0]) : NULL;
-    if (rest && *rest == ',')
-        rest = br_read_number(rest + 1, &values[1]);
-    if (!rest || *rest || !(values[0] >= 1 && values[0] <= 1e9) || values[0] != floor(values[0]) ||
-        !(values[1] > 0))
+    const char *comma = fine ? br_read_number(text + strlen(prefix), &n) : NULL;
+    const char *end = comma && *comma == ',' ? br_read_number(comma + 1, &k) : NULL;
+    if (!end || *end || !(n >= 1 && n <= 1e9) || n != floor(n) || !(k > 0))
         return br_fail(err, BR_BAD_INPUT,
                        "--reference: found '%s', expected fine:N,K with a number of elements N >= 1 "
                        "and a time step K > 0 in seconds, like fine:12800,1e-5",
                        text);
-    r->reference_n = (size_t)values[0];
-    r->reference_k = values[1];
+    r->reference_n = (size_t)n;
+    r->reference_k = k;
     return BR_OK;
 }
 

@@ -7,14 +7,15 @@
 
 typedef long double real;
 
-/* The terms of (27) and (28), whose sum is the residual. C v_{n-1} is none, but is what a
- * motion that stops in this step is measured by. */
+/* The terms of (27) and (28), whose sum is the residual; and those of the state before,
+ * which a solver starts from, for the size of a motion that stops in this step. */
 enum term {
     INERTIA_AFTER,  /*  M v_n / k */
     INERTIA_BEFORE, /* -M v_{n-1} / k */
     VISCOUS,        /*  C v_n */
-    VISCOUS_BEFORE, /*  C v_{n-1}, for the size alone */
     ELASTIC,        /*  K w_n */
+    RATE_BEFORE,    /*  (C + kK) v_{n-1}, for the size alone */
+    ELASTIC_BEFORE, /*  K w_{n-1}, for the size alone */
     LOAD,           /* -F_n */
     TIP,            /*  the force that resists the tip */
     RESIDUAL,
@@ -100,14 +101,16 @@ static void element_terms(const struct balance *b, size_t e, real out[TERMS][4])
     mass_times(b, f->velocity + first, out[INERTIA_AFTER]);
     mass_times(b, f->velocity_before + first, out[INERTIA_BEFORE]);
     stiffness_times(b, f->velocity + first, out[VISCOUS]);
-    stiffness_times(b, f->velocity_before + first, out[VISCOUS_BEFORE]);
     stiffness_times(b, f->displacement + first, out[ELASTIC]);
+    stiffness_times(b, f->velocity_before + first, out[RATE_BEFORE]);
+    stiffness_times(b, f->displacement_before + first, out[ELASTIC_BEFORE]);
     for (size_t i = 0; i < 2 * b->unknowns; i++) {
         out[INERTIA_AFTER][i] /= b->k;
         out[INERTIA_BEFORE][i] /= -b->k;
         out[VISCOUS][i] *= b->viscosity;
-        out[VISCOUS_BEFORE][i] *= b->viscosity;
         out[ELASTIC][i] *= b->stiffness;
+        out[RATE_BEFORE][i] *= b->viscosity + b->k * b->stiffness;
+        out[ELASTIC_BEFORE][i] *= b->stiffness;
         out[RESIDUAL][i] =
             out[INERTIA_AFTER][i] + out[INERTIA_BEFORE][i] + out[VISCOUS][i] + out[ELASTIC][i];
     }
@@ -115,8 +118,8 @@ static void element_terms(const struct balance *b, size_t e, real out[TERMS][4])
 
 static void add_element_node(struct balance *b, real forces[TERMS][4], size_t node)
 {
-    static const enum term of_elements[] = {INERTIA_AFTER,  INERTIA_BEFORE, VISCOUS,
-                                            VISCOUS_BEFORE, ELASTIC,        RESIDUAL};
+    static const enum term of_elements[] = {INERTIA_AFTER, INERTIA_BEFORE, VISCOUS, ELASTIC,
+                                            RATE_BEFORE,   ELASTIC_BEFORE, RESIDUAL};
     for (size_t i = 0; i < sizeof of_elements / sizeof *of_elements; i++)
         add_node(b, of_elements[i], forces[of_elements[i]] + node * b->unknowns, 1);
 }
@@ -262,7 +265,7 @@ static double contact_error(const struct br_step *s)
     else
         return NAN;
     const double wanted = c->stiffness * positive(at_tip(s, BR_AXIAL, u) - c->gap);
-    const double scale = fabs(force) + c->stiffness * (magnitude(u, s->n + 1) + c->gap);
+    const double scale = fabs(force) + c->stiffness * (field_scale(s, BR_AXIAL) + c->gap);
     return ratio(fabs(force - wanted), scale);
 }
 
@@ -276,6 +279,14 @@ static double bound_of(const struct br_step *s)
         return 0;
     const double u = at_tip(s, BR_AXIAL, s->field[BR_AXIAL].displacement);
     return scene->friction.coefficient * positive(u - scene->contact.gap);
+}
+
+/* What the bound is rounded to, where it is found from u_n - g. */
+static double bound_scale(const struct br_step *s)
+{
+    if (s->scene->friction.law != BR_COULOMB)
+        return 0;
+    return s->scene->friction.coefficient * (field_scale(s, BR_AXIAL) + s->scene->contact.gap);
 }
 
 /* Distance of (v, lambda), in their own units of size, from the graph of (12): the
@@ -306,7 +317,7 @@ static double friction_error(const struct br_step *s)
     const double *nodal = s->field[BR_BENDING].velocity;
     const double speed = field_scale(s, BR_BENDING) / s->k;
     const double bound = bound_of(s);
-    const double force = larger(fabs(lambda), bound);
+    const double force = larger(fabs(lambda), bound) + bound_scale(s);
     const double told = ratio(fabs(s->tip.friction_bound - bound), force);
     const double v = ratio(at_tip(s, BR_BENDING, nodal), speed);
     const double l = ratio(lambda, force), b = ratio(bound, force);

@@ -305,27 +305,19 @@ static void lockstep_clear(struct lockstep *l)
 
 /* ---- running ---- */
 
-/* Element-steps of all the marches of a study: what progress is measured in. */
-static double work_of(const struct br_study *s)
-{
-    double work = (double)s->reference.n * (double)s->reference.steps;
-    for (size_t i = 0; i < s->n_count * s->k_count; i++)
-        work += (double)s->cell[i].at.n * (double)s->cell[i].at.steps;
-    return work;
-}
-
 /* All the studies of a call, and how far they are. */
 struct crew {
     struct lockstep *step;
     size_t count;
-    double work;
     atomic_size_t finished_batches;
     size_t all_batches;
     const struct br_observer *observer;
 };
 
-static void tell(struct crew *crew)
+static void tell(struct crew *crew, struct lockstep *l)
 {
+    if (atomic_load(&l->stopped))
+        return;
     const size_t done = atomic_fetch_add(&crew->finished_batches, 1) + 1;
     if (crew->observer && crew->observer->progress)
         crew->observer->progress(crew->observer->self, (double)done / (double)crew->all_batches);
@@ -341,7 +333,7 @@ static void spawn_batch(struct crew *crew, struct lockstep *l, size_t b)
 #pragma omp task depend(inout : reference[0]) depend(inout : buffer[0])
     {
         reference_batch(l, b);
-        tell(crew);
+        tell(crew, l);
     }
     for (size_t i = 0; i < l->study->n_count * l->study->k_count; i++) {
         struct runner *cell = &l->cell[i];
@@ -387,7 +379,6 @@ enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
     enum br_status status = BR_OK;
     for (size_t s = 0; s < count && !status; s++) {
         status = lockstep_create(&crew.step[s], &studies[s], observer, err);
-        crew.work += work_of(&studies[s]);
         crew.all_batches += crew.step[s].batches;
     }
     if (!status) {
