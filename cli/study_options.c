@@ -45,6 +45,15 @@ static const char *friction_names(void)
     return text;
 }
 
+static const char *judge_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_judge *const *j = br_judges; *j; j++)
+        join(text, sizeof text, (*j)->syntax);
+    return text;
+}
+
 static const char *format_names(void)
 {
     static char text[256];
@@ -61,6 +70,9 @@ static void print_registries(FILE *out)
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
         fprintf(out, "  %-12s %s%s%s\n", (*s)->name, (*s)->title,
                 *(*s)->options ? "; heeds " : "", (*s)->options);
+    fprintf(out, "References (--reference):\n");
+    for (const struct br_judge *const *j = br_judges; *j; j++)
+        fprintf(out, "  %-12s %s\n", (*j)->syntax, (*j)->title);
     fprintf(out, "Contact (--contact):\n");
     for (const struct br_contact_rule *const *c = br_contact_rules; *c; c++)
         fprintf(out, "  %-12s %s\n", (*c)->name, (*c)->title);
@@ -113,7 +125,7 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
         {"n", 0, POPT_ARG_STRING, &o->n, 0, "elements of the meshes", "LIST"},
         {"k", 0, POPT_ARG_STRING, &o->k, 0, "time steps, s", "LIST"},
         {"reference", 0, POPT_ARG_STRING, &o->reference, 0,
-         "judge by a fine run of N elements and steps of K seconds", "fine:N,K"},
+         "what the cells are judged by: exact, or fine:N,K", "NAME"},
         {"solver", 0, POPT_ARG_STRING, &o->solver, 0, "linear solver", "NAME"},
         {"reference-solver", 0, POPT_ARG_STRING, &o->reference_solver, 0,
          "that of the reference, where it differs", "NAME"},
@@ -158,14 +170,18 @@ void br_study_options_clear(struct br_study_options *o)
     }
 }
 
-/* "fine:N,K" */
-static enum br_status read_reference(const char *text, struct br_study_request *r,
-                                     struct br_error *err)
+static enum br_status unknown(const char *option, const char *found, const char *names,
+                              struct br_error *err)
 {
-    static const char prefix[] = "fine:";
+    return br_fail(err, BR_BAD_INPUT, "--%s: found '%s', expected one of: %s", option, found, names);
+}
+
+/* "fine:N,K" behind the colon */
+static enum br_status read_fine(const char *text, const char *arguments,
+                                struct br_study_request *r, struct br_error *err)
+{
     double n = 0, k = 0;
-    const bool fine = strncmp(text, prefix, strlen(prefix)) == 0;
-    const char *comma = fine ? br_read_number(text + strlen(prefix), &n) : NULL;
+    const char *comma = br_read_number(arguments, &n);
     const char *end = comma && *comma == ',' ? br_read_number(comma + 1, &k) : NULL;
     if (!end || *end || !(n >= 1 && n <= 1e9) || n != floor(n) || !(k > 0))
         return br_fail(err, BR_BAD_INPUT,
@@ -177,10 +193,19 @@ static enum br_status read_reference(const char *text, struct br_study_request *
     return BR_OK;
 }
 
-static enum br_status unknown(const char *option, const char *found, const char *names,
-                              struct br_error *err)
+/* A judge's name, and for a fine run its arguments. */
+static enum br_status read_reference(const char *text, struct br_study_request *r,
+                                     struct br_error *err)
 {
-    return br_fail(err, BR_BAD_INPUT, "--%s: found '%s', expected one of: %s", option, found, names);
+    char name[32];
+    const size_t length = strcspn(text, ":");
+    snprintf(name, sizeof name, "%.*s", (int)(length < 31 ? length : 31), text);
+    r->judge = br_judge_find(name);
+    if (!r->judge || (text[length] == ':' && !r->judge->nests))
+        return unknown("reference", text, judge_names(), err);
+    if (!r->judge->nests)
+        return BR_OK;
+    return read_fine(text, text + length + (text[length] == ':'), r, err);
 }
 
 static enum br_status read_method(const struct br_study_options *o, struct br_study_request *r,

@@ -21,6 +21,7 @@ struct br_study_request {
     size_t *n; /* n_count; owned */
     double *k; /* k_count, s; owned */
     size_t n_count, k_count;
+    const struct br_judge *judge; /* NULL: not said */
     size_t reference_n;
     double reference_k; /* s */
     struct br_method method, reference_method;

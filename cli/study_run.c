@@ -27,8 +27,10 @@ struct session {
     const struct br_study_options *options;
     struct br_study_request request;
     struct work *work;
-    struct br_study *study; /* count, in one array for br_study_run */
-    size_t count;
+    struct br_study *study; /* in one array for br_study_run: first one a job, then those
+                               against the exact solution */
+    size_t count;   /* jobs */
+    size_t studies; /* count, or twice that */
     struct br_output output;
     struct br_provenance provenance;
 };
@@ -49,16 +51,8 @@ static enum br_status read_whole(const char *path, char **text, struct br_error 
 /* ---- the grid ---- */
 
 /* Without --n: 25, 50, 100, 200; without --k: T over 100, 200, 400, 800; without
- * --reference: four times the finest of each. */
-enum { DEFAULT_COUNT = 4, DEFAULT_N = 25, DEFAULT_STEPS = 100, DEFAULT_FINER = 4 };
-
-static size_t largest(const size_t *values, size_t count)
-{
-    size_t most = 0;
-    for (size_t i = 0; i < count; i++)
-        most = values[i] > most ? values[i] : most;
-    return most;
-}
+ * --reference: exact. */
+enum { DEFAULT_COUNT = 4, DEFAULT_N = 25, DEFAULT_STEPS = 100 };
 
 /* values, sorted in ascending order, or the default sequence. */
 static enum br_status fill_counts(const size_t *given, size_t count, size_t first, size_t **out,
@@ -94,6 +88,18 @@ static enum br_status make_steps(const struct br_scene *scene, const struct br_s
     return status;
 }
 
+/* The fine run's resolution, and who measures its own error. */
+static enum br_status set_fine(const struct session *s, struct br_study *study,
+                               struct br_error *err)
+{
+    struct br_error inner = {0};
+    study->reference.n = s->request.reference_n;
+    if (br_steps_of(study->scene, s->request.reference_k, &study->reference.steps, &inner))
+        return br_fail(err, BR_BAD_INPUT, "--reference: %s", inner.message);
+    study->auditor = &br_judge_exact;
+    return BR_OK;
+}
+
 static enum br_status make_grid(struct session *s, size_t i, struct br_error *err)
 {
     struct work *w = &s->work[i];
@@ -111,14 +117,8 @@ static enum br_status make_grid(struct session *s, size_t i, struct br_error *er
     study->reference_method = r->reference_method;
     study->n = w->n;
     study->steps = w->steps;
-    study->reference.n = r->reference_n ? r->reference_n
-                                        : DEFAULT_FINER * largest(w->n, study->n_count);
-    study->reference.steps = DEFAULT_FINER * largest(w->steps, study->k_count);
-    struct br_error inner = {0};
-    if (r->reference_n &&
-        br_steps_of(&w->scene, r->reference_k, &study->reference.steps, &inner))
-        return br_fail(err, BR_BAD_INPUT, "--reference: %s", inner.message);
-    return BR_OK;
+    study->judge = r->judge;
+    return r->judge->nests ? set_fine(s, study, err) : BR_OK;
 }
 
 /* ---- the printed values ---- */
@@ -141,6 +141,17 @@ static enum br_status read_printed(const char *relative, struct work *w,
     return status;
 }
 
+/* The same cells against the exact solution. */
+static void add_exact(struct session *s, size_t i)
+{
+    struct br_study *exact = &s->study[s->count + i];
+    *exact = s->study[i];
+    exact->judge = &br_judge_exact;
+    exact->auditor = NULL;
+    exact->reference = (struct br_resolution){0};
+    s->work[i].report.exact = exact;
+}
+
 static enum br_status prepare(struct session *s, size_t i, const struct br_study_job *job,
                               struct br_error *err)
 {
@@ -157,6 +168,8 @@ static enum br_status prepare(struct session *s, size_t i, const struct br_study
     w->report.name = job->name ? job->name : w->scene.name;
     w->report.caption = job->caption ? job->caption : w->scene.title;
     w->report.study = &s->study[i];
+    if (!status && s->studies > s->count)
+        add_exact(s, i);
     return status;
 }
 
@@ -174,7 +187,7 @@ static enum br_status compute(struct session *s, struct br_error *err)
     const double start = now();
     const struct br_observer *observer = br_progress_start("marching", s->options->quiet);
     enum br_status status =
-        br_study_run(s->study, s->count, s->options->threads, observer, err);
+        br_study_run(s->study, s->studies, s->options->threads, observer, err);
     br_progress_end();
     const double wall = now() - start;
     for (size_t i = 0; i < s->count && !status; i++) {
@@ -302,7 +315,7 @@ static void session_clear(struct session *s)
         free(s->work[i].n);
         free(s->work[i].steps);
     }
-    for (size_t i = 0; s->study && i < s->count; i++)
+    for (size_t i = 0; s->study && i < s->studies; i++)
         br_study_clear(&s->study[i]);
     free(s->work);
     free(s->study);
@@ -311,14 +324,18 @@ static void session_clear(struct session *s)
 }
 
 enum br_status br_study_run_jobs(const struct br_study_job *jobs, size_t count,
-                                 const struct br_study_options *options, struct br_error *err)
+                                 const struct br_study_options *options, bool with_exact,
+                                 struct br_error *err)
 {
     struct session s = {.options = options, .count = count};
+    enum br_status status = br_study_request_read(options, &s.request, err);
+    if (!s.request.judge)
+        s.request.judge = &br_judge_exact;
+    s.studies = with_exact && s.request.judge->nests ? 2 * count : count;
     s.work = br_allocate(count, sizeof *s.work);
-    s.study = br_allocate(count, sizeof *s.study);
-    enum br_status status = s.work && s.study ? BR_OK : br_no_memory(err, "the studies");
-    if (!status)
-        status = br_study_request_read(options, &s.request, err);
+    s.study = br_allocate(s.studies, sizeof *s.study);
+    if (!status && (!s.work || !s.study))
+        status = br_no_memory(err, "the studies");
     for (size_t i = 0; i < count && !status; i++)
         status = prepare(&s, i, &jobs[i], err);
     if (!status)

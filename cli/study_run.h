@@ -14,9 +14,11 @@ struct br_study_job {
 };
 
 /* Runs the jobs, prints their tables and writes all results into options->out.
+ * with_exact: a fine reference gets the exact one beside it.
  * Fails with the status of what failed; a failed cell is BR_NOT_FINITE, after
  * everything has been written. */
 enum br_status br_study_run_jobs(const struct br_study_job *jobs, size_t count,
-                                 const struct br_study_options *options, struct br_error *err);
+                                 const struct br_study_options *options, bool with_exact,
+                                 struct br_error *err);
 
 #endif

@@ -38,14 +38,15 @@ static enum br_status run(int argc, const char **argv, struct br_error *err)
         argc, argv,
         "tables [OPTION...]\n\nThe paper's Tables 1 and 2 beside the printed values, on the printed "
         "grids\n(n = 100 to 3200, k = 0.01 to 0.0001 s) and with the printed reference\n"
-        "(n = 12800, k = 1e-5 s) unless --n, --k or --reference say otherwise.\n\nExample:\n  "
+        "(n = 12800, k = 1e-5 s) unless --n, --k or --reference say otherwise, and against\nthe exact "
+        "solution, by which the orders are fitted.\n\nExample:\n  "
         "beamrate tables --out results\n",
         &options, NULL, err);
     if (!status && !options.help)
         status = fill_printed_grid(&options, err);
     if (!status && !options.help)
         status = br_study_run_jobs(printed_tables, sizeof printed_tables / sizeof *printed_tables,
-                                   &options, err);
+                                   &options, true, err);
     br_study_options_clear(&options);
     return status;
 }

@@ -10,7 +10,7 @@ enum { MOST_ENTRIES = 8, MOST_SPACED_ENTRIES = 6 };
 
 static bool always(const struct br_report *report)
 {
-    return report->study->n_count > 0 && report->study->k_count > 0;
+    return br_report_fitted(report)->n_count > 0 && br_report_fitted(report)->k_count > 0;
 }
 
 /* The other axis' list: a curve for each entry. */
@@ -98,9 +98,9 @@ static void write_script_h(FILE *out, const struct br_report *report, const char
 {
     struct br_order order[4] = {{0.5, "1/2  bound (26)"}, {1, "1  Remark 2.5"}};
     size_t orders = 2;
-    if (report->study->scene->axial.modelled)
+    if (br_report_fitted(report)->scene->axial.modelled)
         order[orders++] = (struct br_order){2, "2  axial, P1"};
-    if (report->study->scene->bending.modelled)
+    if (br_report_fitted(report)->scene->bending.modelled)
         order[orders++] = (struct br_order){4, "4  bending, Hermite"};
     write_page(out, report, &br_plot_h, stem,
                &(struct br_frame){.axis = BR_OVER_H, .order = order, .orders = orders});

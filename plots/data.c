@@ -31,14 +31,14 @@ size_t br_largest(const size_t *list, size_t count)
 
 const size_t *br_axis_list(const struct br_report *report, enum br_axis axis, size_t *count)
 {
-    const struct br_study *study = report->study;
+    const struct br_study *study = br_report_fitted(report);
     *count = axis == BR_OVER_H ? study->n_count : study->k_count;
     return axis == BR_OVER_H ? study->n : study->steps;
 }
 
 double br_axis_value(const struct br_report *report, enum br_axis axis, size_t entry)
 {
-    const struct br_scene *scene = report->study->scene;
+    const struct br_scene *scene = br_report_fitted(report)->scene;
     return axis == BR_OVER_H ? br_mesh_size(scene, entry) : br_time_step(scene, entry);
 }
 
@@ -51,7 +51,7 @@ static enum br_axis other(enum br_axis axis)
 static size_t place(const struct br_report *report, enum br_axis axis, size_t at, size_t fixed)
 {
     const size_t i = axis == BR_OVER_H ? at : fixed, j = axis == BR_OVER_H ? fixed : at;
-    return i * report->study->k_count + j;
+    return i * br_report_fitted(report)->k_count + j;
 }
 
 /* A logarithmic axis has room for positive numbers only. */
@@ -88,8 +88,12 @@ void br_write_heading(FILE *out, const struct br_report *report, const struct br
     br_write_comment(out, report->caption);
     fputs("# ", out);
     br_write_comment(out, plot->title);
-    fprintf(out, "# Reference: n = %zu elements, N = %zu steps\n", report->study->reference.n,
-            report->study->reference.steps);
+    const struct br_study *study = br_report_fitted(report);
+    if (study->judge->nests)
+        fprintf(out, "# Reference: n = %zu elements, N = %zu steps\n", study->reference.n,
+                study->reference.steps);
+    else
+        fprintf(out, "# Reference: %s\n", study->judge->title);
     fputs("# A flag tells why a cell is left out of the fits; - for none. NaN: failed.\n\n", out);
 }
 
@@ -112,7 +116,7 @@ static void write_block_heading(FILE *out, const struct br_report *report, enum 
 static void write_row(FILE *out, const struct br_report *report, size_t cell,
                       const struct br_columns *columns)
 {
-    const struct br_cell *shown = &report->study->cell[cell];
+    const struct br_cell *shown = &br_report_fitted(report)->cell[cell];
     for (size_t p = 0; p < columns->parts; p++) {
         const enum br_part part = columns->part[p];
         const char *flag = br_flag_name(shown->flag[part]);
@@ -162,7 +166,7 @@ void br_include_block(struct br_range *range, const struct br_report *report, en
     for (size_t i = 0; i < count; i++) {
         const size_t cell = place(report, axis, i, fixed);
         for (size_t p = 0; p < columns->parts; p++)
-            include(range, shown_error(&report->study->cell[cell], columns->part[p]));
+            include(range, shown_error(&br_report_fitted(report)->cell[cell], columns->part[p]));
         if (columns->printed)
             include(range, report->printed[cell]);
     }

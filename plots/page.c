@@ -128,7 +128,7 @@ void br_write_caption(FILE *out, const struct br_report *report, int width)
 /* Whether a curve of these parts has a hollow mark. */
 static bool has_hollow(const struct br_report *report, const struct br_columns *columns)
 {
-    const struct br_study *study = report->study;
+    const struct br_study *study = br_report_fitted(report);
     for (size_t i = 0; i < study->n_count * study->k_count; i++)
         for (size_t p = 0; p < columns->parts; p++) {
             const enum br_flag flag = study->cell[i].flag[columns->part[p]];

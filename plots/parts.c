@@ -9,14 +9,14 @@ static const struct br_columns columns = {.parts = 3,
 
 static bool applies(const struct br_report *report)
 {
-    const struct br_study *study = report->study;
+    const struct br_study *study = br_report_fitted(report);
     return study->n_count > 0 && study->k_count > 0 && study->scene->axial.modelled &&
            study->scene->bending.modelled;
 }
 
 static void write_data(FILE *out, const struct br_report *report)
 {
-    const struct br_study *study = report->study;
+    const struct br_study *study = br_report_fitted(report);
     br_write_heading(out, report, &br_plot_parts);
     br_write_block(out, report, BR_OVER_H, br_largest(study->steps, study->k_count), &columns);
     br_write_block(out, report, BR_OVER_K, br_largest(study->n, study->n_count), &columns);
@@ -39,7 +39,7 @@ static void write_curves(FILE *out, int block, bool with_key)
 static void write_panels(FILE *out, const struct br_report *report, struct br_frame frame)
 {
     static const struct br_order over_h[] = {{1, "1"}, {2, "2"}, {4, "4"}}, over_k = {1, "1"};
-    const struct br_study *study = report->study;
+    const struct br_study *study = br_report_fitted(report);
     const size_t n = study->n[br_largest(study->n, study->n_count)];
     const size_t steps = study->steps[br_largest(study->steps, study->k_count)];
     char note[64];
@@ -70,7 +70,7 @@ static void write_panels(FILE *out, const struct br_report *report, struct br_fr
 
 static void write_script(FILE *out, const struct br_report *report, const char *stem)
 {
-    const struct br_study *study = report->study;
+    const struct br_study *study = br_report_fitted(report);
     struct br_frame frame = {
         .bottom = 0.125, .top = 0.73, .y = {INFINITY, 0}, .page = BR_PAGE_WIDE};
     br_include_block(&frame.y, report, BR_OVER_H, br_largest(study->steps, study->k_count),

@@ -8,7 +8,7 @@ static const struct br_columns columns = {.parts = 1, .part = {BR_PART_TOTAL}, .
 
 static bool applies(const struct br_report *report)
 {
-    return report->printed && report->study->n_count > 0 && report->study->k_count > 0;
+    return report->printed && br_report_fitted(report)->n_count > 0 && br_report_fitted(report)->k_count > 0;
 }
 
 static void write_data(FILE *out, const struct br_report *report)
@@ -82,7 +82,7 @@ static void write_panel(FILE *out, const struct br_report *report, const struct 
 
 static void write_script(FILE *out, const struct br_report *report, const char *stem)
 {
-    const struct br_study *study = report->study;
+    const struct br_study *study = br_report_fitted(report);
     const size_t over_k = br_distinct(study->n, study->n_count);
     const size_t over_h = br_distinct(study->steps, study->k_count);
     struct br_frame frame = {.axis = BR_OVER_K,

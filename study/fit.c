@@ -10,7 +10,7 @@ const double br_flag_margin = 3;
 
 bool br_order_determined(const struct br_estimate *order)
 {
-    return order->high - order->low <= 1; /* false for NaN */
+    return order->high - order->low <= 1 && order->low > 0; /* false for NaN */
 }
 
 bool br_joint_describes(const struct br_joint_fit *fit)
@@ -96,25 +96,32 @@ static enum br_status fit_joint(const struct br_study *s, enum br_part part,
             o[count++] = (struct br_observation){mesh_of(s, &s->cell[i]), step_of(s, &s->cell[i]),
                                                  s->cell[i].error[part]};
     const enum br_status status =
-        br_joint_fit_solve(o, count, br_mesh_size(s->scene, s->reference.n),
-                           br_time_step(s->scene, s->reference.steps), fit, err);
+        br_joint_fit_solve(o, count, br_reference_mesh(s), br_reference_step(s), fit, err);
     free(o);
     return status;
 }
 
-/* The reference's own error: the model's, against a reference without one. */
-static double reference_error(const struct br_study *s, const struct br_joint_fit *fit)
+/* The reference's own error: by the auditor, by the reference itself, or else by the
+ * model against a reference without one. */
+static double reference_error(const struct br_study *s, enum br_part part,
+                              const struct br_joint_fit *fit)
 {
+    if (s->auditor)
+        return s->reference_error[part];
+    const double *own = s->judged_by.own_error;
+    const double told = part == BR_PART_TOTAL ? own[BR_AXIAL] + own[BR_BENDING]
+                                              : own[part == BR_PART_AXIAL ? BR_AXIAL : BR_BENDING];
+    if (isfinite(told))
+        return told;
     if (!br_joint_describes(fit))
         return NAN;
-    return br_joint_model(fit, br_mesh_size(s->scene, s->reference.n),
-                          br_time_step(s->scene, s->reference.steps), 0, 0);
+    return br_joint_model(fit, br_reference_mesh(s), br_reference_step(s), 0, 0);
 }
 
 /* Predicted round-off of a cell and of the reference, m^(3/2). */
 static double round_off(const struct br_study *s, const struct br_cell *c)
 {
-    double relative = s->round_off;
+    double relative = s->judged_by.round_off;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const bool modelled = kind == BR_AXIAL ? s->scene->axial.modelled
                                                : s->scene->bending.modelled;
@@ -154,7 +161,7 @@ enum br_status br_fit(struct br_study *s, enum br_part part, struct br_fits *fit
     enum br_status status = BR_OK;
     for (int round = 0; round < MOST_ROUNDS && !status; round++) {
         status = fit_joint(s, part, &fits->joint, err);
-        fits->reference_error = reference_error(s, &fits->joint);
+        fits->reference_error = reference_error(s, part, &fits->joint);
         if (set_flags(s, part, fits->reference_error) == 0)
             break;
     }
@@ -165,6 +172,13 @@ enum br_status br_fit(struct br_study *s, enum br_part part, struct br_fits *fit
     if (!status)
         status = fit_lines(s, part, &columns, &fits->by_k, err);
     return status;
+}
+
+void br_flag_beside(struct br_study *s)
+{
+    static const struct br_joint_fit none;
+    for (int part = 0; part < BR_PARTS; part++)
+        set_flags(s, (enum br_part)part, reference_error(s, (enum br_part)part, &none));
 }
 
 void br_fits_clear(struct br_fits *fits)

@@ -10,7 +10,8 @@ struct br_estimate {
     double value, low, high;
 };
 
-/* Whether an order's interval is narrow enough, 1 wide, to say anything. */
+/* Whether an order's interval is narrow enough, 1 wide, and above zero: else it says
+ * nothing. */
 bool br_order_determined(const struct br_estimate *order);
 
 /* Slope of log(error) against log(h) or log(k): what a reader would draw. It means
@@ -56,6 +57,10 @@ bool br_joint_describes(const struct br_joint_fit *fit);
  * stand. Fails with BR_NO_MEMORY; a fit that cannot be done is NaN. */
 enum br_status br_fit(struct br_study *study, enum br_part part, struct br_fits *fits,
                       struct br_error *err);
+/* Sets the flags of a study that is shown but not fitted. Without an auditor its
+ * reference's own error is not known and flags nothing. */
+void br_flag_beside(struct br_study *study);
+
 void br_fits_clear(struct br_fits *fits);
 
 /* The margin: a cell is flagged when its error is below this many times the

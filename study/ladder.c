@@ -3,6 +3,7 @@
 
 #include <gsl/gsl_integration.h>
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 enum { MODES = 4 };
@@ -18,24 +19,20 @@ struct transfer {
 
 struct rung {
     size_t n, modes; /* elements, modes an element */
-    size_t parent;   /* the rung it is projected from; `count`: the finest mesh */
+    size_t parent;   /* what it is projected from: a rung, or `count` + a root */
     size_t ratio;    /* parent's n over n */
     size_t offset;   /* of its modes in a projection; its loss stands before them */
     struct transfer *child; /* ratio of them */
 };
 
 struct br_ladder {
-    size_t finest; /* elements of the reference's mesh */
     size_t count;  /* rungs */
+    size_t roots;
+    size_t *root; /* elements of each */
     size_t size;   /* doubles in a projection */
     size_t modes;
     struct rung *rung;
 };
-
-size_t br_mode_count(enum br_field_kind kind)
-{
-    return kind == BR_AXIAL ? 2 : MODES;
-}
 
 /* P_i on [0, 1], orthonormal. */
 static double legendre(size_t i, double x)
@@ -83,52 +80,68 @@ static enum br_status fill_transfers(struct rung *rung, struct br_error *err)
 /* Elements of the mesh that a rung is projected from. */
 static size_t parent_n(const struct br_ladder *ladder, size_t parent)
 {
-    return parent == ladder->count ? ladder->finest : ladder->rung[parent].n;
+    return parent < ladder->count ? ladder->rung[parent].n : ladder->root[parent - ladder->count];
 }
 
-/* The coarsest finer mesh that this rung's divides. */
-static size_t find_parent(const struct br_ladder *ladder, size_t r)
+/* The coarsest mesh that rung r divides, a finer rung or a root; *parent: which. */
+static bool find_parent(const struct br_ladder *ladder, size_t r, size_t *parent)
 {
-    size_t best = ladder->count;
-    for (size_t i = 0; i < ladder->count; i++) {
-        const size_t n = ladder->rung[i].n;
-        const bool finer = n > ladder->rung[r].n && n % ladder->rung[r].n == 0;
-        if (finer && n < parent_n(ladder, best))
-            best = i;
+    const size_t n = ladder->rung[r].n;
+    bool found = false;
+    for (size_t i = 0; i < ladder->count + ladder->roots; i++) {
+        const size_t other = parent_n(ladder, i);
+        if (other % n != 0 || (i < ladder->count && other == n))
+            continue;
+        if (!found || other < parent_n(ladder, *parent))
+            *parent = i;
+        found = true;
     }
-    return best;
+    return found;
 }
 
-enum br_status br_ladder_create(struct br_ladder **out, enum br_field_kind kind, size_t finest,
-                                size_t count, const size_t *n, struct br_error *err)
+static enum br_status add_rungs(struct br_ladder *ladder, const struct br_mesh_list *rungs,
+                                struct br_error *err)
 {
-    struct br_ladder *ladder = br_allocate(1, sizeof *ladder);
-    *out = ladder;
-    if (!ladder)
-        return br_no_memory(err, "the ladder of meshes");
-    ladder->finest = finest;
-    ladder->modes = br_mode_count(kind);
-    ladder->rung = br_allocate(count, sizeof *ladder->rung);
+    ladder->rung = br_allocate(rungs->count, sizeof *ladder->rung);
     if (!ladder->rung)
         return br_no_memory(err, "the ladder of meshes");
-    ladder->count = count;
-    for (size_t r = 0; r < count; r++) {
-        struct rung *rung = &ladder->rung[r];
-        if (n[r] == 0 || finest % n[r] != 0)
-            return br_fail(err, BR_BAD_INPUT, "n = %zu does not divide the reference's %zu", n[r],
-                           finest);
-        *rung = (struct rung){.n = n[r], .modes = ladder->modes, .offset = ladder->size + 1};
-        ladder->size += 1 + rung->n * rung->modes;
+    ladder->count = rungs->count;
+    for (size_t r = 0; r < rungs->count; r++) {
+        const struct rung rung = {.n = rungs->n[r], .modes = ladder->modes,
+                                  .offset = ladder->size + 1};
+        if (rung.n == 0)
+            return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
+        ladder->rung[r] = rung;
+        ladder->size += 1 + rung.n * rung.modes;
     }
-    for (size_t r = 0; r < count; r++) {
+    for (size_t r = 0; r < rungs->count; r++) {
         struct rung *rung = &ladder->rung[r];
-        rung->parent = find_parent(ladder, r);
+        if (!find_parent(ladder, r, &rung->parent))
+            return br_fail(err, BR_BAD_INPUT, "n = %zu does not divide the reference's %zu",
+                           rung->n, ladder->root[0]);
         rung->ratio = parent_n(ladder, rung->parent) / rung->n;
         const enum br_status status = fill_transfers(rung, err);
         if (status)
             return status;
     }
     return BR_OK;
+}
+
+enum br_status br_ladder_create(struct br_ladder **out, enum br_field_kind kind,
+                                const struct br_mesh_list *roots, const struct br_mesh_list *rungs,
+                                struct br_error *err)
+{
+    struct br_ladder *ladder = br_allocate(1, sizeof *ladder);
+    *out = ladder;
+    if (!ladder)
+        return br_no_memory(err, "the ladder of meshes");
+    ladder->modes = br_mode_count(kind);
+    ladder->root = br_allocate(roots->count, sizeof *ladder->root);
+    if (!ladder->root)
+        return br_no_memory(err, "the ladder of meshes");
+    ladder->roots = roots->count;
+    memcpy(ladder->root, roots->n, roots->count * sizeof *ladder->root);
+    return add_rungs(ladder, rungs, err);
 }
 
 void br_ladder_free(struct br_ladder *ladder)
@@ -138,6 +151,7 @@ void br_ladder_free(struct br_ladder *ladder)
     for (size_t r = 0; ladder->rung && r < ladder->count; r++)
         free(ladder->rung[r].child);
     free(ladder->rung);
+    free(ladder->root);
     free(ladder);
 }
 
@@ -185,36 +199,44 @@ static double project_axial(const struct rung *rung, const double *fine, double 
     return loss;
 }
 
-static void project_rung(const struct br_ladder *ladder, size_t r, const double *modes,
-                         double *projection)
+static void project_rung(const struct br_ladder *ladder, size_t r,
+                         const struct br_root_value *root, double *projection)
 {
     const struct rung *rung = &ladder->rung[r];
-    const bool from_finest = rung->parent == ladder->count;
-    const struct rung *parent = from_finest ? NULL : &ladder->rung[rung->parent];
-    const double *fine = from_finest ? modes : projection + parent->offset;
+    const double *fine;
+    double loss;
+    if (rung->parent < ladder->count) {
+        fine = projection + ladder->rung[rung->parent].offset;
+        loss = fine[-1];
+    } else {
+        fine = root[rung->parent - ladder->count].modes;
+        loss = root[rung->parent - ladder->count].rest;
+    }
     double *coarse = projection + rung->offset;
-    double loss = from_finest ? 0 : projection[parent->offset - 1];
     if (rung->modes == MODES)
         for (size_t e = 0; e < rung->n; e++)
             loss += project_bending(rung, fine + e * rung->ratio * MODES, coarse + e * MODES);
     else
         for (size_t e = 0; e < rung->n; e++)
             loss += project_axial(rung, fine + e * rung->ratio * 2, coarse + e * 2);
-    projection[rung->offset - 1] = loss;
+    coarse[-1] = loss;
 }
 
-void br_ladder_project(const struct br_ladder *ladder, const double *modes, double *projection)
+void br_ladder_project(const struct br_ladder *ladder, const struct br_root_value *root,
+                       double *projection)
 {
     /* Finer rungs first: each needs its parent. */
-    for (size_t n = ladder->finest; n > 0;) {
-        size_t next = 0;
-        for (size_t r = 0; r < ladder->count; r++) {
+    for (size_t below = SIZE_MAX;;) {
+        size_t n = 0;
+        for (size_t r = 0; r < ladder->count; r++)
+            if (ladder->rung[r].n < below && ladder->rung[r].n > n)
+                n = ladder->rung[r].n;
+        if (n == 0)
+            return;
+        for (size_t r = 0; r < ladder->count; r++)
             if (ladder->rung[r].n == n)
-                project_rung(ladder, r, modes, projection);
-            if (ladder->rung[r].n < n && ladder->rung[r].n > next)
-                next = ladder->rung[r].n;
-        }
-        n = next;
+                project_rung(ladder, r, root, projection);
+        below = n;
     }
 }
 
@@ -230,32 +252,4 @@ double br_ladder_distance(const struct br_ladder *ladder, size_t r, const double
         odd += b * b;
     }
     return sqrt(even + odd + projection[rung->offset - 1]);
-}
-
-static void axial_modes(double root, const double *nodal, double modes[2])
-{
-    modes[0] = root * ((nodal[0] + nodal[1]) / 2);
-    modes[1] = root * ((nodal[1] - nodal[0]) * (0.5 / sqrt(3)));
-}
-
-/* The two highest from the curvature: P_2'' = 12 sqrt(5), P_3'' = 60 sqrt(7) (2x - 1). */
-static void bending_modes(double root, const double *nodal, double modes[4])
-{
-    double curvature[2];
-    br_curvature(nodal, curvature);
-    const double w0 = nodal[0], s0 = nodal[1], w1 = nodal[2], s1 = nodal[3];
-    modes[0] = root * ((w0 + w1) / 2 + (s0 - s1) * (1.0 / 12));
-    modes[1] = root * ((w1 - w0) * (sqrt(3) / 5) - (s0 + s1) * (sqrt(3) / 60));
-    modes[2] = root * (curvature[0] * (1 / (12 * sqrt(5))));
-    modes[3] = root * (curvature[1] * (1 / (60 * sqrt(7))));
-}
-
-void br_modes(const struct br_field *field, const double *nodal, double *modes)
-{
-    const double root = sqrt(field->h);
-    for (size_t e = 0; e < field->n; e++)
-        if (field->kind == BR_AXIAL)
-            axial_modes(root, nodal + e, modes + 2 * e);
-        else
-            bending_modes(root, nodal + 2 * e, modes + 4 * e);
 }

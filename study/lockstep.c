@@ -19,12 +19,22 @@
 enum { BUFFERS = 2 };
 static const size_t buffer_bytes = 8u << 20;  /* of a batch's projections, at most */
 static const size_t most_levels = 32;         /* in a batch */
+static const size_t most_audits = 1000;       /* of the reference, about */
 
 /* One field of the reference and the cells. */
 struct channel {
     bool modelled;
     struct br_ladder *ladder;
+    struct br_root_value *root;  /* the reference on its meshes */
     double *projection[BUFFERS]; /* batch * ladder size */
+    double *audit;               /* the auditor's modes on the reference's mesh */
+};
+
+/* A judge at work. */
+struct bench {
+    const struct br_judge *judge;
+    void *self;
+    struct br_error error; /* status BR_OK while all is well */
 };
 
 /* A march with room to look at it. */
@@ -38,7 +48,10 @@ struct runner {
 struct lockstep {
     struct br_study *study;
     struct channel channel[2]; /* by br_field_kind */
-    struct runner reference;
+    struct bench reference, auditor; /* the auditor's judge may be NULL */
+    size_t *root;                    /* the meshes on which the reference is looked at */
+    size_t roots;
+    size_t audit_every; /* of the levels, so that there are not too many audits */
     struct runner *cell; /* n_count * k_count */
     size_t *level;       /* reference steps at which some cell has a time level */
     size_t level_count, batch, batches;
@@ -96,29 +109,65 @@ static void runner_look(struct runner *r, enum br_field_kind kind)
 
 /* ---- the reference ---- */
 
-static double norm(const double *modes, size_t count)
+static double norm(const double *modes, size_t count, double rest)
 {
-    double sum = 0;
+    double sum = rest;
     for (size_t i = 0; i < count; i++)
         sum += modes[i] * modes[i];
     return sqrt(sum);
 }
 
+/* The field's L2 norm, from the first root mesh. */
+static double look_at_reference(struct lockstep *l, enum br_field_kind kind)
+{
+    struct channel *c = &l->channel[kind];
+    for (size_t i = 0; i < l->roots; i++)
+        l->reference.judge->look(l->reference.self, kind, i, c->root[i].modes, &c->root[i].rest);
+    return norm(c->root[0].modes, l->root[0] * br_mode_count(kind), c->root[0].rest);
+}
+
 static void project_reference(struct lockstep *l, size_t buffer, size_t slot)
 {
-    struct br_study *s = l->study;
     double scale = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct channel *c = &l->channel[kind];
+        struct channel *c = &l->channel[kind];
         if (!c->modelled)
             continue;
-        runner_look(&l->reference, (enum br_field_kind)kind);
-        scale += norm(l->reference.modes,
-                      s->reference.n * br_mode_count((enum br_field_kind)kind));
-        br_ladder_project(c->ladder, l->reference.modes,
+        scale += look_at_reference(l, (enum br_field_kind)kind);
+        br_ladder_project(c->ladder, c->root,
                           c->projection[buffer] + slot * br_ladder_size(c->ladder));
     }
-    s->reference_scale = fmax(s->reference_scale, scale);
+    l->study->reference_scale = fmax(l->study->reference_scale, scale);
+}
+
+/* Keeps the larger of each part; a NaN stays. */
+static void keep_largest(double largest[BR_PARTS], const double error[BR_PARTS])
+{
+    for (int part = 0; part < BR_PARTS; part++)
+        if (!(error[part] <= largest[part]))
+            largest[part] = error[part];
+}
+
+/* The distance of the reference, as last looked at, from the auditor. */
+static enum br_status audit(struct lockstep *l, size_t level, struct br_error *err)
+{
+    const enum br_status status = l->auditor.judge->advance(l->auditor.self, level, err);
+    double error[BR_PARTS] = {0};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        struct channel *c = &l->channel[kind];
+        if (!c->modelled)
+            continue;
+        double rest;
+        l->auditor.judge->look(l->auditor.self, (enum br_field_kind)kind, 0, c->audit, &rest);
+        const size_t count = l->root[0] * br_mode_count((enum br_field_kind)kind);
+        for (size_t i = 0; i < count; i++)
+            c->audit[i] -= c->root[0].modes[i];
+        const double distance = norm(c->audit, count, rest);
+        error[kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING] = distance;
+        error[BR_PART_TOTAL] += distance;
+    }
+    keep_largest(l->study->reference_error, error);
+    return status;
 }
 
 static size_t batch_end(const struct lockstep *l, size_t b)
@@ -137,11 +186,18 @@ static bool should_stop(struct lockstep *l)
 static void reference_batch(struct lockstep *l, size_t b)
 {
     for (size_t i = b * l->batch; i < batch_end(l, b) && !should_stop(l); i++) {
-        if (runner_advance(&l->reference, l->level[i])) {
+        struct br_error *error = &l->reference.error;
+        if (l->reference.judge->advance(l->reference.self, l->level[i], error)) {
             atomic_store(&l->stopped, true);
             return;
         }
         project_reference(l, b % BUFFERS, i % l->batch);
+        const bool audited = l->auditor.judge &&
+                             (i % l->audit_every == 0 || i + 1 == l->level_count);
+        if (audited && audit(l, l->level[i], error)) {
+            atomic_store(&l->stopped, true);
+            return;
+        }
     }
 }
 
@@ -229,21 +285,68 @@ static enum br_status list_levels(struct lockstep *l, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status create_channels(struct lockstep *l, struct br_error *err)
+/* The meshes that the reference is looked at on: its own where it has one; else
+ * those of the cells that are no divisor of another's. */
+static enum br_status list_roots(struct lockstep *l, struct br_error *err)
 {
     const struct br_study *s = l->study;
-    size_t doubles = 0;
+    l->root = br_allocate(s->n_count, sizeof *l->root);
+    if (!l->root)
+        return br_no_memory(err, "the meshes");
+    if (s->judge->nests) {
+        l->root[l->roots++] = s->reference.n;
+        return BR_OK;
+    }
+    for (size_t i = 0; i < s->n_count; i++) {
+        bool divides = false;
+        for (size_t j = 0; j < s->n_count; j++)
+            divides |= s->n[j] % s->n[i] == 0 && (s->n[j] > s->n[i] || j < i);
+        if (!divides)
+            l->root[l->roots++] = s->n[i];
+    }
+    return BR_OK;
+}
+
+static enum br_status create_roots(struct lockstep *l, enum br_field_kind kind,
+                                   struct br_error *err)
+{
+    struct channel *c = &l->channel[kind];
+    c->root = br_allocate(l->roots, sizeof *c->root);
+    if (!c->root)
+        return br_no_memory(err, "the reference's values");
+    for (size_t i = 0; i < l->roots; i++) {
+        c->root[i].modes = br_allocate(l->root[i] * br_mode_count(kind), sizeof(double));
+        if (!c->root[i].modes)
+            return br_no_memory(err, "the reference's values");
+    }
+    c->audit = br_allocate(l->root[0] * br_mode_count(kind), sizeof(double));
+    return c->audit ? BR_OK : br_no_memory(err, "the reference's values");
+}
+
+static enum br_status create_ladders(struct lockstep *l, struct br_error *err)
+{
+    const struct br_study *s = l->study;
+    const struct br_mesh_list roots = {l->roots, l->root}, rungs = {s->n_count, s->n};
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         struct channel *c = &l->channel[kind];
         c->modelled = kind == BR_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled;
         if (!c->modelled)
             continue;
-        const enum br_status status = br_ladder_create(&c->ladder, (enum br_field_kind)kind,
-                                                       s->reference.n, s->n_count, s->n, err);
+        enum br_status status =
+            br_ladder_create(&c->ladder, (enum br_field_kind)kind, &roots, &rungs, err);
+        if (!status)
+            status = create_roots(l, (enum br_field_kind)kind, err);
         if (status)
             return status;
-        doubles += br_ladder_size(c->ladder);
     }
+    return BR_OK;
+}
+
+static enum br_status create_buffers(struct lockstep *l, struct br_error *err)
+{
+    size_t doubles = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        doubles += l->channel[kind].modelled ? br_ladder_size(l->channel[kind].ladder) : 0;
     l->batch = buffer_bytes / (doubles * sizeof(double));
     l->batch = l->batch < 1 ? 1 : l->batch > most_levels ? most_levels : l->batch;
     l->batches = (l->level_count + l->batch - 1) / l->batch;
@@ -257,25 +360,34 @@ static enum br_status create_channels(struct lockstep *l, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status lockstep_create(struct lockstep *l, struct br_study *s,
-                                      const struct br_observer *observer, struct br_error *err)
+/* The reference, and who audits it. */
+static enum br_status create_judges(struct lockstep *l, struct br_error *err)
 {
-    l->study = s;
-    l->observer = observer;
-    enum br_status status = list_levels(l, err);
-    if (!status)
-        status = create_channels(l, err);
-    if (status)
-        return status;
+    struct br_study *s = l->study;
+    const struct br_judge_request request = {
+        .scene = s->scene,
+        .method = s->reference_method,
+        .n = s->reference.n,
+        .levels = s->reference.steps,
+        .mesh_count = l->roots,
+        .mesh = l->root,
+    };
+    l->reference.judge = s->judge;
+    enum br_status status = s->judge->create(&l->reference.self, &request, err);
+    l->auditor.judge = s->auditor;
+    if (!status && s->auditor)
+        status = s->auditor->create(&l->auditor.self, &request, err);
+    l->audit_every = l->level_count / most_audits + 1;
+    return status;
+}
+
+static enum br_status create_cells(struct lockstep *l, struct br_error *err)
+{
+    const struct br_study *s = l->study;
     const size_t cells = s->n_count * s->k_count;
     l->cell = br_allocate(cells, sizeof *l->cell);
     if (!l->cell)
         return br_no_memory(err, "the cells");
-    if (runner_start(&l->reference, s->scene, s->reference, &s->reference_method)) {
-        *err = l->reference.error;
-        return err->status;
-    }
-    s->round_off = br_march_round_off(l->reference.march);
     for (size_t i = 0; i < cells; i++) {
         runner_start(&l->cell[i], s->scene, s->cell[i].at, &s->method);
         const enum br_status failure = l->cell[i].error.status;
@@ -289,17 +401,48 @@ static enum br_status lockstep_create(struct lockstep *l, struct br_study *s,
     return BR_OK;
 }
 
+static enum br_status lockstep_create(struct lockstep *l, struct br_study *s,
+                                      const struct br_observer *observer, struct br_error *err)
+{
+    l->study = s;
+    l->observer = observer;
+    enum br_status status = list_levels(l, err);
+    if (!status)
+        status = list_roots(l, err);
+    if (!status)
+        status = create_ladders(l, err);
+    if (!status)
+        status = create_buffers(l, err);
+    if (!status)
+        status = create_judges(l, err);
+    if (!status)
+        status = create_cells(l, err);
+    return status;
+}
+
+static void channel_clear(struct channel *c, size_t roots)
+{
+    br_ladder_free(c->ladder);
+    for (size_t i = 0; c->root && i < roots; i++)
+        free(c->root[i].modes);
+    free(c->root);
+    free(c->audit);
+    for (int b = 0; b < BUFFERS; b++)
+        free(c->projection[b]);
+}
+
 static void lockstep_clear(struct lockstep *l)
 {
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        br_ladder_free(l->channel[kind].ladder);
-        for (int b = 0; b < BUFFERS; b++)
-            free(l->channel[kind].projection[b]);
-    }
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        channel_clear(&l->channel[kind], l->roots);
+    if (l->reference.judge)
+        l->reference.judge->free(l->reference.self);
+    if (l->auditor.judge)
+        l->auditor.judge->free(l->auditor.self);
     for (size_t i = 0; l->cell && i < l->study->n_count * l->study->k_count; i++)
         runner_clear(&l->cell[i]);
-    runner_clear(&l->reference);
     free(l->cell);
+    free(l->root);
     free(l->level);
 }
 
@@ -327,7 +470,7 @@ static void tell(struct crew *crew, struct lockstep *l)
 static void spawn_batch(struct crew *crew, struct lockstep *l, size_t b)
 {
     (void)crew; /* without OpenMP */
-    struct runner *reference = &l->reference;
+    struct bench *reference = &l->reference;
     char *buffer = &l->token[b % BUFFERS];
     (void)reference, (void)buffer;
 #pragma omp task depend(inout : reference[0]) depend(inout : buffer[0])
@@ -358,7 +501,7 @@ static enum br_status outcome(struct crew *crew, struct br_error *err)
 {
     for (size_t s = 0; s < crew->count; s++) {
         struct lockstep *l = &crew->step[s];
-        l->study->reference_seconds = l->reference.seconds;
+        l->study->judged_by = l->reference.judge->report(l->reference.self);
         if (l->reference.error.status) {
             *err = l->reference.error;
             return err->status;

@@ -3,11 +3,18 @@
 
 #include <math.h>
 
+struct br_study *br_report_fitted(const struct br_report *r)
+{
+    return r->exact ? r->exact : r->study;
+}
+
 enum br_status br_report_finish(struct br_report *r, int threads, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (int part = 0; part < BR_PARTS && !status; part++)
-        status = br_fit(r->study, (enum br_part)part, &r->fits[part], err);
+        status = br_fit(br_report_fitted(r), (enum br_part)part, &r->fits[part], err);
+    if (!status && r->exact)
+        br_flag_beside(r->study);
     if (!status && r->printed)
         status = br_triangles(r->study, r->printed, BR_MOST_TRIANGLES, r->triangle, &r->triangles,
                               threads, err);

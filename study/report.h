@@ -12,6 +12,8 @@ struct br_report {
     const char *name;       /* file name stem: "table1", or the scene's name; borrowed */
     const char *caption;    /* one line; borrowed */
     struct br_study *study; /* borrowed */
+    struct br_study *exact; /* the same cells against the exact solution, where `study` is not
+                               already; NULL: not there. Borrowed */
     double *printed;        /* n_count * k_count, m^(3/2), by rows, NaN where the paper has
                                none; NULL: there is no printed table. Owned */
     struct br_fits fits[BR_PARTS];
@@ -20,7 +22,11 @@ struct br_report {
     double wall_seconds;    /* of the whole study */
 };
 
-/* Fits all parts of the study's errors, and holds the printed values, where there
+/* The study whose errors are fitted and drawn: the one against the exact solution,
+ * where there is one, since no cell of it is limited by the reference. */
+struct br_study *br_report_fitted(const struct br_report *report);
+
+/* Fits all parts of those errors, and holds the printed values, where there
  * are some, against the triangle inequality. name, caption, study and printed
  * have been set. Fails with BR_NO_MEMORY or as br_study_run does. */
 enum br_status br_report_finish(struct br_report *report, int threads, struct br_error *err);

@@ -20,12 +20,22 @@ const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size
 
 double br_time_step(const struct br_scene *scene, size_t steps)
 {
-    return scene->duration / (double)steps;
+    return steps ? scene->duration / (double)steps : 0;
 }
 
 double br_mesh_size(const struct br_scene *scene, size_t n)
 {
-    return scene->length / (double)n;
+    return n ? scene->length / (double)n : 0;
+}
+
+double br_reference_step(const struct br_study *s)
+{
+    return s->judge->nests ? br_time_step(s->scene, s->reference.steps) : 0;
+}
+
+double br_reference_mesh(const struct br_study *s)
+{
+    return br_mesh_size(s->scene, s->reference.n);
 }
 
 void br_study_clear(struct br_study *study)
@@ -68,6 +78,25 @@ static void nearest_divisors(size_t of, size_t a, size_t *below, size_t *above)
         (*above)++;
 }
 
+/* The time levels of a reference that has none of its own: those of all cells. */
+static enum br_status common_levels(struct br_study *s, struct br_error *err)
+{
+    size_t common = 1;
+    for (size_t j = 0; j < s->k_count; j++) {
+        size_t a = common, b = s->steps[j];
+        while (b) {
+            const size_t rest = a % b;
+            a = b;
+            b = rest;
+        }
+        if (a == 0 || s->steps[j] / a > ((size_t)1 << 52) / common)
+            return br_fail(err, BR_BAD_INPUT, "the time steps have too few time levels in common");
+        common *= s->steps[j] / a;
+    }
+    s->reference = (struct br_resolution){.n = 0, .steps = common};
+    return BR_OK;
+}
+
 static enum br_status check_nesting(const struct br_study *s, struct br_error *err)
 {
     size_t below, above;
@@ -101,9 +130,13 @@ static enum br_status prepare(struct br_study *s, struct br_error *err)
     if (s->n_count == 0 || s->k_count == 0)
         return br_fail(err, BR_BAD_INPUT, "the list of %s is empty, expected at least one value",
                        s->n_count == 0 ? "n" : "k");
-    if (s->reference.n < 1 || s->reference.steps < 1)
+    if (s->judge->nests && (s->reference.n < 1 || s->reference.steps < 1))
         return br_fail(err, BR_BAD_INPUT, "the reference needs at least one element and one step");
-    const enum br_status status = check_nesting(s, err);
+    for (int part = 0; part < BR_PARTS; part++)
+        s->reference_error[part] = s->auditor ? 0 : NAN;
+    s->reference_scale = 0;
+    const enum br_status status =
+        s->judge->nests ? check_nesting(s, err) : common_levels(s, err);
     if (status)
         return status;
     s->cell = br_allocate(s->n_count * s->k_count, sizeof *s->cell);

@@ -4,7 +4,7 @@
 #ifndef BR_STUDY_H
 #define BR_STUDY_H
 
-#include "solver/march.h"
+#include "reference/judge.h"
 
 /* A discretisation: n equal elements, `steps` equal time steps of T/steps. */
 struct br_resolution {
@@ -37,16 +37,19 @@ struct br_study {
     /* in */
     const struct br_scene *scene;
     struct br_method method;           /* of the cells */
-    struct br_method reference_method;
-    struct br_resolution reference;
+    const struct br_judge *judge;      /* the reference */
+    struct br_method reference_method; /* of a fine run */
+    struct br_resolution reference;    /* a fine run's; otherwise n = 0, and steps are set to the
+                                          least common multiple of the cells' */
+    const struct br_judge *auditor;    /* measures the reference's own error; NULL: nobody */
     size_t n_count, k_count;
     const size_t *n;     /* n_count, borrowed */
     const size_t *steps; /* k_count, borrowed */
     /* out */
     struct br_cell *cell;         /* n_count * k_count, by rows of equal n; owned */
-    double reference_seconds;     /* of its march alone */
-    double reference_scale;       /* largest L2 norm |u| + |w| of the reference, m^(3/2) */
-    double round_off;             /* predicted, of the reference, relative */
+    struct br_judge_report judged_by;
+    double reference_scale;           /* largest L2 norm |u| + |w| of the reference, m^(3/2) */
+    double reference_error[BR_PARTS]; /* by the auditor, m^(3/2); without one: NaN */
 };
 
 /* How a long run tells of itself, and is told to stop. May be called from any thread. */
@@ -73,8 +76,12 @@ const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size
 enum br_status br_steps_of(const struct br_scene *scene, double k, size_t *steps,
                            struct br_error *err);
 
-/* k = T/steps, s, and h = L/n, m. */
+/* k = T/steps, s, and h = L/n, m. For 0 steps or elements, as an exact reference has, 0. */
 double br_time_step(const struct br_scene *scene, size_t steps);
 double br_mesh_size(const struct br_scene *scene, size_t n);
+
+/* The reference's own k, s, and h, m; 0 where it has none. */
+double br_reference_step(const struct br_study *study);
+double br_reference_mesh(const struct br_study *study);
 
 #endif

@@ -104,6 +104,7 @@ static enum br_status march_pairs(const struct br_study *s, struct br_triangle *
         pair[i] = (struct br_study){
             .scene = s->scene,
             .method = s->method,
+            .judge = &br_judge_fine,
             .reference_method = s->method,
             .reference = triangles[i].b,
             .n_count = 1,

@@ -10,13 +10,23 @@ static void field(FILE *out, const char *format, double value)
         fprintf(out, format, value);
 }
 
+static void exact_fields(FILE *out, const struct br_cell *c)
+{
+    for (int part = 0; part < BR_PARTS; part++) {
+        fputc(',', out);
+        field(out, "%.17g", c->error[part]);
+    }
+    fprintf(out, ",%s", br_flag_name(c->flag[BR_PART_TOTAL]));
+}
+
 static enum br_status emit(FILE *out, const struct br_report *r, const struct br_provenance *p,
                            struct br_error *err)
 {
     (void)p, (void)err;
     const struct br_study *s = r->study;
     fprintf(out, "n,k,error,axial,bending,printed,ratio,seconds,flag,axial_flag,bending_flag,"
-                 "worst_time\n");
+                 "worst_time%s\n",
+            r->exact ? ",exact,exact_axial,exact_bending,exact_flag" : "");
     for (size_t i = 0; i < s->n_count * s->k_count; i++) {
         const struct br_cell *c = &s->cell[i];
         fprintf(out, "%zu,%.10g", c->at.n, br_time_step(s->scene, c->at.steps));
@@ -31,7 +41,10 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
         fprintf(out, ",%.6f", c->seconds);
         for (int part = 0; part < BR_PARTS; part++)
             fprintf(out, ",%s", br_flag_name(c->flag[part]));
-        fprintf(out, ",%.10g\n", c->worst_time[BR_PART_TOTAL]);
+        fprintf(out, ",%.10g", c->worst_time[BR_PART_TOTAL]);
+        if (r->exact)
+            exact_fields(out, &r->exact->cell[i]);
+        fputc('\n', out);
     }
     return BR_OK;
 }

@@ -50,6 +50,14 @@ static json_t *cell(const struct br_report *r, size_t index)
     json_object_set_new(o, "axial_flag", json_string(br_flag_name(c->flag[BR_PART_AXIAL])));
     json_object_set_new(o, "bending_flag", json_string(br_flag_name(c->flag[BR_PART_BENDING])));
     json_object_set_new(o, "worst_time", number(c->worst_time[BR_PART_TOTAL]));
+    if (r->exact) {
+        const struct br_cell *e = &r->exact->cell[index];
+        json_object_set_new(o, "exact", json_pack("{s:o, s:o, s:o, s:s}", "error",
+                                                  number(e->error[BR_PART_TOTAL]), "axial",
+                                                  number(e->error[BR_PART_AXIAL]), "bending",
+                                                  number(e->error[BR_PART_BENDING]), "flag",
+                                                  br_flag_name(e->flag[BR_PART_TOTAL])));
+    }
     if (c->failure.status)
         json_object_set_new(o, "failure", json_string(c->failure.message));
     return o;
@@ -145,15 +153,27 @@ static json_t *provenance(const struct br_provenance *p)
     return o;
 }
 
+static json_t *reference(const struct br_study *s)
+{
+    json_t *o = json_object();
+    json_object_set_new(o, "kind", json_string(s->judge->name));
+    json_object_set_new(o, "title", json_string(s->judge->title));
+    if (s->judge->nests) {
+        json_object_set_new(o, "at", resolution(s->scene, s->reference));
+        json_object_set_new(o, "method", method(&s->reference_method));
+    }
+    json_object_set_new(o, "own_axial_error", number(s->judged_by.own_error[BR_AXIAL]));
+    json_object_set_new(o, "own_bending_error", number(s->judged_by.own_error[BR_BENDING]));
+    json_object_set_new(o, "audited_error", number(s->reference_error[BR_PART_TOTAL]));
+    json_object_set_new(o, "seconds", number(s->judged_by.seconds));
+    json_object_set_new(o, "scale", number(s->reference_scale));
+    json_object_set_new(o, "round_off", number(s->judged_by.round_off));
+    return o;
+}
+
 static json_t *document(const struct br_report *r, const struct br_provenance *p)
 {
     const struct br_study *s = r->study;
-    json_t *reference = resolution(s->scene, s->reference);
-    json_object_set_new(reference, "kind", json_string("fine"));
-    json_object_set_new(reference, "method", method(&s->reference_method));
-    json_object_set_new(reference, "seconds", number(s->reference_seconds));
-    json_object_set_new(reference, "scale", number(s->reference_scale));
-    json_object_set_new(reference, "round_off", number(s->round_off));
     json_t *o = json_object();
     json_object_set_new(o, "name", string(r->name));
     json_object_set_new(o, "caption", string(r->caption));
@@ -162,7 +182,10 @@ static json_t *document(const struct br_report *r, const struct br_provenance *p
                                               string(p->scene_path), "text",
                                               string(p->scene_text)));
     json_object_set_new(o, "method", method(&s->method));
-    json_object_set_new(o, "reference", reference);
+    json_object_set_new(o, "reference", reference(s));
+    if (r->exact)
+        json_object_set_new(o, "exact_reference", reference(r->exact));
+    json_object_set_new(o, "fitted", string(br_report_fitted(r)->judge->name));
     json_object_set_new(o, "wall_seconds", number(r->wall_seconds));
     json_object_set_new(o, "cells", cells(r));
     json_object_set_new(o, "fits", all_fits(r));

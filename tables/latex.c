@@ -88,7 +88,7 @@ static const char *mark(enum br_flag flag)
 
 static void print_errors(FILE *out, const struct br_report *r, enum br_part part)
 {
-    const struct br_study *s = r->study;
+    const struct br_study *s = br_report_fitted(r);
     char title[64], buffer[64];
     snprintf(title, sizeof title, "%s error, m$^{3/2}$", br_part_names[part]);
     open_table(out, r, title, " & order in $k$");
@@ -108,6 +108,26 @@ static void print_errors(FILE *out, const struct br_report *r, enum br_part part
         fprintf(out, " & %s",
                 br_order_text(&r->fits[part].by_k[j].order, buffer, sizeof buffer));
     fprintf(out, " & \\\\\n");
+    close_table(out);
+}
+
+/* The total against the reference that is not fitted. */
+static void print_beside(FILE *out, const struct br_report *r)
+{
+    const struct br_study *s = r->study;
+    char title[96];
+    snprintf(title, sizeof title, "total error, m$^{3/2}$, against %s", s->judge->name);
+    open_table(out, r, title, "");
+    for (size_t i = 0; i < s->n_count; i++) {
+        fprintf(out, "%zu", s->n[i]);
+        for (size_t j = 0; j < s->k_count; j++) {
+            const struct br_cell *c = br_study_cell(s, i, j);
+            fputs(" & ", out);
+            print_number(out, c->error[BR_PART_TOTAL]);
+            fputs(mark(c->flag[BR_PART_TOTAL]), out);
+        }
+        fprintf(out, " \\\\\n");
+    }
     close_table(out);
 }
 
@@ -144,6 +164,8 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
     for (int part = 0; part < BR_PARTS; part++)
         if (br_part_shown(r, (enum br_part)part))
             print_errors(out, r, (enum br_part)part);
+    if (r->exact)
+        print_beside(out, r);
     if (r->printed)
         print_printed(out, r);
     fputc('\n', out);

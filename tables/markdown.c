@@ -40,7 +40,7 @@ static void number(FILE *out, double value, const char *format)
 
 static void print_errors(FILE *out, const struct br_report *r, enum br_part part)
 {
-    const struct br_study *s = r->study;
+    const struct br_study *s = br_report_fitted(r);
     char buffer[64];
     heading(out, r, br_part_names[part], " order in k |");
     for (size_t i = 0; i < s->n_count; i++) {
@@ -59,6 +59,27 @@ static void print_errors(FILE *out, const struct br_report *r, enum br_part part
     for (size_t j = 0; j < s->k_count; j++)
         fprintf(out, " %s |", br_order_text(&r->fits[part].by_k[j].order, buffer, sizeof buffer));
     fprintf(out, " |\n");
+}
+
+/* The total against the reference that is not fitted. */
+static void print_beside(FILE *out, const struct br_report *r)
+{
+    const struct br_study *s = r->study;
+    char title[64];
+    snprintf(title, sizeof title, "total against %s", s->judge->name);
+    heading(out, r, title, "");
+    for (size_t i = 0; i < s->n_count; i++) {
+        fprintf(out, "| n = %zu |", s->n[i]);
+        for (size_t j = 0; j < s->k_count; j++) {
+            const struct br_cell *c = br_study_cell(s, i, j);
+            fputc(' ', out);
+            number(out, c->error[BR_PART_TOTAL], "%.3e");
+            if (c->flag[BR_PART_TOTAL])
+                fprintf(out, " (%s)", br_flag_name(c->flag[BR_PART_TOTAL]));
+            fputs(" |", out);
+        }
+        fputc('\n', out);
+    }
 }
 
 static void print_printed(FILE *out, const struct br_report *r)
@@ -88,6 +109,8 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
     for (int part = 0; part < BR_PARTS; part++)
         if (br_part_shown(r, (enum br_part)part))
             print_errors(out, r, (enum br_part)part);
+    if (r->exact)
+        print_beside(out, r);
     if (r->printed)
         print_printed(out, r);
     fprintf(out, "\n## Which cells count\n\n");

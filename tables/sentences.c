@@ -47,16 +47,31 @@ static void describe_method(const struct br_study *s, const struct br_method *m,
     snprintf(text, size, "solver %s, contact %s, friction %s", m->solver->name, contact, friction);
 }
 
+/* "a fine run of the same scheme, n = 12800, ..." */
+static void describe_reference(const struct br_study *s, char *text, size_t size)
+{
+    char method[128];
+    if (!s->judge->nests) {
+        snprintf(text, size, "%s", s->judge->title);
+        return;
+    }
+    describe_method(s, &s->reference_method, method, sizeof method);
+    snprintf(text, size, "%s: N = %zu, K = %g s; %s", s->judge->title, s->reference.n,
+             br_reference_step(s), method);
+}
+
 void br_say_method(const struct br_report *r, const struct br_writer *w)
 {
-    const struct br_study *s = r->study;
-    char cells[128], reference[128];
-    describe_method(s, &s->method, cells, sizeof cells);
-    describe_method(s, &s->reference_method, reference, sizeof reference);
+    char cells[128], reference[512];
+    describe_method(r->study, &r->study->method, cells, sizeof cells);
     say(w, "Error (31): the largest |u - u_hk| + |w - w_hk| over all time levels of a cell, L2 norms, "
            "m^(3/2). Cells: %s.", cells);
-    say(w, "Reference: a fine run of the same scheme, n = %zu, k = %g s; %s.", s->reference.n,
-        br_time_step(s->scene, s->reference.steps), reference);
+    describe_reference(br_report_fitted(r), reference, sizeof reference);
+    say(w, "Reference: %s.", reference);
+    if (!r->exact)
+        return;
+    describe_reference(r->study, reference, sizeof reference);
+    say(w, "Beside it, %s: %s.", r->study->judge->name, reference);
 }
 
 /* "C_h = 0.0716, p = 2.03 [2.01, 2.04]" */
@@ -130,26 +145,45 @@ static void say_failures(const struct br_study *s, const struct br_writer *w)
     }
 }
 
-void br_say_flags(const struct br_report *r, const struct br_writer *w)
+static void say_reference(const struct br_study *s, double own, const struct br_writer *w)
 {
-    const struct br_study *s = r->study;
-    const double own = r->fits[BR_PART_TOTAL].reference_error;
-    const double floor = s->round_off * s->reference_scale;
+    const double floor = s->judged_by.round_off * s->reference_scale;
+    const char *by = s->auditor                            ? "measured against the exact solution"
+                     : isfinite(s->judged_by.own_error[0]) ? "by its own estimate"
+                                                           : "by the joint fit";
+    char rounding[64] = "";
+    if (floor > 0)
+        snprintf(rounding, sizeof rounding, "; its round-off is about %.0e", floor);
     if (isfinite(own))
-        say(w, "The reference's own error is about %.1e by the joint fit, its round-off about %.0e.",
-            own, floor);
+        say(w, "The own error of the %s reference is about %.1e, %s%s.", s->judge->name, own, by,
+            rounding);
     else
-        say(w, "The reference's own error is not known: the joint fit does not describe the errors. "
-               "Its round-off is about %.0e.", floor);
+        say(w, "The own error of the %s reference is not known: the joint fit does not describe the "
+               "errors%s.", s->judge->name, rounding);
+}
+
+static void say_marks(const struct br_study *s, const struct br_writer *w)
+{
     const size_t limited = count_flag(s, BR_FLAG_REFERENCE);
     const size_t rounded = count_flag(s, BR_FLAG_ROUND_OFF);
     if (limited)
-        say(w, "R marks %zu cells whose error is below %g times the reference's own; they are left "
-               "out of the fits.", limited, br_flag_margin);
+        say(w, "R marks %zu cells whose error is below %g times the own error of the %s reference; "
+               "they are left out of fits.", limited, br_flag_margin, s->judge->name);
     if (rounded)
         say(w, "F marks %zu cells whose error is below %g times the predicted round-off (floor); "
-               "they are left out of the fits.", rounded, br_flag_margin);
-    say_failures(s, w);
+               "they are left out of fits.", rounded, br_flag_margin);
+}
+
+void br_say_flags(const struct br_report *r, const struct br_writer *w)
+{
+    const struct br_study *fitted = br_report_fitted(r);
+    say_reference(fitted, r->fits[BR_PART_TOTAL].reference_error, w);
+    say_marks(fitted, w);
+    if (r->exact) {
+        say_reference(r->study, r->study->reference_error[BR_PART_TOTAL], w);
+        say_marks(r->study, w);
+    }
+    say_failures(r->study, w);
 }
 
 static void say_ratio(const struct br_report *r, const struct br_writer *w)

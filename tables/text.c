@@ -58,7 +58,7 @@ static void print_number(FILE *out, double value, const char *format, char mark)
 /* The errors of one part, with the slopes of rows and columns. */
 static void print_errors(FILE *out, const struct br_report *r, enum br_part part)
 {
-    const struct br_study *s = r->study;
+    const struct br_study *s = br_report_fitted(r);
     char buffer[64];
     heading(out, r, br_part_names[part]);
     fprintf(out, "   order in k [95 %%]\n");
@@ -80,6 +80,23 @@ static void print_errors(FILE *out, const struct br_report *r, enum br_part part
         print_number(out, (e->high - e->low) / 2, "%.2f", ' ');
     }
     fputc('\n', out);
+}
+
+/* The total against the reference that is not fitted. */
+static void print_beside(FILE *out, const struct br_report *r)
+{
+    const struct br_study *s = r->study;
+    heading(out, r, s->judge->name);
+    fputc('\n', out);
+    for (size_t i = 0; i < s->n_count; i++) {
+        fprintf(out, "n = %-8zu", s->n[i]);
+        for (size_t j = 0; j < s->k_count; j++) {
+            const struct br_cell *c = br_study_cell(s, i, j);
+            print_number(out, c->error[BR_PART_TOTAL], "%.3e",
+                         flag_letter(c->flag[BR_PART_TOTAL]));
+        }
+        fputc('\n', out);
+    }
 }
 
 static void print_printed(FILE *out, const struct br_report *r)
@@ -116,6 +133,8 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
     for (int part = 0; part < BR_PARTS; part++)
         if (br_part_shown(r, (enum br_part)part))
             print_errors(out, r, (enum br_part)part);
+    if (r->exact)
+        print_beside(out, r);
     if (r->printed)
         print_printed(out, r);
     fputc('\n', out);

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The exact reference: the continuous problem (3)-(12), solved to nearly all
+ * digits by spectral modes in space and Radau IIA between the events at the tip,
+ * with an estimate of what is left of the error. It shares the scene with the
+ * finite element solver and nothing else.
+ *
+ * Loads must be smooth in t and analytic in x. The regularisation of friction
+ * is ignored: the law is (12) itself. GSL's error handler is switched off. */
+#ifndef BR_EXACT_H
+#define BR_EXACT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "reference/exact/phase.h"
+#include "solver/scene.h"
+#include "solver/status.h"
+
+struct br_exact;
+
+/* Zeros mean the defaults. Tolerances are relative to the largest value over time. */
+struct br_exact_options {
+    double tolerance;      /* 1e-10: of displacements, 2e-11 to 1e-3 */
+    double rate_tolerance; /* ten times tolerance, and at least that: of velocities and forces */
+    size_t max_modes;      /* 256 per field, 18 to 1000 */
+    size_t max_steps;      /* 20000 per field */
+};
+
+/* Solves the scene (only read, and not needed afterwards) twice or more, each
+ * time with more modes and other steps, until two solutions agree; *out (owned
+ * by the caller) is then the last one. Fails with BR_BAD_INPUT, BR_NO_MEMORY,
+ * BR_SINGULAR, or BR_NOT_FINITE: the tolerance cannot be promised, and why. */
+enum br_status br_exact_create(struct br_exact **out, const struct br_scene *scene,
+                               const struct br_exact_options *options, struct br_error *err);
+void br_exact_free(struct br_exact *exact);
+
+enum br_exact_field { BR_EXACT_AXIAL, BR_EXACT_BENDING, BR_EXACT_FIELDS };
+
+/* The size of a field, or of its error. */
+struct br_exact_size {
+    double displacement; /* root of the mean square over the beam, or the tip's if larger, m */
+    double velocity;     /* the same, m/s */
+    double force;        /* at the tip, N */
+};
+
+/* What is known about a field, 0 everywhere if it is not modelled. */
+struct br_exact_report {
+    struct br_exact_size largest; /* over time */
+    struct br_exact_size error;   /* estimate, over time. Velocity and force have boundary layers
+                                     after an event, force like (t - t*)^(1/4): theirs leave out
+                                     what is within 1e-6 T of it */
+    size_t modes, steps;
+};
+struct br_exact_report br_exact_report(const struct br_exact *exact, enum br_exact_field field);
+
+/* A phase of the tip begins. */
+struct br_exact_event {
+    double time;  /* s */
+    double error; /* estimate of the time's error, s */
+    enum br_exact_field field;
+    enum br_phase phase; /* that begins */
+};
+
+/* The events in order of time, *count of them; those at t = 0 tell how it
+ * begins. Borrowed from exact. */
+const struct br_exact_event *br_exact_events(const struct br_exact *exact, size_t *count);
+const char *br_phase_text(enum br_phase phase);
+
+/* The solution at one time. Each thread reads with its own. */
+struct br_exact_state {
+    double time; /* s */
+    struct {
+        double displacement, velocity; /* m, m/s */
+    } tip[BR_EXACT_FIELDS];
+    double contact_force;             /* -sigma_H(L), N */
+    double friction_force;            /* lambda = -sigma_V(L), N */
+    double friction_bound;            /* b, N */
+    double *mode[BR_EXACT_FIELDS][2]; /* private: displacement and velocity */
+};
+
+/* *out (owned by the caller) is at t = 0. Fails with BR_NO_MEMORY. */
+enum br_status br_exact_state_create(struct br_exact_state **out, const struct br_exact *exact,
+                                     struct br_error *err);
+void br_exact_state_free(struct br_exact_state *state);
+
+/* Moves state to the time t in [0, T] (others are taken to its ends). All times
+ * cost the same and are as accurate as the steps' ends. */
+void br_exact_at(const struct br_exact *exact, double t, struct br_exact_state *state);
+
+/* A function of x: a modelled field's displacement or velocity, derived. */
+struct br_exact_part {
+    enum br_exact_field field;
+    bool velocity;
+    unsigned order; /* of the derivative in x: axial 0 to 2, bending 0 to 3 */
+};
+
+/* value[i] (out) = part at x[i] in [0, L], i < count; m or m/s per m^order.
+ * Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
+enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_exact_state *state,
+                                 const struct br_exact_part *part, size_t count, const double *x,
+                                 double *value, struct br_error *err);
+
+/* L2 projection of a part on polynomials of a degree on each of n equal elements. */
+struct br_exact_projection;
+struct br_exact_mesh {
+    size_t elements; /* n */
+    size_t degree;   /* at most 8 */
+};
+
+/* *out (owned by the caller). The part's order may be at most 1 (axial) or 2
+ * (bending). Fails with BR_BAD_INPUT, BR_NO_MEMORY or BR_SINGULAR. */
+enum br_status br_exact_projection_create(struct br_exact_projection **out,
+                                          const struct br_exact *exact,
+                                          const struct br_exact_part *part,
+                                          const struct br_exact_mesh *mesh, struct br_error *err);
+void br_exact_projection_free(struct br_exact_projection *projection);
+
+/* c (out, elements x (degree + 1)): coefficients of the Legendre polynomials
+ * that are orthonormal on each element. *rest (out): the square of the L2 norm
+ * of what the projection leaves out, found without a difference, so that the
+ * square of a distance to a piecewise polynomial d is |c - d|^2 + rest. One
+ * projection may be used by one thread at a time. */
+void br_exact_projection_apply(struct br_exact_projection *projection, const struct br_exact *exact,
+                               const struct br_exact_state *state, double *c, double *rest);
+
+#endif

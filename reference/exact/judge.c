@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The exact reference as a judge. */
+#include <math.h>
+#include <time.h>
+
+#include "reference/exact/exact.h"
+#include "reference/judge.h"
+#include "solver/modes.h"
+
+struct exact_judge {
+    struct br_exact *exact;
+    struct br_exact_state *state;
+    struct br_exact_projection **projection[2]; /* by br_field_kind, then by mesh */
+    bool modelled[2];
+    size_t meshes, levels;
+    double length, duration; /* m, s */
+    double seconds;
+};
+
+static double seconds_now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void exact_free(void *self)
+{
+    struct exact_judge *e = self;
+    if (!e)
+        return;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        for (size_t i = 0; e->projection[kind] && i < e->meshes; i++)
+            br_exact_projection_free(e->projection[kind][i]);
+        free(e->projection[kind]);
+    }
+    br_exact_state_free(e->state);
+    br_exact_free(e->exact);
+    free(e);
+}
+
+/* Both enumerations begin with axial; the parts are displacements. */
+static struct br_exact_part part_of(enum br_field_kind kind)
+{
+    return (struct br_exact_part){.field = kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING};
+}
+
+static enum br_status create_projections(struct exact_judge *e, enum br_field_kind kind,
+                                         const struct br_judge_request *r, struct br_error *err)
+{
+    e->projection[kind] = br_allocate(r->mesh_count, sizeof *e->projection[kind]);
+    if (!e->projection[kind])
+        return br_no_memory(err, "the exact reference");
+    const struct br_exact_part part = part_of(kind);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < r->mesh_count && !status; i++) {
+        const struct br_exact_mesh mesh = {r->mesh[i], br_mode_count(kind) - 1};
+        status = br_exact_projection_create(&e->projection[kind][i], e->exact, &part, &mesh, err);
+    }
+    return status;
+}
+
+static enum br_status exact_create(void **self, const struct br_judge_request *r,
+                                   struct br_error *err)
+{
+    struct exact_judge *e = br_allocate(1, sizeof *e);
+    *self = e;
+    if (!e)
+        return br_no_memory(err, "the exact reference");
+    const double start = seconds_now();
+    e->modelled[BR_AXIAL] = r->scene->axial.modelled;
+    e->modelled[BR_BENDING] = r->scene->bending.modelled;
+    e->meshes = r->mesh_count;
+    e->levels = r->levels;
+    e->length = r->scene->length;
+    e->duration = r->scene->duration;
+    const struct br_exact_options options = {0};
+    enum br_status status = br_exact_create(&e->exact, r->scene, &options, err);
+    if (!status)
+        status = br_exact_state_create(&e->state, e->exact, err);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        if (e->modelled[kind])
+            status = create_projections(e, (enum br_field_kind)kind, r, err);
+    e->seconds = seconds_now() - start;
+    return status;
+}
+
+static enum br_status exact_advance(void *self, size_t i, struct br_error *err)
+{
+    struct exact_judge *e = self;
+    (void)err;
+    const double start = seconds_now();
+    br_exact_at(e->exact, e->duration * (double)i / (double)e->levels, e->state);
+    e->seconds += seconds_now() - start;
+    return BR_OK;
+}
+
+static void exact_look(void *self, enum br_field_kind kind, size_t mesh, double *modes,
+                       double *rest)
+{
+    struct exact_judge *e = self;
+    br_exact_projection_apply(e->projection[kind][mesh], e->exact, e->state, modes, rest);
+}
+
+/* A root mean square over the beam, times sqrt(L), is an L2 norm. */
+static struct br_judge_report exact_report(const void *self)
+{
+    const struct exact_judge *e = self;
+    struct br_judge_report report = {.seconds = e->seconds};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        if (!e->modelled[kind])
+            continue;
+        const struct br_exact_report r =
+            br_exact_report(e->exact, part_of((enum br_field_kind)kind).field);
+        report.own_error[kind] = r.error.displacement * sqrt(e->length);
+    }
+    return report;
+}
+
+const struct br_judge br_judge_exact = {
+    .name = "exact",
+    .syntax = "exact",
+    .title = "the solution of the continuous problem, with an estimate of its own error",
+    .citation = "reference/exact/exact.h: Legendre-Galerkin in space, Radau IIA in time, events "
+                "located",
+    .create = exact_create,
+    .free = exact_free,
+    .advance = exact_advance,
+    .look = exact_look,
+    .report = exact_report,
+};

@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reference/exact/march.h"
+
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_roots.h>
+#include <math.h>
+
+#include "reference/exact/step.h"
+
+enum { S = BR_STAGES, SAMPLES = 24, MAX_ROOT_STEPS = 60, MAX_PHASES_AT_ONCE = 4 };
+
+/* A guard this far below zero, of the largest value so far, is round-off. */
+static const double dead_band = 1e-13;
+
+/* Largest values so far. */
+struct scale {
+    double displacement, velocity; /* L2 norms over the beam */
+    double tip_displacement, tip_velocity, force;
+};
+
+struct march {
+    const struct br_march_options *options;
+    struct br_stepper *s;
+    struct br_track *track;
+    struct scale scale; /* of the accepted steps */
+    double h;           /* s, the next step's length */
+    bool fresh;         /* the next step is the first of a phase */
+    size_t at_once;     /* phases begun at the present time */
+    enum br_status status;
+    struct br_error *err;
+};
+
+static double larger(double a, double b)
+{
+    return isnan(a) || a >= b ? a : b; /* NaN wins */
+}
+
+/* The scale with the trial step's end. */
+static struct scale trial_scale(const struct march *m)
+{
+    const struct br_stepper *s = m->s;
+    const struct br_field *f = s->field;
+    const struct br_tip_state end = br_tip_at(&s->tip, 1);
+    struct scale scale = m->scale;
+    scale.displacement = larger(scale.displacement, br_field_norm(f, s->q, 1));
+    scale.velocity = larger(scale.velocity, br_field_norm(f, s->series, S)); /* its mean */
+    scale.tip_displacement = larger(scale.tip_displacement, fabs(end.displacement));
+    scale.tip_velocity = larger(scale.tip_velocity, fabs(end.velocity));
+    scale.force = larger(scale.force, fabs(end.force));
+    return scale;
+}
+
+static double ratio(double error, double scale)
+{
+    return error == 0 ? 0 : error / scale;
+}
+
+/* The force over a very short step cannot be known better than the velocity's
+ * round-off over the velocity's response to it. */
+static double force_noise(const struct march *m, const struct scale *scale)
+{
+    const double response = fabs(m->s->tip_response[S - 1][S - 1]);
+    return 10 * DBL_EPSILON * scale->velocity / sqrt(m->s->field->length) / response;
+}
+
+/* What the trial step leaves unresolved, over what is allowed: the last two
+ * coefficients of its polynomials. */
+static double step_error(const struct march *m, const struct scale *scale)
+{
+    const struct br_stepper *s = m->s;
+    const double last = br_field_norm(s->field, s->series + S - 1, S);
+    const double before = br_field_norm(s->field, s->series + S - 2, S);
+    const double velocity = larger(last, before / 8);
+    const double force = larger(fabs(s->tip.force[S - 1]), fabs(s->tip.force[S - 2]) / 8);
+    double error = ratio(velocity * s->tip.length, scale->displacement + velocity * s->tip.length);
+    error = larger(error, ratio(velocity, scale->velocity));
+    if (s->phase == BR_CLOSED || s->phase == BR_STICK) /* elsewhere the force is given */
+        error = larger(error,
+                       ratio(force, scale->force + force_noise(m, scale) / m->options->tolerance));
+    return error / m->options->tolerance;
+}
+
+static double guard_at(const struct march *m, double theta)
+{
+    const struct br_tip *tip = &m->s->tip;
+    const struct br_tip_state state = br_tip_at(tip, theta);
+    return br_law_guard(m->s->law, tip->start + theta * tip->length, &state);
+}
+
+static double guard_scale(enum br_phase phase, const struct scale *scale)
+{
+    switch (phase) {
+    case BR_OPEN:
+    case BR_CLOSED:
+        return scale->tip_displacement;
+    case BR_STICK:
+        return scale->force;
+    case BR_SLIP_UP:
+    case BR_SLIP_DOWN:
+        return scale->tip_velocity;
+    case BR_FREE:
+        break;
+    }
+    return 0;
+}
+
+/* The first sample, of SAMPLES over the trial step, at which its phase is over;
+ * 0 for none. */
+static size_t first_violation(const struct march *m, const struct scale *scale)
+{
+    const double lowest = -dead_band * guard_scale(m->s->phase, scale);
+    for (size_t i = 1; i <= SAMPLES; i++)
+        if (guard_at(m, (double)i / SAMPLES) < lowest)
+            return i;
+    return 0;
+}
+
+static double guard_after(double h, void *march)
+{
+    struct march *m = march;
+    if (!m->status)
+        m->status = br_stepper_try(m->s, h, m->err);
+    return m->status ? 0 : guard_at(m, 1);
+}
+
+/* Shortens the trial step to the root of its guard, between `low` and `high`.
+ * The guard is that at the end of a step, which is far more accurate than the
+ * inside of the polynomial. Returns the step's length. */
+static double locate(struct march *m, double low, double high)
+{
+    if (!(low > 0))
+        low = fmin(high, m->options->first_step) / 16;
+    const double at_low = guard_after(low, m), at_high = guard_after(high, m);
+    if (m->status || !(at_low > 0) || !(at_high < 0))
+        return at_low > 0 ? high : low;
+    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+    if (!solver) {
+        m->status = br_no_memory(m->err, "a root");
+        return low;
+    }
+    gsl_function f = {guard_after, m};
+    gsl_root_fsolver_set(solver, &f, low, high);
+    for (int i = 0; i < MAX_ROOT_STEPS && !m->status; i++) {
+        gsl_root_fsolver_iterate(solver);
+        low = gsl_root_fsolver_x_lower(solver);
+        high = gsl_root_fsolver_x_upper(solver);
+        if (high - low <= 2 * DBL_EPSILON * high)
+            break;
+    }
+    const double root = gsl_root_fsolver_root(solver);
+    gsl_root_fsolver_free(solver);
+    return root;
+}
+
+static void enter(struct march *m, enum br_phase phase, double error)
+{
+    const struct br_entry entry = {m->s->time, error, phase};
+    m->s->phase = phase;
+    m->h = m->options->first_step;
+    m->fresh = true;
+    if (!m->status)
+        m->status = br_track_enter(m->track, &entry, m->err);
+}
+
+static void accept(struct march *m, double time)
+{
+    const struct br_stepper *s = m->s;
+    if (!m->status)
+        m->status = br_track_append(m->track, &s->tip, s->q, s->series, m->err);
+    m->scale = trial_scale(m);
+    br_stepper_accept(m->s, time);
+    m->scale.displacement = larger(m->scale.displacement, br_field_norm(s->field, s->q, 1));
+    m->fresh = false;
+    m->at_once = 0;
+}
+
+/* The trial step ends where its guard vanishes: how exactly, s. */
+static double time_error(const struct march *m)
+{
+    const double h = m->s->tip.length, slope = guard_at(m, 0.75) / (0.25 * h);
+    const struct scale scale = trial_scale(m);
+    return dead_band * guard_scale(m->s->phase, &scale) / fabs(slope) +
+           2 * DBL_EPSILON * (m->s->time + h);
+}
+
+/* The phase ends at sample i of the trial step; at once, if it is the first one
+ * of the phase's first step. */
+static void end_phase(struct march *m, size_t i)
+{
+    struct br_stepper *s = m->s;
+    const double h = s->tip.length;
+    const struct br_tip_state over = br_tip_at(&s->tip, (double)i / SAMPLES);
+    double error = 0;
+    if (m->fresh && i == 1) {
+        if (++m->at_once > MAX_PHASES_AT_ONCE)
+            m->status =
+                br_fail(m->err, BR_NOT_FINITE, "the tip's phase at %.17g s is undecided", s->time);
+    } else {
+        const double root = locate(m, h * (double)(i - 1) / SAMPLES, h * (double)i / SAMPLES);
+        if (!m->status)
+            m->status = br_stepper_try(s, root, m->err);
+        error = time_error(m);
+        accept(m, s->time + root);
+    }
+    br_stepper_settle(s);
+    enter(m, br_law_next(&over), error);
+}
+
+/* One step towards `limit`, where the law may change. */
+static void step(struct march *m, double limit)
+{
+    struct br_stepper *s = m->s;
+    const double left = limit - s->time;
+    const bool last = m->h >= left;
+    const double h = last ? left : fmin(m->h, fmax(left / 2, m->options->first_step));
+    m->status = br_stepper_try(s, h, m->err);
+    if (m->status)
+        return;
+    const struct scale scale = trial_scale(m);
+    const double error = step_error(m, &scale);
+    if (!isfinite(error)) {
+        m->status = br_fail(m->err, BR_NOT_FINITE, "not finite after %.17g s", s->time);
+        return;
+    }
+    const double factor = fmin(0.9 * pow(error, -1.0 / (S - 1)), 2);
+    if (error > 1 && h > m->options->first_step) {
+        m->h = fmax(h * fmax(factor, 0.2), m->options->first_step);
+        return;
+    }
+    const size_t over = first_violation(m, &scale);
+    if (over) {
+        end_phase(m, over);
+        return;
+    }
+    accept(m, last ? limit : s->time + h);
+    if (!last)
+        m->h = factor > 1.2 ? h * factor : h;
+}
+
+/* Marches to `limit`. */
+static void march_to(struct march *m, double limit)
+{
+    while (!m->status && m->s->time < limit) {
+        if (m->track->steps >= m->options->max_steps)
+            m->status = br_fail(m->err, BR_NOT_FINITE, "more than %zu time steps until %.17g s",
+                                m->options->max_steps, m->s->time);
+        else
+            step(m, limit);
+    }
+}
+
+static void march(struct march *m)
+{
+    const struct br_track *axial = m->s->law->axial;
+    const size_t breaks = axial ? axial->entries : 1; /* the first is t = 0 */
+    for (size_t i = 0; i < breaks && !m->status; i++) {
+        const bool last = i + 1 == breaks;
+        enter(m,
+              br_law_phase(m->s->law, m->s->time, m->s->phase, m->s->tip_displacement,
+                           m->s->tip_velocity),
+              i ? axial->entry[i].error : 0);
+        march_to(m, last ? m->options->duration : axial->entry[i + 1].time);
+    }
+}
+
+enum br_status br_march(const struct br_field *field, const struct br_law *law,
+                        const struct br_march_options *options, struct br_track **out,
+                        struct br_error *err)
+{
+    struct march m = {.options = options, .err = err};
+    *out = NULL;
+    m.status = br_stepper_create(&m.s, field, law, options->gap, err);
+    if (!m.status)
+        m.status = br_track_create(&m.track, field->modes->count, options->gap, err);
+    if (!m.status)
+        march(&m);
+    br_stepper_free(m.s);
+    if (m.status)
+        br_track_free(m.track);
+    else
+        *out = m.track;
+    return m.status;
+}

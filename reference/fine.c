@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The paper's judge: a fine run of the same scheme. It shares every bug of the
+ * solver, and has an error of its own. */
+#include <math.h>
+#include <time.h>
+
+#include "reference/judge.h"
+#include "solver/modes.h"
+
+struct fine {
+    struct br_march *march;
+    double *nodal; /* workspace */
+    double seconds;
+};
+
+static double seconds_now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void fine_free(void *self)
+{
+    struct fine *f = self;
+    if (!f)
+        return;
+    br_march_free(f->march);
+    free(f->nodal);
+    free(f);
+}
+
+static enum br_status fine_create(void **self, const struct br_judge_request *r,
+                                  struct br_error *err)
+{
+    struct fine *f = br_allocate(1, sizeof *f);
+    *self = f;
+    if (!f)
+        return br_no_memory(err, "the reference");
+    f->nodal = br_allocate(2 * (r->n + 1), sizeof *f->nodal);
+    if (!f->nodal)
+        return br_no_memory(err, "the reference");
+    const double start = seconds_now();
+    const enum br_status status =
+        br_march_create(&f->march, r->scene, r->n, r->levels, &r->method, err);
+    f->seconds = seconds_now() - start;
+    return status;
+}
+
+static enum br_status fine_advance(void *self, size_t i, struct br_error *err)
+{
+    struct fine *f = self;
+    const double start = seconds_now();
+    enum br_status status = BR_OK;
+    while (!status && br_march_steps_done(f->march) < i)
+        status = br_march_step(f->march, err);
+    f->seconds += seconds_now() - start;
+    return status;
+}
+
+static void fine_look(void *self, enum br_field_kind kind, size_t mesh, double *modes,
+                      double *rest)
+{
+    struct fine *f = self;
+    (void)mesh; /* its own is the only one */
+    br_march_get(f->march, kind, f->nodal, NULL);
+    br_modes(br_march_field(f->march, kind), f->nodal, modes);
+    *rest = 0;
+}
+
+static struct br_judge_report fine_report(const void *self)
+{
+    const struct fine *f = self;
+    return (struct br_judge_report){
+        .own_error = {NAN, NAN},
+        .round_off = br_march_round_off(f->march),
+        .seconds = f->seconds,
+    };
+}
+
+const struct br_judge br_judge_fine = {
+    .name = "fine",
+    .syntax = "fine:N,K",
+    .title = "a run of the same scheme with N elements and steps of K seconds",
+    .citation = "Campo et al. 2006, section 3.2.1",
+    .nests = true,
+    .create = fine_create,
+    .free = fine_free,
+    .advance = fine_advance,
+    .look = fine_look,
+    .report = fine_report,
+};

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reference/judge.h"
+
+#include <string.h>
+
+const struct br_judge *const br_judges[] = {&br_judge_fine, &br_judge_exact, NULL};
+
+const struct br_judge *br_judge_find(const char *name)
+{
+    for (const struct br_judge *const *j = br_judges; *j; j++)
+        if (strcmp((*j)->name, name) == 0)
+            return *j;
+    return NULL;
+}
