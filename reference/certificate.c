@@ -221,7 +221,7 @@ static double field_scale(const struct br_step *s, enum br_field_kind kind)
     const size_t size = (kind == BR_AXIAL ? 1 : 2) * (s->n + 1);
     const struct br_step_field *f = &s->field[kind];
     return magnitude(f->displacement, size) + magnitude(f->displacement_before, size) +
-           s->k * magnitude(f->velocity, size);
+           s->k * (magnitude(f->velocity, size) + magnitude(f->velocity_before, size));
 }
 
 /* u_n = u_{n-1} + k v_n, and the tip's velocity as told. */
@@ -402,10 +402,10 @@ void br_certificate_merge(struct br_certificate *worst, const struct br_certific
 struct br_certificate br_certificate_limits(size_t n, double round_off)
 {
     const double nodes = (double)n + 1;
-    const double sums = 16 * DBL_EPSILON * nodes + round_off;
+    const double sums = 64 * DBL_EPSILON * nodes + round_off;
     return (struct br_certificate){
-        .axial_residual = 16 * DBL_EPSILON * nodes + 16 * round_off,
-        .bending_residual = 16 * DBL_EPSILON * nodes * nodes + 16 * round_off,
+        .axial_residual = 64 * DBL_EPSILON * nodes + 16 * round_off,
+        .bending_residual = 64 * DBL_EPSILON * nodes * nodes + 16 * round_off,
         .update = sums,
         .friction = sums,
         .contact = sums,

