@@ -132,7 +132,8 @@ static enum br_status ladder(const void *data, struct br_error *err)
     (void)data;
     struct br_ladder *l = NULL;
     const enum br_status status =
-        br_ladder_create(&l, BR_BENDING, 12, 3, (const size_t[]){4, 6, 2}, err);
+        br_ladder_create(&l, BR_BENDING, &(struct br_mesh_list){1, (const size_t[]){12}},
+                         &(struct br_mesh_list){3, (const size_t[]){4, 6, 2}}, err);
     br_ladder_free(l);
     return status;
 }
@@ -150,6 +151,7 @@ static enum br_status study(const void *data, struct br_error *err)
     struct br_study s = {
         .scene = &d->scene,
         .method = d->method,
+        .judge = &br_judge_fine,
         .reference_method = d->method,
         .reference = {8, 10},
         .n_count = 2,

@@ -71,7 +71,8 @@ static struct br_ladder *create(enum br_field_kind kind, size_t finest, size_t c
 {
     struct br_error err = {0};
     struct br_ladder *ladder;
-    MUST(br_ladder_create(&ladder, kind, finest, count, n, &err));
+    MUST(br_ladder_create(&ladder, kind, &(struct br_mesh_list){1, &finest},
+                          &(struct br_mesh_list){count, n}, &err));
     return ladder;
 }
 
@@ -81,7 +82,7 @@ static double *projection_of(const struct br_ladder *ladder, const struct br_fie
     double *modes = modes_of(f, nodal);
     double *projection = calloc(br_ladder_size(ladder), sizeof *projection);
     assert_non_null(projection);
-    br_ladder_project(ladder, modes, projection);
+    br_ladder_project(ladder, &(struct br_root_value){modes, 0}, projection);
     free(modes);
     return projection;
 }
@@ -219,11 +220,14 @@ static void test_refusals(void **state)
     (void)state;
     struct br_error err = {0};
     struct br_ladder *ladder;
-    REFUSED(br_ladder_create(&ladder, BR_AXIAL, 12, 2, (const size_t[]){4, 5}, &err), BR_BAD_INPUT,
+    const struct br_mesh_list twelve = {1, (const size_t[]){12}};
+    REFUSED(br_ladder_create(&ladder, BR_AXIAL, &twelve,
+                             &(struct br_mesh_list){2, (const size_t[]){4, 5}}, &err), BR_BAD_INPUT,
             "n = 5 does not divide the reference's 12");
     br_ladder_free(ladder);
-    REFUSED(br_ladder_create(&ladder, BR_AXIAL, 12, 1, (const size_t[]){0}, &err), BR_BAD_INPUT,
-            "n = 0");
+    REFUSED(br_ladder_create(&ladder, BR_AXIAL, &twelve,
+                             &(struct br_mesh_list){1, (const size_t[]){0}}, &err), BR_BAD_INPUT,
+            "n is 0");
     br_ladder_free(ladder);
     br_ladder_free(NULL);
 }

@@ -16,6 +16,7 @@ static struct br_study study_of(const struct br_scene *scene, struct br_resoluti
     return (struct br_study){
         .scene = scene,
         .method = br_method_default(),
+        .judge = &br_judge_fine,
         .reference_method = br_method_default(),
         .reference = reference,
         .n_count = n_count,

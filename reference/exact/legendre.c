@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference/exact/legendre.h"
 
+#include <assert.h>
 #include <gsl/gsl_sf_legendre.h>
 #include <math.h>
 
@@ -42,7 +43,8 @@ double br_legendre_coupling(size_t k)
 
 void br_legendre_integral(size_t count, double xi, double *q)
 {
-    double p[count + 1];
+    assert(count <= BR_MOST_INTEGRALS);
+    double p[BR_MOST_INTEGRALS + 1];
     br_legendre(count + 1, xi, p);
     for (size_t k = 1; k < count; k++)
         q[k] = br_legendre_coupling(k + 1) * p[k + 1] - br_legendre_coupling(k) * p[k - 1];

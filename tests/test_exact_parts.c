@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The parts of the exact reference: Legendre series, Radau's tables, modes. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+
+#include "reference/exact/legendre.h"
+#include "reference/exact/modes.h"
+#include "reference/exact/radau.h"
+#include "tests/exact_scenes.h"
+
+enum { S = BR_STAGES };
+
+/* 3 x^2 - 2 x + 1, its integral x^3 - x^2 + x and its derivative 6 x - 2. */
+static void test_legendre(void **unused)
+{
+    (void)unused;
+    double c[] = {1, 2 / sqrt(3) / 4, 1 / sqrt(5) / 2, 0};
+    for (double x = 0; x <= 1; x += 0.125) {
+        double p[4], dp[4], q[4], value = 0, rate = 0, integral = 0, series = 0;
+        double d[] = {c[0], c[1], c[2], 0};
+        br_legendre_derivative(3, x, p, dp);
+        br_legendre_integral(3, x, q);
+        for (size_t k = 0; k < 3; k++) {
+            value += c[k] * p[k];
+            rate += c[k] * dp[k];
+            integral += c[k] * q[k];
+        }
+        br_legendre_integrate(3, d);
+        br_legendre(4, x, p);
+        for (size_t k = 0; k < 4; k++)
+            series += d[k] * p[k];
+        assert_near(value, 3 * x * x - 2 * x + 1, 1e-15);
+        assert_near(rate, 6 * x - 2, 1e-14);
+        assert_near(integral, x * x * x - x * x + x, 1e-15);
+        assert_near(series, x * x * x - x * x + x, 1e-15);
+    }
+}
+
+/* Collocation: X integrates each p_k right at the nodes, and fit() undoes p_k. */
+static void test_radau_tables(void **unused)
+{
+    (void)unused;
+    struct br_radau r;
+    assert_int_equal(br_radau_init(&r, NULL), BR_OK);
+    double value[S][S], fitted[S];
+    for (size_t j = 0; j < S; j++)
+        br_legendre(S, r.node[j], value[j]);
+    for (size_t k = 0; k < S; k++) {
+        double samples[S];
+        for (size_t j = 0; j < S; j++) {
+            double exact[S], sum = 0;
+            br_legendre_integral(S, r.node[j], exact);
+            for (size_t l = 0; l < S; l++)
+                sum += value[j][l] * r.integral[l][k];
+            assert_near(sum, exact[k], 1e-15);
+            samples[j] = value[j][k];
+        }
+        br_radau_fit(&r, samples, fitted);
+        for (size_t l = 0; l < S; l++)
+            assert_near(fitted[l], l == k, 1e-14);
+    }
+    assert_near(r.node[S - 1], 1, 0);
+}
+
+/* y' = z y, one step from 1: the series solves v = z (1 + X v), by iteration. */
+static double step_end(const struct br_radau *r, double z)
+{
+    double v[S] = {0};
+    for (int round = 0; round < 200; round++) {
+        double next[S];
+        for (size_t k = 0; k < S; k++)
+            next[k] = z * ((k == 0) + br_radau_sum(r->integral[k], v));
+        memcpy(v, next, sizeof v);
+    }
+    return 1 + v[0];
+}
+
+/* Radau IIA of s stages is the Pade approximant of e^z of degrees s - 1 and s. */
+static void test_radau_stability(void **unused)
+{
+    (void)unused;
+    struct br_radau r;
+    assert_int_equal(br_radau_init(&r, NULL), BR_OK);
+    for (double z = -3; z <= 6; z += 1.5) {
+        double top = 0, bottom = 0, a = 1, b = 1;
+        for (int i = 0; i <= S; i++) {
+            top += a;
+            bottom += b;
+            a *= z * (S - 1 - i) / ((2 * S - 1 - i) * (i + 1.0));
+            b *= -z * (S - i) / ((2 * S - 1 - i) * (i + 1.0));
+        }
+        assert_near(step_end(&r, z) / (top / bottom), 1, 1e-12);
+    }
+}
+
+/* Frequencies of rods and beams: s_i = 1 / ((i - 1/2) pi), and 1 / beta_i^2. */
+static void test_modes(void **unused)
+{
+    (void)unused;
+    const double beta[] = {1.875104068711961166445, 4.694091132974174576436,
+                           7.854757438237612564861, 10.99554073487546699067};
+    struct br_modes *rod = NULL, *beam = NULL;
+    assert_int_equal(br_modes_create(&rod, 30, 1, NULL), BR_OK);
+    assert_int_equal(br_modes_create(&beam, 30, 2, NULL), BR_OK);
+    for (size_t i = 0; i < 4; i++) {
+        assert_near(rod->size[i], 1 / (((double)i + 0.5) * acos(-1)), 1e-15);
+        assert_near(beam->size[i], 1 / (beta[i] * beta[i]), 1e-15);
+        /* unit energy: sqrt(2) s_i sin(x / s_i), and 2 s_i for a cantilever */
+        assert_near(fabs(rod->tip[i]), sqrt(2) * rod->size[i], 1e-14);
+        assert_near(fabs(beam->tip[i]), 2 * beam->size[i], 1e-14);
+    }
+    br_modes_free(rod);
+    br_modes_free(beam);
+}
+
+/* Projections of a function that the modes can represent, (2 xi)^2. */
+static void check_projections(size_t m)
+{
+    struct br_modes *beam = NULL;
+    assert_int_equal(br_modes_create(&beam, m, 2, NULL), BR_OK);
+    struct formula square = {f_power, {1, 2}}, slope = {f_power, {2, 1}};
+    const struct br_function w = formula_function(&square), dw = formula_function(&slope);
+    const double expected[] = {4.0 / 3, 4 / sqrt(12), 4 / sqrt(180)};
+    double q[m], c[m + 2];
+    assert_int_equal(br_modes_project_energy(beam, &dw, 2, 2, q, NULL), BR_OK);
+    br_modes_expand(beam, 0, q, c);
+    for (size_t k = 0; k < m + 2; k++)
+        assert_near(c[k], k < 3 ? expected[k] : 0, 1e-12);
+    assert_int_equal(br_modes_project(beam, &w, 2, q, NULL), BR_OK);
+    br_modes_expand(beam, 0, q, c);
+    for (size_t k = 0; k < m + 2; k++)
+        assert_near(c[k], k < 3 ? expected[k] : 0, 1e-12);
+    br_modes_free(beam);
+}
+
+static void test_projections(void **unused)
+{
+    (void)unused;
+    check_projections(10);
+    check_projections(150);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_legendre),        cmocka_unit_test(test_radau_tables),
+        cmocka_unit_test(test_radau_stability), cmocka_unit_test(test_modes),
+        cmocka_unit_test(test_projections),
+    };
+    return cmocka_run_group_tests_name("exact: parts", tests, NULL, NULL);
+}
