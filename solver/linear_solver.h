@@ -64,7 +64,7 @@ struct br_linear_solver {
 
     /* Predicted round-off of a march's displacement relative to the exact discrete
      * solution, from measurements (the benchmark prints both). */
-    double (*round_off)(const struct br_field *field);
+    double (*round_off)(const struct br_field *field, const struct br_linear_options *options);
 };
 
 extern const struct br_linear_solver br_riccati, br_umfpack;

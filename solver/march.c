@@ -324,6 +324,7 @@ double br_march_round_off(const struct br_march *m)
     double largest = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (m->part[kind].modelled)
-            largest = fmax(largest, m->method.solver->round_off(&m->part[kind].field));
+            largest = fmax(largest, m->method.solver->round_off(&m->part[kind].field,
+                                                                &m->method.linear));
     return largest;
 }

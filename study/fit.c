@@ -128,7 +128,7 @@ static double round_off(const struct br_study *s, const struct br_cell *c)
         const struct br_field field =
             br_field_of_scene(s->scene, (enum br_field_kind)kind, c->at.n, step_of(s, c));
         if (modelled)
-            relative = fmax(relative, s->method.solver->round_off(&field));
+            relative = fmax(relative, s->method.solver->round_off(&field, &s->method.linear));
     }
     return relative * s->reference_scale;
 }

@@ -45,7 +45,7 @@ static void solve_once(const struct br_linear_solver *s, const struct br_field *
 /* Relative round-off that the solver claims, and a little for the check itself. */
 static double tolerance_of(const struct br_linear_solver *s, const struct br_field *field)
 {
-    return br_test_slack() * (1e-13 + s->round_off(field));
+    return br_test_slack() * (1e-13 + s->round_off(field, &br_linear_defaults));
 }
 
 /* A tip force in the rod: constant strain, u = P x / a. */

@@ -57,7 +57,7 @@ static enum br_status rule_init(struct rule *r, size_t length, const struct br_e
     if (!r->gauss || !r->local || !r->global || !r->stack)
         return br_no_memory(err, "a projection");
     for (size_t i = 0; i < n; i++) {
-        double xi, weight, *p = r->stack; /* not in use yet */
+        double xi, weight, *p = r->global; /* not in use yet, and long enough */
         gsl_integration_glfixed_point(0, 1, i, &xi, &weight, r->gauss);
         br_legendre(n, xi, p);
         for (size_t l = 0; l < n; l++)
