@@ -149,19 +149,26 @@ void br_write_hollow(FILE *out, const struct br_report *report, const struct br_
 static void write_order(FILE *out, const char *before, const struct br_estimate *order,
                         const char *variable)
 {
-    fprintf(out, "%s %.2f", before, order->value);
-    if (isfinite(order->low) && isfinite(order->high))
-        fprintf(out, " [%.2f, %.2f]", order->low, order->high);
-    fprintf(out, " in %s", variable);
+    char text[64];
+    fprintf(out, "%s %s in %s", before, br_order_text(order, text, sizeof text), variable);
+}
+
+/* What the fit says, or why it says nothing. */
+static const char *fit_verdict(const struct br_joint_fit *fit)
+{
+    if (!fit->converged)
+        return "none could be made";
+    return br_joint_describes(fit) ? "order" : "does not describe these errors";
 }
 
 void br_write_orders(FILE *out, const struct br_report *report, enum br_part part, double y)
 {
     const struct br_joint_fit *fit = &report->fits[part].joint;
-    const bool space = fit->converged && isfinite(fit->p.value);
-    const bool time = fit->converged && isfinite(fit->q.value);
+    const bool described = br_joint_describes(fit);
+    const bool space = described && isfinite(fit->p.value);
+    const bool time = described && isfinite(fit->q.value);
     fprintf(out, "set label 'Joint fit (95 %%), %s: ", br_part_names[part]);
-    fputs(space || time ? "order" : "none could be made", out);
+    fputs(fit_verdict(fit), out);
     if (space)
         write_order(out, "", &fit->p, "h");
     if (time)

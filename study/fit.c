@@ -3,6 +3,7 @@
 
 #include <gsl/gsl_fit.h>
 #include <math.h>
+#include <stdio.h>
 
 #include "study/joint_fit.h"
 
@@ -11,6 +12,21 @@ const double br_flag_margin = 3;
 bool br_order_determined(const struct br_estimate *order)
 {
     return order->high - order->low <= 1 && order->low > 0; /* false for NaN */
+}
+
+const char *br_order_text(const struct br_estimate *order, char *buffer, size_t size)
+{
+    if (!isfinite(order->value))
+        return "-";
+    if (!isfinite(order->low) || !isfinite(order->high)) {
+        snprintf(buffer, size, "%.2f [no interval]", order->value);
+        return buffer;
+    }
+    const double half = (order->high - order->low) / 2;
+    const int decimals = half < 0.0005 ? 4 : half < 0.005 ? 3 : 2;
+    snprintf(buffer, size, "%.*f [%.*f, %.*f]", decimals, order->value, decimals, order->low,
+             decimals, order->high);
+    return buffer;
 }
 
 bool br_joint_describes(const struct br_joint_fit *fit)

@@ -14,6 +14,10 @@ struct br_estimate {
  * nothing. */
 bool br_order_determined(const struct br_estimate *order);
 
+/* "1.02 [1.00, 1.04]" with the decimals that the interval deserves, 2 to 4; "-" where
+ * there is none. buffer: at least 64 characters. */
+const char *br_order_text(const struct br_estimate *order, char *buffer, size_t size);
+
 /* Slope of log(error) against log(h) or log(k): what a reader would draw. It means
  * an order only where one of the two errors dominates. */
 struct br_slope {

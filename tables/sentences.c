@@ -22,22 +22,6 @@ bool br_part_shown(const struct br_report *r, enum br_part part)
     return part == BR_PART_TOTAL || (s->axial.modelled && s->bending.modelled);
 }
 
-/* As many decimals as the interval deserves, 2 to 4. */
-const char *br_order_text(const struct br_estimate *order, char *buffer, size_t size)
-{
-    if (!isfinite(order->value))
-        return "-";
-    if (!isfinite(order->low) || !isfinite(order->high)) {
-        snprintf(buffer, size, "%.2f [no interval]", order->value);
-        return buffer;
-    }
-    const double half = (order->high - order->low) / 2;
-    const int decimals = half < 0.0005 ? 4 : half < 0.005 ? 3 : 2;
-    snprintf(buffer, size, "%.*f [%.*f, %.*f]", decimals, order->value, decimals, order->low,
-             decimals, order->high);
-    return buffer;
-}
-
 static void describe_method(const struct br_study *s, const struct br_method *m, char *text,
                             size_t size)
 {

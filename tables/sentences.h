@@ -25,9 +25,6 @@ void br_say_flags(const struct br_report *report, const struct br_writer *w);
 /* How ours and the printed values differ, and the triangle inequality. */
 void br_say_printed(const struct br_report *report, const struct br_writer *w);
 
-/* "1.02 [1.00, 1.04]", or why there is none; buffer: at least 64 characters. */
-const char *br_order_text(const struct br_estimate *order, char *buffer, size_t size);
-
 /* Whether a part is worth showing: with one field alone it is the total. */
 bool br_part_shown(const struct br_report *report, enum br_part part);
 
