@@ -78,6 +78,11 @@ static struct br_judge_report fine_report(const void *self)
     };
 }
 
+static void fine_tell(const void *self, FILE *out)
+{
+    (void)self, (void)out;
+}
+
 const struct br_judge br_judge_fine = {
     .name = "fine",
     .syntax = "fine:N,K",
@@ -89,4 +94,5 @@ const struct br_judge br_judge_fine = {
     .advance = fine_advance,
     .look = fine_look,
     .report = fine_report,
+    .tell = fine_tell,
 };

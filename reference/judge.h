@@ -5,6 +5,8 @@
 #ifndef BR_JUDGE_H
 #define BR_JUDGE_H
 
+#include <stdio.h>
+
 #include "solver/march.h"
 
 struct br_judge_request {
@@ -44,6 +46,10 @@ struct br_judge {
     void (*look)(void *self, enum br_field_kind kind, size_t mesh, double *modes, double *rest);
 
     struct br_judge_report (*report)(const void *self);
+
+    /* What a reader should know of the solution, one line after the other (events at
+     * the tip, with the errors of their times), or nothing. */
+    void (*tell)(const void *self, FILE *out);
 };
 
 extern const struct br_judge br_judge_fine, br_judge_exact;

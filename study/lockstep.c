@@ -497,6 +497,17 @@ static void spawn_all(struct crew *crew)
                 spawn_batch(crew, &crew->step[s], b);
 }
 
+/* What the reference tells, kept with the study. */
+static enum br_status keep_events(struct lockstep *l, struct br_error *err)
+{
+    size_t size;
+    FILE *out = open_memstream(&l->study->events, &size);
+    if (!out)
+        return br_no_memory(err, "the events");
+    l->reference.judge->tell(l->reference.self, out);
+    return fclose(out) == 0 ? BR_OK : br_no_memory(err, "the events");
+}
+
 static enum br_status outcome(struct crew *crew, struct br_error *err)
 {
     for (size_t s = 0; s < crew->count; s++) {
@@ -508,6 +519,9 @@ static enum br_status outcome(struct crew *crew, struct br_error *err)
         }
         if (atomic_load(&l->stopped))
             return br_fail(err, BR_INTERRUPTED, "interrupted");
+        const enum br_status status = keep_events(l, err);
+        if (status)
+            return status;
     }
     return BR_OK;
 }

@@ -41,7 +41,9 @@ double br_reference_mesh(const struct br_study *s)
 void br_study_clear(struct br_study *study)
 {
     free(study->cell);
+    free(study->events);
     study->cell = NULL;
+    study->events = NULL;
 }
 
 enum br_status br_steps_of(const struct br_scene *scene, double k, size_t *steps,
@@ -153,7 +155,7 @@ enum br_status br_study_run(struct br_study *studies, size_t count, int threads,
 {
     enum br_status status = BR_OK;
     for (size_t i = 0; i < count; i++)
-        studies[i].cell = NULL;
+        studies[i].cell = NULL, studies[i].events = NULL;
     for (size_t i = 0; i < count && !status; i++)
         status = prepare(&studies[i], err);
     if (!status)

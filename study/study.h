@@ -48,6 +48,7 @@ struct br_study {
     /* out */
     struct br_cell *cell;         /* n_count * k_count, by rows of equal n; owned */
     struct br_judge_report judged_by;
+    char *events;                     /* what the reference tells, lines; owned; may be NULL */
     double reference_scale;           /* largest L2 norm |u| + |w| of the reference, m^(3/2) */
     double reference_error[BR_PARTS]; /* by the auditor, m^(3/2); without one: NaN */
 };

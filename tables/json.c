@@ -134,6 +134,7 @@ static json_t *sentences(const struct br_report *r)
     const struct br_writer w = {append, a};
     br_say_method(r, &w);
     br_say_flags(r, &w);
+    br_say_events(r, &w);
     br_say_orders(r, &w);
     br_say_printed(r, &w);
     return a;

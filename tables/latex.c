@@ -171,6 +171,7 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
     fputc('\n', out);
     br_say_method(r, &w);
     br_say_flags(r, &w);
+    br_say_events(r, &w);
     br_say_orders(r, &w);
     br_say_printed(r, &w);
     return BR_OK;

@@ -170,6 +170,16 @@ void br_say_flags(const struct br_report *r, const struct br_writer *w)
     say_failures(r->study, w);
 }
 
+void br_say_events(const struct br_report *r, const struct br_writer *w)
+{
+    const char *line = br_report_fitted(r)->events;
+    while (line && *line) {
+        const size_t length = strcspn(line, "\n");
+        say(w, "%.*s", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+}
+
 static void say_ratio(const struct br_report *r, const struct br_writer *w)
 {
     double least = INFINITY, most = 0;

@@ -22,6 +22,9 @@ void br_say_orders(const struct br_report *report, const struct br_writer *w);
 /* Which cells are flagged, and why. */
 void br_say_flags(const struct br_report *report, const struct br_writer *w);
 
+/* The events at the tip, where the reference knows them. */
+void br_say_events(const struct br_report *report, const struct br_writer *w);
+
 /* How ours and the printed values differ, and the triangle inequality. */
 void br_say_printed(const struct br_report *report, const struct br_writer *w);
 

@@ -140,6 +140,9 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
     fputc('\n', out);
     br_say_flags(r, &w);
     fputc('\n', out);
+    br_say_events(r, &w);
+    if (br_report_fitted(r)->events && *br_report_fitted(r)->events)
+        fputc('\n', out);
     br_say_orders(r, &w);
     if (r->printed)
         fputc('\n', out);

@@ -293,7 +293,7 @@ static void test_honest(void **unused)
     const struct br_scene scene = lively_scene();
     struct br_exact *exact = solve(&scene, 1e-10);
     struct br_exact_state *x = new_state(exact);
-    for (double tolerance = 1e-3; tolerance > 1e-8; tolerance /= 30) {
+    for (double tolerance = 1e-3; tolerance > 1e-7; tolerance /= 30) {
         struct br_exact *rough = solve(&scene, tolerance);
         struct br_exact_state *y = new_state(rough);
         double worst[2] = {0};

@@ -117,6 +117,26 @@ static struct br_judge_report exact_report(const void *self)
     return report;
 }
 
+/* One line an event; of very many, the first ones. */
+static void exact_tell(const void *self, FILE *out)
+{
+    enum { MOST = 20 };
+    const struct exact_judge *e = self;
+    static const char *const subjects[] = {"", "tip "};
+    size_t count;
+    const struct br_exact_event *event = br_exact_events(e->exact, &count);
+    for (size_t i = 0; i < count && i < MOST; i++) {
+        if (event[i].time == 0)
+            fprintf(out, "At t = 0: %s%s.\n", subjects[event[i].field],
+                    br_phase_text(event[i].phase));
+        else
+            fprintf(out, "At t = %.12g s (+- %.0e s): %s%s.\n", event[i].time, event[i].error,
+                    subjects[event[i].field], br_phase_text(event[i].phase));
+    }
+    if (count > MOST)
+        fprintf(out, "%zu more events follow.\n", count - MOST);
+}
+
 const struct br_judge br_judge_exact = {
     .name = "exact",
     .syntax = "exact",
@@ -128,4 +148,5 @@ const struct br_judge br_judge_exact = {
     .advance = exact_advance,
     .look = exact_look,
     .report = exact_report,
+    .tell = exact_tell,
 };
