@@ -1,0 +1,280 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fits on made-up grids whose orders are known. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "study/fit.h"
+#include "support.h"
+
+enum { ROWS = 6, COLUMNS = 6, CELLS = ROWS * COLUMNS };
+
+static const size_t meshes[ROWS] = {100, 200, 400, 800, 1600, 3200};
+static const size_t steps[COLUMNS] = {100, 200, 500, 1000, 2000, 10000};
+
+/* A study that was never run: its errors are made up. */
+struct grid {
+    struct br_scene scene;
+    struct br_study study;
+    struct br_cell cell[CELLS];
+};
+
+static void grid_init(struct grid *g, bool fine)
+{
+    *g = (struct grid){.scene = br_test_bare()};
+    g->study = (struct br_study){
+        .scene = &g->scene,
+        .method = br_method_default(),
+        .judge = fine ? &br_judge_fine : &br_judge_exact,
+        .reference_method = br_method_default(),
+        .reference = {fine ? 12800 : 0, 100000},
+        .n_count = ROWS,
+        .k_count = COLUMNS,
+        .n = meshes,
+        .steps = steps,
+        .cell = g->cell,
+        .judged_by = {.own_error = {fine ? NAN : 0, fine ? NAN : 0}},
+        .reference_scale = 1,
+    };
+    for (size_t i = 0; i < CELLS; i++)
+        g->cell[i].at = (struct br_resolution){meshes[i / COLUMNS], steps[i % COLUMNS]};
+}
+
+struct truth {
+    double c_h, p, c_k, q, r;
+};
+
+static double side(double c, double order, double x, double x_ref)
+{
+    return c * (pow(x, order) - (x_ref > 0 ? pow(x_ref, order) : 0));
+}
+
+/* The textbook law of cosines, with a relative noise of the given size. */
+static void fill(struct grid *g, const struct truth *t, double noise, uint64_t seed)
+{
+    struct br_test_random random = {seed};
+    for (size_t i = 0; i < CELLS; i++) {
+        const double a = side(t->c_h, t->p, g->scene.length / (double)g->cell[i].at.n,
+                              br_reference_mesh(&g->study));
+        const double b = side(t->c_k, t->q, g->scene.duration / (double)g->cell[i].at.steps,
+                              br_reference_step(&g->study));
+        /* nearly normal: a sum of uniform numbers */
+        double sum = 0;
+        for (int j = 0; j < 12; j++)
+            sum += br_test_uniform(&random, -0.5, 0.5);
+        g->cell[i].error[BR_PART_TOTAL] =
+            sqrt(a * a + 2 * t->r * a * b + b * b) * exp(noise * sum);
+    }
+}
+
+static struct br_fits fit(struct grid *g)
+{
+    struct br_error err = {0};
+    struct br_fits fits;
+    MUST(br_fit(&g->study, BR_PART_TOTAL, &fits, &err));
+    return fits;
+}
+
+static void test_recovers(void **state)
+{
+    (void)state;
+    static const struct truth truths[] = {
+        {0.06, 2, 0.08, 1, -0.79}, {3, 2, 0.5, 1, 0},      {10, 2, 0.1, 1, 0.9},
+        {40, 2, 0.2, 2, -0.5},     {0.5, 1, 0.3, 1, 0.25}, {2, 1.5, 0.05, 0.5, 0.6},
+    };
+    for (size_t i = 0; i < sizeof truths / sizeof *truths; i++)
+        for (int fine = 0; fine < 2; fine++) {
+            struct grid g;
+            grid_init(&g, fine);
+            fill(&g, &truths[i], 0, 1);
+            struct br_fits fits = fit(&g);
+            const struct br_joint_fit *j = &fits.joint;
+            assert_true(j->converged && br_joint_describes(j));
+            assert_int_equal(j->kind, BR_JOINT_BOTH);
+            CLOSE(j->p.value, truths[i].p, 1e-5);
+            CLOSE(j->q.value, truths[i].q, 1e-5);
+            CLOSE(j->r.value, truths[i].r, 1e-4);
+            CLOSE(j->c_h.value / truths[i].c_h, 1, 1e-4);
+            CLOSE(j->c_k.value / truths[i].c_k, 1, 1e-4);
+            AT_MOST(j->worst, 1e-5);
+            br_fits_clear(&fits);
+        }
+}
+
+/* With noise of 1 %, the intervals hold the truth in about 95 % of the trials. */
+static void test_coverage(void **state)
+{
+    (void)state;
+    enum { TRIALS = 200 };
+    const struct truth truth = {20, 2, 0.2, 1, 0.3};
+    size_t p = 0, q = 0;
+    for (uint64_t seed = 1; seed <= TRIALS; seed++) {
+        struct grid g;
+        grid_init(&g, true);
+        fill(&g, &truth, 0.01, seed);
+        struct br_fits fits = fit(&g);
+        p += fits.joint.p.low <= truth.p && truth.p <= fits.joint.p.high;
+        q += fits.joint.q.low <= truth.q && truth.q <= fits.joint.q.high;
+        br_fits_clear(&fits);
+    }
+    /* 190 expected; three standard deviations are 9.2 */
+    assert_in_range(p, 180, TRIALS);
+    assert_in_range(q, 180, TRIALS);
+    assert_true(p < TRIALS || q < TRIALS); /* intervals that never miss are too wide */
+}
+
+static void test_one_sided(void **state)
+{
+    (void)state;
+    static const struct truth time_only = {1e-9, 2, 0.1, 1, 0}, space_only = {5, 2, 1e-9, 1, 0};
+    struct grid g;
+    grid_init(&g, true);
+    fill(&g, &time_only, 1e-4, 3);
+    struct br_fits fits = fit(&g);
+    assert_int_equal(fits.joint.kind, BR_JOINT_TIME);
+    CLOSE(fits.joint.q.value, 1, 1e-3);
+    assert_true(isnan(fits.joint.p.value));
+    br_fits_clear(&fits);
+    grid_init(&g, true);
+    fill(&g, &space_only, 1e-4, 3);
+    fits = fit(&g);
+    assert_int_equal(fits.joint.kind, BR_JOINT_SPACE);
+    CLOSE(fits.joint.p.value, 2, 1e-3);
+    assert_true(isnan(fits.joint.q.value));
+    br_fits_clear(&fits);
+}
+
+/* The sum C_h h^p + C_k k^q cannot follow an error that grows as the mesh is refined. */
+static void test_opposed(void **state)
+{
+    (void)state;
+    const struct truth truth = {0.0626, 2, 0.0785, 1, -0.79};
+    struct grid g;
+    grid_init(&g, true);
+    fill(&g, &truth, 0, 1);
+    const double coarse = br_study_cell(&g.study, 0, COLUMNS - 1)->error[BR_PART_TOTAL];
+    const double fine = br_study_cell(&g.study, ROWS - 1, COLUMNS - 1)->error[BR_PART_TOTAL];
+    assert_true(coarse < 0.8 * fine);
+    struct br_fits fits = fit(&g);
+    CLOSE(fits.joint.p.value, 2, 1e-4);
+    assert_true(fits.by_k[COLUMNS - 1].order.value < 0); /* the slope is misled */
+    br_fits_clear(&fits);
+}
+
+static void test_left_out(void **state)
+{
+    (void)state;
+    const struct truth truth = {20, 2, 0.2, 1, 0.3};
+    struct grid g;
+    grid_init(&g, true);
+    fill(&g, &truth, 0, 1);
+    g.cell[3].error[BR_PART_TOTAL] = NAN;
+    g.cell[9].error[BR_PART_TOTAL] = INFINITY;
+    g.cell[20].failure.status = BR_NOT_FINITE;
+    g.cell[20].error[BR_PART_TOTAL] = 1e9;
+    g.cell[30].error[BR_PART_TOTAL] = 0;
+    struct br_fits fits = fit(&g);
+    assert_int_equal(g.cell[3].flag[BR_PART_TOTAL], BR_FLAG_FAILED);
+    assert_int_equal(g.cell[9].flag[BR_PART_TOTAL], BR_FLAG_FAILED);
+    assert_int_equal(g.cell[20].flag[BR_PART_TOTAL], BR_FLAG_FAILED);
+    assert_int_equal(g.cell[30].flag[BR_PART_TOTAL], BR_FLAG_ROUND_OFF);
+    assert_int_equal(fits.joint.points, CELLS - 4);
+    CLOSE(fits.joint.p.value, truth.p, 1e-4);
+    br_fits_clear(&fits);
+}
+
+static void test_flags(void **state)
+{
+    (void)state;
+    struct grid g;
+    grid_init(&g, false);
+    const struct truth truth = {20, 2, 0.2, 1, 0.3};
+    fill(&g, &truth, 0, 1);
+    /* An exact reference that knows its own error: what is below three times it is marked. */
+    const double smallest = br_study_cell(&g.study, ROWS - 1, COLUMNS - 1)->error[BR_PART_TOTAL];
+    g.study.judged_by.own_error[BR_AXIAL] = smallest / 2.9;
+    struct br_fits fits = fit(&g);
+    assert_int_equal(br_study_cell(&g.study, ROWS - 1, COLUMNS - 1)->flag[BR_PART_TOTAL],
+                     BR_FLAG_REFERENCE);
+    assert_int_equal(g.cell[0].flag[BR_PART_TOTAL], BR_FLAG_NONE);
+    br_fits_clear(&fits);
+    g.study.judged_by.own_error[BR_AXIAL] = smallest / 3.1;
+    fits = fit(&g);
+    assert_int_equal(br_study_cell(&g.study, ROWS - 1, COLUMNS - 1)->flag[BR_PART_TOTAL],
+                     BR_FLAG_NONE);
+    br_fits_clear(&fits);
+    g.study.judged_by.round_off = 1; /* nothing can be told any more */
+    fits = fit(&g);
+    for (size_t i = 0; i < CELLS; i++)
+        assert_int_equal(g.cell[i].flag[BR_PART_TOTAL], BR_FLAG_ROUND_OFF);
+    assert_false(fits.joint.converged);
+    assert_true(isnan(fits.joint.p.value) && isnan(fits.by_n[0].order.value));
+    br_fits_clear(&fits);
+}
+
+static void test_noise_is_no_order(void **state)
+{
+    (void)state;
+    struct grid g;
+    grid_init(&g, true);
+    struct br_test_random random = {7};
+    for (size_t i = 0; i < CELLS; i++)
+        g.cell[i].error[BR_PART_TOTAL] = br_test_log_uniform(&random, 1e-6, 1e-2);
+    struct br_fits fits = fit(&g);
+    assert_false(br_joint_describes(&fits.joint));
+    assert_true(isnan(fits.reference_error));
+    br_fits_clear(&fits);
+}
+
+/* Slope and interval of y = 2, 5, 7, 10 over x = 0, 1, 2, 3: 2.6 -+ t(0.975, 2) * 0.14142. */
+static void test_slope(void **state)
+{
+    (void)state;
+    static const size_t n[1] = {10}, doubling[4] = {80, 40, 20, 10};
+    static const double y[4] = {2, 5, 7, 10};
+    struct grid g;
+    grid_init(&g, false);
+    g.study.n_count = 1;
+    g.study.k_count = 4;
+    g.study.n = n;
+    g.study.steps = doubling;
+    for (size_t i = 0; i < 4; i++) {
+        g.cell[i].at = (struct br_resolution){10, doubling[i]};
+        g.cell[i].error[BR_PART_TOTAL] = exp(y[i] * log(2)); /* k doubles: x is log2 */
+    }
+    struct br_fits fits = fit(&g);
+    CLOSE(fits.by_n[0].order.value, 2.6, 1e-12);
+    CLOSE(fits.by_n[0].order.high - 2.6, 4.3026527 * 0.14142136, 1e-6);
+    CLOSE(2.6 - fits.by_n[0].order.low, 4.3026527 * 0.14142136, 1e-6);
+    assert_true(isnan(fits.by_k[0].order.value)); /* one point is no slope */
+    br_fits_clear(&fits);
+    g.study.k_count = 2;
+    fits = fit(&g);
+    CLOSE(fits.by_n[0].order.value, 3, 1e-12);
+    assert_true(isnan(fits.by_n[0].order.low)); /* two points have no interval */
+    br_fits_clear(&fits);
+}
+
+static void test_nan_passes_nothing(void **state)
+{
+    (void)state;
+    const struct br_estimate none = {NAN, NAN, NAN}, wide = {2, 1, 3}, low = {0.1, -0.1, 0.3};
+    assert_false(br_order_determined(&none));
+    assert_false(br_order_determined(&wide));
+    assert_false(br_order_determined(&low));
+    const struct br_joint_fit fit = {.converged = true, .misfit = NAN};
+    assert_false(br_joint_describes(&fit));
+    char buffer[64];
+    assert_string_equal(br_order_text(&none, buffer, sizeof buffer), "-");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_recovers),  cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_one_sided), cmocka_unit_test(test_opposed),
+        cmocka_unit_test(test_left_out),  cmocka_unit_test(test_flags),
+        cmocka_unit_test(test_slope),     cmocka_unit_test(test_noise_is_no_order),
+        cmocka_unit_test(test_nan_passes_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The triangle inequality against printed values: sound ones, planted ones, none. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "reference/printed.h"
+#include "study/report.h"
+#include "support.h"
+
+enum { CELLS = 9 };
+
+static const size_t n[3] = {10, 20, 40}, steps[3] = {10, 20, 100};
+
+static struct br_study run(const struct br_scene *scene)
+{
+    struct br_error err = {0};
+    struct br_study s = {
+        .scene = scene,
+        .method = br_method_default(),
+        .judge = &br_judge_exact,
+        .n_count = 3,
+        .k_count = 3,
+        .n = n,
+        .steps = steps,
+    };
+    MUST(br_study_run(&s, 1, 1, NULL, &err));
+    return s;
+}
+
+/* As a paper would print it: four digits. */
+static double four_digits(double x)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.3e", x);
+    return strtod(text, NULL);
+}
+
+static size_t contradictions(const struct br_study *s, const double *printed)
+{
+    struct br_error err = {0};
+    struct br_triangle triangle[4];
+    size_t count, found = 0;
+    MUST(br_triangles(s, printed, 4, triangle, &count, 1, &err));
+    for (size_t i = 0; i < count; i++)
+        found += triangle[i].contradiction;
+    return found;
+}
+
+static void test_sound(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_study s = run(&scene);
+    double printed[CELLS];
+    for (size_t i = 0; i < CELLS; i++)
+        printed[i] = four_digits(s.cell[i].error[BR_PART_TOTAL]);
+    assert_int_equal(contradictions(&s, printed), 0);
+    br_study_clear(&s);
+    br_scene_clear(&scene);
+}
+
+/* One cell much too large: it is too far from its neighbours. All much too small: the
+ * solutions are farther apart than the sum of their errors. */
+static void test_planted(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_study s = run(&scene);
+    double printed[CELLS];
+    for (size_t i = 0; i < CELLS; i++)
+        printed[i] = s.cell[i].error[BR_PART_TOTAL] * (i == 0 ? 10 : 1);
+    assert_true(contradictions(&s, printed) > 0);
+    for (size_t i = 0; i < CELLS; i++)
+        printed[i] = s.cell[i].error[BR_PART_TOTAL] / 10;
+    assert_true(contradictions(&s, printed) > 0);
+    br_study_clear(&s);
+    br_scene_clear(&scene);
+}
+
+static void test_nothing_printed(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_study s = run(&scene);
+    double printed[CELLS];
+    for (size_t i = 0; i < CELLS; i++)
+        printed[i] = NAN;
+    printed[4] = 1; /* alone it contradicts nothing */
+    assert_int_equal(contradictions(&s, printed), 0);
+    br_study_clear(&s);
+    br_scene_clear(&scene);
+}
+
+/* Pairs that the printed tables break, from the printed files. */
+static void test_printed_tables(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *scene, *file;
+        struct br_resolution a, b;
+    } rows[] = {
+        {"example2", "table2", {800, 100}, {800, 200}},
+        {"example1", "table1", {100, 100}, {200, 100}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_error err = {0};
+        struct br_scene scene = br_test_bundled(rows[i].scene);
+        char path[512];
+        snprintf(path, sizeof path, "%s/reference/printed/%s.csv", getenv("BEAMRATE_DATA"),
+                 rows[i].file);
+        struct br_printed printed;
+        MUST(br_printed_read(path, &printed, &err));
+        struct br_study s = {
+            .scene = &scene,
+            .method = br_method_default(),
+            .judge = &br_judge_fine,
+            .reference_method = br_method_default(),
+            .reference = rows[i].b,
+            .n_count = 1,
+            .k_count = 1,
+            .n = &rows[i].a.n,
+            .steps = &rows[i].a.steps,
+        };
+        MUST(br_study_run(&s, 1, 1, NULL, &err));
+        const double a = br_printed_error(&printed, rows[i].a.n, 1.0 / (double)rows[i].a.steps);
+        const double b = br_printed_error(&printed, rows[i].b.n, 1.0 / (double)rows[i].b.steps);
+        assert_true(s.cell[0].error[BR_PART_TOTAL] < 0.1 * (a - b));
+        br_study_clear(&s);
+        br_printed_clear(&printed);
+        br_scene_clear(&scene);
+    }
+}
+
+static void check_printed_file(const char *text, const char *message)
+{
+    struct br_error err = {0};
+    char path[] = "/tmp/beamrate-printed-XXXXXX";
+    const int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    FILE *file = fdopen(descriptor, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    struct br_printed printed;
+    const enum br_status status = br_printed_read(path, &printed, &err);
+    br_printed_clear(&printed);
+    remove(path);
+    if (message)
+        REFUSED(status, BR_BAD_INPUT, message);
+    else
+        MUST(status);
+}
+
+static void test_printed_files(void **state)
+{
+    (void)state;
+    check_printed_file("n,k,error\n100,0.01,5e-3\n", NULL);
+    check_printed_file("n,k,error\r\n100,0.01,5e-3\r\n", NULL);
+    check_printed_file("k,n,error\n", ":1: found 'k,n,error'");
+    check_printed_file("n,k,error\n100,0.01\n", ":2: found '100,0.01'");
+    check_printed_file("n,k,error\n100,0.01,5e-3\n100,nan,5e-3\n", ":3:");
+    check_printed_file("n,k,error\n100,0.01,-5e-3\n", ":2:");
+    check_printed_file("n,k,error\n0,0.01,5e-3\n", ":2:");
+    check_printed_file("n,k,error\n100,0.01,5e-3 x\n", ":2:");
+    struct br_error err = {0};
+    struct br_printed printed;
+    REFUSED(br_printed_read("/nonexistent", &printed, &err), BR_BAD_INPUT, "/nonexistent");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sound),          cmocka_unit_test(test_planted),
+        cmocka_unit_test(test_nothing_printed), cmocka_unit_test(test_printed_tables),
+        cmocka_unit_test(test_printed_files),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
