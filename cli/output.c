@@ -9,8 +9,8 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-/* Every folder of the path that is not there yet. */
-static bool make_folders(const char *path)
+/* Every folder of the path that is not there yet; *made: whether the last one was not. */
+static bool make_folders(const char *path, bool *made)
 {
     char part[1024];
     snprintf(part, sizeof part, "%s", path);
@@ -20,7 +20,8 @@ static bool make_folders(const char *path)
             return false;
         *slash = '/';
     }
-    return mkdir(part, 0777) == 0 || errno == EEXIST;
+    *made = mkdir(part, 0777) == 0;
+    return *made || errno == EEXIST;
 }
 
 enum br_status br_output_open(struct br_output *o, const char *folder, struct br_error *err)
@@ -29,7 +30,7 @@ enum br_status br_output_open(struct br_output *o, const char *folder, struct br
     if (*folder == '\0' || strlen(folder) >= sizeof o->folder)
         return br_fail(err, BR_BAD_INPUT, "--out: found '%s', expected a folder's name", folder);
     strcpy(o->folder, folder);
-    if (!make_folders(folder))
+    if (!make_folders(folder, &o->made))
         return br_fail(err, BR_BAD_INPUT, "--out: cannot make the folder %s: %s", folder,
                        strerror(errno));
     snprintf(o->staging, sizeof o->staging, "%s/.beamrate-XXXXXX", folder);
@@ -127,4 +128,6 @@ void br_output_discard(struct br_output *o)
     for_each(o, erase, NULL);
     rmdir(o->staging);
     o->staging[0] = '\0';
+    if (o->made)
+        rmdir(o->folder); /* fails, as it should, where there are results */
 }

@@ -4,6 +4,7 @@
 #ifndef BR_OUTPUT_H
 #define BR_OUTPUT_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "solver/status.h"
@@ -11,6 +12,7 @@
 struct br_output {
     char folder[1024];  /* where the results will be */
     char staging[1088]; /* where they are being written */
+    bool made;          /* the folder was not there before */
 };
 
 /* Makes the folder (and its parents) and the hidden one. Fails with BR_BAD_INPUT
@@ -28,7 +30,8 @@ enum br_status br_output_close(FILE *file, const char *name, struct br_error *er
 /* Moves all files into place. */
 enum br_status br_output_commit(struct br_output *output, struct br_error *err);
 
-/* Removes what has not been moved; does nothing after a commit. */
+/* Removes what has not been moved, and the folder if it was made for nothing; does
+ * nothing after a commit. */
 void br_output_discard(struct br_output *output);
 
 #endif

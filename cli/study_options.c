@@ -133,9 +133,9 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
         {"friction", 0, POPT_ARG_STRING, &o->friction, 0, "friction law", "NAME"},
         {"scaling", 0, POPT_ARG_STRING, &o->scaling, 0,
          "umfpack's row scaling: none (default), sum or max", "NAME"},
-        {"refinement", 0, POPT_ARG_INT, &o->refinement, 0,
+        {"refinement", 0, POPT_ARG_STRING, &o->refinement, 0,
          "umfpack's refinement steps a solve, at most (default 0)", "COUNT"},
-        {"threads", 0, POPT_ARG_INT, &o->threads, 0, "threads; 0, the default: all cores",
+        {"threads", 0, POPT_ARG_STRING, &o->threads, 0, "threads; 0, the default: all cores",
          "COUNT"},
         {"out", 0, POPT_ARG_STRING, &o->out, 0, "folder of the results (default results)", "DIR"},
         {"format", 0, POPT_ARG_STRING, &o->format, 0,
@@ -163,7 +163,8 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
 void br_study_options_clear(struct br_study_options *o)
 {
     char **texts[] = {&o->n,       &o->k,       &o->reference, &o->solver, &o->reference_solver,
-                      &o->contact, &o->friction, &o->scaling,  &o->out,    &o->format};
+                      &o->contact, &o->friction, &o->scaling,  &o->out,    &o->format,
+                      &o->refinement, &o->threads};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         free(*texts[i]);
         *texts[i] = NULL;
@@ -208,6 +209,20 @@ static enum br_status read_reference(const char *text, struct br_study_request *
     return read_fine(text, text + length + (text[length] == ':'), r, err);
 }
 
+/* A whole number from 0 to `most`; text NULL: not given, *value stays. */
+static enum br_status read_count(const char *option, const char *text, int most, int *value,
+                                 struct br_error *err)
+{
+    double number = 0;
+    const char *end = text ? br_read_number(text, &number) : "";
+    if (!end || *end || !(number >= 0 && number <= most) || number != floor(number))
+        return br_fail(err, BR_BAD_INPUT, "--%s: found '%s', expected a whole number from 0 to %d",
+                       option, text, most);
+    if (text)
+        *value = (int)number;
+    return BR_OK;
+}
+
 static enum br_status read_method(const struct br_study_options *o, struct br_study_request *r,
                                   struct br_error *err)
 {
@@ -220,7 +235,10 @@ static enum br_status read_method(const struct br_study_options *o, struct br_st
         return unknown("solver", o->solver, solver_names(), err);
     if (o->scaling)
         m.linear.scaling = o->scaling;
-    m.linear.refinement = o->refinement;
+    const enum br_status status =
+        read_count("refinement", o->refinement, 100, &m.linear.refinement, err);
+    if (status)
+        return status;
     r->method = r->reference_method = m;
     if (o->reference_solver &&
         !(r->reference_method.solver = br_linear_solver_find(o->reference_solver)))
@@ -236,7 +254,7 @@ static enum br_status check_heeded(const struct br_study_options *o,
     const struct {
         const char *option;
         bool given;
-    } given[] = {{"--scaling", o->scaling != NULL}, {"--refinement", o->refinement != 0}};
+    } given[] = {{"--scaling", o->scaling != NULL}, {"--refinement", o->refinement != NULL}};
     for (size_t i = 0; i < sizeof given / sizeof *given; i++)
         if (given[i].given && !strstr(heeded[0], given[i].option) &&
             !strstr(heeded[1], given[i].option))
@@ -245,13 +263,8 @@ static enum br_status check_heeded(const struct br_study_options *o,
     return BR_OK;
 }
 
-static enum br_status check_numbers(const struct br_study_options *o, struct br_error *err)
+static enum br_status check_scaling(const struct br_study_options *o, struct br_error *err)
 {
-    if (o->threads < 0 || o->threads > 4096)
-        return br_fail(err, BR_BAD_INPUT, "--threads: found %d, expected 0 to 4096", o->threads);
-    if (o->refinement < 0 || o->refinement > 100)
-        return br_fail(err, BR_BAD_INPUT, "--refinement: found %d, expected 0 to 100",
-                       o->refinement);
     if (o->scaling && strcmp(o->scaling, "none") != 0 && strcmp(o->scaling, "sum") != 0 &&
         strcmp(o->scaling, "max") != 0)
         return unknown("scaling", o->scaling, "none, sum, max", err);
@@ -275,7 +288,9 @@ enum br_status br_study_request_read(const struct br_study_options *o, struct br
                                      struct br_error *err)
 {
     *r = (struct br_study_request){0};
-    enum br_status status = check_numbers(o, err);
+    enum br_status status = read_count("threads", o->threads, 4096, &r->threads, err);
+    if (!status)
+        status = check_scaling(o, err);
     if (!status)
         status = check_formats(o, err);
     if (!status)

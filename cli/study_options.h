@@ -11,7 +11,7 @@
 struct br_study_options {
     char *n, *k, *reference;
     char *solver, *reference_solver, *contact, *friction, *scaling;
-    int refinement, threads;
+    char *refinement, *threads;
     char *out, *format;
     int quiet, no_plots, help;
 };
@@ -25,6 +25,7 @@ struct br_study_request {
     size_t reference_n;
     double reference_k; /* s */
     struct br_method method, reference_method;
+    int threads; /* 0: all cores */
 };
 
 /* Parses argv (argv[0] is the command) into options, over the defaults that they

@@ -187,12 +187,12 @@ static enum br_status compute(struct session *s, struct br_error *err)
     const double start = now();
     const struct br_observer *observer = br_progress_start("marching", s->options->quiet);
     enum br_status status =
-        br_study_run(s->study, s->studies, s->options->threads, observer, err);
+        br_study_run(s->study, s->studies, s->request.threads, observer, err);
     br_progress_end();
     const double wall = now() - start;
     for (size_t i = 0; i < s->count && !status; i++) {
         s->work[i].report.wall_seconds = wall;
-        status = br_report_finish(&s->work[i].report, s->options->threads, err);
+        status = br_report_finish(&s->work[i].report, s->request.threads, err);
     }
     if (!status && br_signals_caught())
         status = br_fail(err, BR_INTERRUPTED, "interrupted");
@@ -340,7 +340,7 @@ enum br_status br_study_run_jobs(const struct br_study_job *jobs, size_t count,
         status = prepare(&s, i, &jobs[i], err);
     if (!status)
         status = br_output_open(&s.output, options->out ? options->out : "results", err);
-    br_provenance_fill(&s.provenance, options->threads);
+    br_provenance_fill(&s.provenance, s.request.threads);
     if (!status)
         status = compute(&s, err);
     if (!status)

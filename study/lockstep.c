@@ -360,6 +360,16 @@ static enum br_status create_buffers(struct lockstep *l, struct br_error *err)
     return BR_OK;
 }
 
+/* An auditor that cannot promise a solution of this scene is done without. */
+static void dismiss_auditor(struct lockstep *l)
+{
+    l->auditor.judge->free(l->auditor.self);
+    l->auditor = (struct bench){0};
+    l->study->auditor = NULL;
+    for (int part = 0; part < BR_PARTS; part++)
+        l->study->reference_error[part] = NAN;
+}
+
 /* The reference, and who audits it. */
 static enum br_status create_judges(struct lockstep *l, struct br_error *err)
 {
@@ -373,12 +383,19 @@ static enum br_status create_judges(struct lockstep *l, struct br_error *err)
         .mesh = l->root,
     };
     l->reference.judge = s->judge;
-    enum br_status status = s->judge->create(&l->reference.self, &request, err);
+    const enum br_status status = s->judge->create(&l->reference.self, &request, err);
+    if (status || !s->auditor)
+        return status;
     l->auditor.judge = s->auditor;
-    if (!status && s->auditor)
-        status = s->auditor->create(&l->auditor.self, &request, err);
     l->audit_every = l->level_count / most_audits + 1;
-    return status;
+    if (!s->auditor->create(&l->auditor.self, &request, &l->auditor.error))
+        return BR_OK;
+    if (l->auditor.error.status == BR_NO_MEMORY) {
+        *err = l->auditor.error;
+        return BR_NO_MEMORY;
+    }
+    dismiss_auditor(l);
+    return BR_OK;
 }
 
 static enum br_status create_cells(struct lockstep *l, struct br_error *err)

@@ -41,7 +41,8 @@ struct br_study {
     struct br_method reference_method; /* of a fine run */
     struct br_resolution reference;    /* a fine run's; otherwise n = 0, and steps are set to the
                                           least common multiple of the cells' */
-    const struct br_judge *auditor;    /* measures the reference's own error; NULL: nobody */
+    const struct br_judge *auditor;    /* measures the reference's own error; NULL: nobody. Set
+                                          to NULL where it cannot promise a solution */
     size_t n_count, k_count;
     const size_t *n;     /* n_count, borrowed */
     const size_t *steps; /* k_count, borrowed */
