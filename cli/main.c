@@ -13,12 +13,14 @@ const struct br_command *const br_commands[] = {&br_command_tables, &br_command_
 
 static void print_help(FILE *out)
 {
-    fprintf(out, "beamrate: convergence studies of the dynamic frictional contact of a viscoelastic "
-                 "beam\n\nUsage: beamrate COMMAND [OPTION...]\n\nCommands:\n");
+    fprintf(out,
+            "beamrate: convergence studies of the dynamic frictional contact of a viscoelastic "
+            "beam\n\nUsage: beamrate COMMAND [OPTION...]\n\nCommands:\n");
     for (const struct br_command *const *c = br_commands; *c; c++)
         fprintf(out, "  %-8s %-10s %s\n", (*c)->name, (*c)->arguments, (*c)->title);
-    fprintf(out, "\n'beamrate COMMAND --help' lists a command's options.\n"
-                 "Exit codes: 0 done, 1 a verdict failed, 2 bad input, 3 the computation failed.\n");
+    fprintf(out,
+            "\n'beamrate COMMAND --help' lists a command's options.\n"
+            "Exit codes: 0 done, 1 a verdict failed, 2 bad input, 3 the computation failed.\n");
 }
 
 static const struct br_command *find_command(const char *name)

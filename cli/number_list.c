@@ -24,8 +24,8 @@ static bool contains(const double *values, size_t count, double value)
     return false;
 }
 
-enum br_status br_read_numbers(const char *option, const char *text, double **values,
-                               size_t *count, struct br_error *err)
+enum br_status br_read_numbers(const char *option, const char *text, double **values, size_t *count,
+                               struct br_error *err)
 {
     *count = 0;
     *values = br_allocate(MOST, sizeof **values);
@@ -49,8 +49,8 @@ enum br_status br_read_numbers(const char *option, const char *text, double **va
     }
 }
 
-enum br_status br_read_counts(const char *option, const char *text, size_t **values,
-                              size_t *count, struct br_error *err)
+enum br_status br_read_counts(const char *option, const char *text, size_t **values, size_t *count,
+                              struct br_error *err)
 {
     double *numbers;
     enum br_status status = br_read_numbers(option, text, &numbers, count, err);
@@ -59,8 +59,9 @@ enum br_status br_read_counts(const char *option, const char *text, size_t **val
         status = br_no_memory(err, "a list");
     for (size_t i = 0; i < *count && !status; i++) {
         if (numbers[i] != floor(numbers[i]) || !(numbers[i] <= 1e9))
-            status = br_fail(err, BR_BAD_INPUT, "%s: found %g, expected whole numbers from 1 to 1e9",
-                             option, numbers[i]);
+            status =
+                br_fail(err, BR_BAD_INPUT, "%s: found %g, expected whole numbers from 1 to 1e9",
+                        option, numbers[i]);
         else
             (*values)[i] = (size_t)numbers[i];
     }

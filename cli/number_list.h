@@ -12,9 +12,9 @@ const char *br_read_number(const char *text, double *value);
 
 /* Reads a list of distinct positive numbers (or whole numbers) in any order; *values
  * is owned by the caller, even after a failure (BR_BAD_INPUT, naming the option). */
-enum br_status br_read_numbers(const char *option, const char *text, double **values,
-                               size_t *count, struct br_error *err);
-enum br_status br_read_counts(const char *option, const char *text, size_t **values,
-                              size_t *count, struct br_error *err);
+enum br_status br_read_numbers(const char *option, const char *text, double **values, size_t *count,
+                               struct br_error *err);
+enum br_status br_read_counts(const char *option, const char *text, size_t **values, size_t *count,
+                              struct br_error *err);
 
 #endif

@@ -17,8 +17,7 @@ struct br_output {
 
 /* Makes the folder (and its parents) and the hidden one. Fails with BR_BAD_INPUT
  * where that cannot be written, so call it before a long computation. */
-enum br_status br_output_open(struct br_output *output, const char *folder,
-                              struct br_error *err);
+enum br_status br_output_open(struct br_output *output, const char *folder, struct br_error *err);
 
 /* Opens a file in the hidden folder for writing. */
 enum br_status br_output_file(const struct br_output *output, const char *name, FILE **file,

@@ -68,8 +68,8 @@ static void print_registries(FILE *out)
 {
     fprintf(out, "\nLinear solvers (--solver, --reference-solver), the first is the default:\n");
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
-        fprintf(out, "  %-12s %s%s%s\n", (*s)->name, (*s)->title,
-                *(*s)->options ? "; heeds " : "", (*s)->options);
+        fprintf(out, "  %-12s %s%s%s\n", (*s)->name, (*s)->title, *(*s)->options ? "; heeds " : "",
+                (*s)->options);
     fprintf(out, "References (--reference):\n");
     for (const struct br_judge *const *j = br_judges; *j; j++)
         fprintf(out, "  %-12s %s\n", (*j)->syntax, (*j)->title);
@@ -162,8 +162,8 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
 
 void br_study_options_clear(struct br_study_options *o)
 {
-    char **texts[] = {&o->n,       &o->k,       &o->reference, &o->solver, &o->reference_solver,
-                      &o->contact, &o->friction, &o->scaling,  &o->out,    &o->format,
+    char **texts[] = {&o->n,          &o->k,        &o->reference, &o->solver, &o->reference_solver,
+                      &o->contact,    &o->friction, &o->scaling,   &o->out,    &o->format,
                       &o->refinement, &o->threads};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         free(*texts[i]);
@@ -174,21 +174,23 @@ void br_study_options_clear(struct br_study_options *o)
 static enum br_status unknown(const char *option, const char *found, const char *names,
                               struct br_error *err)
 {
-    return br_fail(err, BR_BAD_INPUT, "--%s: found '%s', expected one of: %s", option, found, names);
+    return br_fail(err, BR_BAD_INPUT, "--%s: found '%s', expected one of: %s", option, found,
+                   names);
 }
 
 /* "fine:N,K" behind the colon */
-static enum br_status read_fine(const char *text, const char *arguments,
-                                struct br_study_request *r, struct br_error *err)
+static enum br_status read_fine(const char *text, const char *arguments, struct br_study_request *r,
+                                struct br_error *err)
 {
     double n = 0, k = 0;
     const char *comma = br_read_number(arguments, &n);
     const char *end = comma && *comma == ',' ? br_read_number(comma + 1, &k) : NULL;
     if (!end || *end || !(n >= 1 && n <= 1e9) || n != floor(n) || !(k > 0))
-        return br_fail(err, BR_BAD_INPUT,
-                       "--reference: found '%s', expected fine:N,K with a number of elements N >= 1 "
-                       "and a time step K > 0 in seconds, like fine:12800,1e-5",
-                       text);
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "--reference: found '%s', expected fine:N,K with a number of elements N >= 1 "
+            "and a time step K > 0 in seconds, like fine:12800,1e-5",
+            text);
     r->reference_n = (size_t)n;
     r->reference_k = k;
     return BR_OK;

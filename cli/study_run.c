@@ -29,8 +29,8 @@ struct session {
     struct work *work;
     struct br_study *study; /* in one array for br_study_run: first one a job, then those
                                against the exact solution */
-    size_t count;   /* jobs */
-    size_t studies; /* count, or twice that */
+    size_t count;           /* jobs */
+    size_t studies;         /* count, or twice that */
     struct br_output output;
     struct br_provenance provenance;
 };
@@ -186,8 +186,7 @@ static enum br_status compute(struct session *s, struct br_error *err)
 {
     const double start = now();
     const struct br_observer *observer = br_progress_start("marching", s->options->quiet);
-    enum br_status status =
-        br_study_run(s->study, s->studies, s->request.threads, observer, err);
+    enum br_status status = br_study_run(s->study, s->studies, s->request.threads, observer, err);
     br_progress_end();
     const double wall = now() - start;
     for (size_t i = 0; i < s->count && !status; i++) {
@@ -238,8 +237,7 @@ static enum br_status write_tables(struct session *s, size_t i, struct br_error 
     return BR_OK;
 }
 
-static enum br_status write_plots(struct session *s, size_t i, bool *missing,
-                                  struct br_error *err)
+static enum br_status write_plots(struct session *s, size_t i, bool *missing, struct br_error *err)
 {
     const struct br_report *report = &s->work[i].report;
     for (const struct br_plot *const *p = br_plots; *p; p++) {

@@ -8,7 +8,8 @@ static const struct br_columns columns = {.parts = 1, .part = {BR_PART_TOTAL}, .
 
 static bool applies(const struct br_report *report)
 {
-    return report->printed && br_report_fitted(report)->n_count > 0 && br_report_fitted(report)->k_count > 0;
+    return report->printed && br_report_fitted(report)->n_count > 0 &&
+           br_report_fitted(report)->k_count > 0;
 }
 
 static void write_data(FILE *out, const struct br_report *report)

@@ -475,9 +475,9 @@ struct br_certificate br_witness_step(struct br_witness *w)
             w->after[kind][i] = swap;
         }
         br_march_load(w->march, (enum br_field_kind)kind, w->load[kind]);
-        w->step.field[kind] = (struct br_step_field){w->before[kind][0], w->after[kind][0],
-                                                     w->before[kind][1], w->after[kind][1],
-                                                     w->load[kind]};
+        w->step.field[kind] =
+            (struct br_step_field){w->before[kind][0], w->after[kind][0], w->before[kind][1],
+                                   w->after[kind][1], w->load[kind]};
     }
     look(w);
     w->step.tip = *br_march_tip(w->march);

@@ -22,10 +22,10 @@
 struct br_certificate {
     double axial_residual;   /* of (27) */
     double bending_residual; /* of (28) */
-    double update;   /* u_n - u_{n-1} - k v_n of both fields, and the tip's values told */
-    double friction; /* distance of (v, lambda) from the graph of (12) or (29), lambda
-                        relative to the bound, k v to the largest nodal value */
-    double contact;  /* force - c_H (u - g)_+ at u_{n-1} or u_n */
+    double update;           /* u_n - u_{n-1} - k v_n of both fields, and the tip's values told */
+    double friction;         /* distance of (v, lambda) from the graph of (12) or (29), lambda
+                                relative to the bound, k v to the largest nodal value */
+    double contact;          /* force - c_H (u - g)_+ at u_{n-1} or u_n */
 };
 
 /* Nodal values of one field around a step, laid out as in solver/field.h. */

@@ -58,8 +58,7 @@ static enum br_status fine_advance(void *self, size_t i, struct br_error *err)
     return status;
 }
 
-static void fine_look(void *self, enum br_field_kind kind, size_t mesh, double *modes,
-                      double *rest)
+static void fine_look(void *self, enum br_field_kind kind, size_t mesh, double *modes, double *rest)
 {
     struct fine *f = self;
     (void)mesh; /* its own is the only one */

@@ -26,11 +26,11 @@ struct br_judge_report {
 };
 
 struct br_judge {
-    const char *name;     /* as on the command line */
-    const char *syntax;   /* with its arguments */
-    const char *title;    /* one line for a person */
+    const char *name;   /* as on the command line */
+    const char *syntax; /* with its arguments */
+    const char *title;  /* one line for a person */
     const char *citation;
-    bool nests;           /* cells must nest in its own mesh and time levels */
+    bool nests; /* cells must nest in its own mesh and time levels */
 
     /* Fails with BR_BAD_INPUT, BR_NO_MEMORY, BR_SINGULAR or BR_NOT_FINITE (it cannot
      * promise a solution of this scene); free *self even then. */

@@ -13,8 +13,7 @@ enum { MOST_CELLS = 4096 };
 static bool parse_line(const char *line, struct br_printed_cell *cell)
 {
     int end = 0;
-    const int fields =
-        sscanf(line, "%zu,%lf,%lf %n", &cell->n, &cell->k, &cell->error, &end);
+    const int fields = sscanf(line, "%zu,%lf,%lf %n", &cell->n, &cell->k, &cell->error, &end);
     return fields == 3 && line[end] == '\0' && cell->n > 0 && isfinite(cell->k) && cell->k > 0 &&
            isfinite(cell->error) && cell->error > 0;
 }
@@ -46,8 +45,8 @@ enum br_status br_printed_read(const char *path, struct br_printed *printed, str
     if (!file)
         return br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno));
     printed->cell = br_allocate(MOST_CELLS, sizeof *printed->cell);
-    const enum br_status status = printed->cell ? read_lines(file, path, printed, err)
-                                                : br_no_memory(err, "a printed table");
+    const enum br_status status =
+        printed->cell ? read_lines(file, path, printed, err) : br_no_memory(err, "a printed table");
     fclose(file);
     return status;
 }

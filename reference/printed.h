@@ -18,12 +18,10 @@ struct br_printed {
 
 /* Reads a file with the columns n,k,error and a heading. Fails with BR_BAD_INPUT,
  * naming file and line. */
-enum br_status br_printed_read(const char *path, struct br_printed *printed,
-                               struct br_error *err);
+enum br_status br_printed_read(const char *path, struct br_printed *printed, struct br_error *err);
 void br_printed_clear(struct br_printed *printed);
 
 /* The printed error of (n, k), or NaN where the paper has none. */
 double br_printed_error(const struct br_printed *printed, size_t n, double k);
-
 
 #endif

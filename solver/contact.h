@@ -14,8 +14,8 @@ struct br_contact_state {
 };
 
 struct br_contact_rule {
-    const char *name;     /* as on the command line */
-    const char *title;    /* one line for a person */
+    const char *name;  /* as on the command line */
+    const char *title; /* one line for a person */
     const char *citation;
     /* The contact force c_H (u - g)_+ >= 0, N, that resists the tip in this step. */
     double (*force)(const struct br_contact *contact, const struct br_contact_state *state);

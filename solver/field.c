@@ -21,8 +21,8 @@ enum { GAUSS = 5 };
 
 /* Gauss-Legendre on [0, 1]: exact up to degree 9 (Abramowitz and Stegun 25.4.30). */
 static const double gauss_x[GAUSS] = {
-    0.046910077030668003601, 0.23076534494715845448, 0.5, 0.76923465505284154552,
-    0.95308992296933199640,
+    0.046910077030668003601, 0.23076534494715845448, 0.5,
+    0.76923465505284154552,  0.95308992296933199640,
 };
 static const double gauss_weight[GAUSS] = {
     0.11846344252809454376, 0.23931433524968323402, 0.28444444444444444444,
@@ -128,8 +128,7 @@ enum br_status br_assemble_load(const struct br_field *field, const struct br_fu
 }
 
 enum br_status br_interpolate(const struct br_field *field, const struct br_function *value,
-                              const struct br_function *slope, double *nodal,
-                              struct br_error *err)
+                              const struct br_function *slope, double *nodal, struct br_error *err)
 {
     const size_t unknowns = br_field_unknowns(field->kind);
     const size_t nodes = field->n + 1;

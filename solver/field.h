@@ -57,7 +57,6 @@ enum br_status br_assemble_load(const struct br_field *field, const struct br_fu
  * bending only. The clamped node is set to zero.
  * Fails with BR_NOT_FINITE; BR_NO_MEMORY. */
 enum br_status br_interpolate(const struct br_field *field, const struct br_function *value,
-                              const struct br_function *slope, double *nodal,
-                              struct br_error *err);
+                              const struct br_function *slope, double *nodal, struct br_error *err);
 
 #endif

@@ -14,8 +14,8 @@ struct br_friction_state {
 };
 
 struct br_friction_rule {
-    const char *name;     /* as on the command line */
-    const char *title;    /* one line for a person */
+    const char *name;  /* as on the command line */
+    const char *title; /* one line for a person */
     const char *citation;
     bool needs_regularisation; /* the scene must give mu > 0 */
     /* lambda = -sigma_V(L), N: the friction force that resists the tip. */

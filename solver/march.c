@@ -9,7 +9,7 @@ struct load_vector {
     struct br_load functions; /* clones */
     double *vector;           /* br_field_size values, N */
     double factor;
-    bool absent;   /* identically zero */
+    bool absent;     /* identically zero */
     bool reassemble; /* space uses t */
 };
 
@@ -203,9 +203,8 @@ static enum br_status step_axial(struct br_march *m, struct br_error *err)
     const enum br_status status = predict(m, BR_AXIAL, &contact.free_velocity, err);
     if (status)
         return status;
-    m->tip.contact_force = m->scene->contact.modelled
-                               ? m->method.contact->force(&m->scene->contact, &contact)
-                               : 0;
+    m->tip.contact_force =
+        m->scene->contact.modelled ? m->method.contact->force(&m->scene->contact, &contact) : 0;
     m->tip.velocity[BR_AXIAL] = part->solver->finish(part->state, m->tip.contact_force);
     m->tip.displacement = part->solver->tip_displacement(part->state);
     return BR_OK;
@@ -309,8 +308,8 @@ void br_march_load(const struct br_march *m, enum br_field_kind kind, double *lo
     const struct part *part = &m->part[kind];
     const size_t size = br_field_size(&part->field);
     for (size_t i = 0; i < size; i++)
-        load[i] = part->load.absent || !part->modelled ? 0
-                                                       : part->load.factor * part->load.vector[i];
+        load[i] =
+            part->load.absent || !part->modelled ? 0 : part->load.factor * part->load.vector[i];
 }
 
 double br_march_compliance(const struct br_march *m, enum br_field_kind kind)
@@ -324,7 +323,7 @@ double br_march_round_off(const struct br_march *m)
     double largest = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (m->part[kind].modelled)
-            largest = fmax(largest, m->method.solver->round_off(&m->part[kind].field,
-                                                                &m->method.linear));
+            largest =
+                fmax(largest, m->method.solver->round_off(&m->part[kind].field, &m->method.linear));
     return largest;
 }

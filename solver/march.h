@@ -34,8 +34,7 @@ struct br_tip {
  * cloned, so that marches of one scene may run in different threads. Fails with
  * BR_BAD_INPUT, BR_SINGULAR, BR_NOT_FINITE or BR_NO_MEMORY, *march then NULL. */
 enum br_status br_march_create(struct br_march **march, const struct br_scene *scene, size_t n,
-                               size_t steps, const struct br_method *method,
-                               struct br_error *err);
+                               size_t steps, const struct br_method *method, struct br_error *err);
 void br_march_free(struct br_march *march); /* accepts NULL */
 
 /* One step, from t_{n-1} to t_n = n T/steps. Fails with BR_NOT_FINITE (a load, or

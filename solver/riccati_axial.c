@@ -123,8 +123,8 @@ static void axial_get(const void *self, double *displacement, double *velocity)
 }
 
 BR_SWEEP
-static enum br_status axial_predict(void *self, const double *load, double factor,
-                                    double *velocity, struct br_error *err)
+static enum br_status axial_predict(void *self, const double *load, double factor, double *velocity,
+                                    struct br_error *err)
 {
     (void)err;
     struct axial *a = self;

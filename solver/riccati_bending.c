@@ -27,9 +27,9 @@ struct element {
 struct bending {
     size_t n;
     double k, alpha;
-    br_pair r;           /* R, diagonal */
-    double tip_velocity; /* m/s */
-    double compliance;   /* z_tip */
+    br_pair r;               /* R, diagonal */
+    double tip_velocity;     /* m/s */
+    double compliance;       /* z_tip */
     struct gain *gain;       /* n */
     struct element *element; /* n */
 };
@@ -38,8 +38,8 @@ struct block {
     real e[2][2];
 };
 
-static const struct block transition = {{{1, 1}, {0, 1}}};                   /* T */
-static const struct block control = {{{0.5L, -1.0L / 6}, {1, 0}}};           /* G */
+static const struct block transition = {{{1, 1}, {0, 1}}};         /* T */
+static const struct block control = {{{0.5L, -1.0L / 6}, {1, 0}}}; /* G */
 
 /* The product of two blocks, with the left one transposed if asked for. */
 static struct block multiply(const struct block *a, bool transposed, const struct block *b)
@@ -106,15 +106,15 @@ static bool invert(const struct block *s, struct block *inverse)
     const real det = s->e[0][0] * s->e[1][1] - s->e[0][1] * s->e[1][0];
     if (!(s->e[0][0] > 0 && det > 0 && isfinite(det)))
         return false;
-    *inverse = (struct block){{{s->e[1][1] / det, -s->e[0][1] / det},
-                               {-s->e[1][0] / det, s->e[0][0] / det}}};
+    *inverse = (struct block){
+        {{s->e[1][1] / det, -s->e[0][1] / det}, {-s->e[1][0] / det, s->e[0][0] / det}}};
     return true;
 }
 
 static struct br_matrix rounded(const struct block *a)
 {
-    return (struct br_matrix){{{(double)a->e[0][0], (double)a->e[0][1]},
-                               {(double)a->e[1][0], (double)a->e[1][1]}}};
+    return (struct br_matrix){
+        {{(double)a->e[0][0], (double)a->e[0][1]}, {(double)a->e[1][0], (double)a->e[1][1]}}};
 }
 
 /* zeta = S^-1 G'pi;  z += zeta'S zeta = zeta'G'pi;  pi = A'pi. */
@@ -149,7 +149,7 @@ static bool recursion_step(struct recursion *rec, struct gain *out)
     const struct block h = multiply(&control, true, &inner);     /* H = G'(QT + Mab') */
     const struct block feedback = multiply(&inverse, false, &h); /* K = S^-1 H */
     const struct block gk = multiply(&control, false, &feedback);
-    const struct block closed = add(&transition, &gk, -1);       /* A = T - GK */
+    const struct block closed = add(&transition, &gk, -1); /* A = T - GK */
 
     /* P = Maa + Mab A + (Mab A)' + A'QA + K'RK */
     const struct block mab_a = multiply(&rec->mab, false, &closed);
@@ -291,11 +291,11 @@ static enum br_status bending_predict(void *self, const double *load, double fac
         const struct gain *gain = &b->gain[i];
         struct element *e = &b->element[i];
         const br_pair rg = r * e->strain;
-        const br_pair s = rg + control_transposed_times(p);  /* s = R g + G'p */
-        e->drive = br_transposed_times(&gain->inverse, s);   /* S^-1 s */
-        tip -= gain->tip * s;                                /* - zeta's */
+        const br_pair s = rg + control_transposed_times(p); /* s = R g + G'p */
+        e->drive = br_transposed_times(&gain->inverse, s);  /* S^-1 s */
+        tip -= gain->tip * s;                               /* - zeta's */
         const br_pair q = -scaled_load(load, i, factor) - br_transposed_times(&gain->feedback, rg);
-        p = br_add_transposed_times(q, &gain->closed, p);    /* A'p - K'R g - F */
+        p = br_add_transposed_times(q, &gain->closed, p); /* A'p - K'R g - F */
     }
     *velocity = b->tip_velocity + (tip[0] + tip[1]);
     return BR_OK;

@@ -112,10 +112,11 @@ enum br_status br_scene_check(const struct br_scene *s, struct br_error *err)
 void br_scene_clear(struct br_scene *s)
 {
     struct br_function *functions[] = {
-        &s->axial.load.space,   &s->axial.load.time,       &s->axial.displacement,
-        &s->axial.velocity,     &s->bending.load.space,    &s->bending.load.time,
+        &s->axial.load.space,     &s->axial.load.time,
+        &s->axial.displacement,   &s->axial.velocity,
+        &s->bending.load.space,   &s->bending.load.time,
         &s->bending.displacement, &s->bending.displacement_slope,
-        &s->bending.velocity,   &s->bending.velocity_slope,
+        &s->bending.velocity,     &s->bending.velocity_slope,
     };
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
         br_function_free(functions[i]);

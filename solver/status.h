@@ -7,14 +7,14 @@
 
 /* X(name, exit code, text). The exit codes are the program's: 0 done, 1 a
  * verdict failed, 2 bad input, 3 the computation failed. */
-#define BR_STATUS_LIST(X)                                   \
-    X(BR_OK, 0, "done")                                     \
-    X(BR_VERDICT, 1, "a verdict failed")                    \
-    X(BR_BAD_INPUT, 2, "bad input")                         \
-    X(BR_NO_MEMORY, 3, "out of memory")                     \
+#define BR_STATUS_LIST(X)                                    \
+    X(BR_OK, 0, "done")                                      \
+    X(BR_VERDICT, 1, "a verdict failed")                     \
+    X(BR_BAD_INPUT, 2, "bad input")                          \
+    X(BR_NO_MEMORY, 3, "out of memory")                      \
     X(BR_SINGULAR, 3, "the system is not positive definite") \
-    X(BR_NOT_FINITE, 3, "not a finite number")              \
-    X(BR_IO, 3, "input or output failed")                   \
+    X(BR_NOT_FINITE, 3, "not a finite number")               \
+    X(BR_IO, 3, "input or output failed")                    \
     X(BR_INTERRUPTED, 3, "interrupted")
 
 enum br_status {

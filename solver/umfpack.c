@@ -34,8 +34,7 @@ enum { MOST = 4 }; /* unknowns of an element */
 /* rho h times the element's consistent mass. */
 static double mass_entry(const struct br_field *f, size_t a, size_t b)
 {
-    return f->density * f->h *
-           (f->kind == BR_AXIAL ? br_axial_mass[a][b] : br_bending_mass[a][b]);
+    return f->density * f->h * (f->kind == BR_AXIAL ? br_axial_mass[a][b] : br_bending_mass[a][b]);
 }
 
 /* Element stiffness for unit material: B'B / h, or B' diag(1, 1/3) B / h^3. */
@@ -297,8 +296,7 @@ static double stiffness_tip_displacement(const void *self)
 /* An upper estimate: static steps, without the mass, come near it; Example 2 at n = 100 to
  * 12800 and k = 1e-2 to 1e-4 stays ten times below.
  * Refinement repairs residuals, not errors: with it, up to 100 times more was seen. */
-static double stiffness_round_off(const struct br_field *f,
-                                  const struct br_linear_options *options)
+static double stiffness_round_off(const struct br_field *f, const struct br_linear_options *options)
 {
     const double n2 = (double)f->n * (double)f->n;
     if (f->kind == BR_AXIAL)

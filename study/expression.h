@@ -10,7 +10,6 @@
 /* Makes a function of an expression. A constant expression becomes a constant;
  * uses_x and uses_t tell which variables occur. Fails with BR_BAD_INPUT and
  * muParser's reason, or BR_NO_MEMORY. */
-enum br_status br_expression(const char *text, struct br_function *function,
-                             struct br_error *err);
+enum br_status br_expression(const char *text, struct br_function *function, struct br_error *err);
 
 #endif

@@ -87,8 +87,7 @@ static enum br_status fit_lines(const struct br_study *s, enum br_part part,
     for (size_t i = 0; i < lines->outer; i++) {
         size_t count = 0;
         for (size_t j = 0; j < lines->inner; j++) {
-            const struct br_cell *c =
-                &s->cell[i * lines->outer_stride + j * lines->inner_stride];
+            const struct br_cell *c = &s->cell[i * lines->outer_stride + j * lines->inner_stride];
             if (!usable(c, part))
                 continue;
             x[count] = log(lines->abscissa(s, c));
@@ -139,8 +138,8 @@ static double round_off(const struct br_study *s, const struct br_cell *c)
 {
     double relative = s->judged_by.round_off;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const bool modelled = kind == BR_AXIAL ? s->scene->axial.modelled
-                                               : s->scene->bending.modelled;
+        const bool modelled =
+            kind == BR_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled;
         const struct br_field field =
             br_field_of_scene(s->scene, (enum br_field_kind)kind, c->at.n, step_of(s, c));
         if (modelled)

@@ -28,8 +28,7 @@ struct problem {
 
 struct br_estimate br_estimate_of(double value, double deviation, size_t freedom)
 {
-    const double half =
-        freedom > 0 ? gsl_cdf_tdist_Pinv(0.975, (double)freedom) * deviation : NAN;
+    const double half = freedom > 0 ? gsl_cdf_tdist_Pinv(0.975, (double)freedom) * deviation : NAN;
     return (struct br_estimate){value, value - half, value + half};
 }
 
@@ -190,8 +189,7 @@ static struct br_estimate exponential(struct br_estimate e)
 /* r = sin(theta), its interval by the slope of the sine, within [-1, 1]. */
 static struct br_estimate correlation(double theta, double deviation, size_t freedom)
 {
-    struct br_estimate e =
-        br_estimate_of(sin(theta), fabs(cos(theta)) * deviation, freedom);
+    struct br_estimate e = br_estimate_of(sin(theta), fabs(cos(theta)) * deviation, freedom);
     e.low = e.low < -1 ? -1 : e.low; /* NaN stays */
     e.high = e.high > 1 ? 1 : e.high;
     return e;
@@ -217,8 +215,9 @@ static void describe(const struct problem *problem, const struct attempt *a,
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
         total += pow(log(o->error) - mean, 2);
-        worst = fmax(worst, fabs(log(br_joint_model(fit, o->h, o->k, problem->h_ref,
-                                                    problem->k_ref) / o->error)));
+        worst = fmax(
+            worst,
+            fabs(log(br_joint_model(fit, o->h, o->k, problem->h_ref, problem->k_ref) / o->error)));
     }
     fit->misfit = sqrt(a->sum / (double)problem->count);
     fit->worst = worst;
@@ -228,20 +227,24 @@ static void describe(const struct problem *problem, const struct attempt *a,
 double br_joint_model(const struct br_joint_fit *fit, double h, double k, double h_ref,
                       double k_ref)
 {
-    const double a = fit->kind == BR_JOINT_TIME
-                         ? 0
-                         : signed_error(log(fit->c_h.value), fit->p.value, h, h_ref);
-    const double b = fit->kind == BR_JOINT_SPACE
-                         ? 0
-                         : signed_error(log(fit->c_k.value), fit->q.value, k, k_ref);
+    const double a =
+        fit->kind == BR_JOINT_TIME ? 0 : signed_error(log(fit->c_h.value), fit->p.value, h, h_ref);
+    const double b =
+        fit->kind == BR_JOINT_SPACE ? 0 : signed_error(log(fit->c_k.value), fit->q.value, k, k_ref);
     return combine(a, b, fit->kind == BR_JOINT_BOTH ? fit->r.value : 0);
 }
 
 static void nothing_fitted(struct br_joint_fit *fit)
 {
     const struct br_estimate none = {NAN, NAN, NAN};
-    *fit = (struct br_joint_fit){.c_h = none, .p = none, .c_k = none, .q = none, .r = none,
-                                 .misfit = NAN, .worst = NAN, .r_squared = NAN};
+    *fit = (struct br_joint_fit){.c_h = none,
+                                 .p = none,
+                                 .c_k = none,
+                                 .q = none,
+                                 .r = none,
+                                 .misfit = NAN,
+                                 .worst = NAN,
+                                 .r_squared = NAN};
 }
 
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
@@ -253,8 +256,7 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     double best = INFINITY;
     for (int kind = BR_JOINT_BOTH; kind <= BR_JOINT_SPACE; kind++) {
-        const struct problem problem = {observation, count, h_ref, k_ref,
-                                        (enum br_joint_kind)kind};
+        const struct problem problem = {observation, count, h_ref, k_ref, (enum br_joint_kind)kind};
         if (count < kinds[kind].count + 2)
             continue;
         const struct attempt a = best_attempt(&problem);
@@ -263,8 +265,8 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
             continue;
         describe(&problem, &a, fit);
         /* Two errors whose orders cannot be told are no explanation. */
-        const bool told = kind != BR_JOINT_BOTH ||
-                          (br_order_determined(&fit->p) && br_order_determined(&fit->q));
+        const bool told =
+            kind != BR_JOINT_BOTH || (br_order_determined(&fit->p) && br_order_determined(&fit->q));
         best = told ? criterion : INFINITY;
     }
     gsl_set_error_handler(handler);

@@ -18,18 +18,18 @@ struct transfer {
 };
 
 struct rung {
-    size_t n, modes; /* elements, modes an element */
-    size_t parent;   /* what it is projected from: a rung, or `count` + a root */
-    size_t ratio;    /* parent's n over n */
-    size_t offset;   /* of its modes in a projection; its loss stands before them */
+    size_t n, modes;        /* elements, modes an element */
+    size_t parent;          /* what it is projected from: a rung, or `count` + a root */
+    size_t ratio;           /* parent's n over n */
+    size_t offset;          /* of its modes in a projection; its loss stands before them */
     struct transfer *child; /* ratio of them */
 };
 
 struct br_ladder {
-    size_t count;  /* rungs */
+    size_t count; /* rungs */
     size_t roots;
     size_t *root; /* elements of each */
-    size_t size;   /* doubles in a projection */
+    size_t size;  /* doubles in a projection */
     size_t modes;
     struct rung *rung;
 };
@@ -107,8 +107,8 @@ static enum br_status add_rungs(struct br_ladder *ladder, const struct br_mesh_l
         return br_no_memory(err, "the ladder of meshes");
     ladder->count = rungs->count;
     for (size_t r = 0; r < rungs->count; r++) {
-        const struct rung rung = {.n = rungs->n[r], .modes = ladder->modes,
-                                  .offset = ladder->size + 1};
+        const struct rung rung = {
+            .n = rungs->n[r], .modes = ladder->modes, .offset = ladder->size + 1};
         if (rung.n == 0)
             return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
         ladder->rung[r] = rung;
@@ -199,8 +199,8 @@ static double project_axial(const struct rung *rung, const double *fine, double 
     return loss;
 }
 
-static void project_rung(const struct br_ladder *ladder, size_t r,
-                         const struct br_root_value *root, double *projection)
+static void project_rung(const struct br_ladder *ladder, size_t r, const struct br_root_value *root,
+                         double *projection)
 {
     const struct rung *rung = &ladder->rung[r];
     const double *fine;

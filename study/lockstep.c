@@ -17,9 +17,9 @@
 #include "study/ladder.h"
 
 enum { BUFFERS = 2 };
-static const size_t buffer_bytes = 8u << 20;  /* of a batch's projections, at most */
-static const size_t most_levels = 32;         /* in a batch */
-static const size_t most_audits = 1000;       /* of the reference, about */
+static const size_t buffer_bytes = 8u << 20; /* of a batch's projections, at most */
+static const size_t most_levels = 32;        /* in a batch */
+static const size_t most_audits = 1000;      /* of the reference, about */
 
 /* One field of the reference and the cells. */
 struct channel {
@@ -47,11 +47,11 @@ struct runner {
 
 struct lockstep {
     struct br_study *study;
-    struct channel channel[2]; /* by br_field_kind */
+    struct channel channel[2];       /* by br_field_kind */
     struct bench reference, auditor; /* the auditor's judge may be NULL */
     size_t *root;                    /* the meshes on which the reference is looked at */
     size_t roots;
-    size_t audit_every; /* of the levels, so that there are not too many audits */
+    size_t audit_every;  /* of the levels, so that there are not too many audits */
     struct runner *cell; /* n_count * k_count */
     size_t *level;       /* reference steps at which some cell has a time level */
     size_t level_count, batch, batches;
@@ -192,8 +192,8 @@ static void reference_batch(struct lockstep *l, size_t b)
             return;
         }
         project_reference(l, b % BUFFERS, i % l->batch);
-        const bool audited = l->auditor.judge &&
-                             (i % l->audit_every == 0 || i + 1 == l->level_count);
+        const bool audited =
+            l->auditor.judge && (i % l->audit_every == 0 || i + 1 == l->level_count);
         if (audited && audit(l, l->level[i], error)) {
             atomic_store(&l->stopped, true);
             return;
@@ -223,9 +223,8 @@ static void measure(struct lockstep *l, size_t index, size_t buffer, size_t slot
         if (!c->modelled)
             continue;
         runner_look(r, (enum br_field_kind)kind);
-        const double distance =
-            br_ladder_distance(c->ladder, rung, r->modes,
-                               c->projection[buffer] + slot * br_ladder_size(c->ladder));
+        const double distance = br_ladder_distance(
+            c->ladder, rung, r->modes, c->projection[buffer] + slot * br_ladder_size(c->ladder));
         error[kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING] = distance;
         error[BR_PART_TOTAL] += distance;
     }

@@ -19,7 +19,7 @@ struct br_report {
     struct br_fits fits[BR_PARTS];
     struct br_triangle triangle[BR_MOST_TRIANGLES];
     size_t triangles;
-    double wall_seconds;    /* of the whole study */
+    double wall_seconds; /* of the whole study */
 };
 
 /* The study whose errors are fitted and drawn: the one against the exact solution,

@@ -20,8 +20,9 @@ struct reader {
 };
 
 /* "path:line: key: ..." */
-__attribute__((format(printf, 4, 5))) static enum br_status
-refuse(const struct reader *r, size_t line, const char *key, const char *format, ...)
+__attribute__((format(printf, 4, 5))) static enum br_status refuse(const struct reader *r,
+                                                                   size_t line, const char *key,
+                                                                   const char *format, ...)
 {
     char text[768];
     va_list args;
@@ -350,9 +351,9 @@ enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br
     }
     yaml_parser_set_input_file(&parser, file);
     if (!yaml_parser_load(&parser, &document)) {
-        status = br_fail(err, BR_BAD_INPUT, "%s:%zu: not YAML: %s", path,
-                         parser.problem_mark.line + 1,
-                         parser.problem ? parser.problem : "unreadable");
+        status =
+            br_fail(err, BR_BAD_INPUT, "%s:%zu: not YAML: %s", path, parser.problem_mark.line + 1,
+                    parser.problem ? parser.problem : "unreadable");
     } else {
         const struct reader r = {path, &document, scene, err};
         status = read_document(&r);

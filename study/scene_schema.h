@@ -20,11 +20,11 @@ struct br_scene_key {
     const char *section; /* "" at the top */
     const char *name;
     enum br_key_kind kind;
-    bool required;             /* where its section is given */
-    enum br_friction_law law;  /* the law it belongs to; BR_FRICTIONLESS: any */
-    const char *unit;          /* "" for none */
-    size_t offset;             /* into struct br_scene */
-    const char *help;          /* what is expected */
+    bool required;            /* where its section is given */
+    enum br_friction_law law; /* the law it belongs to; BR_FRICTIONLESS: any */
+    const char *unit;         /* "" for none */
+    size_t offset;            /* into struct br_scene */
+    const char *help;         /* what is expected */
 };
 
 /* Ends with a row whose name is NULL. */

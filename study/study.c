@@ -137,8 +137,7 @@ static enum br_status prepare(struct br_study *s, struct br_error *err)
     for (int part = 0; part < BR_PARTS; part++)
         s->reference_error[part] = s->auditor ? 0 : NAN;
     s->reference_scale = 0;
-    const enum br_status status =
-        s->judge->nests ? check_nesting(s, err) : common_levels(s, err);
+    const enum br_status status = s->judge->nests ? check_nesting(s, err) : common_levels(s, err);
     if (status)
         return status;
     s->cell = br_allocate(s->n_count * s->k_count, sizeof *s->cell);

@@ -30,7 +30,7 @@ struct br_cell {
     double worst_time[BR_PARTS]; /* where the maximum was, s */
     double seconds;              /* of the march alone, one thread */
     enum br_flag flag[BR_PARTS];
-    struct br_error failure;     /* status BR_OK where the march went well */
+    struct br_error failure; /* status BR_OK where the march went well */
 };
 
 struct br_study {
@@ -47,7 +47,7 @@ struct br_study {
     const size_t *n;     /* n_count, borrowed */
     const size_t *steps; /* k_count, borrowed */
     /* out */
-    struct br_cell *cell;         /* n_count * k_count, by rows of equal n; owned */
+    struct br_cell *cell; /* n_count * k_count, by rows of equal n; owned */
     struct br_judge_report judged_by;
     char *events;                     /* what the reference tells, lines; owned; may be NULL */
     double reference_scale;           /* largest L2 norm |u| + |w| of the reference, m^(3/2) */

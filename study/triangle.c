@@ -51,8 +51,8 @@ static struct candidate rate(const struct br_study *s, const double *printed, si
 }
 
 /* The best pair of the wanted inequality whose cells are not yet used. */
-static struct candidate best_pair(const struct br_study *s, const double *printed,
-                                  const bool *used, bool too_near)
+static struct candidate best_pair(const struct br_study *s, const double *printed, const bool *used,
+                                  bool too_near)
 {
     const size_t cells = s->n_count * s->k_count;
     struct candidate best = {.score = 1}; /* below 1 there is nothing to show */
@@ -77,8 +77,8 @@ static struct br_triangle triangle_of(const struct br_study *s, const double *pr
     return t;
 }
 
-static size_t choose_pairs(const struct br_study *s, const double *printed, size_t most,
-                           bool *used, struct br_triangle *triangles)
+static size_t choose_pairs(const struct br_study *s, const double *printed, size_t most, bool *used,
+                           struct br_triangle *triangles)
 {
     size_t count = 0;
     while (count < most) {

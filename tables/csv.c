@@ -24,8 +24,9 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
 {
     (void)p, (void)err;
     const struct br_study *s = r->study;
-    fprintf(out, "n,k,error,axial,bending,printed,ratio,seconds,flag,axial_flag,bending_flag,"
-                 "worst_time%s\n",
+    fprintf(out,
+            "n,k,error,axial,bending,printed,ratio,seconds,flag,axial_flag,bending_flag,"
+            "worst_time%s\n",
             r->exact ? ",exact,exact_axial,exact_bending,exact_flag" : "");
     for (size_t i = 0; i < s->n_count * s->k_count; i++) {
         const struct br_cell *c = &s->cell[i];

@@ -52,11 +52,11 @@ static json_t *cell(const struct br_report *r, size_t index)
     json_object_set_new(o, "worst_time", number(c->worst_time[BR_PART_TOTAL]));
     if (r->exact) {
         const struct br_cell *e = &r->exact->cell[index];
-        json_object_set_new(o, "exact", json_pack("{s:o, s:o, s:o, s:s}", "error",
-                                                  number(e->error[BR_PART_TOTAL]), "axial",
-                                                  number(e->error[BR_PART_AXIAL]), "bending",
-                                                  number(e->error[BR_PART_BENDING]), "flag",
-                                                  br_flag_name(e->flag[BR_PART_TOTAL])));
+        json_object_set_new(
+            o, "exact",
+            json_pack("{s:o, s:o, s:o, s:s}", "error", number(e->error[BR_PART_TOTAL]), "axial",
+                      number(e->error[BR_PART_AXIAL]), "bending", number(e->error[BR_PART_BENDING]),
+                      "flag", br_flag_name(e->flag[BR_PART_TOTAL])));
     }
     if (c->failure.status)
         json_object_set_new(o, "failure", json_string(c->failure.message));
@@ -85,13 +85,13 @@ static json_t *fits(const struct br_report *r, enum br_part part)
     static const char *const kinds[] = {"space and time", "time", "space"};
     const struct br_fits *f = &r->fits[part];
     const struct br_joint_fit *j = &f->joint;
-    json_t *joint = json_pack(
-        "{s:b, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:I, s:I}", "converged",
-        j->converged, "describes_the_errors", br_joint_describes(j), "model", kinds[j->kind],
-        "C_h", estimate(&j->c_h), "p", estimate(&j->p), "C_k", estimate(&j->c_k), "q",
-        estimate(&j->q), "r", estimate(&j->r), "misfit", number(j->misfit), "worst",
-        number(j->worst), "r_squared", number(j->r_squared), "points", (json_int_t)j->points,
-        "degrees_of_freedom", (json_int_t)j->freedom);
+    json_t *joint =
+        json_pack("{s:b, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:I, s:I}", "converged",
+                  j->converged, "describes_the_errors", br_joint_describes(j), "model",
+                  kinds[j->kind], "C_h", estimate(&j->c_h), "p", estimate(&j->p), "C_k",
+                  estimate(&j->c_k), "q", estimate(&j->q), "r", estimate(&j->r), "misfit",
+                  number(j->misfit), "worst", number(j->worst), "r_squared", number(j->r_squared),
+                  "points", (json_int_t)j->points, "degrees_of_freedom", (json_int_t)j->freedom);
     return json_pack("{s:o, s:o, s:o, s:o}", "joint", joint, "order_in_k_by_n",
                      slopes(f->by_n, r->study->n_count), "order_in_h_by_k",
                      slopes(f->by_k, r->study->k_count), "reference_error",
@@ -114,11 +114,10 @@ static json_t *triangles(const struct br_report *r)
         const struct br_triangle *t = &r->triangle[i];
         json_array_append_new(
             a, json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "a",
-                         resolution(r->study->scene, t->a), "b",
-                         resolution(r->study->scene, t->b), "printed_a", number(t->printed_a),
-                         "printed_b", number(t->printed_b), "distance", number(t->distance),
-                         "least", number(t->least), "most", number(t->most), "contradiction",
-                         t->contradiction));
+                         resolution(r->study->scene, t->a), "b", resolution(r->study->scene, t->b),
+                         "printed_a", number(t->printed_a), "printed_b", number(t->printed_b),
+                         "distance", number(t->distance), "least", number(t->least), "most",
+                         number(t->most), "contradiction", t->contradiction));
     }
     return a;
 }
@@ -179,9 +178,9 @@ static json_t *document(const struct br_report *r, const struct br_provenance *p
     json_object_set_new(o, "name", string(r->name));
     json_object_set_new(o, "caption", string(r->caption));
     json_object_set_new(o, "provenance", provenance(p));
-    json_object_set_new(o, "scene", json_pack("{s:s, s:o, s:o}", "name", s->scene->name, "path",
-                                              string(p->scene_path), "text",
-                                              string(p->scene_text)));
+    json_object_set_new(o, "scene",
+                        json_pack("{s:s, s:o, s:o}", "name", s->scene->name, "path",
+                                  string(p->scene_path), "text", string(p->scene_text)));
     json_object_set_new(o, "method", method(&s->method));
     json_object_set_new(o, "reference", reference(s));
     if (r->exact)

@@ -105,8 +105,7 @@ static void print_errors(FILE *out, const struct br_report *r, enum br_part part
     }
     fprintf(out, "\\midrule\norder in $h$");
     for (size_t j = 0; j < s->k_count; j++)
-        fprintf(out, " & %s",
-                br_order_text(&r->fits[part].by_k[j].order, buffer, sizeof buffer));
+        fprintf(out, " & %s", br_order_text(&r->fits[part].by_k[j].order, buffer, sizeof buffer));
     fprintf(out, " & \\\\\n");
     close_table(out);
 }

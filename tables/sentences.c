@@ -5,8 +5,8 @@
 #include <stdarg.h>
 #include <string.h>
 
-__attribute__((format(printf, 2, 3))) static void say(const struct br_writer *w,
-                                                      const char *format, ...)
+__attribute__((format(printf, 2, 3))) static void say(const struct br_writer *w, const char *format,
+                                                      ...)
 {
     char text[1024];
     va_list args;
@@ -26,8 +26,7 @@ static void describe_method(const struct br_study *s, const struct br_method *m,
                             size_t size)
 {
     const char *contact = s->scene->contact.modelled ? m->contact->name : "none";
-    const char *friction =
-        s->scene->friction.law == BR_FRICTIONLESS ? "none" : m->friction->name;
+    const char *friction = s->scene->friction.law == BR_FRICTIONLESS ? "none" : m->friction->name;
     snprintf(text, size, "solver %s, contact %s, friction %s", m->solver->name, contact, friction);
 }
 
@@ -48,8 +47,10 @@ void br_say_method(const struct br_report *r, const struct br_writer *w)
 {
     char cells[128], reference[512];
     describe_method(r->study, &r->study->method, cells, sizeof cells);
-    say(w, "Error (31): the largest |u - u_hk| + |w - w_hk| over all time levels of a cell, L2 norms, "
-           "m^(3/2). Cells: %s.", cells);
+    say(w,
+        "Error (31): the largest |u - u_hk| + |w - w_hk| over all time levels of a cell, L2 norms, "
+        "m^(3/2). Cells: %s.",
+        cells);
     describe_reference(br_report_fitted(r), reference, sizeof reference);
     say(w, "Reference: %s.", reference);
     if (!r->exact)
@@ -79,25 +80,31 @@ static void say_joint(const struct br_report *r, enum br_part part, const struct
     describe_side("C_h", &fit->c_h, "p", &fit->p, space, sizeof space);
     describe_side("C_k", &fit->c_k, "q", &fit->q, time, sizeof time);
     if (!br_joint_describes(fit)) {
-        say(w, "%s: the joint model does not describe these errors (misfit %.0f %%, %zu cells); no "
-               "orders are claimed.", name, 100 * fit->misfit, fit->points);
+        say(w,
+            "%s: the joint model does not describe these errors (misfit %.0f %%, %zu cells); no "
+            "orders are claimed.",
+            name, 100 * fit->misfit, fit->points);
         return;
     }
     switch (fit->kind) {
     case BR_JOINT_BOTH:
-        say(w, "%s: %s; %s; r = %.3f [%.3f, %.3f]; misfit %.2g %% (worst %.2g %%), R^2 = %.6f, %zu "
-               "cells.", name, space, time, fit->r.value, fit->r.low, fit->r.high,
-            100 * fit->misfit, 100 * fit->worst, fit->r_squared, fit->points);
+        say(w,
+            "%s: %s; %s; r = %.3f [%.3f, %.3f]; misfit %.2g %% (worst %.2g %%), R^2 = %.6f, %zu "
+            "cells.",
+            name, space, time, fit->r.value, fit->r.low, fit->r.high, 100 * fit->misfit,
+            100 * fit->worst, fit->r_squared, fit->points);
         return;
     case BR_JOINT_TIME:
-        say(w, "%s: %s; no space error can be seen in these cells; misfit %.2g %% (worst %.2g %%), "
-               "R^2 = %.6f, %zu cells.", name, time, 100 * fit->misfit, 100 * fit->worst,
-            fit->r_squared, fit->points);
+        say(w,
+            "%s: %s; no space error can be seen in these cells; misfit %.2g %% (worst %.2g %%), "
+            "R^2 = %.6f, %zu cells.",
+            name, time, 100 * fit->misfit, 100 * fit->worst, fit->r_squared, fit->points);
         return;
     case BR_JOINT_SPACE:
-        say(w, "%s: %s; no time error can be seen in these cells; misfit %.2g %% (worst %.2g %%), "
-               "R^2 = %.6f, %zu cells.", name, space, 100 * fit->misfit, 100 * fit->worst,
-            fit->r_squared, fit->points);
+        say(w,
+            "%s: %s; no time error can be seen in these cells; misfit %.2g %% (worst %.2g %%), "
+            "R^2 = %.6f, %zu cells.",
+            name, space, 100 * fit->misfit, 100 * fit->worst, fit->r_squared, fit->points);
     }
 }
 
@@ -124,8 +131,8 @@ static void say_failures(const struct br_study *s, const struct br_writer *w)
     for (size_t i = 0; i < s->n_count * s->k_count; i++) {
         const struct br_cell *c = &s->cell[i];
         if (c->failure.status)
-            say(w, "Failed: n = %zu, k = %g s: %s.", c->at.n,
-                br_time_step(s->scene, c->at.steps), c->failure.message);
+            say(w, "Failed: n = %zu, k = %g s: %s.", c->at.n, br_time_step(s->scene, c->at.steps),
+                c->failure.message);
     }
 }
 
@@ -142,8 +149,10 @@ static void say_reference(const struct br_study *s, double own, const struct br_
         say(w, "The own error of the %s reference is about %.1e, %s%s.", s->judge->name, own, by,
             rounding);
     else
-        say(w, "The own error of the %s reference is not known: the joint fit does not describe the "
-               "errors%s.", s->judge->name, rounding);
+        say(w,
+            "The own error of the %s reference is not known: the joint fit does not describe the "
+            "errors%s.",
+            s->judge->name, rounding);
 }
 
 static void say_marks(const struct br_study *s, const struct br_writer *w)
@@ -151,11 +160,15 @@ static void say_marks(const struct br_study *s, const struct br_writer *w)
     const size_t limited = count_flag(s, BR_FLAG_REFERENCE);
     const size_t rounded = count_flag(s, BR_FLAG_ROUND_OFF);
     if (limited)
-        say(w, "R marks %zu cells whose error is below %g times the own error of the %s reference; "
-               "they are left out of fits.", limited, br_flag_margin, s->judge->name);
+        say(w,
+            "R marks %zu cells whose error is below %g times the own error of the %s reference; "
+            "they are left out of fits.",
+            limited, br_flag_margin, s->judge->name);
     if (rounded)
-        say(w, "F marks %zu cells whose error is below %g times the predicted round-off (floor); "
-               "they are left out of fits.", rounded, br_flag_margin);
+        say(w,
+            "F marks %zu cells whose error is below %g times the predicted round-off (floor); "
+            "they are left out of fits.",
+            rounded, br_flag_margin);
 }
 
 void br_say_flags(const struct br_report *r, const struct br_writer *w)
@@ -198,9 +211,10 @@ static void say_ratio(const struct br_report *r, const struct br_writer *w)
     if (differ == 0)
         say(w, "Ours and the printed errors agree within 5 %% in all %zu cells.", compared);
     else
-        say(w, "Ours and the printed errors DIFFER by more than 5 %% in %zu of %zu cells; ours over "
-               "printed goes from %.2g to %.2g. No choice of reference can repair that:", differ,
-            compared, least, most);
+        say(w,
+            "Ours and the printed errors DIFFER by more than 5 %% in %zu of %zu cells; ours over "
+            "printed goes from %.2g to %.2g. No choice of reference can repair that:",
+            differ, compared, least, most);
 }
 
 static void say_triangle(const struct br_report *r, const struct br_triangle *t,
@@ -211,10 +225,12 @@ static void say_triangle(const struct br_report *r, const struct br_triangle *t,
     const double bound = t->distance < t->least ? t->least : t->most;
     if (!t->contradiction)
         return;
-    say(w, "Cells (n = %zu, k = %g) and (n = %zu, k = %g): the printed %.3e and %.3e, against "
-           "whatever common reference, need solutions that are %s %.2e apart (triangle inequality); "
-           "the scheme's are %.2e apart.", t->a.n, br_time_step(scene, t->a.steps), t->b.n,
-        br_time_step(scene, t->b.steps), t->printed_a, t->printed_b, needed, bound, t->distance);
+    say(w,
+        "Cells (n = %zu, k = %g) and (n = %zu, k = %g): the printed %.3e and %.3e, against "
+        "whatever common reference, need solutions that are %s %.2e apart (triangle inequality); "
+        "the scheme's are %.2e apart.",
+        t->a.n, br_time_step(scene, t->a.steps), t->b.n, br_time_step(scene, t->b.steps),
+        t->printed_a, t->printed_b, needed, bound, t->distance);
 }
 
 void br_say_printed(const struct br_report *r, const struct br_writer *w)

@@ -68,8 +68,7 @@ static void print_errors(FILE *out, const struct br_report *r, enum br_part part
             const struct br_cell *c = br_study_cell(s, i, j);
             print_number(out, c->error[part], "%.3e", flag_letter(c->flag[part]));
         }
-        fprintf(out, "   %s\n",
-                br_order_text(&r->fits[part].by_n[i].order, buffer, sizeof buffer));
+        fprintf(out, "   %s\n", br_order_text(&r->fits[part].by_n[i].order, buffer, sizeof buffer));
     }
     fprintf(out, "order in h  ");
     for (size_t j = 0; j < s->k_count; j++)
@@ -92,8 +91,7 @@ static void print_beside(FILE *out, const struct br_report *r)
         fprintf(out, "n = %-8zu", s->n[i]);
         for (size_t j = 0; j < s->k_count; j++) {
             const struct br_cell *c = br_study_cell(s, i, j);
-            print_number(out, c->error[BR_PART_TOTAL], "%.3e",
-                         flag_letter(c->flag[BR_PART_TOTAL]));
+            print_number(out, c->error[BR_PART_TOTAL], "%.3e", flag_letter(c->flag[BR_PART_TOTAL]));
         }
         fputc('\n', out);
     }

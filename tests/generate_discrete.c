@@ -23,7 +23,8 @@ struct scene {
     quad friction;                 /* c_V, N/m */
 };
 
-static const struct scene scenes[] = {{"example1", 400, -10000, 5e6}, {"example2", 100, -1000, 1e4}};
+static const struct scene scenes[] = {{"example1", 400, -10000, 5e6},
+                                      {"example2", 100, -1000, 1e4}};
 static const int meshes[] = {400, 3200, 12800};
 enum { SCENES = 2, MESHES = 3, STEPS = 1000 };
 

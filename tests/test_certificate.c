@@ -155,9 +155,9 @@ static void test_friction_graph(void **state)
         double v, lambda;
         bool good;
     } points[] = {
-        {0, 0, true},     {0, 2.9, true},   {0, -3, true},   {0.5, 3, true},  {-0.5, -3, true},
-        {0.5, -3, false}, {-0.5, 3, false}, {0.5, 2, false}, {0.5, 0, false}, {0, 3.1, false},
-        {0.5, 3.1, false}, {-0.5, -3.1, false},
+        {0, 0, true},     {0, 2.9, true},   {0, -3, true},     {0.5, 3, true},
+        {-0.5, -3, true}, {0.5, -3, false}, {-0.5, 3, false},  {0.5, 2, false},
+        {0.5, 0, false},  {0, 3.1, false},  {0.5, 3.1, false}, {-0.5, -3.1, false},
     };
     struct br_scene scene = br_test_bare();
     scene.axial.modelled = false;
@@ -308,10 +308,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_planted_faults), cmocka_unit_test(test_planted_velocity),
-        cmocka_unit_test(test_wrong_law),
-        cmocka_unit_test(test_friction_graph), cmocka_unit_test(test_residual_norm),
-        cmocka_unit_test(test_not_finite),     cmocka_unit_test(test_verdict),
-        cmocka_unit_test(test_merge),          cmocka_unit_test(test_good_steps),
+        cmocka_unit_test(test_wrong_law),      cmocka_unit_test(test_friction_graph),
+        cmocka_unit_test(test_residual_norm),  cmocka_unit_test(test_not_finite),
+        cmocka_unit_test(test_verdict),        cmocka_unit_test(test_merge),
+        cmocka_unit_test(test_good_steps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

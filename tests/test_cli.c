@@ -21,15 +21,15 @@ static char folder[] = "/tmp/beamrate cli XXXXXX"; /* the working folder of ever
 
 /* How the program is run besides its words. */
 struct circumstances {
-    const char *path;     /* PATH; NULL: as it is */
-    const char *data;     /* BEAMRATE_DATA; NULL: as it is */
-    rlim_t file_size;     /* largest file, bytes; 0: any */
-    int interrupt_after;  /* ms; 0: never */
+    const char *path;    /* PATH; NULL: as it is */
+    const char *data;    /* BEAMRATE_DATA; NULL: as it is */
+    rlim_t file_size;    /* largest file, bytes; 0: any */
+    int interrupt_after; /* ms; 0: never */
 };
 
 struct outcome {
-    int exit_code; /* or -signal */
-    char output[MOST_OUTPUT];  /* standard output and error */
+    int exit_code;            /* or -signal */
+    char output[MOST_OUTPUT]; /* standard output and error */
 };
 
 static void become_program(const char *const *word, const struct circumstances *c, int output)
@@ -214,7 +214,8 @@ static void test_bad_options(void **state)
         {"study example1 --solver umfpack --scaling big", "expected one of: none, sum, max"},
         {"study example1 --refinement -1", "--refinement: found '-1'"},
         {"study example1 --threads -1", "--threads: found '-1'"},
-        {"study example1 --threads x", "--threads: found 'x', expected a whole number from 0 to 4096"},
+        {"study example1 --threads x",
+         "--threads: found 'x', expected a whole number from 0 to 4096"},
         {"study example1 --out /proc/nowhere/at/all " SMALL, "--out: cannot make the folder"},
         {"study example1 --out '' " SMALL, "--out: found ''"},
     };
@@ -228,8 +229,9 @@ static void test_bad_scene(void **state)
 {
     (void)state;
     write_file("bad.yaml", "title: x\nlength: 1 m\nduration: 1 s\ndensity: 1 kg\n");
-    expect("study bad.yaml", NULL, 2, "bad.yaml:4: density: found '1 kg', expected a number and its "
-                                      "unit, kg/m");
+    expect("study bad.yaml", NULL, 2,
+           "bad.yaml:4: density: found '1 kg', expected a number and its "
+           "unit, kg/m");
     write_file("bad.yaml", "title: x\nlength: 1 m\ncolour: red\n");
     expect("study bad.yaml", NULL, 2, "bad.yaml:3: colour: unknown key");
     char path[512];
@@ -246,7 +248,7 @@ static void test_good_run(void **state)
                                         "r/example2.tex", "r/example2.json"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         assert_true(is_there(files[i]));
-    assert_int_equal(count_files("r"), 5); /* no hidden folder is left */
+    assert_int_equal(count_files("r"), 5);                /* no hidden folder is left */
     expect("study example2 --out r " SMALL, NULL, 0, ""); /* replaces them */
     assert_int_equal(count_files("r"), 5);
     expect("study example3 --out one --format csv " SMALL, NULL, 0, "");
@@ -259,9 +261,8 @@ static void test_tables(void **state)
     expect("tables --n 5,10,20 --k 0.1,0.05,0.025 --reference fine:40,0.0125 --out t", NULL, 0,
            "Written to t/");
     static const char *const stems[] = {"t/table1", "t/table2"};
-    static const char *const endings[] = {".csv",  ".md",    ".tex",  ".json",
-                                          ".txt",  "-h.gp",  "-k.gp", "-printed.gp",
-                                          "-h.dat"};
+    static const char *const endings[] = {".csv",  ".md",   ".tex",        ".json", ".txt",
+                                          "-h.gp", "-k.gp", "-printed.gp", "-h.dat"};
     for (size_t i = 0; i < 2; i++)
         for (size_t j = 0; j < sizeof endings / sizeof *endings; j++) {
             char name[64];
@@ -304,8 +305,8 @@ static void test_failures(void **state)
            &(struct circumstances){.path = "/nonexistent"}, 0, "gnuplot is not installed");
     assert_true(is_there("bare/example1-h.gp") && !is_there("bare/example1-h.png"));
     /* Ctrl-C: ends by the signal and leaves nothing */
-    expect("tables --out stopped --quiet", &(struct circumstances){.interrupt_after = 700},
-           -SIGINT, "interrupted; nothing was written");
+    expect("tables --out stopped --quiet", &(struct circumstances){.interrupt_after = 700}, -SIGINT,
+           "interrupted; nothing was written");
     assert_int_equal(count_files("stopped"), 0);
     /* a file where the folder should be */
     write_file("file", "");

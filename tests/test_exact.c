@@ -153,9 +153,9 @@ static void test_example3(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_golden_riccati),   cmocka_unit_test(test_golden_others),
+        cmocka_unit_test(test_golden_riccati),    cmocka_unit_test(test_golden_others),
         cmocka_unit_test(test_other_resolutions), cmocka_unit_test(test_implicit_contact),
-        cmocka_unit_test(test_lagged_contact),   cmocka_unit_test(test_example3),
+        cmocka_unit_test(test_lagged_contact),    cmocka_unit_test(test_example3),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

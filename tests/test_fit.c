@@ -61,8 +61,7 @@ static void fill(struct grid *g, const struct truth *t, double noise, uint64_t s
         double sum = 0;
         for (int j = 0; j < 12; j++)
             sum += br_test_uniform(&random, -0.5, 0.5);
-        g->cell[i].error[BR_PART_TOTAL] =
-            sqrt(a * a + 2 * t->r * a * b + b * b) * exp(noise * sum);
+        g->cell[i].error[BR_PART_TOTAL] = sqrt(a * a + 2 * t->r * a * b + b * b) * exp(noise * sum);
     }
 }
 
@@ -270,10 +269,14 @@ static void test_nan_passes_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_recovers),  cmocka_unit_test(test_coverage),
-        cmocka_unit_test(test_one_sided), cmocka_unit_test(test_opposed),
-        cmocka_unit_test(test_left_out),  cmocka_unit_test(test_flags),
-        cmocka_unit_test(test_slope),     cmocka_unit_test(test_noise_is_no_order),
+        cmocka_unit_test(test_recovers),
+        cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_one_sided),
+        cmocka_unit_test(test_opposed),
+        cmocka_unit_test(test_left_out),
+        cmocka_unit_test(test_flags),
+        cmocka_unit_test(test_slope),
+        cmocka_unit_test(test_noise_is_no_order),
         cmocka_unit_test(test_nan_passes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -41,8 +41,8 @@ static long double value_at(enum br_field_kind kind, const double *nodal, size_t
     if (kind == BR_AXIAL)
         return eta * nodal[e] + xi * nodal[e + 1];
     const double *w = nodal + 2 * e;
-    return eta * eta * (1 + 2 * xi) * w[0] + xi * eta * eta * w[1] +
-           xi * xi * (3 - 2 * xi) * w[2] - xi * xi * eta * w[3];
+    return eta * eta * (1 + 2 * xi) * w[0] + xi * eta * eta * w[1] + xi * xi * (3 - 2 * xi) * w[2] -
+           xi * xi * eta * w[3];
 }
 
 /* Four Gauss points an element of the fine mesh: exact for the square of cubics. */
@@ -101,9 +101,9 @@ static double distance(const struct br_ladder *ladder, size_t rung, const struct
 static const struct {
     size_t finest, count, n[5];
 } ladders[] = {
-    {1, 1, {1}},          {8, 1, {8}},           {8, 3, {1, 2, 4}},      {9, 2, {1, 3}},
-    {25, 2, {5, 1}},      {12, 2, {4, 6}},       {30, 2, {10, 15}},      {30, 5, {6, 10, 15, 1, 30}},
-    {16, 4, {4, 4, 8, 2}}, {128, 1, {1}},        {640, 2, {5, 40}},      {384, 3, {3, 128, 96}},
+    {1, 1, {1}},           {8, 1, {8}},     {8, 3, {1, 2, 4}}, {9, 2, {1, 3}},
+    {25, 2, {5, 1}},       {12, 2, {4, 6}}, {30, 2, {10, 15}}, {30, 5, {6, 10, 15, 1, 30}},
+    {16, 4, {4, 4, 8, 2}}, {128, 1, {1}},   {640, 2, {5, 40}}, {384, 3, {3, 128, 96}},
     {77, 3, {7, 11, 1}},
 };
 enum { LADDERS = sizeof ladders / sizeof *ladders };
@@ -222,12 +222,12 @@ static void test_refusals(void **state)
     struct br_ladder *ladder;
     const struct br_mesh_list twelve = {1, (const size_t[]){12}};
     REFUSED(br_ladder_create(&ladder, BR_AXIAL, &twelve,
-                             &(struct br_mesh_list){2, (const size_t[]){4, 5}}, &err), BR_BAD_INPUT,
-            "n = 5 does not divide the reference's 12");
+                             &(struct br_mesh_list){2, (const size_t[]){4, 5}}, &err),
+            BR_BAD_INPUT, "n = 5 does not divide the reference's 12");
     br_ladder_free(ladder);
     REFUSED(br_ladder_create(&ladder, BR_AXIAL, &twelve,
-                             &(struct br_mesh_list){1, (const size_t[]){0}}, &err), BR_BAD_INPUT,
-            "n is 0");
+                             &(struct br_mesh_list){1, (const size_t[]){0}}, &err),
+            BR_BAD_INPUT, "n is 0");
     br_ladder_free(ladder);
     br_ladder_free(NULL);
 }
@@ -253,8 +253,10 @@ static void test_nan_stays(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_functions), cmocka_unit_test(test_close_functions),
-        cmocka_unit_test(test_norms),            cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_random_functions),
+        cmocka_unit_test(test_close_functions),
+        cmocka_unit_test(test_norms),
+        cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_nan_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -37,8 +37,8 @@ static void solve_once(const struct br_linear_solver *s, const struct br_field *
     CLOSE(velocity, free_velocity - tip_force * solver->tip_compliance(self),
           1e-10 * (fabs(free_velocity) + fabs(velocity)));
     solver->get(self, nodal, NULL);
-    CLOSE(solver->tip_displacement(self), nodal[br_field_size(field) - br_field_unknowns(field->kind)],
-          1e-14 * fabs(velocity));
+    CLOSE(solver->tip_displacement(self),
+          nodal[br_field_size(field) - br_field_unknowns(field->kind)], 1e-14 * fabs(velocity));
     solver->free(self);
 }
 
@@ -93,8 +93,7 @@ static void test_cubic(void **state)
             solve_once(*s, &field, NULL, -3, w);
             for (size_t i = 0; i <= n; i++) {
                 const double x = field.h * (double)i;
-                CLOSE(w[2 * i], 3 * x * x * (3 * length - x) / 240,
-                      0.4 * tolerance_of(*s, &field));
+                CLOSE(w[2 * i], 3 * x * x * (3 * length - x) / 240, 0.4 * tolerance_of(*s, &field));
                 CLOSE(w[2 * i + 1], field.h * 3 * x * (2 * length - x) / 80,
                       0.4 * tolerance_of(*s, &field));
             }
@@ -112,8 +111,7 @@ static void test_uniform_load(void **state)
         for (size_t n = 1; n <= MOST_N; n = 2 * n + 1)
             for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
                 struct br_error err = {0};
-                const struct br_field field =
-                    static_field((enum br_field_kind)kind, n, length, 40);
+                const struct br_field field = static_field((enum br_field_kind)kind, n, length, 40);
                 double load[2 * (MOST_N + 1)], nodal[2 * (MOST_N + 1)];
                 MUST(br_assemble_load(&field, &f, 0, load, &err));
                 solve_once(*s, &field, load, 0, nodal);
@@ -165,14 +163,14 @@ static void test_dynamic_compliance(void **state)
     const double length = 1.5, foundation = 50 / 0.01, s = 0.3 + 0.01 * 20;
     const double b = sqrt(foundation / s), rod = tanh(b * length) / (b * s);
     const double beta = pow(foundation / s / 4, 0.25), y = beta * length;
-    const double beam = beta / foundation * (sinh(2 * y) - sin(2 * y)) /
-                        (cosh(y) * cosh(y) + cos(y) * cos(y));
+    const double beam =
+        beta / foundation * (sinh(2 * y) - sin(2 * y)) / (cosh(y) * cosh(y) + cos(y) * cos(y));
     for (const struct br_linear_solver *const *solver = br_linear_solvers; *solver; solver++) {
         double last[2] = {0, 0};
         for (size_t n = 400; n <= 800; n *= 2)
             for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-                const struct br_field field = {(enum br_field_kind)kind, n,  length / (double)n,
-                                               50, 20, 0.3, 0.01};
+                const struct br_field field = {
+                    (enum br_field_kind)kind, n, length / (double)n, 50, 20, 0.3, 0.01};
                 const double z = compliance_of(*solver, &field);
                 const double error = fabs(z / (kind == BR_AXIAL ? rod : beam) - 1);
                 AT_MOST(error, kind == BR_AXIAL ? 0.02 : 1e-7);
@@ -357,11 +355,16 @@ static void test_initial_data(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_constant_strain),  cmocka_unit_test(test_constant_curvature),
-        cmocka_unit_test(test_cubic),            cmocka_unit_test(test_uniform_load),
-        cmocka_unit_test(test_static_compliance), cmocka_unit_test(test_dynamic_compliance),
-        cmocka_unit_test(test_rigid_motion),     cmocka_unit_test(test_mirrored),
-        cmocka_unit_test(test_units),            cmocka_unit_test(test_load_vectors),
+        cmocka_unit_test(test_constant_strain),
+        cmocka_unit_test(test_constant_curvature),
+        cmocka_unit_test(test_cubic),
+        cmocka_unit_test(test_uniform_load),
+        cmocka_unit_test(test_static_compliance),
+        cmocka_unit_test(test_dynamic_compliance),
+        cmocka_unit_test(test_rigid_motion),
+        cmocka_unit_test(test_mirrored),
+        cmocka_unit_test(test_units),
+        cmocka_unit_test(test_load_vectors),
         cmocka_unit_test(test_initial_data),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

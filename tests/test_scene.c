@@ -80,8 +80,10 @@ static const struct {
     const char *key, *text;
 } refusals[] = {
     /* keys */
-    {4, "weight: 1e-4 kg/m", 4, "weight", "unknown key, expected one of: title, length, duration, density, axial, bending, contact, friction"},
-    {7, "  damping: 1 N s", 7, "damping", "unknown key in axial, expected one of: stiffness, viscosity, load, displacement, velocity"},
+    {4, "weight: 1e-4 kg/m", 4, "weight",
+     "unknown key, expected one of: title, length, duration, density, axial, bending, contact, friction"},
+    {7, "  damping: 1 N s", 7, "damping",
+     "unknown key in axial, expected one of: stiffness, viscosity, load, displacement, velocity"},
     {14, "  stiffness: 0 m", 14, "stiffness", "expected a number and its unit, N/m"},
     {3, "length: 1 s", 3, "length", "given twice"},
     {13, "axial:", 13, "axial", "given twice"},
@@ -126,34 +128,50 @@ static const struct {
     {18, "  coefficient: -1 N/m", 18, "coefficient", "expected a value >= 0 N/m"},
     {19, "  regularisation: -1 m/s", 19, "regularisation", "expected a value >= 0 m/s"},
     /* expressions */
-    {8, "  load: 400*(exp(t) - 1)", 8, "load", "expected an expression and its unit, like 'x*t [N/m]'"},
-    {8, "  load: 400*(exp(t) - 1) [N]", 8, "load", "expected an expression and its unit, like 'x*t [N/m]'"},
+    {8, "  load: 400*(exp(t) - 1)", 8, "load",
+     "expected an expression and its unit, like 'x*t [N/m]'"},
+    {8, "  load: 400*(exp(t) - 1) [N]", 8, "load",
+     "expected an expression and its unit, like 'x*t [N/m]'"},
     {8, "  load: 400*(exp(t) - [N/m]", 8, "load", "'400*(exp(t) -' is no expression in x and t"},
     {8, "  load: y*t [N/m]", 8, "load", "'y*t' is no expression in x and t"},
     {8, "  load: \"[N/m]\"", 8, "load", "is no expression in x and t"},
     {8, "  load: 1/0 [N/m]", 8, "load", "expected a finite number"},
     {8, "  load: sqrt(-1) [N/m]", 8, "load", "expected a finite number"},
     {8, "  load: [1, 2]", 8, "load", "found a list or a mapping"},
-    {8, "  load: {shape: \"x [1]\"}", 8, "load", "expected 'shape: F(x) [1]' and 'history: G(t) [N/m]'"},
-    {8, "  load: {history: \"t [N/m]\"}", 8, "load", "expected 'shape: F(x) [1]' and 'history: G(t) [N/m]'"},
-    {8, "  load: {shape: \"t [1]\", history: \"t [N/m]\"}", 8, "load", "expected an expression without t"},
-    {8, "  load: {shape: \"x [1]\", history: \"x [N/m]\"}", 8, "load", "expected an expression without x"},
+    {8, "  load: {shape: \"x [1]\"}", 8, "load",
+     "expected 'shape: F(x) [1]' and 'history: G(t) [N/m]'"},
+    {8, "  load: {history: \"t [N/m]\"}", 8, "load",
+     "expected 'shape: F(x) [1]' and 'history: G(t) [N/m]'"},
+    {8, "  load: {shape: \"t [1]\", history: \"t [N/m]\"}", 8, "load",
+     "expected an expression without t"},
+    {8, "  load: {shape: \"x [1]\", history: \"x [N/m]\"}", 8, "load",
+     "expected an expression without x"},
     {8, "  load: {shape: \"x [N/m]\", history: \"t [1]\"}", 8, "load", "like 'x*t [1]'"},
     {8, "  load: {form: \"x [1]\", history: \"t [N/m]\"}", 8, "load", "found 'form', expected"},
     {8, "  load: {shape: \"x [1]\", shape: \"x [1]\"}", 8, "load", "'shape' is given twice"},
     {8, "  load: {shape: [1], history: \"t [N/m]\"}", 8, "load", "expected 'shape"},
-    {8, "  displacement: x*t [m]", 8, "displacement", "found 'x*t [m]', expected an expression without t"},
+    {8, "  displacement: x*t [m]", 8, "displacement",
+     "found 'x*t [m]', expected an expression without t"},
     /* initial data */
-    {8, "  displacement: 1 + x [m]", 1, "scene", "initial axial displacement is 1 at x = 0, expected 0 where the beam is clamped"},
+    {8, "  displacement: 1 + x [m]", 1, "scene",
+     "initial axial displacement is 1 at x = 0, expected 0 where the beam is clamped"},
     {8, "  velocity: cos(x) [m/s]", 1, "scene", "initial axial velocity is 1 at x = 0"},
-    {8, "  velocity: x/(x - 0.5) [m/s]", 1, "scene", "initial axial velocity is not finite everywhere in [0, L]"},
-    {12, "  displacement: x^2 [m]", 1, "scene", "initial bending displacement needs displacement_slope, its derivative"},
-    {12, "  velocity: x^2 [m/s]", 1, "scene", "initial bending velocity needs velocity_slope, its derivative"},
-    {12, "  displacement: x^2 [m]\n  displacement_slope: 3*x [1]", 1, "scene", "expected the derivative of bending displacement there"},
-    {12, "  displacement: x [m]\n  displacement_slope: 1 [1]", 1, "scene", "initial displacement_slope is 1 at x = 0"},
-    {12, "  velocity: x^2 [m/s]\n  velocity_slope: 2*x - 1e-3 [1/s]", 1, "scene", "initial velocity_slope is -0.001 at x = 0"},
-    {12, "  velocity: x^2 [m/s]\n  velocity_slope: 2*x*(1 + 1e-4*x) [1/s]", 1, "scene", "expected the derivative of bending velocity there"},
-    {12, "  displacement: x^2 [m]\n  displacement_slope: 2*x/(x < 0.3) [1]", 1, "scene", "displacement_slope"},
+    {8, "  velocity: x/(x - 0.5) [m/s]", 1, "scene",
+     "initial axial velocity is not finite everywhere in [0, L]"},
+    {12, "  displacement: x^2 [m]", 1, "scene",
+     "initial bending displacement needs displacement_slope, its derivative"},
+    {12, "  velocity: x^2 [m/s]", 1, "scene",
+     "initial bending velocity needs velocity_slope, its derivative"},
+    {12, "  displacement: x^2 [m]\n  displacement_slope: 3*x [1]", 1, "scene",
+     "expected the derivative of bending displacement there"},
+    {12, "  displacement: x [m]\n  displacement_slope: 1 [1]", 1, "scene",
+     "initial displacement_slope is 1 at x = 0"},
+    {12, "  velocity: x^2 [m/s]\n  velocity_slope: 2*x - 1e-3 [1/s]", 1, "scene",
+     "initial velocity_slope is -0.001 at x = 0"},
+    {12, "  velocity: x^2 [m/s]\n  velocity_slope: 2*x*(1 + 1e-4*x) [1/s]", 1, "scene",
+     "expected the derivative of bending velocity there"},
+    {12, "  displacement: x^2 [m]\n  displacement_slope: 2*x/(x < 0.3) [1]", 1, "scene",
+     "displacement_slope"},
 };
 
 static void test_refusals(void **state)
@@ -391,10 +409,17 @@ static void test_check(void **state)
     for (size_t b = 0; b < 4; b++) {
         struct br_scene s = br_test_bare();
         s.contact.modelled = true;
-        double *const numbers[] = {
-            &s.length, &s.duration, &s.density, &s.axial.stiffness, &s.axial.viscosity,
-            &s.bending.stiffness, &s.bending.viscosity, &s.contact.gap, &s.contact.stiffness,
-            &s.friction.coefficient, &s.friction.regularisation};
+        double *const numbers[] = {&s.length,
+                                   &s.duration,
+                                   &s.density,
+                                   &s.axial.stiffness,
+                                   &s.axial.viscosity,
+                                   &s.bending.stiffness,
+                                   &s.bending.viscosity,
+                                   &s.contact.gap,
+                                   &s.contact.stiffness,
+                                   &s.friction.coefficient,
+                                   &s.friction.regularisation};
         struct br_error err = {0};
         MUST(br_scene_check(&s, &err));
         for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
@@ -409,10 +434,14 @@ static void test_check(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refusals),  cmocka_unit_test(test_files),
-        cmocka_unit_test(test_mangled),   cmocka_unit_test(test_no_file),
-        cmocka_unit_test(test_bundled),   cmocka_unit_test(test_loads),
-        cmocka_unit_test(test_good_initial_data), cmocka_unit_test(test_clone),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_mangled),
+        cmocka_unit_test(test_no_file),
+        cmocka_unit_test(test_bundled),
+        cmocka_unit_test(test_loads),
+        cmocka_unit_test(test_good_initial_data),
+        cmocka_unit_test(test_clone),
         cmocka_unit_test(test_check),
     };
     return cmocka_run_group_tests(tests, make_file, remove_file);

@@ -127,8 +127,8 @@ static void check_step(struct pair *p, double scale[2])
         MUST(br_march_step(p->march[i], &err));
         const struct br_field *f = br_march_field(p->march[i], BR_AXIAL);
         const struct br_certificate certificate = br_witness_step(p->witness[i]);
-        const struct br_certificate limits = br_certificate_limits(
-            f->n, br_test_slack() * br_march_round_off(p->march[i]));
+        const struct br_certificate limits =
+            br_certificate_limits(f->n, br_test_slack() * br_march_round_off(p->march[i]));
         if (br_certificate_check(&certificate, &limits, &err))
             fail_msg("seed %ju, %s, n = %zu, step %zu: %s", (uintmax_t)p->seed,
                      p->method[i].solver->name, f->n, br_march_steps_done(p->march[i]),
@@ -144,7 +144,8 @@ static void check_case(const struct br_linear_solver *solver, uint64_t seed)
     struct br_test_random r = {seed};
     struct br_error err = {0};
     struct br_scene scene = random_scene(&r);
-    const size_t n = br_test_index(&r, 3) ? 1 + br_test_index(&r, MOST_N) : 1 + br_test_index(&r, 3);
+    const size_t n =
+        br_test_index(&r, 3) ? 1 + br_test_index(&r, MOST_N) : 1 + br_test_index(&r, 3);
     struct pair p = {.seed = seed};
     const struct br_contact_rule *contact = br_contact_rules[br_test_index(&r, 2)];
     if (contact == br_contact_rule_find("lagged"))
@@ -230,8 +231,8 @@ static void test_not_finite(void **state)
         struct br_method method = br_method_default();
         method.solver = *s;
         struct br_scene scene = br_test_bare();
-        scene.bending.load = (struct br_load){.space = {.constant = 1},
-                                              .time = br_test_function("sqrt(0.55 - t)")};
+        scene.bending.load =
+            (struct br_load){.space = {.constant = 1}, .time = br_test_function("sqrt(0.55 - t)")};
         struct br_march *march = br_test_march(&scene, 3, 10, &method);
         br_test_advance(march, 5);
         REFUSED(br_march_step(march, &err), BR_NOT_FINITE, "t = 0.59999999999999998 s");

@@ -100,8 +100,8 @@ static void check_against_oracle(const char *name, struct br_resolution referenc
 static void test_errors(void **state)
 {
     (void)state;
-    check_against_oracle("example2", (struct br_resolution){40, 400}, 3, (const size_t[]){5, 10, 20},
-                         3, (const size_t[]){10, 40, 200});
+    check_against_oracle("example2", (struct br_resolution){40, 400}, 3,
+                         (const size_t[]){5, 10, 20}, 3, (const size_t[]){10, 40, 200});
     /* unordered, not a chain, time levels that hardly coincide, the reference itself */
     check_against_oracle("example4", (struct br_resolution){30, 90}, 4,
                          (const size_t[]){15, 10, 30, 1}, 4, (const size_t[]){90, 9, 10, 2});
@@ -204,7 +204,8 @@ static void test_nesting(void **state)
         size_t n, steps;
         const char *text;
     } rows[] = {
-        {7, 10, "n = 7 does not nest in the reference's 60 elements; the nearest that do are 6 and 10"},
+        {7, 10,
+         "n = 7 does not nest in the reference's 60 elements; the nearest that do are 6 and 10"},
         {61, 10, "the nearest that do are 60 and 60"},
         {0, 10, "n is 0"},
         {6, 7, "k = 0.142857142857142"}, /* both nearest: 6 and 10 steps in 60 */
@@ -215,8 +216,8 @@ static void test_nesting(void **state)
     struct br_scene scene = br_test_bundled("example2");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct br_error err = {0};
-        struct br_study s = study_of(&scene, (struct br_resolution){60, 60}, 1, &rows[i].n, 1,
-                                     &rows[i].steps);
+        struct br_study s =
+            study_of(&scene, (struct br_resolution){60, 60}, 1, &rows[i].n, 1, &rows[i].steps);
         const enum br_status status = br_study_run(&s, 1, 1, NULL, &err);
         if (i == 3) /* the text has as many digits as it needs */
             REFUSED(status, BR_BAD_INPUT, "the time levels of k = 0.142857");
@@ -385,11 +386,16 @@ static void test_observer(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_errors),        cmocka_unit_test(test_many_batches),
-        cmocka_unit_test(test_reference_cell), cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_steps_of),      cmocka_unit_test(test_nesting),
-        cmocka_unit_test(test_one_of_two_refused), cmocka_unit_test(test_failing_row),
-        cmocka_unit_test(test_unstable_cell), cmocka_unit_test(test_failing_reference),
+        cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_many_batches),
+        cmocka_unit_test(test_reference_cell),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_steps_of),
+        cmocka_unit_test(test_nesting),
+        cmocka_unit_test(test_one_of_two_refused),
+        cmocka_unit_test(test_failing_row),
+        cmocka_unit_test(test_unstable_cell),
+        cmocka_unit_test(test_failing_reference),
         cmocka_unit_test(test_observer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

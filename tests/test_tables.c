@@ -29,8 +29,8 @@ struct sample {
 static void fill_cells(struct br_cell *cell, double factor)
 {
     for (size_t i = 0; i < CELLS; i++) {
-        cell[i] = (struct br_cell){.at = {meshes[i / COLUMNS], steps[i % COLUMNS]},
-                                   .seconds = 0.25};
+        cell[i] =
+            (struct br_cell){.at = {meshes[i / COLUMNS], steps[i % COLUMNS]}, .seconds = 0.25};
         for (int part = 0; part < BR_PARTS; part++) {
             cell[i].error[part] = factor * (1 + (double)i) * pow(10, -3 - part) / 3;
             cell[i].worst_time[part] = 0.5;
@@ -203,15 +203,14 @@ static void test_json(void **state)
                             br_flag_name(s.cell[i].flag[0]));
     }
     const json_t *p = json_object_get(root, "provenance");
-    static const char *const keys[] = {"version", "commit", "compiler", "flags",
+    static const char *const keys[] = {"version",      "commit",  "compiler", "flags",
                                        "command_line", "machine", "date"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         assert_true(json_string_length(json_object_get(p, keys[i])) > 0);
     assert_string_equal(json_string_value(json_object_get(p, "command_line")),
                         provenance.command_line);
-    assert_string_equal(
-        json_string_value(json_object_get(json_object_get(root, "scene"), "text")),
-        provenance.scene_text);
+    assert_string_equal(json_string_value(json_object_get(json_object_get(root, "scene"), "text")),
+                        provenance.scene_text);
     json_decref(root);
     free(text);
 }

@@ -171,7 +171,7 @@ static void test_printed_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sound),          cmocka_unit_test(test_planted),
+        cmocka_unit_test(test_sound),           cmocka_unit_test(test_planted),
         cmocka_unit_test(test_nothing_printed), cmocka_unit_test(test_printed_tables),
         cmocka_unit_test(test_printed_files),
     };
