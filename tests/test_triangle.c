@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "reference/printed.h"
 #include "study/report.h"
@@ -36,14 +37,39 @@ static double four_digits(double x)
     return strtod(text, NULL);
 }
 
+/* Half of 0.001 in the leading digit's place, as %.3e prints. */
+static double half_digit(double x)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.3e", x);
+    memcpy(text, "0.000", 5);
+    char unit[32];
+    snprintf(unit, sizeof unit, "0.0005%s", strchr(text, 'e'));
+    return strtod(unit, NULL);
+}
+
+/* What the printed digits allow: |a - b| or a - b, and a + b, each with half a digit. */
+static void check_allowed(const struct br_triangle *t)
+{
+    const double digits = half_digit(t->printed_a) + half_digit(t->printed_b);
+    const double gap =
+        t->a.steps == t->b.steps ? fabs(t->printed_a - t->printed_b) : t->printed_a - t->printed_b;
+    CLOSE(t->least, fmax(0, gap - digits), 1e-12);
+    CLOSE(t->most, t->printed_a + t->printed_b + digits, 1e-12);
+    assert_int_equal(t->b.n % t->a.n, 0);
+    assert_int_equal(t->b.steps % t->a.steps, 0); /* every level of a is one of b */
+}
+
 static size_t contradictions(const struct br_study *s, const double *printed)
 {
     struct br_error err = {0};
     struct br_triangle triangle[4];
     size_t count, found = 0;
     MUST(br_triangles(s, printed, 4, triangle, &count, 1, &err));
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
+        check_allowed(&triangle[i]);
         found += triangle[i].contradiction;
+    }
     return found;
 }
 

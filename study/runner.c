@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/runner.h"
+
+#include <time.h>
+
+#include "solver/modes.h"
+#include "study/study.h"
+
+static double seconds_now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void br_runner_clear(struct br_runner *r)
+{
+    br_march_free(r->march);
+    free(r->nodal);
+    free(r->modes);
+    *r = (struct br_runner){0};
+}
+
+enum br_status br_runner_start(struct br_runner *r, const struct br_scene *scene,
+                               struct br_resolution at, const struct br_method *method)
+{
+    const double start = seconds_now();
+    const enum br_status status =
+        br_march_create(&r->march, scene, at.n, at.steps, method, &r->error);
+    r->seconds += seconds_now() - start;
+    if (status)
+        return r->error.status = status;
+    r->nodal = br_allocate(2 * (at.n + 1), sizeof *r->nodal);
+    r->modes = br_allocate(4 * at.n, sizeof *r->modes);
+    if (!r->nodal || !r->modes)
+        return br_no_memory(&r->error, "a cell");
+    return BR_OK;
+}
+
+enum br_status br_runner_advance(struct br_runner *r, size_t step)
+{
+    const double start = seconds_now();
+    while (!r->error.status && br_march_steps_done(r->march) < step)
+        br_march_step(r->march, &r->error);
+    r->seconds += seconds_now() - start;
+    return r->error.status;
+}
+
+void br_runner_look(struct br_runner *r, enum br_field_kind kind)
+{
+    br_march_get(r->march, kind, r->nodal, NULL);
+    br_modes(br_march_field(r->march, kind), r->nodal, r->modes);
+}
