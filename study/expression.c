@@ -97,19 +97,39 @@ static void find_variables(const struct expression *e, struct br_function *f)
     }
 }
 
+/* muParser would take x = 1 as an assignment, and x, t as two expressions. */
+static bool has_assignment(const char *text)
+{
+    for (const char *c = text; *c; c++) {
+        const bool comparison = (c > text && strchr("=!<>", c[-1])) || c[1] == '=';
+        if (*c == '=' && !comparison)
+            return true;
+    }
+    return false;
+}
+
+static enum br_status refuse(struct expression *e, const char *reason, struct br_error *err)
+{
+    br_fail(err, BR_BAD_INPUT, "'%s' is no expression in x and t: %s", e->text, reason);
+    expression_free(e);
+    return BR_BAD_INPUT;
+}
+
 enum br_status br_expression(const char *text, struct br_function *f, struct br_error *err)
 {
     *f = (struct br_function){0};
     struct expression *e = expression_create(text);
     if (!e)
         return br_no_memory(err, "an expression");
-    const double value = mupEval(e->parser);
-    if (mupError(e->parser)) {
-        br_fail(err, BR_BAD_INPUT, "'%s' is no expression in x and t: %s", text,
-                mupGetErrorMsg(e->parser));
-        expression_free(e);
-        return BR_BAD_INPUT;
-    }
+    if (has_assignment(text))
+        return refuse(e, "it assigns; a comparison is ==", err);
+    int count = 0;
+    const double *values = mupEvalMulti(e->parser, &count);
+    if (mupError(e->parser))
+        return refuse(e, mupGetErrorMsg(e->parser), err);
+    if (count != 1)
+        return refuse(e, "it is more than one, separated by commas", err);
+    const double value = values[0];
     find_variables(e, f);
     if (!f->uses_x && !f->uses_t) {
         f->constant = value;

@@ -152,6 +152,9 @@ static double round_off(const struct br_study *s, const struct br_cell *c)
 static size_t set_flags(struct br_study *s, enum br_part part, double reference)
 {
     size_t changed = 0;
+    if ((part == BR_PART_AXIAL && !s->scene->axial.modelled) ||
+        (part == BR_PART_BENDING && !s->scene->bending.modelled))
+        return 0;
     for (size_t i = 0; i < cell_count(s); i++) {
         struct br_cell *c = &s->cell[i];
         enum br_flag flag = BR_FLAG_NONE;

@@ -133,6 +133,8 @@ static const struct {
     {8, "  load: 400*(exp(t) - 1) [N]", 8, "load",
      "expected an expression and its unit, like 'x*t [N/m]'"},
     {8, "  load: 400*(exp(t) - [N/m]", 8, "load", "'400*(exp(t) -' is no expression in x and t"},
+    {8, "  load: x=1 [N/m]", 8, "load", "it assigns; a comparison is =="},
+    {8, "  load: x, t [N/m]", 8, "load", "it is more than one, separated by commas"},
     {8, "  load: y*t [N/m]", 8, "load", "'y*t' is no expression in x and t"},
     {8, "  load: \"[N/m]\"", 8, "load", "is no expression in x and t"},
     {8, "  load: 1/0 [N/m]", 8, "load", "expected a finite number"},
