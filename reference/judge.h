@@ -14,6 +14,7 @@ struct br_judge_request {
     struct br_method method;      /* fine only */
     size_t n;                     /* fine only: its elements */
     size_t levels;                /* time levels after t = 0; for fine, its steps */
+    bool modest;                  /* exact only: give up where it takes more than moderate work */
     size_t mesh_count;            /* the meshes that it will be looked at on */
     const size_t *mesh;           /* mesh_count, elements; borrowed during create */
 };

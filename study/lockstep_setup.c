@@ -119,7 +119,7 @@ static void dismiss_auditor(struct br_lockstep *l)
 static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
 {
     struct br_study *s = l->study;
-    const struct br_judge_request request = {
+    struct br_judge_request request = {
         .scene = s->scene,
         .method = s->reference_method,
         .n = s->reference.n,
@@ -133,6 +133,7 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
         return status;
     l->auditor.judge = s->auditor;
     l->audit_every = l->level_count / most_audits + 1;
+    request.modest = true;
     if (!s->auditor->create(&l->auditor.self, &request, &l->auditor.error))
         return BR_OK;
     if (l->auditor.error.status == BR_NO_MEMORY) {

@@ -74,7 +74,9 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
     e->levels = r->levels;
     e->length = r->scene->length;
     e->duration = r->scene->duration;
-    const struct br_exact_options options = {0};
+    struct br_exact_options options = {0};
+    if (r->modest)
+        options = (struct br_exact_options){.max_modes = 64, .max_steps = 2000};
     enum br_status status = br_exact_create(&e->exact, r->scene, &options, err);
     if (!status)
         status = br_exact_state_create(&e->state, e->exact, err);
