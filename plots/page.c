@@ -165,8 +165,8 @@ void br_write_orders(FILE *out, const struct br_report *report, enum br_part par
 {
     const struct br_joint_fit *fit = &report->fits[part].joint;
     const bool described = br_joint_describes(fit);
-    const bool space = described && isfinite(fit->p.value);
-    const bool time = described && isfinite(fit->q.value);
+    const bool space = described && br_order_determined(&fit->p);
+    const bool time = described && br_order_determined(&fit->q);
     fprintf(out, "set label 'Joint fit (95 %%), %s: ", br_part_names[part]);
     fputs(fit_verdict(fit), out);
     if (space)

@@ -74,6 +74,7 @@ static struct br_judge_report fine_report(const void *self)
         .own_error = {NAN, NAN},
         .round_off = br_march_round_off(f->march),
         .seconds = f->seconds,
+        .unstable = br_march_contact_unstable(f->march),
     };
 }
 

@@ -24,6 +24,7 @@ struct br_judge_report {
     double own_error[2]; /* by br_field_kind, L2, m^(3/2); NaN: it cannot tell */
     double round_off;    /* predicted, relative to the solution */
     double seconds;      /* of its work so far, one thread */
+    bool unstable;       /* br_march_contact_unstable, of a fine run */
 };
 
 struct br_judge {

@@ -33,6 +33,7 @@ static const struct br_contact_rule implicit = {
     .name = "implicit",
     .title = "contact force from u_n, in closed form at the same cost; unconditionally stable",
     .citation = "backward Euler; solver/contact.c",
+    .at_new_step = true,
     .force = implicit_force,
 };
 

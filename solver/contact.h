@@ -17,6 +17,7 @@ struct br_contact_rule {
     const char *name;  /* as on the command line */
     const char *title; /* one line for a person */
     const char *citation;
+    bool at_new_step; /* the force is that at u_n */
     /* The contact force c_H (u - g)_+ >= 0, N, that resists the tip in this step. */
     double (*force)(const struct br_contact *contact, const struct br_contact_state *state);
 };

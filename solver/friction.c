@@ -3,15 +3,13 @@
 
 #include <string.h>
 
-#include "solver/contact.h"
-
-double br_friction_bound(const struct br_scene *scene, double u)
+double br_friction_bound(const struct br_scene *scene, double penetration)
 {
     switch (scene->friction.law) {
     case BR_TRESCA:
         return scene->friction.coefficient;
     case BR_COULOMB:
-        return scene->friction.coefficient * br_penetration(&scene->contact, u);
+        return scene->friction.coefficient * penetration;
     case BR_FRICTIONLESS:
         break;
     }

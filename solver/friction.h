@@ -26,7 +26,7 @@ struct br_friction_rule {
 extern const struct br_friction_rule *const br_friction_rules[];
 const struct br_friction_rule *br_friction_rule_find(const char *name);
 
-/* The friction bound h, N, with the tip at the axial displacement u, m. */
-double br_friction_bound(const struct br_scene *scene, double u);
+/* The friction bound h, N, at the penetration (u - g)_+, m. */
+double br_friction_bound(const struct br_scene *scene, double penetration);
 
 #endif

@@ -210,6 +210,15 @@ static enum br_status step_axial(struct br_march *m, struct br_error *err)
     return BR_OK;
 }
 
+/* (u_n - g)_+. A contact force at u_n knows it without the loss of a difference. */
+static double penetration(const struct br_march *m)
+{
+    const struct br_contact *contact = &m->scene->contact;
+    if (contact->modelled && m->method.contact->at_new_step && contact->stiffness > 0)
+        return m->tip.contact_force / contact->stiffness;
+    return br_penetration(contact, m->tip.displacement);
+}
+
 /* Inequality (17), or (28) and (30): A v + lambda e_tip = rhs with lambda from
  * the friction law, whose bound takes u_n. */
 static enum br_status step_bending(struct br_march *m, struct br_error *err)
@@ -217,7 +226,7 @@ static enum br_status step_bending(struct br_march *m, struct br_error *err)
     struct part *part = &m->part[BR_BENDING];
     struct br_friction_state friction = {
         .compliance = part->solver->tip_compliance(part->state),
-        .bound = br_friction_bound(m->scene, m->tip.displacement),
+        .bound = br_friction_bound(m->scene, penetration(m)),
         .regularisation = m->scene->friction.regularisation,
     };
     const enum br_status status = predict(m, BR_BENDING, &friction.free_velocity, err);
@@ -316,6 +325,15 @@ double br_march_compliance(const struct br_march *m, enum br_field_kind kind)
 {
     const struct part *part = &m->part[kind];
     return part->modelled ? part->solver->tip_compliance(part->state) : 0;
+}
+
+bool br_march_contact_unstable(const struct br_march *m)
+{
+    if (!m->scene->contact.modelled || m->method.contact->at_new_step)
+        return false;
+    const struct br_field *f = &m->part[BR_AXIAL].field;
+    const double gain = m->scene->contact.stiffness * f->k * br_march_compliance(m, BR_AXIAL);
+    return !(gain <= 1 + f->viscosity / (f->viscosity + f->k * f->stiffness));
 }
 
 double br_march_round_off(const struct br_march *m)

@@ -65,6 +65,12 @@ void br_march_load(const struct br_march *march, enum br_field_kind kind, double
 /* z_tip of the field, m/s per N. */
 double br_march_compliance(const struct br_march *march, enum br_field_kind kind);
 
+/* Whether the lagged contact is beyond its stability limit,
+ *     c_H k z_tip <= 1 + c1/(c1 + k a1),
+ * where a closed contact's step amplifies; the tip then chatters, bounded, since the
+ * contact opens. Exact for small inertia; with much of it the limit lies higher. */
+bool br_march_contact_unstable(const struct br_march *march);
+
 /* Predicted round-off of the displacements relative to the exact discrete
  * solution: the larger of the modelled fields'. */
 double br_march_round_off(const struct br_march *march);

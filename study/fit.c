@@ -31,7 +31,7 @@ const char *br_order_text(const struct br_estimate *order, char *buffer, size_t 
 
 bool br_joint_describes(const struct br_joint_fit *fit)
 {
-    return fit->converged && fit->misfit <= 0.1;
+    return fit->converged && fit->misfit <= 0.02;
 }
 
 static double mesh_of(const struct br_study *s, const struct br_cell *c)
@@ -133,16 +133,22 @@ static double reference_error(const struct br_study *s, enum br_part part,
     return br_joint_model(fit, br_reference_mesh(s), br_reference_step(s), 0, 0);
 }
 
-/* Predicted round-off of a cell and of the reference, m^(3/2). */
-static double round_off(const struct br_study *s, const struct br_cell *c)
+static bool in_part(enum br_part part, enum br_field_kind kind)
 {
-    double relative = s->judged_by.round_off;
+    return part == BR_PART_TOTAL || (part == BR_PART_AXIAL) == (kind == BR_AXIAL);
+}
+
+/* Predicted round-off of a part of a cell, and of the reference's unless an auditor
+ * has measured all of its error, m^(3/2). */
+static double round_off(const struct br_study *s, const struct br_cell *c, enum br_part part)
+{
+    double relative = s->auditor ? 0 : s->judged_by.round_off;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const bool modelled =
             kind == BR_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled;
         const struct br_field field =
             br_field_of_scene(s->scene, (enum br_field_kind)kind, c->at.n, step_of(s, c));
-        if (modelled)
+        if (modelled && in_part(part, (enum br_field_kind)kind))
             relative = fmax(relative, s->method.solver->round_off(&field, &s->method.linear));
     }
     return relative * s->reference_scale;
@@ -160,7 +166,9 @@ static size_t set_flags(struct br_study *s, enum br_part part, double reference)
         enum br_flag flag = BR_FLAG_NONE;
         if (c->failure.status || !isfinite(c->error[part]))
             flag = BR_FLAG_FAILED;
-        else if (!(c->error[part] >= br_flag_margin * round_off(s, c)))
+        else if (c->unstable)
+            flag = BR_FLAG_UNSTABLE;
+        else if (!(c->error[part] >= br_flag_margin * round_off(s, c, part)))
             flag = BR_FLAG_ROUND_OFF;
         else if (isfinite(reference) && !(c->error[part] >= br_flag_margin * reference))
             flag = BR_FLAG_REFERENCE;
@@ -173,16 +181,17 @@ static size_t set_flags(struct br_study *s, enum br_part part, double reference)
 enum br_status br_fit(struct br_study *s, enum br_part part, struct br_fits *fits,
                       struct br_error *err)
 {
-    enum { MOST_ROUNDS = 8 };
-    *fits = (struct br_fits){0};
+    *fits = (struct br_fits){.reference_error = NAN};
     set_flags(s, part, 0);
     enum br_status status = BR_OK;
-    for (int round = 0; round < MOST_ROUNDS && !status; round++) {
+    /* What a round finds of the reference's error only grows, so flags are never
+     * taken back and the rounds end. */
+    do {
         status = fit_joint(s, part, &fits->joint, err);
-        fits->reference_error = reference_error(s, part, &fits->joint);
-        if (set_flags(s, part, fits->reference_error) == 0)
-            break;
-    }
+        const double own = reference_error(s, part, &fits->joint);
+        if (!(own <= fits->reference_error) && isfinite(own))
+            fits->reference_error = own;
+    } while (!status && set_flags(s, part, fits->reference_error) != 0);
     const struct lines rows = {s->n_count, s->k_count, s->k_count, 1, step_of};
     const struct lines columns = {s->k_count, s->n_count, 1, s->k_count, mesh_of};
     if (!status)

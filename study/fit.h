@@ -31,7 +31,9 @@ struct br_slope {
  *     a = C_h (h^p - h_ref^p),     b = C_k (k^q - k_ref^q).
  * Where one of the two errors cannot be seen in the cells, the model without it
  * explains them as well with fewer parameters (by the corrected Akaike
- * criterion), and what belongs to the other is NaN. */
+ * criterion), and what belongs to the other is NaN. What the model leaves over is
+ * deterministic, not noise: the intervals come from leaving out whole rows and
+ * columns of the grid (joint_fit.c). */
 enum br_joint_kind { BR_JOINT_BOTH, BR_JOINT_TIME, BR_JOINT_SPACE };
 
 struct br_joint_fit {
@@ -52,7 +54,7 @@ struct br_fits {
                                the model does not describe the errors */
 };
 
-/* Whether the joint model describes the errors: a misfit of at most 10 %. */
+/* Whether the joint model describes the errors: a misfit of at most 2 %. */
 bool br_joint_describes(const struct br_joint_fit *fit);
 
 /* Fits one part of a study's errors, leaving out flagged cells, and sets the flags

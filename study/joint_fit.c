@@ -129,7 +129,8 @@ static void read_attempt(const struct problem *problem, gsl_multifit_nlinear_wor
     gsl_matrix_free(covariance);
 }
 
-static struct attempt attempt_from(const struct problem *problem, double p, double r)
+/* A fit that starts from the given values of all unknowns. */
+static struct attempt attempt_from(const struct problem *problem, const double full[UNKNOWNS])
 {
     struct attempt out = {.sum = INFINITY};
     for (int i = 0; i < UNKNOWNS; i++)
@@ -141,8 +142,6 @@ static struct attempt attempt_from(const struct problem *problem, double p, doub
         gsl_multifit_nlinear_trust, &parameters, problem->count, unknowns);
     gsl_vector *start = gsl_vector_alloc(unknowns);
     if (w && start) {
-        double full[UNKNOWNS];
-        start_at(problem, p, r, full);
         for (size_t i = 0; i < unknowns; i++)
             gsl_vector_set(start, i, full[kinds[problem->kind].unknown[i]]);
         gsl_multifit_nlinear_fdf fdf = {
@@ -165,11 +164,78 @@ static struct attempt best_attempt(const struct problem *problem)
     struct attempt best = {.sum = INFINITY};
     for (size_t i = 0; i < sizeof orders / sizeof *orders; i++)
         for (size_t j = 0; j < sizeof correlations / sizeof *correlations; j++) {
-            const struct attempt a = attempt_from(problem, orders[i], correlations[j]);
+            double full[UNKNOWNS];
+            start_at(problem, orders[i], correlations[j], full);
+            const struct attempt a = attempt_from(problem, full);
             if (a.sum < best.sum || (i == 0 && j == 0))
                 best = a;
         }
     return best;
+}
+
+/* ---- intervals ---- */
+
+static double coordinate(const struct br_observation *o, bool over_h)
+{
+    return over_h ? o->h : o->k;
+}
+
+/* Whether observation i is the first with its h (or k). */
+static bool is_first(const struct problem *problem, size_t i, bool over_h)
+{
+    for (size_t j = 0; j < i; j++)
+        if (coordinate(&problem->observation[j], over_h) ==
+            coordinate(&problem->observation[i], over_h))
+            return false;
+    return true;
+}
+
+/* Different values of h (or k) among the observations. */
+static size_t distinct(const struct problem *problem, bool over_h)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < problem->count; i++)
+        count += is_first(problem, i, over_h);
+    return count;
+}
+
+/* Cells that share h or k are no independent trials: what is left of the errors is
+ * deterministic. So the intervals come from leaving out one whole line of the grid
+ * after the other (delete-a-group jackknife, Efron 1982), where that is wider. */
+static void widen_by_jackknife(const struct problem *problem, struct attempt *a, bool over_h,
+                               struct br_observation *workspace)
+{
+    const double groups = (double)distinct(problem, over_h);
+    double sum[UNKNOWNS] = {0}, squares[UNKNOWNS] = {0};
+    for (size_t i = 0; i < problem->count; i++) {
+        if (!is_first(problem, i, over_h))
+            continue;
+        struct problem rest = *problem;
+        rest.observation = workspace;
+        rest.count = 0;
+        for (size_t j = 0; j < problem->count; j++)
+            if (coordinate(&problem->observation[j], over_h) !=
+                coordinate(&problem->observation[i], over_h))
+                workspace[rest.count++] = problem->observation[j];
+        struct attempt without = {.sum = INFINITY};
+        if (rest.count > kinds[problem->kind].count)
+            without = attempt_from(&rest, a->value);
+        for (int u = 0; u < UNKNOWNS; u++) {
+            const double shift = isfinite(without.sum) ? without.value[u] - a->value[u] : NAN;
+            sum[u] += shift;
+            squares[u] += shift * shift;
+        }
+    }
+    const double freedom = (double)(problem->count - kinds[problem->kind].count);
+    const double quantiles =
+        gsl_cdf_tdist_Pinv(0.975, groups - 1) / gsl_cdf_tdist_Pinv(0.975, freedom);
+    for (size_t i = 0; i < kinds[problem->kind].count; i++) {
+        const int u = kinds[problem->kind].unknown[i];
+        const double spread = squares[u] - sum[u] * sum[u] / groups;
+        const double deviation = sqrt((groups - 1) / groups * fmax(0, spread)) * quantiles;
+        if (!(deviation <= a->deviation[u])) /* a refit that failed tells nothing: NaN */
+            a->deviation[u] = isfinite(spread) ? deviation : INFINITY;
+    }
 }
 
 /* Akaike's criterion with its correction for few points. */
@@ -199,6 +265,7 @@ static void describe(const struct problem *problem, const struct attempt *a,
                      struct br_joint_fit *fit)
 {
     const size_t freedom = problem->count - kinds[problem->kind].count;
+    *fit = (struct br_joint_fit){0};
     fit->kind = problem->kind;
     fit->converged = true;
     fit->points = problem->count;
@@ -247,29 +314,59 @@ static void nothing_fitted(struct br_joint_fit *fit)
                                  .r_squared = NAN};
 }
 
+/* An order needs three values of what it is an order in. */
+static bool enough(const struct problem *problem)
+{
+    const bool space = problem->kind != BR_JOINT_TIME, time = problem->kind != BR_JOINT_SPACE;
+    return problem->count >= kinds[problem->kind].count + 2 &&
+           (!space || distinct(problem, true) >= 3) && (!time || distinct(problem, false) >= 3);
+}
+
+/* Whether the orders that the model has can be told. */
+static bool is_told(const struct br_joint_fit *fit)
+{
+    return (fit->kind == BR_JOINT_TIME || br_order_determined(&fit->p)) &&
+           (fit->kind == BR_JOINT_SPACE || br_order_determined(&fit->q));
+}
+
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
                                   double h_ref, double k_ref, struct br_joint_fit *fit,
                                   struct br_error *err)
 {
-    (void)err;
     nothing_fitted(fit);
+    fit->points = count;
+    struct br_observation *workspace = br_allocate(count, sizeof *workspace);
+    if (!workspace)
+        return br_no_memory(err, "the fits");
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    struct br_joint_fit both = {0};
     double best = INFINITY;
     for (int kind = BR_JOINT_BOTH; kind <= BR_JOINT_SPACE; kind++) {
         const struct problem problem = {observation, count, h_ref, k_ref, (enum br_joint_kind)kind};
-        if (count < kinds[kind].count + 2)
+        if (!enough(&problem))
             continue;
-        const struct attempt a = best_attempt(&problem);
+        struct attempt a = best_attempt(&problem);
         const double criterion = akaike(a.sum, count, kinds[kind].count);
         if (!isfinite(a.sum) || !(criterion < best))
             continue;
-        describe(&problem, &a, fit);
-        /* Two errors whose orders cannot be told are no explanation. */
-        const bool told =
-            kind != BR_JOINT_BOTH || (br_order_determined(&fit->p) && br_order_determined(&fit->q));
-        best = told ? criterion : INFINITY;
+        if (kind != BR_JOINT_TIME)
+            widen_by_jackknife(&problem, &a, true, workspace);
+        if (kind != BR_JOINT_SPACE)
+            widen_by_jackknife(&problem, &a, false, workspace);
+        struct br_joint_fit candidate;
+        describe(&problem, &a, &candidate);
+        if (kind == BR_JOINT_BOTH)
+            both = candidate;
+        if (!is_told(&candidate))
+            continue;
+        *fit = candidate;
+        best = criterion;
     }
+    /* Two errors, of which one cannot be told, where nothing simpler will do. */
+    if (!br_joint_describes(fit) && br_joint_describes(&both) &&
+        (br_order_determined(&both.p) || br_order_determined(&both.q)))
+        *fit = both;
     gsl_set_error_handler(handler);
-    fit->points = count;
+    free(workspace);
     return BR_OK;
 }

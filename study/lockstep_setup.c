@@ -167,6 +167,8 @@ static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
             *err = l->cell[i].error;
             return failure;
         }
+        if (!failure)
+            s->cell[i].unstable = br_march_contact_unstable(l->cell[i].march);
         if (failure)
             br_cell_failed(&s->cell[i], &l->cell[i].error);
     }

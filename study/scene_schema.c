@@ -128,6 +128,10 @@ enum br_status br_scene_check_initial(const struct br_scene *s, struct br_error 
          s->length},
         {"bending velocity", &b->velocity, "velocity_slope", &b->velocity_slope, s->length},
     };
+    if (s->density == 0 &&
+        !(br_function_is_zero(&s->axial.velocity) && br_function_is_zero(&b->velocity)))
+        return br_fail(err, BR_BAD_INPUT,
+                       "an initial velocity means nothing without density, expected none");
     for (size_t i = 0; i < sizeof data / sizeof *data; i++) {
         const enum br_status status = check_initial(&data[i], err);
         if (status)

@@ -9,7 +9,7 @@ const char *const br_part_names[BR_PARTS] = {"total", "axial", "bending"};
 
 const char *br_flag_name(enum br_flag flag)
 {
-    static const char *const names[] = {"", "reference", "round-off", "failed"};
+    static const char *const names[] = {"", "reference", "round-off", "failed", "unstable"};
     return names[flag];
 }
 

@@ -21,8 +21,10 @@ enum br_flag {
     BR_FLAG_REFERENCE, /* the reference's own error is not small beside it */
     BR_FLAG_ROUND_OFF, /* it is at the round-off of a solver */
     BR_FLAG_FAILED,    /* the march failed, or its error is not a number */
+    BR_FLAG_UNSTABLE,  /* lagged contact beyond its stability limit: bounded chatter */
 };
-const char *br_flag_name(enum br_flag flag); /* "", "reference", "round-off", "failed" */
+const char *br_flag_name(
+    enum br_flag flag); /* "", "reference", "round-off", "failed", "unstable" */
 
 struct br_cell {
     struct br_resolution at;
@@ -30,6 +32,7 @@ struct br_cell {
     double worst_time[BR_PARTS]; /* where the maximum was, s */
     double seconds;              /* of the march alone, one thread */
     enum br_flag flag[BR_PARTS];
+    bool unstable;           /* br_march_contact_unstable */
     struct br_error failure; /* status BR_OK where the march went well */
 };
 

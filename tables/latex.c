@@ -82,7 +82,7 @@ static void close_table(FILE *out)
 static const char *mark(enum br_flag flag)
 {
     static const char *const marks[] = {"", "$^{\\mathrm{R}}$", "$^{\\mathrm{F}}$",
-                                        "$^{\\mathrm{X}}$"};
+                                        "$^{\\mathrm{X}}$", "$^{\\mathrm{U}}$"};
     return marks[flag];
 }
 
@@ -91,7 +91,7 @@ static void print_errors(FILE *out, const struct br_report *r, enum br_part part
     const struct br_study *s = br_report_fitted(r);
     char title[64], buffer[64];
     snprintf(title, sizeof title, "%s error, m$^{3/2}$", br_part_names[part]);
-    open_table(out, r, title, " & order in $k$");
+    open_table(out, r, title, " & slope in $k$");
     for (size_t i = 0; i < s->n_count; i++) {
         fprintf(out, "%zu", s->n[i]);
         for (size_t j = 0; j < s->k_count; j++) {
@@ -103,7 +103,7 @@ static void print_errors(FILE *out, const struct br_report *r, enum br_part part
         fprintf(out, " & %s \\\\\n",
                 br_order_text(&r->fits[part].by_n[i].order, buffer, sizeof buffer));
     }
-    fprintf(out, "\\midrule\norder in $h$");
+    fprintf(out, "\\midrule\nslope in $h$");
     for (size_t j = 0; j < s->k_count; j++)
         fprintf(out, " & %s", br_order_text(&r->fits[part].by_k[j].order, buffer, sizeof buffer));
     fprintf(out, " & \\\\\n");

@@ -42,7 +42,7 @@ static void print_errors(FILE *out, const struct br_report *r, enum br_part part
 {
     const struct br_study *s = br_report_fitted(r);
     char buffer[64];
-    heading(out, r, br_part_names[part], " order in k |");
+    heading(out, r, br_part_names[part], " slope in k |");
     for (size_t i = 0; i < s->n_count; i++) {
         fprintf(out, "| n = %zu |", s->n[i]);
         for (size_t j = 0; j < s->k_count; j++) {
@@ -55,7 +55,7 @@ static void print_errors(FILE *out, const struct br_report *r, enum br_part part
         }
         fprintf(out, " %s |\n", br_order_text(&r->fits[part].by_n[i].order, buffer, sizeof buffer));
     }
-    fprintf(out, "| order in h |");
+    fprintf(out, "| slope in h |");
     for (size_t j = 0; j < s->k_count; j++)
         fprintf(out, " %s |", br_order_text(&r->fits[part].by_k[j].order, buffer, sizeof buffer));
     fprintf(out, " |\n");

@@ -64,8 +64,12 @@ static void describe_side(const char *constant, const struct br_estimate *c, con
                           const struct br_estimate *order, char *text, size_t size)
 {
     char buffer[64];
-    snprintf(text, size, "%s = %.3g, %s = %s", constant, c->value, exponent,
-             br_order_text(order, buffer, sizeof buffer));
+    if (br_order_determined(order))
+        snprintf(text, size, "%s = %.3g, %s = %s", constant, c->value, exponent,
+                 br_order_text(order, buffer, sizeof buffer));
+    else
+        snprintf(text, size, "%s is not determined by these cells (%s)", exponent,
+                 br_order_text(order, buffer, sizeof buffer));
 }
 
 static void say_joint(const struct br_report *r, enum br_part part, const struct br_writer *w)
@@ -73,7 +77,7 @@ static void say_joint(const struct br_report *r, enum br_part part, const struct
     const struct br_joint_fit *fit = &r->fits[part].joint;
     const char *name = br_part_names[part];
     if (!fit->converged) {
-        say(w, "%s: no joint fit, %zu usable cells.", name, fit->points);
+        say(w, "%s: no joint fit: %zu usable cells tell no order.", name, fit->points);
         return;
     }
     char space[160], time[160];
@@ -96,13 +100,13 @@ static void say_joint(const struct br_report *r, enum br_part part, const struct
         return;
     case BR_JOINT_TIME:
         say(w,
-            "%s: %s; no space error can be seen in these cells; misfit %.2g %% (worst %.2g %%), "
+            "%s: %s; the fit needs no space error; misfit %.2g %% (worst %.2g %%), "
             "R^2 = %.6f, %zu cells.",
             name, time, 100 * fit->misfit, 100 * fit->worst, fit->r_squared, fit->points);
         return;
     case BR_JOINT_SPACE:
         say(w,
-            "%s: %s; no time error can be seen in these cells; misfit %.2g %% (worst %.2g %%), "
+            "%s: %s; the fit needs no time error; misfit %.2g %% (worst %.2g %%), "
             "R^2 = %.6f, %zu cells.",
             name, space, 100 * fit->misfit, 100 * fit->worst, fit->r_squared, fit->points);
     }
@@ -164,6 +168,14 @@ static void say_marks(const struct br_study *s, const struct br_writer *w)
             "R marks %zu cells whose error is below %g times the own error of the %s reference; "
             "they are left out of fits.",
             limited, br_flag_margin, s->judge->name);
+    const size_t unstable = count_flag(s, BR_FLAG_UNSTABLE);
+    if (unstable)
+        say(w,
+            "U marks %zu cells beyond the stability limit of the lagged contact: the tip may "
+            "chatter. They are left out of fits; smaller k or --contact implicit mends it.",
+            unstable);
+    if (s->judged_by.unstable)
+        say(w, "The %s reference itself is beyond that limit: do not trust it.", s->judge->name);
     if (rounded)
         say(w,
             "F marks %zu cells whose error is below %g times the predicted round-off (floor); "
@@ -193,6 +205,14 @@ void br_say_events(const struct br_report *r, const struct br_writer *w)
     }
 }
 
+static size_t contradictions(const struct br_report *r)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < r->triangles; i++)
+        count += r->triangle[i].contradiction;
+    return count;
+}
+
 static void say_ratio(const struct br_report *r, const struct br_writer *w)
 {
     double least = INFINITY, most = 0;
@@ -213,8 +233,9 @@ static void say_ratio(const struct br_report *r, const struct br_writer *w)
     else
         say(w,
             "Ours and the printed errors DIFFER by more than 5 %% in %zu of %zu cells; ours over "
-            "printed goes from %.2g to %.2g. No choice of reference can repair that:",
-            differ, compared, least, most);
+            "printed goes from %.2g to %.2g.%s",
+            differ, compared, least, most,
+            contradictions(r) ? " No choice of reference can repair that:" : "");
 }
 
 static void say_triangle(const struct br_report *r, const struct br_triangle *t,

@@ -32,7 +32,7 @@ static void wrap(void *self, const char *text)
 
 static char flag_letter(enum br_flag flag)
 {
-    static const char letters[] = {' ', 'R', 'F', 'X'};
+    static const char letters[] = {' ', 'R', 'F', 'X', 'U'};
     return letters[flag];
 }
 
@@ -61,7 +61,7 @@ static void print_errors(FILE *out, const struct br_report *r, enum br_part part
     const struct br_study *s = br_report_fitted(r);
     char buffer[64];
     heading(out, r, br_part_names[part]);
-    fprintf(out, "   order in k [95 %%]\n");
+    fprintf(out, "   slope in k [95 %%]\n");
     for (size_t i = 0; i < s->n_count; i++) {
         fprintf(out, "n = %-8zu", s->n[i]);
         for (size_t j = 0; j < s->k_count; j++) {
@@ -70,7 +70,7 @@ static void print_errors(FILE *out, const struct br_report *r, enum br_part part
         }
         fprintf(out, "   %s\n", br_order_text(&r->fits[part].by_n[i].order, buffer, sizeof buffer));
     }
-    fprintf(out, "order in h  ");
+    fprintf(out, "slope in h  ");
     for (size_t j = 0; j < s->k_count; j++)
         print_number(out, r->fits[part].by_k[j].order.value, "%.2f", ' ');
     fprintf(out, "\n+- (95 %%)   ");

@@ -143,6 +143,39 @@ static void test_one_sided(void **state)
 }
 
 /* The sum C_h h^p + C_k k^q cannot follow an error that grows as the mesh is refined. */
+/* Rows that repeat each other are no more evidence than one: the interval of 36 cells
+ * is not narrower than that of one row of 6. */
+static void test_replicates(void **state)
+{
+    (void)state;
+    struct grid g;
+    grid_init(&g, true);
+    for (size_t i = 0; i < CELLS; i++) {
+        const double k = 1.0 / (double)g.cell[i].at.steps;
+        g.cell[i].error[BR_PART_TOTAL] = 0.1 * k * (1 + 0.05 * cos((double)g.cell[i].at.steps));
+    }
+    struct br_fits fits = fit(&g);
+    const struct br_estimate *one = &fits.by_n[0].order, *all = &fits.joint.q;
+    assert_true(!isfinite(all->value) || all->high - all->low >= 0.8 * (one->high - one->low));
+    br_fits_clear(&fits);
+}
+
+/* Two time steps make no order in k, however many meshes there are. */
+static void test_two_steps(void **state)
+{
+    (void)state;
+    const struct truth truth = {1e-9, 2, 0.1, 1, 0};
+    struct grid g;
+    grid_init(&g, true);
+    fill(&g, &truth, 1e-3, 5);
+    for (size_t i = 0; i < CELLS; i++)
+        if (i % COLUMNS >= 2)
+            g.cell[i].error[BR_PART_TOTAL] = NAN;
+    struct br_fits fits = fit(&g);
+    assert_true(isnan(fits.joint.q.value));
+    br_fits_clear(&fits);
+}
+
 static void test_opposed(void **state)
 {
     (void)state;
@@ -278,6 +311,8 @@ int main(void)
         cmocka_unit_test(test_slope),
         cmocka_unit_test(test_noise_is_no_order),
         cmocka_unit_test(test_nan_passes_nothing),
+        cmocka_unit_test(test_replicates),
+        cmocka_unit_test(test_two_steps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

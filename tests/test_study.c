@@ -320,6 +320,27 @@ static void test_unstable_cell(void **state)
     br_scene_clear(&scene);
 }
 
+/* Beyond the limit of the lagged contact the tip chatters, bounded: the cell is told. */
+static void test_contact_limit(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    const size_t n = 4, steps[] = {10, 100, 4000};
+    for (int stiff = 0; stiff < 2; stiff++)
+        for (int implicit = 0; implicit < 2; implicit++) {
+            scene.contact.stiffness = stiff ? 5e3 : 1e3; /* stable for k <= 5e-4, always */
+            struct br_study s = study_of(&scene, (struct br_resolution){4, 4000}, 1, &n, 3, steps);
+            s.method.contact = br_contact_rule_find(implicit ? "implicit" : "lagged");
+            MUST(br_study_run(&s, 1, 1, NULL, &err));
+            assert_int_equal(s.cell[0].unstable, stiff && !implicit);
+            assert_int_equal(s.cell[1].unstable, stiff && !implicit);
+            assert_false(s.cell[2].unstable);
+            br_study_clear(&s);
+        }
+    br_scene_clear(&scene);
+}
+
 /* The reference failing fails the call. */
 static void test_failing_reference(void **state)
 {
@@ -397,6 +418,7 @@ int main(void)
         cmocka_unit_test(test_unstable_cell),
         cmocka_unit_test(test_failing_reference),
         cmocka_unit_test(test_observer),
+        cmocka_unit_test(test_contact_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
