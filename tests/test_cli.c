@@ -272,6 +272,18 @@ static void test_tables(void **state)
         }
 }
 
+/* One cell contradicts nothing, and the table does not say that it does. */
+static void test_single_cell(void **state)
+{
+    (void)state;
+    static struct outcome out;
+    run_line("tables --n 100 --k 0.01 --reference fine:200,0.005 --no-plots --out single", NULL,
+             &out);
+    assert_int_equal(out.exit_code, 0);
+    assert_non_null(strstr(out.output, "DIFFER"));
+    assert_null(strstr(out.output, "No choice of reference"));
+}
+
 static void test_threads(void **state)
 {
     (void)state;
@@ -373,8 +385,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bad_options), cmocka_unit_test(test_bad_scene),
         cmocka_unit_test(test_good_run),    cmocka_unit_test(test_tables),
-        cmocka_unit_test(test_threads),     cmocka_unit_test(test_failures),
-        cmocka_unit_test(test_help),        cmocka_unit_test(test_data_folder),
+        cmocka_unit_test(test_threads),     cmocka_unit_test(test_single_cell),
+        cmocka_unit_test(test_failures),    cmocka_unit_test(test_help),
+        cmocka_unit_test(test_data_folder),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
