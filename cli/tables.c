@@ -36,7 +36,7 @@ static enum br_status run(int argc, const char **argv, struct br_error *err)
     struct br_study_options options = {0};
     enum br_status status = br_study_options_parse(
         argc, argv,
-        "tables [OPTION...]\n\nThe paper's Tables 1 and 2 beside the printed values, on the printed "
+        "[OPTION...]\n\nThe paper's Tables 1 and 2 beside the printed values, on the printed "
         "grids\n(n = 100 to 3200, k = 0.01 to 0.0001 s) and with the printed reference\n"
         "(n = 12800, k = 1e-5 s) unless --n, --k or --reference say otherwise, and against\nthe exact "
         "solution, by which the orders are fitted.\n\nExample:\n  "

@@ -341,6 +341,31 @@ static void test_contact_limit(void **state)
     br_scene_clear(&scene);
 }
 
+/* A fine run's own error, by the exact solution, is that of the same cell judged by it. */
+static void test_audit(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"example1", "example2", "example3", "example4"};
+    const size_t n = 20, steps = 50;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        struct br_error err = {0};
+        struct br_scene scene = br_test_bundled(names[i]);
+        struct br_study fine = study_of(&scene, (struct br_resolution){20, 50}, 1, &n, 1, &steps);
+        fine.auditor = &br_judge_exact;
+        MUST(br_study_run(&fine, 1, 1, NULL, &err));
+        assert_non_null(fine.auditor); /* it did not give up */
+        struct br_study exact = study_of(&scene, (struct br_resolution){0}, 1, &n, 1, &steps);
+        exact.judge = &br_judge_exact;
+        MUST(br_study_run(&exact, 1, 1, NULL, &err));
+        for (int part = 0; part < BR_PARTS; part++)
+            CLOSE(fine.reference_error[part], exact.cell[0].error[part],
+                  1e-9 * exact.cell[0].error[BR_PART_TOTAL]);
+        br_study_clear(&fine);
+        br_study_clear(&exact);
+        br_scene_clear(&scene);
+    }
+}
+
 /* The reference failing fails the call. */
 static void test_failing_reference(void **state)
 {
@@ -419,6 +444,7 @@ int main(void)
         cmocka_unit_test(test_failing_reference),
         cmocka_unit_test(test_observer),
         cmocka_unit_test(test_contact_limit),
+        cmocka_unit_test(test_audit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -76,7 +76,7 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
     e->duration = r->scene->duration;
     struct br_exact_options options = {0};
     if (r->modest)
-        options = (struct br_exact_options){.max_modes = 64, .max_steps = 2000};
+        options = (struct br_exact_options){.max_modes = 64};
     enum br_status status = br_exact_create(&e->exact, r->scene, &options, err);
     if (!status)
         status = br_exact_state_create(&e->state, e->exact, err);
