@@ -56,6 +56,9 @@ int main(int argc, const char **argv)
     }
     br_signals_install();
     br_remember_command_line(argc, argv);
+    static char name[64]; /* for the usage line */
+    snprintf(name, sizeof name, "beamrate %s", command->name);
+    argv[1] = name;
     struct br_error err = {0};
     enum br_status status = command->run(argc - 1, argv + 1, &err);
     if (!status)
