@@ -28,7 +28,7 @@ struct br_study_request {
     int threads; /* 0: all cores */
 };
 
-/* Parses argv (argv[0] is the command) into options, over the defaults that they
+/* Parses argv (argv[0] is "beamrate COMMAND") into options, over the defaults that they
  * hold, and *argument, the one word that is no option (NULL: none is wanted). With
  * --help it prints the help and sets options->help. Fails with BR_BAD_INPUT. */
 enum br_status br_study_options_parse(int argc, const char **argv, const char *usage,

@@ -84,6 +84,10 @@ static enum br_status make_steps(const struct br_scene *scene, const struct br_s
             status = br_fail(err, BR_BAD_INPUT, "--k: %s", inner.message);
     if (!status)
         status = fill_counts(given, r->k_count, 0, steps, err);
+    for (size_t j = 1; j < r->k_count && !status; j++)
+        if ((*steps)[j] == (*steps)[j - 1])
+            status = br_fail(err, BR_BAD_INPUT, "--k: %g is given twice",
+                             br_time_step(scene, (*steps)[j]));
     free(given);
     return status;
 }
@@ -251,10 +255,10 @@ static enum br_status write_plots(struct session *s, size_t i, bool *missing, st
             return status;
         if (!*missing)
             status = br_plot_render(s->output.staging, script, missing, err);
+        if (br_signals_caught()) /* Ctrl-C ends gnuplot, too: that is no failure of its own */
+            return br_fail(err, BR_INTERRUPTED, "interrupted");
         if (status && !*missing)
             return status;
-        if (br_signals_caught())
-            return br_fail(err, BR_INTERRUPTED, "interrupted");
     }
     return BR_OK;
 }

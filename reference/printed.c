@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference/printed.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdbool.h>
@@ -13,6 +14,8 @@ enum { MOST_CELLS = 4096 };
 static bool parse_line(const char *line, struct br_printed_cell *cell)
 {
     int end = 0;
+    if (!isdigit((unsigned char)*line)) /* %zu would take a minus */
+        return false;
     const int fields = sscanf(line, "%zu,%lf,%lf %n", &cell->n, &cell->k, &cell->error, &end);
     return fields == 3 && line[end] == '\0' && cell->n > 0 && isfinite(cell->k) && cell->k > 0 &&
            isfinite(cell->error) && cell->error > 0;
@@ -22,7 +25,11 @@ static enum br_status read_lines(FILE *file, const char *path, struct br_printed
                                  struct br_error *err)
 {
     char line[256];
-    for (size_t number = 1; fgets(line, sizeof line, file); number++) {
+    size_t number = 1;
+    for (; fgets(line, sizeof line, file); number++) {
+        if (strlen(line) + 1 == sizeof line && line[sizeof line - 2] != '\n')
+            return br_fail(err, BR_BAD_INPUT, "%s:%zu: the line is too long, expected n,k,error",
+                           path, number);
         line[strcspn(line, "\r\n")] = '\0';
         if (number == 1 && strcmp(line, "n,k,error") != 0)
             return br_fail(err, BR_BAD_INPUT, "%s:1: found '%s', expected n,k,error", path, line);
@@ -35,7 +42,11 @@ static enum br_status read_lines(FILE *file, const char *path, struct br_printed
                            number, line);
         printed->count++;
     }
-    return ferror(file) ? br_fail(err, BR_IO, "%s: %s", path, strerror(errno)) : BR_OK;
+    if (ferror(file))
+        return br_fail(err, BR_IO, "%s: %s", path, strerror(errno));
+    if (number == 1)
+        return br_fail(err, BR_BAD_INPUT, "%s:1: found nothing, expected n,k,error", path);
+    return BR_OK;
 }
 
 enum br_status br_printed_read(const char *path, struct br_printed *printed, struct br_error *err)

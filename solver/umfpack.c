@@ -300,7 +300,7 @@ static double stiffness_round_off(const struct br_field *f, const struct br_line
 {
     const double n = (double)f->n;
     if (f->kind == BR_AXIAL)
-        return DBL_EPSILON * (10 * n + n * n / 100);
+        return DBL_EPSILON * (10 * n + n * n / 100) * (options->refinement > 0 ? 20 : 1);
     return DBL_EPSILON * n * n * n * (options->refinement > 0 ? 1600 : 16);
 }
 

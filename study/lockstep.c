@@ -52,7 +52,7 @@ static void project_reference(struct br_lockstep *l, size_t buffer, size_t slot)
 static void keep_largest(double largest[BR_PARTS], const double error[BR_PARTS])
 {
     for (int part = 0; part < BR_PARTS; part++)
-        if (!(error[part] <= largest[part]))
+        if (!(error[part] <= largest[part]) && !isnan(largest[part]))
             largest[part] = error[part];
 }
 
@@ -225,10 +225,8 @@ static enum br_status outcome(struct crew *crew, struct br_error *err)
     for (size_t s = 0; s < crew->count; s++) {
         struct br_lockstep *l = &crew->step[s];
         l->study->judged_by = l->reference.judge->report(l->reference.self);
-        if (l->reference.error.status) {
-            *err = l->reference.error;
-            return err->status;
-        }
+        if (l->reference.error.status)
+            return br_fail(err, l->reference.error.status, "%s", l->reference.error.message);
         if (atomic_load(&l->stopped))
             return br_fail(err, BR_INTERRUPTED, "interrupted");
         const enum br_status status = keep_events(l, err);

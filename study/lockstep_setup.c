@@ -136,10 +136,8 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
     request.modest = true;
     if (!s->auditor->create(&l->auditor.self, &request, &l->auditor.error))
         return BR_OK;
-    if (l->auditor.error.status == BR_NO_MEMORY) {
-        *err = l->auditor.error;
-        return BR_NO_MEMORY;
-    }
+    if (l->auditor.error.status == BR_NO_MEMORY)
+        return br_fail(err, BR_NO_MEMORY, "%s", l->auditor.error.message);
     dismiss_auditor(l);
     return BR_OK;
 }
@@ -163,10 +161,8 @@ static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
     for (size_t i = 0; i < cells; i++) {
         br_runner_start(&l->cell[i], s->scene, s->cell[i].at, &s->method);
         const enum br_status failure = l->cell[i].error.status;
-        if (failure == BR_BAD_INPUT || failure == BR_NO_MEMORY) {
-            *err = l->cell[i].error;
-            return failure;
-        }
+        if (failure == BR_BAD_INPUT || failure == BR_NO_MEMORY)
+            return br_fail(err, failure, "%s", l->cell[i].error.message);
         if (!failure)
             s->cell[i].unstable = br_march_contact_unstable(l->cell[i].march);
         if (failure)

@@ -42,7 +42,8 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
         fprintf(out, ",%.6f", c->seconds);
         for (int part = 0; part < BR_PARTS; part++)
             fprintf(out, ",%s", br_flag_name(c->flag[part]));
-        fprintf(out, ",%.10g", c->worst_time[BR_PART_TOTAL]);
+        fputc(',', out);
+        field(out, "%.10g", c->worst_time[BR_PART_TOTAL]);
         if (r->exact)
             exact_fields(out, &r->exact->cell[i]);
         fputc('\n', out);

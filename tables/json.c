@@ -2,6 +2,7 @@
 /* Everything, for programs, by jansson; a number that is not there is null. */
 #include <jansson.h>
 #include <math.h>
+#include <string.h>
 
 #include "tables/emitter.h"
 #include "tables/sentences.h"
@@ -11,9 +12,24 @@ static json_t *number(double value)
     return isfinite(value) ? json_real(value) : json_null();
 }
 
+/* A file's name need not be UTF-8, which JSON must be: other bytes become '?'. */
+static json_t *not_utf8(const char *text)
+{
+    char *copy = strdup(text);
+    if (!copy)
+        return NULL;
+    for (char *c = copy; *c; c++)
+        if ((unsigned char)*c >= 0x80)
+            *c = '?';
+    json_t *o = json_string(copy);
+    free(copy);
+    return o;
+}
+
 static json_t *string(const char *text)
 {
-    return text ? json_string(text) : json_null();
+    json_t *o = text ? json_string(text) : json_null();
+    return o ? o : not_utf8(text);
 }
 
 static json_t *estimate(const struct br_estimate *e)
@@ -59,7 +75,7 @@ static json_t *cell(const struct br_report *r, size_t index)
                       "flag", br_flag_name(e->flag[BR_PART_TOTAL])));
     }
     if (c->failure.status)
-        json_object_set_new(o, "failure", json_string(c->failure.message));
+        json_object_set_new(o, "failure", string(c->failure.message));
     return o;
 }
 
@@ -124,7 +140,7 @@ static json_t *triangles(const struct br_report *r)
 
 static void append(void *self, const char *text)
 {
-    json_array_append_new(self, json_string(text));
+    json_array_append_new(self, string(text));
 }
 
 static json_t *sentences(const struct br_report *r)
@@ -179,7 +195,7 @@ static json_t *document(const struct br_report *r, const struct br_provenance *p
     json_object_set_new(o, "caption", string(r->caption));
     json_object_set_new(o, "provenance", provenance(p));
     json_object_set_new(o, "scene",
-                        json_pack("{s:s, s:o, s:o}", "name", s->scene->name, "path",
+                        json_pack("{s:o, s:o, s:o}", "name", string(s->scene->name), "path",
                                   string(p->scene_path), "text", string(p->scene_text)));
     json_object_set_new(o, "method", method(&s->method));
     json_object_set_new(o, "reference", reference(s));

@@ -1,20 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* GitHub-flavoured Markdown. */
 #include <math.h>
+#include <string.h>
 
 #include "tables/emitter.h"
 #include "tables/sentences.h"
 
-/* Paragraphs are set as list items; * and _ are escaped. */
+/* What Markdown would take for something else gets a backslash. */
+static void print_escaped(FILE *out, const char *text)
+{
+    for (; *text; text++) {
+        if (strchr("*_|`<\\", *text))
+            fputc('\\', out);
+        fputc(*text, out);
+    }
+}
+
+/* Paragraphs are set as list items. */
 static void item(void *self, const char *text)
 {
     FILE *out = self;
     fputs("- ", out);
-    for (; *text; text++) {
-        if (*text == '*' || *text == '_' || *text == '|')
-            fputc('\\', out);
-        fputc(*text, out);
-    }
+    print_escaped(out, text);
     fputc('\n', out);
 }
 
@@ -104,7 +111,9 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
 {
     (void)err;
     const struct br_writer w = {item, out};
-    fprintf(out, "# %s\n\n", r->caption);
+    fputs("# ", out);
+    print_escaped(out, r->caption);
+    fputs("\n\n", out);
     br_say_method(r, &w);
     for (int part = 0; part < BR_PARTS; part++)
         if (br_part_shown(r, (enum br_part)part))

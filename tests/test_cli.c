@@ -193,6 +193,7 @@ static void test_bad_options(void **state)
         {"study example1 --n 10,10", "--n: 10 is given twice"},
         {"study example1 --k 0", "--k: found '0'"},
         {"study example1 --k 1e400", "--k: found '1e400'"},
+        {"study example1 --k 0.1,0.1000000000001", "--k: 0.1 is given twice"},
         {"study example1 --k 2", "--k: k = 2 s is longer than the duration, 1 s"},
         {"study example1 --k 0.3", "the nearest that do are 0.3333333333 and 0.25"},
         {"study example1 --n 7 --k .1 --reference fine:100,.1",
@@ -345,6 +346,8 @@ static void test_help(void **state)
     for (size_t i = 0; i < 2; i++) {
         run_line(commands[i], NULL, &out);
         assert_int_equal(out.exit_code, 0);
+        assert_non_null(
+            strstr(out.output, i ? "Usage: beamrate study SCENE [" : "Usage: beamrate tables ["));
         for (size_t j = 0; br_linear_solvers[j]; j++)
             assert_non_null(strstr(out.output, br_linear_solvers[j]->title));
         for (size_t j = 0; br_contact_rules[j]; j++)
@@ -380,6 +383,50 @@ static int remove_folder(void **state)
     return system(command);
 }
 
+/* Ctrl-C reaches gnuplot, too: its failure must not hide that the user wanted to stop. */
+static void test_interrupted_plots(void **state)
+{
+    (void)state;
+    char path[1024], program[512];
+    path_in_folder("bin", program);
+    assert_int_equal(mkdir(program, 0777), 0);
+    snprintf(path, sizeof path, "%s:/usr/bin:/bin", program);
+    write_file("bin/gnuplot", "#!/bin/sh\nkill -INT $PPID\nexit 1\n");
+    path_in_folder("bin/gnuplot", program);
+    assert_int_equal(chmod(program, 0755), 0);
+    expect("study example2 --n 5,10 --k 0.1,0.05 --quiet --out drawing",
+           &(struct circumstances){.path = path}, -SIGINT, "interrupted; nothing was written");
+    assert_int_equal(count_files("drawing"), 0);
+}
+
+static bool file_contains(const char *name, const char *text)
+{
+    char path[512];
+    path_in_folder(name, path);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    static char contents[1 << 18];
+    contents[fread(contents, 1, sizeof contents - 1, file)] = '\0';
+    fclose(file);
+    return strstr(contents, text) != NULL;
+}
+
+/* A title with a format's own characters, in a file whose name is not UTF-8. */
+static void test_odd_names(void **state)
+{
+    (void)state;
+    write_file("b\xe4m.yaml", "title: 'A_b *t* `s` <i>'\nlength: 1 m\nduration: 1 s\n"
+                              "density: 1 kg/m\naxial:\n  stiffness: 1 N\n  viscosity: 1 N s\n"
+                              "  load: 1 [N/m]\n");
+    expect("study b\xe4m.yaml --out odd " SMALL, NULL, 0, "");
+    assert_true(file_contains("odd/b\xe4m.md", "# A\\_b \\*t\\* \\`s\\` \\<i>\n"));
+    assert_true(file_contains("odd/b\xe4m.tex", "A\\_b *t*"));
+    assert_true(file_contains("odd/b\xe4m.json", "\"name\": \"b?m\""));
+    assert_true(file_contains("odd/b\xe4m.json", "\"path\": \"b?m.yaml\""));
+    assert_true(file_contains("odd/b\xe4m.json", "\"text\": \"title: 'A_b"));
+    assert_true(file_contains("odd/b\xe4m.json", "study b?m.yaml"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -387,7 +434,8 @@ int main(void)
         cmocka_unit_test(test_good_run),    cmocka_unit_test(test_tables),
         cmocka_unit_test(test_threads),     cmocka_unit_test(test_single_cell),
         cmocka_unit_test(test_failures),    cmocka_unit_test(test_help),
-        cmocka_unit_test(test_data_folder),
+        cmocka_unit_test(test_data_folder), cmocka_unit_test(test_interrupted_plots),
+        cmocka_unit_test(test_odd_names),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -299,6 +299,28 @@ static void test_nan_passes_nothing(void **state)
     assert_string_equal(br_order_text(&none, buffer, sizeof buffer), "-");
 }
 
+/* What the reference knows of its own error: the total's is the sum of both. */
+static void test_own_error(void **state)
+{
+    (void)state;
+    static const double told[BR_PARTS] = {7e-9, 5e-9, 2e-9};
+    const struct truth truth = {20, 2, 0.2, 1, 0.3};
+    for (int part = 0; part < BR_PARTS; part++) {
+        struct br_error err = {0};
+        struct br_fits fits;
+        struct grid g;
+        grid_init(&g, false);
+        fill(&g, &truth, 0, 1);
+        for (size_t i = 0; i < CELLS; i++)
+            g.cell[i].error[part] = g.cell[i].error[BR_PART_TOTAL];
+        g.study.judged_by.own_error[BR_AXIAL] = 5e-9;
+        g.study.judged_by.own_error[BR_BENDING] = 2e-9;
+        MUST(br_fit(&g.study, (enum br_part)part, &fits, &err));
+        CLOSE(fits.reference_error, told[part], 1e-20);
+        br_fits_clear(&fits);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -313,6 +335,7 @@ int main(void)
         cmocka_unit_test(test_nan_passes_nothing),
         cmocka_unit_test(test_replicates),
         cmocka_unit_test(test_two_steps),
+        cmocka_unit_test(test_own_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -118,6 +118,33 @@ static void test_nothing_printed(void **state)
     br_scene_clear(&scene);
 }
 
+/* With unequal time levels the finer cell's error may well be the larger; with equal ones
+ * the two may not be further apart than the solutions. */
+static void test_unequal_levels(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_study s = run(&scene);
+    double printed[CELLS];
+    size_t tried[2] = {0};
+    for (size_t j = 1; j < CELLS; j++) {
+        const struct br_resolution a = s.cell[0].at, b = s.cell[j].at;
+        if (b.n % a.n != 0 || b.steps % a.steps != 0)
+            continue;
+        for (size_t i = 0; i < CELLS; i++)
+            printed[i] = NAN;
+        const double coarse = s.cell[0].error[BR_PART_TOTAL];
+        printed[0] = four_digits(coarse);
+        printed[j] = four_digits(50 * coarse);
+        const bool same = a.steps == b.steps;
+        assert_int_equal(contradictions(&s, printed), same ? 1 : 0);
+        tried[same]++;
+    }
+    assert_true(tried[false] > 0 && tried[true] > 0);
+    br_study_clear(&s);
+    br_scene_clear(&scene);
+}
+
 /* Pairs that the printed tables break, from the printed files. */
 static void test_printed_tables(void **state)
 {
@@ -199,7 +226,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sound),           cmocka_unit_test(test_planted),
         cmocka_unit_test(test_nothing_printed), cmocka_unit_test(test_printed_tables),
-        cmocka_unit_test(test_printed_files),
+        cmocka_unit_test(test_printed_files),   cmocka_unit_test(test_unequal_levels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

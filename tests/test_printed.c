@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The printed tables as data: good files, and every kind of bad line. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "reference/printed.h"
+#include "study/scene_file.h"
+#include "support.h"
+
+static char path[] = "/tmp/beamrate-printed-XXXXXX";
+
+static int make_file(void **state)
+{
+    (void)state;
+    const int file = mkstemp(path);
+    return file < 0 || close(file) != 0;
+}
+
+static int remove_file(void **state)
+{
+    (void)state;
+    return unlink(path);
+}
+
+static enum br_status read_text(const char *text, struct br_printed *printed, struct br_error *err)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+    *err = (struct br_error){0};
+    return br_printed_read(path, printed, err);
+}
+
+static void test_good(void **state)
+{
+    (void)state;
+    struct br_error err;
+    struct br_printed p;
+    MUST(read_text("n,k,error\n100,0.01,5.042e-3\n200,1e-4,3.5E-6\r\n7,2,8", &p, &err));
+    assert_int_equal(p.count, 3);
+    assert_int_equal(p.cell[1].n, 200);
+    CLOSE(p.cell[1].k, 1e-4, 0);
+    CLOSE(p.cell[1].error, 3.5e-6, 0);
+    CLOSE(br_printed_error(&p, 100, 0.01), 5.042e-3, 0);
+    CLOSE(br_printed_error(&p, 100, 0.01 * (1 + 1e-12)), 5.042e-3, 0); /* k = T/steps, rounded */
+    CLOSE(br_printed_error(&p, 7, 2), 8, 0);
+    assert_true(isnan(br_printed_error(&p, 100, 0.0101)));
+    assert_true(isnan(br_printed_error(&p, 101, 0.01)));
+    assert_true(isnan(br_printed_error(&p, 200, 0.01)));
+    br_printed_clear(&p);
+    assert_true(!p.cell && p.count == 0);
+    assert_true(isnan(br_printed_error(&p, 100, 0.01)));
+    MUST(read_text("n,k,error\n", &p, &err)); /* a heading alone */
+    assert_int_equal(p.count, 0);
+    br_printed_clear(&p);
+}
+
+static void test_bad_lines(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "",
+        "100",
+        "100,0.01",
+        "100,0.01,",
+        "100;0.01;1e-3",
+        "a,0.01,1e-3",
+        "100,b,1e-3",
+        "100,0.01,c",
+        "0,0.01,1e-3",
+        "100,0,1e-3",
+        "100,-1,1e-3",
+        "100,nan,1e-3",
+        "100,inf,1e-3",
+        "100,0.01,0",
+        "100,0.01,-1e-3",
+        "100,0.01,nan",
+        "100,0.01,inf",
+        "100,0.01,1e-3,",
+        "1.5,0.01,1e-3",
+        "100,0.01,1e-3 x",
+        "n,k,error",
+        "100,0.01,1e999",
+        "-100,0.01,1e-3",
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char text[128], where[128];
+        struct br_error err;
+        struct br_printed p;
+        snprintf(text, sizeof text, "n,k,error\n100,0.01,5e-3\n%s\n200,0.01,5e-3\n", lines[i]);
+        snprintf(where, sizeof where, "%s:3: found '%s', expected n,k,error", path, lines[i]);
+        REFUSED(read_text(text, &p, &err), BR_BAD_INPUT, where);
+        br_printed_clear(&p);
+    }
+}
+
+static void test_bad_files(void **state)
+{
+    (void)state;
+    static const char *const headings[] = {"100,0.01,5e-3\n", "n,h,error\n", "\nn,k,error\n", ""};
+    struct br_error err = {0};
+    struct br_printed p;
+    char where[64];
+    snprintf(where, sizeof where, "%s:1: ", path);
+    for (size_t i = 0; i < sizeof headings / sizeof *headings; i++) {
+        REFUSED(read_text(headings[i], &p, &err), BR_BAD_INPUT, where);
+        br_printed_clear(&p);
+    }
+    REFUSED(br_printed_read("/no/such/file", &p, &err), BR_BAD_INPUT, "/no/such/file: No such");
+    br_printed_clear(&p);
+    REFUSED(br_printed_read("/proc", &p, &err), BR_IO, "/proc: "); /* a folder */
+    br_printed_clear(&p);
+
+    char *many = malloc(100000);
+    assert_non_null(many);
+    size_t used = (size_t)sprintf(many, "n,k,error\n");
+    for (int i = 1; i <= 4097; i++)
+        used += (size_t)sprintf(many + used, "%d,0.01,1e-3\n", i);
+    REFUSED(read_text(many, &p, &err), BR_BAD_INPUT, "more than 4096 cells");
+    br_printed_clear(&p);
+    free(many);
+}
+
+/* A line longer than the buffer must not be cut into two that look right. */
+static void test_long_line(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_printed p;
+    char text[1024] = "n,k,error\n100,0.01,0.";
+    const size_t start = strlen(text);
+    memset(text + start, '1', 10 + 255 - start); /* the buffer is full here: */
+    strcpy(text + 10 + 255, "7,0.01,1e-3\n");    /* one line all the same */
+    REFUSED(read_text(text, &p, &err), BR_BAD_INPUT, ":2: ");
+    br_printed_clear(&p);
+}
+
+/* The paper's: 36 cells each, and their first. */
+static void test_the_paper(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"reference/printed/table1.csv",
+                                        "reference/printed/table2.csv"};
+    static const double first[] = {5.042e-3, 1.522e-2};
+    static const double k[] = {0.01, 0.005, 0.002, 0.001, 0.0005, 0.0001};
+    for (int i = 0; i < 2; i++) {
+        struct br_error err = {0};
+        struct br_printed p;
+        char file[1024];
+        br_data_path(files[i], file, sizeof file);
+        MUST(br_printed_read(file, &p, &err));
+        assert_int_equal(p.count, 36);
+        for (size_t n = 100; n <= 3200; n *= 2)
+            for (int j = 0; j < 6; j++)
+                assert_true(br_printed_error(&p, n, k[j]) > 0);
+        CLOSE(br_printed_error(&p, 100, 0.01), first[i], 0);
+        br_printed_clear(&p);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_good),      cmocka_unit_test(test_bad_lines),
+        cmocka_unit_test(test_bad_files), cmocka_unit_test(test_long_line),
+        cmocka_unit_test(test_the_paper),
+    };
+    return cmocka_run_group_tests(tests, make_file, remove_file);
+}
