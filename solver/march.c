@@ -4,21 +4,14 @@
 #include <math.h>
 #include <string.h>
 
-/* A load as it is stepped: factor * vector. */
-struct load_vector {
-    struct br_load functions; /* clones */
-    double *vector;           /* br_field_size values, N */
-    double factor;
-    bool absent;     /* identically zero */
-    bool reassemble; /* space uses t */
-};
+#include "solver/load.h"
 
 struct part {
     bool modelled;
     struct br_field field;
     const struct br_field_solver *solver;
     void *state;
-    struct load_vector load;
+    struct br_step_load load;
 };
 
 struct br_march {
@@ -43,41 +36,6 @@ struct br_method br_method_default(void)
 static double time_level(const struct br_march *m, size_t n)
 {
     return m->scene->duration * (double)n / (double)m->steps;
-}
-
-static enum br_status create_load(struct load_vector *load, const struct br_load *source,
-                                  const struct br_field *field, struct br_error *err)
-{
-    load->absent = br_function_is_zero(&source->space) || br_function_is_zero(&source->time);
-    load->reassemble = source->space.uses_t;
-    load->factor = 1;
-    if (load->absent)
-        return BR_OK;
-    load->vector = br_allocate(br_field_size(field), sizeof *load->vector);
-    if (!load->vector)
-        return br_no_memory(err, "a load vector");
-    enum br_status status = br_function_clone(&source->space, &load->functions.space, err);
-    if (!status)
-        status = br_function_clone(&source->time, &load->functions.time, err);
-    if (!status && !load->reassemble)
-        status = br_assemble_load(field, &load->functions.space, 0, load->vector, err);
-    return status;
-}
-
-/* The load vector at time t. */
-static enum br_status update_load(struct load_vector *load, const struct br_field *field, double t,
-                                  struct br_error *err)
-{
-    if (load->absent)
-        return BR_OK;
-    const double x = 0;
-    br_function_evaluate(&load->functions.time, 1, &x, t, &load->factor);
-    if (!isfinite(load->factor))
-        return br_fail(err, BR_NOT_FINITE, "the load's time factor is %g at t = %.17g s",
-                       load->factor, t);
-    if (load->reassemble)
-        return br_assemble_load(field, &load->functions.space, t, load->vector, err);
-    return BR_OK;
 }
 
 static enum br_status set_initial(struct part *part, const struct br_function *displacement,
@@ -113,9 +71,9 @@ static enum br_status create_part(struct br_march *m, enum br_field_kind kind, s
     part->solver = kind == BR_AXIAL ? m->method.solver->axial : m->method.solver->bending;
     enum br_status status =
         part->solver->create(&part->field, &m->method.linear, &part->state, err);
+    const struct br_forces forces = br_forces_of_scene(s, kind);
     if (!status)
-        status = create_load(&part->load, kind == BR_AXIAL ? &s->axial.load : &s->bending.load,
-                             &part->field, err);
+        status = br_step_load_init(&part->load, &forces, &part->field, err);
     if (status)
         return status;
     if (kind == BR_AXIAL)
@@ -171,9 +129,7 @@ void br_march_free(struct br_march *m)
         struct part *part = &m->part[kind];
         if (part->solver)
             part->solver->free(part->state);
-        br_function_free(&part->load.functions.space);
-        br_function_free(&part->load.functions.time);
-        free(part->load.vector);
+        br_step_load_clear(&part->load);
     }
     free(m);
 }
@@ -184,11 +140,10 @@ static enum br_status predict(struct br_march *m, enum br_field_kind kind, doubl
 {
     struct part *part = &m->part[kind];
     const enum br_status status =
-        update_load(&part->load, &part->field, time_level(m, m->done + 1), err);
+        br_step_load_update(&part->load, &part->field, time_level(m, m->done + 1), err);
     if (status)
         return status;
-    return part->solver->predict(part->state, part->load.absent ? NULL : part->load.vector,
-                                 part->load.factor, velocity, err);
+    return part->solver->predict(part->state, part->load.vector, part->load.factor, velocity, err);
 }
 
 /* Equation (16), or (27): v_n with the contact force at u_{n-1} or at u_n. */
@@ -317,8 +272,7 @@ void br_march_load(const struct br_march *m, enum br_field_kind kind, double *lo
     const struct part *part = &m->part[kind];
     const size_t size = br_field_size(&part->field);
     for (size_t i = 0; i < size; i++)
-        load[i] =
-            part->load.absent || !part->modelled ? 0 : part->load.factor * part->load.vector[i];
+        load[i] = part->load.vector ? part->load.factor * part->load.vector[i] : 0;
 }
 
 double br_march_compliance(const struct br_march *m, enum br_field_kind kind)

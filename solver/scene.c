@@ -117,10 +117,14 @@ void br_scene_clear(struct br_scene *s)
         &s->bending.load.space,   &s->bending.load.time,
         &s->bending.displacement, &s->bending.displacement_slope,
         &s->bending.velocity,     &s->bending.velocity_slope,
+        &s->axial.tip_force,      &s->bending.tip_force,
+        &s->bending.tip_moment,   &s->bending.stick_force,
     };
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
         br_function_free(functions[i]);
     free(s->name);
     free(s->title);
+    free(s->axial.solution);
+    free(s->bending.solution);
     *s = (struct br_scene){0};
 }

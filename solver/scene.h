@@ -39,8 +39,11 @@ struct br_axial {
     double stiffness; /* a1, N */
     double viscosity; /* c1, N s */
     struct br_load load;
+    struct br_function tip_force;    /* of t, at x = L beside the contact, N */
     struct br_function displacement; /* u0(x), m */
     struct br_function velocity;     /* v0(x), m/s */
+    char *solution;                  /* owned; NULL, or u(x, t), m, from which load, tip force
+                                        and initial data were derived (reference/mms) */
 };
 
 /* The beam of (4), (9) and (11). Hermite interpolation of the initial data
@@ -50,8 +53,12 @@ struct br_bending {
     double stiffness; /* a2, N m^2 */
     double viscosity; /* c2, N m^2 s */
     struct br_load load;
+    struct br_function tip_force;  /* of t, at x = L beside the friction, N */
+    struct br_function tip_moment; /* of t, at x = L, N m: works on the slope w_x */
     struct br_function displacement, displacement_slope; /* w0(x), m, and w0'(x), 1 */
     struct br_function velocity, velocity_slope;         /* m/s and 1/s */
+    char *solution;                 /* owned; NULL, or w(x, t), m, as for the axial part */
+    struct br_function stick_force; /* of t, N: lambda of that solution while its tip rests */
 };
 
 /* Normal compliance (10). */

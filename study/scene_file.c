@@ -120,6 +120,14 @@ static enum br_status read_initial(const struct reader *r, const struct br_scene
     return status ? status : forbid(r, key, node, f->uses_t, "t");
 }
 
+static enum br_status read_history(const struct reader *r, const struct br_scene_key *key,
+                                   const yaml_node_t *node)
+{
+    struct br_function *f = (struct br_function *)((char *)r->scene + key->offset);
+    const enum br_status status = read_expression(r, key, key->unit, node, f);
+    return status ? status : forbid(r, key, node, f->uses_x, "x");
+}
+
 /* A product {shape: F(x), history: G(t)}. */
 static enum br_status read_product(const struct reader *r, const struct br_scene_key *key,
                                    const yaml_node_t *node, struct br_load *load)
@@ -205,6 +213,8 @@ static enum br_status read_value(const struct reader *r, const struct br_scene_k
         return read_number(r, key, node);
     case BR_KEY_INITIAL:
         return read_initial(r, key, node);
+    case BR_KEY_HISTORY:
+        return read_history(r, key, node);
     case BR_KEY_LOAD:
         return read_load(r, key, node);
     case BR_KEY_LAW:

@@ -13,6 +13,7 @@ enum br_key_kind {
     BR_KEY_NOT_NEGATIVE, /* "number unit", >= 0 */
     BR_KEY_LOAD,         /* "expression in x and t [N/m]", or shape and history */
     BR_KEY_INITIAL,      /* "expression in x [unit]" */
+    BR_KEY_HISTORY,      /* "expression in t [unit]" */
     BR_KEY_LAW,          /* tresca or coulomb */
 };
 

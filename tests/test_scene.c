@@ -83,7 +83,7 @@ static const struct {
     {4, "weight: 1e-4 kg/m", 4, "weight",
      "unknown key, expected one of: title, length, duration, density, axial, bending, contact, friction"},
     {7, "  damping: 1 N s", 7, "damping",
-     "unknown key in axial, expected one of: stiffness, viscosity, load, displacement, velocity"},
+     "unknown key in axial, expected one of: stiffness, viscosity, load, tip_force, displacement, velocity"},
     {14, "  stiffness: 0 m", 14, "stiffness", "expected a number and its unit, N/m"},
     {3, "length: 1 s", 3, "length", "given twice"},
     {13, "axial:", 13, "axial", "given twice"},
@@ -154,6 +154,9 @@ static const struct {
     {8, "  load: {shape: [1], history: \"t [N/m]\"}", 8, "load", "expected 'shape"},
     {8, "  displacement: x*t [m]", 8, "displacement",
      "found 'x*t [m]', expected an expression without t"},
+    {8, "  tip_force: x*t [N]", 8, "tip_force",
+     "found 'x*t [N]', expected an expression without x"},
+    {12, "  tip_moment: t [N]", 12, "tip_moment", "expected an expression and its unit"},
     /* initial data */
     {8, "  displacement: 1 + x [m]", 1, "scene",
      "initial axial displacement is 1 at x = 0, expected 0 where the beam is clamped"},

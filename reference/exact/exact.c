@@ -35,6 +35,10 @@ static enum br_status check(const struct br_scene *scene, const struct br_exact_
         return status;
     const bool still = (scene->axial.modelled && !(scene->axial.viscosity > 0)) ||
                        (scene->bending.modelled && !(scene->bending.viscosity > 0));
+    if (!br_function_is_zero(&scene->axial.tip_force) ||
+        !br_function_is_zero(&scene->bending.tip_force) ||
+        !br_function_is_zero(&scene->bending.tip_moment))
+        return br_fail(err, BR_BAD_INPUT, "the exact reference knows no loads at the tip");
     if (still && !(scene->density > 0))
         return br_fail(err, BR_BAD_INPUT,
                        "without density and viscosity the velocity is not "

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The load vector F_n of one field as a march steps through it. What a scene leaves
+ * out costs nothing: a load F(x) G(t) is assembled once, one of f(x, t) every step,
+ * and only a tip that is loaded makes a product F(x) G(t) be written out. */
+#ifndef BR_LOAD_H
+#define BR_LOAD_H
+
+#include "solver/field.h"
+
+/* The forces on one field: per length and at the tip. Borrowed. */
+struct br_forces {
+    const struct br_load *load;           /* N/m */
+    const struct br_function *tip_force;  /* of t, N */
+    const struct br_function *tip_moment; /* of t, N m; NULL for axial */
+};
+
+/* Those of a scene. */
+struct br_forces br_forces_of_scene(const struct br_scene *scene, enum br_field_kind kind);
+
+/* factor * vector is the load, br_field_size values, N; vector NULL: none. */
+struct br_step_load {
+    double factor;
+    const double *vector;
+    double *space, *whole;                    /* private from here on */
+    struct br_load functions;                 /* clones */
+    struct br_function tip_force, tip_moment; /* clones */
+};
+
+/* Clones the functions of a field's forces. Fails with BR_NOT_FINITE or BR_NO_MEMORY;
+ * clear it even then. */
+enum br_status br_step_load_init(struct br_step_load *load, const struct br_forces *forces,
+                                 const struct br_field *field, struct br_error *err);
+void br_step_load_clear(struct br_step_load *load);
+
+/* The load at time t, s. Fails with BR_NOT_FINITE, naming x and t, or BR_NO_MEMORY. */
+enum br_status br_step_load_update(struct br_step_load *load, const struct br_field *field,
+                                   double t, struct br_error *err);
+
+#endif
