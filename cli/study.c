@@ -9,7 +9,7 @@ static enum br_status run(int argc, const char **argv, struct br_error *err)
     char *scene = NULL;
     enum br_status status = br_study_options_parse(
         argc, argv,
-        "SCENE [OPTION...]\n\nThe error (31) of a grid of cells (n, k) of a scene against the "
+        "SCENE [OPTION...]\n\nThe errors of a grid of cells (n, k) of a scene against the "
         "exact solution\nor a fine run. Without --n, --k or --reference: n = 25, 50, 100, 200; "
         "k = T/100,\nT/200, T/400, T/800; exact.\n\nExample:\n  beamrate study example4 "
         "--n 50,100,200 --k 0.03,0.015 --reference fine:800,1e-3\n",

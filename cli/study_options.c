@@ -54,6 +54,15 @@ static const char *judge_names(void)
     return text;
 }
 
+static const char *norm_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_norm *const *n = br_norms; *n; n++)
+        join(text, sizeof text, (*n)->name);
+    return text;
+}
+
 static const char *format_names(void)
 {
     static char text[256];
@@ -73,6 +82,9 @@ static void print_registries(FILE *out)
     fprintf(out, "References (--reference):\n");
     for (const struct br_judge *const *j = br_judges; *j; j++)
         fprintf(out, "  %-12s %s\n", (*j)->syntax, (*j)->title);
+    fprintf(out, "Norms (--norm):\n");
+    for (const struct br_norm *const *n = br_norms; *n; n++)
+        fprintf(out, "  %-12s %s\n", (*n)->name, (*n)->title);
     fprintf(out, "Contact (--contact):\n");
     for (const struct br_contact_rule *const *c = br_contact_rules; *c; c++)
         fprintf(out, "  %-12s %s\n", (*c)->name, (*c)->title);
@@ -126,6 +138,8 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
         {"k", 0, POPT_ARG_STRING, &o->k, 0, "time steps, s", "LIST"},
         {"reference", 0, POPT_ARG_STRING, &o->reference, 0,
          "what the cells are judged by: exact, or fine:N,K", "NAME"},
+        {"norm", 0, POPT_ARG_STRING, &o->norm, 0,
+         "norms of the error (default l2), one table each: any of those below", "LIST"},
         {"solver", 0, POPT_ARG_STRING, &o->solver, 0, "linear solver", "NAME"},
         {"reference-solver", 0, POPT_ARG_STRING, &o->reference_solver, 0,
          "that of the reference, where it differs", "NAME"},
@@ -162,9 +176,9 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
 
 void br_study_options_clear(struct br_study_options *o)
 {
-    char **texts[] = {&o->n,          &o->k,        &o->reference, &o->solver, &o->reference_solver,
-                      &o->contact,    &o->friction, &o->scaling,   &o->out,    &o->format,
-                      &o->refinement, &o->threads};
+    char **texts[] = {&o->n,       &o->k,          &o->reference, &o->solver, &o->reference_solver,
+                      &o->contact, &o->friction,   &o->scaling,   &o->out,    &o->format,
+                      &o->norm,    &o->refinement, &o->threads};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         free(*texts[i]);
         *texts[i] = NULL;
@@ -273,6 +287,30 @@ static enum br_status check_scaling(const struct br_study_options *o, struct br_
     return BR_OK;
 }
 
+/* "l2,energy"; NULL: the first of the registry */
+static enum br_status read_norms(const char *text, struct br_study_request *r, struct br_error *err)
+{
+    if (!text) {
+        r->norm[r->norms++] = br_norms[0];
+        return BR_OK;
+    }
+    for (const char *rest = text;; rest++) {
+        char name[64];
+        const size_t length = strcspn(rest, ",");
+        snprintf(name, sizeof name, "%.*s", (int)(length < 63 ? length : 63), rest);
+        const struct br_norm *norm = br_norm_find(name);
+        if (!norm)
+            return unknown("norm", name, norm_names(), err);
+        for (size_t i = 0; i < r->norms; i++)
+            if (r->norm[i] == norm)
+                return br_fail(err, BR_BAD_INPUT, "--norm: %s is given twice", name);
+        r->norm[r->norms++] = norm;
+        rest += length;
+        if (!*rest)
+            return BR_OK;
+    }
+}
+
 static enum br_status check_formats(const struct br_study_options *o, struct br_error *err)
 {
     char name[64];
@@ -295,6 +333,8 @@ enum br_status br_study_request_read(const struct br_study_options *o, struct br
         status = check_scaling(o, err);
     if (!status)
         status = check_formats(o, err);
+    if (!status)
+        status = read_norms(o->norm, r, err);
     if (!status)
         status = read_method(o, r, err);
     if (!status)

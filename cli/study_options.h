@@ -9,12 +9,14 @@
 
 /* As given, before they are checked; NULL: not given. */
 struct br_study_options {
-    char *n, *k, *reference;
+    char *n, *k, *reference, *norm;
     char *solver, *reference_solver, *contact, *friction, *scaling;
     char *refinement, *threads;
     char *out, *format;
     int quiet, no_plots, help;
 };
+
+enum { BR_MOST_NORMS = 8 };
 
 /* What the options say. */
 struct br_study_request {
@@ -22,6 +24,8 @@ struct br_study_request {
     double *k; /* k_count, s; owned */
     size_t n_count, k_count;
     const struct br_judge *judge; /* NULL: not said */
+    const struct br_norm *norm[BR_MOST_NORMS];
+    size_t norms;
     size_t reference_n;
     double reference_k; /* s */
     struct br_method method, reference_method;

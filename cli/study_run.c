@@ -20,20 +20,31 @@ struct work {
     char *text;      /* its contents */
     struct br_scene scene;
     size_t *n, *steps; /* the grid */
+};
+
+/* A report, and its name if that is not borrowed. */
+struct page {
     struct br_report report;
+    char name[512];
 };
 
 struct session {
     const struct br_study_options *options;
     struct br_study_request request;
-    struct work *work;
-    struct br_study *study; /* in one array for br_study_run: first one a job, then those
-                               against the exact solution */
-    size_t count;           /* jobs */
-    size_t studies;         /* count, or twice that */
+    struct work *work;      /* jobs */
+    struct page *page;      /* jobs * norms */
+    struct br_study *study; /* heads * norms, in the first norm first, which br_study_run takes */
+    size_t jobs;
+    size_t heads; /* jobs, or twice that: each job, then each against the exact solution */
     struct br_output output;
     struct br_provenance provenance;
 };
+
+/* Study h of the heads in norm m. */
+static struct br_study *study_of(const struct session *s, size_t h, size_t m)
+{
+    return &s->study[m * s->heads + h];
+}
 
 static enum br_status read_whole(const char *path, char **text, struct br_error *err)
 {
@@ -107,7 +118,7 @@ static enum br_status set_fine(const struct session *s, struct br_study *study,
 static enum br_status make_grid(struct session *s, size_t i, struct br_error *err)
 {
     struct work *w = &s->work[i];
-    struct br_study *study = &s->study[i];
+    struct br_study *study = study_of(s, i, 0);
     const struct br_study_request *r = &s->request;
     study->n_count = r->n ? r->n_count : DEFAULT_COUNT;
     study->k_count = r->k ? r->k_count : DEFAULT_COUNT;
@@ -117,6 +128,7 @@ static enum br_status make_grid(struct session *s, size_t i, struct br_error *er
     if (status)
         return status;
     study->scene = &w->scene;
+    study->norm = r->norm[0];
     study->method = r->method;
     study->reference_method = r->reference_method;
     study->n = w->n;
@@ -127,33 +139,66 @@ static enum br_status make_grid(struct session *s, size_t i, struct br_error *er
 
 /* ---- the printed values ---- */
 
-static enum br_status read_printed(const char *relative, struct work *w,
-                                   const struct br_study *study, struct br_error *err)
+static enum br_status read_printed(const char *relative, struct br_report *report,
+                                   struct br_error *err)
 {
     char path[1024];
+    const struct br_study *study = report->study;
     br_data_path(relative, path, sizeof path);
     struct br_printed printed;
     enum br_status status = br_printed_read(path, &printed, err);
     const size_t cells = study->n_count * study->k_count;
-    if (!status && !(w->report.printed = br_allocate(cells, sizeof(double))))
+    if (!status && !(report->printed = br_allocate(cells, sizeof(double))))
         status = br_no_memory(err, "the printed values");
     for (size_t c = 0; c < cells && !status; c++)
-        w->report.printed[c] =
+        report->printed[c] =
             br_printed_error(&printed, study->n[c / study->k_count],
                              br_time_step(study->scene, study->steps[c % study->k_count]));
     br_printed_clear(&printed);
     return status;
 }
 
-/* The same cells against the exact solution. */
-static void add_exact(struct session *s, size_t i)
+/* ---- studies and reports ---- */
+
+/* From the job's study in the first norm: the same cells against the exact solution, and
+ * both in the other norms. */
+static void spread_study(struct session *s, size_t job)
 {
-    struct br_study *exact = &s->study[s->count + i];
-    *exact = s->study[i];
-    exact->judge = &br_judge_exact;
-    exact->auditor = NULL;
-    exact->reference = (struct br_resolution){0};
-    s->work[i].report.exact = exact;
+    if (s->heads > s->jobs) {
+        struct br_study *exact = study_of(s, s->jobs + job, 0);
+        *exact = *study_of(s, job, 0);
+        exact->judge = &br_judge_exact;
+        exact->auditor = NULL;
+        exact->reference = (struct br_resolution){0};
+    }
+    for (size_t h = job; h < s->heads; h += s->jobs)
+        for (size_t m = 1; m < s->request.norms; m++) {
+            struct br_study *study = study_of(s, h, m);
+            *study = *study_of(s, h, m - 1);
+            study->norm = s->request.norm[m];
+            study_of(s, h, m - 1)->next_norm = study;
+        }
+}
+
+/* The report of a job in norm m; in other norms than the first of the registry its name
+ * ends with the norm's. */
+static enum br_status start_report(struct session *s, size_t i, size_t m,
+                                   const struct br_study_job *job, struct br_error *err)
+{
+    const struct work *w = &s->work[i];
+    struct page *page = &s->page[i * s->request.norms + m];
+    const struct br_norm *norm = s->request.norm[m];
+    const char *name = job->name ? job->name : w->scene.name;
+    const bool plain = norm == br_norms[0];
+    snprintf(page->name, sizeof page->name, "%s%s%s", name, plain ? "" : "-",
+             plain ? "" : norm->name);
+    page->report = (struct br_report){
+        .name = page->name,
+        .caption = job->caption ? job->caption : w->scene.title,
+        .study = study_of(s, i, m),
+        .exact = s->heads > s->jobs ? study_of(s, s->jobs + i, m) : NULL,
+    };
+    return job->printed && norm->printed ? read_printed(job->printed, &page->report, err) : BR_OK;
 }
 
 static enum br_status prepare(struct session *s, size_t i, const struct br_study_job *job,
@@ -167,13 +212,10 @@ static enum br_status prepare(struct session *s, size_t i, const struct br_study
         status = read_whole(w->path, &w->text, err);
     if (!status)
         status = make_grid(s, i, err);
-    if (!status && job->printed)
-        status = read_printed(job->printed, w, &s->study[i], err);
-    w->report.name = job->name ? job->name : w->scene.name;
-    w->report.caption = job->caption ? job->caption : w->scene.title;
-    w->report.study = &s->study[i];
-    if (!status && s->studies > s->count)
-        add_exact(s, i);
+    if (!status)
+        spread_study(s, i);
+    for (size_t m = 0; m < s->request.norms && !status; m++)
+        status = start_report(s, i, m, job, err);
     return status;
 }
 
@@ -186,26 +228,32 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static size_t pages(const struct session *s)
+{
+    return s->jobs * s->request.norms;
+}
+
 static enum br_status compute(struct session *s, struct br_error *err)
 {
     const double start = now();
     const struct br_observer *observer = br_progress_start("marching", s->options->quiet);
-    enum br_status status = br_study_run(s->study, s->studies, s->request.threads, observer, err);
+    enum br_status status = br_study_run(s->study, s->heads, s->request.threads, observer, err);
     br_progress_end();
     const double wall = now() - start;
-    for (size_t i = 0; i < s->count && !status; i++) {
-        s->work[i].report.wall_seconds = wall;
-        status = br_report_finish(&s->work[i].report, s->request.threads, err);
+    for (size_t i = 0; i < pages(s) && !status; i++) {
+        s->page[i].report.wall_seconds = wall;
+        status = br_report_finish(&s->page[i].report, s->request.threads, err);
     }
     if (!status && br_signals_caught())
         status = br_fail(err, BR_INTERRUPTED, "interrupted");
     return status;
 }
 
-static void describe(struct session *s, size_t i)
+static void describe(struct session *s, size_t page)
 {
-    s->provenance.scene_path = s->work[i].path;
-    s->provenance.scene_text = s->work[i].text;
+    const struct work *w = &s->work[page / s->request.norms];
+    s->provenance.scene_path = w->path;
+    s->provenance.scene_text = w->text;
 }
 
 static bool wanted(const char *list, const char *name)
@@ -226,12 +274,12 @@ static enum br_status write_tables(struct session *s, size_t i, struct br_error 
         if (!wanted(s->options->format, (*e)->name))
             continue;
         char name[512];
-        snprintf(name, sizeof name, "%s%s", s->work[i].report.name, (*e)->extension);
+        snprintf(name, sizeof name, "%s%s", s->page[i].report.name, (*e)->extension);
         FILE *file;
         enum br_status status = br_output_file(&s->output, name, &file, err);
         if (status)
             return status;
-        status = (*e)->emit(file, &s->work[i].report, &s->provenance, err);
+        status = (*e)->emit(file, &s->page[i].report, &s->provenance, err);
         struct br_error closing = {0};
         if (br_output_close(file, name, &closing) && !status)
             status = br_fail(err, closing.status, "%s", closing.message);
@@ -243,7 +291,7 @@ static enum br_status write_tables(struct session *s, size_t i, struct br_error 
 
 static enum br_status write_plots(struct session *s, size_t i, bool *missing, struct br_error *err)
 {
-    const struct br_report *report = &s->work[i].report;
+    const struct br_report *report = &s->page[i].report;
     for (const struct br_plot *const *p = br_plots; *p; p++) {
         char script[512];
         if (!(*p)->applies(report))
@@ -266,7 +314,7 @@ static enum br_status write_plots(struct session *s, size_t i, bool *missing, st
 static enum br_status write_all(struct session *s, struct br_error *err)
 {
     bool missing = false;
-    for (size_t i = 0; i < s->count; i++) {
+    for (size_t i = 0; i < pages(s); i++) {
         enum br_status status = write_tables(s, i, err);
         if (!status && !s->options->no_plots)
             status = write_plots(s, i, &missing, err);
@@ -282,9 +330,9 @@ static enum br_status write_all(struct session *s, struct br_error *err)
 static enum br_status show(struct session *s, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < s->count && !status && !s->options->quiet; i++) {
+    for (size_t i = 0; i < pages(s) && !status && !s->options->quiet; i++) {
         describe(s, i);
-        status = br_emitters[0]->emit(stdout, &s->work[i].report, &s->provenance, err);
+        status = br_emitters[0]->emit(stdout, &s->page[i].report, &s->provenance, err);
         putchar('\n');
     }
     return status;
@@ -295,12 +343,14 @@ static enum br_status check_cells(const struct session *s, struct br_error *err)
 {
     size_t failed = 0;
     const struct br_cell *first = NULL;
-    for (size_t i = 0; i < s->count; i++)
-        for (size_t c = 0; c < s->study[i].n_count * s->study[i].k_count; c++)
-            if (s->study[i].cell[c].flag[BR_PART_TOTAL] == BR_FLAG_FAILED) {
-                first = first ? first : &s->study[i].cell[c];
+    for (size_t i = 0; i < s->jobs; i++) {
+        const struct br_study *study = study_of(s, i, 0);
+        for (size_t c = 0; c < study->n_count * study->k_count; c++)
+            if (study->cell[c].flag[BR_PART_TOTAL] == BR_FLAG_FAILED) {
+                first = first ? first : &study->cell[c];
                 failed++;
             }
+    }
     if (!failed)
         return BR_OK;
     return br_fail(err, BR_NOT_FINITE, "%zu cells failed; the first is n = %zu: %s", failed,
@@ -310,34 +360,42 @@ static enum br_status check_cells(const struct session *s, struct br_error *err)
 
 static void session_clear(struct session *s)
 {
-    for (size_t i = 0; s->work && i < s->count; i++) {
-        br_report_clear(&s->work[i].report);
+    for (size_t i = 0; s->page && i < pages(s); i++)
+        br_report_clear(&s->page[i].report);
+    for (size_t i = 0; s->work && i < s->jobs; i++) {
         br_scene_clear(&s->work[i].scene);
         free(s->work[i].text);
         free(s->work[i].n);
         free(s->work[i].steps);
     }
-    for (size_t i = 0; s->study && i < s->studies; i++)
+    for (size_t i = 0; s->study && i < s->heads * s->request.norms; i++)
         br_study_clear(&s->study[i]);
+    free(s->page);
     free(s->work);
     free(s->study);
     br_output_discard(&s->output);
     br_study_request_clear(&s->request);
 }
 
+static enum br_status allocate(struct session *s, struct br_error *err)
+{
+    s->work = br_allocate(s->jobs, sizeof *s->work);
+    s->page = br_allocate(pages(s), sizeof *s->page);
+    s->study = br_allocate(s->heads * s->request.norms, sizeof *s->study);
+    return s->work && s->page && s->study ? BR_OK : br_no_memory(err, "the studies");
+}
+
 enum br_status br_study_run_jobs(const struct br_study_job *jobs, size_t count,
                                  const struct br_study_options *options, bool with_exact,
                                  struct br_error *err)
 {
-    struct session s = {.options = options, .count = count};
+    struct session s = {.options = options, .jobs = count};
     enum br_status status = br_study_request_read(options, &s.request, err);
     if (!s.request.judge)
         s.request.judge = &br_judge_exact;
-    s.studies = with_exact && s.request.judge->nests ? 2 * count : count;
-    s.work = br_allocate(count, sizeof *s.work);
-    s.study = br_allocate(s.studies, sizeof *s.study);
-    if (!status && (!s.work || !s.study))
-        status = br_no_memory(err, "the studies");
+    s.heads = with_exact && s.request.judge->nests ? 2 * count : count;
+    if (!status)
+        status = allocate(&s, err);
     for (size_t i = 0; i < count && !status; i++)
         status = prepare(&s, i, &jobs[i], err);
     if (!status)

@@ -102,6 +102,7 @@ static void write_block_heading(FILE *out, const struct br_report *report, enum 
 {
     size_t count;
     const size_t *list = br_axis_list(report, other(axis), &count);
+    const char *unit = br_report_fitted(report)->norm->unit;
     if (axis == BR_OVER_H)
         fprintf(out, "# N = %zu, k = %.17g s\n# n h(m)", list[fixed],
                 br_axis_value(report, other(axis), list[fixed]));
@@ -109,8 +110,10 @@ static void write_block_heading(FILE *out, const struct br_report *report, enum 
         fprintf(out, "# n = %zu, h = %.17g m\n# N k(s)", list[fixed],
                 br_axis_value(report, other(axis), list[fixed]));
     for (size_t p = 0; p < columns->parts; p++)
-        fprintf(out, " %s(m^(3/2)) flag", br_part_names[columns->part[p]]);
-    fputs(columns->printed ? " printed(m^(3/2))\n" : "\n", out);
+        fprintf(out, " %s(%s) flag", br_part_names[columns->part[p]], unit);
+    if (columns->printed)
+        fprintf(out, " printed(%s)", unit);
+    fputc('\n', out);
 }
 
 static void write_row(FILE *out, const struct br_report *report, size_t cell,

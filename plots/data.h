@@ -49,7 +49,7 @@ void br_write_block(FILE *out, const struct br_report *report, enum br_axis axis
 void br_write_blocks(FILE *out, const struct br_report *report, enum br_axis axis,
                      const struct br_columns *columns);
 
-/* Widens a range, m^(3/2), to hold what such a block shows. */
+/* Widens a range of errors to hold what such a block shows. */
 void br_include_block(struct br_range *range, const struct br_report *report, enum br_axis axis,
                       size_t fixed, const struct br_columns *columns);
 void br_include_blocks(struct br_range *range, const struct br_report *report, enum br_axis axis,

@@ -73,8 +73,9 @@ static void write_fan(FILE *out, const struct br_frame *frame, double start, dou
 
 /* The axes' names are labels at fixed places, since terminals space their own ones
  * differently. */
-static void write_names(FILE *out, const struct br_frame *frame)
+static void write_names(FILE *out, const struct br_report *report, const struct br_frame *frame)
 {
+    const struct br_norm *norm = br_report_fitted(report)->norm;
     const bool over_h = frame->axis == BR_OVER_H;
     const double middle = (frame->left + frame->right) / 2;
     fprintf(out,
@@ -84,9 +85,9 @@ static void write_names(FILE *out, const struct br_frame *frame)
             frame->bottom - 0.095, BR_PAGE_FONT, over_h ? "elements n" : "steps N", middle,
             frame->top + 0.08, BR_PAGE_FONT);
     if (frame->numbered)
-        fprintf(out,
-                "set label 'error (31) (m^{3/2})' at screen %.4f,%.4f center rotate font ',%d'\n",
-                30.0 / frame->page, (frame->bottom + frame->top) / 2, BR_PAGE_FONT);
+        fprintf(out, "set label '%s (%s)' at screen %.4f,%.4f center rotate font ',%d'\n",
+                norm->symbol, norm->unit_markup, 30.0 / frame->page,
+                (frame->bottom + frame->top) / 2, BR_PAGE_FONT);
 }
 
 static void write_axes(FILE *out, const struct br_report *report, const struct br_frame *frame,
@@ -105,7 +106,7 @@ static void write_axes(FILE *out, const struct br_report *report, const struct b
             y.low, y.high, BR_PAGE_FONT, frame->numbered ? "10^{%L}" : "");
     write_entries(out, report, frame->axis,
                   decades(x) / (frame->right - frame->left) / frame->page);
-    write_names(out, frame);
+    write_names(out, report, frame);
 }
 
 void br_write_frame(FILE *out, const struct br_report *report, const struct br_frame *frame)

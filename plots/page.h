@@ -25,7 +25,7 @@ struct br_order {
 struct br_frame {
     enum br_axis axis;
     double left, right, bottom, top;
-    struct br_range y;            /* of the errors, m^(3/2) */
+    struct br_range y;            /* of the errors */
     size_t orders;                /* 0: none are shown */
     const struct br_order *order; /* ascending, borrowed */
     const char *note;             /* after the x axis' label, borrowed; NULL: none */

@@ -5,7 +5,6 @@
 #include <time.h>
 
 #include "reference/judge.h"
-#include "solver/modes.h"
 
 struct fine {
     struct br_march *march;
@@ -58,24 +57,25 @@ static enum br_status fine_advance(void *self, size_t i, struct br_error *err)
     return status;
 }
 
-static void fine_look(void *self, enum br_field_kind kind, size_t mesh, double *modes, double *rest)
+/* Its own mesh is the only one. */
+static void fine_look(void *self, const struct br_look_at *at, double *values, double *rest)
 {
     struct fine *f = self;
-    (void)mesh; /* its own is the only one */
-    br_march_get(f->march, kind, f->nodal, NULL);
-    br_modes(br_march_field(f->march, kind), f->nodal, modes);
+    br_look(f->march, at->kind, at->measure, f->nodal, values);
     *rest = 0;
 }
 
 static struct br_judge_report fine_report(const void *self)
 {
     const struct fine *f = self;
-    return (struct br_judge_report){
-        .own_error = {NAN, NAN},
+    struct br_judge_report report = {
         .round_off = br_march_round_off(f->march),
         .seconds = f->seconds,
         .unstable = br_march_contact_unstable(f->march),
     };
+    for (int measure = 0; measure < BR_MEASURES; measure++)
+        report.own_error[BR_AXIAL][measure] = report.own_error[BR_BENDING][measure] = NAN;
+    return report;
 }
 
 static void fine_tell(const void *self, FILE *out)

@@ -1,30 +1,41 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What cells are judged by: a registry. A judge knows the solution at the time
- * levels t_i = i T / levels and gives it, element by element, in the orthonormal
- * Legendre modes of solver/modes.h on the meshes it was asked for. */
+ * levels t_i = i T / levels and gives it in the measures of solver/modes.h that it was
+ * asked for: element by element in orthonormal Legendre modes on its meshes. */
 #ifndef BR_JUDGE_H
 #define BR_JUDGE_H
 
 #include <stdio.h>
 
-#include "solver/march.h"
+#include "solver/look.h"
 
 struct br_judge_request {
-    const struct br_scene *scene; /* must outlive the judge */
-    struct br_method method;      /* fine only */
-    size_t n;                     /* fine only: its elements */
-    size_t levels;                /* time levels after t = 0; for fine, its steps */
-    bool modest;                  /* exact only: give up where it takes more than moderate work */
-    size_t mesh_count;            /* the meshes that it will be looked at on */
-    const size_t *mesh;           /* mesh_count, elements; borrowed during create */
+    const struct br_scene *scene;  /* must outlive the judge */
+    struct br_method method;       /* fine only */
+    size_t n;                      /* fine only: its elements */
+    size_t levels;                 /* time levels after t = 0; for fine, its steps */
+    bool modest;                   /* exact only: give up where it takes more than moderate work */
+    bool measured[2][BR_MEASURES]; /* by br_field_kind: what it will be looked at for */
+    size_t mesh_count;             /* the meshes that it will be looked at on */
+    const size_t *mesh;            /* mesh_count, elements; borrowed during create */
+    bool (*stop)(void *self);      /* true: give up soon, with BR_INTERRUPTED; may be NULL */
+    void *stop_self;
 };
 
 /* What a judge knows of itself. */
 struct br_judge_report {
-    double own_error[2]; /* by br_field_kind, L2, m^(3/2); NaN: it cannot tell */
-    double round_off;    /* predicted, relative to the solution */
-    double seconds;      /* of its work so far, one thread */
-    bool unstable;       /* br_march_contact_unstable, of a fine run */
+    double own_error[2][BR_MEASURES]; /* by br_field_kind, largest over time; m^(3/2) and
+                                         its rates, the tip's in m; NaN: it cannot tell */
+    double round_off;                 /* predicted, relative to the solution */
+    double seconds;                   /* of its work so far, one thread */
+    bool unstable;                    /* br_march_contact_unstable, of a fine run */
+};
+
+/* What a judge is looked at for. */
+struct br_look_at {
+    enum br_field_kind kind;
+    enum br_measure measure;
+    size_t mesh; /* an index into the request's meshes */
 };
 
 struct br_judge {
@@ -43,9 +54,9 @@ struct br_judge {
     /* Goes on to time level i, never back. */
     enum br_status (*advance)(void *self, size_t i, struct br_error *err);
 
-    /* The displacement there, on the mesh of that index: its modes (out, n *
-     * br_mode_count values), and the square of the L2 norm of what they leave out. */
-    void (*look)(void *self, enum br_field_kind kind, size_t mesh, double *modes, double *rest);
+    /* A measure of the solution there, on the mesh of that index: its br_measure_size
+     * values (out), and the square of the L2 norm of what those leave out (out). */
+    void (*look)(void *self, const struct br_look_at *at, double *values, double *rest);
 
     struct br_judge_report (*report)(const void *self);
 

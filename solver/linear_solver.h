@@ -39,6 +39,10 @@ struct br_field_solver {
     void (*set)(void *self, const double *displacement, const double *velocity);
     void (*get)(const void *self, double *displacement, double *velocity);
 
+    /* What deforms the elements, by time: the rate of their elongation h u_x, or of the
+     * two curvature coefficients of br_curvature; n * br_field_unknowns values (out), m/s. */
+    void (*strain_rate)(const void *self, double *rate);
+
     /* First half of a step: solves with the load vector factor * load (in, N) and
      * no tip force; *velocity is the tip's free velocity v*, m/s. load may be
      * NULL: no load. Fails with BR_SINGULAR where the solver itself finds it. */

@@ -257,6 +257,15 @@ void br_march_get(const struct br_march *m, enum br_field_kind kind, double *dis
         memset(velocity, 0, bytes);
 }
 
+void br_march_strain_rate(const struct br_march *m, enum br_field_kind kind, double *rate)
+{
+    const struct part *part = &m->part[kind];
+    if (part->modelled)
+        part->solver->strain_rate(part->state, rate);
+    else
+        memset(rate, 0, part->field.n * br_field_unknowns(kind) * sizeof *rate);
+}
+
 const struct br_field *br_march_field(const struct br_march *m, enum br_field_kind kind)
 {
     return &m->part[kind].field;

@@ -55,6 +55,10 @@ double br_march_tip_displacement(const struct br_march *march, enum br_field_kin
 void br_march_get(const struct br_march *march, enum br_field_kind kind, double *displacement,
                   double *velocity);
 
+/* The elements' strain rates (out, n * br_field_unknowns values, m/s), as
+ * br_field_solver's strain_rate gives them. All zero where the field is not modelled. */
+void br_march_strain_rate(const struct br_march *march, enum br_field_kind kind, double *rate);
+
 /* The mesh and operator of one field; whether it is modelled. */
 const struct br_field *br_march_field(const struct br_march *march, enum br_field_kind kind);
 bool br_march_models(const struct br_march *march, enum br_field_kind kind);

@@ -3,9 +3,15 @@
 
 #include <math.h>
 
-size_t br_mode_count(enum br_field_kind kind)
+size_t br_mode_count(enum br_field_kind kind, enum br_measure measure)
 {
-    return kind == BR_AXIAL ? 2 : 4;
+    const size_t derived = measure == BR_STRAIN_RATE;
+    return kind == BR_AXIAL ? 2 - derived : 4 - 2 * derived;
+}
+
+size_t br_measure_size(enum br_field_kind kind, enum br_measure measure, size_t n)
+{
+    return measure == BR_TIP ? 1 : n * br_mode_count(kind, measure);
 }
 
 static void axial_modes(double root, const double *nodal, double modes[2])
@@ -34,4 +40,17 @@ void br_modes(const struct br_field *field, const double *nodal, double *modes)
             axial_modes(root, nodal + e, modes + 2 * e);
         else
             bending_modes(root, nodal + 2 * e, modes + 4 * e);
+}
+
+/* u_x = elongation/h;  w_xx = (kappa0 + kappa1 (2 xi - 1))/h^2, P_1 = sqrt(3) (2 xi - 1). */
+void br_strain_modes(const struct br_field *field, const double *strain, double *modes)
+{
+    const double root = sqrt(field->h), h = field->h;
+    for (size_t e = 0; e < field->n; e++)
+        if (field->kind == BR_AXIAL) {
+            modes[e] = root / h * strain[e];
+        } else {
+            modes[2 * e] = root / (h * h) * strain[2 * e];
+            modes[2 * e + 1] = root / (h * h) * (strain[2 * e + 1] * (1 / sqrt(3)));
+        }
 }

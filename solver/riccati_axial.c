@@ -122,6 +122,13 @@ static void axial_get(const void *self, double *displacement, double *velocity)
     }
 }
 
+static void axial_strain_rate(const void *self, double *rate)
+{
+    const struct axial *a = self;
+    for (size_t i = 0; i < a->n; i++)
+        rate[i] = a->element[i].strain - a->alpha * a->element[i].elongation;
+}
+
 BR_SWEEP
 static enum br_status axial_predict(void *self, const double *load, double factor, double *velocity,
                                     struct br_error *err)
@@ -184,6 +191,7 @@ const struct br_field_solver br_riccati_axial = {
     .tip_compliance = axial_compliance,
     .set = axial_set,
     .get = axial_get,
+    .strain_rate = axial_strain_rate,
     .predict = axial_predict,
     .finish = axial_finish,
     .tip_displacement = axial_tip_displacement,

@@ -271,6 +271,15 @@ static void bending_get(const void *self, double *displacement, double *velocity
     }
 }
 
+static void bending_strain_rate(const void *self, double *rate)
+{
+    const struct bending *b = self;
+    for (size_t i = 0; i < b->n; i++) {
+        const br_pair kappa = b->element[i].strain - b->alpha * b->element[i].curvature;
+        memcpy(rate + 2 * i, &kappa, sizeof kappa);
+    }
+}
+
 /* factor * F_i, or zero */
 static inline br_pair scaled_load(const double *load, size_t i, double factor)
 {
@@ -342,6 +351,7 @@ const struct br_field_solver br_riccati_bending = {
     .tip_compliance = bending_compliance,
     .set = bending_set,
     .get = bending_get,
+    .strain_rate = bending_strain_rate,
     .predict = bending_predict,
     .finish = bending_finish,
     .tip_displacement = bending_tip_displacement,

@@ -229,6 +229,16 @@ static void stiffness_get(const void *self, double *displacement, double *veloci
         memcpy(velocity, s->velocity, bytes);
 }
 
+static void stiffness_strain_rate(const void *self, double *rate)
+{
+    const struct stiffness_form *s = self;
+    for (size_t i = 0; i < s->field.n; i++)
+        if (s->field.kind == BR_AXIAL)
+            rate[i] = s->velocity[i + 1] - s->velocity[i];
+        else
+            br_curvature(s->velocity + 2 * i, rate + 2 * i);
+}
+
 /* out -= K u on one element, u in its nodal values, from what deforms it. */
 static void subtract_elastic(const struct br_field *f, const double *u, double *out)
 {
@@ -310,6 +320,7 @@ static const struct br_field_solver stiffness_form = {
     .tip_compliance = stiffness_compliance,
     .set = stiffness_set,
     .get = stiffness_get,
+    .strain_rate = stiffness_strain_rate,
     .predict = stiffness_predict,
     .finish = stiffness_finish,
     .tip_displacement = stiffness_tip_displacement,

@@ -123,9 +123,7 @@ static double reference_error(const struct br_study *s, enum br_part part,
 {
     if (s->auditor)
         return s->reference_error[part];
-    const double *own = s->judged_by.own_error;
-    const double told = part == BR_PART_TOTAL ? own[BR_AXIAL] + own[BR_BENDING]
-                                              : own[part == BR_PART_AXIAL ? BR_AXIAL : BR_BENDING];
+    const double told = br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, part);
     if (isfinite(told))
         return told;
     if (!br_joint_describes(fit))

@@ -127,7 +127,7 @@ static enum br_status add_rungs(struct br_ladder *ladder, const struct br_mesh_l
     return BR_OK;
 }
 
-enum br_status br_ladder_create(struct br_ladder **out, enum br_field_kind kind,
+enum br_status br_ladder_create(struct br_ladder **out, size_t modes,
                                 const struct br_mesh_list *roots, const struct br_mesh_list *rungs,
                                 struct br_error *err)
 {
@@ -135,7 +135,7 @@ enum br_status br_ladder_create(struct br_ladder **out, enum br_field_kind kind,
     *out = ladder;
     if (!ladder)
         return br_no_memory(err, "the ladder of meshes");
-    ladder->modes = br_mode_count(kind);
+    ladder->modes = modes;
     ladder->root = br_allocate(roots->count, sizeof *ladder->root);
     if (!ladder->root)
         return br_no_memory(err, "the ladder of meshes");
@@ -160,9 +160,9 @@ size_t br_ladder_size(const struct br_ladder *ladder)
     return ladder->size;
 }
 
-/* One element of bending: coarse = sum_j E_j' fine_j; returns the squared loss,
+/* One element of four modes: coarse = sum_j E_j' fine_j; returns the squared loss,
  * sum_j |fine_j - E_j coarse|^2. */
-static double project_bending(const struct rung *rung, const double *fine, double *coarse)
+static double project_cubic(const struct rung *rung, const double *fine, double *coarse)
 {
     quad sum = {0};
     for (size_t j = 0; j < rung->ratio; j++)
@@ -180,8 +180,8 @@ static double project_bending(const struct rung *rung, const double *fine, doubl
     return (loss[0] + loss[1]) + (loss[2] + loss[3]);
 }
 
-/* The same for axial, whose E_j are 2 by 2. */
-static double project_axial(const struct rung *rung, const double *fine, double *coarse)
+/* The same for two modes. */
+static double project_linear(const struct rung *rung, const double *fine, double *coarse)
 {
     double sum[2] = {0, 0}, loss = 0;
     for (size_t j = 0; j < rung->ratio; j++) {
@@ -199,6 +199,33 @@ static double project_axial(const struct rung *rung, const double *fine, double 
     return loss;
 }
 
+/* The same for piecewise constants: coarse = sum_j E_j fine_j. */
+static double project_constant(const struct rung *rung, const double *fine, double *coarse)
+{
+    double sum = 0, loss = 0;
+    for (size_t j = 0; j < rung->ratio; j++)
+        sum += rung->child[j].row[0][0] * fine[j];
+    for (size_t j = 0; j < rung->ratio; j++) {
+        const double rest = fine[j] - rung->child[j].row[0][0] * sum;
+        loss += rest * rest;
+    }
+    *coarse = sum;
+    return loss;
+}
+
+/* Four modes have vectors, the others are few. */
+static double project_element(const struct rung *rung, const double *fine, double *coarse)
+{
+    switch (rung->modes) {
+    case 1:
+        return project_constant(rung, fine, coarse);
+    case 2:
+        return project_linear(rung, fine, coarse);
+    default:
+        return project_cubic(rung, fine, coarse);
+    }
+}
+
 static void project_rung(const struct br_ladder *ladder, size_t r, const struct br_root_value *root,
                          double *projection)
 {
@@ -213,12 +240,9 @@ static void project_rung(const struct br_ladder *ladder, size_t r, const struct 
         loss = root[rung->parent - ladder->count].rest;
     }
     double *coarse = projection + rung->offset;
-    if (rung->modes == MODES)
-        for (size_t e = 0; e < rung->n; e++)
-            loss += project_bending(rung, fine + e * rung->ratio * MODES, coarse + e * MODES);
-    else
-        for (size_t e = 0; e < rung->n; e++)
-            loss += project_axial(rung, fine + e * rung->ratio * 2, coarse + e * 2);
+    for (size_t e = 0; e < rung->n; e++)
+        loss +=
+            project_element(rung, fine + e * rung->ratio * rung->modes, coarse + e * rung->modes);
     coarse[-1] = loss;
 }
 
@@ -245,11 +269,15 @@ double br_ladder_distance(const struct br_ladder *ladder, size_t r, const double
 {
     const struct rung *rung = &ladder->rung[r];
     const double *reference = projection + rung->offset;
-    double even = 0, odd = 0; /* two chains; the modes are even in number */
-    for (size_t i = 0; i < rung->n * rung->modes; i += 2) {
+    const size_t count = rung->n * rung->modes;
+    double even = 0, odd = 0; /* two chains */
+    for (size_t i = 0; i + 1 < count; i += 2) {
         const double a = modes[i] - reference[i], b = modes[i + 1] - reference[i + 1];
         even += a * a;
         odd += b * b;
     }
+    if (count % 2)
+        even +=
+            (modes[count - 1] - reference[count - 1]) * (modes[count - 1] - reference[count - 1]);
     return sqrt(even + odd + projection[rung->offset - 1]);
 }

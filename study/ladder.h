@@ -10,7 +10,10 @@
 #ifndef BR_LADDER_H
 #define BR_LADDER_H
 
-#include "solver/modes.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "solver/status.h"
 
 struct br_ladder;
 
@@ -20,10 +23,10 @@ struct br_mesh_list {
     const size_t *n;
 };
 
-/* A ladder from one or more root meshes, of root[0..roots) elements, down to each of
- * n[0..count), every one of which divides a root (it may be one). Fails with
- * BR_BAD_INPUT (not nested) or BR_NO_MEMORY. */
-enum br_status br_ladder_create(struct br_ladder **ladder, enum br_field_kind kind,
+/* A ladder for functions with 1, 2 or 4 modes an element, from one or more
+ * root meshes down to the rungs, every one of which divides a root (it may be one).
+ * Fails with BR_BAD_INPUT (not nested) or BR_NO_MEMORY. */
+enum br_status br_ladder_create(struct br_ladder **ladder, size_t modes,
                                 const struct br_mesh_list *roots, const struct br_mesh_list *rungs,
                                 struct br_error *err);
 void br_ladder_free(struct br_ladder *ladder); /* accepts NULL */
@@ -43,7 +46,7 @@ struct br_root_value {
 void br_ladder_project(const struct br_ladder *ladder, const struct br_root_value *root,
                        double *projection);
 
-/* L2 distance, m times sqrt(m), of a function with the given modes (in) on the
+/* L2 distance of a function with the given modes (in) on the
  * mesh n[rung] from the projected one. */
 double br_ladder_distance(const struct br_ladder *ladder, size_t rung, const double *modes,
                           const double *projection);

@@ -7,76 +7,12 @@
  * whichever threads run it, so the result has the same bits on any number. */
 #include "study/lockstep.h"
 
-#include <math.h>
 #include <stdio.h>
 #ifdef _OPENMP
 #include <omp.h>
 #endif
 
 #include "study/lockstep_state.h"
-
-/* ---- the reference ---- */
-
-static double norm(const double *modes, size_t count, double rest)
-{
-    double sum = rest;
-    for (size_t i = 0; i < count; i++)
-        sum += modes[i] * modes[i];
-    return sqrt(sum);
-}
-
-/* The field's L2 norm, from the first root mesh. */
-static double look_at_reference(struct br_lockstep *l, enum br_field_kind kind)
-{
-    struct br_channel *c = &l->channel[kind];
-    for (size_t i = 0; i < l->roots; i++)
-        l->reference.judge->look(l->reference.self, kind, i, c->root[i].modes, &c->root[i].rest);
-    return norm(c->root[0].modes, l->root[0] * br_mode_count(kind), c->root[0].rest);
-}
-
-static void project_reference(struct br_lockstep *l, size_t buffer, size_t slot)
-{
-    double scale = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_channel *c = &l->channel[kind];
-        if (!c->modelled)
-            continue;
-        scale += look_at_reference(l, (enum br_field_kind)kind);
-        br_ladder_project(c->ladder, c->root,
-                          c->projection[buffer] + slot * br_ladder_size(c->ladder));
-    }
-    l->study->reference_scale = fmax(l->study->reference_scale, scale);
-}
-
-/* Keeps the larger of each part; a NaN stays. */
-static void keep_largest(double largest[BR_PARTS], const double error[BR_PARTS])
-{
-    for (int part = 0; part < BR_PARTS; part++)
-        if (!(error[part] <= largest[part]) && !isnan(largest[part]))
-            largest[part] = error[part];
-}
-
-/* The distance of the reference, as last looked at, from the auditor. */
-static enum br_status audit(struct br_lockstep *l, size_t level, struct br_error *err)
-{
-    const enum br_status status = l->auditor.judge->advance(l->auditor.self, level, err);
-    double error[BR_PARTS] = {0};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        struct br_channel *c = &l->channel[kind];
-        if (!c->modelled)
-            continue;
-        double rest;
-        l->auditor.judge->look(l->auditor.self, (enum br_field_kind)kind, 0, c->audit, &rest);
-        const size_t count = l->root[0] * br_mode_count((enum br_field_kind)kind);
-        for (size_t i = 0; i < count; i++)
-            c->audit[i] -= c->root[0].modes[i];
-        const double distance = norm(c->audit, count, rest);
-        error[kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING] = distance;
-        error[BR_PART_TOTAL] += distance;
-    }
-    keep_largest(l->study->reference_error, error);
-    return status;
-}
 
 static size_t batch_end(const struct br_lockstep *l, size_t b)
 {
@@ -93,69 +29,35 @@ static bool should_stop(struct br_lockstep *l)
 
 static void reference_batch(struct br_lockstep *l, size_t b)
 {
+    struct br_error *error = &l->reference.error;
     for (size_t i = b * l->batch; i < batch_end(l, b) && !should_stop(l); i++) {
-        struct br_error *error = &l->reference.error;
-        if (l->reference.judge->advance(l->reference.self, l->level[i], error)) {
-            atomic_store(&l->stopped, true);
-            return;
-        }
-        project_reference(l, b % BR_LOCKSTEP_BUFFERS, i % l->batch);
+        const struct br_slot slot = {b % BR_LOCKSTEP_BUFFERS, i % l->batch};
         const bool audited =
             l->auditor.judge && (i % l->audit_every == 0 || i + 1 == l->level_count);
-        if (audited && audit(l, l->level[i], error)) {
+        enum br_status status = l->reference.judge->advance(l->reference.self, l->level[i], error);
+        if (!status)
+            br_lockstep_project(l, slot, l->level[i]);
+        if (!status && audited)
+            status = br_lockstep_audit(l, l->level[i], error);
+        if (status)
             atomic_store(&l->stopped, true);
-            return;
-        }
     }
-}
-
-/* ---- a cell ---- */
-
-static void measure(struct br_lockstep *l, size_t index, size_t buffer, size_t slot)
-{
-    struct br_cell *cell = &l->study->cell[index];
-    struct br_runner *r = &l->cell[index];
-    const size_t rung = index / l->study->k_count;
-    double error[BR_PARTS] = {0};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_channel *c = &l->channel[kind];
-        if (!c->modelled)
-            continue;
-        br_runner_look(r, (enum br_field_kind)kind);
-        const double distance = br_ladder_distance(
-            c->ladder, rung, r->modes, c->projection[buffer] + slot * br_ladder_size(c->ladder));
-        error[kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING] = distance;
-        error[BR_PART_TOTAL] += distance;
-    }
-    if (!isfinite(error[BR_PART_TOTAL])) {
-        br_fail(&r->error, BR_NOT_FINITE, "the error at t = %g s is %g", br_march_time(r->march),
-                error[BR_PART_TOTAL]);
-        br_cell_failed(cell, &r->error);
-        return;
-    }
-    for (int part = 0; part < BR_PARTS; part++)
-        if (error[part] > cell->error[part]) {
-            cell->error[part] = error[part];
-            cell->worst_time[part] = br_march_time(r->march);
-        }
 }
 
 static void cell_batch(struct br_lockstep *l, size_t b, size_t index)
 {
     struct br_runner *r = &l->cell[index];
-    struct br_cell *cell = &l->study->cell[index];
-    const size_t ratio = l->study->reference.steps / cell->at.steps;
+    const size_t ratio = l->study->reference.steps / l->study->cell[index].at.steps;
     for (size_t i = b * l->batch; i < batch_end(l, b) && !r->error.status; i++) {
         if (l->level[i] % ratio != 0)
             continue;
         if (atomic_load(&l->stopped))
             return;
         if (br_runner_advance(r, l->level[i] / ratio))
-            br_cell_failed(cell, &r->error);
+            br_cell_failed(l->study, index, &r->error);
         else
-            measure(l, index, b % BR_LOCKSTEP_BUFFERS, i % l->batch);
+            br_lockstep_measure(l, index, (struct br_slot){b % BR_LOCKSTEP_BUFFERS, i % l->batch});
     }
-    cell->seconds = r->seconds;
 }
 
 /* ---- running ---- */
@@ -210,10 +112,11 @@ static void spawn_all(struct crew *crew)
 }
 
 /* What the reference tells, kept with the study. */
-static enum br_status keep_events(struct br_lockstep *l, struct br_error *err)
+static enum br_status keep_events(struct br_lockstep *l, struct br_study *study,
+                                  struct br_error *err)
 {
     size_t size;
-    FILE *out = open_memstream(&l->study->events, &size);
+    FILE *out = open_memstream(&study->events, &size);
     if (!out)
         return br_no_memory(err, "the events");
     l->reference.judge->tell(l->reference.self, out);
@@ -224,14 +127,16 @@ static enum br_status outcome(struct crew *crew, struct br_error *err)
 {
     for (size_t s = 0; s < crew->count; s++) {
         struct br_lockstep *l = &crew->step[s];
-        l->study->judged_by = l->reference.judge->report(l->reference.self);
         if (l->reference.error.status)
             return br_fail(err, l->reference.error.status, "%s", l->reference.error.message);
         if (atomic_load(&l->stopped))
             return br_fail(err, BR_INTERRUPTED, "interrupted");
-        const enum br_status status = keep_events(l, err);
-        if (status)
-            return status;
+        br_lockstep_conclude(l);
+        for (struct br_study *study = l->study; study; study = study->next_norm) {
+            const enum br_status status = keep_events(l, study, err);
+            if (status)
+                return status;
+        }
     }
     return BR_OK;
 }

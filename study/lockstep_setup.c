@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <math.h>
-
 #include "study/lockstep_state.h"
 
 static const size_t buffer_bytes = 8u << 20; /* of a batch's projections, at most */
@@ -52,57 +50,87 @@ static enum br_status list_roots(struct br_lockstep *l, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status create_roots(struct br_lockstep *l, enum br_field_kind kind,
-                                   struct br_error *err)
+/* Which measures the norms need. The tip's is also kept at the end, whatever they need. */
+static void choose_channels(struct br_lockstep *l)
 {
-    struct br_channel *c = &l->channel[kind];
+    const struct br_scene *scene = l->study->scene;
+    const bool modelled[2] = {scene->axial.modelled, scene->bending.modelled};
+    for (int measure = 0; measure < BR_MEASURES; measure++) {
+        bool needed = false;
+        for (const struct br_study *s = l->study; s; s = s->next_norm)
+            needed |= br_norm_needs(s->norm, (enum br_measure)measure);
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+            struct br_channel *c =
+                br_channel_of(l, (enum br_field_kind)kind, (enum br_measure)measure);
+            c->used = modelled[kind] && (needed || measure == BR_TIP);
+            c->last_only = !needed;
+        }
+    }
+}
+
+static enum br_status create_roots(struct br_lockstep *l, struct br_channel *c,
+                                   const struct br_look_at *at, struct br_error *err)
+{
     c->root = br_allocate(l->roots, sizeof *c->root);
-    if (!c->root)
+    c->audit = br_allocate(br_measure_size(at->kind, at->measure, l->root[0]), sizeof(double));
+    if (!c->root || !c->audit)
         return br_no_memory(err, "the reference's values");
     for (size_t i = 0; i < l->roots; i++) {
-        c->root[i].modes = br_allocate(l->root[i] * br_mode_count(kind), sizeof(double));
+        c->root[i].modes =
+            br_allocate(br_measure_size(at->kind, at->measure, l->root[i]), sizeof(double));
         if (!c->root[i].modes)
             return br_no_memory(err, "the reference's values");
     }
-    c->audit = br_allocate(l->root[0] * br_mode_count(kind), sizeof(double));
-    return c->audit ? BR_OK : br_no_memory(err, "the reference's values");
+    return BR_OK;
 }
 
-static enum br_status create_ladders(struct br_lockstep *l, struct br_error *err)
+static enum br_status create_channel(struct br_lockstep *l, enum br_field_kind kind,
+                                     enum br_measure measure, struct br_error *err)
 {
-    const struct br_study *s = l->study;
-    const struct br_mesh_list roots = {l->roots, l->root}, rungs = {s->n_count, s->n};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_channel *c = &l->channel[kind];
-        c->modelled = kind == BR_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled;
-        if (!c->modelled)
-            continue;
-        enum br_status status =
-            br_ladder_create(&c->ladder, (enum br_field_kind)kind, &roots, &rungs, err);
-        if (!status)
-            status = create_roots(l, (enum br_field_kind)kind, err);
-        if (status)
-            return status;
-    }
-    return BR_OK;
+    struct br_channel *c = br_channel_of(l, kind, measure);
+    const struct br_look_at at = {kind, measure, 0};
+    const struct br_mesh_list roots = {l->roots, l->root}, rungs = {l->study->n_count, l->study->n};
+    enum br_status status = create_roots(l, c, &at, err);
+    if (!status && measure != BR_TIP)
+        status = br_ladder_create(&c->ladder, br_mode_count(kind, measure), &roots, &rungs, err);
+    c->size = c->ladder ? br_ladder_size(c->ladder) : 1;
+    return status;
+}
+
+static enum br_status create_channels(struct br_lockstep *l, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (int measure = 0; measure < BR_MEASURES && !status; measure++)
+            if (br_channel_of(l, (enum br_field_kind)kind, (enum br_measure)measure)->used)
+                status = create_channel(l, (enum br_field_kind)kind, (enum br_measure)measure, err);
+    return status;
 }
 
 static enum br_status create_buffers(struct br_lockstep *l, struct br_error *err)
 {
     size_t doubles = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        doubles += l->channel[kind].modelled ? br_ladder_size(l->channel[kind].ladder) : 0;
+    for (size_t i = 0; i < BR_CHANNELS; i++)
+        doubles += l->channel[i].size;
     l->batch = buffer_bytes / (doubles * sizeof(double));
     l->batch = l->batch < 1 ? 1 : l->batch > most_levels ? most_levels : l->batch;
     l->batches = (l->level_count + l->batch - 1) / l->batch;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        for (int b = 0; b < BR_LOCKSTEP_BUFFERS && l->channel[kind].modelled; b++) {
-            struct br_channel *c = &l->channel[kind];
-            c->projection[b] = br_allocate(l->batch * br_ladder_size(c->ladder), sizeof(double));
-            if (!c->projection[b])
-                return br_no_memory(err, "the reference's projections");
-        }
+    for (size_t i = 0; i < BR_CHANNELS * BR_LOCKSTEP_BUFFERS; i++) {
+        struct br_channel *c = &l->channel[i / BR_LOCKSTEP_BUFFERS];
+        double **projection = &c->projection[i % BR_LOCKSTEP_BUFFERS];
+        if (c->used && !(*projection = br_allocate(l->batch * c->size, sizeof(double))))
+            return br_no_memory(err, "the reference's projections");
+    }
     return BR_OK;
+}
+
+static enum br_status create_sums(struct br_lockstep *l, struct br_error *err)
+{
+    const size_t cells = l->study->n_count * l->study->k_count;
+    l->cell_sum = br_allocate(cells * l->norms, sizeof *l->cell_sum);
+    l->scale_sum = br_allocate(l->norms, sizeof *l->scale_sum);
+    l->audit_sum = br_allocate(l->norms, sizeof *l->audit_sum);
+    return l->cell_sum && l->scale_sum && l->audit_sum ? BR_OK : br_no_memory(err, "the errors");
 }
 
 /* An auditor that cannot promise a solution of this scene is done without. */
@@ -111,8 +139,6 @@ static void dismiss_auditor(struct br_lockstep *l)
     l->auditor.judge->free(l->auditor.self);
     l->auditor = (struct br_bench){0};
     l->study->auditor = NULL;
-    for (int part = 0; part < BR_PARTS; part++)
-        l->study->reference_error[part] = NAN;
 }
 
 /* The reference, and who audits it. */
@@ -126,7 +152,14 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
         .levels = s->reference.steps,
         .mesh_count = l->roots,
         .mesh = l->root,
+        .stop = l->observer ? l->observer->stop : NULL,
+        .stop_self = l->observer ? l->observer->self : NULL,
     };
+    for (int measure = 0; measure < BR_MEASURES; measure++) {
+        const enum br_measure m = (enum br_measure)measure;
+        request.measured[BR_AXIAL][m] = br_channel_of(l, BR_AXIAL, m)->used;
+        request.measured[BR_BENDING][m] = br_channel_of(l, BR_BENDING, m)->used;
+    }
     l->reference.judge = s->judge;
     const enum br_status status = s->judge->create(&l->reference.self, &request, err);
     if (status || !s->auditor)
@@ -140,15 +173,6 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
         return br_fail(err, BR_NO_MEMORY, "%s", l->auditor.error.message);
     dismiss_auditor(l);
     return BR_OK;
-}
-
-void br_cell_failed(struct br_cell *cell, const struct br_error *error)
-{
-    cell->failure = *error;
-    for (int part = 0; part < BR_PARTS; part++) {
-        cell->error[part] = NAN;
-        cell->flag[part] = BR_FLAG_FAILED;
-    }
 }
 
 static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
@@ -166,7 +190,7 @@ static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
         if (!failure)
             s->cell[i].unstable = br_march_contact_unstable(l->cell[i].march);
         if (failure)
-            br_cell_failed(&s->cell[i], &l->cell[i].error);
+            br_cell_failed(l->study, i, &l->cell[i].error);
     }
     return BR_OK;
 }
@@ -175,14 +199,19 @@ enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
                                   const struct br_observer *observer, struct br_error *err)
 {
     l->study = s;
+    for (; s; s = s->next_norm)
+        l->norms++;
     l->observer = observer;
+    choose_channels(l);
     enum br_status status = list_levels(l, err);
     if (!status)
         status = list_roots(l, err);
     if (!status)
-        status = create_ladders(l, err);
+        status = create_channels(l, err);
     if (!status)
         status = create_buffers(l, err);
+    if (!status)
+        status = create_sums(l, err);
     if (!status)
         status = create_judges(l, err);
     if (!status)
@@ -203,8 +232,8 @@ static void channel_clear(struct br_channel *c, size_t roots)
 
 void br_lockstep_clear(struct br_lockstep *l)
 {
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        channel_clear(&l->channel[kind], l->roots);
+    for (size_t i = 0; i < BR_CHANNELS; i++)
+        channel_clear(&l->channel[i], l->roots);
     if (l->reference.judge)
         l->reference.judge->free(l->reference.self);
     if (l->auditor.judge)
@@ -212,6 +241,9 @@ void br_lockstep_clear(struct br_lockstep *l)
     for (size_t i = 0; l->cell && i < l->study->n_count * l->study->k_count; i++)
         br_runner_clear(&l->cell[i]);
     free(l->cell);
+    free(l->cell_sum);
+    free(l->scale_sum);
+    free(l->audit_sum);
     free(l->root);
     free(l->level);
 }

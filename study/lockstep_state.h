@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What lockstep.c works on and lockstep_setup.c sets up; for these two alone. */
+/* What lockstep.c runs, lockstep_setup.c sets up and lockstep_measure.c measures; for
+ * these alone. */
 #ifndef BR_LOCKSTEP_STATE_H
 #define BR_LOCKSTEP_STATE_H
 
@@ -9,15 +10,16 @@
 #include "study/runner.h"
 #include "study/study.h"
 
-enum { BR_LOCKSTEP_BUFFERS = 2 };
+enum { BR_LOCKSTEP_BUFFERS = 2, BR_CHANNELS = 2 * BR_MEASURES };
 
-/* One field of the reference and the cells. */
+/* One measure of one field of the reference and the cells. */
 struct br_channel {
-    bool modelled;
-    struct br_ladder *ladder;
+    bool used, last_only;                    /* only at t = T */
+    size_t size;                             /* of a projection */
+    struct br_ladder *ladder;                /* NULL: one number, the tip's */
     struct br_root_value *root;              /* the reference on its meshes */
-    double *projection[BR_LOCKSTEP_BUFFERS]; /* batch * ladder size */
-    double *audit;                           /* the auditor's modes on the reference's mesh */
+    double *projection[BR_LOCKSTEP_BUFFERS]; /* batch * size */
+    double *audit;                           /* the auditor on the reference's mesh */
 };
 
 /* A judge at work. */
@@ -28,26 +30,55 @@ struct br_bench {
 };
 
 struct br_lockstep {
-    struct br_study *study;
-    struct br_channel channel[2];       /* by br_field_kind */
-    struct br_bench reference, auditor; /* the auditor's judge may be NULL */
-    size_t *root;                       /* the meshes on which the reference is looked at */
+    struct br_study *study;                 /* the first of its chain */
+    size_t norms;                           /* in the chain */
+    struct br_channel channel[BR_CHANNELS]; /* see br_channel_of */
+    struct br_bench reference, auditor;     /* the auditor's judge may be NULL */
+    size_t *root;                           /* the meshes on which the reference is looked at */
     size_t roots;
-    size_t audit_every;     /* of the levels, so that there are not too many audits */
-    struct br_runner *cell; /* n_count * k_count */
-    size_t *level;          /* reference steps at which some cell has a time level */
+    size_t audit_every;            /* of the levels, so that there are not too many audits */
+    struct br_runner *cell;        /* n_count * k_count */
+    struct br_norm_sum *cell_sum;  /* norms for each cell */
+    struct br_norm_sum *scale_sum; /* norms: of the reference itself */
+    struct br_norm_sum *audit_sum; /* norms: of its distance from the auditor */
+    double scale_time, audit_time; /* of the last samples, s */
+    size_t *level;                 /* reference steps at which some cell has a time level */
     size_t level_count, batch, batches;
     const struct br_observer *observer;
     atomic_bool stopped;
     char token[BR_LOCKSTEP_BUFFERS]; /* what the tasks depend on: the buffers */
 };
 
+/* That of a field in a measure. */
+static inline struct br_channel *br_channel_of(struct br_lockstep *l, enum br_field_kind kind,
+                                               enum br_measure measure)
+{
+    return &l->channel[kind * BR_MEASURES + measure];
+}
+
 /* Sets up all that a prepared study needs; clear it even after a failure. */
 enum br_status br_lockstep_create(struct br_lockstep *lockstep, struct br_study *study,
                                   const struct br_observer *observer, struct br_error *err);
 void br_lockstep_clear(struct br_lockstep *lockstep);
 
-/* Marks a cell as failed, with the reason. */
-void br_cell_failed(struct br_cell *cell, const struct br_error *error);
+/* A place for the reference at one time level. */
+struct br_slot {
+    size_t buffer, index;
+};
+
+/* Looks at the reference, which is at a level, and projects it into a slot. */
+void br_lockstep_project(struct br_lockstep *lockstep, struct br_slot slot, size_t level);
+
+/* Measures the reference, as last looked at, against the auditor at a level. */
+enum br_status br_lockstep_audit(struct br_lockstep *lockstep, size_t level, struct br_error *err);
+
+/* Measures a cell as it stands against a slot. */
+void br_lockstep_measure(struct br_lockstep *lockstep, size_t cell, struct br_slot slot);
+
+/* What has been measured, into the studies. */
+void br_lockstep_conclude(struct br_lockstep *lockstep);
+
+/* Marks a cell as failed in all norms, with the reason. */
+void br_cell_failed(struct br_study *study, size_t cell, const struct br_error *error);
 
 #endif

@@ -3,7 +3,6 @@
 
 #include <time.h>
 
-#include "solver/modes.h"
 #include "study/study.h"
 
 static double seconds_now(void)
@@ -46,8 +45,7 @@ enum br_status br_runner_advance(struct br_runner *r, size_t step)
     return r->error.status;
 }
 
-void br_runner_look(struct br_runner *r, enum br_field_kind kind)
+void br_runner_look(struct br_runner *r, enum br_field_kind kind, enum br_measure measure)
 {
-    br_march_get(r->march, kind, r->nodal, NULL);
-    br_modes(br_march_field(r->march, kind), r->nodal, r->modes);
+    br_look(r->march, kind, measure, r->nodal, r->modes);
 }

@@ -3,7 +3,7 @@
 #ifndef BR_RUNNER_H
 #define BR_RUNNER_H
 
-#include "solver/march.h"
+#include "solver/look.h"
 
 struct br_resolution;
 
@@ -22,7 +22,7 @@ void br_runner_clear(struct br_runner *runner);
 /* Steps on to its time level `step`, and counts the seconds. */
 enum br_status br_runner_advance(struct br_runner *runner, size_t step);
 
-/* runner->modes = the modes of the displacement as it is. */
-void br_runner_look(struct br_runner *runner, enum br_field_kind kind);
+/* runner->modes = a measure of the march as it is. */
+void br_runner_look(struct br_runner *runner, enum br_field_kind kind, enum br_measure measure);
 
 #endif

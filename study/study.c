@@ -5,8 +5,6 @@
 
 #include "study/lockstep.h"
 
-const char *const br_part_names[BR_PARTS] = {"total", "axial", "bending"};
-
 const char *br_flag_name(enum br_flag flag)
 {
     static const char *const names[] = {"", "reference", "round-off", "failed", "unstable"};
@@ -127,19 +125,8 @@ static enum br_status check_nesting(const struct br_study *s, struct br_error *e
     return BR_OK;
 }
 
-static enum br_status prepare(struct br_study *s, struct br_error *err)
+static enum br_status create_cells(struct br_study *s, struct br_error *err)
 {
-    if (s->n_count == 0 || s->k_count == 0)
-        return br_fail(err, BR_BAD_INPUT, "the list of %s is empty, expected at least one value",
-                       s->n_count == 0 ? "n" : "k");
-    if (s->judge->nests && (s->reference.n < 1 || s->reference.steps < 1))
-        return br_fail(err, BR_BAD_INPUT, "the reference needs at least one element and one step");
-    for (int part = 0; part < BR_PARTS; part++)
-        s->reference_error[part] = s->auditor ? 0 : NAN;
-    s->reference_scale = 0;
-    const enum br_status status = s->judge->nests ? check_nesting(s, err) : common_levels(s, err);
-    if (status)
-        return status;
     s->cell = br_allocate(s->n_count * s->k_count, sizeof *s->cell);
     if (!s->cell)
         return br_no_memory(err, "the table");
@@ -149,17 +136,37 @@ static enum br_status prepare(struct br_study *s, struct br_error *err)
     return BR_OK;
 }
 
+static enum br_status prepare(struct br_study *s, struct br_error *err)
+{
+    if (s->n_count == 0 || s->k_count == 0)
+        return br_fail(err, BR_BAD_INPUT, "the list of %s is empty, expected at least one value",
+                       s->n_count == 0 ? "n" : "k");
+    if (s->judge->nests && (s->reference.n < 1 || s->reference.steps < 1))
+        return br_fail(err, BR_BAD_INPUT, "the reference needs at least one element and one step");
+    const enum br_status status = s->judge->nests ? check_nesting(s, err) : common_levels(s, err);
+    if (status)
+        return status;
+    enum br_status table = BR_OK;
+    for (struct br_study *norm = s; norm && !table; norm = norm->next_norm) {
+        norm->reference = s->reference;
+        table = create_cells(norm, err);
+    }
+    return table;
+}
+
 enum br_status br_study_run(struct br_study *studies, size_t count, int threads,
                             const struct br_observer *observer, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (size_t i = 0; i < count; i++)
-        studies[i].cell = NULL, studies[i].events = NULL;
+        for (struct br_study *s = &studies[i]; s; s = s->next_norm)
+            s->cell = NULL, s->events = NULL;
     for (size_t i = 0; i < count && !status; i++)
         status = prepare(&studies[i], err);
     if (!status)
         status = br_lockstep(studies, count, threads, observer, err);
     for (size_t i = 0; i < count && status; i++)
-        br_study_clear(&studies[i]);
+        for (struct br_study *s = &studies[i]; s; s = s->next_norm)
+            br_study_clear(s);
     return status;
 }

@@ -1,19 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A convergence study: a grid of cells (n, k) against one reference run, with the
- * error (31) over all the time levels of each cell. */
+/* A convergence study: a grid of cells (n, k) against one reference, with the error in
+ * one norm over all the time levels of each cell. */
 #ifndef BR_STUDY_H
 #define BR_STUDY_H
 
 #include "reference/judge.h"
+#include "study/norm.h"
 
 /* A discretisation: n equal elements, `steps` equal time steps of T/steps. */
 struct br_resolution {
     size_t n, steps;
 };
-
-/* The error (31) and its parts, each with its own maximum over the time levels. */
-enum br_part { BR_PART_TOTAL, BR_PART_AXIAL, BR_PART_BENDING, BR_PARTS };
-extern const char *const br_part_names[BR_PARTS];
 
 /* Why a cell is left out of the fits. */
 enum br_flag {
@@ -28,8 +25,9 @@ const char *br_flag_name(
 
 struct br_cell {
     struct br_resolution at;
-    double error[BR_PARTS];      /* m^(3/2); NaN: failed */
+    double error[BR_PARTS];      /* in the norm's unit; NaN: failed */
     double worst_time[BR_PARTS]; /* where the maximum was, s */
+    double tip[2];               /* displacement at x = L, t = T, by br_field_kind, m */
     double seconds;              /* of the march alone, one thread */
     enum br_flag flag[BR_PARTS];
     bool unstable;           /* br_march_contact_unstable */
@@ -39,6 +37,7 @@ struct br_cell {
 struct br_study {
     /* in */
     const struct br_scene *scene;
+    const struct br_norm *norm;
     struct br_method method;           /* of the cells */
     const struct br_judge *judge;      /* the reference */
     struct br_method reference_method; /* of a fine run */
@@ -47,14 +46,17 @@ struct br_study {
     const struct br_judge *auditor;    /* measures the reference's own error; NULL: nobody. Set
                                           to NULL where it cannot promise a solution */
     size_t n_count, k_count;
-    const size_t *n;     /* n_count, borrowed */
-    const size_t *steps; /* k_count, borrowed */
+    const size_t *n;            /* n_count, borrowed */
+    const size_t *steps;        /* k_count, borrowed */
+    struct br_study *next_norm; /* the same study in another norm, all else being equal: measured
+                                   on the same marches; NULL: none. Borrowed */
     /* out */
     struct br_cell *cell; /* n_count * k_count, by rows of equal n; owned */
     struct br_judge_report judged_by;
     char *events;                     /* what the reference tells, lines; owned; may be NULL */
-    double reference_scale;           /* largest L2 norm |u| + |w| of the reference, m^(3/2) */
-    double reference_error[BR_PARTS]; /* by the auditor, m^(3/2); without one: NaN */
+    double reference_scale;           /* the norm of the reference itself */
+    double reference_error[BR_PARTS]; /* by the auditor; without one: NaN */
+    double reference_tip[2];          /* the reference's displacement at x = L, t = T, m */
 };
 
 /* How a long run tells of itself, and is told to stop. May be called from any thread. */
@@ -68,7 +70,8 @@ struct br_observer {
  * the cells march in lockstep, a few time levels at a time, so that neither is
  * ever stored as a whole. The results do not depend on the number of threads.
  * A cell that fails is marked; the reference failing, or grids that do not nest,
- * fail the call (BR_BAD_INPUT names the nearest values that would do). */
+ * fail the call (BR_BAD_INPUT names the nearest values that would do). `studies` are
+ * the first ones of their chains of norms. */
 enum br_status br_study_run(struct br_study *studies, size_t count, int threads,
                             const struct br_observer *observer, struct br_error *err);
 void br_study_clear(struct br_study *study);

@@ -103,6 +103,7 @@ static enum br_status march_pairs(const struct br_study *s, struct br_triangle *
     for (size_t i = 0; i < count; i++)
         pair[i] = (struct br_study){
             .scene = s->scene,
+            .norm = s->norm,
             .method = s->method,
             .judge = &br_judge_fine,
             .reference_method = s->method,

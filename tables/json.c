@@ -178,8 +178,11 @@ static json_t *reference(const struct br_study *s)
         json_object_set_new(o, "at", resolution(s->scene, s->reference));
         json_object_set_new(o, "method", method(&s->reference_method));
     }
-    json_object_set_new(o, "own_axial_error", number(s->judged_by.own_error[BR_AXIAL]));
-    json_object_set_new(o, "own_bending_error", number(s->judged_by.own_error[BR_BENDING]));
+    static const char *const own[] = {"own_error", "own_axial_error", "own_bending_error"};
+    for (int part = 0; part < BR_PARTS; part++)
+        json_object_set_new(o, own[part],
+                            number(br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error,
+                                                       (enum br_part)part)));
     json_object_set_new(o, "audited_error", number(s->reference_error[BR_PART_TOTAL]));
     json_object_set_new(o, "seconds", number(s->judged_by.seconds));
     json_object_set_new(o, "scale", number(s->reference_scale));

@@ -90,7 +90,7 @@ static void print_errors(FILE *out, const struct br_report *r, enum br_part part
 {
     const struct br_study *s = br_report_fitted(r);
     char title[64], buffer[64];
-    snprintf(title, sizeof title, "%s error, m$^{3/2}$", br_part_names[part]);
+    snprintf(title, sizeof title, "%s error, %s", br_part_names[part], r->study->norm->unit_tex);
     open_table(out, r, title, " & slope in $k$");
     for (size_t i = 0; i < s->n_count; i++) {
         fprintf(out, "%zu", s->n[i]);
@@ -115,7 +115,7 @@ static void print_beside(FILE *out, const struct br_report *r)
 {
     const struct br_study *s = r->study;
     char title[96];
-    snprintf(title, sizeof title, "total error, m$^{3/2}$, against %s", s->judge->name);
+    snprintf(title, sizeof title, "total error, %s, against %s", s->norm->unit_tex, s->judge->name);
     open_table(out, r, title, "");
     for (size_t i = 0; i < s->n_count; i++) {
         fprintf(out, "%zu", s->n[i]);

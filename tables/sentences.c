@@ -47,10 +47,7 @@ void br_say_method(const struct br_report *r, const struct br_writer *w)
 {
     char cells[128], reference[512];
     describe_method(r->study, &r->study->method, cells, sizeof cells);
-    say(w,
-        "Error (31): the largest |u - u_hk| + |w - w_hk| over all time levels of a cell, L2 norms, "
-        "m^(3/2). Cells: %s.",
-        cells);
+    say(w, "%s Cells: %s.", r->study->norm->title, cells);
     describe_reference(br_report_fitted(r), reference, sizeof reference);
     say(w, "Reference: %s.", reference);
     if (!r->exact)
@@ -119,7 +116,7 @@ void br_say_orders(const struct br_report *r, const struct br_writer *w)
     for (int part = 0; part < BR_PARTS; part++)
         if (br_part_shown(r, (enum br_part)part))
             say_joint(r, (enum br_part)part, w);
-    say(w, "Theory: (26) bounds the error by c (h^(1/2) + k), Remark 2.5 by c (h + k).");
+    say(w, "Theory: %s", r->study->norm->theory);
 }
 
 static size_t count_flag(const struct br_study *s, enum br_flag flag)
@@ -143,9 +140,11 @@ static void say_failures(const struct br_study *s, const struct br_writer *w)
 static void say_reference(const struct br_study *s, double own, const struct br_writer *w)
 {
     const double floor = s->judged_by.round_off * s->reference_scale;
-    const char *by = s->auditor                            ? "measured against the exact solution"
-                     : isfinite(s->judged_by.own_error[0]) ? "by its own estimate"
-                                                           : "by the joint fit";
+    const char *by =
+        s->auditor ? "measured against the exact solution"
+        : isfinite(br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, BR_PART_TOTAL))
+            ? "by its own estimate"
+            : "by the joint fit";
     char rounding[64] = "";
     if (floor > 0)
         snprintf(rounding, sizeof rounding, "; its round-off is about %.0e", floor);

@@ -150,6 +150,7 @@ static enum br_status study(const void *data, struct br_error *err)
     static const size_t n[] = {2, 4}, steps[] = {5, 10};
     struct br_study s = {
         .scene = &d->scene,
+        .norm = br_norms[0],
         .method = d->method,
         .judge = &br_judge_fine,
         .reference_method = d->method,

@@ -23,6 +23,7 @@ static void grid_init(struct grid *g, bool fine)
     *g = (struct grid){.scene = br_test_bare()};
     g->study = (struct br_study){
         .scene = &g->scene,
+        .norm = br_norms[0],
         .method = br_method_default(),
         .judge = fine ? &br_judge_fine : &br_judge_exact,
         .reference_method = br_method_default(),
@@ -32,7 +33,7 @@ static void grid_init(struct grid *g, bool fine)
         .n = meshes,
         .steps = steps,
         .cell = g->cell,
-        .judged_by = {.own_error = {fine ? NAN : 0, fine ? NAN : 0}},
+        .judged_by = {.own_error = {{fine ? NAN : 0}, {fine ? NAN : 0}}},
         .reference_scale = 1,
     };
     for (size_t i = 0; i < CELLS; i++)
@@ -223,13 +224,13 @@ static void test_flags(void **state)
     fill(&g, &truth, 0, 1);
     /* An exact reference that knows its own error: what is below three times it is marked. */
     const double smallest = br_study_cell(&g.study, ROWS - 1, COLUMNS - 1)->error[BR_PART_TOTAL];
-    g.study.judged_by.own_error[BR_AXIAL] = smallest / 2.9;
+    g.study.judged_by.own_error[BR_AXIAL][BR_DISPLACEMENT] = smallest / 2.9;
     struct br_fits fits = fit(&g);
     assert_int_equal(br_study_cell(&g.study, ROWS - 1, COLUMNS - 1)->flag[BR_PART_TOTAL],
                      BR_FLAG_REFERENCE);
     assert_int_equal(g.cell[0].flag[BR_PART_TOTAL], BR_FLAG_NONE);
     br_fits_clear(&fits);
-    g.study.judged_by.own_error[BR_AXIAL] = smallest / 3.1;
+    g.study.judged_by.own_error[BR_AXIAL][BR_DISPLACEMENT] = smallest / 3.1;
     fits = fit(&g);
     assert_int_equal(br_study_cell(&g.study, ROWS - 1, COLUMNS - 1)->flag[BR_PART_TOTAL],
                      BR_FLAG_NONE);
@@ -313,8 +314,8 @@ static void test_own_error(void **state)
         fill(&g, &truth, 0, 1);
         for (size_t i = 0; i < CELLS; i++)
             g.cell[i].error[part] = g.cell[i].error[BR_PART_TOTAL];
-        g.study.judged_by.own_error[BR_AXIAL] = 5e-9;
-        g.study.judged_by.own_error[BR_BENDING] = 2e-9;
+        g.study.judged_by.own_error[BR_AXIAL][BR_DISPLACEMENT] = 5e-9;
+        g.study.judged_by.own_error[BR_BENDING][BR_DISPLACEMENT] = 2e-9;
         MUST(br_fit(&g.study, (enum br_part)part, &fits, &err));
         CLOSE(fits.reference_error, told[part], 1e-20);
         br_fits_clear(&fits);

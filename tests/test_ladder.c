@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "solver/modes.h"
 #include "study/ladder.h"
 #include "support.h"
 
@@ -28,7 +29,7 @@ static double *random_function(struct br_test_random *r, const struct br_field *
 
 static double *modes_of(const struct br_field *f, const double *nodal)
 {
-    double *modes = calloc(f->n * br_mode_count(f->kind), sizeof *modes);
+    double *modes = calloc(f->n * br_mode_count(f->kind, BR_DISPLACEMENT), sizeof *modes);
     assert_non_null(modes);
     br_modes(f, nodal, modes);
     return modes;
@@ -71,8 +72,9 @@ static struct br_ladder *create(enum br_field_kind kind, size_t finest, size_t c
 {
     struct br_error err = {0};
     struct br_ladder *ladder;
-    MUST(br_ladder_create(&ladder, kind, &(struct br_mesh_list){1, &finest},
-                          &(struct br_mesh_list){count, n}, &err));
+    MUST(br_ladder_create(&ladder, br_mode_count(kind, BR_DISPLACEMENT),
+                          &(struct br_mesh_list){1, &finest}, &(struct br_mesh_list){count, n},
+                          &err));
     return ladder;
 }
 
@@ -221,13 +223,13 @@ static void test_refusals(void **state)
     struct br_error err = {0};
     struct br_ladder *ladder;
     const struct br_mesh_list twelve = {1, (const size_t[]){12}};
-    REFUSED(br_ladder_create(&ladder, BR_AXIAL, &twelve,
-                             &(struct br_mesh_list){2, (const size_t[]){4, 5}}, &err),
+    REFUSED(br_ladder_create(&ladder, 2, &twelve, &(struct br_mesh_list){2, (const size_t[]){4, 5}},
+                             &err),
             BR_BAD_INPUT, "n = 5 does not divide the reference's 12");
     br_ladder_free(ladder);
-    REFUSED(br_ladder_create(&ladder, BR_AXIAL, &twelve,
-                             &(struct br_mesh_list){1, (const size_t[]){0}}, &err),
-            BR_BAD_INPUT, "n is 0");
+    REFUSED(
+        br_ladder_create(&ladder, 2, &twelve, &(struct br_mesh_list){1, (const size_t[]){0}}, &err),
+        BR_BAD_INPUT, "n is 0");
     br_ladder_free(ladder);
     br_ladder_free(NULL);
 }

@@ -15,6 +15,7 @@ static struct br_study study_of(const struct br_scene *scene, struct br_resoluti
 {
     return (struct br_study){
         .scene = scene,
+        .norm = br_norms[0],
         .method = br_method_default(),
         .judge = &br_judge_fine,
         .reference_method = br_method_default(),

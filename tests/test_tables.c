@@ -54,6 +54,7 @@ static void sample_init(struct sample *s, bool with_exact)
     fill_cells(s->exact_cell, 1.5);
     s->study = (struct br_study){
         .scene = &s->scene,
+        .norm = br_norms[0],
         .method = br_method_default(),
         .judge = &br_judge_fine,
         .reference_method = br_method_default(),
@@ -63,7 +64,7 @@ static void sample_init(struct sample *s, bool with_exact)
         .n = meshes,
         .steps = steps,
         .cell = s->cell,
-        .judged_by = {.own_error = {NAN, NAN}, .round_off = 1e-12},
+        .judged_by = {.own_error = {{NAN}, {NAN}}, .round_off = 1e-12},
         .reference_scale = 1,
         .reference_error = {NAN, NAN, NAN},
     };

@@ -18,6 +18,7 @@ static struct br_study run(const struct br_scene *scene)
     struct br_error err = {0};
     struct br_study s = {
         .scene = scene,
+        .norm = br_norms[0],
         .method = br_method_default(),
         .judge = &br_judge_exact,
         .n_count = 3,
@@ -166,6 +167,7 @@ static void test_printed_tables(void **state)
         MUST(br_printed_read(path, &printed, &err));
         struct br_study s = {
             .scene = &scene,
+            .norm = br_norms[0],
             .method = br_method_default(),
             .judge = &br_judge_fine,
             .reference_method = br_method_default(),

@@ -10,7 +10,7 @@
 struct exact_judge {
     struct br_exact *exact;
     struct br_exact_state *state;
-    struct br_exact_projection **projection[2]; /* by br_field_kind, then by mesh */
+    struct br_exact_projection **projection[2][BR_MEASURES]; /* by br_field_kind, then by mesh */
     bool modelled[2];
     size_t meshes, levels;
     double length, duration; /* m, s */
@@ -29,34 +29,55 @@ static void exact_free(void *self)
     struct exact_judge *e = self;
     if (!e)
         return;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        for (size_t i = 0; e->projection[kind] && i < e->meshes; i++)
-            br_exact_projection_free(e->projection[kind][i]);
-        free(e->projection[kind]);
-    }
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (int measure = 0; measure < BR_MEASURES; measure++) {
+            struct br_exact_projection **projection = e->projection[kind][measure];
+            for (size_t i = 0; projection && i < e->meshes; i++)
+                br_exact_projection_free(projection[i]);
+            free(projection);
+        }
     br_exact_state_free(e->state);
     br_exact_free(e->exact);
     free(e);
 }
 
-/* Both enumerations begin with axial; the parts are displacements. */
-static struct br_exact_part part_of(enum br_field_kind kind)
+static struct br_exact_part part_of(enum br_field_kind kind, enum br_measure measure)
 {
-    return (struct br_exact_part){.field = kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING};
+    return (struct br_exact_part){
+        .field = kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING,
+        .velocity = measure != BR_DISPLACEMENT,
+        .order = measure != BR_STRAIN_RATE ? 0
+                 : kind == BR_AXIAL        ? 1
+                                           : 2,
+    };
 }
 
 static enum br_status create_projections(struct exact_judge *e, enum br_field_kind kind,
-                                         const struct br_judge_request *r, struct br_error *err)
+                                         enum br_measure measure, const struct br_judge_request *r,
+                                         struct br_error *err)
 {
-    e->projection[kind] = br_allocate(r->mesh_count, sizeof *e->projection[kind]);
-    if (!e->projection[kind])
+    struct br_exact_projection **projection = br_allocate(r->mesh_count, sizeof *projection);
+    e->projection[kind][measure] = projection;
+    if (!projection)
         return br_no_memory(err, "the exact reference");
-    const struct br_exact_part part = part_of(kind);
+    const struct br_exact_part part = part_of(kind, measure);
     enum br_status status = BR_OK;
     for (size_t i = 0; i < r->mesh_count && !status; i++) {
-        const struct br_exact_mesh mesh = {r->mesh[i], br_mode_count(kind) - 1};
-        status = br_exact_projection_create(&e->projection[kind][i], e->exact, &part, &mesh, err);
+        const struct br_exact_mesh mesh = {r->mesh[i], br_mode_count(kind, measure) - 1};
+        status = br_exact_projection_create(&projection[i], e->exact, &part, &mesh, err);
     }
+    return status;
+}
+
+static enum br_status create_all_projections(struct exact_judge *e,
+                                             const struct br_judge_request *r, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (int measure = 0; measure < BR_TIP && !status; measure++)
+            if (r->measured[kind][measure])
+                status = create_projections(e, (enum br_field_kind)kind, (enum br_measure)measure,
+                                            r, err);
     return status;
 }
 
@@ -80,9 +101,8 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
     enum br_status status = br_exact_create(&e->exact, r->scene, &options, err);
     if (!status)
         status = br_exact_state_create(&e->state, e->exact, err);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        if (e->modelled[kind])
-            status = create_projections(e, (enum br_field_kind)kind, r, err);
+    if (!status)
+        status = create_all_projections(e, r, err);
     e->seconds = seconds_now() - start;
     return status;
 }
@@ -97,11 +117,16 @@ static enum br_status exact_advance(void *self, size_t i, struct br_error *err)
     return BR_OK;
 }
 
-static void exact_look(void *self, enum br_field_kind kind, size_t mesh, double *modes,
-                       double *rest)
+static void exact_look(void *self, const struct br_look_at *at, double *values, double *rest)
 {
     struct exact_judge *e = self;
-    br_exact_projection_apply(e->projection[kind][mesh], e->exact, e->state, modes, rest);
+    if (at->measure == BR_TIP) {
+        *values = e->state->tip[part_of(at->kind, BR_TIP).field].displacement;
+        *rest = 0;
+        return;
+    }
+    br_exact_projection_apply(e->projection[at->kind][at->measure][at->mesh], e->exact, e->state,
+                              values, rest);
 }
 
 /* A root mean square over the beam, times sqrt(L), is an L2 norm. */
@@ -112,9 +137,13 @@ static struct br_judge_report exact_report(const void *self)
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         if (!e->modelled[kind])
             continue;
-        const struct br_exact_report r =
-            br_exact_report(e->exact, part_of((enum br_field_kind)kind).field);
-        report.own_error[kind] = r.error.displacement * sqrt(e->length);
+        const struct br_exact_size error =
+            br_exact_report(e->exact, part_of((enum br_field_kind)kind, BR_TIP).field).error;
+        double *own = report.own_error[kind];
+        own[BR_DISPLACEMENT] = error.displacement * sqrt(e->length);
+        own[BR_VELOCITY] = error.velocity * sqrt(e->length);
+        own[BR_STRAIN_RATE] = NAN;
+        own[BR_TIP] = error.displacement;
     }
     return report;
 }
