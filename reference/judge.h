@@ -67,6 +67,9 @@ struct br_judge {
 
 extern const struct br_judge br_judge_fine, br_judge_exact;
 
+/* No judge, a row all the same: its functions are NULL (study/differences.h). */
+extern const struct br_judge br_judge_none;
+
 /* NULL-terminated. */
 extern const struct br_judge *const br_judges[];
 const struct br_judge *br_judge_find(const char *name);

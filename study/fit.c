@@ -108,10 +108,14 @@ static enum br_status fit_joint(const struct br_study *s, enum br_part part,
     size_t count = 0;
     for (size_t i = 0; i < cell_count(s); i++)
         if (usable(&s->cell[i], part))
-            o[count++] = (struct br_observation){mesh_of(s, &s->cell[i]), step_of(s, &s->cell[i]),
-                                                 s->cell[i].error[part]};
-    const enum br_status status =
-        br_joint_fit_solve(o, count, br_reference_mesh(s), br_reference_step(s), fit, err);
+            o[count++] = (struct br_observation){
+                .h = mesh_of(s, &s->cell[i]),
+                .k = step_of(s, &s->cell[i]),
+                .h_ref = br_mesh_size(s->scene, s->cell[i].against.n),
+                .k_ref = br_time_step(s->scene, s->cell[i].against.steps),
+                .error = s->cell[i].error[part],
+            };
+    const enum br_status status = br_joint_fit_solve(o, count, fit, err);
     free(o);
     return status;
 }

@@ -22,7 +22,6 @@ static const struct {
 struct problem {
     const struct br_observation *observation;
     size_t count;
-    double h_ref, k_ref;
     enum br_joint_kind kind;
 };
 
@@ -52,12 +51,10 @@ static double model(const struct problem *problem, const gsl_vector *v,
     double full[UNKNOWNS] = {0};
     for (size_t i = 0; i < kinds[problem->kind].count; i++)
         full[kinds[problem->kind].unknown[i]] = gsl_vector_get(v, i);
-    const double a = problem->kind == BR_JOINT_TIME
-                         ? 0
-                         : signed_error(full[LOG_C_H], full[P], o->h, problem->h_ref);
-    const double b = problem->kind == BR_JOINT_SPACE
-                         ? 0
-                         : signed_error(full[LOG_C_K], full[Q], o->k, problem->k_ref);
+    const double a =
+        problem->kind == BR_JOINT_TIME ? 0 : signed_error(full[LOG_C_H], full[P], o->h, o->h_ref);
+    const double b =
+        problem->kind == BR_JOINT_SPACE ? 0 : signed_error(full[LOG_C_K], full[Q], o->k, o->k_ref);
     return combine(a, b, sin(full[THETA]));
 }
 
@@ -282,9 +279,8 @@ static void describe(const struct problem *problem, const struct attempt *a,
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
         total += pow(log(o->error) - mean, 2);
-        worst = fmax(
-            worst,
-            fabs(log(br_joint_model(fit, o->h, o->k, problem->h_ref, problem->k_ref) / o->error)));
+        worst =
+            fmax(worst, fabs(log(br_joint_model(fit, o->h, o->k, o->h_ref, o->k_ref) / o->error)));
     }
     fit->misfit = sqrt(a->sum / (double)problem->count);
     fit->worst = worst;
@@ -314,10 +310,23 @@ static void nothing_fitted(struct br_joint_fit *fit)
                                  .r_squared = NAN};
 }
 
+/* Whether some observation differs from its reference in h (or k). */
+static bool varies(const struct problem *problem, bool over_h)
+{
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct br_observation *o = &problem->observation[i];
+        if (over_h ? o->h != o->h_ref : o->k != o->k_ref)
+            return true;
+    }
+    return false;
+}
+
 /* An order needs three values of what it is an order in. */
 static bool enough(const struct problem *problem)
 {
     const bool space = problem->kind != BR_JOINT_TIME, time = problem->kind != BR_JOINT_SPACE;
+    if ((space && !varies(problem, true)) || (time && !varies(problem, false)))
+        return false;
     return problem->count >= kinds[problem->kind].count + 2 &&
            (!space || distinct(problem, true) >= 3) && (!time || distinct(problem, false) >= 3);
 }
@@ -330,8 +339,7 @@ static bool is_told(const struct br_joint_fit *fit)
 }
 
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
-                                  double h_ref, double k_ref, struct br_joint_fit *fit,
-                                  struct br_error *err)
+                                  struct br_joint_fit *fit, struct br_error *err)
 {
     nothing_fitted(fit);
     fit->points = count;
@@ -342,7 +350,7 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
     struct br_joint_fit both = {0};
     double best = INFINITY;
     for (int kind = BR_JOINT_BOTH; kind <= BR_JOINT_SPACE; kind++) {
-        const struct problem problem = {observation, count, h_ref, k_ref, (enum br_joint_kind)kind};
+        const struct problem problem = {observation, count, (enum br_joint_kind)kind};
         if (!enough(&problem))
             continue;
         struct attempt a = best_attempt(&problem);

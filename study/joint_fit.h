@@ -7,15 +7,16 @@
 
 /* One cell as the fit sees it. */
 struct br_observation {
-    double h, k;  /* m, s */
-    double error; /* > 0, m^(3/2) */
+    double h, k;         /* m, s */
+    double h_ref, k_ref; /* of what it was compared with, m, s; 0: the continuous problem */
+    double error;        /* > 0 */
 };
 
 /* Fits the model with what the observations can tell; a fit that cannot be done
- * has converged == false. Fails with BR_NO_MEMORY. */
+ * has converged == false. Where all have h = h_ref, or k = k_ref, it has no such part. Fails with
+ * BR_NO_MEMORY. */
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
-                                  double h_ref, double k_ref, struct br_joint_fit *fit,
-                                  struct br_error *err);
+                                  struct br_joint_fit *fit, struct br_error *err);
 
 /* value -+ half width of the 95 % interval: t quantile times the deviation. */
 struct br_estimate br_estimate_of(double value, double deviation, size_t freedom);

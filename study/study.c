@@ -132,7 +132,10 @@ static enum br_status create_cells(struct br_study *s, struct br_error *err)
         return br_no_memory(err, "the table");
     for (size_t i = 0; i < s->n_count; i++)
         for (size_t j = 0; j < s->k_count; j++)
-            s->cell[i * s->k_count + j].at = (struct br_resolution){s->n[i], s->steps[j]};
+            s->cell[i * s->k_count + j] = (struct br_cell){
+                .at = {s->n[i], s->steps[j]},
+                .against = s->judge->nests ? s->reference : (struct br_resolution){0},
+            };
     return BR_OK;
 }
 

@@ -25,10 +25,11 @@ const char *br_flag_name(
 
 struct br_cell {
     struct br_resolution at;
-    double error[BR_PARTS];      /* in the norm's unit; NaN: failed */
-    double worst_time[BR_PARTS]; /* where the maximum was, s */
-    double tip[2];               /* displacement at x = L, t = T, by br_field_kind, m */
-    double seconds;              /* of the march alone, one thread */
+    struct br_resolution against; /* what it is compared with; zeros: the continuous problem */
+    double error[BR_PARTS];       /* in the norm's unit; NaN: failed */
+    double worst_time[BR_PARTS];  /* where the maximum was, s */
+    double tip[2];                /* displacement at x = L, t = T, by br_field_kind, m */
+    double seconds;               /* of the march alone, one thread */
     enum br_flag flag[BR_PARTS];
     bool unstable;           /* br_march_contact_unstable */
     struct br_error failure; /* status BR_OK where the march went well */

@@ -190,6 +190,13 @@ static json_t *reference(const struct br_study *s)
     return o;
 }
 
+static json_t *tip(const struct br_report *r, enum br_field_kind kind)
+{
+    const struct br_study *s = br_report_fitted(r);
+    return json_pack("{s:o, s:o}", "extrapolated", estimate(&r->tip[kind]), "reference",
+                     number(s->judge == &br_judge_none ? NAN : s->reference_tip[kind]));
+}
+
 static json_t *document(const struct br_report *r, const struct br_provenance *p)
 {
     const struct br_study *s = r->study;
@@ -200,6 +207,9 @@ static json_t *document(const struct br_report *r, const struct br_provenance *p
     json_object_set_new(o, "scene",
                         json_pack("{s:o, s:o, s:o}", "name", string(s->scene->name), "path",
                                   string(p->scene_path), "text", string(p->scene_text)));
+    json_object_set_new(o, "norm",
+                        json_pack("{s:s, s:s, s:s}", "name", s->norm->name, "unit", s->norm->unit,
+                                  "title", s->norm->title));
     json_object_set_new(o, "method", method(&s->method));
     json_object_set_new(o, "reference", reference(s));
     if (r->exact)
@@ -208,6 +218,10 @@ static json_t *document(const struct br_report *r, const struct br_provenance *p
     json_object_set_new(o, "wall_seconds", number(r->wall_seconds));
     json_object_set_new(o, "cells", cells(r));
     json_object_set_new(o, "fits", all_fits(r));
+    if (s->scene->axial.modelled)
+        json_object_set_new(o, "axial_tip", tip(r, BR_AXIAL));
+    if (s->scene->bending.modelled)
+        json_object_set_new(o, "bending_tip", tip(r, BR_BENDING));
     json_object_set_new(o, "triangle_inequality", triangles(r));
     json_object_set_new(o, "findings", sentences(r));
     return o;

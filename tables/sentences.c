@@ -109,6 +109,25 @@ static void say_joint(const struct br_report *r, enum br_part part, const struct
     }
 }
 
+/* What the cells alone say of the tip, and what the reference has there. */
+static void say_tip(const struct br_report *r, enum br_field_kind kind, const struct br_writer *w)
+{
+    const struct br_study *s = br_report_fitted(r);
+    const struct br_estimate *e = &r->tip[kind];
+    const double half = (e->high - e->low) / 2, there = s->reference_tip[kind];
+    char reference[256] = "";
+    if (s->judge != &br_judge_none)
+        snprintf(reference, sizeof reference, "; the %s reference has %.10g, %s", s->judge->name,
+                 there,
+                 there >= e->low && there <= e->high
+                     ? "within that"
+                     : "OUTSIDE that: the cells are too coarse to see all of the solution, or one "
+                       "of the two is wrong");
+    if (isfinite(half))
+        say(w, "From the cells alone (Richardson, h and k to 0): %s(L, T) = %.10g +- %.1e m%s.",
+            kind == BR_AXIAL ? "u" : "w", e->value, half, reference);
+}
+
 void br_say_orders(const struct br_report *r, const struct br_writer *w)
 {
     say(w, "Joint fit with 95 %% intervals: e^2 = a^2 + 2 r a b + b^2, a = C_h (h^p - h_ref^p), "
@@ -117,6 +136,10 @@ void br_say_orders(const struct br_report *r, const struct br_writer *w)
         if (br_part_shown(r, (enum br_part)part))
             say_joint(r, (enum br_part)part, w);
     say(w, "Theory: %s", r->study->norm->theory);
+    if (r->study->scene->axial.modelled)
+        say_tip(r, BR_AXIAL, w);
+    if (r->study->scene->bending.modelled)
+        say_tip(r, BR_BENDING, w);
 }
 
 static size_t count_flag(const struct br_study *s, enum br_flag flag)
@@ -139,6 +162,8 @@ static void say_failures(const struct br_study *s, const struct br_writer *w)
 
 static void say_reference(const struct br_study *s, double own, const struct br_writer *w)
 {
+    if (s->judge == &br_judge_none)
+        return;
     const double floor = s->judged_by.round_off * s->reference_scale;
     const char *by =
         s->auditor ? "measured against the exact solution"

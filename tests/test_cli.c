@@ -205,7 +205,14 @@ static void test_bad_options(void **state)
         {"study example1 --reference fine:100,0.1x", "expected fine:N,K"},
         {"study example1 --reference fine:0,0.1", "expected fine:N,K"},
         {"study example1 --reference fine:100,0.3", "--reference: k = 0.3 s does not divide"},
-        {"study example1 --reference exact:3", "expected one of: fine:N,K, exact"},
+        {"study example1 --reference exact:3", "expected one of: exact, fine:N,K, none"},
+        {"study example1 --norm l2,h1", "--norm: found 'h1', expected one of: l2, energy, tip"},
+        {"study example1 --norm tip,l2,tip", "--norm: tip is given twice"},
+        {"study example1 --norm ''", "--norm: found '', expected one of"},
+        {"study example1 --norm l2,", "--norm: found '', expected one of"},
+        {"study example1 --reference none --n 10,15", "n = 10 does not divide n = 15"},
+        {"study example1 --reference none --k .01,.004", "not all among those of k = 0.004 s"},
+        {"study example1 --reference none --n 10", "found 1 meshes and 4 time steps, expected"},
         {"study example1 --reference guess", "--reference: found 'guess'"},
         {"study example1 --solver lu", "--solver: found 'lu', expected one of: riccati, umfpack"},
         {"study example1 --contact soft", "expected one of: lagged, implicit"},
@@ -334,6 +341,34 @@ static void test_failures(void **state)
 }
 
 /* Every row of every registry is in the help. */
+static bool file_contains(const char *name, const char *text)
+{
+    char path[512];
+    path_in_folder(name, path);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    static char contents[1 << 18];
+    contents[fread(contents, 1, sizeof contents - 1, file)] = '\0';
+    fclose(file);
+    return strstr(contents, text) != NULL;
+}
+
+/* A report for each norm, and without a reference for each direction. */
+static void test_norms(void **state)
+{
+    (void)state;
+    expect("study example2 --norm energy,l2 --n 5,10 --k 0.1,0.05 --format csv --no-plots --quiet "
+           "--out norms",
+           NULL, 0, "");
+    assert_int_equal(count_files("norms"), 2);
+    expect("study example2 --norm energy,tip --reference none --n 5,10,20 --k 0.1,0.05 "
+           "--format text --no-plots --out none",
+           NULL, 0, "Example 2, slip: differences of successive time steps");
+    assert_int_equal(count_files("none"), 4);
+    assert_true(file_contains("none/example2-tip-meshes.txt", "Error at the tip"));
+    assert_true(file_contains("none/example2-energy-steps.txt", "Error (25)"));
+}
+
 static void test_help(void **state)
 {
     (void)state;
@@ -399,18 +434,6 @@ static void test_interrupted_plots(void **state)
     assert_int_equal(count_files("drawing"), 0);
 }
 
-static bool file_contains(const char *name, const char *text)
-{
-    char path[512];
-    path_in_folder(name, path);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    static char contents[1 << 18];
-    contents[fread(contents, 1, sizeof contents - 1, file)] = '\0';
-    fclose(file);
-    return strstr(contents, text) != NULL;
-}
-
 /* A title with a format's own characters, in a file whose name is not UTF-8. */
 static void test_odd_names(void **state)
 {
@@ -435,7 +458,7 @@ int main(void)
         cmocka_unit_test(test_threads),     cmocka_unit_test(test_single_cell),
         cmocka_unit_test(test_failures),    cmocka_unit_test(test_help),
         cmocka_unit_test(test_data_folder), cmocka_unit_test(test_interrupted_plots),
-        cmocka_unit_test(test_odd_names),
+        cmocka_unit_test(test_odd_names),   cmocka_unit_test(test_norms),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

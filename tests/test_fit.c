@@ -36,8 +36,11 @@ static void grid_init(struct grid *g, bool fine)
         .judged_by = {.own_error = {{fine ? NAN : 0}, {fine ? NAN : 0}}},
         .reference_scale = 1,
     };
-    for (size_t i = 0; i < CELLS; i++)
+    for (size_t i = 0; i < CELLS; i++) {
         g->cell[i].at = (struct br_resolution){meshes[i / COLUMNS], steps[i % COLUMNS]};
+        if (fine)
+            g->cell[i].against = g->study.reference;
+    }
 }
 
 struct truth {
