@@ -124,6 +124,7 @@ void br_scene_clear(struct br_scene *s)
         br_function_free(functions[i]);
     free(s->name);
     free(s->title);
+    free(s->remark);
     free(s->axial.solution);
     free(s->bending.solution);
     *s = (struct br_scene){0};

@@ -80,6 +80,7 @@ struct br_friction {
 struct br_scene {
     char *name;      /* owned; one word */
     char *title;     /* owned; one line for a person */
+    char *remark;    /* owned; NULL, or what a reader should know beside the results */
     double length;   /* L, m */
     double duration; /* T, s */
     double density;  /* rho, kg/m */

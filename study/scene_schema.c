@@ -8,6 +8,7 @@
 
 const struct br_scene_key br_scene_keys[] = {
     {"", "title", BR_KEY_TEXT, true, 0, "", AT(title), "one line for a person"},
+    {"", "remark", BR_KEY_TEXT, false, 0, "", AT(remark), "a sentence to stand beside the results"},
     {"", "length", BR_KEY_POSITIVE, true, 0, "m", AT(length), "the beam's length L"},
     {"", "duration", BR_KEY_POSITIVE, true, 0, "s", AT(duration), "the time interval T"},
     {"", "density", BR_KEY_NOT_NEGATIVE, true, 0, "kg/m", AT(density), "mass per length rho"},

@@ -124,8 +124,8 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
         print_printed(out, r);
     fprintf(out, "\n## Which cells count\n\n");
     br_say_flags(r, &w);
-    if (br_report_fitted(r)->events && *br_report_fitted(r)->events)
-        fprintf(out, "\n## Events of the exact solution\n\n");
+    if (br_has_events(r))
+        fprintf(out, "\n## Events\n\n");
     br_say_events(r, &w);
     fprintf(out, "\n## Observed orders\n\n");
     br_say_orders(r, &w);

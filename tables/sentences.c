@@ -219,6 +219,12 @@ void br_say_flags(const struct br_report *r, const struct br_writer *w)
     say_failures(r->study, w);
 }
 
+bool br_has_events(const struct br_report *r)
+{
+    const char *events = br_report_fitted(r)->events;
+    return (events && *events) || r->study->scene->remark;
+}
+
 void br_say_events(const struct br_report *r, const struct br_writer *w)
 {
     const char *line = br_report_fitted(r)->events;
@@ -227,6 +233,8 @@ void br_say_events(const struct br_report *r, const struct br_writer *w)
         say(w, "%.*s", (int)length, line);
         line += length + (line[length] == '\n');
     }
+    if (r->study->scene->remark)
+        say(w, "%s", r->study->scene->remark);
 }
 
 static size_t contradictions(const struct br_report *r)

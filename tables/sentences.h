@@ -16,13 +16,16 @@ struct br_writer {
 /* What was measured and how: the error, the reference, the method. */
 void br_say_method(const struct br_report *report, const struct br_writer *w);
 
-/* The fitted orders of all modelled parts, with the theory's beside them. */
+/* The fitted orders of all modelled parts, with the theory's beside them, and the tips
+ * that the cells alone tell. */
 void br_say_orders(const struct br_report *report, const struct br_writer *w);
 
 /* Which cells are flagged, and why. */
 void br_say_flags(const struct br_report *report, const struct br_writer *w);
 
-/* The events at the tip, where the reference knows them. */
+/* The events at the tip, where the reference knows them, and the scene's remark; whether
+ * there is any of these. */
+bool br_has_events(const struct br_report *report);
 void br_say_events(const struct br_report *report, const struct br_writer *w);
 
 /* How ours and the printed values differ, and the triangle inequality. */

@@ -139,7 +139,7 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
     br_say_flags(r, &w);
     fputc('\n', out);
     br_say_events(r, &w);
-    if (br_report_fitted(r)->events && *br_report_fitted(r)->events)
+    if (br_has_events(r))
         fputc('\n', out);
     br_say_orders(r, &w);
     if (r->printed)
