@@ -46,13 +46,14 @@ static void pair_clear(struct pair *p)
     }
 }
 
-/* Root mean square over the beam of the difference of two fields. */
-static double distance(struct pair *p, double *const q[2])
+/* Root mean square over the beam of the difference of two fields, derived `order` times
+ * in x / L. */
+static double distance(struct pair *p, double *const q[2], size_t order)
 {
     size_t length[2];
     for (size_t i = 0; i < 2; i++) {
-        br_modes_expand(p->field[i]->modes, 0, q[i], p->series[i]);
-        length[i] = br_modes_length(p->field[i]->modes, 0);
+        br_modes_expand(p->field[i]->modes, order, q[i], p->series[i]);
+        length[i] = br_modes_length(p->field[i]->modes, order);
     }
     double sum = 0;
     for (size_t k = 0; k < length[0] || k < length[1]; k++) {
@@ -60,6 +61,17 @@ static double distance(struct pair *p, double *const q[2])
         const double b = k < length[1] ? p->series[1][k] : 0;
         sum += (a - b) * (a - b);
     }
+    return sqrt(sum);
+}
+
+/* Root mean square of the first field's velocity, derived in x / L. */
+static double strain_norm(struct pair *p, size_t order)
+{
+    br_modes_expand(p->field[0]->modes, order, p->v[0], p->series[0]);
+    const size_t length = br_modes_length(p->field[0]->modes, order);
+    double sum = 0;
+    for (size_t k = 0; k < length; k++)
+        sum += p->series[0][k] * p->series[0][k];
     return sqrt(sum);
 }
 
@@ -85,18 +97,22 @@ static void compare_at(struct pair *p, double t, bool smooth, struct br_exact_re
         tip[i] = br_track_at(p->track[i], t, p->q[i], p->v[i]);
         tip[i].force = br_law_force_at(p->law[i], t, &tip[i]);
     }
-    const double norm = 1 / sqrt(p->field[0]->length);
+    const double length = p->field[0]->length, norm = 1 / sqrt(length);
+    const size_t degree = p->field[0]->modes->degree;
+    const double strain = pow(length, -(double)degree);
     struct br_exact_size *largest = &report->largest, *error = &report->error;
     grow(&largest->displacement, norm * br_field_norm(p->field[0], p->q[0], 1));
     grow(&largest->displacement, fabs(tip[0].displacement + p->track[0]->gap));
     grow(&largest->velocity, norm * br_field_norm(p->field[0], p->v[0], 1));
     grow(&largest->velocity, fabs(tip[0].velocity));
     grow(&largest->force, fabs(tip[0].force));
-    grow(&error->displacement, safety * distance(p, p->q));
+    grow(&largest->strain_rate, strain_norm(p, degree) * strain);
+    grow(&error->displacement, safety * distance(p, p->q, 0));
     grow(&error->displacement, safety * fabs(tip[0].displacement - tip[1].displacement));
     if (!smooth)
         return;
-    grow(&error->velocity, safety * distance(p, p->v));
+    grow(&error->velocity, safety * distance(p, p->v, 0));
+    grow(&error->strain_rate, safety * distance(p, p->v, degree) * strain);
     grow(&error->velocity, safety * fabs(tip[0].velocity - tip[1].velocity));
     grow(&error->force, safety * fabs(tip[0].force - tip[1].force));
 }
@@ -117,7 +133,7 @@ static void compare_field(struct pair *p, double duration, struct br_exact_repor
 {
     static const double inside[] = {0, 0.0913, 0.3719, 0.5452, 0.8556};
     if (!same_phases(p->track[0], p->track[1])) {
-        report->error = (struct br_exact_size){INFINITY, INFINITY, INFINITY};
+        report->error = (struct br_exact_size){INFINITY, INFINITY, INFINITY, INFINITY};
         return;
     }
     for (size_t i = 0; i < 2; i++)
@@ -144,6 +160,7 @@ enum br_status br_exact_compare(struct br_exact *exact, const struct br_solution
         struct pair p = {0};
         report->modes = exact->solution->field[which]->modes->count;
         report->steps = exact->solution->track[which]->steps;
+        exact->noise[which] = 1e-13 * exact->solution->track[which]->free_velocity;
         status = pair_init(&p, exact->solution, other, which, err);
         if (!status)
             compare_field(&p, exact->duration, report);

@@ -20,16 +20,19 @@ struct br_exact;
 
 /* Zeros mean the defaults. Tolerances are relative to the largest value over time. */
 struct br_exact_options {
-    double tolerance;      /* 1e-10: of displacements, 2e-11 to 1e-3 */
-    double rate_tolerance; /* ten times tolerance, and at least that: of velocities and forces */
-    size_t max_modes;      /* 256 per field, 18 to 1000 */
-    size_t max_steps;      /* 20000 per field */
+    double tolerance;         /* 1e-10: of displacements, 2e-11 to 1e-3 */
+    double rate_tolerance;    /* ten times tolerance, and at least that: of velocities and forces */
+    size_t max_modes;         /* 256 per field, 18 to 1000 */
+    size_t max_steps;         /* 20000 per field */
+    bool (*stop)(void *self); /* asked every step; true: give up, with BR_INTERRUPTED */
+    void *stop_self;
 };
 
 /* Solves the scene (only read, and not needed afterwards) twice or more, each
  * time with more modes and other steps, until two solutions agree; *out (owned
  * by the caller) is then the last one. Fails with BR_BAD_INPUT, BR_NO_MEMORY,
- * BR_SINGULAR, or BR_NOT_FINITE: the tolerance cannot be promised, and why. */
+ * BR_SINGULAR, BR_INTERRUPTED, or BR_NOT_FINITE: the tolerance cannot be
+ * promised, and why. */
 enum br_status br_exact_create(struct br_exact **out, const struct br_scene *scene,
                                const struct br_exact_options *options, struct br_error *err);
 void br_exact_free(struct br_exact *exact);
@@ -41,12 +44,14 @@ struct br_exact_size {
     double displacement; /* root of the mean square over the beam, or the tip's if larger, m */
     double velocity;     /* the same, m/s */
     double force;        /* at the tip, N */
+    double strain_rate;  /* root of the mean square over the beam of v_x, 1/s, or w_xxt, 1/(m s);
+                            decides nothing */
 };
 
 /* What is known about a field, 0 everywhere if it is not modelled. */
 struct br_exact_report {
     struct br_exact_size largest; /* over time */
-    struct br_exact_size error;   /* estimate, over time. Velocity and force have boundary layers
+    struct br_exact_size error;   /* estimate, over time. Velocity, its strain and force have layers
                                      after an event, force like (t - t*)^(1/4): theirs leave out
                                      what is within 1e-6 T of it */
     size_t modes, steps;

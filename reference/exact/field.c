@@ -7,6 +7,7 @@
 struct data {
     double stiffness, viscosity;
     const struct br_load *load;
+    const struct br_function *tip_force, *tip_moment;
     const struct br_function *displacement, *velocity;
     const struct br_function *slope; /* of the displacement, derived degree - 1 times */
 };
@@ -16,10 +17,25 @@ static struct data select_data(const struct br_scene *s, size_t degree)
     const struct br_axial *a = &s->axial;
     const struct br_bending *b = &s->bending;
     if (degree == 1)
-        return (struct data){a->stiffness,     a->viscosity, &a->load,
-                             &a->displacement, &a->velocity, &a->displacement};
-    return (struct data){b->stiffness,     b->viscosity, &b->load,
-                         &b->displacement, &b->velocity, &b->displacement_slope};
+        return (struct data){
+            .stiffness = a->stiffness,
+            .viscosity = a->viscosity,
+            .load = &a->load,
+            .tip_force = &a->tip_force,
+            .displacement = &a->displacement,
+            .velocity = &a->velocity,
+            .slope = &a->displacement,
+        };
+    return (struct data){
+        .stiffness = b->stiffness,
+        .viscosity = b->viscosity,
+        .load = &b->load,
+        .tip_force = &b->tip_force,
+        .tip_moment = &b->tip_moment,
+        .displacement = &b->displacement,
+        .velocity = &b->velocity,
+        .slope = &b->displacement_slope,
+    };
 }
 
 static enum br_status set_initial(struct br_field *f, const struct data *d, struct br_error *err)
@@ -72,6 +88,8 @@ enum br_status br_field_create(struct br_field **out, const struct br_scene *sce
         return br_no_memory(err, "the modes");
     f->length = scene->length;
     f->load = d.load;
+    f->tip_force = d.tip_force;
+    f->tip_moment = d.tip_moment;
     f->damping = d.viscosity * power;
     f->stiffness = d.stiffness * power;
     enum br_status status = allocate(f, degree, modes, err);
@@ -100,6 +118,17 @@ void br_field_free(struct br_field *f)
     free(f);
 }
 
+/* out[i] += force * tip_i + moment * slope_i / L */
+static void add_tip(const struct br_field *f, double t, double *out)
+{
+    double force, moment = 0;
+    br_function_evaluate(f->tip_force, 1, &f->length, t, &force);
+    if (f->tip_moment)
+        br_function_evaluate(f->tip_moment, 1, &f->length, t, &moment);
+    for (size_t i = 0; i < f->modes->count; i++)
+        out[i] += force * f->modes->tip[i] + moment / f->length * f->modes->slope[i];
+}
+
 enum br_status br_field_load(const struct br_field *f, double t, double *out, struct br_error *err)
 {
     double factor;
@@ -115,6 +144,7 @@ enum br_status br_field_load(const struct br_field *f, double t, double *out, st
     }
     for (size_t i = 0; i < f->modes->count; i++)
         out[i] = factor * space[i];
+    add_tip(f, t, out);
     return BR_OK;
 }
 

@@ -13,6 +13,7 @@ struct br_field {
     double *mass;              /* modes, kg */
     double damping, stiffness; /* N s/m, N/m */
     const struct br_load *load;
+    const struct br_function *tip_force, *tip_moment; /* N, N m; the moment NULL for axial */
     double *load_space;   /* modes: of the load's space part, where that is constant in time */
     double *displacement; /* modes: at t = 0, m */
     double *velocity;     /* modes: at t = 0, m/s */

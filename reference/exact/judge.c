@@ -97,7 +97,9 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
     e->duration = r->scene->duration;
     struct br_exact_options options = {0};
     if (r->modest)
-        options = (struct br_exact_options){.max_modes = 64};
+        options.max_modes = 64;
+    options.stop = r->stop;
+    options.stop_self = r->stop_self;
     enum br_status status = br_exact_create(&e->exact, r->scene, &options, err);
     if (!status)
         status = br_exact_state_create(&e->state, e->exact, err);
@@ -142,7 +144,7 @@ static struct br_judge_report exact_report(const void *self)
         double *own = report.own_error[kind];
         own[BR_DISPLACEMENT] = error.displacement * sqrt(e->length);
         own[BR_VELOCITY] = error.velocity * sqrt(e->length);
-        own[BR_STRAIN_RATE] = NAN;
+        own[BR_STRAIN_RATE] = error.strain_rate * sqrt(e->length);
         own[BR_TIP] = error.displacement;
     }
     return report;

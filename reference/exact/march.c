@@ -74,8 +74,10 @@ static double step_error(const struct march *m, const struct scale *scale)
     const double before = br_field_norm(s->field, s->series + S - 2, S);
     const double velocity = larger(last, before / 8);
     const double force = larger(fabs(s->tip.force[S - 1]), fabs(s->tip.force[S - 2]) / 8);
-    double error = ratio(velocity * s->tip.length, scale->displacement + velocity * s->tip.length);
-    error = larger(error, ratio(velocity, scale->velocity));
+    const double noise = 10 * DBL_EPSILON * s->free_size / m->options->tolerance;
+    double error =
+        ratio(velocity * s->tip.length, scale->displacement + (velocity + noise) * s->tip.length);
+    error = larger(error, ratio(velocity, scale->velocity + noise));
     if (s->phase == BR_CLOSED || s->phase == BR_STICK) /* elsewhere the force is given */
         error = larger(error,
                        ratio(force, scale->force + force_noise(m, scale) / m->options->tolerance));
@@ -170,6 +172,8 @@ static void accept(struct march *m, double time)
     if (!m->status)
         m->status = br_track_append(m->track, &s->tip, s->q, s->series, m->err);
     m->scale = trial_scale(m);
+    m->track->free_velocity =
+        larger(m->track->free_velocity, s->free_size / sqrt(s->field->length));
     br_stepper_accept(m->s, time);
     m->scale.displacement = larger(m->scale.displacement, br_field_norm(s->field, s->q, 1));
     m->fresh = false;
@@ -243,7 +247,9 @@ static void step(struct march *m, double limit)
 static void march_to(struct march *m, double limit)
 {
     while (!m->status && m->s->time < limit) {
-        if (m->track->steps >= m->options->max_steps)
+        if (m->options->stop && m->options->stop(m->options->stop_self))
+            m->status = br_fail(m->err, BR_INTERRUPTED, "interrupted");
+        else if (m->track->steps >= m->options->max_steps)
             m->status = br_fail(m->err, BR_NOT_FINITE, "more than %zu time steps until %.17g s",
                                 m->options->max_steps, m->s->time);
         else

@@ -12,10 +12,12 @@ struct br_march_options {
     double tolerance;  /* what the last coefficients of a step may be of the largest value */
     double first_step; /* s: length of the first step of a phase, always accepted */
     size_t max_steps;
+    bool (*stop)(void *self); /* true: give up; NULL: never */
+    void *stop_self;
 };
 
 /* *out (owned by the caller): the history of the field under the law, both of
- * which are only read. Fails with BR_NO_MEMORY, BR_SINGULAR, or BR_NOT_FINITE
+ * which are only read. Fails with BR_NO_MEMORY, BR_SINGULAR, BR_INTERRUPTED, or BR_NOT_FINITE
  * where the solution blows up, asks for too many steps, or has phases that
  * follow each other without end. */
 enum br_status br_march(const struct br_field *field, const struct br_law *law,

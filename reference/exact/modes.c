@@ -46,21 +46,25 @@ static enum br_status decompose(struct br_modes *modes, struct br_error *err)
 }
 
 /* The tip's value is the integral over [0, 1] of the first derivative, its
- * coefficient of p_0 = 1. */
+ * coefficient of p_0 = 1; and the tip's slope that of the second one. */
 static enum br_status find_tip(struct br_modes *modes, struct br_error *err)
 {
     const size_t m = modes->count;
-    double *slope = br_allocate(m + modes->degree, sizeof *slope);
+    double *series = br_allocate(m + modes->degree, sizeof *series);
     double *q = br_allocate(m, sizeof *q);
-    if (slope && q)
+    if (series && q)
         for (size_t i = 0; i < m; i++) {
             q[i] = 1;
-            br_modes_expand(modes, 1, q, slope);
-            modes->tip[i] = slope[0];
+            br_modes_expand(modes, 1, q, series);
+            modes->tip[i] = series[0];
+            if (modes->degree > 1) {
+                br_modes_expand(modes, 2, q, series);
+                modes->slope[i] = series[0];
+            }
             q[i] = 0;
         }
-    const bool done = slope && q;
-    free(slope);
+    const bool done = series && q;
+    free(series);
     free(q);
     return done ? BR_OK : br_no_memory(err, "the modes");
 }
@@ -78,8 +82,9 @@ enum br_status br_modes_create(struct br_modes **out, size_t count, size_t degre
     modes->shape = br_allocate(count * (count + degree), sizeof *modes->shape);
     modes->curve = br_allocate(count * count, sizeof *modes->curve);
     modes->tip = br_allocate(count, sizeof *modes->tip);
+    modes->slope = br_allocate(count, sizeof *modes->slope);
     enum br_status status = BR_OK;
-    if (!modes->size || !modes->shape || !modes->curve || !modes->tip)
+    if (!modes->size || !modes->shape || !modes->curve || !modes->tip || !modes->slope)
         status = br_no_memory(err, "the modes");
     if (!status)
         status = decompose(modes, err);
@@ -100,6 +105,7 @@ void br_modes_free(struct br_modes *modes)
     free(modes->shape);
     free(modes->curve);
     free(modes->tip);
+    free(modes->slope);
     free(modes);
 }
 

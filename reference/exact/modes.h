@@ -22,6 +22,7 @@ struct br_modes {
     double *shape; /* Y, (m + degree) x m, by columns */
     double *curve; /* U, m x m, by columns */
     double *tip;   /* m: value of each mode at the free end */
+    double *slope; /* m: derivative of each there; degree 2 only, else zeros */
 };
 
 /* Fails with BR_NO_MEMORY or BR_SINGULAR. */

@@ -31,6 +31,8 @@ static enum br_status solve(struct br_solution *s, enum br_exact_field which,
         .tolerance = fineness->tolerance,
         .first_step = fineness->first_step,
         .max_steps = fineness->max_steps,
+        .stop = fineness->stop,
+        .stop_self = fineness->stop_self,
     };
     enum br_status status =
         br_field_create(&s->field[which], scene, axial ? 1 : 2, fineness->modes, err);

@@ -18,6 +18,8 @@ struct br_exact {
     double duration; /* T, s */
     struct br_solution *solution;
     struct br_exact_report report[BR_EXACT_FIELDS];
+    double noise[BR_EXACT_FIELDS]; /* m/s: where a force at the tip cancels all motion, this much
+                                      of the velocity is round-off */
     size_t events;
     struct br_exact_event *event;
 };
@@ -26,6 +28,8 @@ struct br_exact {
 struct br_fineness {
     size_t modes, max_steps;
     double tolerance, first_step; /* see br_march_options */
+    bool (*stop)(void *self);
+    void *stop_self;
 };
 
 enum br_status br_solution_create(struct br_solution **out, const struct br_scene *scene,

@@ -147,6 +147,7 @@ enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *e
     s->tip = (struct br_tip){
         .start = s->time, .length = h, .phase = s->phase, .displacement = s->tip_displacement};
     move(s); /* as if the tip were free */
+    s->free_size = br_field_norm(s->field, s->series, S);
     for (int round = 0; round < (s->phase == BR_STICK ? 2 : 1) && !status; round++) {
         status = br_law_force(s->law, &s->radau, s->tip_response, &s->tip, err);
         move(s);

@@ -21,6 +21,8 @@ struct br_stepper {
 
     struct br_tip tip; /* the last trial step */
     double *series;    /* modes x BR_STAGES: its velocity, m/s */
+    double free_size;  /* m^(3/2)/s: mean velocity in L2 as if the tip were free: where a tip
+                          force cancels it, its round-off is what remains */
 
     double length;    /* s, of the step that the responses are for */
     double *response; /* modes x BR_STAGES x BR_STAGES: velocity over force, m/(N s) */

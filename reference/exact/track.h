@@ -26,7 +26,9 @@ struct br_entry {
 
 struct br_track {
     size_t modes;
-    double gap; /* m */
+    double gap;           /* m */
+    double free_velocity; /* largest root mean square over the beam of a step's mean velocity,
+                             had the tip been let go for that step, m/s */
     size_t steps, step_room;
     struct br_tip *tip;   /* steps */
     double *displacement; /* steps x modes: at each step's start, m */
