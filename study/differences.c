@@ -118,7 +118,8 @@ static void collect_tips(const struct pairs *p, struct br_tips *tips)
             const size_t from_i = finest && last ? i - 1 : i;
             const struct br_study *s = &p->study[pair_index(p->grid, !finest || last, from_i, j)];
             const double *tip = finest && last ? s->reference_tip : s->cell[0].tip;
-            const bool failed = s->cell[0].failure.status && !(finest && last);
+            const bool failed =
+                (s->cell[0].failure.status || s->cell[0].unstable) && !(finest && last);
             for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
                 tips->value[kind][i * columns + j] = failed ? NAN : tip[kind];
         }

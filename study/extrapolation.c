@@ -30,7 +30,7 @@ enum br_status br_tips_of_study(struct br_tips *tips, const struct br_study *stu
     const enum br_status status = br_tips_create(tips, study, err);
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
         for (size_t i = 0; i < study->n_count * study->k_count; i++)
-            if (!study->cell[i].failure.status)
+            if (!study->cell[i].failure.status && !study->cell[i].unstable)
                 tips->value[kind][i] = study->cell[i].tip[kind];
     return status;
 }
@@ -105,8 +105,24 @@ static struct br_estimate around(double value, double half)
     return (struct br_estimate){value, value - half, value + half};
 }
 
-static struct br_estimate extrapolate_line(const struct line *l)
+/* Coarse cells that failed are left out; what is left must be whole. */
+static struct line known_part(const struct line *l)
 {
+    struct line known = *l;
+    while (known.count && !isfinite(known.value[0])) {
+        known.x++;
+        known.value++;
+        known.count--;
+    }
+    for (size_t i = 0; i < known.count; i++)
+        if (!isfinite(known.value[i]))
+            known.count = 0;
+    return known;
+}
+
+static struct br_estimate extrapolate_line(const struct line *whole)
+{
+    const struct line part = known_part(whole), *l = &part;
     if (l->count < 3)
         return around(NAN, NAN);
     const struct triple fine = triple_at(l, l->count - 3);

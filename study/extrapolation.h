@@ -11,7 +11,7 @@ struct br_tips {
     size_t n_count, k_count;
     const size_t *n, *steps; /* ascending; borrowed */
     double *value[2];        /* by br_field_kind: n_count * k_count by rows of equal n, m; NaN
-                                where a cell failed; owned */
+                                where a cell failed or is unstable; owned */
 };
 
 /* Room for the tips of a grid, all NaN. Fails with BR_NO_MEMORY. */

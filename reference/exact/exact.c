@@ -12,6 +12,7 @@ static struct br_exact_options with_defaults(const struct br_exact_options *opti
 {
     struct br_exact_options o = options ? *options : (struct br_exact_options){0};
     o.tolerance = o.tolerance != 0 ? o.tolerance : 1e-10;
+    o.acceptable = o.acceptable != 0 ? o.acceptable : o.tolerance;
     o.rate_tolerance = o.rate_tolerance != 0 ? o.rate_tolerance : 10 * o.tolerance;
     o.max_modes = o.max_modes ? o.max_modes : 256;
     o.max_steps = o.max_steps ? o.max_steps : 20000;
@@ -24,6 +25,9 @@ static enum br_status check(const struct br_scene *scene, const struct br_exact_
     if (!(o->tolerance >= 2e-11 && o->tolerance <= 1e-3))
         return br_fail(err, BR_BAD_INPUT, "the tolerance is %g, expected 2e-11 to 1e-3",
                        o->tolerance);
+    if (!(o->acceptable >= o->tolerance && o->acceptable <= 1e-3))
+        return br_fail(err, BR_BAD_INPUT, "the acceptable tolerance is %g, expected %g to 1e-3",
+                       o->acceptable, o->tolerance);
     if (!(o->rate_tolerance >= 10 * o->tolerance && o->rate_tolerance <= 1))
         return br_fail(err, BR_BAD_INPUT, "the rate tolerance is %g, expected %g to 1",
                        o->rate_tolerance, 10 * o->tolerance);
@@ -119,6 +123,8 @@ static enum br_status refine(struct br_exact *exact, const struct br_scene *scen
         worst = before && exact->solution ? badness(exact, o) : INFINITY;
         if (status)
             br_fail(err, status, "%s", cause.message);
+        else if (modes == o->max_modes && worst <= o->acceptable / o->tolerance)
+            break;
         else if (modes == o->max_modes && !(worst <= 1))
             status = refuse(exact, worst, &cause, err);
         modes = modes * 3 / 2 < o->max_modes ? modes * 3 / 2 : o->max_modes;

@@ -20,10 +20,12 @@ struct br_exact;
 
 /* Zeros mean the defaults. Tolerances are relative to the largest value over time. */
 struct br_exact_options {
-    double tolerance;         /* 1e-10: of displacements, 2e-11 to 1e-3 */
-    double rate_tolerance;    /* ten times tolerance, and at least that: of velocities and forces */
-    size_t max_modes;         /* 256 per field, 18 to 1000 */
-    size_t max_steps;         /* 20000 per field */
+    double tolerance;      /* 1e-10: of displacements, 2e-11 to 1e-3 */
+    double acceptable;     /* the tolerance: up to this, 1e-3 at most, will do where max_modes are
+                              not enough for the tolerance; the report tells what was reached */
+    double rate_tolerance; /* ten times tolerance, and at least that: of velocities and forces */
+    size_t max_modes;      /* 256 per field, 18 to 1000 */
+    size_t max_steps;      /* 20000 per field */
     bool (*stop)(void *self); /* asked every step; true: give up, with BR_INTERRUPTED */
     void *stop_self;
 };

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Three judges that share little: the exact solution (nothing of the solver), a fine run
+ * (all of it), and Richardson extrapolation of coarse runs (no reference at all). On every
+ * bundled scene they must agree about the tip within their error bars. */
+#include <math.h>
+
+#include "reference/exact/exact.h"
+#include "study/extrapolation.h"
+#include "support.h"
+
+/* A scene and the coarsest of its time steps: small enough that the cells see what happens
+ * in the scene at all (Example 1 slips for 40 microseconds). */
+struct meeting {
+    const char *scene;
+    size_t steps;
+};
+
+static const struct meeting meetings[] = {
+    {"example1", 400000}, {"example2", 200},   {"example3", 4000},
+    {"example4", 12000},  {"impact", 8000},    {"reversal", 4000},
+    {"chatter", 8000},    {"vibration", 8000}, {"release", 4000},
+};
+
+enum { MESHES = 4, STEPS = 4 };
+static const size_t meshes[MESHES] = {4, 8, 16, 32};
+
+/* What a judge says, and how far it may be off. */
+struct verdict {
+    double value, bar;
+};
+
+static void check_agreement(const struct meeting *m, const char *field, const char *judges,
+                            struct verdict a, struct verdict b)
+{
+    if (!(fabs(a.value - b.value) <= a.bar + b.bar))
+        fail_msg("%s, %s: %s say %.15g +- %.1e and %.15g +- %.1e m", m->scene, field, judges,
+                 a.value, a.bar, b.value, b.bar);
+}
+
+/* The tips of coarse marches, without any reference. */
+static void extrapolate(const struct meeting *m, const struct br_scene *scene,
+                        struct verdict verdict[2])
+{
+    struct br_error err = {0};
+    size_t steps[STEPS];
+    for (size_t j = 0; j < STEPS; j++)
+        steps[j] = m->steps << j;
+    const struct br_study grid = {.n_count = MESHES, .k_count = STEPS, .n = meshes, .steps = steps};
+    const struct br_method method = br_method_default();
+    struct br_tips tips;
+    MUST(br_tips_create(&tips, &grid, &err));
+#pragma omp parallel for collapse(2) schedule(dynamic)
+    for (size_t i = 0; i < MESHES; i++)
+        for (size_t j = 0; j < STEPS; j++) {
+            struct br_march *march = br_test_march(scene, meshes[i], steps[j], &method);
+            br_test_advance(march, steps[j]);
+            for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+                tips.value[kind][i * STEPS + j] =
+                    br_march_tip_displacement(march, (enum br_field_kind)kind);
+            br_march_free(march);
+        }
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_estimate e = br_extrapolate(&tips, (enum br_field_kind)kind);
+        verdict[kind] = (struct verdict){e.value, (e.high - e.low) / 2};
+    }
+    br_tips_clear(&tips);
+}
+
+/* A first-order run is about as far from the truth as from one with steps twice as large;
+ * twice that is its bar. */
+static void run_fine(const struct meeting *m, const struct br_scene *scene,
+                     struct verdict verdict[2])
+{
+    const struct br_method method = br_method_default();
+    double tip[2][2];
+    for (size_t half = 0; half < 2; half++) {
+        const size_t steps = m->steps << (STEPS - 1 + half);
+        struct br_march *march = br_test_march(scene, 64, steps, &method);
+        br_test_advance(march, steps);
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+            tip[half][kind] = br_march_tip_displacement(march, (enum br_field_kind)kind);
+        br_march_free(march);
+    }
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        verdict[kind] = (struct verdict){tip[1][kind], 2 * fabs(tip[1][kind] - tip[0][kind])};
+}
+
+static void solve_exactly(const struct br_scene *scene, struct verdict verdict[2])
+{
+    struct br_error err = {0};
+    struct br_exact *exact;
+    struct br_exact_state *state;
+    MUST(br_exact_create(&exact, scene, NULL, &err));
+    MUST(br_exact_state_create(&state, exact, &err));
+    br_exact_at(exact, scene->duration, state);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const enum br_exact_field field = kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING;
+        verdict[kind] = (struct verdict){state->tip[field].displacement,
+                                         br_exact_report(exact, field).error.displacement};
+    }
+    br_exact_state_free(state);
+    br_exact_free(exact);
+}
+
+static void test_agreement(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"axial", "bending"};
+    for (size_t i = 0; i < sizeof meetings / sizeof *meetings; i++) {
+        const struct meeting *m = &meetings[i];
+        struct br_scene scene = br_test_bundled(m->scene);
+        const bool modelled[2] = {scene.axial.modelled, scene.bending.modelled};
+        struct verdict coarse[2], fine[2], exact[2];
+        extrapolate(m, &scene, coarse);
+        run_fine(m, &scene, fine);
+        solve_exactly(&scene, exact);
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+            if (!modelled[kind])
+                continue;
+            print_message("# %s %s: exact %.12g +- %.0e, fine +- %.0e, Richardson +- %.0e\n",
+                          m->scene, names[kind], exact[kind].value, exact[kind].bar, fine[kind].bar,
+                          coarse[kind].bar);
+            check_agreement(m, names[kind], "exact and fine", exact[kind], fine[kind]);
+            check_agreement(m, names[kind], "exact and Richardson", exact[kind], coarse[kind]);
+            check_agreement(m, names[kind], "fine and Richardson", fine[kind], coarse[kind]);
+            /* bars that say nothing agree with everything */
+            AT_MOST(fine[kind].bar, 0.01);
+            AT_MOST(coarse[kind].bar, 0.01);
+        }
+        br_scene_clear(&scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_agreement)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
