@@ -3,7 +3,14 @@
 
 #include <string.h>
 
-const struct br_judge *const br_judges[] = {&br_judge_fine, &br_judge_exact, NULL};
+const struct br_judge *const br_judges[] = {
+    &br_judge_fine,
+    &br_judge_exact,
+#ifdef BR_HAVE_MATHEVAL
+    &br_judge_mms,
+#endif
+    NULL,
+};
 
 const struct br_judge *br_judge_find(const char *name)
 {

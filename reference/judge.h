@@ -55,6 +55,7 @@ struct br_judge {
 };
 
 extern const struct br_judge br_judge_fine, br_judge_exact;
+extern const struct br_judge br_judge_mms; /* only where built with libmatheval */
 
 /* NULL-terminated. */
 extern const struct br_judge *const br_judges[];
