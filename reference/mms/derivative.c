@@ -6,10 +6,12 @@
 #include <pthread.h>
 #include <string.h>
 
+#include "reference/mms/product.h"
+
 struct br_derivative {
-    void *evaluator; /* of libmatheval */
+    void *evaluator[2]; /* of libmatheval: X(x) and T(t), or the whole and NULL */
     struct br_order order;
-    bool uses_x, uses_t;
+    bool uses[2]; /* x, t */
     char text[];
 };
 
@@ -33,47 +35,75 @@ static enum br_status check_characters(const char *text, struct br_error *err)
 }
 
 /* Replaces the evaluator by its derivative. */
-static void derive(struct br_derivative *d, char *name, int times)
+static void derive(void **evaluator, char *name, int times)
 {
-    for (int i = 0; i < times && d->evaluator; i++) {
-        void *next = evaluator_derivative(d->evaluator, name);
-        evaluator_destroy(d->evaluator);
-        d->evaluator = next;
+    for (int i = 0; i < times && *evaluator; i++) {
+        void *next = evaluator_derivative(*evaluator, name);
+        evaluator_destroy(*evaluator);
+        *evaluator = next;
     }
 }
 
-static enum br_status find_variables(struct br_derivative *d, struct br_error *err)
+/* used: in/out, x and t. */
+static enum br_status find_variables(void *evaluator, const char *text, bool used[2],
+                                     struct br_error *err)
 {
     char **names;
     int count;
-    d->uses_x = d->uses_t = false;
-    evaluator_get_variables(d->evaluator, &names, &count);
+    evaluator_get_variables(evaluator, &names, &count);
     for (int i = 0; i < count; i++) {
         const bool is_x = strcmp(names[i], "x") == 0, is_t = strcmp(names[i], "t") == 0;
         if (!is_x && !is_t)
             return br_fail(err, BR_BAD_INPUT, "found the variable '%s' in '%s', expected x and t",
-                           names[i], d->text);
-        d->uses_x |= is_x;
-        d->uses_t |= is_t;
+                           names[i], text);
+        used[0] |= is_x;
+        used[1] |= is_t;
     }
     return BR_OK;
 }
 
-static enum br_status parse_and_derive(struct br_derivative *d, struct br_error *err)
+/* One factor, or the whole, derived. */
+static enum br_status parse_and_derive(struct br_derivative *d, char *text, struct br_order order,
+                                       void **evaluator, struct br_error *err)
 {
-    d->evaluator = evaluator_create(d->text);
-    if (!d->evaluator)
+    *evaluator = evaluator_create(text);
+    if (!*evaluator)
         return br_fail(err, BR_BAD_INPUT,
                        "found '%s', expected an expression that can be derived symbolically: "
                        "+ - * / ^ sin cos tan asin acos atan sinh cosh tanh acosh atanh exp log "
                        "sqrt abs step",
                        d->text);
-    enum br_status status = find_variables(d, err); /* of the whole, before some drop out */
+    bool before[2] = {false, false}; /* some variables may drop out */
+    const enum br_status status = find_variables(*evaluator, d->text, before, err);
     if (status)
         return status;
-    derive(d, name_x, d->order.x);
-    derive(d, name_t, d->order.t);
-    return d->evaluator ? find_variables(d, err) : br_no_memory(err, "a derivative");
+    derive(evaluator, name_x, order.x);
+    derive(evaluator, name_t, order.t);
+    return *evaluator ? find_variables(*evaluator, d->text, d->uses, err)
+                      : br_no_memory(err, "a derivative");
+}
+
+static enum br_status create_evaluators(struct br_derivative *d, struct br_error *err)
+{
+    const size_t size = br_product_size(strlen(d->text));
+    char *in_x = br_allocate(2 * size, 1);
+    if (!in_x)
+        return br_no_memory(err, "a derivative");
+    char *in_t = in_x + size;
+    const bool product = br_product_split(d->text, in_x, in_t);
+    pthread_mutex_lock(&parser);
+    enum br_status status;
+    if (product) {
+        status = parse_and_derive(d, in_x, (struct br_order){d->order.x, 0}, &d->evaluator[0], err);
+        if (!status)
+            status =
+                parse_and_derive(d, in_t, (struct br_order){0, d->order.t}, &d->evaluator[1], err);
+    } else {
+        status = parse_and_derive(d, d->text, d->order, &d->evaluator[0], err);
+    }
+    pthread_mutex_unlock(&parser);
+    free(in_x);
+    return status;
 }
 
 enum br_status br_derivative_create(struct br_derivative **out, const char *text,
@@ -88,9 +118,7 @@ enum br_status br_derivative_create(struct br_derivative **out, const char *text
         return br_no_memory(err, "a derivative");
     strcpy(d->text, text);
     d->order = order;
-    pthread_mutex_lock(&parser);
-    status = parse_and_derive(d, err);
-    pthread_mutex_unlock(&parser);
+    status = create_evaluators(d, err);
     if (status) {
         br_derivative_free(d);
         return status;
@@ -107,16 +135,10 @@ enum br_status br_derivative_clone(const struct br_derivative *d, struct br_deri
 
 void br_derivative_free(struct br_derivative *d)
 {
-    if (d && d->evaluator)
-        evaluator_destroy(d->evaluator);
+    for (int i = 0; d && i < 2; i++)
+        if (d->evaluator[i])
+            evaluator_destroy(d->evaluator[i]);
     free(d);
-}
-
-static double evaluate(const struct br_derivative *d, double x, double t)
-{
-    char *names[] = {name_x, name_t};
-    double values[] = {x, t};
-    return evaluator_evaluate(d->evaluator, 2, names, values);
 }
 
 /* A few units in the last place to the right. */
@@ -127,23 +149,33 @@ static double beyond(double a)
     return a;
 }
 
-double br_derivative_at(const struct br_derivative *d, double x, double t)
+/* The value there, or from the right. */
+static double evaluate(void *evaluator, double x, double t)
 {
     const double points[][2] = {{x, t}, {x, beyond(t)}, {beyond(x), t}, {beyond(x), beyond(t)}};
+    char *names[] = {name_x, name_t};
     double value = NAN;
-    for (size_t i = 0; i < sizeof points / sizeof *points && !isfinite(value); i++)
-        value = evaluate(d, points[i][0], points[i][1]);
+    for (size_t i = 0; i < sizeof points / sizeof *points && !isfinite(value); i++) {
+        double at[] = {points[i][0], points[i][1]};
+        value = evaluator_evaluate(evaluator, 2, names, at);
+    }
     return value;
+}
+
+double br_derivative_at(const struct br_derivative *d, double x, double t)
+{
+    const double factor = d->evaluator[1] ? evaluate(d->evaluator[1], x, t) : 1;
+    return factor * evaluate(d->evaluator[0], x, t);
 }
 
 bool br_derivative_uses_x(const struct br_derivative *d)
 {
-    return d->uses_x;
+    return d->uses[0];
 }
 
 bool br_derivative_uses_t(const struct br_derivative *d)
 {
-    return d->uses_t;
+    return d->uses[1];
 }
 
 enum { SAMPLES = 29 };
