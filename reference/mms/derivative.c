@@ -12,6 +12,8 @@ struct br_derivative {
     void *evaluator[2]; /* of libmatheval: X(x) and T(t), or the whole and NULL */
     struct br_order order;
     bool uses[2]; /* x, t */
+    size_t kept;  /* points at which X is known */
+    double *x;    /* kept points, m, and then kept values of X */
     char text[];
 };
 
@@ -138,6 +140,8 @@ void br_derivative_free(struct br_derivative *d)
     for (int i = 0; d && i < 2; i++)
         if (d->evaluator[i])
             evaluator_destroy(d->evaluator[i]);
+    if (d)
+        free(d->x);
     free(d);
 }
 
@@ -166,6 +170,33 @@ double br_derivative_at(const struct br_derivative *d, double x, double t)
 {
     const double factor = d->evaluator[1] ? evaluate(d->evaluator[1], x, t) : 1;
     return factor * evaluate(d->evaluator[0], x, t);
+}
+
+/* X at the points; NULL without memory. */
+static const double *keep_factor(struct br_derivative *d, size_t count, const double *x)
+{
+    const size_t bytes = count * sizeof *x;
+    if (count == d->kept && memcmp(x, d->x, bytes) == 0)
+        return d->x + count;
+    free(d->x);
+    d->kept = 0;
+    d->x = br_allocate(2 * count, sizeof *x);
+    if (!d->x)
+        return NULL;
+    d->kept = count;
+    memcpy(d->x, x, bytes);
+    for (size_t i = 0; i < count; i++)
+        d->x[count + i] = evaluate(d->evaluator[0], x[i], 0);
+    return d->x + count;
+}
+
+void br_derivative_values(struct br_derivative *d, size_t count, const double *x, double t,
+                          double *value)
+{
+    const double *factor = d->evaluator[1] && count > 1 ? keep_factor(d, count, x) : NULL;
+    const double in_t = factor ? evaluate(d->evaluator[1], 0, t) : 0;
+    for (size_t i = 0; i < count; i++)
+        value[i] = factor ? in_t * factor[i] : br_derivative_at(d, x[i], t);
 }
 
 bool br_derivative_uses_x(const struct br_derivative *d)

@@ -37,6 +37,11 @@ void br_derivative_free(struct br_derivative *derivative); /* accepts NULL */
  * finite, the value from the right: at a slightly later t, else at a slightly larger x. */
 double br_derivative_at(const struct br_derivative *derivative, double x, double t);
 
+/* The same at count points x, in; value: out, count. Of a product X(x) T(t) the values of X
+ * are kept for the next call with the same x, as a load or a projection makes it. */
+void br_derivative_values(struct br_derivative *derivative, size_t count, const double *x, double t,
+                          double *value);
+
 /* Which variables occur in it. */
 bool br_derivative_uses_x(const struct br_derivative *derivative);
 bool br_derivative_uses_t(const struct br_derivative *derivative);

@@ -9,13 +9,12 @@
 #include "solver/modes.h"
 
 struct mms_judge {
-    struct br_projection *projection[2]; /* by br_field_kind; NULL: not modelled */
-    char *solution[2];
-    size_t *mesh; /* elements */
-    size_t levels;
-    double length, duration; /* m, s */
-    double time;             /* s */
-    double tail[2];          /* the largest of br_projection_rest, m^3 */
+    struct br_projection **projection[2]; /* by br_field_kind, then by mesh */
+    char *solution[2];                    /* NULL: not modelled */
+    size_t meshes, levels;
+    double duration; /* s */
+    double time;     /* s */
+    double tail[2];  /* the largest of br_projection_rest, m^3 */
     double seconds;
 };
 
@@ -32,24 +31,32 @@ static void mms_free(void *self)
     if (!j)
         return;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        br_projection_free(j->projection[kind]);
+        for (size_t i = 0; j->projection[kind] && i < j->meshes; i++)
+            br_projection_free(j->projection[kind][i]);
+        free(j->projection[kind]);
         free(j->solution[kind]);
     }
-    free(j->mesh);
     free(j);
 }
 
-static enum br_status create_part(struct mms_judge *j, enum br_field_kind kind, const char *text,
-                                  struct br_error *err)
+static enum br_status create_part(struct mms_judge *j, enum br_field_kind kind,
+                                  const struct br_judge_request *r, struct br_error *err)
 {
+    const char *text = kind == BR_AXIAL ? r->scene->axial.solution : r->scene->bending.solution;
     if (!text)
         return BR_OK;
     j->solution[kind] = br_allocate(strlen(text) + 1, 1);
-    if (!j->solution[kind])
-        return br_no_memory(err, "the solution");
+    j->projection[kind] = br_allocate(r->mesh_count, sizeof(struct br_projection *));
+    if (!j->solution[kind] || !j->projection[kind])
+        return br_no_memory(err, "the manufactured solution");
     strcpy(j->solution[kind], text);
     const struct br_projected what = {.order = {0, 0}, .kept = br_mode_count(kind)};
-    return br_projection_create(&j->projection[kind], text, &what, err);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < r->mesh_count && !status; i++) {
+        const struct br_projection_mesh mesh = {r->scene->length, r->mesh[i]};
+        status = br_projection_create(&j->projection[kind][i], text, &what, &mesh, err);
+    }
+    return status;
 }
 
 static enum br_status mms_create(void **self, const struct br_judge_request *r,
@@ -64,14 +71,13 @@ static enum br_status mms_create(void **self, const struct br_judge_request *r,
                        "'solution' in axial and bending");
     struct mms_judge *j = br_allocate(1, sizeof *j);
     *self = j;
-    if (!j || !(j->mesh = br_allocate(r->mesh_count, sizeof *j->mesh)))
+    if (!j)
         return br_no_memory(err, "the manufactured solution");
-    memcpy(j->mesh, r->mesh, r->mesh_count * sizeof *j->mesh);
+    j->meshes = r->mesh_count;
     j->levels = r->levels;
-    j->length = scene->length;
     j->duration = scene->duration;
-    const enum br_status status = create_part(j, BR_AXIAL, scene->axial.solution, err);
-    return status ? status : create_part(j, BR_BENDING, scene->bending.solution, err);
+    const enum br_status status = create_part(j, BR_AXIAL, r, err);
+    return status ? status : create_part(j, BR_BENDING, r, err);
 }
 
 static enum br_status mms_advance(void *self, size_t i, struct br_error *err)
@@ -87,7 +93,7 @@ static void mms_look(void *self, enum br_field_kind kind, size_t mesh, double *m
     struct mms_judge *j = self;
     const double start = seconds_now();
     const struct br_projection_rest sums =
-        br_projection_apply(j->projection[kind], j->length, j->mesh[mesh], j->time, modes);
+        br_projection_apply(j->projection[kind][mesh], j->time, modes);
     *rest = sums.rest;
     j->tail[kind] = fmax(j->tail[kind], sums.tail);
     j->seconds += seconds_now() - start;

@@ -20,16 +20,23 @@ struct br_projection_rest {
     double tail; /* of the last two degrees of it: how well that is known */
 };
 
+/* n equal elements of [0, length], m. */
+struct br_projection_mesh {
+    double length;
+    size_t n;
+};
+
 struct br_projection;
 
 /* Of the solution `text`. Fails with BR_BAD_INPUT (not kept <= BR_PROJECTION_MOST_KEPT, or
  * as br_derivative_create) or BR_NO_MEMORY; *projection is then NULL. */
 enum br_status br_projection_create(struct br_projection **projection, const char *text,
-                                    const struct br_projected *what, struct br_error *err);
+                                    const struct br_projected *what,
+                                    const struct br_projection_mesh *mesh, struct br_error *err);
 void br_projection_free(struct br_projection *projection); /* accepts NULL */
 
-/* On n elements of [0, length], m, at t, s: modes out, n * kept values. */
-struct br_projection_rest br_projection_apply(const struct br_projection *projection, double length,
-                                              size_t n, double t, double *modes);
+/* At t, s: modes out, n * kept values. */
+struct br_projection_rest br_projection_apply(struct br_projection *projection, double t,
+                                              double *modes);
 
 #endif

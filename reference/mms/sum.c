@@ -6,6 +6,8 @@
 struct sum {
     struct br_sum of;
     struct br_derivative *derivative[BR_SUM_MOST_TERMS];
+    double *part; /* workspace */
+    size_t room;  /* its length */
 };
 
 static double value_at(const struct sum *s, double x, double t)
@@ -17,10 +19,32 @@ static double value_at(const struct sum *s, double x, double t)
     return value;
 }
 
+/* Room for one term at count points; false without memory. */
+static bool make_room(struct sum *s, size_t count)
+{
+    if (count <= s->room)
+        return true;
+    free(s->part);
+    s->part = br_allocate(count, sizeof *s->part);
+    s->room = s->part ? count : 0;
+    return s->part;
+}
+
 static void sum_evaluate(void *self, size_t count, const double *x, double t, double *value)
 {
+    struct sum *s = self;
+    if (!isnan(s->of.x) || !isnan(s->of.t) || count < 2 || !make_room(s, count)) {
+        for (size_t i = 0; i < count; i++)
+            value[i] = value_at(s, x[i], t);
+        return;
+    }
     for (size_t i = 0; i < count; i++)
-        value[i] = value_at(self, x[i], t);
+        value[i] = 0;
+    for (size_t term = 0; term < s->of.count; term++) {
+        br_derivative_values(s->derivative[term], count, x, t, s->part);
+        for (size_t i = 0; i < count; i++)
+            value[i] += s->of.term[term].factor * s->part[i];
+    }
 }
 
 static void sum_free(void *self)
@@ -28,6 +52,8 @@ static void sum_free(void *self)
     struct sum *s = self;
     for (size_t i = 0; s && i < s->of.count; i++)
         br_derivative_free(s->derivative[i]);
+    if (s)
+        free(s->part);
     free(s);
 }
 
