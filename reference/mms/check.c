@@ -38,30 +38,60 @@ static const char *name_of(enum br_field_kind kind, struct br_order order, char 
 
 /* ---- finite, and clamped ---- */
 
-enum { X_SAMPLES = 17, T_SAMPLES = 1025 };
+enum { T_SAMPLES = 1025, GRID = 33, MIDPOINTS = 24, NEAR = 10 };
+
+/* Above the largest value elsewhere. */
+static const double peak_margin = 20;
 
 static double sample(double size, int i, int count)
 {
     return size * i / (count - 1);
 }
 
-/* The largest magnitude over a grid. */
-static enum br_status find_scale(const struct br_solution *s, const struct br_derivative *d,
+/* Points where no kink is likely to be hit, and nearer and nearer to 0. */
+static void scatter(double size, double point[MIDPOINTS + NEAR])
+{
+    for (int i = 0; i < MIDPOINTS; i++)
+        point[i] = size * (i + 0.5) / MIDPOINTS;
+    for (int i = 0; i < NEAR; i++)
+        point[MIDPOINTS + i] = size * pow(4, -i - 3);
+}
+
+/* The largest magnitude over scattered points; NaN where it is not finite. */
+static double largest_of(const struct br_solution *s, struct br_derivative *d)
+{
+    double x[MIDPOINTS + NEAR], t[MIDPOINTS + NEAR], value[MIDPOINTS + NEAR], largest = 0;
+    scatter(s->length, x);
+    scatter(s->duration, t);
+    for (int j = 0; j < MIDPOINTS + NEAR; j++) {
+        br_derivative_values(d, MIDPOINTS + NEAR, x, t[j], value);
+        for (int i = 0; i < MIDPOINTS + NEAR; i++)
+            if (!(fabs(value[i]) <= largest) && !isnan(largest))
+                largest = fabs(value[i]);
+    }
+    return largest;
+}
+
+/* Its scale, and that it is bounded on a grid that has the ends and round numbers. */
+static enum br_status find_scale(const struct br_solution *s, struct br_derivative *d,
                                  struct br_order order, double *scale, struct br_error *err)
 {
     char name[16];
-    *scale = 0;
-    for (int i = 0; i < X_SAMPLES; i++)
-        for (int j = 0; j < T_SAMPLES; j += 16) {
-            const double x = sample(s->length, i, X_SAMPLES);
-            const double t = sample(s->duration, j, T_SAMPLES);
-            const double value = br_derivative_at(d, x, t);
-            if (!isfinite(value))
+    double x[GRID], value[GRID];
+    *scale = largest_of(s, d);
+    for (int i = 0; i < GRID; i++)
+        x[i] = sample(s->length, i, GRID);
+    for (int j = 0; j < GRID; j++) {
+        const double t = sample(s->duration, j, GRID);
+        br_derivative_values(d, GRID, x, t, value);
+        for (int i = 0; i < GRID; i++)
+            if (!(fabs(value[i]) <= peak_margin * *scale))
                 return br_fail(err, BR_BAD_INPUT,
-                               "%s is %g at x = %g m, t = %g s, expected a finite number",
-                               name_of(s->kind, order, name), value, x, t);
-            *scale = fmax(*scale, fabs(value));
-        }
+                               "%s is %g at x = %g m, t = %g s, expected a finite number, at most "
+                               "%g times the largest elsewhere, %g",
+                               name_of(s->kind, order, name), value[i], x[i], t, peak_margin,
+                               *scale);
+    }
     return BR_OK;
 }
 
@@ -88,15 +118,18 @@ struct line {
     struct br_derivative *derivative, *origin;
     struct br_order order, origin_order;
     bool along_x;
-    double other; /* the fixed coordinate */
-    double scale; /* of the origin's changes */
+    double other;            /* the fixed coordinate */
+    double scale;            /* of the origin's changes */
+    double largest, allowed; /* of the derivative: met, and expected at most */
 };
 
 static double derivative_on(double s, void *line)
 {
-    const struct line *l = line;
-    return l->along_x ? br_derivative_at(l->derivative, s, l->other)
-                      : br_derivative_at(l->derivative, l->other, s);
+    struct line *l = line;
+    const double value = l->along_x ? br_derivative_at(l->derivative, s, l->other)
+                                    : br_derivative_at(l->derivative, l->other, s);
+    l->largest = fmax(l->largest, fabs(value));
+    return value;
 }
 
 static double origin_on(const struct line *l, double s)
@@ -118,14 +151,26 @@ static enum br_status disagree(const struct line *l, double from, double to, dou
                    expected, name_of(kind, l->origin_order, origin));
 }
 
+/* An integrable pole, like that of the second derivative of abs(t - 0.3)^1.5. */
+static enum br_status unbounded(const struct line *l, double from, double to, struct br_error *err)
+{
+    char name[16];
+    return br_fail(err, BR_BAD_INPUT,
+                   "%s reaches %g between %s = %.10g and %.10g %s at %s = %g %s, expected at most "
+                   "%g, %g times what it is elsewhere: it is not bounded",
+                   name_of(l->solution->kind, l->order, name), l->largest, l->along_x ? "x" : "t",
+                   from, to, l->along_x ? "m" : "s", l->along_x ? "t" : "x", l->other,
+                   l->along_x ? "s" : "m", l->allowed, peak_margin);
+}
+
 enum { PIECES = 8, INTERVALS = 400, LINES = 9 };
 
 /* The tolerance is no smaller than the round-off of a fourth derivative. */
-static enum br_status check_line(const struct line *l, gsl_integration_workspace *space,
+static enum br_status check_line(struct line *l, gsl_integration_workspace *space,
                                  struct br_error *err)
 {
     const double size = l->along_x ? l->solution->length : l->solution->duration;
-    const gsl_function f = {.function = derivative_on, .params = (void *)l};
+    const gsl_function f = {.function = derivative_on, .params = l};
     for (int i = 0; i < PIECES; i++) {
         const double from = size * i / PIECES, to = size * (i + 1) / PIECES;
         const double expected = origin_on(l, to) - origin_on(l, from);
@@ -134,6 +179,8 @@ static enum br_status check_line(const struct line *l, gsl_integration_workspace
                              &uncertainty);
         if (!(fabs(found - expected) <= 1e-7 * l->scale))
             return disagree(l, from, to, found, expected, err);
+        if (!(l->largest <= l->allowed))
+            return unbounded(l, from, to, err);
     }
     return BR_OK;
 }
@@ -171,6 +218,7 @@ static enum br_status check_order(const struct br_solution *s, struct br_order o
     if (status)
         goto done;
     l.scale = origin_scale + scale * (l.along_x ? s->length : s->duration) / PIECES;
+    l.allowed = peak_margin * scale;
     status = check_lines(&l, space, err);
 done:
     br_derivative_free(l.derivative);

@@ -153,23 +153,25 @@ static double beyond(double a)
     return a;
 }
 
-/* The value there, or from the right. */
-static double evaluate(void *evaluator, double x, double t)
+/* The value there, or of a derivative from the right. */
+static double evaluate(const struct br_derivative *d, int factor, double x, double t)
 {
     const double points[][2] = {{x, t}, {x, beyond(t)}, {beyond(x), t}, {beyond(x), beyond(t)}};
+    const bool derived = d->order.x + d->order.t > 0;
+    const size_t tries = derived ? sizeof points / sizeof *points : 1;
     char *names[] = {name_x, name_t};
     double value = NAN;
-    for (size_t i = 0; i < sizeof points / sizeof *points && !isfinite(value); i++) {
+    for (size_t i = 0; i < tries && !isfinite(value); i++) {
         double at[] = {points[i][0], points[i][1]};
-        value = evaluator_evaluate(evaluator, 2, names, at);
+        value = evaluator_evaluate(d->evaluator[factor], 2, names, at);
     }
     return value;
 }
 
 double br_derivative_at(const struct br_derivative *d, double x, double t)
 {
-    const double factor = d->evaluator[1] ? evaluate(d->evaluator[1], x, t) : 1;
-    return factor * evaluate(d->evaluator[0], x, t);
+    const double in_t = d->evaluator[1] ? evaluate(d, 1, x, t) : 1;
+    return in_t * evaluate(d, 0, x, t);
 }
 
 /* X at the points; NULL without memory. */
@@ -186,7 +188,7 @@ static const double *keep_factor(struct br_derivative *d, size_t count, const do
     d->kept = count;
     memcpy(d->x, x, bytes);
     for (size_t i = 0; i < count; i++)
-        d->x[count + i] = evaluate(d->evaluator[0], x[i], 0);
+        d->x[count + i] = evaluate(d, 0, x[i], 0);
     return d->x + count;
 }
 
@@ -194,7 +196,7 @@ void br_derivative_values(struct br_derivative *d, size_t count, const double *x
                           double *value)
 {
     const double *factor = d->evaluator[1] && count > 1 ? keep_factor(d, count, x) : NULL;
-    const double in_t = factor ? evaluate(d->evaluator[1], 0, t) : 0;
+    const double in_t = factor ? evaluate(d, 1, 0, t) : 0;
     for (size_t i = 0; i < count; i++)
         value[i] = factor ? in_t * factor[i] : br_derivative_at(d, x[i], t);
 }

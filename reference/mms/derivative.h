@@ -34,7 +34,8 @@ enum br_status br_derivative_clone(const struct br_derivative *derivative,
 void br_derivative_free(struct br_derivative *derivative); /* accepts NULL */
 
 /* The value at x, m, and t, s. At a kink, where the derivatives of abs and step are not
- * finite, the value from the right: at a slightly later t, else at a slightly larger x. */
+ * finite, that of a derivative from the right: at a slightly later t, else at a slightly larger x.
+ */
 double br_derivative_at(const struct br_derivative *derivative, double x, double t);
 
 /* The same at count points x, in; value: out, count. Of a product X(x) T(t) the values of X
