@@ -165,7 +165,7 @@ static enum br_status make_bending(struct br_scene *s, struct br_error *err)
 
 /* ---- both ---- */
 
-static const char *solution_of(const struct br_scene *s, int kind)
+static const char *solution_of(const struct br_scene *s, enum br_field_kind kind)
 {
     return kind == BR_AXIAL ? s->axial.solution : s->bending.solution;
 }
@@ -203,7 +203,7 @@ enum br_status br_manufactured_apply(struct br_scene *s, const struct br_functio
     enum br_status status = check_parts(s, culprit, err);
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
         *culprit = (enum br_field_kind)kind;
-        if (solution_of(s, kind))
+        if (solution_of(s, *culprit))
             status = check_solution(s, *culprit, &parsed[kind], err);
     }
     if (status)
