@@ -7,7 +7,7 @@
  *     + - * / ^ ( ), numbers like 2, .5 and 1e-3, the variables x and t, pi and e,
  *     sin cos tan asin acos atan sinh cosh tanh acosh atanh exp log (natural) sqrt
  *     abs step (0 below zero, 1 from zero on).
- * Not in common: ln and sign (unknown to libmatheval), a^b^c ((a^b)^c to libmatheval,
+ * Not in common: ln, sign and others (unknown to libmatheval), a^b^c ((a^b)^c to libmatheval,
  * a^(b^c) elsewhere: parentheses are needed), asinh (libmatheval derives it wrongly,
  * which the check of check.h finds). */
 #ifndef BR_MMS_DERIVATIVE_H
