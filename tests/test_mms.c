@@ -2,6 +2,8 @@
 /* Manufactured solutions: symbolic derivatives against those by hand, every refusal, the
  * data that a solution determines against closed forms, and the judge. */
 #include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -377,6 +379,11 @@ static void test_data(void **state)
     assert_string_equal(s.axial.solution, "x^2*(t^2 + t)");
     assert_true(s.axial.load.space.uses_x && s.axial.load.space.uses_t);
     CLOSE(at(&s.axial.load.space, x, t), 3 * x * x * 2 - 2 * (5 * g + 7 * g_t), 1e-12);
+    const double many[] = {x, 0.1, 1.9};
+    double loads[3];
+    br_function_evaluate(&s.axial.load.space, 3, many, t, loads);
+    for (size_t i = 0; i < 3; i++)
+        CLOSE(loads[i], 6 * many[i] * many[i] - 2 * (5 * g + 7 * g_t), 1e-12);
     CLOSE(at(&s.axial.load.time, x, t), 1, 0);
     CLOSE(at(&s.bending.load.space, x, t), 3 * pow(x, 4) * 2 + 24 * (11 * g + 13 * g_t), 1e-11);
     const double press = 4 * g - 0.1;
@@ -496,14 +503,17 @@ static void test_judge(void **state)
 {
     (void)state;
     assert_ptr_equal(br_judge_find("mms"), &br_judge_mms);
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    static const char *const names[] = {"example2", "example3"}; /* both parts; bending alone */
     static const size_t n[] = {2, 3}, steps[] = {5, 7};
-    struct br_study s = study_of(&scene, n, steps);
-    REFUSED(br_study_run(&s, 1, 1, NULL, &err), BR_BAD_INPUT,
-            "--reference mms needs a scene with a manufactured solution: keys 'solution' in axial "
-            "and bending");
-    br_scene_clear(&scene);
+    for (size_t i = 0; i < 2; i++) {
+        struct br_error err = {0};
+        struct br_scene scene = br_test_bundled(names[i]);
+        struct br_study s = study_of(&scene, n, steps);
+        REFUSED(br_study_run(&s, 1, 1, NULL, &err), BR_BAD_INPUT,
+                "--reference mms needs a scene with a manufactured solution: keys 'solution' in "
+                "axial and bending");
+        br_scene_clear(&scene);
+    }
     br_judge_mms.free(NULL);
 }
 
@@ -525,6 +535,34 @@ static void test_threads(void **state)
         br_study_clear(&s);
     }
     br_scene_clear(&scene);
+}
+
+/* libmatheval's parser has global state. */
+static void *derive_many(void *wrong)
+{
+    for (int i = 0; i < 300; i++) {
+        struct br_derivative *d;
+        char text[64];
+        snprintf(text, sizeof text, "%d*sin(x)*exp(t) + t", i);
+        const bool good = !br_derivative_create(&d, text, (struct br_order){1, 1}, NULL) &&
+                          fabs(br_derivative_at(d, 0, 0) - i) <= 1e-12;
+        br_derivative_free(d);
+        if (!good)
+            atomic_fetch_add((atomic_int *)wrong, 1);
+    }
+    return NULL;
+}
+
+static void test_concurrent_parsers(void **state)
+{
+    (void)state;
+    pthread_t thread[4];
+    atomic_int wrong = 0;
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(pthread_create(&thread[i], NULL, derive_many, &wrong), 0);
+    for (int i = 0; i < 4; i++)
+        pthread_join(thread[i], NULL);
+    assert_int_equal(wrong, 0);
 }
 
 /* ---- out of memory ---- */
@@ -573,7 +611,8 @@ int main(void)
         cmocka_unit_test(test_refusals),        cmocka_unit_test(test_data),
         cmocka_unit_test(test_friction_data),   cmocka_unit_test(test_projection),
         cmocka_unit_test(test_exact),           cmocka_unit_test(test_judge),
-        cmocka_unit_test(test_threads),         cmocka_unit_test(test_allocation),
+        cmocka_unit_test(test_threads),         cmocka_unit_test(test_concurrent_parsers),
+        cmocka_unit_test(test_allocation),
     };
     return cmocka_run_group_tests(tests, make_file, remove_file);
 }
