@@ -137,7 +137,7 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
         {"n", 0, POPT_ARG_STRING, &o->n, 0, "elements of the meshes", "LIST"},
         {"k", 0, POPT_ARG_STRING, &o->k, 0, "time steps, s", "LIST"},
         {"reference", 0, POPT_ARG_STRING, &o->reference, 0,
-         "what the cells are judged by: exact, or fine:N,K", "NAME"},
+         "what the cells are judged by: exact, fine:N,K, mms or none", "NAME"},
         {"norm", 0, POPT_ARG_STRING, &o->norm, 0,
          "norms of the error (default l2), one table each: any of those below", "LIST"},
         {"solver", 0, POPT_ARG_STRING, &o->solver, 0, "linear solver", "NAME"},

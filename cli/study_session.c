@@ -70,6 +70,13 @@ static enum br_status make_steps(const struct br_scene *scene, const struct br_s
     return status;
 }
 
+/* Who knows the solution of a scene best: the one it was manufactured from, if any. */
+static const struct br_judge *best_judge(const struct br_scene *scene)
+{
+    return scene->axial.solution || scene->bending.solution ? br_judge_find("mms")
+                                                            : &br_judge_exact;
+}
+
 /* The fine run's resolution, and who measures its own error. */
 static enum br_status set_fine(const struct br_session *s, struct br_study *study,
                                struct br_error *err)
@@ -78,7 +85,7 @@ static enum br_status set_fine(const struct br_session *s, struct br_study *stud
     study->reference.n = s->request.reference_n;
     if (br_steps_of(study->scene, s->request.reference_k, &study->reference.steps, &inner))
         return br_fail(err, BR_BAD_INPUT, "--reference: %s", inner.message);
-    study->auditor = &br_judge_exact;
+    study->auditor = best_judge(study->scene);
     return BR_OK;
 }
 
@@ -100,8 +107,8 @@ static enum br_status make_grid(struct br_session *s, size_t i, struct br_error 
     study->reference_method = r->reference_method;
     study->n = w->n;
     study->steps = w->steps;
-    study->judge = r->judge;
-    return r->judge->nests ? set_fine(s, study, err) : BR_OK;
+    study->judge = r->judge ? r->judge : best_judge(&w->scene);
+    return study->judge->nests ? set_fine(s, study, err) : BR_OK;
 }
 
 /* ---- the printed values ---- */
@@ -248,9 +255,7 @@ enum br_status br_session_prepare(struct br_session *s, const struct br_study_jo
     enum br_status status = br_study_request_read(options, &s->request, err);
     if (status)
         return status;
-    if (!s->request.judge)
-        s->request.judge = &br_judge_exact;
-    const bool companion = with_exact && s->request.judge->nests;
+    const bool companion = with_exact && s->request.judge && s->request.judge->nests;
     s->heads = companion || without_reference(s) ? 2 * count : count;
     s->pages = count * s->request.norms * (without_reference(s) ? 2 : 1);
     status = allocate(s, err);

@@ -66,6 +66,7 @@ struct br_judge {
 };
 
 extern const struct br_judge br_judge_fine, br_judge_exact;
+extern const struct br_judge br_judge_mms; /* only where built with libmatheval */
 
 /* No judge, a row all the same: its functions are NULL (study/differences.h). */
 extern const struct br_judge br_judge_none;

@@ -27,6 +27,12 @@ static double minus_one(double a)
     return expm1(a);
 }
 
+/* 1 from zero on, as in GNU libmatheval (reference/mms/derivative.h). */
+static double unit_step(double a)
+{
+    return a >= 0 ? 1 : a < 0 ? 0 : NAN;
+}
+
 static void expression_free(void *self)
 {
     struct expression *e = self;
@@ -55,6 +61,7 @@ static struct expression *expression_create(const char *text)
     mupDefineConst(e->parser, "e", M_E);
     mupDefineFun1(e->parser, "expm1", minus_one, 1);
     mupDefineFun1(e->parser, "log", natural_log, 1);
+    mupDefineFun1(e->parser, "step", unit_step, 1);
     mupSetExpr(e->parser, e->text);
     return e;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Expressions in x and t, by muParser: + - * / ^, ?:, comparisons, sin cos tan
- * asin acos atan sinh cosh tanh exp expm1 ln log10 sqrt abs sign min max, and
- * the constants pi and e. */
+ * asin acos atan sinh cosh tanh exp expm1 ln log (both natural) log10 sqrt abs
+ * sign min max, step (0 below zero, 1 from zero on), and the constants pi and e. */
 #ifndef BR_EXPRESSION_H
 #define BR_EXPRESSION_H
 

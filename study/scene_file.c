@@ -8,6 +8,7 @@
 #include <string.h>
 #include <yaml.h>
 
+#include "reference/mms/manufactured.h"
 #include "study/expression.h"
 #include "study/scene_schema.h"
 
@@ -75,12 +76,12 @@ static enum br_status read_number(const struct reader *r, const struct br_scene_
     return BR_OK;
 }
 
-/* "expression [unit]" into a function. */
-static enum br_status read_expression(const struct reader *r, const struct br_scene_key *key,
-                                      const char *unit, const yaml_node_t *node,
-                                      struct br_function *out)
+enum { MOST_TEXT = 1024 };
+
+/* Splits "expression [unit]": the expression goes into text. */
+static enum br_status split_unit(const struct reader *r, const struct br_scene_key *key,
+                                 const char *unit, const yaml_node_t *node, char text[MOST_TEXT])
 {
-    char text[1024];
     const char *bracket = strrchr(text_of(node), '[');
     const size_t length = bracket ? (size_t)(bracket - text_of(node)) : 0;
     char expected[64];
@@ -89,14 +90,26 @@ static enum br_status read_expression(const struct reader *r, const struct br_sc
         return refuse(r, line_of(node), key->name,
                       "found '%s', expected an expression and its unit, like 'x*t %s'",
                       text_of(node), expected);
-    if (length >= sizeof text)
-        return refuse(r, line_of(node), key->name, "longer than %zu characters", sizeof text - 1);
+    if (length >= MOST_TEXT)
+        return refuse(r, line_of(node), key->name, "longer than %d characters", MOST_TEXT - 1);
     memcpy(text, text_of(node), length);
     text[length] = '\0';
     while (*text && text[strlen(text) - 1] == ' ')
         text[strlen(text) - 1] = '\0';
+    return BR_OK;
+}
+
+/* "expression [unit]" into a function. */
+static enum br_status read_expression(const struct reader *r, const struct br_scene_key *key,
+                                      const char *unit, const yaml_node_t *node,
+                                      struct br_function *out)
+{
+    char text[MOST_TEXT];
+    enum br_status status = split_unit(r, key, unit, node, text);
+    if (status)
+        return status;
     struct br_error inner = {0};
-    const enum br_status status = br_expression(text, out, &inner);
+    status = br_expression(text, out, &inner);
     if (status == BR_BAD_INPUT)
         return refuse(r, line_of(node), key->name, "%s", inner.message);
     return status ? br_fail(r->err, status, "%s", inner.message) : BR_OK;
@@ -126,6 +139,26 @@ static enum br_status read_history(const struct reader *r, const struct br_scene
     struct br_function *f = (struct br_function *)((char *)r->scene + key->offset);
     const enum br_status status = read_expression(r, key, key->unit, node, f);
     return status ? status : forbid(r, key, node, f->uses_x, "x");
+}
+
+/* An expression that is kept as text, too. */
+static enum br_status read_solution(const struct reader *r, const struct br_scene_key *key,
+                                    const yaml_node_t *node)
+{
+    char text[MOST_TEXT];
+    struct br_function parsed = {0};
+    enum br_status status = read_expression(r, key, key->unit, node, &parsed);
+    br_function_free(&parsed);
+    if (!status)
+        status = split_unit(r, key, key->unit, node, text);
+    if (status)
+        return status;
+    char **copy = (char **)((char *)r->scene + key->offset);
+    *copy = br_allocate(strlen(text) + 1, 1);
+    if (!*copy)
+        return br_no_memory(r->err, "the scene");
+    strcpy(*copy, text);
+    return BR_OK;
 }
 
 /* A product {shape: F(x), history: G(t)}. */
@@ -217,6 +250,8 @@ static enum br_status read_value(const struct reader *r, const struct br_scene_k
         return read_history(r, key, node);
     case BR_KEY_LOAD:
         return read_load(r, key, node);
+    case BR_KEY_SOLUTION:
+        return read_solution(r, key, node);
     case BR_KEY_LAW:
         return read_law(r, key, node);
     case BR_KEY_TEXT:
@@ -239,9 +274,9 @@ static void list_keys(const char *section, char *text, size_t size)
 
 enum { MOST_KEYS = 64 };
 
-/* Reads one mapping; seen: in/out, which rows of the table have been given. */
+/* Reads one mapping; seen: in/out, the lines of the table's rows that have been given; 0: not. */
 static enum br_status read_section(const struct reader *r, const char *section,
-                                   const yaml_node_t *node, bool seen[MOST_KEYS]);
+                                   const yaml_node_t *node, size_t seen[MOST_KEYS]);
 
 static bool *part_flag(struct br_scene *scene, const char *section)
 {
@@ -256,7 +291,7 @@ static bool *part_flag(struct br_scene *scene, const char *section)
 
 static enum br_status read_entry(const struct reader *r, const char *section,
                                  const yaml_node_t *name, const yaml_node_t *value,
-                                 bool seen[MOST_KEYS])
+                                 size_t seen[MOST_KEYS])
 {
     if (name->type != YAML_SCALAR_NODE)
         return refuse(r, line_of(name), *section ? section : "scene", "a key must be a word");
@@ -266,7 +301,7 @@ static enum br_status read_entry(const struct reader *r, const char *section,
         const size_t row = (size_t)(k - br_scene_keys);
         if (seen[row])
             return refuse(r, line_of(name), k->name, "given twice");
-        seen[row] = true;
+        seen[row] = line_of(name);
         if (k->kind == BR_KEY_SECTION)
             return read_section(r, k->name, value, seen);
         return read_value(r, k, value);
@@ -278,7 +313,7 @@ static enum br_status read_entry(const struct reader *r, const char *section,
 }
 
 static enum br_status check_required(const struct reader *r, const char *section, size_t line,
-                                     const bool seen[MOST_KEYS])
+                                     const size_t seen[MOST_KEYS])
 {
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
         if (strcmp(k->section, section) != 0 || seen[k - br_scene_keys] || !k->required)
@@ -296,7 +331,7 @@ static enum br_status check_required(const struct reader *r, const char *section
 }
 
 static enum br_status read_section(const struct reader *r, const char *section,
-                                   const yaml_node_t *node, bool seen[MOST_KEYS])
+                                   const yaml_node_t *node, size_t seen[MOST_KEYS])
 {
     if (node->type != YAML_MAPPING_NODE)
         return refuse(r, line_of(node), *section ? section : "scene",
@@ -313,6 +348,37 @@ static enum br_status read_section(const struct reader *r, const char *section,
             return status;
     }
     return check_required(r, section, line_of(node), seen);
+}
+
+/* The line on which the section's solution is given. */
+static size_t solution_line(enum br_field_kind kind, const size_t seen[MOST_KEYS])
+{
+    size_t row = 0;
+    const char *section = kind == BR_AXIAL ? "axial" : "bending";
+    while (strcmp(br_scene_keys[row].section, section) != 0 ||
+           br_scene_keys[row].kind != BR_KEY_SOLUTION)
+        row++;
+    return seen[row];
+}
+
+/* What a solution determines (reference/mms). */
+static enum br_status apply_solutions(const struct reader *r, const size_t seen[MOST_KEYS])
+{
+    const char *const texts[2] = {r->scene->axial.solution, r->scene->bending.solution};
+    struct br_function parsed[2] = {{0}, {0}};
+    struct br_error inner = {0};
+    enum br_field_kind culprit = BR_AXIAL;
+    enum br_status status = BR_OK;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        if (texts[kind])
+            status = br_expression(texts[kind], &parsed[kind], &inner);
+    if (!status)
+        status = br_manufactured_apply(r->scene, parsed, &culprit, &inner);
+    br_function_free(&parsed[BR_AXIAL]);
+    br_function_free(&parsed[BR_BENDING]);
+    if (status == BR_BAD_INPUT)
+        return refuse(r, solution_line(culprit, seen), "solution", "%s", inner.message);
+    return status ? br_fail(r->err, status, "%s", inner.message) : BR_OK;
 }
 
 /* The scene's name is its file's, without folder and ending. */
@@ -334,13 +400,15 @@ static enum br_status read_document(const struct reader *r)
     const yaml_node_t *root = yaml_document_get_root_node(r->document);
     if (!root)
         return refuse(r, 1, "scene", "the file is empty");
-    bool seen[MOST_KEYS] = {false};
+    size_t seen[MOST_KEYS] = {0};
     enum br_status status = read_section(r, "", root, seen);
     if (!status)
         status = set_name(r);
     struct br_error inner = {0};
     if (!status && br_scene_check(r->scene, &inner))
         status = refuse(r, line_of(root), "scene", "%s", inner.message);
+    if (!status)
+        status = apply_solutions(r, seen);
     if (!status && br_scene_check_initial(r->scene, &inner))
         status = refuse(r, line_of(root), "scene", "%s", inner.message);
     return status;

@@ -22,6 +22,8 @@ const struct br_scene_key br_scene_keys[] = {
     {"axial", "load", BR_KEY_LOAD, false, 0, "N/m", AT(axial.load), "f_H(x, t)"},
     {"axial", "tip_force", BR_KEY_HISTORY, false, 0, "N", AT(axial.tip_force),
      "a force on the tip along the beam"},
+    {"axial", "solution", BR_KEY_SOLUTION, false, 0, "m", AT(axial.solution),
+     "u(x, t), from which load, tip force and initial data are derived"},
     {"axial", "displacement", BR_KEY_INITIAL, false, 0, "m", AT(axial.displacement), "u_0(x)"},
     {"axial", "velocity", BR_KEY_INITIAL, false, 0, "m/s", AT(axial.velocity), "v_0(x)"},
 
@@ -32,6 +34,10 @@ const struct br_scene_key br_scene_keys[] = {
      "a force on the tip across the beam"},
     {"bending", "tip_moment", BR_KEY_HISTORY, false, 0, "N m", AT(bending.tip_moment),
      "a moment on the tip"},
+    {"bending", "solution", BR_KEY_SOLUTION, false, 0, "m", AT(bending.solution),
+     "w(x, t), from which load, tip forces and initial data are derived"},
+    {"bending", "stick_force", BR_KEY_HISTORY, false, 0, "N", AT(bending.stick_force),
+     "the friction force of a solution while its tip rests"},
     {"bending", "displacement", BR_KEY_INITIAL, false, 0, "m", AT(bending.displacement), "w_0(x)"},
     {"bending", "displacement_slope", BR_KEY_INITIAL, false, 0, "1", AT(bending.displacement_slope),
      "the derivative of w_0"},
@@ -139,6 +145,10 @@ enum br_status br_scene_check_initial(const struct br_scene *s, struct br_error 
         !(br_function_is_zero(&s->axial.velocity) && br_function_is_zero(&b->velocity)))
         return br_fail(err, BR_BAD_INPUT,
                        "an initial velocity means nothing without density, expected none");
+    if (!br_function_is_zero(&b->stick_force) &&
+        (!b->solution || s->friction.law == BR_FRICTIONLESS))
+        return br_fail(err, BR_BAD_INPUT,
+                       "bending stick_force belongs to friction and a solution, expected both");
     for (size_t i = 0; i < sizeof data / sizeof *data; i++) {
         const enum br_status status = check_initial(&data[i], err);
         if (status)

@@ -14,6 +14,7 @@ enum br_key_kind {
     BR_KEY_LOAD,         /* "expression in x and t [N/m]", or shape and history */
     BR_KEY_INITIAL,      /* "expression in x [unit]" */
     BR_KEY_HISTORY,      /* "expression in t [unit]" */
+    BR_KEY_SOLUTION,     /* "expression in x and t [unit]", kept as text */
     BR_KEY_LAW,          /* tresca or coulomb */
 };
 

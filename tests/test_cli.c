@@ -205,7 +205,7 @@ static void test_bad_options(void **state)
         {"study example1 --reference fine:100,0.1x", "expected fine:N,K"},
         {"study example1 --reference fine:0,0.1", "expected fine:N,K"},
         {"study example1 --reference fine:100,0.3", "--reference: k = 0.3 s does not divide"},
-        {"study example1 --reference exact:3", "expected one of: exact, fine:N,K, none"},
+        {"study example1 --reference exact:3", "expected one of: exact, fine:N,K, "},
         {"study example1 --norm l2,h1", "--norm: found 'h1', expected one of: l2, energy, tip"},
         {"study example1 --norm tip,l2,tip", "--norm: tip is given twice"},
         {"study example1 --norm ''", "--norm: found '', expected one of"},

@@ -83,7 +83,7 @@ static const struct {
     {4, "weight: 1e-4 kg/m", 4, "weight",
      "unknown key, expected one of: title, remark, length, duration, density, axial, bending, contact, friction"},
     {7, "  damping: 1 N s", 7, "damping",
-     "unknown key in axial, expected one of: stiffness, viscosity, load, tip_force, displacement, velocity"},
+     "unknown key in axial, expected one of: stiffness, viscosity, load, tip_force, solution, displacement, velocity"},
     {14, "  stiffness: 0 m", 14, "stiffness", "expected a number and its unit, N/m"},
     {3, "length: 1 s", 3, "length", "given twice"},
     {13, "axial:", 13, "axial", "given twice"},

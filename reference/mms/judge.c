@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The given solution of a scene as a judge. */
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "reference/judge.h"
+#include "reference/mms/projection.h"
+#include "solver/modes.h"
+
+struct mms_judge {
+    struct br_projection **projection[2][BR_MEASURES]; /* by br_field_kind, then by mesh */
+    struct br_derivative *tip[2];                      /* the solution itself */
+    char *solution[2];                                 /* NULL: not modelled */
+    size_t meshes, levels;
+    double length, duration;     /* m, s */
+    double time;                 /* s */
+    double tail[2][BR_MEASURES]; /* the largest of br_projection_rest, squared */
+    double seconds;
+};
+
+static double seconds_now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void mms_free(void *self)
+{
+    struct mms_judge *j = self;
+    if (!j)
+        return;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        for (int measure = 0; measure < BR_MEASURES; measure++) {
+            struct br_projection **projection = j->projection[kind][measure];
+            for (size_t i = 0; projection && i < j->meshes; i++)
+                br_projection_free(projection[i]);
+            free(projection);
+        }
+        br_derivative_free(j->tip[kind]);
+        free(j->solution[kind]);
+    }
+    free(j);
+}
+
+static enum br_status create_projections(struct mms_judge *j, enum br_field_kind kind,
+                                         enum br_measure measure, const struct br_judge_request *r,
+                                         struct br_error *err)
+{
+    struct br_projection **projection = br_allocate(r->mesh_count, sizeof *projection);
+    j->projection[kind][measure] = projection;
+    if (!projection)
+        return br_no_memory(err, "the manufactured solution");
+    const struct br_projected what = {
+        .order = {.x = measure != BR_STRAIN_RATE ? 0
+                       : kind == BR_AXIAL        ? 1
+                                                 : 2,
+                  .t = measure != BR_DISPLACEMENT},
+        .kept = br_mode_count(kind, measure),
+    };
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < r->mesh_count && !status; i++) {
+        const struct br_projection_mesh mesh = {r->scene->length, r->mesh[i]};
+        status = br_projection_create(&projection[i], j->solution[kind], &what, &mesh, err);
+    }
+    return status;
+}
+
+static enum br_status create_part(struct mms_judge *j, enum br_field_kind kind,
+                                  const struct br_judge_request *r, struct br_error *err)
+{
+    const char *text = kind == BR_AXIAL ? r->scene->axial.solution : r->scene->bending.solution;
+    if (!text)
+        return BR_OK;
+    j->solution[kind] = br_allocate(strlen(text) + 1, 1);
+    if (!j->solution[kind])
+        return br_no_memory(err, "the manufactured solution");
+    strcpy(j->solution[kind], text);
+    enum br_status status = br_derivative_create(&j->tip[kind], text, (struct br_order){0, 0}, err);
+    for (int measure = 0; measure < BR_TIP && !status; measure++)
+        if (r->measured[kind][measure])
+            status = create_projections(j, kind, (enum br_measure)measure, r, err);
+    return status;
+}
+
+static enum br_status mms_create(void **self, const struct br_judge_request *r,
+                                 struct br_error *err)
+{
+    const struct br_scene *scene = r->scene;
+    *self = NULL;
+    if ((scene->axial.modelled && !scene->axial.solution) ||
+        (scene->bending.modelled && !scene->bending.solution))
+        return br_fail(err, BR_BAD_INPUT,
+                       "--reference mms needs a scene with a manufactured solution: keys "
+                       "'solution' in axial and bending");
+    struct mms_judge *j = br_allocate(1, sizeof *j);
+    *self = j;
+    if (!j)
+        return br_no_memory(err, "the manufactured solution");
+    j->meshes = r->mesh_count;
+    j->levels = r->levels;
+    j->length = scene->length;
+    j->duration = scene->duration;
+    const enum br_status status = create_part(j, BR_AXIAL, r, err);
+    return status ? status : create_part(j, BR_BENDING, r, err);
+}
+
+static enum br_status mms_advance(void *self, size_t i, struct br_error *err)
+{
+    struct mms_judge *j = self;
+    (void)err;
+    j->time = j->duration * (double)i / (double)j->levels;
+    return BR_OK;
+}
+
+static void mms_look(void *self, const struct br_look_at *at, double *values, double *rest)
+{
+    struct mms_judge *j = self;
+    const double start = seconds_now();
+    struct br_projection_rest sums = {0};
+    if (at->measure == BR_TIP)
+        *values = br_derivative_at(j->tip[at->kind], j->length, j->time);
+    else
+        sums = br_projection_apply(j->projection[at->kind][at->measure][at->mesh], j->time, values);
+    *rest = sums.rest;
+    double *tail = &j->tail[at->kind][at->measure];
+    *tail = fmax(*tail, sums.tail);
+    j->seconds += seconds_now() - start;
+}
+
+/* The modes fall quickly: what lies beyond the last ones is no larger than they are. */
+static struct br_judge_report mms_report(const void *self)
+{
+    const struct mms_judge *j = self;
+    struct br_judge_report report = {.seconds = j->seconds};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (int measure = 0; measure < BR_MEASURES; measure++)
+            report.own_error[kind][measure] = sqrt(j->tail[kind][measure]);
+    return report;
+}
+
+static void mms_tell(const void *self, FILE *out)
+{
+    const struct mms_judge *j = self;
+    const char *u = j->solution[BR_AXIAL], *w = j->solution[BR_BENDING];
+    fprintf(out, "Manufactured solution: %s%s%s%s%s.\n", u ? "u = " : "", u ? u : "",
+            u && w ? ", " : "", w ? "w = " : "", w ? w : "");
+}
+
+const struct br_judge br_judge_mms = {
+    .name = "mms",
+    .syntax = "mms",
+    .title = "the solution that a scene was manufactured from",
+    .citation = "Roache 2002; derivatives by GNU libmatheval, checked by quadrature",
+    .create = mms_create,
+    .free = mms_free,
+    .advance = mms_advance,
+    .look = mms_look,
+    .report = mms_report,
+    .tell = mms_tell,
+};
