@@ -165,11 +165,12 @@ static void say_reference(const struct br_study *s, double own, const struct br_
     if (s->judge == &br_judge_none)
         return;
     const double floor = s->judged_by.round_off * s->reference_scale;
-    const char *by =
-        s->auditor ? "measured against the exact solution"
-        : isfinite(br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, BR_PART_TOTAL))
-            ? "by its own estimate"
-            : "by the joint fit";
+    char measured[64];
+    snprintf(measured, sizeof measured, "measured against the %s solution",
+             s->auditor ? s->auditor->name : "");
+    const bool told =
+        isfinite(br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, BR_PART_TOTAL));
+    const char *by = s->auditor ? measured : told ? "by its own estimate" : "by the joint fit";
     char rounding[64] = "";
     if (floor > 0)
         snprintf(rounding, sizeof rounding, "; its round-off is about %.0e", floor);

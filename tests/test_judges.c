@@ -131,8 +131,66 @@ static void test_agreement(void **state)
     }
 }
 
+/* ---- the fourth: a solution that was there first ---- */
+
+enum { NORMS = 3 };
+
+static void run_by(const struct br_judge *judge, const struct br_scene *scene,
+                   struct br_study s[NORMS])
+{
+    static const size_t n[] = {7, 12}, steps[] = {40, 100};
+    struct br_error err = {0};
+    for (size_t m = 0; m < NORMS; m++)
+        s[m] = (struct br_study){
+            .scene = scene,
+            .norm = br_norms[m],
+            .method = br_method_default(),
+            .judge = judge,
+            .n_count = 2,
+            .k_count = 2,
+            .n = n,
+            .steps = steps,
+            .next_norm = m + 1 < NORMS ? &s[m + 1] : NULL,
+        };
+    MUST(br_study_run(s, 1, 2, NULL, &err));
+}
+
+/* The exact reference finds a manufactured solution again, from loads and tip forces alone:
+ * by both, a cell has the same error in every norm. */
+static void test_manufactured(void **state)
+{
+    (void)state;
+    const struct br_judge *mms = br_judge_find("mms");
+    if (!mms)
+        skip(); /* built without libmatheval */
+    static const char *const scenes[] = {"mms_smooth", "mms_closing", "mms_slip"};
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        struct br_scene scene = br_test_bundled(scenes[i]);
+        struct br_study by_exact[NORMS], by_mms[NORMS];
+        run_by(&br_judge_exact, &scene, by_exact);
+        run_by(mms, &scene, by_mms);
+        for (size_t m = 0; m < NORMS; m++)
+            for (size_t c = 0; c < 4; c++)
+                for (int part = 0; part < BR_PARTS; part++) {
+                    const double bar = br_norm_of_constant(
+                        br_norms[m], &scene, by_exact[m].judged_by.own_error, (enum br_part)part);
+                    CLOSE(by_exact[m].cell[c].error[part], by_mms[m].cell[c].error[part],
+                          bar + 1e-12);
+                    AT_MOST(bar, 1e-7);
+                }
+        for (size_t m = 0; m < NORMS; m++) {
+            br_study_clear(&by_exact[m]);
+            br_study_clear(&by_mms[m]);
+        }
+        br_scene_clear(&scene);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_agreement)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_agreement),
+        cmocka_unit_test(test_manufactured),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
