@@ -5,7 +5,7 @@
  * scheme approximates, or (friction) its error works against the velocity's error. */
 #include <math.h>
 
-#include "study/study.h"
+#include "study/fit.h"
 #include "support.h"
 
 static const char *const scenes[] = {"mms_smooth", "mms_closing",  "mms_opening",
@@ -111,13 +111,55 @@ static void test_coulomb_limit(void **state)
     check_order("mms_stick", error, 0, 1, BR_PART_BENDING, 4.0 / 3, 4);
 }
 
+/* An interval of an order around what is expected: near it, and narrow enough to say so. */
+static void check_interval(const char *name, const char *what, const struct br_estimate *e,
+                           double expected, double width)
+{
+    print_message("# %-12s %s: %.3f [%.3f, %.3f]\n", name, what, e->value, e->low, e->high);
+    if (!(e->low - 0.06 <= expected && expected <= e->high + 0.06 && e->high - e->low <= width))
+        fail_msg("%s, %s: the order is %g [%g, %g], expected %g", name, what, e->value, e->low,
+                 e->high, expected);
+}
+
+/* The joint fit over a whole grid of cells, with its intervals. */
+static void test_intervals(void **state)
+{
+    (void)state;
+    static const char *const fitted[] = {"mms_smooth", "mms_slip", "mms_reversal"};
+    static const size_t n[] = {8, 12, 16, 24, 32, 48}, steps[] = {250, 500, 1000, 2000};
+    for (size_t i = 0; i < sizeof fitted / sizeof *fitted; i++) {
+        struct br_error err = {0};
+        struct br_scene scene = br_test_bundled(fitted[i]);
+        struct br_study s = {
+            .scene = &scene,
+            .norm = br_norms[0],
+            .method = br_test_method(NULL, "implicit", NULL),
+            .judge = br_judge_find("mms"),
+            .n_count = sizeof n / sizeof *n,
+            .k_count = sizeof steps / sizeof *steps,
+            .n = n,
+            .steps = steps,
+        };
+        struct br_fits axial, bending;
+        MUST(br_study_run(&s, 1, 2, NULL, &err));
+        MUST(br_fit(&s, BR_PART_AXIAL, &axial, &err));
+        MUST(br_fit(&s, BR_PART_BENDING, &bending, &err));
+        check_interval(fitted[i], "axial in h", &axial.joint.p, 2, 0.1);
+        check_interval(fitted[i], "bending in h", &bending.joint.p, 4, 0.6);
+        check_interval(fitted[i], "bending in k", &bending.joint.q, 1, 0.1);
+        br_fits_clear(&axial);
+        br_fits_clear(&bending);
+        br_study_clear(&s);
+        br_scene_clear(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_space),
-        cmocka_unit_test(test_time_implicit),
-        cmocka_unit_test(test_time_lagged),
-        cmocka_unit_test(test_coulomb_limit),
+        cmocka_unit_test(test_space),       cmocka_unit_test(test_time_implicit),
+        cmocka_unit_test(test_time_lagged), cmocka_unit_test(test_coulomb_limit),
+        cmocka_unit_test(test_intervals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
