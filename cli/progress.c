@@ -3,10 +3,10 @@
 
 #include <pthread.h>
 #include <stdio.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "cli/signals.h"
+#include "solver/clock.h"
 
 enum { BAR = 40 };
 
@@ -17,13 +17,6 @@ static struct {
     double start, last; /* s */
     int tenths;         /* lines told so far */
 } progress = {.lock = PTHREAD_MUTEX_INITIALIZER};
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void draw_bar(double fraction, double left)
 {
@@ -39,7 +32,7 @@ static void show(void *self, double fraction)
 {
     (void)self;
     pthread_mutex_lock(&progress.lock);
-    const double t = now(), elapsed = t - progress.start;
+    const double t = br_seconds(), elapsed = t - progress.start;
     const double left = fraction > 0 ? elapsed * (1 - fraction) / fraction : 0;
     if (progress.terminal && t - progress.last >= 0.1) {
         progress.last = t;
@@ -65,7 +58,7 @@ const struct br_observer *br_progress_start(const char *what, bool quiet)
     progress.what = what;
     progress.quiet = quiet;
     progress.terminal = isatty(STDERR_FILENO) == 1;
-    progress.start = now();
+    progress.start = br_seconds();
     progress.last = 0;
     progress.tenths = 0;
     observer = (struct br_observer){.progress = quiet ? NULL : show, .stop = stop};

@@ -5,11 +5,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include "cli/progress.h"
 #include "cli/signals.h"
 #include "reference/printed.h"
+#include "solver/clock.h"
 #include "study/differences.h"
 #include "study/scene_file.h"
 
@@ -285,13 +285,6 @@ void br_session_clear(struct br_session *s)
 
 /* ---- computing ---- */
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* The differences of one job's grids, into its studies. */
 static enum br_status run_differences(struct br_session *s, size_t job,
                                       const struct br_observer *observer, struct br_error *err)
@@ -319,11 +312,11 @@ static enum br_status march(struct br_session *s, const struct br_observer *obse
 
 enum br_status br_session_compute(struct br_session *s, bool quiet, struct br_error *err)
 {
-    const double start = now();
+    const double start = br_seconds();
     const struct br_observer *observer = br_progress_start("marching", quiet);
     enum br_status status = march(s, observer, err);
     br_progress_end();
-    const double wall = now() - start;
+    const double wall = br_seconds() - start;
     for (size_t i = 0; i < s->pages && !status; i++) {
         s->page[i].report.wall_seconds = wall;
         status = br_report_finish(&s->page[i].report, s->request.threads, err);

@@ -2,22 +2,15 @@
 /* The paper's judge: a fine run of the same scheme. It shares every bug of the
  * solver, and has an error of its own. */
 #include <math.h>
-#include <time.h>
 
 #include "reference/judge.h"
+#include "solver/clock.h"
 
 struct fine {
     struct br_march *march;
     double *nodal; /* workspace */
     double seconds;
 };
-
-static double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void fine_free(void *self)
 {
@@ -39,21 +32,21 @@ static enum br_status fine_create(void **self, const struct br_judge_request *r,
     f->nodal = br_allocate(2 * (r->n + 1), sizeof *f->nodal);
     if (!f->nodal)
         return br_no_memory(err, "the reference");
-    const double start = seconds_now();
+    const double start = br_seconds();
     const enum br_status status =
         br_march_create(&f->march, r->scene, r->n, r->levels, &r->method, err);
-    f->seconds = seconds_now() - start;
+    f->seconds = br_seconds() - start;
     return status;
 }
 
 static enum br_status fine_advance(void *self, size_t i, struct br_error *err)
 {
     struct fine *f = self;
-    const double start = seconds_now();
+    const double start = br_seconds();
     enum br_status status = BR_OK;
     while (!status && br_march_steps_done(f->march) < i)
         status = br_march_step(f->march, err);
-    f->seconds += seconds_now() - start;
+    f->seconds += br_seconds() - start;
     return status;
 }
 

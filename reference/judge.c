@@ -12,13 +12,11 @@ const struct br_judge br_judge_none = {
 };
 
 const struct br_judge *const br_judges[] = {
-    &br_judge_exact,
-    &br_judge_fine,
+    &br_judge_exact, &br_judge_fine,
 #ifdef BR_HAVE_MATHEVAL
     &br_judge_mms,
 #endif
-    &br_judge_none,
-    NULL,
+    &br_judge_none,  NULL,
 };
 
 const struct br_judge *br_judge_find(const char *name)

@@ -1,16 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/runner.h"
-
-#include <time.h>
+#include "solver/clock.h"
 
 #include "study/study.h"
-
-static double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 void br_runner_clear(struct br_runner *r)
 {
@@ -23,10 +15,10 @@ void br_runner_clear(struct br_runner *r)
 enum br_status br_runner_start(struct br_runner *r, const struct br_scene *scene,
                                struct br_resolution at, const struct br_method *method)
 {
-    const double start = seconds_now();
+    const double start = br_seconds();
     const enum br_status status =
         br_march_create(&r->march, scene, at.n, at.steps, method, &r->error);
-    r->seconds += seconds_now() - start;
+    r->seconds += br_seconds() - start;
     if (status)
         return r->error.status = status;
     r->nodal = br_allocate(2 * (at.n + 1), sizeof *r->nodal);
@@ -38,10 +30,10 @@ enum br_status br_runner_start(struct br_runner *r, const struct br_scene *scene
 
 enum br_status br_runner_advance(struct br_runner *r, size_t step)
 {
-    const double start = seconds_now();
+    const double start = br_seconds();
     while (!r->error.status && br_march_steps_done(r->march) < step)
         br_march_step(r->march, &r->error);
-    r->seconds += seconds_now() - start;
+    r->seconds += br_seconds() - start;
     return r->error.status;
 }
 

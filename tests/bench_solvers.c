@@ -6,18 +6,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "solver/clock.h"
 #include "support.h"
 
 enum { REPEATS = 5 };
-
-static double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static int by_value(const void *a, const void *b)
 {
@@ -33,9 +26,9 @@ static double time_of(const struct br_scene *scene, size_t n, const struct br_me
     struct br_march *march = br_test_march(scene, n, (REPEATS + 1) * steps, method);
     br_test_advance(march, steps); /* warm */
     for (size_t r = 0; r < REPEATS; r++) {
-        const double start = seconds_now();
+        const double start = br_seconds();
         br_test_advance(march, (r + 2) * steps);
-        seconds[r] = seconds_now() - start;
+        seconds[r] = br_seconds() - start;
     }
     br_march_free(march);
     qsort(seconds, REPEATS, sizeof *seconds, by_value);

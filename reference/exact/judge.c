@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The exact reference as a judge. */
 #include <math.h>
-#include <time.h>
 
 #include "reference/exact/exact.h"
 #include "reference/judge.h"
+#include "solver/clock.h"
 #include "solver/modes.h"
 
 struct exact_judge {
@@ -16,13 +16,6 @@ struct exact_judge {
     double length, duration; /* m, s */
     double seconds;
 };
-
-static double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void exact_free(void *self)
 {
@@ -88,7 +81,7 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
     *self = e;
     if (!e)
         return br_no_memory(err, "the exact reference");
-    const double start = seconds_now();
+    const double start = br_seconds();
     e->modelled[BR_AXIAL] = r->scene->axial.modelled;
     e->modelled[BR_BENDING] = r->scene->bending.modelled;
     e->meshes = r->mesh_count;
@@ -105,7 +98,7 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
         status = br_exact_state_create(&e->state, e->exact, err);
     if (!status)
         status = create_all_projections(e, r, err);
-    e->seconds = seconds_now() - start;
+    e->seconds = br_seconds() - start;
     return status;
 }
 
@@ -113,9 +106,9 @@ static enum br_status exact_advance(void *self, size_t i, struct br_error *err)
 {
     struct exact_judge *e = self;
     (void)err;
-    const double start = seconds_now();
+    const double start = br_seconds();
     br_exact_at(e->exact, e->duration * (double)i / (double)e->levels, e->state);
-    e->seconds += seconds_now() - start;
+    e->seconds += br_seconds() - start;
     return BR_OK;
 }
 

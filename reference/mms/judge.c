@@ -2,10 +2,10 @@
 /* The given solution of a scene as a judge. */
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 #include "reference/judge.h"
 #include "reference/mms/projection.h"
+#include "solver/clock.h"
 #include "solver/modes.h"
 
 struct mms_judge {
@@ -18,13 +18,6 @@ struct mms_judge {
     double tail[2][BR_MEASURES]; /* the largest of br_projection_rest, squared */
     double seconds;
 };
-
-static double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void mms_free(void *self)
 {
@@ -117,7 +110,7 @@ static enum br_status mms_advance(void *self, size_t i, struct br_error *err)
 static void mms_look(void *self, const struct br_look_at *at, double *values, double *rest)
 {
     struct mms_judge *j = self;
-    const double start = seconds_now();
+    const double start = br_seconds();
     struct br_projection_rest sums = {0};
     if (at->measure == BR_TIP)
         *values = br_derivative_at(j->tip[at->kind], j->length, j->time);
@@ -126,7 +119,7 @@ static void mms_look(void *self, const struct br_look_at *at, double *values, do
     *rest = sums.rest;
     double *tail = &j->tail[at->kind][at->measure];
     *tail = fmax(*tail, sums.tail);
-    j->seconds += seconds_now() - start;
+    j->seconds += br_seconds() - start;
 }
 
 /* The modes fall quickly: what lies beyond the last ones is no larger than they are. */
