@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/number_list.h"
+#include "study/number_list.h"
 #include "tables/emitter.h"
 
 /* The names of a registry as "a, b", for help and messages. */

@@ -44,11 +44,6 @@ static double step_of(const struct br_study *s, const struct br_cell *c)
     return br_time_step(s->scene, c->at.steps);
 }
 
-static size_t cell_count(const struct br_study *s)
-{
-    return s->n_count * s->k_count;
-}
-
 static bool usable(const struct br_cell *c, enum br_part part)
 {
     return c->flag[part] == BR_FLAG_NONE && c->error[part] > 0 && isfinite(c->error[part]);
@@ -102,11 +97,11 @@ static enum br_status fit_lines(const struct br_study *s, enum br_part part,
 static enum br_status fit_joint(const struct br_study *s, enum br_part part,
                                 struct br_joint_fit *fit, struct br_error *err)
 {
-    struct br_observation *o = br_allocate(cell_count(s), sizeof *o);
+    struct br_observation *o = br_allocate(br_study_cells(s), sizeof *o);
     if (!o)
         return br_no_memory(err, "the fits");
     size_t count = 0;
-    for (size_t i = 0; i < cell_count(s); i++)
+    for (size_t i = 0; i < br_study_cells(s); i++)
         if (usable(&s->cell[i], part))
             o[count++] = (struct br_observation){
                 .h = mesh_of(s, &s->cell[i]),
@@ -163,7 +158,7 @@ static size_t set_flags(struct br_study *s, enum br_part part, double reference)
     if ((part == BR_PART_AXIAL && !s->scene->axial.modelled) ||
         (part == BR_PART_BENDING && !s->scene->bending.modelled))
         return 0;
-    for (size_t i = 0; i < cell_count(s); i++) {
+    for (size_t i = 0; i < br_study_cells(s); i++) {
         struct br_cell *c = &s->cell[i];
         enum br_flag flag = BR_FLAG_NONE;
         if (c->failure.status || !isfinite(c->error[part]))

@@ -123,22 +123,62 @@ static enum br_status keep_events(struct br_lockstep *l, struct br_study *study,
     return fclose(out) == 0 ? BR_OK : br_no_memory(err, "the events");
 }
 
-static enum br_status outcome(struct crew *crew, struct br_error *err)
+/* What concerns the whole call, not one study. */
+static bool is_fatal(const struct br_error *failure)
 {
-    for (size_t s = 0; s < crew->count; s++) {
-        struct br_lockstep *l = &crew->step[s];
-        if (l->reference.error.status)
-            return br_fail(err, l->reference.error.status, "%s", l->reference.error.message);
-        if (atomic_load(&l->stopped))
-            return br_fail(err, BR_INTERRUPTED, "interrupted");
-        br_lockstep_conclude(l);
-        for (struct br_study *study = l->study; study; study = study->next_norm) {
-            const enum br_status status = keep_events(l, study, err);
-            if (status)
-                return status;
-        }
+    return failure->status == BR_NO_MEMORY || failure->status == BR_INTERRUPTED;
+}
+
+/* Whether a study went well; if not, its failure is known to all its norms. */
+static bool succeeded(struct br_study *first)
+{
+    for (struct br_study *s = first; s; s = s->next_norm)
+        s->failure = first->failure;
+    return !first->failure.status;
+}
+
+static enum br_status conclude(struct br_lockstep *l, struct br_error *err)
+{
+    if (l->reference.error.status)
+        l->study->failure = l->reference.error;
+    else if (atomic_load(&l->stopped))
+        br_fail(&l->study->failure, BR_INTERRUPTED, "interrupted");
+    if (is_fatal(&l->study->failure))
+        return br_fail(err, l->study->failure.status, "%s", l->study->failure.message);
+    if (!succeeded(l->study))
+        return BR_OK;
+    br_lockstep_conclude(l);
+    enum br_status status = BR_OK;
+    for (struct br_study *study = l->study; study && !status; study = study->next_norm)
+        status = keep_events(l, study, err);
+    return status;
+}
+
+static void create(struct crew *crew, struct br_study *studies, size_t s)
+{
+    struct br_lockstep *l = &crew->step[s];
+    if (studies[s].failure.status)
+        l->study = &studies[s];
+    else if (br_lockstep_create(l, &studies[s], crew->observer, &studies[s].failure))
+        l->batches = 0; /* nothing to march */
+}
+
+/* Sets up all studies: an exact reference works its solution out there. Those of one scene
+ * one after the other, since they all read its functions (scene.h). */
+static void create_all(struct crew *crew, struct br_study *studies, int threads)
+{
+    (void)threads; /* without OpenMP */
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+    for (size_t first = 0; first < crew->count; first++) {
+        bool is_first = true;
+        for (size_t s = 0; s < first; s++)
+            is_first &= studies[s].scene != studies[first].scene;
+        for (size_t s = first; s < crew->count && is_first; s++)
+            if (studies[s].scene == studies[first].scene)
+                create(crew, studies, s);
     }
-    return BR_OK;
+    for (size_t s = 0; s < crew->count; s++)
+        crew->all_batches += crew->step[s].batches;
 }
 
 enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
@@ -148,24 +188,23 @@ enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
     crew.step = br_allocate(count, sizeof *crew.step);
     if (!crew.step)
         return br_no_memory(err, "the studies");
-    enum br_status status = BR_OK;
-    for (size_t s = 0; s < count && !status; s++) {
-        status = br_lockstep_create(&crew.step[s], &studies[s], observer, err);
-        crew.all_batches += crew.step[s].batches;
-    }
-    if (!status) {
 #ifdef _OPENMP
-        if (threads <= 0)
-            threads = omp_get_num_procs();
+    if (threads <= 0)
+        threads = omp_get_num_procs();
 #endif
-#pragma omp parallel num_threads(threads)
-#pragma omp single
-        spawn_all(&crew);
-        status = outcome(&crew, err);
-    }
+    create_all(&crew, studies, threads);
+    bool fatal = false;
     for (size_t s = 0; s < count; s++)
-        if (crew.step[s].study)
-            br_lockstep_clear(&crew.step[s]);
+        fatal |= is_fatal(&studies[s].failure);
+#pragma omp parallel num_threads(threads) if (!fatal)
+#pragma omp single
+    if (!fatal)
+        spawn_all(&crew);
+    enum br_status status = BR_OK;
+    for (size_t s = 0; s < count && !status; s++)
+        status = conclude(&crew.step[s], err);
+    for (size_t s = 0; s < count; s++)
+        br_lockstep_clear(&crew.step[s]);
     free(crew.step);
     return status;
 }

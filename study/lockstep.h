@@ -5,7 +5,8 @@
 
 #include "study/study.h"
 
-/* Marches prepared studies (cells allocated, grids known to nest); see br_study_run. */
+/* Marches prepared studies (cells allocated, grids known to nest) that have not failed already; see
+ * br_study_run_each. */
 enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
                            const struct br_observer *observer, struct br_error *err);
 

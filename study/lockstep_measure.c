@@ -102,7 +102,7 @@ static double distance(struct br_lockstep *l, size_t index, const struct br_chan
     const struct br_runner *r = &l->cell[index];
     if (!c->ladder)
         return fabs(r->modes[0] - *reference);
-    return br_ladder_distance(c->ladder, index / l->study->k_count, r->modes, reference);
+    return br_ladder_distance(c->ladder, br_study_row(l->study, index), r->modes, reference);
 }
 
 void br_lockstep_measure(struct br_lockstep *l, size_t index, struct br_slot slot)
@@ -174,7 +174,7 @@ void br_lockstep_conclude(struct br_lockstep *l)
         for (int part = 0; part < BR_PARTS; part++)
             s->reference_error[part] =
                 s->auditor ? br_norm_value(s->norm, &l->audit_sum[m], (enum br_part)part) : NAN;
-        for (size_t i = 0; i < s->n_count * s->k_count; i++)
+        for (size_t i = 0; i < br_study_cells(s); i++)
             conclude_cell(l, s, i, &l->cell_sum[i * l->norms + m]);
     }
 }

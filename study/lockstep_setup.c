@@ -126,7 +126,7 @@ static enum br_status create_buffers(struct br_lockstep *l, struct br_error *err
 
 static enum br_status create_sums(struct br_lockstep *l, struct br_error *err)
 {
-    const size_t cells = l->study->n_count * l->study->k_count;
+    const size_t cells = br_study_cells(l->study);
     l->cell_sum = br_allocate(cells * l->norms, sizeof *l->cell_sum);
     l->scale_sum = br_allocate(l->norms, sizeof *l->scale_sum);
     l->audit_sum = br_allocate(l->norms, sizeof *l->audit_sum);
@@ -178,7 +178,7 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
 static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
 {
     const struct br_study *s = l->study;
-    const size_t cells = s->n_count * s->k_count;
+    const size_t cells = br_study_cells(s);
     l->cell = br_allocate(cells, sizeof *l->cell);
     if (!l->cell)
         return br_no_memory(err, "the cells");
@@ -238,7 +238,7 @@ void br_lockstep_clear(struct br_lockstep *l)
         l->reference.judge->free(l->reference.self);
     if (l->auditor.judge)
         l->auditor.judge->free(l->auditor.self);
-    for (size_t i = 0; l->cell && i < l->study->n_count * l->study->k_count; i++)
+    for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++)
         br_runner_clear(&l->cell[i]);
     free(l->cell);
     free(l->cell_sum);

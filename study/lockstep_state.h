@@ -37,7 +37,7 @@ struct br_lockstep {
     size_t *root;                           /* the meshes on which the reference is looked at */
     size_t roots;
     size_t audit_every;            /* of the levels, so that there are not too many audits */
-    struct br_runner *cell;        /* n_count * k_count */
+    struct br_runner *cell;        /* br_study_cells */
     struct br_norm_sum *cell_sum;  /* norms for each cell */
     struct br_norm_sum *scale_sum; /* norms: of the reference itself */
     struct br_norm_sum *audit_sum; /* norms: of its distance from the auditor */

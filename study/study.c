@@ -11,6 +11,16 @@ const char *br_flag_name(enum br_flag flag)
     return names[flag];
 }
 
+size_t br_study_cells(const struct br_study *s)
+{
+    return s->path ? s->n_count : s->n_count * s->k_count;
+}
+
+size_t br_study_row(const struct br_study *s, size_t cell)
+{
+    return s->path ? cell : cell / s->k_count;
+}
+
 const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size_t j)
 {
     return &study->cell[i * study->k_count + j];
@@ -127,15 +137,15 @@ static enum br_status check_nesting(const struct br_study *s, struct br_error *e
 
 static enum br_status create_cells(struct br_study *s, struct br_error *err)
 {
-    s->cell = br_allocate(s->n_count * s->k_count, sizeof *s->cell);
+    const size_t cells = br_study_cells(s);
+    s->cell = br_allocate(cells, sizeof *s->cell);
     if (!s->cell)
         return br_no_memory(err, "the table");
-    for (size_t i = 0; i < s->n_count; i++)
-        for (size_t j = 0; j < s->k_count; j++)
-            s->cell[i * s->k_count + j] = (struct br_cell){
-                .at = {s->n[i], s->steps[j]},
-                .against = s->judge->nests ? s->reference : (struct br_resolution){0},
-            };
+    for (size_t c = 0; c < cells; c++)
+        s->cell[c] = (struct br_cell){
+            .at = {s->n[br_study_row(s, c)], s->steps[s->path ? c : c % s->k_count]},
+            .against = s->judge->nests ? s->reference : (struct br_resolution){0},
+        };
     return BR_OK;
 }
 
@@ -146,6 +156,9 @@ static enum br_status prepare(struct br_study *s, struct br_error *err)
                        s->n_count == 0 ? "n" : "k");
     if (s->judge->nests && (s->reference.n < 1 || s->reference.steps < 1))
         return br_fail(err, BR_BAD_INPUT, "the reference needs at least one element and one step");
+    if (s->path && s->n_count != s->k_count)
+        return br_fail(err, BR_BAD_INPUT, "a path has %zu n and %zu k, expected as many",
+                       s->n_count, s->k_count);
     const enum br_status status = s->judge->nests ? check_nesting(s, err) : common_levels(s, err);
     if (status)
         return status;
@@ -157,17 +170,31 @@ static enum br_status prepare(struct br_study *s, struct br_error *err)
     return table;
 }
 
-enum br_status br_study_run(struct br_study *studies, size_t count, int threads,
-                            const struct br_observer *observer, struct br_error *err)
+enum br_status br_study_run_each(struct br_study *studies, size_t count, int threads,
+                                 const struct br_observer *observer, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (size_t i = 0; i < count; i++)
         for (struct br_study *s = &studies[i]; s; s = s->next_norm)
-            s->cell = NULL, s->events = NULL;
+            s->cell = NULL, s->events = NULL, s->failure = (struct br_error){0};
     for (size_t i = 0; i < count && !status; i++)
-        status = prepare(&studies[i], err);
+        if (prepare(&studies[i], &studies[i].failure) == BR_NO_MEMORY)
+            status = br_fail(err, BR_NO_MEMORY, "%s", studies[i].failure.message);
     if (!status)
         status = br_lockstep(studies, count, threads, observer, err);
+    for (size_t i = 0; i < count && status; i++)
+        for (struct br_study *s = &studies[i]; s; s = s->next_norm)
+            br_study_clear(s);
+    return status;
+}
+
+enum br_status br_study_run(struct br_study *studies, size_t count, int threads,
+                            const struct br_observer *observer, struct br_error *err)
+{
+    enum br_status status = br_study_run_each(studies, count, threads, observer, err);
+    for (size_t i = 0; i < count && !status; i++)
+        if (studies[i].failure.status)
+            status = br_fail(err, studies[i].failure.status, "%s", studies[i].failure.message);
     for (size_t i = 0; i < count && status; i++)
         for (struct br_study *s = &studies[i]; s; s = s->next_norm)
             br_study_clear(s);

@@ -47,17 +47,19 @@ struct br_study {
     const struct br_judge *auditor;    /* measures the reference's own error; NULL: nobody. Set
                                           to NULL where it cannot promise a solution */
     size_t n_count, k_count;
+    bool path;                  /* the cells are (n[i], steps[i]) alone, and n_count = k_count */
     const size_t *n;            /* n_count, borrowed */
     const size_t *steps;        /* k_count, borrowed */
     struct br_study *next_norm; /* the same study in another norm, all else being equal: measured
                                    on the same marches; NULL: none. Borrowed */
     /* out */
-    struct br_cell *cell; /* n_count * k_count, by rows of equal n; owned */
+    struct br_cell *cell; /* br_study_cells of them, by rows of equal n; owned */
     struct br_judge_report judged_by;
     char *events;                     /* what the reference tells, lines; owned; may be NULL */
     double reference_scale;           /* the norm of the reference itself */
     double reference_error[BR_PARTS]; /* by the auditor; without one: NaN */
     double reference_tip[2];          /* the reference's displacement at x = L, t = T, m */
+    struct br_error failure; /* of the reference or the grid; the rest then means nothing */
 };
 
 /* How a long run tells of itself, and is told to stop. May be called from any thread. */
@@ -77,7 +79,18 @@ enum br_status br_study_run(struct br_study *studies, size_t count, int threads,
                             const struct br_observer *observer, struct br_error *err);
 void br_study_clear(struct br_study *study);
 
-/* The cell of row i (n) and column j (k). */
+/* As br_study_run, but what is wrong with one study stays in its `failure`, and the others go
+ * on: only BR_NO_MEMORY and BR_INTERRUPTED fail the call. */
+enum br_status br_study_run_each(struct br_study *studies, size_t count, int threads,
+                                 const struct br_observer *observer, struct br_error *err);
+
+/* How many cells a study has. */
+size_t br_study_cells(const struct br_study *study);
+
+/* Which n[i] a cell has. */
+size_t br_study_row(const struct br_study *study, size_t cell);
+
+/* The cell of row i (n) and column j (k); not of a path. */
 const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size_t j);
 
 /* Steps of size k that make up the scene's duration. Refuses k that does not

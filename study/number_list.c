@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/number_list.h"
+#include "study/number_list.h"
 
 #include <ctype.h>
 #include <math.h>

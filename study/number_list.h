@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lists of numbers on the command line: "100,200,400". */
+/* Lists of numbers, on the command line and in scenes: "100,200,400". */
 #ifndef BR_NUMBER_LIST_H
 #define BR_NUMBER_LIST_H
 
