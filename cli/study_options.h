@@ -16,7 +16,7 @@ struct br_study_options {
     int quiet, no_plots, help;
 };
 
-enum { BR_MOST_NORMS = 8 };
+
 
 /* What the options say. */
 struct br_study_request {

@@ -9,6 +9,7 @@
 #include "reference/mms/manufactured.h"
 #include "study/expression.h"
 #include "study/scene_value.h"
+#include "study/verify_file.h"
 
 /* "one, two, three": the keys of a section, for a message. */
 static void list_keys(const char *section, char *text, size_t size)
@@ -54,6 +55,8 @@ static enum br_status read_entry(const struct br_scene_reader *r, const char *se
         seen[row] = br_yaml_line(name);
         if (k->kind == BR_KEY_SECTION)
             return read_section(r, k->name, value, seen);
+        if (k->kind == BR_KEY_VERIFY)
+            return BR_OK; /* when the scene is whole */
         return br_scene_read_value(r, k, value);
     }
     char known[512];
@@ -148,7 +151,24 @@ static enum br_status set_name(const struct br_scene_reader *r)
     return BR_OK;
 }
 
-static enum br_status read_document(const struct br_scene_reader *r)
+/* The value of a key at the top; NULL: not given. */
+static const yaml_node_t *top_value(const struct br_scene_reader *r, const char *key)
+{
+    const yaml_node_t *root = yaml_document_get_root_node(r->document);
+    for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top;
+         p++)
+        if (strcmp(br_yaml_text(yaml_document_get_node(r->document, p->key)), key) == 0)
+            return yaml_document_get_node(r->document, p->value);
+    return NULL;
+}
+
+static enum br_status read_verify(const struct br_scene_reader *r, struct br_verify *verify)
+{
+    const yaml_node_t *node = top_value(r, "verify");
+    return node ? br_verify_read(r, node, verify) : br_verify_default(r->scene, verify, r->err);
+}
+
+static enum br_status read_document(const struct br_scene_reader *r, struct br_verify *verify)
 {
     const yaml_node_t *root = yaml_document_get_root_node(r->document);
     if (!root)
@@ -164,12 +184,22 @@ static enum br_status read_document(const struct br_scene_reader *r)
         status = apply_solutions(r, seen);
     if (!status && br_scene_check_initial(r->scene, &inner))
         status = br_scene_refuse(r, br_yaml_line(root), "scene", "%s", inner.message);
+    if (!status && verify)
+        status = read_verify(r, verify);
     return status;
 }
 
 enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br_error *err)
 {
+    return br_scene_read_verify(path, scene, NULL, err);
+}
+
+enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
+                                    struct br_verify *verify, struct br_error *err)
+{
     *scene = (struct br_scene){0};
+    if (verify)
+        *verify = (struct br_verify){0};
     FILE *file = fopen(path, "rb");
     if (!file)
         return br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno));
@@ -187,7 +217,7 @@ enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br
                     parser.problem ? parser.problem : "unreadable");
     } else {
         const struct br_scene_reader r = {path, &document, scene, err};
-        status = read_document(&r);
+        status = read_document(&r, verify);
         yaml_document_delete(&document);
     }
     yaml_parser_delete(&parser);

@@ -3,12 +3,17 @@
 #ifndef BR_SCENE_FILE_H
 #define BR_SCENE_FILE_H
 
-#include "solver/scene.h"
+#include "study/verify.h"
 
 /* Reads and checks a scene. Every refusal (BR_BAD_INPUT) names file, line, key,
  * what was found and what was expected. The caller clears the scene with
  * br_scene_clear, even after a failure. */
 enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br_error *err);
+
+/* The same with what is expected of the scene: its `verify` part, or else the default. The caller
+ * clears both. */
+enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
+                                    struct br_verify *verify, struct br_error *err);
 
 /* Writes the path of a scene into `path` (out, size bytes): `name` itself where it
  * names a file, else the bundled scene of that name. Fails with BR_BAD_INPUT. */

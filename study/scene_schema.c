@@ -16,6 +16,7 @@ const struct br_scene_key br_scene_keys[] = {
     {"", "bending", BR_KEY_SECTION, false, 0, "", 0, "the beam, w"},
     {"", "contact", BR_KEY_SECTION, false, 0, "", 0, "normal compliance (10)"},
     {"", "friction", BR_KEY_SECTION, false, 0, "", 0, "friction at the tip (12)"},
+    {"", "verify", BR_KEY_VERIFY, false, 0, "", 0, "what 'beamrate check' expects"},
 
     {"axial", "stiffness", BR_KEY_NOT_NEGATIVE, true, 0, "N", AT(axial.stiffness), "a1"},
     {"axial", "viscosity", BR_KEY_NOT_NEGATIVE, true, 0, "N s", AT(axial.viscosity), "c1"},

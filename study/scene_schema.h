@@ -16,6 +16,7 @@ enum br_key_kind {
     BR_KEY_HISTORY,      /* "expression in t [unit]" */
     BR_KEY_SOLUTION,     /* "expression in x and t [unit]", kept as text */
     BR_KEY_LAW,          /* tresca or coulomb */
+    BR_KEY_VERIFY,       /* read by verify_file.c, and only where somebody asks for it */
 };
 
 struct br_scene_key {

@@ -250,7 +250,8 @@ enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct
     case BR_KEY_LAW:
         return read_law(r, key, node);
     case BR_KEY_TEXT:
-    case BR_KEY_SECTION: /* read_entry has taken it */
+    case BR_KEY_SECTION: /* read_entry has taken these */
+    case BR_KEY_VERIFY:
         break;
     }
     return read_text(r, key, node);

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Checks scenes against what is expected of them (verify.h): marches, measures, judges. */
+#ifndef BR_CHECK_H
+#define BR_CHECK_H
+
+#include "study/verdict.h"
+
+/* Methods for all studies of a check, instead of what the scene says; NULL: as it says. */
+struct br_check_method {
+    const struct br_linear_solver *solver;
+    const struct br_contact_rule *contact;
+    const struct br_friction_rule *friction;
+};
+
+struct br_check {
+    /* in; borrowed */
+    const char *path; /* of the scene, for messages */
+    const struct br_scene *scene;
+    const struct br_verify *verify;
+    /* out */
+    struct br_case *cases; /* by study, in the order of the expectations; owned */
+    size_t count;
+    double seconds;       /* of all marches of the solver, one thread */
+    double element_steps; /* of these, elements times steps, a field */
+};
+
+/* Checks scenes, all at once, on `threads` threads (0: all cores); the verdicts do not depend on
+ * their number. A march that fails is a verdict. Fails with BR_BAD_INPUT where a scene cannot be
+ * verified (its reference refuses it), naming file and line, or as br_study_run_each does. */
+enum br_status br_check_run(struct br_check *checks, size_t count, int threads,
+                            const struct br_observer *observer, struct br_error *err);
+void br_check_clear(struct br_check *check);
+
+/* Puts the method into all studies of `verify` (in, out). */
+void br_check_override(struct br_verify *verify, const struct br_check_method *method);
+
+/* How many cases of all checks have a verdict. */
+size_t br_check_tally(const struct br_check *checks, size_t count, enum br_verdict verdict);
+
+#endif

@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/verdict.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "study/joint_fit.h"
+
+const char *const br_verdict_names[] = {"PASS", "FAIL", "INCONCLUSIVE"};
+
+__attribute__((format(printf, 3, 4))) static void conclude(struct br_case *c,
+                                                           enum br_verdict verdict,
+                                                           const char *format, ...)
+{
+    c->verdict = verdict;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(c->reason, sizeof c->reason, format, args);
+    va_end(args);
+}
+
+__attribute__((format(printf, 3, 4))) static void append(char *text, size_t size,
+                                                         const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text + used, size - used, format, args);
+    va_end(args);
+}
+
+/* "n = 40" over space, "400 steps" over time, both jointly. */
+static const char *name_point(const struct br_case *c, const struct br_point *p, char text[64])
+{
+    if (c->kind == BR_VERIFY_SPACE)
+        snprintf(text, 64, "n = %zu", p->at.n);
+    else if (c->kind == BR_VERIFY_TIME)
+        snprintf(text, 64, "k = T/%zu", p->at.steps);
+    else
+        snprintf(text, 64, "(n = %zu, k = T/%zu)", p->at.n, p->at.steps);
+    return text;
+}
+
+/* ---- what is seen ---- */
+
+static bool is_used(const struct br_point *p)
+{
+    return p->flag == BR_FLAG_NONE;
+}
+
+/* A point that is not a number must fail, whatever its flag. */
+static const struct br_point *first_failed(const struct br_case *c)
+{
+    for (size_t i = 0; i < c->points; i++) {
+        const struct br_point *p = &c->point[i];
+        if (p->failure[0] || p->flag == BR_FLAG_FAILED || !(p->error >= 0 && isfinite(p->error)))
+            return p;
+    }
+    return NULL;
+}
+
+static void list_left_out(struct br_case *c)
+{
+    for (size_t i = 0; i < c->points; i++) {
+        char name[64];
+        if (!is_used(&c->point[i]))
+            append(c->note, sizeof c->note, "%s%s (%s, error %.1e)",
+                   c->note[0] ? ", " : "left out: ", name_point(c, &c->point[i], name),
+                   br_flag_name(c->point[i].flag), c->point[i].error);
+    }
+}
+
+static void find_constants(struct br_case *c)
+{
+    const double order = c->expected.order;
+    c->used = 0;
+    c->constant = NAN;
+    for (size_t i = 0; i < c->points; i++) {
+        struct br_point *p = &c->point[i];
+        p->constant = p->error / (pow(p->z, order) - pow(p->z_against, order));
+        if (!is_used(p))
+            continue;
+        if (c->used == 0 || !(p->constant <= c->constant))
+            c->constant = p->constant;
+        c->used++;
+    }
+}
+
+/* The order with its interval, by the fit that the tables use: errors over z, where what a point is
+ * compared with has a resolution of its own. */
+static enum br_status find_order(struct br_case *c, struct br_error *err)
+{
+    struct br_observation *o = br_allocate(c->points, sizeof *o);
+    if (!o)
+        return br_no_memory(err, "the verdict");
+    size_t count = 0;
+    for (size_t i = 0; i < c->points; i++) {
+        const struct br_point *p = &c->point[i];
+        if (is_used(p))
+            o[count++] = (struct br_observation){
+                .h = 1, .h_ref = 1, .k = p->z, .k_ref = p->z_against, .error = p->error};
+    }
+    struct br_joint_fit fit;
+    const enum br_status status = br_joint_fit_time(o, count, &fit, err);
+    c->order = fit.q;
+    free(o);
+    return status;
+}
+
+/* ---- what it means ---- */
+
+/* The order that the two finest points show by themselves. */
+static double last_order(const struct br_case *c)
+{
+    const struct br_point *fine = NULL, *coarse = NULL;
+    for (size_t i = 0; i < c->points; i++)
+        if (is_used(&c->point[i])) {
+            coarse = fine;
+            fine = &c->point[i];
+        }
+    return coarse ? log(coarse->error / fine->error) / log(coarse->z / fine->z) : NAN;
+}
+
+/* What would make it conclusive. */
+static void advise(struct br_case *c)
+{
+    const double expected = c->expected.order, last = last_order(c);
+    const double off = fmax(fabs(c->order.low - expected), fabs(c->order.high - expected));
+    if (fabs(last - expected) <= c->expected.tolerance &&
+        fabs(last - expected) < fabs(c->order.value - expected))
+        append(
+            c->reason, sizeof c->reason,
+            "; the two finest show %.2f, so the coarse ones are not asymptotic: begin finer, or go "
+            "on refining",
+            last);
+    else if (c->order.high - c->order.low > 2 * c->expected.tolerance)
+        append(
+            c->reason, sizeof c->reason,
+            "; it is wider than the band: more or finer grids would narrow it, a tolerance of %.2g "
+            "would hold it",
+            off);
+    else
+        append(c->reason, sizeof c->reason,
+               "; finer grids would tell, a tolerance of %.2g would hold it", off);
+}
+
+static void judge_order(struct br_case *c)
+{
+    const struct br_expectation *e = &c->expected;
+    const double low = e->order - e->tolerance, high = e->order + e->tolerance;
+    char text[64];
+    br_order_text(&c->order, text, sizeof text);
+    c->margin = fmin(c->order.low - low, high - c->order.high);
+    if (c->order.low >= low && c->order.high <= high)
+        conclude(c, BR_PASS, "%s", "");
+    else if (c->order.high < low || c->order.low > high)
+        conclude(c, BR_FAIL, "the order, %s, lies %s the band, %.4g to %.4g", text,
+                 c->order.high < low ? "below" : "above", low, high);
+    else if (isfinite(c->margin)) {
+        conclude(c, BR_INCONCLUSIVE, "the order's interval, %s, straddles the band's %s, %.4g",
+                 text,
+                 c->order.low < low && c->order.high > high ? "ends"
+                 : c->order.low < low                       ? "lower end"
+                                                            : "upper end",
+                 c->order.low < low ? low : high);
+        advise(c);
+    } else
+        conclude(c, BR_FAIL, "no order above 0 fits the errors, %.2e to %.2e from coarse to fine",
+                 c->point[0].error, c->point[c->points - 1].error);
+}
+
+static void judge_constant(struct br_case *c)
+{
+    const double ceiling = c->expected.ceiling;
+    if (isnan(ceiling) || c->constant <= ceiling)
+        return;
+    const enum br_verdict so_far = c->verdict;
+    char before[sizeof c->reason];
+    snprintf(before, sizeof before, "%s", c->reason);
+    conclude(c, BR_FAIL, "the constant, %.4g %s, is above its ceiling, %.4g", c->constant,
+             c->expected.norm->unit, ceiling);
+    if (so_far != BR_PASS)
+        append(c->reason, sizeof c->reason, "; and %s", before);
+}
+
+enum br_status br_verdict_reach(struct br_case *c, struct br_error *err)
+{
+    c->order = (struct br_estimate){NAN, NAN, NAN};
+    c->margin = NAN;
+    c->reason[0] = c->note[0] = '\0';
+    list_left_out(c);
+    find_constants(c);
+    const struct br_point *failed = first_failed(c);
+    char name[64];
+    if (failed) {
+        conclude(c, BR_FAIL, "at %s %s", name_point(c, failed, name),
+                 failed->failure[0] ? failed->failure : "the error is not a number");
+        return BR_OK;
+    }
+    if (c->points < BR_VERIFY_LEAST_POINTS) {
+        conclude(c, BR_FAIL, "the study has %zu errors, expected at least %d", c->points,
+                 BR_VERIFY_LEAST_POINTS);
+        return BR_OK;
+    }
+    if (c->used < BR_VERIFY_LEAST_POINTS) {
+        conclude(
+            c, BR_INCONCLUSIVE,
+            "%zu of %zu errors are left, an order needs %d: %zu more grids that are coarser would "
+            "do",
+            c->used, c->points, BR_VERIFY_LEAST_POINTS, BR_VERIFY_LEAST_POINTS - c->used);
+        return BR_OK;
+    }
+    const enum br_status status = find_order(c, err);
+    if (!status)
+        judge_order(c);
+    if (!status)
+        judge_constant(c);
+    return status;
+}
