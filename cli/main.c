@@ -7,9 +7,10 @@
 #include "cli/provenance.h"
 #include "cli/signals.h"
 
-extern const struct br_command br_command_study, br_command_tables;
+extern const struct br_command br_command_check, br_command_study, br_command_tables;
 
-const struct br_command *const br_commands[] = {&br_command_tables, &br_command_study, NULL};
+const struct br_command *const br_commands[] = {&br_command_tables, &br_command_study,
+                                                &br_command_check, NULL};
 
 static void print_help(FILE *out)
 {

@@ -1,76 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/study_options.h"
 
-#include <ctype.h>
-#include <errno.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/names.h"
+#include "cli/number_option.h"
 #include "study/number_list.h"
 #include "tables/emitter.h"
-
-/* The names of a registry as "a, b", for help and messages. */
-static void join(char *text, size_t size, const char *name)
-{
-    const size_t used = strlen(text);
-    snprintf(text + used, size - used, "%s%s", used ? ", " : "", name);
-}
-
-static const char *solver_names(void)
-{
-    static char text[256];
-    text[0] = '\0';
-    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
-        join(text, sizeof text, (*s)->name);
-    return text;
-}
-
-static const char *contact_names(void)
-{
-    static char text[256];
-    text[0] = '\0';
-    for (const struct br_contact_rule *const *c = br_contact_rules; *c; c++)
-        join(text, sizeof text, (*c)->name);
-    return text;
-}
-
-static const char *friction_names(void)
-{
-    static char text[256];
-    text[0] = '\0';
-    for (const struct br_friction_rule *const *f = br_friction_rules; *f; f++)
-        join(text, sizeof text, (*f)->name);
-    return text;
-}
-
-static const char *judge_names(void)
-{
-    static char text[256];
-    text[0] = '\0';
-    for (const struct br_judge *const *j = br_judges; *j; j++)
-        join(text, sizeof text, (*j)->syntax);
-    return text;
-}
-
-static const char *norm_names(void)
-{
-    static char text[256];
-    text[0] = '\0';
-    for (const struct br_norm *const *n = br_norms; *n; n++)
-        join(text, sizeof text, (*n)->name);
-    return text;
-}
-
-static const char *format_names(void)
-{
-    static char text[256];
-    text[0] = '\0';
-    for (const struct br_emitter *const *e = br_emitters; *e; e++)
-        join(text, sizeof text, (*e)->name);
-    return text;
-}
 
 /* One line a row of each registry, below the options. */
 static void print_registries(FILE *out)
@@ -219,24 +157,10 @@ static enum br_status read_reference(const char *text, struct br_study_request *
     snprintf(name, sizeof name, "%.*s", (int)(length < 31 ? length : 31), text);
     r->judge = br_judge_find(name);
     if (!r->judge || (text[length] == ':' && !r->judge->nests))
-        return unknown("reference", text, judge_names(), err);
+        return unknown("reference", text, br_judge_names(), err);
     if (!r->judge->nests)
         return BR_OK;
     return read_fine(text, text + length + (text[length] == ':'), r, err);
-}
-
-/* A whole number from 0 to `most`; text NULL: not given, *value stays. */
-static enum br_status read_count(const char *option, const char *text, int most, int *value,
-                                 struct br_error *err)
-{
-    double number = 0;
-    const char *end = text ? br_read_number(text, &number) : "";
-    if (!end || *end || !(number >= 0 && number <= most) || number != floor(number))
-        return br_fail(err, BR_BAD_INPUT, "--%s: found '%s', expected a whole number from 0 to %d",
-                       option, text, most);
-    if (text)
-        *value = (int)number;
-    return BR_OK;
 }
 
 static enum br_status read_method(const struct br_study_options *o, struct br_study_request *r,
@@ -244,21 +168,21 @@ static enum br_status read_method(const struct br_study_options *o, struct br_st
 {
     struct br_method m = br_method_default();
     if (o->contact && !(m.contact = br_contact_rule_find(o->contact)))
-        return unknown("contact", o->contact, contact_names(), err);
+        return unknown("contact", o->contact, br_contact_names(), err);
     if (o->friction && !(m.friction = br_friction_rule_find(o->friction)))
-        return unknown("friction", o->friction, friction_names(), err);
+        return unknown("friction", o->friction, br_friction_names(), err);
     if (o->solver && !(m.solver = br_linear_solver_find(o->solver)))
-        return unknown("solver", o->solver, solver_names(), err);
+        return unknown("solver", o->solver, br_solver_names(), err);
     if (o->scaling)
         m.linear.scaling = o->scaling;
     const enum br_status status =
-        read_count("refinement", o->refinement, 100, &m.linear.refinement, err);
+        br_read_count_option("refinement", o->refinement, 100, &m.linear.refinement, err);
     if (status)
         return status;
     r->method = r->reference_method = m;
     if (o->reference_solver &&
         !(r->reference_method.solver = br_linear_solver_find(o->reference_solver)))
-        return unknown("reference-solver", o->reference_solver, solver_names(), err);
+        return unknown("reference-solver", o->reference_solver, br_solver_names(), err);
     return BR_OK;
 }
 
@@ -300,7 +224,7 @@ static enum br_status read_norms(const char *text, struct br_study_request *r, s
         snprintf(name, sizeof name, "%.*s", (int)(length < 63 ? length : 63), rest);
         const struct br_norm *norm = br_norm_find(name);
         if (!norm)
-            return unknown("norm", name, norm_names(), err);
+            return unknown("norm", name, br_norm_names(), err);
         for (size_t i = 0; i < r->norms; i++)
             if (r->norm[i] == norm)
                 return br_fail(err, BR_BAD_INPUT, "--norm: %s is given twice", name);
@@ -318,7 +242,7 @@ static enum br_status check_formats(const struct br_study_options *o, struct br_
         const size_t length = strcspn(rest, ",");
         snprintf(name, sizeof name, "%.*s", (int)(length < 63 ? length : 63), rest);
         if (!br_emitter_find(name))
-            return unknown("format", name, format_names(), err);
+            return unknown("format", name, br_format_names(), err);
         rest += length + (rest[length] == ',');
     }
     return BR_OK;
@@ -328,7 +252,7 @@ enum br_status br_study_request_read(const struct br_study_options *o, struct br
                                      struct br_error *err)
 {
     *r = (struct br_study_request){0};
-    enum br_status status = read_count("threads", o->threads, 4096, &r->threads, err);
+    enum br_status status = br_read_count_option("threads", o->threads, 4096, &r->threads, err);
     if (!status)
         status = check_scaling(o, err);
     if (!status)

@@ -16,8 +16,6 @@ struct br_study_options {
     int quiet, no_plots, help;
 };
 
-
-
 /* What the options say. */
 struct br_study_request {
     size_t *n; /* n_count; owned */

@@ -164,7 +164,7 @@ static struct br_point point_at(const struct plan *plan, const struct section *s
         p.error = cell->error[e->part];
         p.flag = cell->flag[e->part];
     }
-    snprintf(p.failure, sizeof p.failure, "%s", failure->status ? failure->message : "");
+    snprintf(p.failure, sizeof p.failure, "%.255s", failure->status ? failure->message : "");
     return p;
 }
 
@@ -183,15 +183,19 @@ static enum br_status conclude_case(const struct plan *plan, const struct sectio
     return br_verdict_reach(c, err);
 }
 
-/* A reference that cannot promise a solution: there is nothing to verify against. */
-static enum br_status check_reference(const struct plan *plan, const struct section *s,
-                                      struct br_error *err)
+/* A scene that a method refuses, or whose solution the reference cannot promise: there is nothing
+ * to verify. Any other failure of a march is a verdict. */
+static enum br_status check_verifiable(const struct plan *plan, const struct section *s,
+                                       struct br_error *err)
 {
-    const struct br_study *study = &plan->study[s->first];
-    if (s->kind != BR_VERIFY_JOINT || !study->failure.status)
-        return BR_OK;
-    return br_fail(err, BR_BAD_INPUT, "%s:%zu: verify: joint: the scene cannot be verified: %s",
-                   s->check->path, study_of(s)->line, study->failure.message);
+    for (size_t h = 0; h < s->heads; h++) {
+        const struct br_error *failure = &plan->study[s->first + h].failure;
+        if (failure->status && (failure->status == BR_BAD_INPUT || s->kind == BR_VERIFY_JOINT))
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s:%zu: verify: %s: the scene cannot be verified: %s", s->check->path,
+                           study_of(s)->line, br_verify_names[s->kind], failure->message);
+    }
+    return BR_OK;
 }
 
 static void add_cost(const struct br_study *study, struct br_check *check)
@@ -214,7 +218,7 @@ static enum br_status conclude_section(const struct plan *plan, const struct sec
                                        struct br_check *check, struct br_error *err)
 {
     const struct br_verify_study *v = study_of(s);
-    enum br_status status = check_reference(plan, s, err);
+    enum br_status status = check_verifiable(plan, s, err);
     for (size_t h = 0; h < s->heads && !status; h++) {
         for (size_t m = 0; m < s->norms; m++)
             if (!study_in(plan, s, h, m)->failure.status)

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <dirent.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "study/scene_file.h"
@@ -27,4 +30,38 @@ enum br_status br_scene_find(const char *name, char *path, size_t size, struct b
         return BR_OK;
     return br_fail(err, BR_BAD_INPUT, "scene '%s' is no file and no bundled scene (looked for %s)",
                    name, path);
+}
+
+static int is_scene(const struct dirent *entry)
+{
+    const char *dot = strrchr(entry->d_name, '.');
+    return dot && dot > entry->d_name && strcmp(dot, ".yaml") == 0;
+}
+
+enum br_status br_scene_list(char ***names, size_t *count, struct br_error *err)
+{
+    char folder[1024];
+    struct dirent **entry;
+    *names = NULL;
+    *count = 0;
+    br_data_path("study/scenes", folder, sizeof folder);
+    const int found = scandir(folder, &entry, is_scene, alphasort);
+    if (found < 0)
+        return br_fail(err, BR_BAD_INPUT, "the bundled scenes: %s: %s", folder, strerror(errno));
+    *names = br_allocate((size_t)found + 1, sizeof **names);
+    for (int i = 0; i < found; i++) {
+        const size_t length = strlen(entry[i]->d_name) - strlen(".yaml");
+        if (*names && ((*names)[*count] = br_allocate(length + 1, 1)))
+            memcpy((*names)[(*count)++], entry[i]->d_name, length);
+        free(entry[i]);
+    }
+    free(entry);
+    return *count == (size_t)found ? BR_OK : br_no_memory(err, "the list of scenes");
+}
+
+void br_scene_list_free(char **names, size_t count)
+{
+    for (size_t i = 0; names && i < count; i++)
+        free(names[i]);
+    free(names);
 }

@@ -92,7 +92,7 @@ static void spawn_batch(struct crew *crew, struct br_lockstep *l, size_t b)
         reference_batch(l, b);
         tell(crew, l);
     }
-    for (size_t i = 0; i < l->study->n_count * l->study->k_count; i++) {
+    for (size_t i = 0; i < br_study_cells(l->study); i++) {
         struct br_runner *cell = &l->cell[i];
         (void)cell;
 #pragma omp task depend(inout : cell[0]) depend(in : buffer[0])

@@ -4,52 +4,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "tables/emitter.h"
+#include "tables/json_value.h"
 #include "tables/sentences.h"
-
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
-/* A file's name need not be UTF-8, which JSON must be: other bytes become '?'. */
-static json_t *not_utf8(const char *text)
-{
-    char *copy = strdup(text);
-    if (!copy)
-        return NULL;
-    for (char *c = copy; *c; c++)
-        if ((unsigned char)*c >= 0x80)
-            *c = '?';
-    json_t *o = json_string(copy);
-    free(copy);
-    return o;
-}
-
-static json_t *string(const char *text)
-{
-    json_t *o = text ? json_string(text) : json_null();
-    return o ? o : not_utf8(text);
-}
-
-static json_t *estimate(const struct br_estimate *e)
-{
-    return json_pack("{s:o, s:o, s:o}", "value", number(e->value), "low", number(e->low), "high",
-                     number(e->high));
-}
-
-static json_t *method(const struct br_method *m)
-{
-    return json_pack("{s:s, s:s, s:i, s:s, s:s}", "solver", m->solver->name, "scaling",
-                     m->linear.scaling, "refinement", m->linear.refinement, "contact",
-                     m->contact->name, "friction", m->friction->name);
-}
 
 static json_t *resolution(const struct br_scene *scene, struct br_resolution at)
 {
     return json_pack("{s:I, s:o, s:I, s:o}", "n", (json_int_t)at.n, "h",
-                     number(br_mesh_size(scene, at.n)), "steps", (json_int_t)at.steps, "k",
-                     number(br_time_step(scene, at.steps)));
+                     br_json_number(br_mesh_size(scene, at.n)), "steps", (json_int_t)at.steps, "k",
+                     br_json_number(br_time_step(scene, at.steps)));
 }
 
 static json_t *cell(const struct br_report *r, size_t index)
@@ -58,24 +20,25 @@ static json_t *cell(const struct br_report *r, size_t index)
     json_t *o = resolution(r->study->scene, c->at);
     static const char *const names[] = {"error", "axial", "bending"};
     for (int part = 0; part < BR_PARTS; part++)
-        json_object_set_new(o, names[part], number(c->error[part]));
-    json_object_set_new(o, "printed", number(r->printed ? r->printed[index] : NAN));
-    json_object_set_new(o, "ratio", number(br_report_ratio(r, index)));
-    json_object_set_new(o, "seconds", number(c->seconds));
+        json_object_set_new(o, names[part], br_json_number(c->error[part]));
+    json_object_set_new(o, "printed", br_json_number(r->printed ? r->printed[index] : NAN));
+    json_object_set_new(o, "ratio", br_json_number(br_report_ratio(r, index)));
+    json_object_set_new(o, "seconds", br_json_number(c->seconds));
     json_object_set_new(o, "flag", json_string(br_flag_name(c->flag[BR_PART_TOTAL])));
     json_object_set_new(o, "axial_flag", json_string(br_flag_name(c->flag[BR_PART_AXIAL])));
     json_object_set_new(o, "bending_flag", json_string(br_flag_name(c->flag[BR_PART_BENDING])));
-    json_object_set_new(o, "worst_time", number(c->worst_time[BR_PART_TOTAL]));
+    json_object_set_new(o, "worst_time", br_json_number(c->worst_time[BR_PART_TOTAL]));
     if (r->exact) {
         const struct br_cell *e = &r->exact->cell[index];
-        json_object_set_new(
-            o, "exact",
-            json_pack("{s:o, s:o, s:o, s:s}", "error", number(e->error[BR_PART_TOTAL]), "axial",
-                      number(e->error[BR_PART_AXIAL]), "bending", number(e->error[BR_PART_BENDING]),
-                      "flag", br_flag_name(e->flag[BR_PART_TOTAL])));
+        json_object_set_new(o, "exact",
+                            json_pack("{s:o, s:o, s:o, s:s}", "error",
+                                      br_json_number(e->error[BR_PART_TOTAL]), "axial",
+                                      br_json_number(e->error[BR_PART_AXIAL]), "bending",
+                                      br_json_number(e->error[BR_PART_BENDING]), "flag",
+                                      br_flag_name(e->flag[BR_PART_TOTAL])));
     }
     if (c->failure.status)
-        json_object_set_new(o, "failure", string(c->failure.message));
+        json_object_set_new(o, "failure", br_json_string(c->failure.message));
     return o;
 }
 
@@ -91,7 +54,7 @@ static json_t *slopes(const struct br_slope *slope, size_t count)
 {
     json_t *a = json_array();
     for (size_t i = 0; i < count; i++)
-        json_array_append_new(a, json_pack("{s:o, s:I}", "order", estimate(&slope[i].order),
+        json_array_append_new(a, json_pack("{s:o, s:I}", "order", br_json_estimate(&slope[i].order),
                                            "points", (json_int_t)slope[i].points));
     return a;
 }
@@ -104,14 +67,15 @@ static json_t *fits(const struct br_report *r, enum br_part part)
     json_t *joint =
         json_pack("{s:b, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:I, s:I}", "converged",
                   j->converged, "describes_the_errors", br_joint_describes(j), "model",
-                  kinds[j->kind], "C_h", estimate(&j->c_h), "p", estimate(&j->p), "C_k",
-                  estimate(&j->c_k), "q", estimate(&j->q), "r", estimate(&j->r), "misfit",
-                  number(j->misfit), "worst", number(j->worst), "r_squared", number(j->r_squared),
-                  "points", (json_int_t)j->points, "degrees_of_freedom", (json_int_t)j->freedom);
+                  kinds[j->kind], "C_h", br_json_estimate(&j->c_h), "p", br_json_estimate(&j->p),
+                  "C_k", br_json_estimate(&j->c_k), "q", br_json_estimate(&j->q), "r",
+                  br_json_estimate(&j->r), "misfit", br_json_number(j->misfit), "worst",
+                  br_json_number(j->worst), "r_squared", br_json_number(j->r_squared), "points",
+                  (json_int_t)j->points, "degrees_of_freedom", (json_int_t)j->freedom);
     return json_pack("{s:o, s:o, s:o, s:o}", "joint", joint, "order_in_k_by_n",
                      slopes(f->by_n, r->study->n_count), "order_in_h_by_k",
                      slopes(f->by_k, r->study->k_count), "reference_error",
-                     number(f->reference_error));
+                     br_json_number(f->reference_error));
 }
 
 static json_t *all_fits(const struct br_report *r)
@@ -131,16 +95,17 @@ static json_t *triangles(const struct br_report *r)
         json_array_append_new(
             a, json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b}", "a",
                          resolution(r->study->scene, t->a), "b", resolution(r->study->scene, t->b),
-                         "printed_a", number(t->printed_a), "printed_b", number(t->printed_b),
-                         "distance", number(t->distance), "least", number(t->least), "most",
-                         number(t->most), "contradiction", t->contradiction));
+                         "printed_a", br_json_number(t->printed_a), "printed_b",
+                         br_json_number(t->printed_b), "distance", br_json_number(t->distance),
+                         "least", br_json_number(t->least), "most", br_json_number(t->most),
+                         "contradiction", t->contradiction));
     }
     return a;
 }
 
 static void append(void *self, const char *text)
 {
-    json_array_append_new(self, string(text));
+    json_array_append_new(self, br_json_string(text));
 }
 
 static json_t *sentences(const struct br_report *r)
@@ -155,20 +120,6 @@ static json_t *sentences(const struct br_report *r)
     return a;
 }
 
-static json_t *provenance(const struct br_provenance *p)
-{
-    json_t *o = json_object();
-    json_object_set_new(o, "version", string(p->version));
-    json_object_set_new(o, "commit", string(p->commit));
-    json_object_set_new(o, "compiler", string(p->compiler));
-    json_object_set_new(o, "flags", string(p->flags));
-    json_object_set_new(o, "command_line", string(p->command_line));
-    json_object_set_new(o, "machine", string(p->machine));
-    json_object_set_new(o, "date", string(p->date));
-    json_object_set_new(o, "threads", json_integer(p->threads));
-    return o;
-}
-
 static json_t *reference(const struct br_study *s)
 {
     json_t *o = json_object();
@@ -176,46 +127,47 @@ static json_t *reference(const struct br_study *s)
     json_object_set_new(o, "title", json_string(s->judge->title));
     if (s->judge->nests) {
         json_object_set_new(o, "at", resolution(s->scene, s->reference));
-        json_object_set_new(o, "method", method(&s->reference_method));
+        json_object_set_new(o, "method", br_json_method(&s->reference_method));
     }
     static const char *const own[] = {"own_error", "own_axial_error", "own_bending_error"};
     for (int part = 0; part < BR_PARTS; part++)
         json_object_set_new(o, own[part],
-                            number(br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error,
-                                                       (enum br_part)part)));
-    json_object_set_new(o, "audited_error", number(s->reference_error[BR_PART_TOTAL]));
-    json_object_set_new(o, "seconds", number(s->judged_by.seconds));
-    json_object_set_new(o, "scale", number(s->reference_scale));
-    json_object_set_new(o, "round_off", number(s->judged_by.round_off));
+                            br_json_number(br_norm_of_constant(
+                                s->norm, s->scene, s->judged_by.own_error, (enum br_part)part)));
+    json_object_set_new(o, "audited_error", br_json_number(s->reference_error[BR_PART_TOTAL]));
+    json_object_set_new(o, "seconds", br_json_number(s->judged_by.seconds));
+    json_object_set_new(o, "scale", br_json_number(s->reference_scale));
+    json_object_set_new(o, "round_off", br_json_number(s->judged_by.round_off));
     return o;
 }
 
 static json_t *tip(const struct br_report *r, enum br_field_kind kind)
 {
     const struct br_study *s = br_report_fitted(r);
-    return json_pack("{s:o, s:o}", "extrapolated", estimate(&r->tip[kind]), "reference",
-                     number(s->judge == &br_judge_none ? NAN : s->reference_tip[kind]));
+    return json_pack("{s:o, s:o}", "extrapolated", br_json_estimate(&r->tip[kind]), "reference",
+                     br_json_number(s->judge == &br_judge_none ? NAN : s->reference_tip[kind]));
 }
 
 static json_t *document(const struct br_report *r, const struct br_provenance *p)
 {
     const struct br_study *s = r->study;
     json_t *o = json_object();
-    json_object_set_new(o, "name", string(r->name));
-    json_object_set_new(o, "caption", string(r->caption));
-    json_object_set_new(o, "provenance", provenance(p));
+    json_object_set_new(o, "name", br_json_string(r->name));
+    json_object_set_new(o, "caption", br_json_string(r->caption));
+    json_object_set_new(o, "provenance", br_json_provenance(p));
     json_object_set_new(o, "scene",
-                        json_pack("{s:o, s:o, s:o}", "name", string(s->scene->name), "path",
-                                  string(p->scene_path), "text", string(p->scene_text)));
+                        json_pack("{s:o, s:o, s:o}", "name", br_json_string(s->scene->name), "path",
+                                  br_json_string(p->scene_path), "text",
+                                  br_json_string(p->scene_text)));
     json_object_set_new(o, "norm",
                         json_pack("{s:s, s:s, s:s}", "name", s->norm->name, "unit", s->norm->unit,
                                   "title", s->norm->title));
-    json_object_set_new(o, "method", method(&s->method));
+    json_object_set_new(o, "method", br_json_method(&s->method));
     json_object_set_new(o, "reference", reference(s));
     if (r->exact)
         json_object_set_new(o, "exact_reference", reference(r->exact));
-    json_object_set_new(o, "fitted", string(br_report_fitted(r)->judge->name));
-    json_object_set_new(o, "wall_seconds", number(r->wall_seconds));
+    json_object_set_new(o, "fitted", br_json_string(br_report_fitted(r)->judge->name));
+    json_object_set_new(o, "wall_seconds", br_json_number(r->wall_seconds));
     json_object_set_new(o, "cells", cells(r));
     json_object_set_new(o, "fits", all_fits(r));
     if (s->scene->axial.modelled)

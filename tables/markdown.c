@@ -4,24 +4,15 @@
 #include <string.h>
 
 #include "tables/emitter.h"
+#include "tables/markdown_text.h"
 #include "tables/sentences.h"
-
-/* What Markdown would take for something else gets a backslash. */
-static void print_escaped(FILE *out, const char *text)
-{
-    for (; *text; text++) {
-        if (strchr("*_|`<\\", *text))
-            fputc('\\', out);
-        fputc(*text, out);
-    }
-}
 
 /* Paragraphs are set as list items. */
 static void item(void *self, const char *text)
 {
     FILE *out = self;
     fputs("- ", out);
-    print_escaped(out, text);
+    br_print_markdown(out, text);
     fputc('\n', out);
 }
 
@@ -112,7 +103,7 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
     (void)err;
     const struct br_writer w = {item, out};
     fputs("# ", out);
-    print_escaped(out, r->caption);
+    br_print_markdown(out, r->caption);
     fputs("\n\n", out);
     br_say_method(r, &w);
     for (int part = 0; part < BR_PARTS; part++)

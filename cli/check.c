@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* beamrate check SCENE... | --all: whether scenes still converge as they should. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/check_options.h"
+#include "cli/command.h"
+#include "cli/progress.h"
+#include "cli/provenance.h"
+#include "cli/signals.h"
+#include "cli/whole_file.h"
+#include "solver/clock.h"
+#include "study/scene_file.h"
+#include "tables/check_emitter.h"
+
+/* A scene on its way; checks and skips point into it. */
+struct item {
+    char path[1024];
+    struct br_scene scene;
+    struct br_verify verify;
+};
+
+struct run {
+    struct br_check_options options;
+    struct item *item; /* most */
+    size_t most;
+    struct br_check *check; /* of the items that can be checked */
+    struct br_skipped *skipped;
+    size_t count, skips;
+    size_t done; /* checks that have been run */
+    double wall_seconds;
+    struct br_whole_file file[BR_MOST_CHECK_FORMATS];
+    struct br_old_check old;
+    struct br_comparison comparison;
+};
+
+/* ---- scenes ---- */
+
+/* Whether a scene needs what this build leaves out. */
+static bool is_beyond_build(const struct br_scene *scene)
+{
+    return (scene->axial.solution || scene->bending.solution) && !br_judge_find("mms");
+}
+
+static enum br_status read_scene(struct run *r, size_t i, const char *name, struct br_error *err)
+{
+    struct item *item = &r->item[i];
+    enum br_status status = br_scene_find(name, item->path, sizeof item->path, err);
+    if (!status)
+        status = br_scene_read_verify(item->path, &item->scene, &item->verify, err);
+    if (status && r->options.all && is_beyond_build(&item->scene)) {
+        r->skipped[r->skips++] = (struct br_skipped){name, "built without libmatheval"};
+        return BR_OK;
+    }
+    if (status)
+        return status;
+    br_check_override(&item->verify, &r->options.method);
+    r->check[r->count++] =
+        (struct br_check){.path = item->path, .scene = &item->scene, .verify = &item->verify};
+    return BR_OK;
+}
+
+static enum br_status read_scenes(struct run *r, struct br_error *err)
+{
+    struct br_check_options *o = &r->options;
+    enum br_status status = BR_OK;
+    if (o->all) {
+        free(o->scene);
+        status = br_scene_list(&o->scene, &o->scenes, err);
+    }
+    if (status)
+        return status;
+    r->most = o->scenes;
+    r->item = br_allocate(r->most + 1, sizeof *r->item);
+    r->check = br_allocate(r->most + 1, sizeof *r->check);
+    r->skipped = br_allocate(r->most + 1, sizeof *r->skipped);
+    if (!r->item || !r->check || !r->skipped)
+        return br_no_memory(err, "the scenes");
+    for (size_t i = 0; i < r->most && !status; i++)
+        status = read_scene(r, i, o->scene[i], err);
+    return status;
+}
+
+/* ---- computing ---- */
+
+static bool failed_so_far(const struct run *r)
+{
+    size_t orders = 0;
+    for (size_t i = 0; i < r->done; i++)
+        orders += r->check[i].count;
+    return br_check_tally(r->check, r->done, BR_PASS) < orders;
+}
+
+static enum br_status compute(struct run *r, struct br_error *err)
+{
+    const double start = br_seconds();
+    const size_t at_once = r->options.fail_fast ? 1 : r->count;
+    const struct br_observer *observer = br_progress_start("checking", r->options.quiet);
+    enum br_status status = BR_OK;
+    while (r->done < r->count && !status && !(r->options.fail_fast && failed_so_far(r))) {
+        status = br_check_run(&r->check[r->done], at_once, r->options.thread_count, observer, err);
+        r->done += status ? 0 : at_once;
+    }
+    br_progress_end();
+    r->wall_seconds = br_seconds() - start;
+    if (!status && br_signals_caught())
+        status = br_fail(err, BR_INTERRUPTED, "interrupted");
+    return status;
+}
+
+/* ---- results ---- */
+
+static enum br_status open_files(struct run *r, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t i = 1; br_check_emitters[i] && !status; i++)
+        status =
+            br_whole_file_open(&r->file[i], br_check_emitters[i]->name, r->options.file[i], err);
+    return status;
+}
+
+static bool uses_stdout(const struct run *r)
+{
+    for (size_t i = 1; br_check_emitters[i]; i++)
+        if (r->file[i].file == stdout)
+            return true;
+    return false;
+}
+
+static enum br_status write_results(struct run *r, struct br_error *err)
+{
+    struct br_provenance provenance = {0};
+    br_provenance_fill(&provenance, r->options.thread_count);
+    const struct br_check_page page = {
+        .checks = r->check,
+        .count = r->done,
+        .skipped = r->skipped,
+        .skips = r->skips,
+        .stopped = r->done < r->count,
+        .wall_seconds = r->wall_seconds,
+        .comparison = r->options.compare ? &r->comparison : NULL,
+        .provenance = &provenance,
+    };
+    enum br_status status = BR_OK;
+    if (!r->options.quiet && !uses_stdout(r))
+        status = br_check_emitters[0]->emit(stdout, &page, err);
+    for (size_t i = 1; br_check_emitters[i] && !status; i++)
+        if (r->file[i].file)
+            status = br_check_emitters[i]->emit(r->file[i].file, &page, err);
+    for (size_t i = 1; br_check_emitters[i] && !status; i++)
+        status = br_whole_file_commit(&r->file[i], err);
+    return status;
+}
+
+/* What has not passed, for the exit code. */
+static enum br_status conclude(const struct run *r, struct br_error *err)
+{
+    size_t orders = 0;
+    for (size_t i = 0; i < r->done; i++)
+        orders += r->check[i].count;
+    const size_t passed = br_check_tally(r->check, r->done, BR_PASS);
+    if (orders == 0)
+        return br_fail(err, BR_VERDICT, "no order was checked");
+    if (passed < orders)
+        return br_fail(err, BR_VERDICT, "%zu of %zu orders do not pass", orders - passed, orders);
+    if (r->comparison.tally[BR_SERIOUS])
+        return br_fail(err, BR_VERDICT, "%zu serious differences from %s",
+                       r->comparison.tally[BR_SERIOUS], r->options.compare);
+    return BR_OK;
+}
+
+static enum br_status check(struct run *r, struct br_error *err)
+{
+    enum br_status status = read_scenes(r, err);
+    if (!status && r->options.compare)
+        status = br_check_read_json(r->options.compare, &r->old, err);
+    if (!status)
+        status = open_files(r, err);
+    if (!status)
+        status = compute(r, err);
+    if (!status && r->options.compare)
+        status = br_compare(r->check, r->done, &r->old, &r->comparison, err);
+    if (!status)
+        status = write_results(r, err);
+    return status ? status : conclude(r, err);
+}
+
+static void clear(struct run *r)
+{
+    for (size_t i = 0; i < r->done; i++)
+        br_check_clear(&r->check[i]);
+    for (size_t i = 0; r->item && i < r->most; i++) {
+        br_verify_clear(&r->item[i].verify);
+        br_scene_clear(&r->item[i].scene);
+    }
+    for (size_t i = 1; br_check_emitters[i]; i++)
+        br_whole_file_discard(&r->file[i]);
+    free(r->item);
+    free(r->check);
+    free(r->skipped);
+    br_old_check_clear(&r->old);
+    br_comparison_clear(&r->comparison);
+    br_check_options_clear(&r->options);
+}
+
+static enum br_status run(int argc, const char **argv, struct br_error *err)
+{
+    static struct run r;
+    enum br_status status = br_check_options_parse(argc, argv, &r.options, err);
+    if (!status && !r.options.help)
+        status = check(&r, err);
+    clear(&r);
+    return status;
+}
+
+const struct br_command br_command_check = {
+    .name = "check",
+    .arguments = "SCENE...",
+    .title = "whether the orders are as expected: a verdict for CI",
+    .run = run,
+};

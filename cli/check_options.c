@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/check_options.h"
+
+#include <popt.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/names.h"
+#include "cli/number_option.h"
+#include "tables/check_emitter.h"
+
+static const char usage[] =
+    "SCENE... | --all [OPTION...]\n\nWhether scenes still converge as their 'verify' parts expect. "
+    "Three studies that are\napart: over h at one time step, over k on one mesh, and both together "
+    "against the\nsolution. The verdict on an order comes from its 95 % interval: PASS within the "
+    "band,\nFAIL outside, INCONCLUSIVE across its end. Exit code 0: all PASS; 1: not so.\n\n"
+    "Examples:\n  beamrate check --all --junit orders.xml --markdown summary.md\n"
+    "  beamrate check my_scene.yaml --json new.json --compare old.json\n";
+
+enum { HELP = 1 };
+
+/* One row an option: those of the formats, then the fixed ones. */
+struct option_table {
+    struct poptOption row[BR_MOST_CHECK_FORMATS + 12];
+    size_t rows;
+};
+
+static void add(struct option_table *t, const struct poptOption *row)
+{
+    t->row[t->rows++] = *row;
+}
+
+static void fill_table(struct option_table *t, struct br_check_options *o)
+{
+    const struct poptOption fixed[] = {
+        {"all", 0, POPT_ARG_NONE, &o->all, 0, "all bundled scenes", NULL},
+        {"compare", 0, POPT_ARG_STRING, &o->compare, 0,
+         "an earlier check's JSON: what has moved since, and how serious that is", "FILE"},
+        {"fail-fast", 0, POPT_ARG_NONE, &o->fail_fast, 0,
+         "one scene after the other, and stop at the first that fails", NULL},
+        {"solver", 0, POPT_ARG_STRING, &o->solver, 0,
+         "linear solver, instead of what the scenes say", "NAME"},
+        {"contact", 0, POPT_ARG_STRING, &o->contact, 0, "contact rule, likewise", "NAME"},
+        {"friction", 0, POPT_ARG_STRING, &o->friction, 0, "friction rule, likewise", "NAME"},
+        {"threads", 0, POPT_ARG_STRING, &o->threads, 0, "threads; 0, the default: all cores",
+         "COUNT"},
+        {"quiet", 0, POPT_ARG_NONE, &o->quiet, 0, "no progress, no table on the terminal", NULL},
+        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+    };
+    for (size_t i = 1; br_check_emitters[i]; i++)
+        add(t, &(struct poptOption){br_check_emitters[i]->name, 0, POPT_ARG_STRING, &o->file[i], 0,
+                                    br_check_emitters[i]->title, "FILE"});
+    for (size_t i = 0; i < sizeof fixed / sizeof *fixed; i++)
+        add(t, &fixed[i]);
+    add(t, &(struct poptOption)POPT_TABLEEND);
+}
+
+static enum br_status read_scenes(poptContext context, struct br_check_options *o,
+                                  struct br_error *err)
+{
+    const char **words = poptGetArgs(context);
+    while (words && words[o->scenes])
+        o->scenes++;
+    if (o->all ? o->scenes > 0 : o->scenes == 0)
+        return br_fail(
+            err, BR_BAD_INPUT,
+            o->all ? "--all and scenes are given, expected one of the two"
+                   : "no scene is given, expected files, names of bundled scenes, or --all");
+    o->scene = br_allocate(o->scenes + 1, sizeof *o->scene);
+    if (!o->scene)
+        return br_no_memory(err, "the options");
+    for (size_t i = 0; i < o->scenes; i++)
+        if (!(o->scene[i] = strdup(words[i])))
+            return br_no_memory(err, "the options");
+    return BR_OK;
+}
+
+static enum br_status unknown(const char *option, const char *found, const char *names,
+                              struct br_error *err)
+{
+    return br_fail(err, BR_BAD_INPUT, "--%s: found '%s', expected one of: %s", option, found,
+                   names);
+}
+
+static enum br_status read_method(struct br_check_options *o, struct br_error *err)
+{
+    if (o->solver && !(o->method.solver = br_linear_solver_find(o->solver)))
+        return unknown("solver", o->solver, br_solver_names(), err);
+    if (o->contact && !(o->method.contact = br_contact_rule_find(o->contact)))
+        return unknown("contact", o->contact, br_contact_names(), err);
+    if (o->friction && !(o->method.friction = br_friction_rule_find(o->friction)))
+        return unknown("friction", o->friction, br_friction_names(), err);
+    return br_read_count_option("threads", o->threads, 4096, &o->thread_count, err);
+}
+
+/* Two reports in one file would be none. */
+static enum br_status check_files(const struct br_check_options *o, struct br_error *err)
+{
+    for (size_t i = 1; br_check_emitters[i]; i++)
+        for (size_t j = i + 1; br_check_emitters[j]; j++)
+            if (o->file[i] && o->file[j] && strcmp(o->file[i], o->file[j]) == 0)
+                return br_fail(err, BR_BAD_INPUT, "--%s and --%s both write %s",
+                               br_check_emitters[i]->name, br_check_emitters[j]->name, o->file[i]);
+    return BR_OK;
+}
+
+enum br_status br_check_options_parse(int argc, const char **argv, struct br_check_options *o,
+                                      struct br_error *err)
+{
+    struct option_table table = {0};
+    *o = (struct br_check_options){0};
+    fill_table(&table, o);
+    poptContext context = poptGetContext("beamrate", argc, argv, table.row, 0);
+    if (!context)
+        return br_no_memory(err, "the options");
+    poptSetOtherOptionHelp(context, usage);
+    int code;
+    while ((code = poptGetNextOpt(context)) > 0)
+        if (code == HELP) {
+            o->help = 1;
+            poptPrintHelp(context, stdout, 0);
+        }
+    enum br_status status = BR_OK;
+    if (code < -1)
+        status = br_fail(err, BR_BAD_INPUT, "%s: %s; '--help' lists the options",
+                         poptBadOption(context, POPT_BADOPTION_NOALIAS), poptStrerror(code));
+    else if (!o->help)
+        status = read_scenes(context, o, err);
+    poptFreeContext(context);
+    if (!status && !o->help)
+        status = read_method(o, err);
+    return status || o->help ? status : check_files(o, err);
+}
+
+void br_check_options_clear(struct br_check_options *o)
+{
+    for (size_t i = 0; i < BR_MOST_CHECK_FORMATS; i++)
+        free(o->file[i]);
+    for (size_t i = 0; o->scene && i < o->scenes; i++)
+        free(o->scene[i]);
+    free(o->scene);
+    free(o->compare);
+    free(o->solver);
+    free(o->contact);
+    free(o->friction);
+    free(o->threads);
+    *o = (struct br_check_options){0};
+}

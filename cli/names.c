@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/names.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "study/study.h"
+#include "tables/emitter.h"
+
+/* The names of a registry as "a, b", for help and messages. */
+static void join(char *text, size_t size, const char *name)
+{
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s%s", used ? ", " : "", name);
+}
+
+const char *br_solver_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
+        join(text, sizeof text, (*s)->name);
+    return text;
+}
+
+const char *br_contact_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_contact_rule *const *c = br_contact_rules; *c; c++)
+        join(text, sizeof text, (*c)->name);
+    return text;
+}
+
+const char *br_friction_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_friction_rule *const *f = br_friction_rules; *f; f++)
+        join(text, sizeof text, (*f)->name);
+    return text;
+}
+
+const char *br_judge_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_judge *const *j = br_judges; *j; j++)
+        join(text, sizeof text, (*j)->syntax);
+    return text;
+}
+
+const char *br_norm_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_norm *const *n = br_norms; *n; n++)
+        join(text, sizeof text, (*n)->name);
+    return text;
+}
+
+const char *br_format_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_emitter *const *e = br_emitters; *e; e++)
+        join(text, sizeof text, (*e)->name);
+    return text;
+}

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The names of a registry's rows as "a, b", for help and messages. Static strings. */
+#ifndef BR_NAMES_H
+#define BR_NAMES_H
+
+const char *br_solver_names(void);
+const char *br_contact_names(void);
+const char *br_friction_names(void);
+const char *br_judge_names(void);
+const char *br_norm_names(void);
+const char *br_format_names(void);
+
+#endif

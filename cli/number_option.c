@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/number_option.h"
+
+#include <math.h>
+
+#include "study/number_list.h"
+
+enum br_status br_read_count_option(const char *option, const char *text, int most, int *value,
+                                    struct br_error *err)
+{
+    double number = 0;
+    const char *end = text ? br_read_number(text, &number) : "";
+    if (!end || *end || !(number >= 0 && number <= most) || number != floor(number))
+        return br_fail(err, BR_BAD_INPUT, "--%s: found '%s', expected a whole number from 0 to %d",
+                       option, text, most);
+    if (text)
+        *value = (int)number;
+    return BR_OK;
+}

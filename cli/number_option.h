@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef BR_NUMBER_OPTION_H
+#define BR_NUMBER_OPTION_H
+
+#include "solver/status.h"
+
+/* Reads a whole number from 0 to `most`; text NULL: not given, *value stays. Fails with
+ * BR_BAD_INPUT, naming the option. */
+enum br_status br_read_count_option(const char *option, const char *text, int most, int *value,
+                                    struct br_error *err);
+
+#endif

@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A check for programs, and for --compare, which reads it again. */
+#include <math.h>
+#include <string.h>
+
+#include "tables/check_emitter.h"
+#include "tables/json_value.h"
+
+static const char format_name[] = "beamrate check 1";
+
+/* ---- writing ---- */
+
+static json_t *point(const struct br_point *p)
+{
+    return json_pack("{s:I, s:I, s:I, s:I, s:o, s:o, s:s, s:o}", "n", (json_int_t)p->at.n, "steps",
+                     (json_int_t)p->at.steps, "against_n", (json_int_t)p->against.n,
+                     "against_steps", (json_int_t)p->against.steps, "error",
+                     br_json_number(p->error), "constant", br_json_number(p->constant), "flag",
+                     br_flag_name(p->flag), "failure", br_json_string(p->failure));
+}
+
+static json_t *points(const struct br_case *c)
+{
+    json_t *a = json_array();
+    for (size_t i = 0; i < c->points; i++)
+        json_array_append_new(a, point(&c->point[i]));
+    return a;
+}
+
+static json_t *case_object(const struct br_case *c)
+{
+    const struct br_expectation *e = &c->expected;
+    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "study",
+                     br_verify_names[c->kind], "norm", e->norm->name, "part",
+                     br_part_names[e->part], "verdict", br_verdict_names[c->verdict], "order",
+                     br_json_estimate(&c->order), "expected", br_json_number(e->order), "tolerance",
+                     br_json_number(e->tolerance), "margin", br_json_number(c->margin), "constant",
+                     br_json_number(c->constant), "ceiling", br_json_number(e->ceiling), "reason",
+                     br_json_string(c->reason), "note", br_json_string(c->note), "points",
+                     points(c));
+}
+
+static json_t *cases(const struct br_check *check)
+{
+    json_t *a = json_array();
+    for (size_t i = 0; i < check->count; i++)
+        json_array_append_new(a, case_object(&check->cases[i]));
+    return a;
+}
+
+static json_t *methods(const struct br_check *check)
+{
+    json_t *o = json_object();
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+        if (check->verify->study[kind].count)
+            json_object_set_new(o, br_verify_names[kind],
+                                br_json_method(&check->verify->study[kind].method));
+    return o;
+}
+
+static json_t *scene(const struct br_check *check)
+{
+    return json_pack("{s:o, s:o, s:b, s:o, s:o, s:o, s:o}", "scene",
+                     br_json_string(check->scene->name), "path", br_json_string(check->path),
+                     "by_default", check->verify->by_default, "methods", methods(check), "seconds",
+                     br_json_number(check->seconds), "element_steps",
+                     br_json_number(check->element_steps), "cases", cases(check));
+}
+
+static json_t *scenes(const struct br_check_page *page)
+{
+    json_t *a = json_array();
+    for (size_t i = 0; i < page->count; i++)
+        json_array_append_new(a, scene(&page->checks[i]));
+    return a;
+}
+
+static json_t *skipped(const struct br_check_page *page)
+{
+    json_t *a = json_array();
+    for (size_t i = 0; i < page->skips; i++)
+        json_array_append_new(a, json_pack("{s:o, s:o}", "scene",
+                                           br_json_string(page->skipped[i].scene), "reason",
+                                           br_json_string(page->skipped[i].reason)));
+    return a;
+}
+
+static json_t *differences(const struct br_comparison *c)
+{
+    if (!c)
+        return json_null();
+    json_t *a = json_array();
+    for (size_t i = 0; i < c->count; i++) {
+        const struct br_difference *d = &c->difference[i];
+        json_array_append_new(
+            a, json_pack("{s:s, s:o, s:o, s:o, s:o}", "severity", br_severity_names[d->severity],
+                         "subject", br_json_string(d->subject), "before", br_json_number(d->before),
+                         "now", br_json_number(d->now), "remark", br_json_string(d->remark)));
+    }
+    return a;
+}
+
+static json_t *tally(const struct br_check_page *page)
+{
+    json_t *o = json_object();
+    for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
+        json_object_set_new(o, br_verdict_names[v],
+                            json_integer((json_int_t)br_check_tally(page->checks, page->count,
+                                                                    (enum br_verdict)v)));
+    return o;
+}
+
+static enum br_status emit(FILE *out, const struct br_check_page *page, struct br_error *err)
+{
+    json_t *o = json_pack("{s:s, s:o, s:o, s:o, s:b, s:o, s:o, s:o}", "format", format_name,
+                          "provenance", br_json_provenance(page->provenance), "tally", tally(page),
+                          "wall_seconds", br_json_number(page->wall_seconds), "stopped",
+                          page->stopped, "scenes", scenes(page), "skipped", skipped(page),
+                          "differences", differences(page->comparison));
+    if (!o)
+        return br_no_memory(err, "the JSON document");
+    json_dumpf(o, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
+    fputc('\n', out);
+    json_decref(o);
+    return BR_OK;
+}
+
+const struct br_check_emitter br_check_emit_json = {
+    .name = "json",
+    .title = "everything, for programs and for --compare",
+    .emit = emit,
+};
+
+/* ---- reading ---- */
+
+static enum br_status refuse(const char *path, const char *where, const char *expected,
+                             struct br_error *err)
+{
+    return br_fail(err, BR_BAD_INPUT, "%s: %s: expected %s, as 'beamrate check --json' writes it",
+                   path, where, expected);
+}
+
+/* A number, or NaN for null; false: it is neither. */
+static bool read_number(const json_t *o, double *value)
+{
+    *value = json_is_number(o) ? json_number_value(o) : NAN;
+    return json_is_number(o) || json_is_null(o);
+}
+
+static bool read_word(const json_t *o, char *word, size_t size)
+{
+    if (!json_is_string(o) || strlen(json_string_value(o)) >= size)
+        return false;
+    strcpy(word, json_string_value(o));
+    return true;
+}
+
+static bool read_verdict(const json_t *o, enum br_verdict *verdict)
+{
+    for (int v = BR_PASS; v <= BR_INCONCLUSIVE && json_is_string(o); v++)
+        if (strcmp(json_string_value(o), br_verdict_names[v]) == 0) {
+            *verdict = (enum br_verdict)v;
+            return true;
+        }
+    return false;
+}
+
+static bool read_case(const json_t *o, const char *scene_name, struct br_old_case *c)
+{
+    strcpy(c->scene, scene_name);
+    return read_word(json_object_get(o, "study"), c->study, sizeof c->study) &&
+           read_word(json_object_get(o, "norm"), c->norm, sizeof c->norm) &&
+           read_word(json_object_get(o, "part"), c->part, sizeof c->part) &&
+           read_number(json_object_get(json_object_get(o, "order"), "value"), &c->order) &&
+           read_number(json_object_get(o, "constant"), &c->constant) &&
+           read_verdict(json_object_get(o, "verdict"), &c->verdict);
+}
+
+static enum br_status read_scene(const char *path, const json_t *o, struct br_old_check *old,
+                                 struct br_error *err)
+{
+    struct br_old_cost *cost = &old->costs[old->scenes++];
+    const json_t *list = json_object_get(o, "cases");
+    if (!read_word(json_object_get(o, "scene"), cost->scene, sizeof cost->scene) ||
+        !read_number(json_object_get(o, "seconds"), &cost->seconds) ||
+        !read_number(json_object_get(o, "element_steps"), &cost->element_steps) ||
+        !json_is_array(list))
+        return refuse(path, "scenes", "scenes with a name, a cost and cases", err);
+    for (size_t i = 0; i < json_array_size(list); i++)
+        if (!read_case(json_array_get(list, i), cost->scene, &old->cases[old->count++]))
+            return refuse(path, cost->scene,
+                          "cases with a study, a norm, a part, an order, a "
+                          "constant and a verdict",
+                          err);
+    return BR_OK;
+}
+
+static enum br_status read_document(const char *path, const json_t *root, struct br_old_check *old,
+                                    struct br_error *err)
+{
+    const json_t *format = json_object_get(root, "format"), *list = json_object_get(root, "scenes");
+    if (!json_is_string(format) || strcmp(json_string_value(format), format_name) != 0)
+        return refuse(path, "format", format_name, err);
+    if (!json_is_array(list))
+        return refuse(path, "scenes", "a list", err);
+    size_t count = 0;
+    for (size_t i = 0; i < json_array_size(list); i++)
+        count += json_array_size(json_object_get(json_array_get(list, i), "cases"));
+    old->costs = br_allocate(json_array_size(list) + 1, sizeof *old->costs);
+    old->cases = br_allocate(count + 1, sizeof *old->cases);
+    if (!old->costs || !old->cases)
+        return br_no_memory(err, "the earlier check");
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < json_array_size(list) && !status; i++)
+        status = read_scene(path, json_array_get(list, i), old, err);
+    return status;
+}
+
+enum br_status br_check_read_json(const char *path, struct br_old_check *old, struct br_error *err)
+{
+    *old = (struct br_old_check){0};
+    json_error_t problem;
+    json_t *root = json_load_file(path, 0, &problem);
+    if (!root)
+        return br_fail(err, BR_BAD_INPUT, "%s:%d: %s", path, problem.line > 0 ? problem.line : 1,
+                       problem.text);
+    const enum br_status status = read_document(path, root, old, err);
+    json_decref(root);
+    return status;
+}

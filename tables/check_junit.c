@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* JUnit's XML as CI systems read it: a suite a scene, a test case an order. */
+#include <math.h>
+
+#include "tables/check_emitter.h"
+
+/* The length of the UTF-8 sequence at text, 0 where it is none that XML allows. */
+static size_t sequence_length(const unsigned char *text)
+{
+    const unsigned char c = text[0];
+    const size_t length = c < 0x80                ? 1
+                          : c >= 0xc2 && c < 0xe0 ? 2
+                          : c >= 0xe0 && c < 0xf0 ? 3
+                          : c >= 0xf0 && c < 0xf5 ? 4
+                                                  : 0;
+    for (size_t i = 1; i < length; i++)
+        if ((text[i] & 0xc0) != 0x80)
+            return 0;
+    const bool control = c < ' ' && c != '\t' && c != '\n';
+    const bool excluded = length == 3 && ((c == 0xe0 && text[1] < 0xa0) ||  /* overlong */
+                                          (c == 0xed && text[1] >= 0xa0) || /* surrogates */
+                                          (c == 0xef && text[1] == 0xbf && text[2] >= 0xbe));
+    const bool range =
+        length == 4 && ((c == 0xf0 && text[1] < 0x90) || (c == 0xf4 && text[1] >= 0x90));
+    return control || excluded || range || c == 0x7f ? 0 : length;
+}
+
+/* Text or an attribute's value; bytes that XML forbids become '?'. */
+static void print_escaped(FILE *out, const char *text)
+{
+    const unsigned char *rest = (const unsigned char *)text;
+    while (*rest) {
+        const size_t length = sequence_length(rest);
+        if (*rest == '<')
+            fputs("&lt;", out);
+        else if (*rest == '>')
+            fputs("&gt;", out);
+        else if (*rest == '&')
+            fputs("&amp;", out);
+        else if (*rest == '"')
+            fputs("&quot;", out);
+        else if (length == 0)
+            fputc('?', out);
+        else
+            fwrite(rest, 1, length, out);
+        rest += length ? length : 1;
+    }
+}
+
+static void property(FILE *out, const char *name, const char *value)
+{
+    fprintf(out, "        <property name=\"%s\" value=\"", name);
+    print_escaped(out, value);
+    fputs("\"/>\n", out);
+}
+
+static void number(FILE *out, const char *name, double value)
+{
+    char text[64] = "none";
+    if (isfinite(value))
+        snprintf(text, sizeof text, "%.12g", value);
+    property(out, name, text);
+}
+
+static void line(void *self, const char *text)
+{
+    print_escaped(self, text);
+    fputc('\n', self);
+}
+
+static void print_case(FILE *out, const struct br_check *check, const struct br_case *c)
+{
+    char name[64], band[64], order[64];
+    fputs("    <testcase classname=\"beamrate.", out);
+    print_escaped(out, check->scene->name);
+    fprintf(out, "\" name=\"%s: order %s\" time=\"0\" file=\"", br_case_name(c, name, sizeof name),
+            br_case_band(c, band, sizeof band));
+    print_escaped(out, check->path);
+    fprintf(out, "\" line=\"%zu\">\n      <properties>\n", c->expected.line);
+    number(out, "order", c->order.value);
+    number(out, "low", c->order.low);
+    number(out, "high", c->order.high);
+    number(out, "expected", c->expected.order);
+    number(out, "tolerance", c->expected.tolerance);
+    number(out, "margin", c->margin);
+    number(out, "constant", c->constant);
+    number(out, "ceiling", c->expected.ceiling);
+    property(out, "verdict", br_verdict_names[c->verdict]);
+    fputs("      </properties>\n", out);
+    if (c->verdict != BR_PASS) {
+        fprintf(out, "      <failure type=\"%s\" message=\"", br_verdict_names[c->verdict]);
+        print_escaped(out, c->reason);
+        fprintf(out, "\">observed order %s\n", br_order_text(&c->order, order, sizeof order));
+        br_case_lines(c, line, out);
+        fputs("</failure>\n", out);
+    } else {
+        fputs("      <system-out>", out);
+        br_case_lines(c, line, out);
+        fputs("</system-out>\n", out);
+    }
+    fputs("    </testcase>\n", out);
+}
+
+static void print_suite(FILE *out, const struct br_check_page *page, const struct br_check *check)
+{
+    const size_t failed = check->count - br_check_tally(check, 1, BR_PASS);
+    fputs("  <testsuite name=\"", out);
+    print_escaped(out, check->scene->name);
+    fprintf(out,
+            "\" tests=\"%zu\" failures=\"%zu\" errors=\"0\" skipped=\"0\" time=\"%.3f\" "
+            "timestamp=\"%.19s\">\n",
+            check->count, failed, check->seconds, page->provenance->date);
+    for (size_t i = 0; i < check->count; i++)
+        print_case(out, check, &check->cases[i]);
+    fputs("  </testsuite>\n", out);
+}
+
+static void print_skipped(FILE *out, const struct br_check_page *page)
+{
+    fprintf(
+        out,
+        "  <testsuite name=\"skipped\" tests=\"%zu\" failures=\"0\" errors=\"0\" skipped=\"%zu\" "
+        "time=\"0\">\n",
+        page->skips, page->skips);
+    for (size_t i = 0; i < page->skips; i++) {
+        fputs("    <testcase classname=\"beamrate\" name=\"", out);
+        print_escaped(out, page->skipped[i].scene);
+        fputs("\" time=\"0\"><skipped message=\"", out);
+        print_escaped(out, page->skipped[i].reason);
+        fputs("\"/></testcase>\n", out);
+    }
+    fputs("  </testsuite>\n", out);
+}
+
+static enum br_status emit(FILE *out, const struct br_check_page *page, struct br_error *err)
+{
+    (void)err;
+    size_t all = page->skips;
+    for (size_t i = 0; i < page->count; i++)
+        all += page->checks[i].count;
+    const size_t failed = all - page->skips - br_check_tally(page->checks, page->count, BR_PASS);
+    fprintf(out,
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"beamrate check\" "
+            "tests=\"%zu\" failures=\"%zu\" errors=\"0\" skipped=\"%zu\" time=\"%.3f\">\n",
+            all, failed, page->skips, page->wall_seconds);
+    for (size_t i = 0; i < page->count; i++)
+        print_suite(out, page, &page->checks[i]);
+    if (page->skips)
+        print_skipped(out, page);
+    fputs("</testsuites>\n", out);
+    return BR_OK;
+}
+
+const struct br_check_emitter br_check_emit_junit = {
+    .name = "junit",
+    .title = "JUnit's XML, for CI systems",
+    .emit = emit,
+};

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tables/json_value.h"
+
+#include <math.h>
+#include <string.h>
+
+json_t *br_json_number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+/* A file's name need not be UTF-8, which JSON must be: other bytes become '?'. */
+static json_t *not_utf8(const char *text)
+{
+    char *copy = strdup(text);
+    if (!copy)
+        return NULL;
+    for (char *c = copy; *c; c++)
+        if ((unsigned char)*c >= 0x80)
+            *c = '?';
+    json_t *o = json_string(copy);
+    free(copy);
+    return o;
+}
+
+json_t *br_json_string(const char *text)
+{
+    json_t *o = text ? json_string(text) : json_null();
+    return o ? o : not_utf8(text);
+}
+
+json_t *br_json_estimate(const struct br_estimate *e)
+{
+    return json_pack("{s:o, s:o, s:o}", "value", br_json_number(e->value), "low",
+                     br_json_number(e->low), "high", br_json_number(e->high));
+}
+
+json_t *br_json_method(const struct br_method *m)
+{
+    return json_pack("{s:s, s:s, s:i, s:s, s:s}", "solver", m->solver->name, "scaling",
+                     m->linear.scaling, "refinement", m->linear.refinement, "contact",
+                     m->contact->name, "friction", m->friction->name);
+}
+
+json_t *br_json_provenance(const struct br_provenance *p)
+{
+    json_t *o = json_object();
+    json_object_set_new(o, "version", br_json_string(p->version));
+    json_object_set_new(o, "commit", br_json_string(p->commit));
+    json_object_set_new(o, "compiler", br_json_string(p->compiler));
+    json_object_set_new(o, "flags", br_json_string(p->flags));
+    json_object_set_new(o, "command_line", br_json_string(p->command_line));
+    json_object_set_new(o, "machine", br_json_string(p->machine));
+    json_object_set_new(o, "date", br_json_string(p->date));
+    json_object_set_new(o, "threads", json_integer(p->threads));
+    return o;
+}

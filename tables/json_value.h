@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the JSON formats share; each returns a new reference, or NULL without memory. */
+#ifndef BR_JSON_VALUE_H
+#define BR_JSON_VALUE_H
+
+#include <jansson.h>
+
+#include "tables/emitter.h"
+
+json_t *br_json_number(double value);     /* what is not finite is null */
+json_t *br_json_string(const char *text); /* NULL is null; what is not UTF-8 gets '?' */
+json_t *br_json_estimate(const struct br_estimate *e);
+json_t *br_json_method(const struct br_method *m);
+json_t *br_json_provenance(const struct br_provenance *p);
+
+#endif
