@@ -83,6 +83,12 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
 
 /* ---- computing ---- */
 
+static int by_work(const void *a, const void *b)
+{
+    const double x = br_check_work(a), y = br_check_work(b);
+    return (x > y) - (x < y);
+}
+
 static bool failed_so_far(const struct run *r)
 {
     size_t orders = 0;
@@ -95,6 +101,8 @@ static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
     const size_t at_once = r->options.fail_fast ? 1 : r->count;
+    if (r->options.fail_fast)
+        qsort(r->check, r->count, sizeof *r->check, by_work);
     const struct br_observer *observer = br_progress_start("checking", r->options.quiet);
     enum br_status status = BR_OK;
     while (r->done < r->count && !status && !(r->options.fail_fast && failed_so_far(r))) {

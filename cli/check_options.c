@@ -37,7 +37,7 @@ static void fill_table(struct option_table *t, struct br_check_options *o)
         {"compare", 0, POPT_ARG_STRING, &o->compare, 0,
          "an earlier check's JSON: what has moved since, and how serious that is", "FILE"},
         {"fail-fast", 0, POPT_ARG_NONE, &o->fail_fast, 0,
-         "one scene after the other, and stop at the first that fails", NULL},
+         "one scene after the other, the cheapest first, until one fails", NULL},
         {"solver", 0, POPT_ARG_STRING, &o->solver, 0,
          "linear solver, instead of what the scenes say", "NAME"},
         {"contact", 0, POPT_ARG_STRING, &o->contact, 0, "contact rule, likewise", "NAME"},

@@ -283,6 +283,18 @@ void br_check_override(struct br_verify *verify, const struct br_check_method *m
     }
 }
 
+double br_check_work(const struct br_check *check)
+{
+    const double fields = check->scene->axial.modelled + check->scene->bending.modelled;
+    double work = 0;
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+        const struct br_verify_study *v = &check->verify->study[kind];
+        for (size_t i = 0; i < v->count; i++)
+            work += fields * (double)v->n[i] * (double)v->steps[i];
+    }
+    return work;
+}
+
 size_t br_check_tally(const struct br_check *checks, size_t count, enum br_verdict verdict)
 {
     size_t tally = 0;

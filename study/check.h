@@ -34,6 +34,9 @@ void br_check_clear(struct br_check *check);
 /* Puts the method into all studies of `verify` (in, out). */
 void br_check_override(struct br_verify *verify, const struct br_check_method *method);
 
+/* What a check will cost: element-steps of all its marches, a field. */
+double br_check_work(const struct br_check *check);
+
 /* How many cases of all checks have a verdict. */
 size_t br_check_tally(const struct br_check *checks, size_t count, enum br_verdict verdict);
 

@@ -46,6 +46,8 @@ enum br_status br_read_numbers(const char *option, const char *text, double **va
         rest = end;
         if (!*rest)
             return BR_OK;
+        while (rest[1] == ' ')
+            rest++;
     }
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lists of numbers, on the command line and in scenes: "100,200,400". */
+/* Lists of numbers, on the command line and in scenes: "100,200,400", with blanks
+ * behind the commas or without. */
 #ifndef BR_NUMBER_LIST_H
 #define BR_NUMBER_LIST_H
 

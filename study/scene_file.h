@@ -19,8 +19,8 @@ enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
  * names a file, else the bundled scene of that name. Fails with BR_BAD_INPUT. */
 enum br_status br_scene_find(const char *name, char *path, size_t size, struct br_error *err);
 
-/* The names of all bundled scenes, in the order of the alphabet; *names and each of them is owned by
- * the caller (br_scene_list_free). Fails with BR_BAD_INPUT where their folder is not there. */
+/* The names of all bundled scenes, in the order of the alphabet; *names and each of them is owned
+ * by the caller (br_scene_list_free). Fails with BR_BAD_INPUT where their folder is not there. */
 enum br_status br_scene_list(char ***names, size_t *count, struct br_error *err);
 void br_scene_list_free(char **names, size_t count); /* accepts NULL */
 
