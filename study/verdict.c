@@ -146,6 +146,17 @@ static void advise(struct br_case *c)
                "; finer grids would tell, a tolerance of %.2g would hold it", off);
 }
 
+static void judge_too_few(struct br_case *c)
+{
+    bool unstable = false;
+    for (size_t i = 0; i < c->points; i++)
+        unstable |= c->point[i].flag == BR_FLAG_UNSTABLE;
+    conclude(c, BR_INCONCLUSIVE, "%zu of %zu errors are left, an order needs %d: %s", c->used,
+             c->points, BR_VERIFY_LEAST_POINTS,
+             unstable ? "smaller time steps, or contact at u_n (contact: implicit), are stable"
+                      : "coarser grids have errors that are not lost in what limits them");
+}
+
 static void judge_order(struct br_case *c)
 {
     const struct br_expectation *e = &c->expected;
@@ -171,16 +182,20 @@ static void judge_order(struct br_case *c)
                  c->point[0].error, c->point[c->points - 1].error);
 }
 
+/* An order can be right while the errors have doubled; errors that have become small mean another
+ * scheme, too. */
 static void judge_constant(struct br_case *c)
 {
-    const double ceiling = c->expected.ceiling;
-    if (isnan(ceiling) || c->constant <= ceiling)
+    const struct br_expectation *e = &c->expected;
+    const bool high = !isnan(e->ceiling) && !(c->constant <= e->ceiling);
+    const bool low = !isnan(e->floor) && !(c->constant >= e->floor);
+    if (!high && !low)
         return;
     const enum br_verdict so_far = c->verdict;
     char before[sizeof c->reason];
     snprintf(before, sizeof before, "%s", c->reason);
-    conclude(c, BR_FAIL, "the constant, %.4g %s, is above its ceiling, %.4g", c->constant,
-             c->expected.norm->unit, ceiling);
+    conclude(c, BR_FAIL, "the constant, %.4g %s, is %s, %.4g", c->constant, e->norm->unit,
+             high ? "above its ceiling" : "below its floor", high ? e->ceiling : e->floor);
     if (so_far != BR_PASS)
         append(c->reason, sizeof c->reason, "; and %s", before);
 }
@@ -205,11 +220,7 @@ enum br_status br_verdict_reach(struct br_case *c, struct br_error *err)
         return BR_OK;
     }
     if (c->used < BR_VERIFY_LEAST_POINTS) {
-        conclude(
-            c, BR_INCONCLUSIVE,
-            "%zu of %zu errors are left, an order needs %d: %zu more grids that are coarser would "
-            "do",
-            c->used, c->points, BR_VERIFY_LEAST_POINTS, BR_VERIFY_LEAST_POINTS - c->used);
+        judge_too_few(c);
         return BR_OK;
     }
     const enum br_status status = find_order(c, err);

@@ -8,7 +8,7 @@
 
 enum br_verdict {
     BR_PASS,         /* the interval lies within the band */
-    BR_FAIL,         /* it lies outside; or the constant is above its ceiling; or an error is not
+    BR_FAIL,         /* it lies outside; or the constant is out of its range; or an error is not
                         a number, or missing */
     BR_INCONCLUSIVE, /* it straddles, or too few points are left: counts as failing */
 };

@@ -49,6 +49,7 @@ static void expect(struct br_verify_study *v, enum br_part part, double order)
         .part = part,
         .order = order,
         .tolerance = order / 10,
+        .floor = NAN,
         .ceiling = NAN,
     };
 }
@@ -118,7 +119,11 @@ static enum br_status check_expectation(const struct br_scene *scene,
             "a tolerance below the order",
             e->order, e->tolerance);
     if (!isnan(e->ceiling) && !(e->ceiling > 0 && isfinite(e->ceiling)))
-        return br_fail(err, BR_BAD_INPUT, "found at most %g, expected a constant > 0", e->ceiling);
+        return br_fail(err, BR_BAD_INPUT, "found a constant of %g, expected one > 0", e->ceiling);
+    if (!isnan(e->floor) && !(e->floor > 0 && e->floor < e->ceiling))
+        return br_fail(err, BR_BAD_INPUT,
+                       "found a constant from %g to %g, expected 0 < the first < the second",
+                       e->floor, e->ceiling);
     return BR_OK;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a scene is expected to show: its `verify` part. Three studies that are apart, so that
  * no error hides behind another. Each is a list of cells in order of refinement; an expectation
- * is an order with a tolerance, and a ceiling for the error constant. */
+ * is an order with a tolerance, and a range for the error constant. */
 #ifndef BR_VERIFY_H
 #define BR_VERIFY_H
 
@@ -25,7 +25,7 @@ struct br_expectation {
     const struct br_norm *norm;
     enum br_part part;
     double order, tolerance; /* the order's 95 % interval is to lie within order -+ tolerance */
-    double ceiling;          /* of C at the expected order, in the norm's unit; NaN: none */
+    double floor, ceiling;   /* of C at the expected order, in the norm's unit; NaN: none */
     size_t line;             /* in the scene's file; 0: a default */
 };
 

@@ -130,20 +130,31 @@ static const char *skip(const char *text, const char *word)
     return text;
 }
 
-/* "2 +- 0.1" or "2 +- 0.1, at most 3e-4 m^(3/2)" */
+/* "at most 3e-4 m^(3/2)" or "constant 2e-4 to 3e-4 m^(3/2)" */
+static bool parse_range(const char *text, struct br_expectation *e)
+{
+    const char *ceiling = skip(text, "at most");
+    if (!ceiling) {
+        const char *floor = skip(text, "constant");
+        floor = floor ? br_read_number(floor, &e->floor) : NULL;
+        ceiling = skip(floor, "to");
+    }
+    const char *end = ceiling ? br_read_number(ceiling, &e->ceiling) : NULL;
+    end = skip(end, e->norm->unit);
+    return end && !*end;
+}
+
+/* "2 +- 0.1", and perhaps a range of the constant behind a comma */
 static bool parse_expectation(const char *text, struct br_expectation *e)
 {
-    e->ceiling = NAN;
+    e->floor = e->ceiling = NAN;
     const char *end = br_read_number(text, &e->order);
     end = skip(end, "+-");
     end = end ? br_read_number(end, &e->tolerance) : NULL;
     if (!end || !*end)
         return end != NULL;
     end = skip(end, ",");
-    end = skip(end, "at most");
-    end = end ? br_read_number(end, &e->ceiling) : NULL;
-    end = skip(end, e->norm->unit);
-    return end && !*end;
+    return end && parse_range(end, e);
 }
 
 static enum br_status read_expectation(struct block *b, const char *what, const yaml_node_t *node)
@@ -154,10 +165,12 @@ static enum br_status read_expectation(struct block *b, const char *what, const 
         return br_scene_refuse(b->r, line, what, "unknown key in verify %s, expected %s",
                                br_verify_names[b->kind], expected_study);
     if (!parse_expectation(br_yaml_text(node), &e))
-        return br_scene_refuse(b->r, line, what,
-                               "found '%s', expected an order with its tolerance, and perhaps the "
-                               "most that the constant may be, like '2 +- 0.1, at most 3e-4 %s'",
-                               br_yaml_text(node), e.norm->unit);
+        return br_scene_refuse(
+            b->r, line, what,
+            "found '%s', expected an order with its tolerance, and perhaps a range "
+            "of the constant, like '2 +- 0.1, at most 3e-4 %s' or '2 +- 0.1, constant "
+            "2e-4 to 3e-4 %s'",
+            br_yaml_text(node), e.norm->unit, e.norm->unit);
     if (b->study->expectations == BR_MOST_EXPECTATIONS)
         return br_scene_refuse(b->r, line, what, "given twice");
     b->study->expectation[b->study->expectations++] = e;

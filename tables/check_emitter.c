@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tables/check_emitter.h"
 
+#include <math.h>
+
 extern const struct br_check_emitter br_check_emit_text, br_check_emit_junit, br_check_emit_json,
     br_check_emit_tap, br_check_emit_markdown;
 
@@ -19,6 +21,18 @@ const char *br_case_name(const struct br_case *c, char *buffer, size_t size)
 const char *br_case_band(const struct br_case *c, char *buffer, size_t size)
 {
     snprintf(buffer, size, "%g +- %g", c->expected.order, c->expected.tolerance);
+    return buffer;
+}
+
+const char *br_case_range(const struct br_case *c, char *buffer, size_t size)
+{
+    const struct br_expectation *e = &c->expected;
+    if (isfinite(e->floor))
+        snprintf(buffer, size, "%g to %g", e->floor, e->ceiling);
+    else if (isfinite(e->ceiling))
+        snprintf(buffer, size, "at most %g", e->ceiling);
+    else
+        snprintf(buffer, size, "-");
     return buffer;
 }
 

@@ -41,6 +41,9 @@ const char *br_case_name(const struct br_case *c, char *buffer, size_t size);
 /* "2 +- 0.1" */
 const char *br_case_band(const struct br_case *c, char *buffer, size_t size);
 
+/* "0.1 to 0.2", "at most 0.2", or "-": of the constant */
+const char *br_case_range(const struct br_case *c, char *buffer, size_t size);
+
 /* Calls line for each point of a case, and for why it does not pass. */
 void br_case_lines(const struct br_case *c, void (*line)(void *self, const char *text), void *self);
 

@@ -30,14 +30,14 @@ static json_t *points(const struct br_case *c)
 static json_t *case_object(const struct br_case *c)
 {
     const struct br_expectation *e = &c->expected;
-    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "study",
-                     br_verify_names[c->kind], "norm", e->norm->name, "part",
+    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
+                     "study", br_verify_names[c->kind], "norm", e->norm->name, "part",
                      br_part_names[e->part], "verdict", br_verdict_names[c->verdict], "order",
                      br_json_estimate(&c->order), "expected", br_json_number(e->order), "tolerance",
                      br_json_number(e->tolerance), "margin", br_json_number(c->margin), "constant",
-                     br_json_number(c->constant), "ceiling", br_json_number(e->ceiling), "reason",
-                     br_json_string(c->reason), "note", br_json_string(c->note), "points",
-                     points(c));
+                     br_json_number(c->constant), "floor", br_json_number(e->floor), "ceiling",
+                     br_json_number(e->ceiling), "reason", br_json_string(c->reason), "note",
+                     br_json_string(c->note), "points", points(c));
 }
 
 static json_t *cases(const struct br_check *check)

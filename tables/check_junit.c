@@ -84,6 +84,7 @@ static void print_case(FILE *out, const struct br_check *check, const struct br_
     number(out, "tolerance", c->expected.tolerance);
     number(out, "margin", c->margin);
     number(out, "constant", c->constant);
+    number(out, "floor", c->expected.floor);
     number(out, "ceiling", c->expected.ceiling);
     property(out, "verdict", br_verdict_names[c->verdict]);
     fputs("      </properties>\n", out);

@@ -15,7 +15,7 @@ static void number(FILE *out, double value)
 
 static void print_case(FILE *out, const struct br_check *check, const struct br_case *c)
 {
-    char name[64], band[64], order[64];
+    char name[64], band[64], order[64], range[64];
     fprintf(out, "| ");
     br_print_markdown(out, check->scene->name);
     fprintf(out, " | %s | %s | %s |", br_case_name(c, name, sizeof name),
@@ -25,15 +25,15 @@ static void print_case(FILE *out, const struct br_check *check, const struct br_
     else
         fprintf(out, " - |");
     number(out, c->constant);
-    number(out, c->expected.ceiling);
+    fprintf(out, " %s |", br_case_range(c, range, sizeof range));
     fprintf(out, c->verdict == BR_PASS ? " %s |\n" : " **%s** |\n", br_verdict_names[c->verdict]);
 }
 
 static void print_table(FILE *out, const struct br_check_page *page)
 {
     fputs(
-        "\n| scene | study, norm, part | expected | observed order | margin | constant | ceiling | "
-        "verdict |\n|---|---|---|---|---:|---:|---:|---|\n",
+        "\n| scene | study, norm, part | expected | observed order | margin | constant | its range | "
+        "verdict |\n|---|---|---|---|---:|---:|---|---|\n",
         out);
     for (size_t i = 0; i < page->count; i++)
         for (size_t c = 0; c < page->checks[i].count; c++)
@@ -76,7 +76,7 @@ static void print_comparison(FILE *out, const struct br_comparison *c)
             "\nAgainst the earlier check: %zu serious, %zu warnings, %zu notes, %zu the same\n",
             c->tally[BR_SERIOUS], c->tally[BR_WARNING], c->tally[BR_NOTE], c->tally[BR_SAME]);
     if (c->count)
-        fputs("\n| severity | what | before | now | |\n|---|---|---:|---:|---|\n", out);
+        fputs("\n| severity | what | before | now | |\n|---|---|---:|---|---|\n", out);
     for (size_t i = 0; i < c->count; i++) {
         const struct br_difference *d = &c->difference[i];
         fprintf(out, "| %s | ", br_severity_names[d->severity]);

@@ -55,6 +55,7 @@ static void print_case(FILE *out, size_t number, const struct br_check *check,
     print_number(out, "tolerance", c->expected.tolerance);
     print_number(out, "margin", c->margin);
     print_number(out, "constant", c->constant);
+    print_number(out, "floor", c->expected.floor);
     print_number(out, "ceiling", c->expected.ceiling);
     fprintf(out, "  points:\n");
     br_case_lines(c, item, out);

@@ -7,18 +7,15 @@
 
 static void print_case(FILE *out, const struct br_check *check, const struct br_case *c)
 {
-    char name[64], band[64], order[64];
+    char name[64], band[64], order[64], range[64];
     fprintf(out, "%-13s %-21s %-14s %-24s", check->scene->name, br_case_name(c, name, sizeof name),
             br_case_band(c, band, sizeof band), br_order_text(&c->order, order, sizeof order));
     if (isfinite(c->constant))
         fprintf(out, " %9.3e", c->constant);
     else
         fprintf(out, " %9s", "-");
-    if (isfinite(c->expected.ceiling))
-        fprintf(out, " %9.3e", c->expected.ceiling);
-    else
-        fprintf(out, " %9s", "-");
-    fprintf(out, "  %s\n", br_verdict_names[c->verdict]);
+    fprintf(out, "  %-18s %s\n", br_case_range(c, range, sizeof range),
+            br_verdict_names[c->verdict]);
 }
 
 static void print_cells(FILE *out, const struct br_scene *scene, const struct br_verify_study *v)
@@ -89,8 +86,8 @@ static enum br_status emit(FILE *out, const struct br_check_page *page, struct b
     for (size_t i = 0; i < page->count; i++)
         if (page->checks[i].verify->by_default)
             print_default(out, &page->checks[i]);
-    fprintf(out, "%-13s %-21s %-14s %-24s %9s %9s  %s\n", "scene", "study, norm, part", "expected",
-            "observed order", "constant", "ceiling", "verdict");
+    fprintf(out, "%-13s %-21s %-14s %-24s %9s  %-18s %s\n", "scene", "study, norm, part",
+            "expected", "observed order", "constant", "its range", "verdict");
     for (size_t i = 0; i < page->count; i++)
         for (size_t c = 0; c < page->checks[i].count; c++)
             print_case(out, &page->checks[i], &page->checks[i].cases[c]);

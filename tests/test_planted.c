@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The check that judges everybody else is judged here: the solver is built with one planted bug
+ * after the other, and `beamrate check --all` has to end with exit code 1.
+ * usage: test_planted [SHARD SHARDS], so that several can run side by side. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/planted_bugs.h"
+#include "tests/support.h"
+
+static char folder[] = "/tmp/br_planted_XXXXXX";
+static char *commands; /* how ninja builds the program, a line each */
+
+static const char *environment(const char *name)
+{
+    const char *value = getenv(name);
+    if (!value || !*value)
+        fail_msg("%s is not set: run this by 'meson test'", name);
+    return value;
+}
+
+static char *read_all(FILE *in)
+{
+    size_t size = 0, room = 1 << 16;
+    char *text = malloc(room);
+    for (size_t got; text && (got = fread(text + size, 1, room - size - 1, in)) > 0;) {
+        size += got;
+        if (room - size < 2 && !(text = realloc(text, room *= 2)))
+            break;
+    }
+    assert_non_null(text);
+    text[size] = '\0';
+    return text;
+}
+
+/* Runs a command; returns its exit code, its output goes to the log in the folder. */
+__attribute__((format(printf, 1, 2))) static int run(const char *format, ...)
+{
+    char *command = NULL;
+    va_list args;
+    va_start(args, format);
+    assert_true(vasprintf(&command, format, args) > 0);
+    va_end(args);
+    const int status = system(command);
+    free(command);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+}
+
+/* A copy of the one line of the build's commands that contains a word. */
+static char *command_with(const char *word)
+{
+    const char *at = strstr(commands, word);
+    if (!at)
+        fail_msg("the build has no command with '%s'", word);
+    const char *begin = at;
+    while (begin > commands && begin[-1] != '\n')
+        begin--;
+    return strndup(begin, strcspn(begin, "\n"));
+}
+
+/* The source with the bug in it. Fails where the text does not stand there exactly once. */
+static void plant(const struct planted_bug *bug)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", environment("BEAMRATE_SOURCE"), bug->file);
+    FILE *in = fopen(path, "r");
+    assert_non_null(in);
+    char *source = read_all(in);
+    fclose(in);
+    char *at = strstr(source, bug->text);
+    if (!at || strstr(at + 1, bug->text))
+        fail_msg("%s: the text to replace stands %s in %s:\n%s", bug->name,
+                 at ? "more than once" : "no more", bug->file, bug->text);
+    snprintf(path, sizeof path, "%s/bug.c", folder);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fprintf(out, "%.*s%s%s", (int)(at - source), source, bug->instead, at + strlen(bug->text));
+    assert_int_equal(fclose(out), 0);
+    free(source);
+}
+
+/* Compiles the planted source as the build would, and links it before the libraries, so that it
+ * stands in for the sound one. */
+static void build(const struct planted_bug *bug)
+{
+    const char *build_root = environment("BEAMRATE_BUILD");
+    char word[256];
+    snprintf(word, sizeof word, "/%s\n", bug->file);
+    char *compile = command_with(word), *link = command_with(" -o cli/beamrate ");
+    char *tail = strstr(compile, " -MD ");
+    assert_non_null(tail);
+    *tail = '\0';
+    if (run("cd '%s' && %s -w -o %s/bug.o -c %s/bug.c >%s/log 2>&1", build_root, compile, folder,
+            folder, folder) != 0)
+        fail_msg("%s does not compile: see %s/log", bug->name, folder);
+    char *rest = strstr(link, " -o cli/beamrate ");
+    *rest = '\0';
+    rest += strlen(" -o cli/beamrate ");
+    if (run("cd '%s' && %s -o %s/beamrate %s/bug.o %s >%s/log 2>&1", build_root, link, folder,
+            folder, rest, folder) != 0)
+        fail_msg("%s does not link: see %s/log", bug->name, folder);
+    free(compile);
+    free(link);
+}
+
+/* The exit code of a whole check, that stops at the first scene that fails. */
+static int check(const char *program)
+{
+    return run("BEAMRATE_DATA='%s' timeout 600 '%s' check --all --fail-fast --quiet --threads 1 "
+               ">%s/log 2>&1",
+               environment("BEAMRATE_SOURCE"), program, folder);
+}
+
+static void sound_program_passes(void **state)
+{
+    (void)state;
+    assert_int_equal(check(environment("BEAMRATE")), 0);
+}
+
+static void bug_is_caught(void **state)
+{
+    const struct planted_bug *bug = *state;
+    plant(bug);
+    build(bug);
+    char program[64];
+    snprintf(program, sizeof program, "%s/beamrate", folder);
+    const int code = check(program);
+    if (code != 1)
+        fail_msg("%s: exit code %d, expected 1: a verdict failed", bug->name, code);
+}
+
+static int read_commands(void **state)
+{
+    (void)state;
+    char command[4096];
+    snprintf(command, sizeof command, "'%s' -C '%s' -t commands cli/beamrate", environment("NINJA"),
+             environment("BEAMRATE_BUILD"));
+    FILE *ninja = popen(command, "r");
+    assert_non_null(ninja);
+    commands = read_all(ninja);
+    assert_int_equal(pclose(ninja), 0);
+    assert_non_null(mkdtemp(folder));
+    return 0;
+}
+
+static int clean_up(void **state)
+{
+    (void)state;
+    free(commands);
+    return run("rm -rf '%s'", folder);
+}
+
+int main(int argc, char **argv)
+{
+    const size_t shard = argc == 3 ? strtoul(argv[1], NULL, 10) : 0;
+    const size_t shards = argc == 3 ? strtoul(argv[2], NULL, 10) : 1;
+    static struct CMUnitTest tests[PLANTED_BUGS + 1];
+    size_t count = 0;
+    if (shard == 0)
+        tests[count++] =
+            (struct CMUnitTest){"sound_program_passes", sound_program_passes, NULL, NULL, NULL};
+    for (size_t i = shard; i < PLANTED_BUGS; i += shards)
+        tests[count++] = (struct CMUnitTest){planted_bugs[i].name, bug_is_caught, NULL, NULL,
+                                             (void *)&planted_bugs[i]};
+    return _cmocka_run_group_tests("planted", tests, count, read_commands, clean_up);
+}
