@@ -146,6 +146,14 @@ static const struct planted_bug planted_bugs[] = {
     /* ---- the flexibility form, axial ---- */
     {"axial_mass_factor", "solver/riccati_axial.c", "field->density * field->h / field->k / 6;",
      "field->density * field->h / field->k / 4;"},
+    {"axial_mass_lumped_in_the_recursion", "solver/riccati_axial.c",
+     "const long double q = 2 * m + p;\n        const long double s = r + q;",
+     "const long double q = 3 * m + p;\n        const long double s = r + q;\n"
+     "        if (s > 0) {\n            const long double z = influence / s;\n"
+     "            compliance += z * influence;\n            influence *= r / s;\n"
+     "            p = 3 * m + q * (r / s) * (r / s) + r * (q / s) * (q / s);\n"
+     "            a->gain[i] = (struct gain){(double)(r / s), (double)(q / s), (double)(1 / s), "
+     "(double)z};\n            continue;\n        }"},
     {"axial_viscosity_dropped", "solver/riccati_axial.c",
      "((long double)field->viscosity + (long double)field->k * field->stiffness) / field->h;",
      "((long double)field->k * field->stiffness) / field->h;"},
