@@ -338,39 +338,6 @@ static bool is_told(const struct br_joint_fit *fit)
            (fit->kind == BR_JOINT_SPACE || br_order_determined(&fit->q));
 }
 
-/* Fits one kind of model; returns Akaike's criterion, infinite where it cannot be fitted or there
- * are too few points for that. */
-static double fit_kind(const struct problem *problem, struct br_observation *workspace,
-                       struct br_joint_fit *fit)
-{
-    struct attempt a = best_attempt(problem);
-    if (!isfinite(a.sum))
-        return INFINITY;
-    if (problem->kind != BR_JOINT_TIME)
-        widen_by_jackknife(problem, &a, true, workspace);
-    if (problem->kind != BR_JOINT_SPACE)
-        widen_by_jackknife(problem, &a, false, workspace);
-    describe(problem, &a, fit);
-    return akaike(a.sum, problem->count, kinds[problem->kind].count);
-}
-
-enum br_status br_joint_fit_time(const struct br_observation *observation, size_t count,
-                                 struct br_joint_fit *fit, struct br_error *err)
-{
-    nothing_fitted(fit);
-    fit->points = count;
-    struct br_observation *workspace = br_allocate(count, sizeof *workspace);
-    if (!workspace)
-        return br_no_memory(err, "the fits");
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
-    const struct problem problem = {observation, count, BR_JOINT_TIME};
-    if (enough(&problem))
-        fit_kind(&problem, workspace, fit);
-    gsl_set_error_handler(handler);
-    free(workspace);
-    return BR_OK;
-}
-
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
                                   struct br_joint_fit *fit, struct br_error *err)
 {
@@ -386,10 +353,16 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
         const struct problem problem = {observation, count, (enum br_joint_kind)kind};
         if (!enough(&problem))
             continue;
-        struct br_joint_fit candidate;
-        const double criterion = fit_kind(&problem, workspace, &candidate);
-        if (!(criterion < best))
+        struct attempt a = best_attempt(&problem);
+        const double criterion = akaike(a.sum, count, kinds[kind].count);
+        if (!isfinite(a.sum) || !(criterion < best))
             continue;
+        if (kind != BR_JOINT_TIME)
+            widen_by_jackknife(&problem, &a, true, workspace);
+        if (kind != BR_JOINT_SPACE)
+            widen_by_jackknife(&problem, &a, false, workspace);
+        struct br_joint_fit candidate;
+        describe(&problem, &a, &candidate);
         if (kind == BR_JOINT_BOTH)
             both = candidate;
         if (!is_told(&candidate))

@@ -18,11 +18,6 @@ struct br_observation {
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
                                   struct br_joint_fit *fit, struct br_error *err);
 
-/* Fits e = C_k (k^q - k_ref^q) alone, h left aside; fit->q may have an interval that says nothing.
- */
-enum br_status br_joint_fit_time(const struct br_observation *observation, size_t count,
-                                 struct br_joint_fit *fit, struct br_error *err);
-
 /* value -+ half width of the 95 % interval: t quantile times the deviation. */
 struct br_estimate br_estimate_of(double value, double deviation, size_t freedom);
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/joint_fit.h"
+#include "study/order_fit.h"
 
 const char *const br_verdict_names[] = {"PASS", "FAIL", "INCONCLUSIVE"};
 
@@ -88,24 +88,20 @@ static void find_constants(struct br_case *c)
     }
 }
 
-/* The order with its interval, by the fit that the tables use: errors over z, where what a point is
- * compared with has a resolution of its own. */
+/* The order with its interval, from the points that are not left out. */
 static enum br_status find_order(struct br_case *c, struct br_error *err)
 {
-    struct br_observation *o = br_allocate(c->points, sizeof *o);
-    if (!o)
+    struct br_order_point *used = br_allocate(c->points, sizeof *used);
+    if (!used)
         return br_no_memory(err, "the verdict");
     size_t count = 0;
     for (size_t i = 0; i < c->points; i++) {
         const struct br_point *p = &c->point[i];
         if (is_used(p))
-            o[count++] = (struct br_observation){
-                .h = 1, .h_ref = 1, .k = p->z, .k_ref = p->z_against, .error = p->error};
+            used[count++] = (struct br_order_point){p->z, p->z_against, p->error};
     }
-    struct br_joint_fit fit;
-    const enum br_status status = br_joint_fit_time(o, count, &fit, err);
-    c->order = fit.q;
-    free(o);
+    const enum br_status status = br_order_fit(used, count, &c->order, err);
+    free(used);
     return status;
 }
 
@@ -178,7 +174,7 @@ static void judge_order(struct br_case *c)
                  c->order.low < low ? low : high);
         advise(c);
     } else
-        conclude(c, BR_FAIL, "no order above 0 fits the errors, %.2e to %.2e from coarse to fine",
+        conclude(c, BR_FAIL, "no order fits the errors, %.2e to %.2e from coarse to fine",
                  c->point[0].error, c->point[c->points - 1].error);
 }
 

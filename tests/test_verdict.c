@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Verdicts on errors that are made up, so that what they should be is known. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "study/verdict.h"
+#include "support.h"
+
+enum { MOST = 8 };
+
+/* A case over time with the given errors at z = 1/100, 1/200, ...: expected 1 +- 0.1. */
+struct made {
+    struct br_case it;
+    struct br_point point[MOST];
+};
+
+static void make(struct made *m, const double *error, size_t count)
+{
+    *m = (struct made){
+        .it = {.kind = BR_VERIFY_JOINT,
+               .expected = {&br_norm_l2, BR_PART_TOTAL, 1, 0.1, NAN, NAN, 7},
+               .point = m->point,
+               .points = count},
+    };
+    for (size_t i = 0; i < count; i++) {
+        m->point[i] = (struct br_point){.at = {10u << i, 100u << i}, .error = error[i]};
+        m->point[i].z = 1 / (double)m->point[i].at.steps;
+    }
+}
+
+/* Errors C z^order. */
+static void make_power(struct made *m, double order, size_t count)
+{
+    double error[MOST];
+    for (size_t i = 0; i < count; i++)
+        error[i] = 3 * pow(1 / (double)(100u << i), order);
+    make(m, error, count);
+}
+
+static void reach(struct made *m, enum br_verdict expected, const char *reason)
+{
+    struct br_error err = {0};
+    MUST(br_verdict_reach(&m->it, &err));
+    if (m->it.verdict != expected || !strstr(m->it.reason, reason))
+        fail_msg("%s because '%s', expected %s because '%s'", br_verdict_names[m->it.verdict],
+                 m->it.reason, br_verdict_names[expected], reason);
+}
+
+static void test_order(void **state)
+{
+    (void)state;
+    static const struct {
+        double order;
+        enum br_verdict verdict;
+        const char *reason;
+    } rows[] = {
+        {1, BR_PASS, ""},
+        {1.0999, BR_PASS, ""},
+        {0.9001, BR_PASS, ""},
+        {0.8999, BR_FAIL, "lies below the band, 0.9 to 1.1"},
+        {1.1001, BR_FAIL, "lies above the band, 0.9 to 1.1"},
+        {2, BR_FAIL, "lies above"},
+        {60, BR_FAIL, "lies above"},
+        {0.01, BR_FAIL, "lies below"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct made m;
+        make_power(&m, rows[i].order, 5);
+        reach(&m, rows[i].verdict, rows[i].reason);
+        CLOSE(m.it.order.value, rows[i].order, 1e-6);
+        AT_MOST(m.it.order.high - m.it.order.low, 1e-6);
+        CLOSE(m.it.margin, 0.1 - fabs(rows[i].order - 1), 1e-6);
+        assert_int_equal(m.it.used, 5);
+    }
+}
+
+/* Errors against the next finer grid, with ratios that differ, tell the same order. */
+static void test_differences(void **state)
+{
+    (void)state;
+    static const double parts[] = {10, 20, 60, 120, 480};
+    struct made m;
+    make_power(&m, 1, 4);
+    m.it.kind = BR_VERIFY_SPACE;
+    m.it.expected.order = 2;
+    for (size_t i = 0; i < 4; i++) {
+        m.point[i].z = 1 / parts[i];
+        m.point[i].z_against = 1 / parts[i + 1];
+        m.point[i].error = 5 * (pow(m.point[i].z, 2) - pow(m.point[i].z_against, 2));
+    }
+    reach(&m, BR_PASS, "");
+    CLOSE(m.it.order.value, 2, 1e-6);
+    CLOSE(m.it.constant, 5, 1e-12);
+}
+
+static void test_straddling(void **state)
+{
+    (void)state;
+    static const double rising[] = {1e-2, 6.0e-3, 3.3e-3, 1.7e-3, 8.6e-4};  /* towards order 1 */
+    static const double noisy[] = {1e-2, 5.9e-3, 2.2e-3, 1.4e-3, 6.0e-4};   /* about 1 */
+    static const double stalled[] = {1e-2, 5.0e-3, 2.6e-3, 1.5e-3, 1.0e-3}; /* away from it */
+    struct made m;
+    make(&m, rising, 5);
+    reach(&m, BR_INCONCLUSIVE, "the coarse ones are not asymptotic");
+    assert_non_null(strstr(m.it.reason, "straddles"));
+    make(&m, noisy, 5);
+    reach(&m, BR_INCONCLUSIVE, "it is wider than the band");
+    make(&m, stalled, 5);
+    reach(&m, BR_INCONCLUSIVE, "straddles the band's lower end");
+    assert_true(m.it.margin < 0);
+}
+
+/* What is not a number fails, wherever it stands and whatever else is well. */
+static void test_not_a_number(void **state)
+{
+    (void)state;
+    static const double bad[] = {NAN, INFINITY, -INFINITY, -1e-3};
+    for (size_t b = 0; b < sizeof bad / sizeof *bad; b++)
+        for (size_t i = 0; i < 5; i++)
+            for (int flag = BR_FLAG_NONE; flag <= BR_FLAG_UNSTABLE; flag++) {
+                struct made m;
+                make_power(&m, 1, 5);
+                m.point[i].error = bad[b];
+                m.point[i].flag = (enum br_flag)flag;
+                reach(&m, BR_FAIL, "the error is not a number");
+            }
+    struct made m;
+    make_power(&m, 1, 5);
+    snprintf(m.point[2].failure, sizeof m.point[2].failure, "it blew up");
+    reach(&m, BR_FAIL, "at (n = 40, k = T/400) it blew up");
+    make_power(&m, 1, 5);
+    m.point[4].flag = BR_FLAG_FAILED;
+    reach(&m, BR_FAIL, "n = 160");
+}
+
+static void test_errors_that_do_not_fall(void **state)
+{
+    (void)state;
+    static const double zero[] = {0, 0, 0, 0, 0}, constant[] = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3},
+                        growing[] = {1e-3, 2e-3, 4e-3, 8e-3, 16e-3};
+    struct made m;
+    make(&m, zero, 5);
+    reach(&m, BR_FAIL, "");
+    make(&m, constant, 5);
+    reach(&m, BR_FAIL, "");
+    make(&m, growing, 5);
+    reach(&m, BR_FAIL, "");
+}
+
+static void test_too_few(void **state)
+{
+    (void)state;
+    struct made m;
+    for (size_t count = 0; count < BR_VERIFY_LEAST_POINTS; count++) {
+        make_power(&m, 1, count);
+        reach(&m, BR_FAIL, "expected at least 4");
+    }
+    make_power(&m, 1, 5);
+    m.point[4].flag = BR_FLAG_ROUND_OFF;
+    reach(&m, BR_PASS, "");
+    assert_int_equal(m.it.used, 4);
+    assert_non_null(strstr(m.it.note, "left out: (n = 160, k = T/1600) (round-off"));
+    m.point[3].flag = BR_FLAG_REFERENCE;
+    reach(&m, BR_INCONCLUSIVE, "3 of 5 errors are left, an order needs 4: coarser grids");
+    m.point[0].flag = BR_FLAG_UNSTABLE;
+    reach(&m, BR_INCONCLUSIVE, "smaller time steps");
+}
+
+/* A point that is left out must not count, however far off it is. */
+static void test_left_out(void **state)
+{
+    (void)state;
+    struct made m;
+    make_power(&m, 1, 6);
+    m.point[5].error *= 1e3;
+    m.point[5].flag = BR_FLAG_ROUND_OFF;
+    m.it.expected.ceiling = 3.01;
+    reach(&m, BR_PASS, "");
+    m.point[5].flag = BR_FLAG_NONE;
+    reach(&m, BR_FAIL, "");
+}
+
+static void test_constant(void **state)
+{
+    (void)state;
+    struct made m;
+    make_power(&m, 1, 5);
+    m.it.expected.ceiling = 3.001;
+    reach(&m, BR_PASS, "");
+    CLOSE(m.it.constant, 3, 1e-12);
+    m.it.expected.ceiling = 2.999;
+    reach(&m, BR_FAIL, "the constant, 3 m^(3/2), is above its ceiling, 2.999");
+    m.it.expected.ceiling = 4;
+    m.it.expected.floor = 3.001;
+    reach(&m, BR_FAIL, "below its floor, 3.001");
+    m.it.expected.floor = 2.999;
+    reach(&m, BR_PASS, "");
+    m.it.expected.order = 2; /* both are wrong: both are said */
+    m.it.expected.ceiling = 3;
+    reach(&m, BR_FAIL, "above its ceiling, 3; and the order");
+}
+
+/* Of 400 noisy power laws about 95 % have their order within its interval. */
+static void test_coverage(void **state)
+{
+    (void)state;
+    struct br_test_random random = {20261121};
+    int within = 0;
+    const int trials = 400;
+    for (int t = 0; t < trials; t++) {
+        struct made m;
+        make_power(&m, 1, 5);
+        for (size_t i = 0; i < 5; i++) { /* about normal: a sum of 12 uniform numbers */
+            double normal = -6;
+            for (int j = 0; j < 12; j++)
+                normal += br_test_uniform(&random, 0, 1);
+            m.point[i].error *= exp(0.05 * normal);
+        }
+        struct br_error err = {0};
+        MUST(br_verdict_reach(&m.it, &err));
+        within += m.it.order.low <= 1 && m.it.order.high >= 1;
+    }
+    if (!(within >= 0.93 * trials))
+        fail_msg("%d of %d intervals hold the order", within, trials);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_order),
+        cmocka_unit_test(test_differences),
+        cmocka_unit_test(test_straddling),
+        cmocka_unit_test(test_not_a_number),
+        cmocka_unit_test(test_errors_that_do_not_fall),
+        cmocka_unit_test(test_too_few),
+        cmocka_unit_test(test_left_out),
+        cmocka_unit_test(test_constant),
+        cmocka_unit_test(test_coverage),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
