@@ -39,7 +39,8 @@ static void show(void *self, double fraction)
         draw_bar(fraction, left);
     }
     const int tenths = (int)(10 * fraction);
-    if (!progress.terminal && tenths > progress.tenths) {
+    if (!progress.terminal && tenths > progress.tenths && t - progress.last >= 1) {
+        progress.last = t;
         progress.tenths = tenths;
         fprintf(stderr, "%s: %d %%, about %.0f s left\n", progress.what, 10 * tenths, left);
     }
@@ -59,7 +60,7 @@ const struct br_observer *br_progress_start(const char *what, bool quiet)
     progress.quiet = quiet;
     progress.terminal = isatty(STDERR_FILENO) == 1;
     progress.start = br_seconds();
-    progress.last = 0;
+    progress.last = progress.start;
     progress.tenths = 0;
     observer = (struct br_observer){.progress = quiet ? NULL : show, .stop = stop};
     return &observer;

@@ -58,13 +58,14 @@ const char *br_check_summary(const struct br_check_page *page, char *buffer, siz
     size_t orders = 0;
     for (size_t i = 0; i < page->count; i++)
         orders += page->checks[i].count;
-    int used = snprintf(buffer, size, "%zu orders in %zu scenes: ", orders, page->count);
+    int used = snprintf(buffer, size, "%zu orders in %zu scene%s: ", orders, page->count,
+                        page->count == 1 ? "" : "s");
     for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
         used += snprintf(buffer + used, size - (size_t)used, "%zu %s%s",
                          br_check_tally(page->checks, page->count, (enum br_verdict)v),
                          br_verdict_names[v], v < BR_INCONCLUSIVE ? ", " : "");
     if (page->skips)
-        used += snprintf(buffer + used, size - (size_t)used, ", %zu scenes skipped", page->skips);
+        used += snprintf(buffer + used, size - (size_t)used, ", %zu skipped", page->skips);
     snprintf(buffer + used, size - (size_t)used, "%s; %.1f s",
              page->stopped ? "; stopped at the first scene that failed" : "", page->wall_seconds);
     return buffer;

@@ -70,11 +70,10 @@ static void line(void *self, const char *text)
 
 static void print_case(FILE *out, const struct br_check *check, const struct br_case *c)
 {
-    char name[64], band[64], order[64];
+    char name[64], order[64];
     fputs("    <testcase classname=\"beamrate.", out);
     print_escaped(out, check->scene->name);
-    fprintf(out, "\" name=\"%s: order %s\" time=\"0\" file=\"", br_case_name(c, name, sizeof name),
-            br_case_band(c, band, sizeof band));
+    fprintf(out, "\" name=\"%s\" time=\"0\" file=\"", br_case_name(c, name, sizeof name));
     print_escaped(out, check->path);
     fprintf(out, "\" line=\"%zu\">\n      <properties>\n", c->expected.line);
     number(out, "order", c->order.value);

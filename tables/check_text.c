@@ -74,8 +74,10 @@ static void print_comparison(FILE *out, const struct br_comparison *c)
     for (size_t i = 0; i < c->count; i++) {
         const struct br_difference *d = &c->difference[i];
         fprintf(out, "  %-8s %s", br_severity_names[d->severity], d->subject);
-        if (isfinite(d->before) || isfinite(d->now))
-            fprintf(out, ", %.6g before, %.6g now", d->before, d->now);
+        if (isfinite(d->before))
+            fprintf(out, ", %.6g before", d->before);
+        if (isfinite(d->now))
+            fprintf(out, ", %.6g now", d->now);
         fprintf(out, "%s%s%s\n", d->remark[0] ? " (" : "", d->remark, d->remark[0] ? ")" : "");
     }
 }

@@ -1,0 +1,298 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* beamrate check as a CI job meets it: exit codes, messages, reports. */
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli_driver.h"
+#include "reference/judge.h"
+#include "support.h"
+
+/* A scene that takes no time, with its verify part; lines 11 to 13. */
+#define SCENE                       \
+    "title: T & <\"pull\"> | ]]>\n" \
+    "length: 1 m\n"                 \
+    "duration: 1 s\n"               \
+    "density: 1 kg/m\n"             \
+    "axial:\n"                      \
+    "  stiffness: 1 N\n"            \
+    "  viscosity: 1 N s\n"          \
+    "  load: sin(x)*(1 + t) [N/m]\n"
+#define SPACE                      \
+    "verify:\n"                    \
+    "  space:\n"                   \
+    "    n: 10, 20, 40, 80, 160\n" \
+    "    k: 0.1 s\n"
+
+static void test_verdicts(void **state)
+{
+    (void)state;
+    cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n");
+    cli_write_file("bad.yaml", SCENE SPACE "    l2: 3 +- 0.1\n");
+    cli_write_file("plain.yaml", SCENE);
+    cli_expect("check good.yaml", NULL, 0, "1 orders in 1 scene: 1 PASS, 0 FAIL, 0 INCONCLUSIVE");
+    cli_expect("check bad.yaml", NULL, 1, "lies below the band, 2.9 to 3.1");
+    cli_expect("check bad.yaml --quiet", NULL, 1, "1 of 1 orders do not pass");
+    cli_expect("check good.yaml bad.yaml", NULL, 1, "1 PASS, 1 FAIL");
+    cli_expect("check plain.yaml", NULL, 0,
+               "plain.yaml has no verify part; these are the defaults");
+    cli_expect("check bad.yaml plain.yaml good.yaml --fail-fast", NULL, 1,
+               "stopped at the first scene that failed");
+    cli_expect("check good.yaml --contact implicit --solver umfpack --threads 2", NULL, 0, "PASS");
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n");
+    cli_write_file("contradiction.yaml", SCENE SPACE "    l2: 2 +- 2\n");
+    cli_write_file("beyond.yaml",
+                   "title: T\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
+                   "axial:\n  stiffness: 1 N\n  viscosity: 1 N s\n  load: step(x - 0.3) [N/m]\n"
+                   "verify:\n  joint:\n    n: 10, 20, 40, 80\n"
+                   "    k: 0.5, 0.25, 0.125, 0.0625 s\n    l2: 1 +- .1\n");
+    static const struct {
+        const char *line, *message;
+    } rows[] = {
+        {"check", "no scene is given, expected files, names of bundled scenes, or --all"},
+        {"check nowhere", "scene 'nowhere' is no file and no bundled scene"},
+        {"check --all good.yaml", "--all and scenes are given"},
+        {"check good.yaml --threads -1", "--threads: found '-1'"},
+        {"check good.yaml --solver magic", "--solver: found 'magic', expected one of: riccati"},
+        {"check good.yaml --contact magic", "--contact: found 'magic'"},
+        {"check good.yaml --friction magic", "--friction: found 'magic'"},
+        {"check good.yaml --bogus", "--bogus: unknown option"},
+        {"check good.yaml --junit", "--junit: missing argument"},
+        {"check good.yaml --junit no/such/folder/x", "--junit: cannot write no/such/folder/x"},
+        {"check good.yaml --json .", "--json: cannot write ."},
+        {"check good.yaml --json x --tap x", "--json and --tap both write x"},
+        {"check good.yaml --compare nothing.json", "nothing.json:1: unable to open"},
+        {"check good.yaml --compare good.yaml", "good.yaml:1: "},
+        {"check contradiction.yaml", "contradiction.yaml:13: verify: found 2 +- 2"},
+        {"check good.yaml contradiction.yaml", "contradiction.yaml:13: verify: found 2 +- 2"},
+        {"check beyond.yaml", "beyond.yaml:11: verify: joint: the scene cannot be verified"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        cli_expect(rows[i].line, NULL, 2, rows[i].message);
+    assert_false(cli_is_there("x"));
+}
+
+/* A JSON that is none of a check's. */
+static void test_strange_baselines(void **state)
+{
+    (void)state;
+    cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n");
+    static const char *const texts[] = {
+        "{}",
+        "[]",
+        "{\"format\": \"beamrate check 9\", \"scenes\": []}",
+        "{\"format\": \"beamrate check 1\"}",
+        "{\"format\": \"beamrate check 1\", \"scenes\": [3]}",
+        "{\"format\": \"beamrate check 1\", \"scenes\": [{\"scene\": \"a\", \"seconds\": 1, "
+        "\"element_steps\": 1}]}",
+        "{\"format\": \"beamrate check 1\", \"scenes\": [{\"scene\": \"a\", \"seconds\": 1, "
+        "\"element_steps\": 1, \"cases\": [{}]}]}",
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        cli_write_file("old.json", texts[i]);
+        cli_expect("check good.yaml --compare old.json", NULL, 2, "old.json: ");
+    }
+    cli_write_file("old.json", "{\"format\": \"beamrate check 1\", \"scenes\": []}");
+    cli_expect("check good.yaml --compare old.json", NULL, 0, "new");
+}
+
+static char *contents(const char *name)
+{
+    char path[512];
+    static char text[1 << 16];
+    cli_path(name, path);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    return text;
+}
+
+static size_t count(const char *text, const char *word)
+{
+    size_t found = 0;
+    for (const char *at = text; (at = strstr(at, word)); at += strlen(word))
+        found++;
+    return found;
+}
+
+static double attribute(const char *text, const char *name)
+{
+    char pattern[128];
+    snprintf(pattern, sizeof pattern, "name=\"%s\" value=\"", name);
+    const char *at = strstr(text, pattern);
+    assert_non_null(at);
+    return strtod(at + strlen(pattern), NULL);
+}
+
+/* Every tag that opens closes, in the right order, and no text holds a bare & or <. */
+static void check_xml(const char *text)
+{
+    char stack[32][64];
+    size_t depth = 0;
+    const char *at = strstr(text, "?>");
+    assert_non_null(at);
+    for (at += 2; *at; at++) {
+        if (*at == '&')
+            assert_true(strncmp(at, "&amp;", 5) == 0 || strncmp(at, "&lt;", 4) == 0 ||
+                        strncmp(at, "&gt;", 4) == 0 || strncmp(at, "&quot;", 6) == 0);
+        if (*at != '<')
+            continue;
+        const size_t length = strcspn(at + 1, " />\n");
+        const char *end = strchr(at, '>');
+        assert_non_null(end);
+        if (at[1] == '/') {
+            assert_true(depth > 0);
+            depth--;
+            assert_memory_equal(stack[depth], at + 2, strlen(stack[depth]));
+        } else if (end[-1] != '/') {
+            assert_true(depth < 32 && length < 64);
+            snprintf(stack[depth++], 64, "%.*s", (int)length, at + 1);
+        }
+        at = end;
+    }
+    assert_int_equal(depth, 0);
+}
+
+static void test_reports(void **state)
+{
+    (void)state;
+    cli_write_file("a & <b> \"c\".yaml", SCENE SPACE "    l2: 3 +- 0.1, at most 1 m^(3/2)\n");
+    cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n    tip: 2 +- 0.5\n");
+    char *const line[] = {
+        "check", "a & <b> \"c\".yaml", "good.yaml", "--junit", "r.xml", "--json", "r.json", "--tap",
+        "r.tap", "--markdown",         "r.md",      NULL};
+    struct cli_outcome *out = calloc(1, sizeof *out);
+    assert_non_null(out);
+    cli_run((const char *const *)line, NULL, out);
+    assert_int_equal(out->exit_code, 1);
+    free(out);
+
+    const char *xml = contents("r.xml");
+    check_xml(xml);
+    assert_int_equal(count(xml, "<testcase "), 3);
+    assert_int_equal(count(xml, "<failure "), 1);
+    assert_non_null(strstr(xml, "tests=\"3\" failures=\"1\""));
+    assert_non_null(strstr(xml, "a &amp; &lt;b&gt; &quot;c&quot;"));
+    CLOSE(attribute(xml, "order"), 2, 0.01);
+    CLOSE(attribute(xml, "expected"), 3, 0);
+    CLOSE(attribute(xml, "tolerance"), 0.1, 1e-15);
+    AT_MOST(attribute(xml, "margin"), -0.8);
+    CLOSE(attribute(xml, "ceiling"), 1, 0);
+
+    const char *tap = contents("r.tap");
+    assert_int_equal(strncmp(tap, "TAP version 13\n1..3\nnot ok 1 - ", 31), 0);
+    assert_int_equal(count(tap, "\nok "), 2);
+    assert_int_equal(count(tap, "\n  ---\n"), 3);
+    assert_int_equal(count(tap, "\n  ...\n"), 3);
+
+    const char *md = contents("r.md");
+    assert_non_null(strstr(md, "- **FAIL** a & \\<b> \"c\", space l2 total"));
+    assert_int_equal(count(md, "\n| "), 4); /* a heading and three orders */
+
+    char path[512];
+    cli_path("r.json", path);
+    json_t *root = json_load_file(path, 0, NULL);
+    assert_non_null(root);
+    const json_t *scenes = json_object_get(root, "scenes");
+    assert_int_equal(json_array_size(scenes), 2);
+    const json_t *cases = json_object_get(json_array_get(scenes, 0), "cases");
+    const json_t *first = json_array_get(cases, 0);
+    assert_string_equal(json_string_value(json_object_get(first, "verdict")), "FAIL");
+    assert_int_equal(json_array_size(json_object_get(first, "points")), 4);
+    assert_true(json_is_null(json_object_get(first, "floor")));
+    assert_int_equal(json_integer_value(json_object_get(json_object_get(root, "tally"), "PASS")),
+                     2);
+    json_decref(root);
+}
+
+/* A report on standard output stands there alone. */
+static void test_standard_output(void **state)
+{
+    (void)state;
+    cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n");
+    struct cli_outcome *out = calloc(1, sizeof *out);
+    assert_non_null(out);
+    cli_run_line("check good.yaml --tap -", NULL, out);
+    assert_int_equal(out->exit_code, 0);
+    assert_int_equal(strncmp(out->output, "TAP version 13\n", 15), 0);
+    assert_null(strstr(out->output, "scene   "));
+    free(out);
+    cli_expect("check good.yaml --tap /dev/null", NULL, 0, "PASS");
+    struct stat info;
+    assert_int_equal(stat("/dev/null", &info), 0);
+    assert_true(S_ISCHR(info.st_mode)); /* it was written to, not replaced */
+}
+
+/* A report is written whole or not at all, and an old one stays until then. */
+static void test_whole_files(void **state)
+{
+    (void)state;
+    cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n");
+    cli_write_file("kept.json", "old\n");
+    const size_t files = cli_count_files(".");
+    cli_expect("check good.yaml --json kept.json", &(struct cli_circumstances){.file_size = 100}, 3,
+               "kept.json could not be written whole");
+    assert_string_equal(contents("kept.json"), "old\n");
+    cli_expect("check nowhere --json kept.json", NULL, 2, "nowhere");
+    cli_expect("check example4 --json kept.json",
+               &(struct cli_circumstances){.interrupt_after = 50}, -2, "interrupted");
+    assert_string_equal(contents("kept.json"), "old\n");
+    assert_int_equal(cli_count_files("."), files);
+}
+
+static void test_compare(void **state)
+{
+    (void)state;
+    cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n    tip: 2 +- 0.5\n");
+    cli_expect("check good.yaml --json old.json", NULL, 0, "2 PASS");
+    cli_expect("check good.yaml --compare old.json", NULL, 0, "0 serious");
+    /* twice the load: the orders stay, the constants double */
+    cli_write_file("good.yaml", "title: T\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
+                                "axial:\n  stiffness: 1 N\n  viscosity: 1 N s\n"
+                                "  load: 2.1*sin(x)*(1 + t) [N/m]\n" SPACE
+                                "    l2: 2 +- 0.1\n    tip: 2 +- 0.5\n");
+    cli_expect("check good.yaml --compare old.json", NULL, 1, "2 serious");
+    cli_expect("check good.yaml --compare old.json", NULL, 1,
+               "serious  good space l2 total: constant");
+    cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n");
+    cli_expect("check good.yaml --compare old.json", NULL, 1, "good space tip total: gone");
+}
+
+/* All bundled scenes pass; those that this build cannot check are named. */
+static void test_all(void **state)
+{
+    (void)state;
+    if (br_test_quick())
+        skip();
+    cli_expect("check --all", NULL, 0, "0 FAIL, 0 INCONCLUSIVE");
+    if (!br_judge_find("mms"))
+        cli_expect("check --all", NULL, 0, "mms_slip      skipped: built without libmatheval");
+    char path[512];
+    cli_path("study", path);
+    assert_int_equal(mkdir(path, 0777), 0);
+    cli_expect("check --all", &(struct cli_circumstances){.data = cli_folder()}, 2,
+               "the bundled scenes: ");
+    cli_path("study/scenes", path);
+    assert_int_equal(mkdir(path, 0777), 0);
+    cli_expect("check --all", &(struct cli_circumstances){.data = cli_folder()}, 1,
+               "no order was checked");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_verdicts),          cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_strange_baselines), cmocka_unit_test(test_reports),
+        cmocka_unit_test(test_standard_output),   cmocka_unit_test(test_whole_files),
+        cmocka_unit_test(test_compare),           cmocka_unit_test(test_all),
+    };
+    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
+}
