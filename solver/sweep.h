@@ -2,7 +2,7 @@
 /* How the sweeps are compiled. A sweep is one chain of dependent multiply-adds,
  * bound by their latency, so these files alone are compiled with contraction
  * (-ffp-contract=fast; all others with =off), and on x86-64 the program picks at
- * run time a copy that uses fused multiply-add where the processor has it. */
+ * run time a copy that uses fused multiply-add where the processor has it (-DBR_NO_FMA: never). */
 #ifndef BR_SWEEP_H
 #define BR_SWEEP_H
 
@@ -16,7 +16,7 @@
 #define BR_SANITIZED 1
 #endif
 
-#if defined __x86_64__ && defined __gnu_linux__ && !defined BR_SANITIZED
+#if defined __x86_64__ && defined __gnu_linux__ && !defined BR_SANITIZED && !defined BR_NO_FMA
 #define BR_SWEEP __attribute__((target_clones("default", "arch=x86-64-v3")))
 #else
 #define BR_SWEEP

@@ -58,8 +58,8 @@ const char *br_check_summary(const struct br_check_page *page, char *buffer, siz
     size_t orders = 0;
     for (size_t i = 0; i < page->count; i++)
         orders += page->checks[i].count;
-    int used = snprintf(buffer, size, "%zu orders in %zu scene%s: ", orders, page->count,
-                        page->count == 1 ? "" : "s");
+    int used = snprintf(buffer, size, "%zu order%s in %zu scene%s: ", orders,
+                        orders == 1 ? "" : "s", page->count, page->count == 1 ? "" : "s");
     for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
         used += snprintf(buffer + used, size - (size_t)used, "%zu %s%s",
                          br_check_tally(page->checks, page->count, (enum br_verdict)v),

@@ -32,7 +32,7 @@ static void test_verdicts(void **state)
     cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n");
     cli_write_file("bad.yaml", SCENE SPACE "    l2: 3 +- 0.1\n");
     cli_write_file("plain.yaml", SCENE);
-    cli_expect("check good.yaml", NULL, 0, "1 orders in 1 scene: 1 PASS, 0 FAIL, 0 INCONCLUSIVE");
+    cli_expect("check good.yaml", NULL, 0, "1 order in 1 scene: 1 PASS, 0 FAIL, 0 INCONCLUSIVE");
     cli_expect("check bad.yaml", NULL, 1, "lies below the band, 2.9 to 3.1");
     cli_expect("check bad.yaml --quiet", NULL, 1, "1 of 1 orders do not pass");
     cli_expect("check good.yaml bad.yaml", NULL, 1, "1 PASS, 1 FAIL");

@@ -124,6 +124,8 @@ static void sound_program_passes(void **state)
 static void bug_is_caught(void **state)
 {
     const struct planted_bug *bug = *state;
+    if (br_test_quick())
+        skip();
     plant(bug);
     build(bug);
     char program[64];
