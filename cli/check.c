@@ -36,19 +36,13 @@ struct run {
 
 /* ---- scenes ---- */
 
-/* Whether a scene needs what this build leaves out. */
-static bool is_beyond_build(const struct br_scene *scene)
-{
-    return (scene->axial.solution || scene->bending.solution) && !br_judge_find("mms");
-}
-
 static enum br_status read_scene(struct run *r, size_t i, const char *name, struct br_error *err)
 {
     struct item *item = &r->item[i];
     enum br_status status = br_scene_find(name, item->path, sizeof item->path, err);
     if (!status)
         status = br_scene_read_verify(item->path, &item->scene, &item->verify, err);
-    if (status && r->options.all && is_beyond_build(&item->scene)) {
+    if (status == BR_UNSUPPORTED && r->options.all) {
         r->skipped[r->skips++] = (struct br_skipped){name, "built without libmatheval"};
         return BR_OK;
     }
@@ -127,6 +121,26 @@ static enum br_status open_files(struct run *r, struct br_error *err)
     return status;
 }
 
+/* No report may end where another one does, or in the place of what is read. */
+static enum br_status check_places(const struct run *r, struct br_error *err)
+{
+    for (size_t i = 1; br_check_emitters[i]; i++) {
+        const struct br_whole_file *f = &r->file[i];
+        const char *name = br_check_emitters[i]->name;
+        for (size_t j = 1; j < i; j++)
+            if (br_whole_file_same(f, &r->file[j]))
+                return br_fail(err, BR_BAD_INPUT, "--%s and --%s both write %s",
+                               br_check_emitters[j]->name, name, f->path);
+        for (size_t s = 0; s < r->count; s++)
+            if (br_whole_file_replaces(f, r->check[s].path))
+                return br_fail(err, BR_BAD_INPUT, "--%s would replace the scene %s", name, f->path);
+        if (r->options.compare && br_whole_file_replaces(f, r->options.compare))
+            return br_fail(err, BR_BAD_INPUT, "--%s would replace what it is compared with, %s",
+                           name, f->path);
+    }
+    return BR_OK;
+}
+
 static bool uses_stdout(const struct run *r)
 {
     for (size_t i = 1; br_check_emitters[i]; i++)
@@ -182,8 +196,12 @@ static enum br_status check(struct run *r, struct br_error *err)
     enum br_status status = read_scenes(r, err);
     if (!status && r->options.compare)
         status = br_check_read_json(r->options.compare, &r->old, err);
+    if (!status && r->options.compare)
+        status = br_compare_check(r->check, r->count, &r->old, err);
     if (!status)
         status = open_files(r, err);
+    if (!status)
+        status = check_places(r, err);
     if (!status)
         status = compute(r, err);
     if (!status && r->options.compare)

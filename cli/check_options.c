@@ -17,7 +17,7 @@ static const char usage[] =
     "Examples:\n  beamrate check --all --junit orders.xml --markdown summary.md\n"
     "  beamrate check my_scene.yaml --json new.json --compare old.json\n";
 
-enum { HELP = 1 };
+enum { HELP = 1, FIRST_FILE }; /* FIRST_FILE + i: a file of format i */
 
 /* One row an option: those of the formats, then the fixed ones. */
 struct option_table {
@@ -48,8 +48,8 @@ static void fill_table(struct option_table *t, struct br_check_options *o)
         {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
     };
     for (size_t i = 1; br_check_emitters[i]; i++)
-        add(t, &(struct poptOption){br_check_emitters[i]->name, 0, POPT_ARG_STRING, &o->file[i], 0,
-                                    br_check_emitters[i]->title, "FILE"});
+        add(t, &(struct poptOption){br_check_emitters[i]->name, 0, POPT_ARG_STRING, NULL,
+                                    FIRST_FILE + (int)i, br_check_emitters[i]->title, "FILE"});
     for (size_t i = 0; i < sizeof fixed / sizeof *fixed; i++)
         add(t, &fixed[i]);
     add(t, &(struct poptOption)POPT_TABLEEND);
@@ -93,14 +93,16 @@ static enum br_status read_method(struct br_check_options *o, struct br_error *e
     return br_read_count_option("threads", o->threads, 4096, &o->thread_count, err);
 }
 
-/* Two reports in one file would be none. */
-static enum br_status check_files(const struct br_check_options *o, struct br_error *err)
+/* The file of a format, which would be lost if another one followed. */
+static enum br_status keep_file(poptContext context, struct br_check_options *o, size_t format,
+                                struct br_error *err)
 {
-    for (size_t i = 1; br_check_emitters[i]; i++)
-        for (size_t j = i + 1; br_check_emitters[j]; j++)
-            if (o->file[i] && o->file[j] && strcmp(o->file[i], o->file[j]) == 0)
-                return br_fail(err, BR_BAD_INPUT, "--%s and --%s both write %s",
-                               br_check_emitters[i]->name, br_check_emitters[j]->name, o->file[i]);
+    char *path = poptGetOptArg(context);
+    if (o->file[format]) {
+        free(path);
+        return br_fail(err, BR_BAD_INPUT, "--%s is given twice", br_check_emitters[format]->name);
+    }
+    o->file[format] = path;
     return BR_OK;
 }
 
@@ -115,21 +117,22 @@ enum br_status br_check_options_parse(int argc, const char **argv, struct br_che
         return br_no_memory(err, "the options");
     poptSetOtherOptionHelp(context, usage);
     int code;
-    while ((code = poptGetNextOpt(context)) > 0)
+    enum br_status status = BR_OK;
+    while (!status && (code = poptGetNextOpt(context)) > 0)
         if (code == HELP) {
             o->help = 1;
             poptPrintHelp(context, stdout, 0);
-        }
-    enum br_status status = BR_OK;
-    if (code < -1)
+        } else
+            status = keep_file(context, o, (size_t)(code - FIRST_FILE), err);
+    if (!status && code < -1)
         status = br_fail(err, BR_BAD_INPUT, "%s: %s; '--help' lists the options",
                          poptBadOption(context, POPT_BADOPTION_NOALIAS), poptStrerror(code));
-    else if (!o->help)
+    else if (!status && !o->help)
         status = read_scenes(context, o, err);
     poptFreeContext(context);
     if (!status && !o->help)
         status = read_method(o, err);
-    return status || o->help ? status : check_files(o, err);
+    return status;
 }
 
 void br_check_options_clear(struct br_check_options *o)

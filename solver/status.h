@@ -11,6 +11,7 @@
     X(BR_OK, 0, "done")                                      \
     X(BR_VERDICT, 1, "a verdict failed")                     \
     X(BR_BAD_INPUT, 2, "bad input")                          \
+    X(BR_UNSUPPORTED, 2, "not in this build")                \
     X(BR_NO_MEMORY, 3, "out of memory")                      \
     X(BR_SINGULAR, 3, "the system is not positive definite") \
     X(BR_NOT_FINITE, 3, "not a finite number")               \

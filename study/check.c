@@ -163,6 +163,8 @@ static struct br_point point_at(const struct plan *plan, const struct section *s
         failure = &cell->failure;
         p.error = cell->error[e->part];
         p.flag = cell->flag[e->part];
+        if (p.flag == BR_FLAG_NONE && study->judged_by.unstable)
+            p.flag = BR_FLAG_UNSTABLE; /* what it is compared with */
     }
     snprintf(p.failure, sizeof p.failure, "%.255s", failure->status ? failure->message : "");
     return p;

@@ -48,8 +48,13 @@ struct br_comparison {
     size_t tally[BR_SERIOUS + 1];
 };
 
-/* Compares the checks with an earlier one. A scene or case that was there before and whose scene is
- * checked now, but is not there any more, is serious. Fails with BR_NO_MEMORY. */
+/* Whether a comparison makes sense, before anything is run: scenes are told apart by their names,
+ * and at least one of them must have been there before. Fails with BR_BAD_INPUT. */
+enum br_status br_compare_check(const struct br_check *checks, size_t count,
+                                const struct br_old_check *old, struct br_error *err);
+
+/* Compares the checks with an earlier one. A case that was there before and whose scene is checked
+ * now, but is not there any more, is serious. Fails with BR_NO_MEMORY. */
 enum br_status br_compare(const struct br_check *checks, size_t count,
                           const struct br_old_check *old, struct br_comparison *comparison,
                           struct br_error *err);

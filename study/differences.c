@@ -82,6 +82,14 @@ static enum br_status create_pairs(struct pairs *p, struct br_error *err)
     return BR_OK;
 }
 
+/* A pair is unstable where either of the two is. */
+static struct br_cell cell_of(const struct br_study *pair)
+{
+    struct br_cell cell = pair->cell[0];
+    cell.unstable |= pair->judged_by.unstable;
+    return cell;
+}
+
 /* The pairs of one direction and norm as one study. */
 static enum br_status gather(const struct pairs *p, bool over_h, size_t m, struct br_study *out,
                              struct br_error *err)
@@ -104,7 +112,7 @@ static enum br_status gather(const struct pairs *p, bool over_h, size_t m, struc
     for (size_t i = 0; i < out->n_count; i++)
         for (size_t j = 0; j < out->k_count; j++)
             out->cell[i * out->k_count + j] =
-                p->study[m * p->count + pair_index(p->grid, over_h, i, j)].cell[0];
+                cell_of(&p->study[m * p->count + pair_index(p->grid, over_h, i, j)]);
     return BR_OK;
 }
 

@@ -100,15 +100,23 @@ static void spawn_batch(struct crew *crew, struct br_lockstep *l, size_t b)
     }
 }
 
+/* Batches of each study that wait to be run, at most: time and memory of the tasks that
+ * are known at once grow faster than their number. */
+enum { MOST_AHEAD = 64 };
+
 static void spawn_all(struct crew *crew)
 {
     size_t most = 0;
     for (size_t s = 0; s < crew->count; s++)
         most = crew->step[s].batches > most ? crew->step[s].batches : most;
-    for (size_t b = 0; b < most; b++)
+    for (size_t b = 0; b < most; b++) {
         for (size_t s = 0; s < crew->count; s++)
-            if (b < crew->step[s].batches)
+            if (b < crew->step[s].batches && !atomic_load(&crew->step[s].stopped))
                 spawn_batch(crew, &crew->step[s], b);
+        if (b % MOST_AHEAD == MOST_AHEAD - 1) {
+#pragma omp taskwait
+        }
+    }
 }
 
 /* What the reference tells, kept with the study. */
@@ -141,7 +149,10 @@ static enum br_status conclude(struct br_lockstep *l, struct br_error *err)
 {
     if (l->reference.error.status)
         l->study->failure = l->reference.error;
-    else if (atomic_load(&l->stopped))
+    for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++)
+        if (l->cell[i].error.status == BR_NO_MEMORY)
+            l->study->failure = l->cell[i].error;
+    if (!l->study->failure.status && atomic_load(&l->stopped))
         br_fail(&l->study->failure, BR_INTERRUPTED, "interrupted");
     if (is_fatal(&l->study->failure))
         return br_fail(err, l->study->failure.status, "%s", l->study->failure.message);

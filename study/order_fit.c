@@ -32,7 +32,7 @@ static struct regression regress(const struct br_order_point *point, size_t coun
     }
     double constant, slope, cov00, cov01, cov11, sum;
     gsl_fit_linear(x, 1, y, 1, used, &constant, &slope, &cov00, &cov01, &cov11, &sum);
-    return (struct regression){slope, sqrt(fmax(0, cov11))};
+    return (struct regression){slope, sqrt(cov11 < 0 ? 0 : cov11)}; /* NaN stays */
 }
 
 /* The losses depend on p, but hardly: where all ratios are the same, not at all. */
@@ -40,13 +40,13 @@ static struct regression solve(const struct br_order_point *point, size_t count,
                                double *x, double *y)
 {
     struct regression r = regress(point, count, left_out, 1, x, y);
-    for (int i = 0; i < 50; i++) {
+    for (int i = 0; i < 1000; i++) {
         const double before = r.slope;
         r = regress(point, count, left_out, before, x, y);
-        if (!(fabs(r.slope - before) > 1e-13 * fmax(1, fabs(before))))
-            break;
+        if (fabs(r.slope - before) <= 1e-12 * fmax(1, fabs(before)))
+            return r;
     }
-    return r;
+    return (struct regression){NAN, NAN};
 }
 
 /* The standard deviation of the slope, from what leaving out one point does to it. */
@@ -59,7 +59,8 @@ static double jackknife(const struct br_order_point *point, size_t count, double
         sum += shift;
         squares += shift * shift;
     }
-    return sqrt((n - 1) / n * fmax(0, squares - sum * sum / n));
+    const double spread = squares - sum * sum / n;
+    return sqrt((n - 1) / n * (spread < 0 ? 0 : spread)); /* NaN stays */
 }
 
 enum br_status br_order_fit(const struct br_order_point *point, size_t count,
@@ -79,7 +80,7 @@ enum br_status br_order_fit(const struct br_order_point *point, size_t count,
     const double noise = gsl_cdf_tdist_Pinv(0.975, n - 2) * r.deviation;
     const double drift = gsl_cdf_tdist_Pinv(0.975, n - 1) * jackknife(point, count, x, x + count);
     free(x);
-    const double half = noise >= drift ? noise : drift; /* a NaN stays */
+    const double half = noise + drift >= 0 ? fmax(noise, drift) : NAN;
     *order = (struct br_estimate){r.slope, r.slope - half, r.slope + half};
     return BR_OK;
 }

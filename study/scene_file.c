@@ -132,9 +132,10 @@ static enum br_status apply_solutions(const struct br_scene_reader *r, const siz
         status = br_manufactured_apply(r->scene, parsed, &culprit, &inner);
     br_function_free(&parsed[BR_AXIAL]);
     br_function_free(&parsed[BR_BENDING]);
-    if (status == BR_BAD_INPUT)
-        return br_scene_refuse(r, solution_line(culprit, seen), "solution", "%s", inner.message);
-    return status ? br_fail(r->err, status, "%s", inner.message) : BR_OK;
+    if (status != BR_BAD_INPUT && status != BR_UNSUPPORTED)
+        return status ? br_fail(r->err, status, "%s", inner.message) : BR_OK;
+    br_scene_refuse(r, solution_line(culprit, seen), "solution", "%s", inner.message);
+    return r->err ? r->err->status = status : status;
 }
 
 /* The scene's name is its file's, without folder and ending. */
@@ -168,13 +169,26 @@ static enum br_status read_verify(const struct br_scene_reader *r, struct br_ver
     return node ? br_verify_read(r, node, verify) : br_verify_default(r->scene, verify, r->err);
 }
 
+/* A zero byte, which YAML can write as \0 in quotes, would end a text early. */
+static enum br_status check_texts(const struct br_scene_reader *r)
+{
+    for (const yaml_node_t *n = r->document->nodes.start; n < r->document->nodes.top; n++)
+        if (n->type == YAML_SCALAR_NODE && strlen(br_yaml_text(n)) != n->data.scalar.length)
+            return br_scene_refuse(r, br_yaml_line(n), "scene",
+                                   "found '%s' followed by a zero byte, expected text",
+                                   br_yaml_text(n));
+    return BR_OK;
+}
+
 static enum br_status read_document(const struct br_scene_reader *r, struct br_verify *verify)
 {
     const yaml_node_t *root = yaml_document_get_root_node(r->document);
     if (!root)
         return br_scene_refuse(r, 1, "scene", "the file is empty");
     size_t seen[MOST_KEYS] = {0};
-    enum br_status status = read_section(r, "", root, seen);
+    enum br_status status = check_texts(r);
+    if (!status)
+        status = read_section(r, "", root, seen);
     if (!status)
         status = set_name(r);
     struct br_error inner = {0};
@@ -187,6 +201,25 @@ static enum br_status read_document(const struct br_scene_reader *r, struct br_v
     if (!status && verify)
         status = read_verify(r, verify);
     return status;
+}
+
+static enum br_status not_yaml(const struct br_scene_reader *r, const yaml_parser_t *parser)
+{
+    return br_fail(r->err, BR_BAD_INPUT, "%s:%zu: not YAML: %s", r->path,
+                   parser->problem_mark.line + 1, parser->problem ? parser->problem : "unreadable");
+}
+
+/* A second document would be read by nobody. */
+static enum br_status check_end(const struct br_scene_reader *r, yaml_parser_t *parser)
+{
+    yaml_document_t more;
+    if (!yaml_parser_load(parser, &more))
+        return not_yaml(r, parser);
+    const yaml_node_t *root = yaml_document_get_root_node(&more);
+    const size_t line = more.start_mark.line + 1;
+    yaml_document_delete(&more);
+    return root ? br_scene_refuse(r, line, "scene", "a second document begins, expected one")
+                : BR_OK;
 }
 
 enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br_error *err)
@@ -211,15 +244,15 @@ enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
         return br_no_memory(err, "the YAML parser");
     }
     yaml_parser_set_input_file(&parser, file);
-    if (!yaml_parser_load(&parser, &document)) {
-        status =
-            br_fail(err, BR_BAD_INPUT, "%s:%zu: not YAML: %s", path, parser.problem_mark.line + 1,
-                    parser.problem ? parser.problem : "unreadable");
-    } else {
-        const struct br_scene_reader r = {path, &document, scene, err};
+    const struct br_scene_reader r = {path, &document, scene, err};
+    if (!yaml_parser_load(&parser, &document))
+        status = not_yaml(&r, &parser);
+    else {
         status = read_document(&r, verify);
         yaml_document_delete(&document);
     }
+    if (!status)
+        status = check_end(&r, &parser);
     yaml_parser_delete(&parser);
     fclose(file);
     return status;

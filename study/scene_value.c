@@ -13,12 +13,22 @@
 enum br_status br_scene_refuse(const struct br_scene_reader *r, size_t line, const char *key,
                                const char *format, ...)
 {
-    char text[768];
+    char *text = NULL;
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    const int length = vasprintf(&text, format, args);
     va_end(args);
-    return br_fail(r->err, BR_BAD_INPUT, "%s:%zu: %s: %s", r->path, line, key, text);
+    if (length < 0)
+        return br_no_memory(r->err, "a message");
+    /* A long value must not hide what was expected: that stands at the end. */
+    enum { HEAD = 200, TAIL = 400 };
+    if (length > HEAD + TAIL)
+        br_fail(r->err, BR_BAD_INPUT, "%s:%zu: %.100s: %.*s ... %s", r->path, line, key, HEAD, text,
+                text + length - TAIL);
+    else
+        br_fail(r->err, BR_BAD_INPUT, "%s:%zu: %.100s: %s", r->path, line, key, text);
+    free(text);
+    return BR_BAD_INPUT;
 }
 
 size_t br_yaml_line(const yaml_node_t *node)

@@ -15,6 +15,7 @@ struct block {
     size_t *n, n_count, n_line; /* as given; line 0: not yet */
     double *k;
     size_t k_count, k_line;
+    bool method_given[3]; /* solver, contact, friction */
 };
 
 static const char expected_study[] =
@@ -185,16 +186,19 @@ static enum br_status read_method(struct block *b, const char *key, const yaml_n
 {
     struct br_method *m = &b->study->method;
     const char *name = br_yaml_text(node);
-    bool found = true;
-    *known = true;
-    if (strcmp(key, "solver") == 0)
-        found = (m->solver = br_linear_solver_find(name)) != NULL;
-    else if (strcmp(key, "contact") == 0)
-        found = (m->contact = br_contact_rule_find(name)) != NULL;
-    else if (strcmp(key, "friction") == 0)
-        found = (m->friction = br_friction_rule_find(name)) != NULL;
-    else
-        *known = false;
+    static const char *const names[] = {"solver", "contact", "friction"};
+    size_t which = 0;
+    while (which < 3 && strcmp(key, names[which]) != 0)
+        which++;
+    *known = which < 3;
+    if (!*known)
+        return BR_OK;
+    if (b->method_given[which])
+        return br_scene_refuse(b->r, br_yaml_line(node), key, "given twice");
+    b->method_given[which] = true;
+    const bool found = which == 0   ? (m->solver = br_linear_solver_find(name)) != NULL
+                       : which == 1 ? (m->contact = br_contact_rule_find(name)) != NULL
+                                    : (m->friction = br_friction_rule_find(name)) != NULL;
     if (!found)
         return br_scene_refuse(b->r, br_yaml_line(node), key,
                                "found '%s', expected a name that 'beamrate study --help' lists",

@@ -19,11 +19,20 @@ static json_t *point(const struct br_point *p)
                      br_flag_name(p->flag), "failure", br_json_string(p->failure));
 }
 
+/* Appends, or makes the array NULL: without memory there is no document. */
+static void append(json_t **array, json_t *value)
+{
+    if (json_array_append_new(*array, value) == 0)
+        return;
+    json_decref(*array);
+    *array = NULL;
+}
+
 static json_t *points(const struct br_case *c)
 {
     json_t *a = json_array();
     for (size_t i = 0; i < c->points; i++)
-        json_array_append_new(a, point(&c->point[i]));
+        append(&a, point(&c->point[i]));
     return a;
 }
 
@@ -44,7 +53,7 @@ static json_t *cases(const struct br_check *check)
 {
     json_t *a = json_array();
     for (size_t i = 0; i < check->count; i++)
-        json_array_append_new(a, case_object(&check->cases[i]));
+        append(&a, case_object(&check->cases[i]));
     return a;
 }
 
@@ -71,7 +80,7 @@ static json_t *scenes(const struct br_check_page *page)
 {
     json_t *a = json_array();
     for (size_t i = 0; i < page->count; i++)
-        json_array_append_new(a, scene(&page->checks[i]));
+        append(&a, scene(&page->checks[i]));
     return a;
 }
 
@@ -79,9 +88,8 @@ static json_t *skipped(const struct br_check_page *page)
 {
     json_t *a = json_array();
     for (size_t i = 0; i < page->skips; i++)
-        json_array_append_new(a, json_pack("{s:o, s:o}", "scene",
-                                           br_json_string(page->skipped[i].scene), "reason",
-                                           br_json_string(page->skipped[i].reason)));
+        append(&a, json_pack("{s:o, s:o}", "scene", br_json_string(page->skipped[i].scene),
+                             "reason", br_json_string(page->skipped[i].reason)));
     return a;
 }
 
@@ -140,11 +148,11 @@ static enum br_status refuse(const char *path, const char *where, const char *ex
                    path, where, expected);
 }
 
-/* A number, or NaN for null; false: it is neither. */
-static bool read_number(const json_t *o, double *value)
+/* A number, or NaN for null; false: it is neither, or below `least`. */
+static bool read_number(const json_t *o, double least, double *value)
 {
     *value = json_is_number(o) ? json_number_value(o) : NAN;
-    return json_is_number(o) || json_is_null(o);
+    return json_is_null(o) || *value >= least;
 }
 
 static bool read_word(const json_t *o, char *word, size_t size)
@@ -171,8 +179,9 @@ static bool read_case(const json_t *o, const char *scene_name, struct br_old_cas
     return read_word(json_object_get(o, "study"), c->study, sizeof c->study) &&
            read_word(json_object_get(o, "norm"), c->norm, sizeof c->norm) &&
            read_word(json_object_get(o, "part"), c->part, sizeof c->part) &&
-           read_number(json_object_get(json_object_get(o, "order"), "value"), &c->order) &&
-           read_number(json_object_get(o, "constant"), &c->constant) &&
+           read_number(json_object_get(json_object_get(o, "order"), "value"), -INFINITY,
+                       &c->order) &&
+           read_number(json_object_get(o, "constant"), 0, &c->constant) &&
            read_verdict(json_object_get(o, "verdict"), &c->verdict);
 }
 
@@ -182,10 +191,13 @@ static enum br_status read_scene(const char *path, const json_t *o, struct br_ol
     struct br_old_cost *cost = &old->costs[old->scenes++];
     const json_t *list = json_object_get(o, "cases");
     if (!read_word(json_object_get(o, "scene"), cost->scene, sizeof cost->scene) ||
-        !read_number(json_object_get(o, "seconds"), &cost->seconds) ||
-        !read_number(json_object_get(o, "element_steps"), &cost->element_steps) ||
+        !read_number(json_object_get(o, "seconds"), 0, &cost->seconds) ||
+        !read_number(json_object_get(o, "element_steps"), 0, &cost->element_steps) ||
         !json_is_array(list))
         return refuse(path, "scenes", "scenes with a name, a cost and cases", err);
+    for (size_t i = 0; i + 1 < old->scenes; i++)
+        if (strcmp(old->costs[i].scene, cost->scene) == 0)
+            return refuse(path, cost->scene, "each scene once", err);
     for (size_t i = 0; i < json_array_size(list); i++)
         if (!read_case(json_array_get(list, i), cost->scene, &old->cases[old->count++]))
             return refuse(path, cost->scene,

@@ -3,34 +3,14 @@
 #include <math.h>
 
 #include "tables/check_emitter.h"
-
-/* The length of the UTF-8 sequence at text, 0 where it is none that XML allows. */
-static size_t sequence_length(const unsigned char *text)
-{
-    const unsigned char c = text[0];
-    const size_t length = c < 0x80                ? 1
-                          : c >= 0xc2 && c < 0xe0 ? 2
-                          : c >= 0xe0 && c < 0xf0 ? 3
-                          : c >= 0xf0 && c < 0xf5 ? 4
-                                                  : 0;
-    for (size_t i = 1; i < length; i++)
-        if ((text[i] & 0xc0) != 0x80)
-            return 0;
-    const bool control = c < ' ' && c != '\t' && c != '\n';
-    const bool excluded = length == 3 && ((c == 0xe0 && text[1] < 0xa0) ||  /* overlong */
-                                          (c == 0xed && text[1] >= 0xa0) || /* surrogates */
-                                          (c == 0xef && text[1] == 0xbf && text[2] >= 0xbe));
-    const bool range =
-        length == 4 && ((c == 0xf0 && text[1] < 0x90) || (c == 0xf4 && text[1] >= 0x90));
-    return control || excluded || range || c == 0x7f ? 0 : length;
-}
+#include "tables/plain_text.h"
 
 /* Text or an attribute's value; bytes that XML forbids become '?'. */
 static void print_escaped(FILE *out, const char *text)
 {
     const unsigned char *rest = (const unsigned char *)text;
     while (*rest) {
-        const size_t length = sequence_length(rest);
+        const size_t length = br_utf8_length(rest);
         if (*rest == '<')
             fputs("&lt;", out);
         else if (*rest == '>')

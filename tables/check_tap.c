@@ -1,18 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The Test Anything Protocol, version 13: a test an order, a diagnostic block below it. */
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "tables/check_emitter.h"
+#include "tables/plain_text.h"
 
 /* In a double-quoted YAML scalar. */
 static void print_quoted(FILE *out, const char *text)
 {
     fputc('"', out);
-    for (; *text; text++) {
+    for (; *text; text++)
         if (*text == '"' || *text == '\\')
-            fputc('\\', out);
-        fputc((unsigned char)*text < ' ' ? ' ' : *text, out);
-    }
+            fprintf(out, "\\%c", *text);
+        else
+            fputc((unsigned char)*text < ' ' ? ' ' : *text, out);
     fputc('"', out);
 }
 
@@ -34,10 +37,15 @@ static void item(void *self, const char *text)
 }
 
 /* A description without what TAP would take for a directive. */
-static void print_plain(FILE *out, const char *text)
+static void print_description(FILE *out, const char *text)
 {
-    for (; *text; text++)
-        fputc(*text == '#' || (unsigned char)*text < ' ' ? ' ' : *text, out);
+    for (const char *hash; (hash = strchr(text, '#')); text = hash + 1) {
+        char *part = strndup(text, (size_t)(hash - text));
+        br_print_plain(out, part ? part : "");
+        free(part);
+        fputc(' ', out);
+    }
+    br_print_plain(out, text);
 }
 
 static void print_case(FILE *out, size_t number, const struct br_check *check,
@@ -45,7 +53,7 @@ static void print_case(FILE *out, size_t number, const struct br_check *check,
 {
     char name[64], band[64], order[64];
     fprintf(out, "%s %zu - ", c->verdict == BR_PASS ? "ok" : "not ok", number);
-    print_plain(out, check->scene->name);
+    print_description(out, check->scene->name);
     fprintf(out, " %s: %s, expected %s: %s\n  ---\n", br_case_name(c, name, sizeof name),
             br_order_text(&c->order, order, sizeof order), br_case_band(c, band, sizeof band),
             br_verdict_names[c->verdict]);
@@ -74,9 +82,9 @@ static enum br_status emit(FILE *out, const struct br_check_page *page, struct b
             print_case(out, ++number, &page->checks[i], &page->checks[i].cases[c]);
     for (size_t i = 0; i < page->skips; i++) {
         fprintf(out, "ok %zu - ", ++number);
-        print_plain(out, page->skipped[i].scene);
+        print_description(out, page->skipped[i].scene);
         fprintf(out, " # SKIP ");
-        print_plain(out, page->skipped[i].reason);
+        print_description(out, page->skipped[i].reason);
         fputc('\n', out);
     }
     char summary[256];

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "cli_driver.h"
 #include "reference/judge.h"
@@ -65,9 +66,15 @@ static void test_refusals(void **state)
         {"check good.yaml --friction magic", "--friction: found 'magic'"},
         {"check good.yaml --bogus", "--bogus: unknown option"},
         {"check good.yaml --junit", "--junit: missing argument"},
-        {"check good.yaml --junit no/such/folder/x", "--junit: cannot write no/such/folder/x"},
-        {"check good.yaml --json .", "--json: cannot write ."},
+        {"check good.yaml --junit no/such/folder/x", "--junit: cannot write 'no/such/folder/x'"},
+        {"check good.yaml --json .", "--json: cannot write '.'"},
         {"check good.yaml --json x --tap x", "--json and --tap both write x"},
+        {"check good.yaml --json x --tap ./x", "--json and --tap both write ./x"},
+        {"check good.yaml --json - --tap -", "--json and --tap both write -"},
+        {"check good.yaml --json x --json y", "--json is given twice"},
+        {"check good.yaml --json ''", "--json: cannot write '': expected a file's name"},
+        {"check good.yaml --json good.yaml", "--json would replace the scene good.yaml"},
+        {"check good.yaml --json ./good.yaml", "--json would replace the scene ./good.yaml"},
         {"check good.yaml --compare nothing.json", "nothing.json:1: unable to open"},
         {"check good.yaml --compare good.yaml", "good.yaml:1: "},
         {"check contradiction.yaml", "contradiction.yaml:13: verify: found 2 +- 2"},
@@ -94,13 +101,19 @@ static void test_strange_baselines(void **state)
         "\"element_steps\": 1}]}",
         "{\"format\": \"beamrate check 1\", \"scenes\": [{\"scene\": \"a\", \"seconds\": 1, "
         "\"element_steps\": 1, \"cases\": [{}]}]}",
+        "{\"format\": \"beamrate check 1\", \"scenes\": [{\"scene\": \"a\", \"seconds\": 1, "
+        "\"element_steps\": -1, \"cases\": []}]}",
+        "{\"format\": \"beamrate check 1\", \"scenes\": [{\"scene\": \"a\", \"seconds\": 1, "
+        "\"element_steps\": 1, \"cases\": []}, {\"scene\": \"a\", \"seconds\": 1, "
+        "\"element_steps\": 1, \"cases\": []}]}",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         cli_write_file("old.json", texts[i]);
         cli_expect("check good.yaml --compare old.json", NULL, 2, "old.json: ");
     }
     cli_write_file("old.json", "{\"format\": \"beamrate check 1\", \"scenes\": []}");
-    cli_expect("check good.yaml --compare old.json", NULL, 0, "new");
+    cli_expect("check good.yaml --compare old.json", NULL, 2,
+               "none of these scenes is in the earlier check");
 }
 
 static char *contents(const char *name)
@@ -194,7 +207,7 @@ static void test_reports(void **state)
     assert_int_equal(count(tap, "\n  ...\n"), 3);
 
     const char *md = contents("r.md");
-    assert_non_null(strstr(md, "- **FAIL** a & \\<b> \"c\", space l2 total"));
+    assert_non_null(strstr(md, "- **FAIL** a \\& \\<b\\> \"c\", space l2 total"));
     assert_int_equal(count(md, "\n| "), 4); /* a heading and three orders */
 
     char path[512];
@@ -231,6 +244,25 @@ static void test_standard_output(void **state)
     assert_true(S_ISCHR(info.st_mode)); /* it was written to, not replaced */
 }
 
+/* A symbolic link is followed, not replaced; one to nothing is refused. */
+static void test_links(void **state)
+{
+    (void)state;
+    char link[512];
+    struct stat info;
+    cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n");
+    cli_write_file("behind.json", "old\n");
+    cli_path("link.json", link);
+    assert_int_equal(symlink("behind.json", link), 0);
+    cli_expect("check good.yaml --json link.json", NULL, 0, "PASS");
+    assert_int_equal(lstat(link, &info), 0);
+    assert_true(S_ISLNK(info.st_mode));
+    assert_true(cli_file_contains("behind.json", "\"tally\""));
+    cli_path("dangling.json", link);
+    assert_int_equal(symlink("nowhere.json", link), 0);
+    cli_expect("check good.yaml --json dangling.json", NULL, 2, "cannot write 'dangling.json'");
+}
+
 /* A report is written whole or not at all, and an old one stays until then. */
 static void test_whole_files(void **state)
 {
@@ -264,6 +296,10 @@ static void test_compare(void **state)
                "serious  good space l2 total: constant");
     cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n");
     cli_expect("check good.yaml --compare old.json", NULL, 1, "good space tip total: gone");
+    cli_expect("check good.yaml --compare old.json --json old.json", NULL, 2,
+               "--json would replace what it is compared with");
+    cli_expect("check good.yaml ./good.yaml --compare old.json", NULL, 2,
+               "two scenes are called good");
 }
 
 /* All bundled scenes pass; those that this build cannot check are named. */
@@ -289,10 +325,15 @@ static void test_all(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_verdicts),          cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_strange_baselines), cmocka_unit_test(test_reports),
-        cmocka_unit_test(test_standard_output),   cmocka_unit_test(test_whole_files),
-        cmocka_unit_test(test_compare),           cmocka_unit_test(test_all),
+        cmocka_unit_test(test_verdicts),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_strange_baselines),
+        cmocka_unit_test(test_reports),
+        cmocka_unit_test(test_standard_output),
+        cmocka_unit_test(test_whole_files),
+        cmocka_unit_test(test_compare),
+        cmocka_unit_test(test_links),
+        cmocka_unit_test(test_all),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

@@ -9,7 +9,7 @@ enum br_status br_manufactured_apply(struct br_scene *s, const struct br_functio
     *culprit = s->axial.solution ? BR_AXIAL : BR_BENDING;
     if (!s->axial.solution && !s->bending.solution)
         return BR_OK;
-    return br_fail(err, BR_BAD_INPUT,
+    return br_fail(err, BR_UNSUPPORTED,
                    "a manufactured solution needs GNU libmatheval; this program was built without "
                    "libmatheval");
 }
