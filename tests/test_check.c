@@ -110,6 +110,29 @@ static void test_failing_march(void **state)
     clear(&m);
 }
 
+/* Lagged contact that is stable on four meshes and not on the fifth: the fourth has nothing sound
+ * to be compared with. */
+static void test_unstable_reference(void **state)
+{
+    (void)state;
+    struct made m;
+    make(&m);
+    m.scene.duration = 2;
+    m.scene.axial.stiffness = 100;
+    m.scene.axial.viscosity = 0.001;
+    m.scene.contact = (struct br_contact){true, 0.05, 5062.5};
+    struct br_verify_study *space = &m.verify.study[BR_VERIFY_SPACE];
+    for (size_t i = 0; i < space->count; i++)
+        space->steps[i] = 1000;
+    m.verify.study[BR_VERIFY_JOINT].count = m.verify.study[BR_VERIFY_JOINT].expectations = 0;
+    check(&m, 1);
+    const struct br_case *c = case_of(&m, BR_VERIFY_SPACE);
+    assert_int_equal(c->point[2].flag, BR_FLAG_NONE);
+    assert_int_equal(c->point[3].flag, BR_FLAG_UNSTABLE);
+    assert_int_equal(c->verdict, BR_INCONCLUSIVE);
+    clear(&m);
+}
+
 /* Without a solution to compare with there is nothing to verify. */
 static void test_unverifiable(void **state)
 {
@@ -282,6 +305,13 @@ static void test_comparison(void **state)
     old.cases[0].verdict = BR_FAIL;
     compare(&m, &old, BR_NOTE, "verdict");
     old.cases[0] = sound;
+    old.cases[0].verdict = BR_FAIL; /* and had no order: that it has one now is no harm */
+    old.cases[0].order = old.cases[0].constant = NAN;
+    compare(&m, &old, BR_NOTE, "made space l2 axial");
+    old.cases[0] = sound;
+    old.costs[0].seconds = NAN;
+    compare(&m, &old, BR_SAME, "");
+    old.costs[0].seconds = m.check.seconds;
     strcpy(old.cases[0].norm, "tip");
     compare(&m, &old, BR_SERIOUS, "made space tip axial: gone");
     strcpy(old.cases[0].scene, "other"); /* which is not checked now: that is no loss */
@@ -292,6 +322,29 @@ static void test_comparison(void **state)
     old.costs[0].element_steps /= 2;
     old.costs[0].seconds /= 10;
     compare(&m, &old, BR_WARNING, "made: ns per element-step");
+    br_old_check_clear(&old);
+    clear(&m);
+}
+
+/* What a comparison needs of the names. */
+static void test_names(void **state)
+{
+    (void)state;
+    struct made m;
+    struct br_error err = {0};
+    make(&m);
+    m.scene.name = (char[]){"m\xe4"
+                            "de"};
+    check(&m, 1);
+    struct br_old_check old = as_old(&m);
+    REFUSED(br_compare_check(&m.check, 1, &old, &err), BR_BAD_INPUT, "none of these scenes");
+    strcpy(old.costs[0].scene, "m?de"); /* as JSON has it */
+    for (size_t i = 0; i < old.count; i++)
+        strcpy(old.cases[i].scene, "m?de");
+    MUST(br_compare_check(&m.check, 1, &old, &err));
+    compare(&m, &old, BR_SAME, "");
+    const struct br_check twice[] = {m.check, m.check};
+    REFUSED(br_compare_check(twice, 2, &old, &err), BR_BAD_INPUT, "two scenes are called");
     br_old_check_clear(&old);
     clear(&m);
 }
@@ -318,6 +371,7 @@ int main(void)
         cmocka_unit_test(test_failing_march), cmocka_unit_test(test_unverifiable),
         cmocka_unit_test(test_nothing_moves), cmocka_unit_test(test_one_mesh),
         cmocka_unit_test(test_threads),       cmocka_unit_test(test_override),
+        cmocka_unit_test(test_names),         cmocka_unit_test(test_unstable_reference),
         cmocka_unit_test(test_comparison),    cmocka_unit_test(test_worse_verdict),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
