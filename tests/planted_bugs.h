@@ -37,6 +37,18 @@ static const struct planted_bug planted_bugs[] = {
      "contact->modelled && m->method.contact->at_new_step && contact->stiffness > 0",
      "contact->modelled && contact->stiffness > 0"},
 
+    {"bound_from_the_contact_force", "solver/march.c",
+     "return m->tip.contact_force / contact->stiffness;", "return m->tip.contact_force;"},
+    {"bound_with_the_gap_in_it", "solver/march.c",
+     "return m->tip.contact_force / contact->stiffness;",
+     "return m->tip.contact_force / contact->stiffness + contact->gap;"},
+    {"mu_for_tresca_alone", "solver/march.c",
+     ".regularisation = m->scene->friction.regularisation,",
+     ".regularisation = m->scene->friction.law == BR_COULOMB ? 1e-9 : "
+     "m->scene->friction.regularisation,"},
+    {"load_without_its_length", "solver/field.c", ".h = s->length / (double)n,",
+     ".h = 1 / (double)n,"},
+
     /* ---- the laws at the tip ---- */
     {"gap_ignored", "solver/contact.c", "const double depth = displacement - contact->gap;",
      "const double depth = displacement;"},
@@ -66,6 +78,9 @@ static const struct planted_bug planted_bugs[] = {
     {"stick_with_the_wrong_compliance", "solver/friction.c",
      "return clamp(s->free_velocity / s->compliance, s->bound);",
      "return clamp(0.5 * s->free_velocity / s->compliance, s->bound);"},
+
+    {"mu_with_the_bound_of_another_scene", "solver/friction.c",
+     "s->regularisation + s->bound * s->compliance;", "s->regularisation + 8 * s->compliance;"},
 
     /* ---- element integrals ---- */
     {"axial_mass_lumped", "solver/field.c", "{{1.0 / 3, 1.0 / 6}, {1.0 / 6, 1.0 / 3}};",
@@ -109,6 +124,20 @@ static const struct planted_bug planted_bugs[] = {
     {"tip_force_forgotten", "solver/load.c",
      "load->whole[size - br_field_unknowns(field->kind)] += force;", "(void)force;"},
 
+    {"tip_moment_of_a_beam_of_one_metre", "solver/load.c",
+     "load->whole[size - 1] += moment / field->h;",
+     "load->whole[size - 1] += moment * (double)field->n;"},
+    {"history_forgotten_beside_a_shape", "solver/load.c",
+     "if (load->space)\n        status = evaluate(",
+     "if (load->space && !load->functions.space.uses_x)\n        status = evaluate("},
+    {"static_load_never_assembled", "solver/load.c",
+     "return br_assemble_load(field, &load->functions.space, 0, load->space, err);",
+     "return load->functions.space.uses_x ? BR_OK : br_assemble_load(field, "
+     "&load->functions.space, 0, load->space, err);"},
+    {"tip_force_without_a_load_lost", "solver/load.c",
+     "if (!status && load->whole)\n        status = add_tip",
+     "if (!status && load->whole && load->space)\n        status = add_tip"},
+
     /* ---- the flexibility form, bending ---- */
     {"bending_stiffness_entry", "solver/riccati_bending.c", "stiff / (3 * h * h * h)}",
      "stiff / (2 * h * h * h)}"},
@@ -143,6 +172,9 @@ static const struct planted_bug planted_bugs[] = {
     {"bending_feedback_term_lost", "solver/riccati_bending.c", "rec->p = add(&p, &krk, 1);",
      "rec->p = p;"},
 
+    {"bending_tip_starts_at_rest", "solver/riccati_bending.c",
+     "    b->tip_velocity = velocity[2 * b->n];\n", ""},
+
     /* ---- the flexibility form, axial ---- */
     {"axial_mass_factor", "solver/riccati_axial.c", "field->density * field->h / field->k / 6;",
      "field->density * field->h / field->k / 4;"},
@@ -170,6 +202,9 @@ static const struct planted_bug planted_bugs[] = {
     {"axial_coupling_mass_sign", "solver/riccati_axial.c",
      "const long double feedback = (q + m) / s;", "const long double feedback = (q - m) / s;"},
 
+    {"axial_tip_starts_at_rest", "solver/riccati_axial.c",
+     "    a->tip_velocity = velocity[a->n];\n", ""},
+
     /* ---- the stiffness form ---- */
     {"stiffness_entry_sign", "solver/umfpack.c", "second[MOST] = {6, 3, -6, 3};",
      "second[MOST] = {6, 3, -6, -3};"},
@@ -193,6 +228,18 @@ static const struct planted_bug planted_bugs[] = {
     {"stiffness_elastic_force_halved", "solver/umfpack.c",
      "const double force = f->stiffness / f->h * (u[1] - u[0]);",
      "const double force = 0.5 * f->stiffness / f->h * (u[1] - u[0]);"},
+    {"stiffness_velocity_without_the_tip_force", "solver/umfpack.c",
+     "memcpy(velocity, s->velocity, bytes);", "memcpy(velocity, s->free_velocity, bytes);"},
+    {"stiffness_starts_at_rest", "solver/umfpack.c",
+     "    memcpy(s->velocity, velocity, bytes);\n}\n\nstatic void stiffness_get",
+     "    (void)velocity;\n}\n\nstatic void stiffness_get"},
+    {"stiffness_compliance_one_node_off", "solver/umfpack.c",
+     "    return s->tip_response[tip_index(s)];\n",
+     "    return s->tip_response[tip_index(s) - (s->field.kind == BR_AXIAL)];\n"},
+
+    /* ---- what is measured ---- */
+    {"strain_rate_one_and_a_half_percent_off", "solver/modes.c", "modes[e] = root / h * strain[e];",
+     "modes[e] = root / h * strain[e] * 1.015;"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };
