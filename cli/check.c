@@ -86,9 +86,11 @@ static int by_work(const void *a, const void *b)
 static bool failed_so_far(const struct run *r)
 {
     size_t orders = 0;
+    const struct br_check *first;
     for (size_t i = 0; i < r->done; i++)
         orders += r->check[i].count;
-    return br_check_tally(r->check, r->done, BR_PASS) < orders;
+    return br_check_tally(r->check, r->done, BR_PASS) < orders ||
+           br_check_failures(r->check, r->done, &first) > 0;
 }
 
 static enum br_status compute(struct run *r, struct br_error *err)
@@ -181,6 +183,9 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
     for (size_t i = 0; i < r->done; i++)
         orders += r->check[i].count;
     const size_t passed = br_check_tally(r->check, r->done, BR_PASS);
+    const struct br_check *refused;
+    if (br_check_failures(r->check, r->done, &refused) > 0)
+        return br_fail(err, BR_BAD_INPUT, "%s", refused->failure.message);
     if (orders == 0)
         return br_fail(err, BR_VERDICT, "no order was checked");
     if (passed < orders)
@@ -205,7 +210,8 @@ static enum br_status check(struct run *r, struct br_error *err)
     if (!status)
         status = compute(r, err);
     if (!status && r->options.compare)
-        status = br_compare(r->check, r->done, &r->old, &r->comparison, err);
+        status = br_compare(r->check, r->done, r->options.all && r->done == r->count, &r->old,
+                            &r->comparison, err);
     if (!status)
         status = write_results(r, err);
     return status ? status : conclude(r, err);

@@ -232,6 +232,12 @@ static enum br_status conclude_section(const struct plan *plan, const struct sec
     return status;
 }
 
+static void refuse_check(struct br_check *check, const struct br_error *failure)
+{
+    br_check_clear(check);
+    check->failure = *failure;
+}
+
 static enum br_status conclude_check(const struct plan *plan, struct br_check *check,
                                      struct br_error *err)
 {
@@ -239,17 +245,24 @@ static enum br_status conclude_check(const struct plan *plan, struct br_check *c
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
         cases += check->verify->study[kind].expectations;
     check->cases = br_allocate(cases, sizeof *check->cases);
-    enum br_status status = check->cases ? BR_OK : br_no_memory(err, "the verdicts");
-    for (size_t i = 0; i < plan->sections && !status; i++)
+    if (!check->cases)
+        return br_no_memory(err, "the verdicts");
+    struct br_error failure = {0};
+    for (size_t i = 0; i < plan->sections && !failure.status; i++)
         if (plan->section[i].check == check)
-            status = conclude_section(plan, &plan->section[i], check, err);
-    return status;
+            conclude_section(plan, &plan->section[i], check, &failure);
+    if (failure.status == BR_BAD_INPUT)
+        refuse_check(check, &failure);
+    else if (failure.status)
+        return br_fail(err, failure.status, "%s", failure.message);
+    return BR_OK;
 }
 
 enum br_status br_check_run(struct br_check *checks, size_t count, int threads,
                             const struct br_observer *observer, struct br_error *err)
 {
     for (size_t i = 0; i < count; i++) {
+        checks[i].failure = (struct br_error){0};
         checks[i].cases = NULL;
         checks[i].count = 0;
         checks[i].seconds = checks[i].element_steps = 0;
@@ -295,6 +308,18 @@ double br_check_work(const struct br_check *check)
             work += fields * (double)v->n[i] * (double)v->steps[i];
     }
     return work;
+}
+
+size_t br_check_failures(const struct br_check *checks, size_t count, const struct br_check **first)
+{
+    size_t failures = 0;
+    *first = NULL;
+    for (size_t i = 0; i < count; i++)
+        if (checks[i].failure.status) {
+            *first = *first ? *first : &checks[i];
+            failures++;
+        }
+    return failures;
 }
 
 size_t br_check_tally(const struct br_check *checks, size_t count, enum br_verdict verdict)

@@ -126,12 +126,36 @@ static void compare_verdict(struct br_comparison *out, const struct br_check *ch
     add(out, &d);
 }
 
+/* Whether a limit has gone or moved outward; direction: 1 for an upper one, -1 for a lower one. */
+static bool is_looser(double before, double now, double direction)
+{
+    return !isnan(before) && !(direction * (now - before) <= 1e-9 * fabs(before));
+}
+
+/* A band that is wider lets pass what failed before. */
+static void compare_expectation(struct br_comparison *out, const struct br_check *check,
+                                const struct br_case *c, const struct br_old_case *old)
+{
+    const struct br_expectation *e = &c->expected;
+    struct br_difference d = about_case(check, c, "expectation");
+    d.before = old->expected;
+    d.now = e->order;
+    if (is_looser(old->expected + old->tolerance, e->order + e->tolerance, 1) ||
+        is_looser(old->expected - old->tolerance, e->order - e->tolerance, -1) ||
+        is_looser(old->ceiling, e->ceiling, 1) || is_looser(old->floor, e->floor, -1))
+        d.severity = BR_WARNING;
+    snprintf(d.remark, sizeof d.remark, "looser: +- %g and %g to %g before, +- %g and %g to %g now",
+             old->tolerance, old->floor, old->ceiling, e->tolerance, e->floor, e->ceiling);
+    add(out, &d);
+}
+
 static void compare_case(struct br_comparison *out, const struct br_check *check,
                          const struct br_case *c, const struct br_old_check *old)
 {
     for (size_t i = 0; i < old->count; i++)
         if (is_case(&old->cases[i], check, c)) {
             compare_verdict(out, check, c, &old->cases[i]);
+            compare_expectation(out, check, c, &old->cases[i]);
             compare_order(out, check, c, &old->cases[i]);
             compare_constant(out, check, c, &old->cases[i]);
             return;
@@ -143,11 +167,11 @@ static void compare_case(struct br_comparison *out, const struct br_check *check
     add(out, &d);
 }
 
-/* An earlier case whose scene is checked again, without it. */
+/* An earlier case that should be there again, and is not. */
 static void report_lost(struct br_comparison *out, const struct br_check *checks, size_t count,
-                        const struct br_old_case *old)
+                        bool whole, const struct br_old_case *old)
 {
-    bool scene = false;
+    bool scene = whole;
     for (size_t i = 0; i < count; i++) {
         scene |= same_name(old->scene, checks[i].scene->name);
         for (size_t c = 0; c < checks[i].count; c++)
@@ -206,14 +230,14 @@ enum br_status br_compare_check(const struct br_check *checks, size_t count,
                            "none of these scenes is in the earlier check, expected at least one");
 }
 
-enum br_status br_compare(const struct br_check *checks, size_t count,
+enum br_status br_compare(const struct br_check *checks, size_t count, bool whole,
                           const struct br_old_check *old, struct br_comparison *out,
                           struct br_error *err)
 {
     *out = (struct br_comparison){0};
     size_t most = old->count;
     for (size_t i = 0; i < count; i++)
-        most += 3 * checks[i].count + 2 * old->scenes;
+        most += 4 * checks[i].count + 2 * old->scenes;
     out->difference = br_allocate(most + 1, sizeof *out->difference);
     if (!out->difference)
         return br_no_memory(err, "the comparison");
@@ -225,7 +249,7 @@ enum br_status br_compare(const struct br_check *checks, size_t count,
                 compare_cost(out, &checks[i], &old->costs[s]);
     }
     for (size_t i = 0; i < old->count; i++)
-        report_lost(out, checks, count, &old->cases[i]);
+        report_lost(out, checks, count, whole, &old->cases[i]);
     qsort(out->difference, out->count, sizeof *out->difference, by_severity);
     return BR_OK;
 }

@@ -17,7 +17,8 @@ extern const char *const br_severity_names[];
 /* What an earlier check knew of one case. */
 struct br_old_case {
     char scene[256], study[16], norm[16], part[16];
-    double order, constant; /* NaN: none */
+    double order, constant;                     /* NaN: none */
+    double expected, tolerance, floor, ceiling; /* what was expected; NaN: nothing */
     enum br_verdict verdict;
 };
 
@@ -53,9 +54,10 @@ struct br_comparison {
 enum br_status br_compare_check(const struct br_check *checks, size_t count,
                                 const struct br_old_check *old, struct br_error *err);
 
-/* Compares the checks with an earlier one. A case that was there before and whose scene is checked
- * now, but is not there any more, is serious. Fails with BR_NO_MEMORY. */
-enum br_status br_compare(const struct br_check *checks, size_t count,
+/* Compares the checks with an earlier one. A case that was there before and is not there any more
+ * is serious, where its scene is checked now, or where these checks are all there are (`whole`). An
+ * expectation that has been loosened is a warning. Fails with BR_NO_MEMORY. */
+enum br_status br_compare(const struct br_check *checks, size_t count, bool whole,
                           const struct br_old_check *old, struct br_comparison *comparison,
                           struct br_error *err);
 void br_comparison_clear(struct br_comparison *comparison);

@@ -45,9 +45,15 @@ static const char *name_point(const struct br_case *c, const struct br_point *p,
 
 /* ---- what is seen ---- */
 
-static bool is_used(const struct br_point *p)
+/* The finest points that are not left out. */
+static void choose_points(struct br_case *c)
 {
-    return p->flag == BR_FLAG_NONE;
+    c->used = 0;
+    for (size_t i = c->points; i-- > 0;) {
+        struct br_point *p = &c->point[i];
+        p->used = p->flag == BR_FLAG_NONE && c->used < BR_VERIFY_MOST_POINTS;
+        c->used += p->used;
+    }
 }
 
 /* A point that is not a number must fail, whatever its flag. */
@@ -65,7 +71,7 @@ static void list_left_out(struct br_case *c)
 {
     for (size_t i = 0; i < c->points; i++) {
         char name[64];
-        if (!is_used(&c->point[i]))
+        if (c->point[i].flag)
             append(c->note, sizeof c->note, "%s%s (%s, error %.1e)",
                    c->note[0] ? ", " : "left out: ", name_point(c, &c->point[i], name),
                    br_flag_name(c->point[i].flag), c->point[i].error);
@@ -75,16 +81,12 @@ static void list_left_out(struct br_case *c)
 static void find_constants(struct br_case *c)
 {
     const double order = c->expected.order;
-    c->used = 0;
     c->constant = NAN;
     for (size_t i = 0; i < c->points; i++) {
         struct br_point *p = &c->point[i];
         p->constant = p->error / (pow(p->z, order) - pow(p->z_against, order));
-        if (!is_used(p))
-            continue;
-        if (c->used == 0 || !(p->constant <= c->constant))
-            c->constant = p->constant;
-        c->used++;
+        if (p->used && !(p->constant <= c->constant))
+            c->constant = p->constant; /* also where there was none yet */
     }
 }
 
@@ -97,7 +99,7 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
     size_t count = 0;
     for (size_t i = 0; i < c->points; i++) {
         const struct br_point *p = &c->point[i];
-        if (is_used(p))
+        if (p->used)
             used[count++] = (struct br_order_point){p->z, p->z_against, p->error};
     }
     const enum br_status status = br_order_fit(used, count, &c->order, err);
@@ -112,34 +114,41 @@ static double last_order(const struct br_case *c)
 {
     const struct br_point *fine = NULL, *coarse = NULL;
     for (size_t i = 0; i < c->points; i++)
-        if (is_used(&c->point[i])) {
+        if (c->point[i].used) {
             coarse = fine;
             fine = &c->point[i];
         }
     return coarse ? log(coarse->error / fine->error) / log(coarse->z / fine->z) : NAN;
 }
 
+/* A tolerance that would hold the interval, rounded up; none that would hold any order. */
+static void advise_tolerance(struct br_case *c)
+{
+    const double expected = c->expected.order;
+    const double off = fmax(fabs(c->order.low - expected), fabs(c->order.high - expected));
+    const double enough = ceil(100 * off + 1e-9) / 100;
+    if (enough < expected)
+        append(c->reason, sizeof c->reason, ", a tolerance of %.4g would hold it", enough);
+}
+
 /* What would make it conclusive. */
 static void advise(struct br_case *c)
 {
     const double expected = c->expected.order, last = last_order(c);
-    const double off = fmax(fabs(c->order.low - expected), fabs(c->order.high - expected));
     if (fabs(last - expected) <= c->expected.tolerance &&
-        fabs(last - expected) < fabs(c->order.value - expected))
+        fabs(last - expected) < fabs(c->order.value - expected)) {
         append(
             c->reason, sizeof c->reason,
             "; the two finest show %.2f, so the coarse ones are not asymptotic: begin finer, or go "
             "on refining",
             last);
-    else if (c->order.high - c->order.low > 2 * c->expected.tolerance)
-        append(
-            c->reason, sizeof c->reason,
-            "; it is wider than the band: more or finer grids would narrow it, a tolerance of %.2g "
-            "would hold it",
-            off);
-    else
-        append(c->reason, sizeof c->reason,
-               "; finer grids would tell, a tolerance of %.2g would hold it", off);
+        return;
+    }
+    append(c->reason, sizeof c->reason, "; %s",
+           c->order.high - c->order.low > 2 * c->expected.tolerance
+               ? "it is wider than the band: finer grids would narrow it"
+               : "finer grids would tell");
+    advise_tolerance(c);
 }
 
 static void judge_too_few(struct br_case *c)
@@ -151,6 +160,19 @@ static void judge_too_few(struct br_case *c)
              c->points, BR_VERIFY_LEAST_POINTS,
              unstable ? "smaller time steps, or contact at u_n (contact: implicit), are stable"
                       : "coarser grids have errors that are not lost in what limits them");
+}
+
+static void straddle(struct br_case *c, const char *order, double low, double high)
+{
+    const bool below = c->order.low<low, above = c->order.high> high;
+    if (below && above)
+        conclude(c, BR_INCONCLUSIVE,
+                 "the order's interval, %s, straddles both ends of the band, %.4g "
+                 "and %.4g",
+                 order, low, high);
+    else
+        conclude(c, BR_INCONCLUSIVE, "the order's interval, %s, straddles the band's %s end, %.4g",
+                 order, below ? "lower" : "upper", below ? low : high);
 }
 
 static void judge_order(struct br_case *c)
@@ -166,12 +188,7 @@ static void judge_order(struct br_case *c)
         conclude(c, BR_FAIL, "the order, %s, lies %s the band, %.4g to %.4g", text,
                  c->order.high < low ? "below" : "above", low, high);
     else if (isfinite(c->margin)) {
-        conclude(c, BR_INCONCLUSIVE, "the order's interval, %s, straddles the band's %s, %.4g",
-                 text,
-                 c->order.low < low && c->order.high > high ? "ends"
-                 : c->order.low < low                       ? "lower end"
-                                                            : "upper end",
-                 c->order.low < low ? low : high);
+        straddle(c, text, low, high);
         advise(c);
     } else
         conclude(c, BR_FAIL, "no order fits the errors, %.2e to %.2e from coarse to fine",
@@ -201,6 +218,7 @@ enum br_status br_verdict_reach(struct br_case *c, struct br_error *err)
     c->order = (struct br_estimate){NAN, NAN, NAN};
     c->margin = NAN;
     c->reason[0] = c->note[0] = '\0';
+    choose_points(c);
     list_left_out(c);
     find_constants(c);
     const struct br_point *failed = first_failed(c);

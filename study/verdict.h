@@ -21,6 +21,7 @@ struct br_point {
     double error;                     /* in the norm's unit */
     double constant;                  /* C of e = C (z^order - z_against^order) */
     enum br_flag flag;                /* why it is left out */
+    bool used;                        /* for the verdict: among the finest that are not left out */
     char failure[256];                /* of the march; "": it went well */
 };
 
@@ -29,7 +30,7 @@ struct br_case {
     enum br_verify_kind kind;
     struct br_expectation expected;
     struct br_point *point; /* points, from coarse to fine; owned */
-    size_t points, used;    /* used: those that are not left out */
+    size_t points, used;
     struct br_estimate order;
     double constant; /* the largest of the used points'; NaN: none */
     double margin;   /* from the interval to the nearer end of the band; < 0: outside */

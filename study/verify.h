@@ -17,8 +17,10 @@ enum br_verify_kind {
 };
 extern const char *const br_verify_names[BR_VERIFY_KINDS];
 
-/* An order needs as many errors, at least: two fitted, two to see how well. */
-enum { BR_VERIFY_LEAST_POINTS = 4 };
+/* An order needs as many errors, at least: two fitted, two to see how well. Of more than
+ * five the finest five count: coarse ones would outvote a stall at the end, or hold back an order
+ * that has been reached since. */
+enum { BR_VERIFY_LEAST_POINTS = 4, BR_VERIFY_MOST_POINTS = 5 };
 
 /* e = C z^order, with z = h/L over space and z = k/T over time and jointly. */
 struct br_expectation {

@@ -89,6 +89,14 @@ static enum br_status make_cells(struct block *b)
     if (!v->n || !v->steps)
         return br_no_memory(b->r->err, "what is expected");
     v->count = count;
+    if (b->kind == BR_VERIFY_JOINT && b->n_count == b->k_count)
+        for (size_t i = 1; i < count; i++)
+            if (!(b->n[i] >= b->n[i - 1] && b->k[i] < b->k[i - 1]))
+                return br_scene_refuse(
+                    b->r, v->line, "joint",
+                    "n = %zu and k = %g s follow n = %zu and k = %g s, expected both "
+                    "lists from coarse to fine",
+                    b->n[i], b->k[i], b->n[i - 1], b->k[i - 1]);
     for (size_t i = 0; i < count; i++) {
         struct br_error inner = {0};
         v->n[i] = b->n[b->n_count == 1 ? 0 : i];

@@ -64,6 +64,10 @@ const char *br_check_summary(const struct br_check_page *page, char *buffer, siz
         used += snprintf(buffer + used, size - (size_t)used, "%zu %s%s",
                          br_check_tally(page->checks, page->count, (enum br_verdict)v),
                          br_verdict_names[v], v < BR_INCONCLUSIVE ? ", " : "");
+    const struct br_check *first;
+    const size_t failures = br_check_failures(page->checks, page->count, &first);
+    if (failures)
+        used += snprintf(buffer + used, size - (size_t)used, ", %zu cannot be verified", failures);
     if (page->skips)
         used += snprintf(buffer + used, size - (size_t)used, ", %zu skipped", page->skips);
     snprintf(buffer + used, size - (size_t)used, "%s; %.1f s",

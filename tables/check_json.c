@@ -69,11 +69,12 @@ static json_t *methods(const struct br_check *check)
 
 static json_t *scene(const struct br_check *check)
 {
-    return json_pack("{s:o, s:o, s:b, s:o, s:o, s:o, s:o}", "scene",
-                     br_json_string(check->scene->name), "path", br_json_string(check->path),
-                     "by_default", check->verify->by_default, "methods", methods(check), "seconds",
-                     br_json_number(check->seconds), "element_steps",
-                     br_json_number(check->element_steps), "cases", cases(check));
+    return json_pack("{s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:o}", "scene",
+                     br_json_string(check->scene->name), "failure",
+                     br_json_string(check->failure.status ? check->failure.message : NULL), "path",
+                     br_json_string(check->path), "by_default", check->verify->by_default,
+                     "methods", methods(check), "seconds", br_json_number(check->seconds),
+                     "element_steps", br_json_number(check->element_steps), "cases", cases(check));
 }
 
 static json_t *scenes(const struct br_check_page *page)
@@ -182,6 +183,10 @@ static bool read_case(const json_t *o, const char *scene_name, struct br_old_cas
            read_number(json_object_get(json_object_get(o, "order"), "value"), -INFINITY,
                        &c->order) &&
            read_number(json_object_get(o, "constant"), 0, &c->constant) &&
+           read_number(json_object_get(o, "expected"), 0, &c->expected) &&
+           read_number(json_object_get(o, "tolerance"), 0, &c->tolerance) &&
+           read_number(json_object_get(o, "floor"), 0, &c->floor) &&
+           read_number(json_object_get(o, "ceiling"), 0, &c->ceiling) &&
            read_verdict(json_object_get(o, "verdict"), &c->verdict);
 }
 

@@ -81,15 +81,28 @@ static void print_case(FILE *out, const struct br_check *check, const struct br_
     fputs("    </testcase>\n", out);
 }
 
+/* A scene that cannot be verified is a test case that could not be run. */
+static void print_error(FILE *out, const struct br_check *check)
+{
+    fputs("    <testcase classname=\"beamrate.", out);
+    print_escaped(out, check->scene->name);
+    fputs("\" name=\"verify\" time=\"0\"><error type=\"bad input\" message=\"", out);
+    print_escaped(out, check->failure.message);
+    fputs("\"/></testcase>\n", out);
+}
+
 static void print_suite(FILE *out, const struct br_check_page *page, const struct br_check *check)
 {
     const size_t failed = check->count - br_check_tally(check, 1, BR_PASS);
+    const int errors = check->failure.status ? 1 : 0;
     fputs("  <testsuite name=\"", out);
     print_escaped(out, check->scene->name);
     fprintf(out,
-            "\" tests=\"%zu\" failures=\"%zu\" errors=\"0\" skipped=\"0\" time=\"%.3f\" "
+            "\" tests=\"%zu\" failures=\"%zu\" errors=\"%d\" skipped=\"0\" time=\"%.3f\" "
             "timestamp=\"%.19s\">\n",
-            check->count, failed, check->seconds, page->provenance->date);
+            check->count + (size_t)errors, failed, errors, check->seconds, page->provenance->date);
+    if (errors)
+        print_error(out, check);
     for (size_t i = 0; i < check->count; i++)
         print_case(out, check, &check->cases[i]);
     fputs("  </testsuite>\n", out);
@@ -119,10 +132,12 @@ static enum br_status emit(FILE *out, const struct br_check_page *page, struct b
     for (size_t i = 0; i < page->count; i++)
         all += page->checks[i].count;
     const size_t failed = all - page->skips - br_check_tally(page->checks, page->count, BR_PASS);
+    const struct br_check *first;
+    const size_t errors = br_check_failures(page->checks, page->count, &first);
     fprintf(out,
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"beamrate check\" "
-            "tests=\"%zu\" failures=\"%zu\" errors=\"0\" skipped=\"%zu\" time=\"%.3f\">\n",
-            all, failed, page->skips, page->wall_seconds);
+            "tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" skipped=\"%zu\" time=\"%.3f\">\n",
+            all + errors, failed, errors, page->skips, page->wall_seconds);
     for (size_t i = 0; i < page->count; i++)
         print_suite(out, page, &page->checks[i]);
     if (page->skips)

@@ -58,6 +58,12 @@ static void item(void *self, const char *text)
 static void print_reasons(FILE *out, const struct br_check_page *page)
 {
     for (size_t i = 0; i < page->count; i++)
+        if (page->checks[i].failure.status) {
+            fprintf(out, "- **cannot be verified** ");
+            br_print_markdown(out, page->checks[i].failure.message);
+            fputc('\n', out);
+        }
+    for (size_t i = 0; i < page->count; i++)
         for (size_t c = 0; c < page->checks[i].count; c++) {
             const struct br_case *it = &page->checks[i].cases[c];
             char name[64];

@@ -75,8 +75,16 @@ static enum br_status emit(FILE *out, const struct br_check_page *page, struct b
     (void)err;
     size_t number = 0, all = page->skips;
     for (size_t i = 0; i < page->count; i++)
-        all += page->checks[i].count;
+        all += page->checks[i].count + (page->checks[i].failure.status != 0);
     fprintf(out, "TAP version 13\n1..%zu\n", all);
+    for (size_t i = 0; i < page->count; i++)
+        if (page->checks[i].failure.status) {
+            fprintf(out, "not ok %zu - ", ++number);
+            print_description(out, page->checks[i].scene->name);
+            fprintf(out, "\n  ---\n  message: ");
+            print_quoted(out, page->checks[i].failure.message);
+            fprintf(out, "\n  ...\n");
+        }
     for (size_t i = 0; i < page->count; i++)
         for (size_t c = 0; c < page->checks[i].count; c++)
             print_case(out, ++number, &page->checks[i], &page->checks[i].cases[c]);

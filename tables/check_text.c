@@ -93,6 +93,10 @@ static enum br_status emit(FILE *out, const struct br_check_page *page, struct b
     for (size_t i = 0; i < page->count; i++)
         for (size_t c = 0; c < page->checks[i].count; c++)
             print_case(out, &page->checks[i], &page->checks[i].cases[c]);
+    for (size_t i = 0; i < page->count; i++)
+        if (page->checks[i].failure.status)
+            fprintf(out, "%-13s %s\n", page->checks[i].scene->name,
+                    page->checks[i].failure.message);
     for (size_t i = 0; i < page->skips; i++)
         fprintf(out, "%-13s skipped: %s\n", page->skipped[i].scene, page->skipped[i].reason);
     for (size_t i = 0; i < page->count; i++)

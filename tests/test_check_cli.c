@@ -84,6 +84,11 @@ static void test_refusals(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         cli_expect(rows[i].line, NULL, 2, rows[i].message);
     assert_false(cli_is_there("x"));
+    /* the verdicts on the others are not lost */
+    cli_expect("check good.yaml beyond.yaml --junit b.xml --tap b.tap", NULL, 2,
+               "1 PASS, 0 FAIL, 0 INCONCLUSIVE, 1 cannot be verified");
+    assert_true(cli_file_contains("b.xml", "tests=\"2\" failures=\"0\" errors=\"1\""));
+    assert_true(cli_file_contains("b.tap", "1..2\nnot ok 1 - beyond\n"));
 }
 
 /* A JSON that is none of a check's. */

@@ -7,7 +7,7 @@
 #include "study/verdict.h"
 #include "support.h"
 
-enum { MOST = 8 };
+enum { MOST = 12 };
 
 /* A case over time with the given errors at z = 1/100, 1/200, ...: expected 1 +- 0.1. */
 struct made {
@@ -109,6 +109,46 @@ static void test_straddling(void **state)
     make(&m, stalled, 5);
     reach(&m, BR_INCONCLUSIVE, "straddles the band's lower end");
     assert_true(m.it.margin < 0);
+}
+
+/* Many coarse points neither outvote a stall at the end, nor hold back an order that is reached. */
+static void test_many_points(void **state)
+{
+    (void)state;
+    struct made m;
+    for (size_t count = 4; count <= MOST; count++) {
+        make_power(&m, 1, count);
+        for (size_t i = 0; i < count; i++) /* the last local order is 0.45 */
+            m.point[i].error += 1.3 * m.point[count - 1].error;
+        struct br_error err = {0};
+        MUST(br_verdict_reach(&m.it, &err));
+        assert_int_not_equal(m.it.verdict, BR_PASS);
+    }
+    make_power(&m, 1, 8);
+    m.point[7].error *= 1.35; /* the last one only */
+    reach(&m, BR_INCONCLUSIVE, "straddles");
+    make_power(&m, 1, 10);
+    for (size_t i = 0; i < 10; i++)
+        m.point[i].error *= 1 + 100 * m.point[i].z; /* twice as large at first */
+    reach(&m, BR_PASS, "");
+    assert_int_equal(m.it.used, 5);
+    assert_false(m.point[4].used);
+    assert_true(m.point[5].used);
+    m.point[9].flag = BR_FLAG_REFERENCE;
+    reach(&m, BR_PASS, "");
+    assert_true(m.point[4].used);
+}
+
+/* What is advised would do. */
+static void test_advice(void **state)
+{
+    (void)state;
+    static const double error[] = {1, .5, .25, .132};
+    struct made m;
+    make(&m, error, 4);
+    reach(&m, BR_INCONCLUSIVE, "a tolerance of 0.11 would hold it");
+    m.it.expected.tolerance = 0.11;
+    reach(&m, BR_PASS, "");
 }
 
 /* What is not a number fails, wherever it stands and whatever else is well. */
@@ -231,6 +271,8 @@ int main(void)
         cmocka_unit_test(test_order),
         cmocka_unit_test(test_differences),
         cmocka_unit_test(test_straddling),
+        cmocka_unit_test(test_many_points),
+        cmocka_unit_test(test_advice),
         cmocka_unit_test(test_not_a_number),
         cmocka_unit_test(test_errors_that_do_not_fall),
         cmocka_unit_test(test_too_few),

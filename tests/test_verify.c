@@ -44,12 +44,12 @@ static void test_whole(void **state)
     struct br_error err = {0};
     MUST(read_part("verify:\n"
                    "  joint:\n"
-                   "    n: 40,10, 20, 80\n"
-                   "    k: 0.1, 0.05, 0.0125, 0.025 s\n"
+                   "    n: 10, 20,40, 80\n"
+                   "    k: 0.1, 0.05, 0.025, 0.0125 s\n"
                    "    energy bending: 1 +- 0.5\n"
                    "  time:\n"
                    "    n: 7\n"
-                   "    k: 0.5, 0.25, 0.125, 0.0625, 0.03125 s\n"
+                   "    k: 0.25, 0.5, 0.03125, 0.125, 0.0625 s\n"
                    "    solver: umfpack\n"
                    "    contact: implicit\n"
                    "    friction: regularised\n"
@@ -139,6 +139,8 @@ static void test_refusals(void **state)
          "expected one mesh and time steps"},
         {"verify:\n  joint:\n    n: 10, 20, 40\n    k: 0.1, 0.05 s\n    l2: 2 +- 1\n",
          "expected as many meshes as time steps, or one mesh for all"},
+        {"verify:\n  joint:\n    n: 10, 20, 40, 80\n    k: 0.0125, 0.025, 0.05, 0.1 s\n    l2: 1 +- .1\n",
+         ":16: joint: n = 20 and k = 0.025 s follow n = 10 and k = 0.0125 s"},
         {"verify:\n  joint:\n    n: 10, 20, 40, 80\n    k: 0.1 s\n    l2: 2 +- 1\n",
          ":16: joint: found 4 n and 1 k, expected as many"},
         {"verify:\n  time:\n    n: 10\n    k: 0.5, 0.25, 0.25, 0.1, 0.05 s\n    l2: 1 +- .1\n",
