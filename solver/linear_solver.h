@@ -23,6 +23,14 @@ struct br_linear_options {
 
 extern const struct br_linear_options br_linear_defaults;
 
+/* What drives a field in one step: the load vector factor * vector, and forces on the tip. */
+struct br_drive {
+    const double *vector; /* br_field_size values, N; NULL: none */
+    double factor;
+    bool changed;  /* the vector is another one than in the step before */
+    double tip[2]; /* on the tip's unknowns, N; bending: force and moment over h */
+};
+
 /* A march of one field: create, then predict and finish once a step. */
 struct br_field_solver {
     /* Prepares the field's operator; the state starts at rest. Fails with
@@ -43,10 +51,10 @@ struct br_field_solver {
      * two curvature coefficients of br_curvature; n * br_field_unknowns values (out), m/s. */
     void (*strain_rate)(const void *self, double *rate);
 
-    /* First half of a step: solves with the load vector factor * load (in, N) and
-     * no tip force; *velocity is the tip's free velocity v*, m/s. load may be
-     * NULL: no load. Fails with BR_SINGULAR where the solver itself finds it. */
-    enum br_status (*predict)(void *self, const double *load, double factor, double *velocity,
+    /* First half of a step: solves with what drives the field and no contact or friction;
+     * *velocity is the tip's free velocity v*, m/s. Fails with BR_SINGULAR where the
+     * solver itself finds it. */
+    enum br_status (*predict)(void *self, const struct br_drive *drive, double *velocity,
                               struct br_error *err);
 
     /* Second half: the force r, N, resists the tip; advances the state by k and

@@ -31,26 +31,18 @@ static enum br_status clone_functions(struct br_step_load *load, const struct br
     return status;
 }
 
-static bool loads_tip(const struct br_step_load *load)
-{
-    return !br_function_is_zero(&load->tip_force) || !br_function_is_zero(&load->tip_moment);
-}
-
 enum br_status br_step_load_init(struct br_step_load *load, const struct br_forces *forces,
                                  const struct br_field *field, struct br_error *err)
 {
-    *load = (struct br_step_load){.factor = 1};
+    *load = (struct br_step_load){.drive = {.factor = 1, .changed = true}};
     const enum br_status status = clone_functions(load, forces, err);
-    if (status)
+    if (status || is_absent(forces->load))
         return status;
-    if (!is_absent(forces->load))
-        load->space = br_allocate(br_field_size(field), sizeof *load->space);
-    if (loads_tip(load))
-        load->whole = br_allocate(br_field_size(field), sizeof *load->whole);
-    if ((!is_absent(forces->load) && !load->space) || (loads_tip(load) && !load->whole))
+    load->space = br_allocate(br_field_size(field), sizeof *load->space);
+    if (!load->space)
         return br_no_memory(err, "a load vector");
-    load->vector = load->whole ? load->whole : load->space;
-    if (load->space && !load->functions.space.uses_t)
+    load->drive.vector = load->space;
+    if (!load->functions.space.uses_t)
         return br_assemble_load(field, &load->functions.space, 0, load->space, err);
     return BR_OK;
 }
@@ -62,7 +54,6 @@ void br_step_load_clear(struct br_step_load *load)
     br_function_free(&load->tip_force);
     br_function_free(&load->tip_moment);
     free(load->space);
-    free(load->whole);
     *load = (struct br_step_load){0};
 }
 
@@ -77,35 +68,32 @@ static enum br_status evaluate(const struct br_function *f, const char *name, do
     return BR_OK;
 }
 
-/* whole = factor * space + the tip's force on its displacement and moment on its slope */
-static enum br_status add_tip(struct br_step_load *load, const struct br_field *field, double t,
-                              struct br_error *err)
+/* The tip's force on its displacement and moment on its slope. */
+static enum br_status update_tip(struct br_step_load *load, const struct br_field *field, double t,
+                                 struct br_error *err)
 {
-    double force, moment;
-    enum br_status status = evaluate(&load->tip_force, "tip force", t, &force, err);
+    double moment;
+    enum br_status status = evaluate(&load->tip_force, "tip force", t, &load->drive.tip[0], err);
     if (!status)
         status = evaluate(&load->tip_moment, "tip moment", t, &moment, err);
-    if (status)
-        return status;
-    const size_t size = br_field_size(field);
-    for (size_t i = 0; i < size; i++)
-        load->whole[i] = load->space ? load->factor * load->space[i] : 0;
-    load->factor = 1;
-    load->whole[size - br_field_unknowns(field->kind)] += force;
-    if (field->kind == BR_BENDING)
-        load->whole[size - 1] += moment / field->h; /* the slope is scaled, s = h w_x */
-    return BR_OK;
+    if (!status)
+        load->drive.tip[1] = moment / field->h; /* the slope is scaled, s = h w_x */
+    return status;
 }
 
 enum br_status br_step_load_update(struct br_step_load *load, const struct br_field *field,
                                    double t, struct br_error *err)
 {
+    struct br_drive *drive = &load->drive;
     enum br_status status = BR_OK;
     if (load->space)
-        status = evaluate(&load->functions.time, "load's time factor", t, &load->factor, err);
-    if (!status && load->space && load->functions.space.uses_t)
+        status = evaluate(&load->functions.time, "load's time factor", t, &drive->factor, err);
+    if (!status && load->space && load->functions.space.uses_t) {
         status = br_assemble_load(field, &load->functions.space, t, load->space, err);
-    if (!status && load->whole)
-        status = add_tip(load, field, t, err);
+        drive->changed = true;
+    }
+    if (!status &&
+        !(br_function_is_zero(&load->tip_force) && br_function_is_zero(&load->tip_moment)))
+        status = update_tip(load, field, t, err);
     return status;
 }

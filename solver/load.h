@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The load vector F_n of one field as a march steps through it. What a scene leaves
- * out costs nothing: a load F(x) G(t) is assembled once, one of f(x, t) every step,
- * and only a tip that is loaded makes a product F(x) G(t) be written out. */
+ * out costs nothing: a load F(x) G(t) is assembled once, one of f(x, t) every step. */
 #ifndef BR_LOAD_H
 #define BR_LOAD_H
 
-#include "solver/field.h"
+#include "solver/linear_solver.h"
 
 /* The forces on one field: per length and at the tip. Borrowed. */
 struct br_forces {
@@ -17,11 +16,9 @@ struct br_forces {
 /* Those of a scene. */
 struct br_forces br_forces_of_scene(const struct br_scene *scene, enum br_field_kind kind);
 
-/* factor * vector is the load, br_field_size values, N; vector NULL: none. */
 struct br_step_load {
-    double factor;
-    const double *vector;
-    double *space, *whole;                    /* private from here on */
+    struct br_drive drive;                    /* at the time of the last update */
+    double *space;                            /* private from here on: the vector; NULL: none */
     struct br_load functions;                 /* clones */
     struct br_function tip_force, tip_moment; /* clones */
 };

@@ -143,7 +143,10 @@ static enum br_status predict(struct br_march *m, enum br_field_kind kind, doubl
         br_step_load_update(&part->load, &part->field, time_level(m, m->done + 1), err);
     if (status)
         return status;
-    return part->solver->predict(part->state, part->load.vector, part->load.factor, velocity, err);
+    const enum br_status predicted =
+        part->solver->predict(part->state, &part->load.drive, velocity, err);
+    part->load.drive.changed = false;
+    return predicted;
 }
 
 /* Equation (16), or (27): v_n with the contact force at u_{n-1} or at u_n. */
@@ -279,9 +282,12 @@ bool br_march_models(const struct br_march *m, enum br_field_kind kind)
 void br_march_load(const struct br_march *m, enum br_field_kind kind, double *load)
 {
     const struct part *part = &m->part[kind];
-    const size_t size = br_field_size(&part->field);
+    const struct br_drive *drive = &part->load.drive;
+    const size_t size = br_field_size(&part->field), unknowns = br_field_unknowns(kind);
     for (size_t i = 0; i < size; i++)
-        load[i] = part->load.vector ? part->load.factor * part->load.vector[i] : 0;
+        load[i] = drive->vector ? drive->factor * drive->vector[i] : 0;
+    for (size_t c = 0; c < unknowns; c++)
+        load[size - unknowns + c] += drive->tip[c];
 }
 
 double br_march_compliance(const struct br_march *m, enum br_field_kind kind)

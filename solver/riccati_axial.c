@@ -130,17 +130,18 @@ static void axial_strain_rate(const void *self, double *rate)
 }
 
 BR_SWEEP
-static enum br_status axial_predict(void *self, const double *load, double factor, double *velocity,
+static enum br_status axial_predict(void *self, const struct br_drive *drive, double *velocity,
                                     struct br_error *err)
 {
     (void)err;
     struct axial *a = self;
+    const double *load = drive->vector, factor = drive->factor;
     const double r = a->r;
     const double zero = 0;
     const size_t stride = load ? 1 : 0;
     if (!load)
         load = &zero;
-    double p = -factor * load[stride * a->n];
+    double p = -factor * load[stride * a->n] - drive->tip[0];
     double tip = 0;
     for (size_t i = a->n; i-- > 0;) {
         const struct gain *gain = &a->gain[i];

@@ -288,13 +288,14 @@ static inline br_pair scaled_load(const double *load, size_t i, double factor)
 
 /* Backward sweep: drive = S^-1 s on every element; *velocity = v*. */
 BR_SWEEP
-static enum br_status bending_predict(void *self, const double *load, double factor,
-                                      double *velocity, struct br_error *err)
+static enum br_status bending_predict(void *self, const struct br_drive *drive, double *velocity,
+                                      struct br_error *err)
 {
     (void)err;
     struct bending *b = self;
     const br_pair r = b->r;
-    br_pair p = -scaled_load(load, b->n, factor);
+    const double *load = drive->vector, factor = drive->factor;
+    br_pair p = -scaled_load(load, b->n, factor) - (br_pair){drive->tip[0], drive->tip[1]};
     br_pair tip = {0, 0};
     for (size_t i = b->n; i-- > 0;) {
         const struct gain *gain = &b->gain[i];

@@ -258,12 +258,14 @@ static void subtract_elastic(const struct br_field *f, const double *u, double *
     out[3] -= 3 * m1 + m0;
 }
 
-/* rhs = factor F + M v/k - K w */
-static void form_rhs(struct stiffness_form *s, const double *load, double factor)
+/* rhs = factor F + tip + M v/k - K w */
+static void form_rhs(struct stiffness_form *s, const struct br_drive *drive)
 {
     const struct br_field *f = &s->field;
     for (size_t i = 0; i < br_field_size(f); i++)
-        s->rhs[i] = load ? factor * load[i] : 0;
+        s->rhs[i] = drive->vector ? drive->factor * drive->vector[i] : 0;
+    for (size_t c = 0; c < s->unknowns; c++)
+        s->rhs[tip_index(s) + c] += drive->tip[c];
     for (size_t i = 0; i < f->n; i++) {
         const size_t first = i * s->unknowns;
         for (size_t a = 0; a < 2 * s->unknowns; a++) {
@@ -276,11 +278,11 @@ static void form_rhs(struct stiffness_form *s, const double *load, double factor
     }
 }
 
-static enum br_status stiffness_predict(void *self, const double *load, double factor,
-                                        double *velocity, struct br_error *err)
+static enum br_status stiffness_predict(void *self, const struct br_drive *drive, double *velocity,
+                                        struct br_error *err)
 {
     struct stiffness_form *s = self;
-    form_rhs(s, load, factor);
+    form_rhs(s, drive);
     const enum br_status status = solve(s, s->rhs, s->free_velocity, err);
     *velocity = s->free_velocity[tip_index(s)];
     return status;

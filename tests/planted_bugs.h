@@ -112,21 +112,20 @@ static const struct planted_bug planted_bugs[] = {
      "x[i] = field->h * (double)(i > 0 ? i - 1 : 0);"},
 
     /* ---- loads ---- */
-    {"tip_moment_not_scaled", "solver/load.c", "load->whole[size - 1] += moment / field->h;",
-     "load->whole[size - 1] += moment;"},
-    {"tip_force_at_the_wrong_node", "solver/load.c",
-     "load->whole[size - br_field_unknowns(field->kind)] += force;",
-     "load->whole[size - 2 * br_field_unknowns(field->kind)] += force;"},
+    {"tip_moment_not_scaled", "solver/load.c", "load->drive.tip[1] = moment / field->h;",
+     "load->drive.tip[1] = moment;"},
+    {"tip_force_at_the_wrong_unknown", "solver/load.c",
+     "&load->tip_force, \"tip force\", t, &load->drive.tip[0], err);",
+     "&load->tip_force, \"tip force\", t, &load->drive.tip[field->kind == BR_BENDING], err);"},
     {"moving_load_assembled_once", "solver/load.c",
-     "if (load->space && !load->functions.space.uses_t)\n        return",
-     "if (load->space)\n        load->functions.space.uses_t = false;\n    if (load->space)\n"
-     "        return"},
+     "if (!status && load->space && load->functions.space.uses_t) {",
+     "if (!status && load->space && load->functions.space.uses_t && t < 2e-3) {"},
     {"tip_force_forgotten", "solver/load.c",
-     "load->whole[size - br_field_unknowns(field->kind)] += force;", "(void)force;"},
+     "if (!status &&\n        !(br_function_is_zero(&load->tip_force)",
+     "if (!status && 0 && !(br_function_is_zero(&load->tip_force)"},
 
     {"tip_moment_of_a_beam_of_one_metre", "solver/load.c",
-     "load->whole[size - 1] += moment / field->h;",
-     "load->whole[size - 1] += moment * (double)field->n;"},
+     "load->drive.tip[1] = moment / field->h;", "load->drive.tip[1] = moment * (double)field->n;"},
     {"history_forgotten_beside_a_shape", "solver/load.c",
      "if (load->space)\n        status = evaluate(",
      "if (load->space && !load->functions.space.uses_x)\n        status = evaluate("},
@@ -135,8 +134,8 @@ static const struct planted_bug planted_bugs[] = {
      "return load->functions.space.uses_x ? BR_OK : br_assemble_load(field, "
      "&load->functions.space, 0, load->space, err);"},
     {"tip_force_without_a_load_lost", "solver/load.c",
-     "if (!status && load->whole)\n        status = add_tip",
-     "if (!status && load->whole && load->space)\n        status = add_tip"},
+     "if (!status &&\n        !(br_function_is_zero(&load->tip_force)",
+     "if (!status && load->space && !(br_function_is_zero(&load->tip_force)"},
 
     /* ---- the flexibility form, bending ---- */
     {"bending_stiffness_entry", "solver/riccati_bending.c", "stiff / (3 * h * h * h)}",
@@ -166,7 +165,7 @@ static const struct planted_bug planted_bugs[] = {
     {"bending_compliance_wrong", "solver/riccati_bending.c",
      "rec->compliance += zeta[0] * q[0] + zeta[1] * q[1];", "rec->compliance += zeta[0] * q[0];"},
     {"bending_last_load_lost", "solver/riccati_bending.c",
-     "br_pair p = -scaled_load(load, b->n, factor);", "br_pair p = {0, 0};"},
+     "br_pair p = -scaled_load(load, b->n, factor) - ", "br_pair p = -"},
     {"bending_contact_at_the_wrong_node", "solver/riccati_bending.c",
      "*velocity = b->tip_velocity + (tip[0] + tip[1]);", "*velocity = b->tip_velocity + tip[0];"},
     {"bending_feedback_term_lost", "solver/riccati_bending.c", "rec->p = add(&p, &krk, 1);",

@@ -32,7 +32,7 @@ static void solve_once(const struct br_linear_solver *s, const struct br_field *
     double free_velocity;
     const struct br_field_solver *solver = solver_of(s, field->kind);
     MUST(solver->create(field, &br_linear_defaults, &self, &err));
-    MUST(solver->predict(self, load, 1, &free_velocity, &err));
+    MUST(solver->predict(self, &(struct br_drive){load, 1, true, {0, 0}}, &free_velocity, &err));
     const double velocity = solver->finish(self, tip_force);
     CLOSE(velocity, free_velocity - tip_force * solver->tip_compliance(self),
           1e-10 * (fabs(free_velocity) + fabs(velocity)));
