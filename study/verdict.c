@@ -31,7 +31,7 @@ __attribute__((format(printf, 3, 4))) static void append(char *text, size_t size
     va_end(args);
 }
 
-/* "n = 40" over space, "400 steps" over time, both jointly. */
+/* "n = 40" over space, "k = T/400" over time, both jointly. */
 static const char *name_point(const struct br_case *c, const struct br_point *p, char text[64])
 {
     if (c->kind == BR_VERIFY_SPACE)

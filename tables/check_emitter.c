@@ -46,7 +46,10 @@ void br_case_lines(const struct br_case *c, void (*line)(void *self, const char 
             snprintf(against, sizeof against, "n = %zu, k = T/%zu", p->against.n, p->against.steps);
         snprintf(text, sizeof text, "n = %zu, k = T/%zu against %s: error %.4e, constant %.4e%s%s",
                  p->at.n, p->at.steps, against, p->error, p->constant,
-                 p->flag ? ", left out: " : "", br_flag_name(p->flag));
+                 p->flag    ? ", left out: "
+                 : !p->used ? ", coarser than those that count"
+                            : "",
+                 br_flag_name(p->flag));
         line(self, text);
     }
     if (c->reason[0])

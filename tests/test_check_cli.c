@@ -275,8 +275,8 @@ static void test_whole_files(void **state)
     cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n");
     cli_write_file("kept.json", "old\n");
     const size_t files = cli_count_files(".");
-    cli_expect("check good.yaml --json kept.json", &(struct cli_circumstances){.file_size = 1200}, 3,
-               "kept.json could not be written whole");
+    cli_expect("check good.yaml --json kept.json", &(struct cli_circumstances){.file_size = 1200},
+               3, "kept.json could not be written whole");
     assert_string_equal(contents("kept.json"), "old\n");
     cli_expect("check nowhere --json kept.json", NULL, 2, "nowhere");
     cli_expect("check example4 --json kept.json",
