@@ -3,7 +3,10 @@
 
 #include <stdarg.h>
 #include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
 static const struct {
     const char *text;
@@ -48,9 +51,22 @@ void br_allocation_fails_at(long i)
     atomic_store(&until_failure, i);
 }
 
+static bool fails_now(void)
+{
+    return atomic_load(&until_failure) >= 0 && atomic_fetch_sub(&until_failure, 1) == 0;
+}
+
 void *br_allocate(size_t count, size_t size)
 {
-    if (atomic_load(&until_failure) >= 0 && atomic_fetch_sub(&until_failure, 1) == 0)
+    return fails_now() ? NULL : calloc(count ? count : 1, size);
+}
+
+void *br_allocate_aligned(size_t count, size_t size)
+{
+    enum { LINE = 64 };
+    if (fails_now() || (size && count > (SIZE_MAX - LINE) / size))
         return NULL;
-    return calloc(count ? count : 1, size);
+    const size_t bytes = (count * size + LINE) / LINE * LINE;
+    void *p = aligned_alloc(LINE, bytes);
+    return p ? memset(p, 0, bytes) : NULL;
 }

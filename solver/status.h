@@ -47,6 +47,9 @@ int br_status_exit_code(enum br_status status);
 /* calloc with a test hook: br_allocation_fails_at(i) makes the i-th allocation
  * from now on (0 = the next one) fail once; a negative i switches it off. */
 void *br_allocate(size_t count, size_t size);
+
+/* The same at the start of a cache line. */
+void *br_allocate_aligned(size_t count, size_t size);
 void br_allocation_fails_at(long i);
 
 #endif

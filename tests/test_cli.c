@@ -84,7 +84,7 @@ static void test_bad_options(void **state)
         {"study example1 --reference none --k .01,.004", "not all among those of k = 0.004 s"},
         {"study example1 --reference none --n 10", "found 1 meshes and 4 time steps, expected"},
         {"study example1 --reference guess", "--reference: found 'guess'"},
-        {"study example1 --solver lu", "--solver: found 'lu', expected one of: riccati, umfpack"},
+        {"study example1 --solver lu", "--solver: found 'lu', expected one of: riccati, lanes, umfpack"},
         {"study example1 --contact soft", "expected one of: lagged, implicit"},
         {"study example1 --friction dry", "expected one of: exact, regularised"},
         {"study example1 --format pdf", "expected one of: text, csv, markdown, latex, json"},
