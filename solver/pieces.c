@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The recursions of riccati.h on pieces of equal length, side by side in the lanes of vectors.
+/* The recursions of riccati.h on pieces of equal length, side by side in the lanes of
+ * vectors.
  *
- * Each piece has a Riccati recursion of its own that begins with P = 0 at its right end, so all
- * share one table of gains. For a piece with the increment y_l at its left end and the costate c at
- * its right one, the step gives y_r = Phi y_l - Z c + z,      c_l = P y_l + Phi' c + q, where Phi,
- * Z, P are tables, and z, q are sums over the piece of what its state g and its load add (X'g and
- * Y'g: the responses to unit c and y_l, times R). The joins are exact, by a Riccati recursion over
- * the pieces: with c = Ph y_r + h from the right, y_r = M (Phi y_l + z - Z h),  M = (I + Z Ph)^-1,
- *     Ph_l = P + Phi' Ph M Phi,     h_l = q + Phi' Ph M z + (M Phi)' h.
- * So a step is: a pass over the joins (predict), which tells the tip's velocity; and one pass over
- * the elements (finish), which also sums z and q for the next step. */
+ * Each piece has a Riccati recursion of its own that begins with P = 0 at its right end,
+ * so all share one table of gains. For a piece with the increment y_l at its left end and
+ * the costate c at its right one, a step gives
+ *     y_r = Phi y_l - Z c + z,      c_l = P y_l + Phi'c + q,
+ * where Phi, Z and P are tables, and z and q are sums over the piece of what its state g
+ * and its load add: X'g and Y'g, the responses to unit c and y_l, times R. The joins are
+ * exact, by a Riccati recursion over the pieces: with c = C y_r + h from the right,
+ *     y_r = M (Phi y_l + z - Z h),  M = (I + Z C)^-1,
+ *     C_l = P + Phi'C M Phi,        h_l = q + Phi'C M z + (M Phi)'h.
+ * So a step is a pass over the joins (predict), which tells the tip's velocity, and one
+ * pass over the elements (finish), which also sums z and q for the next step. The tip is
+ * read off the field every step: what is only incremented drifts. */
 #include "solver/pieces.h"
 
 #include <math.h>
@@ -20,11 +24,9 @@
 
 enum {
     MOST = BR_LQ_MOST,
+    /* Elements of a piece: what a group of pieces works on fits the first level of the cache. */
     LEAST_LENGTH = 8,
-    MOST_LENGTH = 56, /* elements of a piece: what a group of them works on fits the
-                         first level of the cache */
-    RESYNC =
-        16, /* steps after which the tip is rebuilt from the field: what is only summed drifts */
+    MOST_LENGTH = 56,
 };
 
 /* One join, by rows, d by d. */
@@ -32,8 +34,8 @@ struct join {
     double pass[MOST][MOST];     /* M Phi */
     double gain[MOST][MOST];     /* M */
     double yield[MOST][MOST];    /* M Z */
-    double costate[MOST][MOST];  /* Ph */
-    double transfer[MOST][MOST]; /* Phi' Ph M */
+    double costate[MOST][MOST];  /* C */
+    double transfer[MOST][MOST]; /* Phi'C M */
 };
 
 /* BR_LANES pieces of one length. */
@@ -54,9 +56,9 @@ struct pieces {
     const struct br_kernel *kernel;
     int d;
     double k, alpha, r[MOST];
-    size_t pieces, length, odd,
-        longest; /* the first piece has `odd` elements, if any, the others `length` */
-    size_t groups;
+    size_t pieces, groups;
+    size_t length, odd, longest; /* elements: of a piece, of the first one if that is another, and
+                                    of the longer of the two */
     struct group *group;
     struct join *join;                  /* pieces */
     double *gain, *weight, *odd_weight; /* tables */
@@ -186,7 +188,7 @@ static void fill_weights(const struct pieces *s, const struct br_lq *lq,
             whole->z[i][j] = -y[i][j];
 }
 
-/* (I + Z Ph)^-1; its determinant is at least 1. */
+/* (I + Z C)^-1; its determinant is at least 1. */
 static void join_inverse(int d, const block z, const block ph, block m)
 {
     block a;
