@@ -7,7 +7,7 @@ const struct br_linear_options br_linear_defaults = {.scaling = "none", .refinem
 
 const struct br_linear_solver *const br_linear_solvers[] = {
     &br_riccati,
-    &br_lanes,
+    &br_plain,
     &br_umfpack,
     NULL,
 };

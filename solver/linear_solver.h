@@ -79,7 +79,7 @@ struct br_linear_solver {
     double (*round_off)(const struct br_field *field, const struct br_linear_options *options);
 };
 
-extern const struct br_linear_solver br_riccati, br_lanes, br_umfpack;
+extern const struct br_linear_solver br_riccati, br_plain, br_umfpack;
 
 /* The registry, in the order of help texts; NULL-terminated. The first is the default. */
 extern const struct br_linear_solver *const br_linear_solvers[];

@@ -6,26 +6,21 @@
 
 enum { MOST = BR_LQ_MOST };
 
-static void fill_axial(struct br_lq *lq, const struct br_field *field, br_real mass, br_real stiff)
+static void fill_axial(struct br_lq *lq, br_real mass)
 {
     lq->d = 1;
     lq->t[0][0] = lq->g[0][0] = 1;
-    lq->r[0] = stiff / field->h;
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 2; j++)
             lq->mass[i][j] = mass * (i == j ? 2 : 1) / 6;
 }
 
-static void fill_bending(struct br_lq *lq, const struct br_field *field, br_real mass,
-                         br_real stiff)
+static void fill_bending(struct br_lq *lq, br_real mass)
 {
-    static const br_real t[2][2] = {{1, 1}, {0, 1}}, g[2][2] = {{0.5L, -1.0L / 6}, {1, 0}};
-    const br_real h = field->h;
+    static const br_real t[2][2] = {{1, 1}, {0, 1}}, g[2][2] = {{0.5L, -BR_LQ_LEVER}, {1, 0}};
     lq->d = 2;
     memcpy(lq->t, t, sizeof t);
     memcpy(lq->g, g, sizeof g);
-    lq->r[0] = stiff / (h * h * h);
-    lq->r[1] = stiff / (3 * h * h * h);
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             lq->mass[i][j] = mass * roundl(420 * br_bending_mass[i][j]) / 420;
@@ -34,13 +29,15 @@ static void fill_bending(struct br_lq *lq, const struct br_field *field, br_real
 struct br_lq br_lq_of_field(const struct br_field *field)
 {
     struct br_lq lq = {0};
-    const br_real mass = (br_real)field->density * field->h / field->k;
-    const br_real stiff = (br_real)field->viscosity + (br_real)field->k * field->stiffness;
+    const br_real h = field->h,
+                  stiff = (br_real)field->viscosity + (br_real)field->k * field->stiffness;
+    const br_real mass = (br_real)field->density * h / field->k;
     lq.alpha = field->stiffness / stiff;
+    lq.r = field->kind == BR_AXIAL ? stiff / h : stiff / (h * h * h);
     if (field->kind == BR_AXIAL)
-        fill_axial(&lq, field, mass, stiff);
+        fill_axial(&lq, mass / lq.r);
     else
-        fill_bending(&lq, field, mass, stiff);
+        fill_bending(&lq, mass / lq.r);
     return lq;
 }
 
@@ -80,27 +77,25 @@ bool br_lq_step(const struct br_lq *lq, block p, struct br_lq_gain *gain)
             q[i][j] = lq->mass[d + i][d + j] + p[i][j]; /* Q = Mbb + P_{i+1} */
         }
     add_product(d, false, q, lq->g, qg);
-    add_product(d, true, lq->g, qg, s); /* S = R + G'QG */
+    add_product(d, true, lq->g, qg, s); /* S = 1 + G'QG */
     for (int i = 0; i < d; i++)
-        s[i][i] += lq->r[i];
+        s[i][i] += 1;
     *gain = (struct br_lq_gain){0};
     if (!invert(d, s, gain->inverse))
         return false;
     add_product(d, false, q, lq->t, inner);
     add_product(d, true, lq->g, inner, h);                   /* H = G'(QT + Mab') */
     add_product(d, false, gain->inverse, h, gain->feedback); /* K = S^-1 H */
-    block gk = {{0}}, mab_a = {{0}}, qa = {{0}}, next = {{0}}, rk = {{0}};
+    block gk = {{0}}, mab_a = {{0}}, qa = {{0}}, next = {{0}};
     add_product(d, false, lq->g, gain->feedback, gk);
     for (int i = 0; i < d; i++)
-        for (int j = 0; j < d; j++) {
+        for (int j = 0; j < d; j++)
             gain->closed[i][j] = lq->t[i][j] - gk[i][j]; /* A = T - GK */
-            rk[i][j] = lq->r[i] * gain->feedback[i][j];
-        }
-    /* P = Maa + Mab A + (Mab A)' + A'QA + K'RK: nothing is subtracted */
+    /* P = Maa + Mab A + (Mab A)' + A'QA + K'K: nothing is subtracted */
     add_product(d, false, mab, gain->closed, mab_a);
     add_product(d, false, q, gain->closed, qa);
     add_product(d, true, gain->closed, qa, next);
-    add_product(d, true, gain->feedback, rk, next);
+    add_product(d, true, gain->feedback, gain->feedback, next);
     for (int i = 0; i < d; i++)
         for (int j = 0; j < d; j++)
             p[i][j] = next[i][j] + maa[i][j] + mab_a[i][j] + mab_a[j][i];

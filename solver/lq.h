@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One Euler step of either field as the linear-quadratic problem of riccati.h, in long double: what
- * the fast sweeps compute their tables from. */
+/* One Euler step of either field as the linear-quadratic problem of plain.h, in long double: what
+ * the fast sweeps compute their tables from. Bending's second curvature is divided by sqrt(3) here,
+ * so that R is a number; costates, P and loads are divided by it, so that it is 1. */
 #ifndef BR_LQ_H
 #define BR_LQ_H
 
@@ -14,10 +15,14 @@ struct br_lq {
     int d;                                        /* unknowns a node */
     br_real t[BR_LQ_MOST][BR_LQ_MOST];            /* T */
     br_real g[BR_LQ_MOST][BR_LQ_MOST];            /* G: y_{i+1} = T y_i + G kappa_i */
-    br_real mass[2 * BR_LQ_MOST][2 * BR_LQ_MOST]; /* rho h / k times the element's mass */
-    br_real r[BR_LQ_MOST];                        /* R, diagonal */
+    br_real mass[2 * BR_LQ_MOST][2 * BR_LQ_MOST]; /* rho h / k times the element's mass, over R */
+    br_real r;                                    /* R: (c + k a) / h, bending: / h^3 */
     br_real alpha;                                /* a / (c + k a) */
 };
+
+/* sqrt(3), and what G has for the second curvature: -sqrt(3)/6 */
+#define BR_LQ_ROOT3 1.732050807568877293527446341505872367L
+#define BR_LQ_LEVER (BR_LQ_ROOT3 / 6)
 
 /* The gains of one element. */
 struct br_lq_gain {

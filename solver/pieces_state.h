@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What pieces.c marches, pieces_tables.c tabulates, pieces_joins.c joins and pieces_load.c
- * loads; for these alone. The mathematics is in pieces.c. */
+/* What pieces.c marches, pieces_layout.c lays out, pieces_tables.c tabulates, pieces_joins.c joins
+ * and pieces_load.c loads; for these alone. The mathematics is in pieces.h. */
 #ifndef BR_PIECES_STATE_H
 #define BR_PIECES_STATE_H
 
@@ -8,83 +8,65 @@
 #include "solver/pieces.h"
 #include "solver/sweep_kernel.h"
 
-/* One join, by rows, d by d. */
-struct br_join {
-    double pass[BR_LQ_MOST][BR_LQ_MOST];     /* M Phi */
-    double gain[BR_LQ_MOST][BR_LQ_MOST];     /* M */
-    double yield[BR_LQ_MOST][BR_LQ_MOST];    /* M Z */
-    double costate[BR_LQ_MOST][BR_LQ_MOST];  /* C */
-    double transfer[BR_LQ_MOST][BR_LQ_MOST]; /* Phi'C M */
+typedef double br_matrix[BR_LQ_MOST][BR_LQ_MOST];
+
+/* The join of a span to what lies to its right. */
+struct br_span_join {
+    br_matrix pass, gain, yield, costate, transfer;
 };
 
-/* BR_LANES pieces of one length. */
-struct br_group {
-    size_t first, lanes; /* its pieces */
-    size_t length;
-    struct br_sweep_table table;
-    double *state; /* length * 2 d * BR_LANES */
-    double *load;  /* lanewise sigma, length * d * BR_LANES */
-    double *end;   /* d * BR_LANES each of: right, left, q, z, load's q, load's z, then the
-                      influence of a unit force on right and left, and the velocity and the
-                      displacement across the pieces */
+/* Spans side by side, and what a step hands them. */
+struct br_strand {
+    struct br_strip strip;
+    size_t first; /* element */
+    size_t lanes; /* in use: all, or 1; none: no such spans */
+    double *q, *z, *right, *left, *force_right, *force_left; /* d * BR_LANES each */
 };
-enum {
-    BR_END_RIGHT,
-    BR_END_LEFT,
-    BR_END_Q,
-    BR_END_Z,
-    BR_END_LOAD_Q,
-    BR_END_LOAD_Z,
-    BR_END_FORCE_RIGHT,
-    BR_END_FORCE_LEFT,
-    BR_END_VELOCITY,
-    BR_END_DISPLACEMENT,
-    BR_ENDS
-};
+
+enum { BR_ODD, BR_EVEN, BR_STRANDS, BR_MOST_SPANS = 1 + BR_LANES };
 
 struct br_pieces {
     struct br_field field;
     const struct br_kernel *kernel;
     int d;
-    double k, alpha, r[BR_LQ_MOST];
-    size_t pieces, groups;
-    size_t length, odd, longest; /* elements: of a piece, of the first one if that is another, and
-                                    of the longer of the two */
-    struct br_group *group;
-    struct br_join *join;               /* pieces */
-    double *gain, *weight, *odd_weight; /* tables */
-    double *shared_load;                /* sigma, where it is the same in all pieces; length * d */
-    double *scratch, *arena;
-    bool loaded, lanewise;
-    double factor, tip_load[BR_LQ_MOST]; /* of the last node, for a factor of 1 */
+    double k, r;                         /* s; R, see lq.h */
+    struct br_strand strand[BR_STRANDS]; /* the rest at the clamped end, and the equal spans */
+    struct br_span_join join[BR_MOST_SPANS];
+    double *arena; /* all arrays but the loads */
+    double *loads; /* of the strips, where they differ from node to node; NULL so far */
+    struct br_strip_drive drive;
+    double tip_load[BR_LQ_MOST]; /* of the last node over R, for a factor of 1 */
     double tip_increment[BR_LQ_MOST], force_increment[BR_LQ_MOST];
-    double tip_velocity, compliance;
+    double tip_velocity, tip_displacement, compliance;
+    double tip_bias; /* mean of what the joins' increment lacks of the field's, m/s */
+    size_t steps; /* since the tip was set */
 };
 
-/* One value of a piece: BR_END_..., component c. */
-static inline double *br_piece_end(const struct br_pieces *s, size_t piece, int which, int c)
+/* Elements of a span. */
+static inline size_t br_span_length(const struct br_strand *t)
 {
-    const size_t odd = s->odd > 0;
-    const size_t i = odd && piece == 0 ? 0 : odd + (piece - odd) / BR_LANES;
-    const struct br_group *g = &s->group[i];
-    return &g->end[((size_t)(which * s->d + c)) * BR_LANES + (piece - g->first)];
+    return t->strip.pieces * t->strip.length;
 }
 
-/* The node at the right end of a piece. */
-static inline size_t br_piece_right_node(const struct br_pieces *s, size_t piece)
-{
-    return s->odd ? s->odd + piece * s->length : (piece + 1) * s->length;
-}
+/* Cuts the beam and allocates all arrays. Fails with BR_NO_MEMORY. */
+enum br_status br_pieces_lay_out(struct br_pieces *s, struct br_error *err);
 
 /* Fills all tables and joins. Fails with BR_SINGULAR or BR_NO_MEMORY. */
 enum br_status br_pieces_tables(struct br_pieces *s, struct br_error *err);
 
-/* Solves for the ends of all pieces, given z and q (influence: zeros) and the tip's costate; the
+/* Solves for the ends of all spans, given q and z (influence: zeros) and the tip's costate; the
  * tip's increment goes into tip. */
-void br_pieces_join(const struct br_pieces *s, bool influence, const double *tip_costate,
-                    double *tip);
+void br_pieces_join(struct br_pieces *s, bool influence, const double *tip_costate, double *tip);
 
-/* Another load vector, N; NULL: none. */
-void br_pieces_set_load(struct br_pieces *s, const double *vector);
+/* Another load vector, N; NULL: none. Fails with BR_NO_MEMORY. */
+enum br_status br_pieces_set_load(struct br_pieces *s, const double *vector, struct br_error *err);
+
+/* State from and to nodal values; see linear_solver.h. */
+void br_pieces_set(void *self, const double *displacement, const double *velocity);
+void br_pieces_get(const void *self, double *displacement, double *velocity);
+void br_pieces_strain_rate(const void *self, double *rate);
+
+/* The tip's displacement and velocity, read off the field (either may be NULL). */
+void br_pieces_read_tip(const struct br_pieces *s, double *displacement, double *velocity);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tables of one piece and of its joins, in long double; see pieces.c. */
+/* Tables of a piece, of its joins and of those of the spans, in long double; see pieces.h. */
 #include <string.h>
 
 #include "solver/pieces_state.h"
@@ -28,76 +28,102 @@ static void set_identity(int d, block a)
             a[i][j] = i == j;
 }
 
-static void keep(int d, const block a, double to[BR_LQ_MOST][BR_LQ_MOST])
+static void keep(int d, const block a, br_matrix to)
 {
     for (int i = 0; i < d; i++)
         for (int j = 0; j < d; j++)
             to[i][j] = (double)a[i][j];
 }
 
-/* What a piece of some length does as a whole. */
+/* The same as d by d doubles, by rows. */
+static void pack(int d, const block a, double *to)
+{
+    for (int i = 0; i < d; i++)
+        for (int j = 0; j < d; j++)
+            to[i * d + j] = (double)a[i][j];
+}
+
+/* c = a b */
+static void set_product(int d, const block a, const block b, block c)
+{
+    block product = {{0}};
+    add_product(d, a, b, product);
+    memcpy(c, product, sizeof product);
+}
+
+/* What a piece or a span does as a whole. */
 struct whole {
     block phi, z, p;
 };
 
-/* Fills the gains; P of every length goes into `p`, longest + 1 of them. */
-static bool fill_gains(struct br_pieces *s, const struct br_lq *lq, struct br_lq_gain *gain,
-                       block *p)
+/* ---- pieces ---- */
+
+/* The gains of the elements of a piece by their distance to its right end, and P in front of each:
+ * longest + 1 of them. `gains`: of the leftmost element first. */
+static bool fill_gains(const struct br_lq *lq, size_t longest, double *gains,
+                       struct br_lq_gain *gain, block *p)
 {
-    const int d = s->d;
+    const int d = lq->d;
     memset(p[0], 0, sizeof *p);
-    for (size_t e = 0; e < s->longest; e++) {
+    for (size_t e = 0; e < longest; e++) {
         memcpy(p[e + 1], p[e], sizeof *p);
         if (!br_lq_step(lq, p[e + 1], &gain[e]))
             return false;
-        double *to = s->gain + e * (size_t)(4 * d * d);
-        for (int i = 0; i < d; i++)
-            for (int j = 0; j < d; j++) {
-                to[i * d + j] = (double)gain[e].closed[j][i];
-                to[d * d + i * d + j] = (double)-(gain[e].feedback[j][i] * lq->r[j]);
-                to[2 * d * d + i * d + j] = (double)-gain[e].inverse[i][j];
-                to[3 * d * d + i * d + j] = (double)-gain[e].feedback[i][j];
-            }
+        double *to = gains + (longest - 1 - e) * (size_t)(3 * d * d);
+        pack(d, gain[e].feedback, to);
+        pack(d, gain[e].inverse, to + d * d);
+        pack(d, gain[e].closed, to + 2 * d * d);
     }
     return true;
 }
 
-/* The responses to unit y_l and unit c of a piece of `length` elements, times R, and what the piece
- * does as a whole. costate: workspace, length of them. */
-static void fill_weights(const struct br_pieces *s, const struct br_lq *lq,
-                         const struct br_lq_gain *gain, size_t length, block *costate,
-                         double *weight, struct whole *whole)
+/* zeta = S^-1 G'pi of every element, for pi = 1 at the right end. */
+static void fill_reaction(const struct br_lq *lq, const struct br_lq_gain *gain, size_t length,
+                          block *zeta)
 {
-    const int d = s->d;
-    block pi, gt, y = {{0}}, from_left;
+    const int d = lq->d;
+    block pi, gt, at, q;
     set_identity(d, pi);
-    set_identity(d, from_left);
     transpose(d, lq->g, gt);
-    for (size_t e = 0; e < length; e++) { /* costate[e] = S^-1 G' pi */
-        block q = {{0}}, at, next = {{0}};
-        add_product(d, gt, pi, q);
-        memset(costate[e], 0, sizeof *costate);
-        add_product(d, gain[e].inverse, q, costate[e]);
+    for (size_t e = 0; e < length; e++) {
+        set_product(d, gt, pi, q);
+        set_product(d, gain[e].inverse, q, zeta[e]);
         transpose(d, gain[e].closed, at);
-        add_product(d, at, pi, next);
-        memcpy(pi, next, sizeof pi);
+        set_product(d, at, pi, pi);
     }
-    for (size_t e = length; e-- > 0;) {
-        block by_left = {{0}}, by_right, ky = {{0}}, gk = {{0}}, next = {{0}};
-        add_product(d, gain[e].feedback, from_left, by_left);
-        add_product(d, gain[e].feedback, y, ky);
-        double *to = weight + e * (size_t)(2 * d * d);
+}
+
+/* The weights of a piece, transposed responses of -kappa to c and of kappa to y_l, and what it does
+ * as a whole. zeta: workspace, length of them. */
+static void fill_weights(const struct br_lq *lq, const struct br_lq_gain *gain, size_t length,
+                         block *zeta, double *weight, struct whole *whole)
+{
+    const int d = lq->d;
+    block y = {{0}}, from_left, to_right, turned, step;
+    fill_reaction(lq, gain, length, zeta);
+    set_identity(d, from_left);
+    for (size_t e = length; e-- > 0; weight += 2 * d * d) {
+        set_product(d, gain[e].feedback, y, to_right); /* -kappa = K y + zeta */
         for (int i = 0; i < d; i++)
-            for (int j = 0; j < d; j++) {
-                by_right[i][j] = -(ky[i][j] + costate[e][i][j]);
-                to[j * d + i] = (double)(lq->r[i] * by_right[i][j]);
-                to[d * d + j * d + i] = (double)-(lq->r[i] * by_left[i][j]);
-            }
-        add_product(d, lq->g, by_right, gk);
-        add_product(d, lq->t, y, gk);
-        memcpy(y, gk, sizeof y);
-        add_product(d, gain[e].closed, from_left, next);
-        memcpy(from_left, next, sizeof from_left);
+            for (int j = 0; j < d; j++)
+                to_right[i][j] += zeta[e][i][j];
+        transpose(d, to_right, turned);
+        for (int i = 0; i < d; i++)
+            for (int j = 0; j < d; j++)
+                turned[i][j] = -turned[i][j];
+        pack(d, turned, weight);
+        set_product(d, gain[e].feedback, from_left, step); /* -kappa = K y */
+        transpose(d, step, turned);
+        for (int i = 0; i < d; i++)
+            for (int j = 0; j < d; j++)
+                turned[i][j] = -turned[i][j];
+        pack(d, turned, weight + d * d);
+        set_product(d, lq->g, to_right, step); /* y = T y + G kappa */
+        set_product(d, lq->t, y, y);
+        for (int i = 0; i < d; i++)
+            for (int j = 0; j < d; j++)
+                y[i][j] -= step[i][j];
+        set_product(d, gain[e].closed, from_left, from_left);
     }
     memcpy(whole->phi, from_left, sizeof whole->phi);
     for (int i = 0; i < d; i++)
@@ -105,12 +131,18 @@ static void fill_weights(const struct br_pieces *s, const struct br_lq *lq,
             whole->z[i][j] = -y[i][j];
 }
 
-/* (I + Z C)^-1; its determinant is at least 1. */
-static void join_inverse(int d, const block z, const block ph, block m)
+/* ---- joins ---- */
+
+struct join {
+    block pass, gain, yield, costate, transfer;
+};
+
+/* (1 + Z C)^-1; its determinant is at least 1. */
+static void join_inverse(int d, const block z, const block c, block m)
 {
     block a;
     set_identity(d, a);
-    add_product(d, z, ph, a);
+    add_product(d, z, c, a);
     if (d == 1) {
         m[0][0] = 1 / a[0][0];
         return;
@@ -122,53 +154,110 @@ static void join_inverse(int d, const block z, const block ph, block m)
     m[1][1] = a[0][0] / det;
 }
 
-/* From the tip to the clamped end; ph: of the right end, becomes that of the left end. */
-static void fill_join(int d, const struct whole *w, block ph, struct br_join *join)
+/* From the right to the left; c: of the right end, becomes that of the left end. */
+static struct join join_of(int d, const struct whole *w, block c)
 {
-    block m, pass = {{0}}, yield = {{0}}, phi_t, phi_t_ph = {{0}}, transfer = {{0}}, next;
-    join_inverse(d, w->z, ph, m);
-    add_product(d, m, w->phi, pass);
-    add_product(d, m, w->z, yield);
+    struct join join = {.pass = {{0}}};
+    block phi_t, next;
+    join_inverse(d, w->z, c, join.gain);
+    set_product(d, join.gain, w->phi, join.pass);
+    set_product(d, join.gain, w->z, join.yield);
+    memcpy(join.costate, c, sizeof join.costate);
     transpose(d, w->phi, phi_t);
-    add_product(d, phi_t, ph, phi_t_ph);
-    add_product(d, phi_t_ph, m, transfer);
-    keep(d, m, join->gain);
-    keep(d, pass, join->pass);
-    keep(d, yield, join->yield);
-    keep(d, ph, join->costate);
-    keep(d, transfer, join->transfer);
+    set_product(d, phi_t, c, join.transfer);
+    set_product(d, join.transfer, join.gain, join.transfer);
     memcpy(next, w->p, sizeof next);
-    add_product(d, transfer, w->phi, next);
+    add_product(d, join.transfer, w->phi, next);
     for (int i = 0; i < d; i++) /* symmetric but for round-off */
         for (int j = 0; j < d; j++)
-            ph[i][j] = (next[i][j] + next[j][i]) / 2;
+            c[i][j] = (next[i][j] + next[j][i]) / 2;
+    return join;
+}
+
+/* The joins of a span, and what it does as a whole. */
+static void fill_span(int d, const struct whole *piece, size_t pieces, double *to,
+                      struct whole *span)
+{
+    block c = {{0}}, ahead, reach, response = {{0}}, part;
+    set_identity(d, ahead);
+    set_identity(d, reach);
+    for (size_t j = pieces; j-- > 0;) {
+        const struct join join = join_of(d, piece, c);
+        double *at = to + j * (size_t)(BR_JOINS * d * d);
+        block pass_t;
+        pack(d, join.pass, at + BR_JOIN_PASS * d * d);
+        pack(d, join.gain, at + BR_JOIN_GAIN * d * d);
+        pack(d, join.yield, at + BR_JOIN_YIELD * d * d);
+        pack(d, join.costate, at + BR_JOIN_COSTATE * d * d);
+        pack(d, join.transfer, at + BR_JOIN_TRANSFER * d * d);
+        set_product(d, ahead, join.gain, part);
+        pack(d, part, at + BR_JOIN_LEAD * d * d);
+        set_product(d, ahead, join.yield, part);
+        for (int i = 0; i < d; i++)
+            for (int l = 0; l < d; l++)
+                at[BR_JOIN_LAG * d * d + i * d + l] = (double)-part[i][l];
+        pack(d, reach, at + BR_JOIN_REACH * d * d);
+        add_product(d, part, reach, response);
+        set_product(d, ahead, join.pass, ahead);
+        transpose(d, join.pass, pass_t);
+        set_product(d, pass_t, reach, reach);
+    }
+    memcpy(span->phi, ahead, sizeof ahead);
+    memcpy(span->z, response, sizeof response);
+    memcpy(span->p, c, sizeof c);
+}
+
+/* The joins of the spans, from the tip to the clamped end. */
+static void fill_ends(struct br_pieces *s, const struct whole span[BR_STRANDS])
+{
+    const int d = s->d;
+    struct br_span_join *to = s->join + s->strand[BR_ODD].lanes + s->strand[BR_EVEN].lanes;
+    block c = {{0}};
+    for (int i = BR_STRANDS; i-- > 0;)
+        for (size_t lane = s->strand[i].lanes; lane-- > 0;) {
+            const struct join join = join_of(d, &span[i], c);
+            to--;
+            keep(d, join.pass, to->pass);
+            keep(d, join.gain, to->gain);
+            keep(d, join.yield, to->yield);
+            keep(d, join.costate, to->costate);
+            keep(d, join.transfer, to->transfer);
+        }
+}
+
+static void fill_strand(struct br_strand *t, const struct br_lq *lq, double k,
+                        const struct br_lq_gain *gain, block *p, size_t longest, struct whole *span)
+{
+    struct whole piece;
+    struct br_strip *strip = &t->strip;
+    strip->d = lq->d;
+    strip->k = k;
+    strip->alpha = (double)lq->alpha;
+    strip->gamma = (double)(lq->alpha * k);
+    fill_weights(lq, gain, strip->length, p + longest + 1, strip->weight, &piece);
+    memcpy(piece.p, p[strip->length], sizeof piece.p);
+    fill_span(lq->d, &piece, strip->pieces, strip->join, span);
 }
 
 enum br_status br_pieces_tables(struct br_pieces *s, struct br_error *err)
 {
     const struct br_lq lq = br_lq_of_field(&s->field);
-    const size_t longest = s->longest;
-    s->alpha = (double)lq.alpha;
-    for (int i = 0; i < s->d; i++)
-        s->r[i] = (double)lq.r[i];
+    const size_t odd = s->strand[BR_ODD].strip.length, even = s->strand[BR_EVEN].strip.length;
+    const size_t longest = odd > even ? odd : even;
+    s->r = (double)lq.r;
+    double *gains = s->strand[odd > even ? BR_ODD : BR_EVEN].strip.gain;
     struct br_lq_gain *gain = br_allocate(longest, sizeof *gain);
     block *p = br_allocate(2 * longest + 1, sizeof *p);
     enum br_status status = gain && p ? BR_OK : br_no_memory(err, "the tables of a solver");
-    if (!status && !fill_gains(s, &lq, gain, p))
+    if (!status && !fill_gains(&lq, longest, gains, gain, p))
         status = br_fail(err, BR_SINGULAR, "%s: the step is not positive definite",
                          s->field.kind == BR_AXIAL ? "axial" : "bending");
-    if (!status) {
-        struct whole regular, odd;
-        fill_weights(s, &lq, gain, s->length, p + longest + 1, s->weight, &regular);
-        memcpy(regular.p, p[s->length], sizeof regular.p);
-        if (s->odd) {
-            fill_weights(s, &lq, gain, s->odd, p + longest + 1, s->odd_weight, &odd);
-            memcpy(odd.p, p[s->odd], sizeof odd.p);
-        }
-        block ph = {{0}};
-        for (size_t i = s->pieces; i-- > 0;)
-            fill_join(s->d, i == 0 && s->odd ? &odd : &regular, ph, &s->join[i]);
-    }
+    struct whole span[BR_STRANDS];
+    for (int i = 0; i < BR_STRANDS && !status; i++)
+        if (s->strand[i].lanes)
+            fill_strand(&s->strand[i], &lq, s->k, gain, p, longest, &span[i]);
+    if (!status)
+        fill_ends(s, span);
     free(gain);
     free(p);
     return status;

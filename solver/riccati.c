@@ -1,41 +1,41 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "solver/riccati.h"
-
+/* The flexibility form, twice: as it is written down, and fast. */
 #include <float.h>
 
 #include "solver/pieces.h"
+#include "solver/plain.h"
 
-/* An upper estimate; the benchmark and tests/ measure far less. */
-static double riccati_round_off(const struct br_field *field,
-                                const struct br_linear_options *options)
+/* Upper estimates; the benchmark and tests/ measure far less. */
+static double plain_round_off(const struct br_field *field, const struct br_linear_options *options)
 {
     (void)options;
     return 4 * DBL_EPSILON * (double)field->n;
 }
 
-const struct br_linear_solver br_riccati = {
-    .name = "riccati",
-    .title = "flexibility form: element curvatures by a backward and a forward recursion",
-    .citation = "discrete linear-quadratic problem; Riccati recursion, see solver/riccati.h",
-    .options = "",
-    .axial = &br_riccati_axial,
-    .bending = &br_riccati_bending,
-    .round_off = riccati_round_off,
-};
-
 /* The joins add the round-off of their own sums, whatever the mesh. */
-static double lanes_round_off(const struct br_field *field, const struct br_linear_options *options)
+static double riccati_round_off(const struct br_field *field,
+                                const struct br_linear_options *options)
 {
     (void)options;
     return 8 * DBL_EPSILON * ((double)field->n + 1024);
 }
 
-const struct br_linear_solver br_lanes = {
-    .name = "lanes",
-    .title = "the same form on pieces of the beam, side by side in the lanes of vectors",
-    .citation = "Riccati recursions of substructures, see solver/pieces.c",
+const struct br_linear_solver br_riccati = {
+    .name = "riccati",
+    .title = "flexibility form: Riccati recursions on pieces of the beam, side by side in vectors",
+    .citation = "discrete linear-quadratic problem in substructures, see solver/pieces.h",
     .options = "",
     .axial = &br_pieces,
     .bending = &br_pieces,
-    .round_off = lanes_round_off,
+    .round_off = riccati_round_off,
+};
+
+const struct br_linear_solver br_plain = {
+    .name = "plain",
+    .title = "the same form as it is written down: one backward and one forward recursion",
+    .citation = "discrete linear-quadratic problem; Riccati recursion, see solver/plain.h",
+    .options = "",
+    .axial = &br_plain_axial,
+    .bending = &br_plain_bending,
+    .round_off = plain_round_off,
 };

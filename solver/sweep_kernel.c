@@ -1,240 +1,367 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The loops are written once, in the vector extension of GCC and Clang, and compiled for each
- * instruction set; this file is contracted (sweep.h). */
+/* Compiled once for each instruction set, as BR_KERNEL with vectors of BR_WIDTH doubles
+ * (solver/meson.build), and contracted. Two vectors side by side hide the latency of the
+ * recursions. */
 #include "solver/sweep_kernel.h"
 
 #include <string.h>
 
-typedef double vec __attribute__((vector_size(8 * BR_LANES)));
+enum { VECTORS = 2, GO = VECTORS * BR_WIDTH };
+
+typedef double vec __attribute__((vector_size(8 * BR_WIDTH)));
 
 #define INLINE static inline __attribute__((always_inline))
 
-INLINE void load(const double *from, vec *to)
+/* The entries of G that are not 0 or 1; see lq.h. */
+static const double half = 0.5, lever = 0.28867513459481288225;
+
+INLINE vec load(const double *from)
 {
-    memcpy(to, __builtin_assume_aligned(from, 8 * BR_LANES), sizeof *to);
+    vec v;
+    memcpy(&v, __builtin_assume_aligned(from, 8 * BR_WIDTH), sizeof v);
+    return v;
 }
 
-INLINE void store(const vec *from, double *to)
+INLINE void store(vec v, double *to)
 {
-    memcpy(__builtin_assume_aligned(to, 8 * BR_LANES), from, sizeof *from);
+    memcpy(__builtin_assume_aligned(to, 8 * BR_WIDTH), &v, sizeof v);
 }
 
-/* x in all lanes: x - 0 is x, so this is no more than a broadcast. */
-#define ALL(x) ((x) - (vec){0})
-
-/* The entries of T and G that are not 0 or 1, so that the loops need not multiply by those. */
-static const double bending_g[2][2] = {{0.5, -1.0 / 6}, {1, 0}};
-
-/* G'p and T y + G kappa, with their zeros and ones left out */
-INLINE void control_transposed(int d, const vec *p, vec *out)
+INLINE void load_all(int d, const double *from, vec *to)
 {
-    out[0] = p[0];
-    if (d == 1)
-        return;
-    out[0] = ALL(bending_g[0][0]) * p[0] + p[1];
-    out[1] = ALL(bending_g[0][1]) * p[0];
+    for (int i = 0; i < d; i++)
+        to[i] = load(from + i * BR_LANES);
 }
 
-INLINE void carry(int d, vec *y, const vec *kappa)
+INLINE void store_all(int d, const vec *from, double *to)
+{
+    for (int i = 0; i < d; i++)
+        store(from[i], to + i * BR_LANES);
+}
+
+/* sum += a x, or a'x; d by d */
+INLINE void add(int d, const double *a, const vec *x, vec *sum)
+{
+    for (int i = 0; i < d; i++)
+        for (int j = 0; j < d; j++)
+            sum[i] += a[i * d + j] * x[j];
+}
+
+INLINE void add_transposed(int d, const double *a, const vec *x, vec *sum)
+{
+    for (int i = 0; i < d; i++)
+        for (int j = d; j-- > 0;)
+            sum[i] += a[j * d + i] * x[j];
+}
+
+INLINE void subtract_transposed(int d, const double *a, const vec *x, vec *sum)
+{
+    for (int i = 0; i < d; i++)
+        for (int j = d; j-- > 0;)
+            sum[i] -= a[j * d + i] * x[j];
+}
+
+/* ---- an element ---- */
+
+/* s = g + G'p,    p = A'p - K'g - F */
+INLINE void element_left(int d, const double *gain, const vec *g, const vec *f, vec *p, vec *s)
+{
+    vec next[2];
+    s[0] = d == 1 ? g[0] + p[0] : (g[0] + p[1]) + half * p[0];
+    if (d == 2)
+        s[1] = g[1] - lever * p[0];
+    for (int i = 0; i < d; i++)
+        next[i] = -f[i];
+    subtract_transposed(d, gain, g, next);
+    add_transposed(d, gain + 2 * d * d, p, next);
+    for (int i = 0; i < d; i++)
+        p[i] = next[i];
+}
+
+/* y = T y + G kappa, for -kappa */
+INLINE void pass_on(int d, const vec *minus_kappa, vec *y)
 {
     if (d == 1) {
-        y[0] += kappa[0];
+        y[0] -= minus_kappa[0];
         return;
     }
-    y[0] += y[1] + (ALL(bending_g[0][0]) * kappa[0] + ALL(bending_g[0][1]) * kappa[1]);
-    y[1] += kappa[0];
+    y[0] = ((y[0] + y[1]) - half * minus_kappa[0]) + lever * minus_kappa[1];
+    y[1] -= minus_kappa[0];
 }
 
-/* G kappa */
-INLINE void control(int d, const vec *kappa, vec *out)
-{
-    out[0] = kappa[0];
-    if (d == 1)
-        return;
-    out[0] = ALL(bending_g[0][0]) * kappa[0] + ALL(bending_g[0][1]) * kappa[1];
-    out[1] = kappa[0];
-}
-
-/* sum += matrix x, d by d. (Vectors are passed by address: how they go by value depends on the
- * instruction set.) */
-INLINE void add_product(int d, const double *matrix, const vec *x, vec *sum)
+/* -kappa = S^-1 s + K y, and y goes on */
+INLINE void element_right(int d, const double *gain, const vec *s, vec *y, vec *minus_kappa)
 {
     for (int i = 0; i < d; i++)
-        for (int j = d; j-- > 0;)
-            sum[i] += ALL(matrix[i * d + j]) * x[j];
+        minus_kappa[i] = (vec){0};
+    add(d, gain + d * d, s, minus_kappa);
+    add(d, gain, y, minus_kappa);
+    pass_on(d, minus_kappa, y);
 }
 
-/* sum += matrix' x */
-INLINE void add_transposed_product(int d, const double *matrix, const vec *x, vec *sum)
+/* The strain g and the displacement's kappa_w after the step. */
+INLINE void element_state(int d, const struct br_strip *s, const vec *minus_kappa, vec *g, vec *w)
 {
-    for (int i = 0; i < d; i++)
-        for (int j = d; j-- > 0;)
-            sum[i] += ALL(matrix[j * d + i]) * x[j];
-}
-
-/* s = R g + G'p + factor sigma,    p = A'p - K'R g */
-INLINE void sweep_left(const struct br_sweep *s, int d, bool loaded, bool lanewise)
-{
-    vec p[2], r[2];
     for (int i = 0; i < d; i++) {
-        load(s->right + i * BR_LANES, &p[i]);
-        r[i] = ALL(s->r[i]);
-    }
-    for (size_t e = 0; e < s->length; e++) {
-        const double *gain = s->table.gain + e * (size_t)(4 * d * d);
-        const double *state = s->state + e * (size_t)(2 * d) * BR_LANES;
-        double *scratch = s->scratch + e * (size_t)d * BR_LANES;
-        const size_t first = e * (size_t)d;
-        vec g[2], sum[2], next[2];
-        control_transposed(d, p, sum);
-        for (int i = 0; i < d; i++) {
-            load(state + i * BR_LANES, &g[i]);
-            if (loaded && lanewise) {
-                vec sigma;
-                load(s->load + (first + (size_t)i) * BR_LANES, &sigma);
-                sum[i] += ALL(s->factor) * sigma;
-            } else if (loaded)
-                sum[i] += ALL(s->factor * s->load[first + (size_t)i]);
-            sum[i] += r[i] * g[i];
-            store(&sum[i], scratch + i * BR_LANES);
-            next[i] = ALL(0.0);
-        }
-        add_product(d, gain + d * d, g, next); /* the table has -K'R and A' */
-        add_product(d, gain, p, next);
-        for (int i = 0; i < d; i++)
-            p[i] = next[i];
+        const vec strain = g[i] - minus_kappa[i], rate = strain - s->alpha * w[i];
+        w[i] += s->k * rate;
+        g[i] = strain + s->gamma * rate;
     }
 }
 
-/* kappa = -(K y + S^-1 s), the new state, and what it adds to q and z */
-INLINE void sweep_right(const struct br_sweep *s, int d)
-{
-    const vec alpha = ALL(s->alpha), k = ALL(s->k);
-    vec y[2], q[2], z[2], velocity[2], displacement = ALL(0.0);
-    for (int i = 0; i < d; i++) {
-        load(s->left + i * BR_LANES, &y[i]);
-        q[i] = z[i] = velocity[i] = ALL(0.0);
-    }
-    for (size_t e = s->length; e-- > 0;) {
-        const double *gain = s->table.gain + e * (size_t)(4 * d * d);
-        const double *weight = s->table.weight + e * (size_t)(2 * d * d);
-        double *state = s->state + e * (size_t)(2 * d) * BR_LANES;
-        const double *scratch = s->scratch + e * (size_t)d * BR_LANES;
-        vec drive[2], kappa[2], g[2], rate[2], next[2];
-        for (int i = 0; i < d; i++) {
-            load(scratch + i * BR_LANES, &drive[i]);
-            kappa[i] = ALL(0.0);
-        }
-        add_product(d, gain + 2 * d * d, drive, kappa); /* the table has -S^-1 and -K */
-        control(d, kappa, next);
-        add_transposed_product(d, gain, y, next); /* y = A y - G S^-1 s: the shortest chain */
-        add_product(d, gain + 3 * d * d, y, kappa);
-        for (int i = 0; i < d; i++)
-            y[i] = next[i];
-        for (int i = 0; i < d; i++) {
-            vec w;
-            load(state + i * BR_LANES, &g[i]);
-            load(state + (d + i) * BR_LANES, &w);
-            rate[i] = (g[i] - alpha * w) + kappa[i];
-            w += k * rate[i];
-            g[i] = alpha * w + rate[i];
-            if (d == 1)
-                displacement += w;
-            store(&g[i], state + i * BR_LANES);
-            store(&w, state + (d + i) * BR_LANES);
-        }
-        carry(d, velocity, rate);
-        add_product(d, weight, g, z);
-        add_product(d, weight + d * d, g, q);
-    }
-    for (int i = 0; i < d; i++) {
-        store(&q[i], s->q + i * BR_LANES);
-        store(&z[i], s->z + i * BR_LANES);
-        store(&velocity[i], s->velocity + i * BR_LANES);
-    }
-    if (d == 1)
-        store(&displacement, s->displacement);
-}
+/* ---- a piece ---- */
 
-INLINE void step_of(const struct br_sweep *s, int d)
-{
-    if (!s->load)
-        sweep_left(s, d, false, false);
-    else if (s->lanewise)
-        sweep_left(s, d, true, true);
-    else
-        sweep_left(s, d, true, false);
-    sweep_right(s, d);
-}
-
-INLINE void step(const struct br_sweep *s)
-{
-    if (s->d == 1)
-        step_of(s, 1);
-    else
-        step_of(s, 2);
-}
-
-INLINE void carry_of(const struct br_sweep *s, int d, double *out)
-{
-    vec y[2] = {ALL(0.0), ALL(0.0)};
-    for (size_t e = s->length; e-- > 0;) {
-        const double *state = s->state + e * (size_t)(2 * d) * BR_LANES;
-        vec kappa[2];
-        for (int i = 0; i < d; i++)
-            load(state + (d + i) * BR_LANES, &kappa[i]);
-        carry(d, y, kappa);
-    }
-    for (int i = 0; i < d; i++)
-        store(&y[i], out + i * BR_LANES);
-}
-
-INLINE void carry_all(const struct br_sweep *s, double *out)
-{
-    if (s->d == 1)
-        carry_of(s, 1, out);
-    else
-        carry_of(s, 2, out);
-}
-
-#define KERNEL(suffix, label, attributes, condition)                                           \
-    attributes static void step_##suffix(const struct br_sweep *s)                             \
-    {                                                                                          \
-        step(s);                                                                               \
-    }                                                                                          \
-    attributes static void carry_##suffix(const struct br_sweep *s, double *y)                 \
-    {                                                                                          \
-        carry_all(s, y);                                                                       \
-    }                                                                                          \
-    static bool available_##suffix(void)                                                       \
-    {                                                                                          \
-        return condition;                                                                      \
-    }                                                                                          \
-    static const struct br_kernel kernel_##suffix = {label, available_##suffix, step_##suffix, \
-                                                     carry_##suffix};
-
-#if defined __x86_64__ && !defined BR_NO_FMA
-KERNEL(avx512, "avx512", __attribute__((target("avx512f,avx512dq,avx512vl,fma,avx2"))),
-       __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512vl"))
-KERNEL(avx2, "avx2", __attribute__((target("avx2,fma"))),
-       __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-#endif
-KERNEL(portable, "portable", , true)
-
-const struct br_kernel *const br_kernels[] = {
-#if defined __x86_64__ && !defined BR_NO_FMA
-    &kernel_avx512,
-    &kernel_avx2,
-#endif
-    &kernel_portable,
-    NULL,
+/* Where a piece's lanes begin. */
+struct piece {
+    double *state, *end;
+    const double *load;
 };
 
-const struct br_kernel *br_kernel_best(void)
+INLINE struct piece piece_at(int d, const struct br_strip *s, size_t j, size_t lane)
 {
-    const struct br_kernel *const *kernel = br_kernels;
-    while (!(*kernel)->available())
-        kernel++;
-    return *kernel;
+    const size_t entry = (size_t)d * BR_LANES;
+    return (struct piece){
+        .state = s->state + j * s->length * 2 * entry + lane,
+        .end = s->end + j * BR_ENDS * entry + lane,
+        .load = s->load ? s->load + j * s->length * entry + lane : NULL,
+    };
 }
+
+/* Costates p to the left, s into the scratch. */
+INLINE void piece_left(int d, const struct br_strip *s, const struct piece *at, const vec f[2],
+                       double factor, vec p[VECTORS][2])
+{
+    const size_t entry = (size_t)d * BR_LANES;
+    for (size_t e = s->length; e-- > 0;)
+#pragma GCC unroll 2
+        for (int v = 0; v < VECTORS; v++) {
+            const double *gain = s->gain + e * (size_t)(3 * d * d);
+            vec g[2], sum[2], own[2];
+            load_all(d, at->state + e * 2 * entry + v * BR_WIDTH, g);
+            if (at->load) {
+                load_all(d, at->load + e * entry + v * BR_WIDTH, own);
+                for (int i = 0; i < d; i++)
+                    own[i] *= factor;
+            }
+            element_left(d, gain, g, at->load ? own : f, p[v], sum);
+            store_all(d, sum, s->scratch + e * entry + v * BR_WIDTH);
+        }
+}
+
+/* Increments y to the right, the new state, and what it adds to z and q. The lines of the piece
+ * that comes next are asked for meanwhile. */
+INLINE void piece_right(int d, const struct br_strip *s, const struct piece *at, vec y[VECTORS][2])
+{
+    const size_t entry = (size_t)d * BR_LANES, whole = s->length * 2 * entry;
+    vec z[VECTORS][2], q[VECTORS][2];
+    for (int v = 0; v < VECTORS; v++)
+        for (int i = 0; i < d; i++)
+            z[v][i] = q[v][i] = (vec){0};
+    for (size_t e = 0; e < s->length; e++)
+#pragma GCC unroll 2
+        for (int v = 0; v < VECTORS; v++) {
+            const double *gain = s->gain + e * (size_t)(3 * d * d);
+            const double *weight = s->weight + e * (size_t)(2 * d * d);
+            double *state = at->state + e * 2 * entry + v * BR_WIDTH;
+            vec g[2], w[2], sum[2], minus_kappa[2];
+            load_all(d, s->scratch + e * entry + v * BR_WIDTH, sum);
+            load_all(d, state, g);
+            load_all(d, state + entry, w);
+            for (int i = 0; i < 2 * d; i++)
+                __builtin_prefetch(state + whole + i * BR_LANES);
+            element_right(d, gain, sum, y[v], minus_kappa);
+            element_state(d, s, minus_kappa, g, w);
+            store_all(d, g, state);
+            store_all(d, w, state + entry);
+            add(d, weight, g, z[v]);
+            add(d, weight + d * d, g, q[v]);
+        }
+    for (int v = 0; v < VECTORS; v++) {
+        store_all(d, z[v], at->end + BR_END_Z * entry + v * BR_WIDTH);
+        store_all(d, q[v], at->end + BR_END_Q * entry + v * BR_WIDTH);
+    }
+}
+
+/* ---- spans ---- */
+
+INLINE const double *join_of(int d, const struct br_strip *s, size_t j)
+{
+    return s->join + j * (size_t)(BR_JOINS * d * d);
+}
+
+/* z or q of a piece with its load's */
+INLINE void load_end(int d, const double *end, int which, double factor, vec *value)
+{
+    const int entry = d * BR_LANES;
+    for (int i = 0; i < d; i++)
+        value[i] = load(end + which * entry + i * BR_LANES) +
+                   factor * load(end + (which + BR_END_LOAD_Q - BR_END_Q) * entry + i * BR_LANES);
+}
+
+/* h goes to the left through the joins of a span, which ends free; z gathers. */
+INLINE void gather_of(int d, const struct br_strip *s, double factor, size_t lane, double *q,
+                      double *z)
+{
+    const int entry = d * BR_LANES;
+    vec h[2] = {{0}}, sum[2] = {{0}};
+    for (size_t j = s->pieces; j-- > 0;) {
+        const double *join = join_of(d, s, j);
+        double *end = piece_at(d, s, j, lane).end;
+        vec next[2], drift[2];
+        load_end(d, end, BR_END_Q, factor, next);
+        load_end(d, end, BR_END_Z, factor, drift);
+        store_all(d, h, end + BR_END_H * entry);
+        store_all(d, drift, end + BR_END_DRIFT * entry);
+        add(d, join + BR_JOIN_LEAD * d * d, drift, sum);
+        add(d, join + BR_JOIN_LAG * d * d, h, sum);
+        add(d, join + BR_JOIN_TRANSFER * d * d, drift, next);
+        add_transposed(d, join + BR_JOIN_PASS * d * d, h, next);
+        for (int i = 0; i < d; i++)
+            h[i] = next[i];
+    }
+    store_all(d, h, q + lane);
+    store_all(d, sum, z + lane);
+}
+
+/* The increment at a piece's right end, and the costate there. */
+INLINE void cross(int d, const double *join, const double *end, const vec *right, vec *y,
+                  vec *costate)
+{
+    const int entry = d * BR_LANES;
+    vec h[2], drift[2], next[2], yield[2];
+    load_all(d, end + BR_END_H * entry, h);
+    load_all(d, end + BR_END_DRIFT * entry, drift);
+    add(d, join + BR_JOIN_REACH * d * d, right, h);
+    for (int i = 0; i < d; i++)
+        next[i] = yield[i] = (vec){0};
+    add(d, join + BR_JOIN_YIELD * d * d, h, yield);
+    add(d, join + BR_JOIN_GAIN * d * d, drift, next);
+    for (int i = 0; i < d; i++)
+        next[i] -= yield[i];
+    add(d, join + BR_JOIN_PASS * d * d, y, next);
+    add(d, join + BR_JOIN_COSTATE * d * d, next, h);
+    for (int i = 0; i < d; i++) {
+        y[i] = next[i];
+        costate[i] = h[i];
+    }
+}
+
+INLINE void advance_of(int d, const struct br_strip *s, const struct br_strip_drive *drive,
+                       size_t lane, const double *right, const double *left)
+{
+    vec y[VECTORS][2], c[VECTORS][2], f[2];
+    for (int i = 0; i < d; i++)
+        f[i] = drive->factor * drive->uniform[i] - (vec){0};
+    for (int v = 0; v < VECTORS; v++) {
+        load_all(d, left + lane + v * BR_WIDTH, y[v]);
+        load_all(d, right + lane + v * BR_WIDTH, c[v]);
+    }
+    for (size_t j = 0; j < s->pieces; j++) {
+        const struct piece at = piece_at(d, s, j, lane);
+        vec inside[VECTORS][2], p[VECTORS][2];
+        memcpy(inside, y, sizeof inside);
+        for (int v = 0; v < VECTORS; v++)
+            cross(d, join_of(d, s, j), at.end + v * BR_WIDTH, c[v], y[v], p[v]);
+        piece_left(d, s, &at, f, drive->factor, p);
+        piece_right(d, s, &at, inside);
+    }
+}
+
+/* The recursions with no state. */
+INLINE void charge_of(int d, const struct br_strip *s, const double *uniform, size_t j, size_t lane)
+{
+    const size_t entry = (size_t)d * BR_LANES;
+    const struct piece at = piece_at(d, s, j, lane);
+    const vec g[2] = {{0}};
+    vec p[2] = {{0}}, y[2] = {{0}}, sum[2], minus_kappa[2], f[2];
+    for (int i = 0; i < d; i++)
+        f[i] = uniform[i] - (vec){0};
+    for (size_t e = s->length; e-- > 0;) {
+        if (at.load)
+            load_all(d, at.load + e * entry, f);
+        element_left(d, s->gain + e * (size_t)(3 * d * d), g, f, p, sum);
+        store_all(d, sum, s->scratch + e * entry);
+    }
+    for (size_t e = 0; e < s->length; e++) {
+        load_all(d, s->scratch + e * entry, sum);
+        element_right(d, s->gain + e * (size_t)(3 * d * d), sum, y, minus_kappa);
+    }
+    store_all(d, p, at.end + BR_END_LOAD_Q * entry);
+    store_all(d, y, at.end + BR_END_LOAD_Z * entry);
+}
+
+INLINE void carry_of(int d, const struct br_strip *s, size_t lane, double *displacement,
+                     double *velocity)
+{
+    const size_t entry = (size_t)d * BR_LANES;
+    vec u[2] = {{0}}, rate[2] = {{0}};
+    for (size_t e = 0; e < s->pieces * s->length; e++) {
+        vec g[2], w[2];
+        load_all(d, s->state + e * 2 * entry + lane, g);
+        load_all(d, s->state + (e * 2 + 1) * entry + lane, w);
+        for (int i = 0; i < d; i++) {
+            g[i] = s->alpha * w[i] - g[i];
+            w[i] = -w[i];
+        }
+        pass_on(d, w, u);
+        pass_on(d, g, rate);
+    }
+    store_all(d, u, displacement + lane);
+    store_all(d, rate, velocity + lane);
+}
+
+/* ---- the kernel's functions: d becomes a constant ---- */
+
+static void gather(const struct br_strip *s, double factor, double *q, double *z)
+{
+    for (size_t lane = 0; lane < BR_LANES; lane += BR_WIDTH)
+        if (s->d == 1)
+            gather_of(1, s, factor, lane, q, z);
+        else
+            gather_of(2, s, factor, lane, q, z);
+}
+
+static void advance(const struct br_strip *s, const struct br_strip_drive *drive,
+                    const double *right, const double *left)
+{
+    for (size_t lane = 0; lane < BR_LANES; lane += GO)
+        if (s->d == 1)
+            advance_of(1, s, drive, lane, right, left);
+        else
+            advance_of(2, s, drive, lane, right, left);
+}
+
+static void charge(const struct br_strip *s, const double uniform[2])
+{
+    for (size_t j = 0; j < s->pieces; j++)
+        for (size_t lane = 0; lane < BR_LANES; lane += BR_WIDTH)
+            if (s->d == 1)
+                charge_of(1, s, uniform, j, lane);
+            else
+                charge_of(2, s, uniform, j, lane);
+}
+
+static void carry(const struct br_strip *s, double *displacement, double *velocity)
+{
+    for (size_t lane = 0; lane < BR_LANES; lane += BR_WIDTH)
+        if (s->d == 1)
+            carry_of(1, s, lane, displacement, velocity);
+        else
+            carry_of(2, s, lane, displacement, velocity);
+}
+
+#define NAME_OF(kernel) #kernel
+#define STRING_OF(kernel) NAME_OF(kernel)
+#define JOINED_(a, b) a##b
+#define JOINED(a, b) JOINED_(a, b)
+
+bool JOINED(br_kernel_available_, BR_KERNEL)(void);
+
+const struct br_kernel JOINED(br_kernel_, BR_KERNEL) = {
+    .name = STRING_OF(BR_KERNEL),
+    .available = JOINED(br_kernel_available_, BR_KERNEL),
+    .gather = gather,
+    .advance = advance,
+    .charge = charge,
+    .carry = carry,
+};

@@ -1,49 +1,79 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The element loops of the fast solver: BR_LANES pieces of equal length side by side, one in each
- * lane of a vector. All arrays hold BR_LANES values for each entry, element 0 at a piece's right
- * end. */
+/* The loops of the fast solver: BR_LANES equal spans of the beam side by side, one in each lane of
+ * the vectors. A span is cut into pieces, which are worked on while they are in the nearest cache.
+ * All arrays go from the left end to the right one and hold BR_LANES values for each entry, tables
+ * one for all lanes. d is the number of unknowns a node: 1 axial, 2 bending. The mathematics is in
+ * pieces.h. */
 #ifndef BR_SWEEP_KERNEL_H
 #define BR_SWEEP_KERNEL_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { BR_LANES = 8 };
+enum { BR_LANES = 16 };
 
-/* What an element needs, shared by all pieces; d = 1 for axial, 2 for bending; by rows. */
-struct br_sweep_table {
-    const double *gain;   /* per element A', -K'R, -S^-1, -K: 4 d^2 */
-    const double *weight; /* per element X and Y, what it adds to z and q: 2 d^2 */
+/* What the end values of a piece are, d * BR_LANES each. */
+enum {
+    BR_END_Q,      /* what its state adds to its left costate */
+    BR_END_Z,      /* and to its right increment */
+    BR_END_LOAD_Q, /* what a load of factor 1 adds to these */
+    BR_END_LOAD_Z,
+    BR_END_H,     /* right costate in front of C y */
+    BR_END_DRIFT, /* z with the load */
+    BR_ENDS
 };
 
-struct br_sweep {
+/* The join of a piece to what lies to its right, d by d each, by rows. */
+enum {
+    BR_JOIN_PASS,     /* M Phi */
+    BR_JOIN_GAIN,     /* M */
+    BR_JOIN_YIELD,    /* M Z */
+    BR_JOIN_COSTATE,  /* C */
+    BR_JOIN_TRANSFER, /* Phi'C M */
+    BR_JOIN_LEAD,     /* what z adds to the span's */
+    BR_JOIN_LAG,      /* and what h takes from it */
+    BR_JOIN_REACH,    /* h for a unit costate at the span's right end */
+    BR_JOINS
+};
+
+struct br_strip {
     int d;
-    size_t length; /* elements of a piece */
-    struct br_sweep_table table;
-    const double *load; /* sigma, d an element: S's share of s for a load of factor 1; NULL: none */
-    bool lanewise;      /* load has BR_LANES values each, not one for all */
-    double factor;
-    double r[2], alpha, k;
-    double *state;        /* in, out: g and kappa_w, 2 d an element */
-    double *scratch;      /* d an element */
-    const double *right;  /* the costate at the right ends, d */
-    const double *left;   /* the increment at the left ends, d */
-    double *q, *z;        /* out: what the new state adds to the joins, d each */
-    double *velocity;     /* out: at the right ends, relative to fixed left ends, d */
-    double *displacement; /* out: the same, axial only */
+    size_t pieces, length; /* of a span; elements of a piece */
+    double *gain;          /* per element of a piece K, S^-1, A: 3 d^2 */
+    double *weight;        /* per element what g adds to z and q: 2 d^2 */
+    double *join;          /* BR_JOINS d^2 a piece */
+    double alpha, k, gamma /* k alpha */;
+    double *state;   /* 2 d an element: g and kappa_w */
+    double *load;    /* d an element: F / R at its left node; NULL: none, or the same everywhere */
+    double *end;     /* BR_ENDS d a piece */
+    double *scratch; /* d an element of one piece */
 };
 
-/* One step of a block of pieces. */
-typedef void br_sweep_step(const struct br_sweep *sweep);
-
-/* The displacement at the right ends of a block of pieces whose left ends are fixed, d (out). */
-typedef void br_sweep_carry(const struct br_sweep *sweep, double *displacement);
+/* What drives a strip in one step. */
+struct br_strip_drive {
+    double factor;     /* of the load */
+    double uniform[2]; /* F / R at every node, for a factor of 1; used where strip->load is NULL */
+};
 
 struct br_kernel {
-    const char *name; /* the instruction set */
-    bool (*available)(void);
-    br_sweep_step *step;
-    br_sweep_carry *carry;
+    const char *name;        /* the instruction set */
+    bool (*available)(void); /* on this machine */
+
+    /* What state and load of all pieces add to the spans' left costates, q, and right increments,
+     * z (out, d each). */
+    void (*gather)(const struct br_strip *strip, double factor, double *q, double *z);
+
+    /* One step, after gather; right: the costates at the spans' right ends, left: the increments
+     * at their left ends (in, d each). */
+    void (*advance)(const struct br_strip *strip, const struct br_strip_drive *drive,
+                    const double *right, const double *left);
+
+    /* What the load adds to the ends of the pieces. */
+    void (*charge)(const struct br_strip *strip, const double uniform[2]);
+
+    /* Displacement and velocity at the right ends of spans whose left ends are fixed (out, d
+     * each). */
+    void (*carry)(const struct br_strip *strip, double *displacement, double *velocity);
 };
 
 /* NULL-terminated, the fastest first; the last runs anywhere. */

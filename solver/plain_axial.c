@@ -4,7 +4,7 @@
  * with m = rho h / (6 k). */
 #include <math.h>
 
-#include "solver/riccati.h"
+#include "solver/plain.h"
 #include "solver/sweep.h"
 
 struct gain {
@@ -186,7 +186,7 @@ static double axial_tip_displacement(const void *self)
     return ((const struct axial *)self)->tip_displacement;
 }
 
-const struct br_field_solver br_riccati_axial = {
+const struct br_field_solver br_plain_axial = {
     .create = axial_create,
     .free = axial_free,
     .tip_compliance = axial_compliance,

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "solver/pair.h"
-#include "solver/riccati.h"
+#include "solver/plain.h"
 #include "solver/sweep.h"
 
 typedef long double real; /* of the tables, which are computed once */
@@ -346,7 +346,7 @@ static double bending_tip_displacement(const void *self)
     return w[0];
 }
 
-const struct br_field_solver br_riccati_bending = {
+const struct br_field_solver br_plain_bending = {
     .create = bending_create,
     .free = bending_free,
     .tip_compliance = bending_compliance,

@@ -27,11 +27,11 @@
  *     delta*_tip = -sum_i zeta_i's_i      and      z_tip = sum_i zeta_i'S zeta_i:
  * the tip's free velocity is known when the backward sweep ends, the laws find
  * r, and the forward sweep already carries it. */
-#ifndef BR_RICCATI_H
-#define BR_RICCATI_H
+#ifndef BR_PLAIN_H
+#define BR_PLAIN_H
 
 #include "solver/linear_solver.h"
 
-extern const struct br_field_solver br_riccati_axial, br_riccati_bending;
+extern const struct br_field_solver br_plain_axial, br_plain_bending;
 
 #endif

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How the beam is cut, where everything lies, and the way from and to nodal values; see pieces.h.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "solver/pieces_state.h"
+
+enum {
+    MOST_LENGTH = 32, /* elements of a piece: two of them fit the first level of the cache */
+    JOIN_COST = 2,    /* of a piece in its span, in element loops */
+    SPAN_COST = 16,   /* of all spans */
+};
+
+struct cut {
+    size_t pieces, length, odd;
+};
+
+/* Element loops of a step. Elements of the odd rest have all vectors to themselves. */
+static double cost_of(const struct cut *cut)
+{
+    return (double)(cut->pieces * (cut->length + JOIN_COST) + cut->odd) +
+           (cut->pieces ? SPAN_COST : 0);
+}
+
+static struct cut choose_cut(size_t n)
+{
+    struct cut best = {.odd = n};
+    for (size_t length = 1; length <= MOST_LENGTH && length * BR_LANES <= n; length++) {
+        struct cut cut = {.pieces = n / (length * BR_LANES), .length = length};
+        cut.odd = n - cut.pieces * length * BR_LANES;
+        if (cost_of(&cut) < cost_of(&best))
+            best = cut;
+    }
+    return best;
+}
+
+static double *take(double *arena, size_t *used, size_t doubles)
+{
+    double *p = arena ? arena + *used : NULL;
+    *used += (doubles + BR_LANES - 1) / BR_LANES * BR_LANES;
+    return p;
+}
+
+/* Lays out all arrays, or with no arena counts their doubles. */
+static size_t lay_out(struct br_pieces *s, double *arena)
+{
+    const size_t d = (size_t)s->d, entry = d * BR_LANES;
+    size_t used = 0, longest = 0;
+    for (int i = 0; i < BR_STRANDS; i++) {
+        struct br_strand *t = &s->strand[i];
+        struct br_strip *strip = &t->strip;
+        longest = strip->length > longest ? strip->length : longest;
+        strip->state = take(arena, &used, br_span_length(t) * 2 * entry);
+        strip->end = take(arena, &used, strip->pieces * BR_ENDS * entry);
+        strip->join = take(arena, &used, strip->pieces * BR_JOINS * d * d);
+        strip->weight = take(arena, &used, strip->length * 2 * d * d);
+        double **const ends[] = {&t->q,    &t->z,           &t->right,
+                                 &t->left, &t->force_right, &t->force_left};
+        for (size_t e = 0; e < sizeof ends / sizeof *ends; e++)
+            *ends[e] = take(arena, &used, entry);
+    }
+    double *gain = take(arena, &used, longest * 3 * d * d);
+    double *scratch = take(arena, &used, longest * entry);
+    for (int i = 0; i < BR_STRANDS && arena; i++) { /* gains go by the distance to the right end */
+        struct br_strip *strip = &s->strand[i].strip;
+        strip->gain = gain + (longest - strip->length) * 3 * d * d;
+        strip->scratch = scratch;
+    }
+    return used;
+}
+
+enum br_status br_pieces_lay_out(struct br_pieces *s, struct br_error *err)
+{
+    const struct cut cut = choose_cut(s->field.n);
+    struct br_strand *odd = &s->strand[BR_ODD], *even = &s->strand[BR_EVEN];
+    odd->lanes = cut.odd > 0;
+    odd->strip.pieces = cut.odd > 0;
+    odd->strip.length = cut.odd;
+    even->first = cut.odd;
+    even->lanes = cut.pieces ? BR_LANES : 0;
+    even->strip.pieces = cut.pieces;
+    even->strip.length = cut.length;
+    s->arena = br_allocate_aligned(lay_out(s, NULL), sizeof(double));
+    if (!s->arena)
+        return br_no_memory(err, "a solver");
+    lay_out(s, s->arena);
+    return BR_OK;
+}
+
+/* g of an element, kappa_w after it. */
+static double *state_at(const struct br_pieces *s, const struct br_strand *t, size_t lane, size_t e)
+{
+    return t->strip.state + e * 2 * (size_t)s->d * BR_LANES + lane;
+}
+
+/* ---- from nodal values ---- */
+
+/* What deforms an element, in the units of lq.h. */
+static void strain_of(int d, const double *node, double *strain)
+{
+    if (d == 1) {
+        strain[0] = node[1] - node[0];
+        return;
+    }
+    br_curvature(node, strain);
+    strain[1] /= (double)BR_LQ_ROOT3;
+}
+
+static void set_element(const struct br_pieces *s, const struct br_strand *t, size_t lane, size_t e,
+                        const double *displacement, const double *velocity)
+{
+    const size_t d = (size_t)s->d;
+    const size_t node = t->first + lane * br_span_length(t) + e;
+    double *g = state_at(s, t, lane, e), *w = g + d * BR_LANES, u[BR_LQ_MOST], v[BR_LQ_MOST];
+    strain_of(s->d, displacement + node * d, u);
+    strain_of(s->d, velocity + node * d, v);
+    for (size_t c = 0; c < d; c++) {
+        w[c * BR_LANES] = u[c];
+        g[c * BR_LANES] = t->strip.alpha * u[c] + v[c];
+    }
+}
+
+/* q and z of a piece. */
+static void weigh(const struct br_pieces *s, const struct br_strand *t, size_t lane, size_t j)
+{
+    const size_t d = (size_t)s->d;
+    double sum[2 * BR_LQ_MOST] = {0}; /* z, q */
+    for (size_t e = 0; e < t->strip.length; e++) {
+        const double *weight = t->strip.weight + e * 2 * d * d;
+        const double *g = state_at(s, t, lane, j * t->strip.length + e);
+        for (size_t i = 0; i < 2 * d; i++)
+            for (size_t c = 0; c < d; c++)
+                sum[i] += weight[i * d + c] * g[c * BR_LANES];
+    }
+    double *end = t->strip.end + j * BR_ENDS * d * BR_LANES + lane;
+    for (size_t c = 0; c < d; c++) {
+        end[(BR_END_Z * d + c) * BR_LANES] = sum[c];
+        end[(BR_END_Q * d + c) * BR_LANES] = sum[d + c];
+    }
+}
+
+void br_pieces_set(void *self, const double *displacement, const double *velocity)
+{
+    struct br_pieces *s = self;
+    for (int i = 0; i < BR_STRANDS; i++) {
+        const struct br_strand *t = &s->strand[i];
+        for (size_t lane = 0; lane < t->lanes; lane++) {
+            for (size_t e = 0; e < br_span_length(t); e++)
+                set_element(s, t, lane, e, displacement, velocity);
+            for (size_t j = 0; j < t->strip.pieces; j++)
+                weigh(s, t, lane, j);
+        }
+    }
+    s->steps = 0;
+    s->tip_bias = 0;
+    br_pieces_read_tip(s, &s->tip_displacement, NULL);
+    s->tip_velocity = velocity[s->field.n * (size_t)s->d];
+}
+
+/* ---- to nodal values ---- */
+
+static void pass_on(int d, double *y, const double *kappa)
+{
+    if (d == 1) {
+        y[0] += kappa[0];
+        return;
+    }
+    y[0] += y[1] + (0.5 * kappa[0] - (double)BR_LQ_LEVER * kappa[1]);
+    y[1] += kappa[0];
+}
+
+/* kappa_w or kappa_v of an element. */
+static void strain_at(const struct br_pieces *s, const struct br_strand *t, size_t lane, size_t e,
+                      bool rate, double *kappa)
+{
+    const double *g = state_at(s, t, lane, e), *w = g + s->d * BR_LANES;
+    for (int c = 0; c < s->d; c++)
+        kappa[c] = rate ? g[c * BR_LANES] - t->strip.alpha * w[c * BR_LANES] : w[c * BR_LANES];
+}
+
+static void get_nodes(const struct br_pieces *s, bool rate, double *nodal)
+{
+    const size_t d = (size_t)s->d;
+    double y[BR_LQ_MOST] = {0}, kappa[BR_LQ_MOST];
+    memcpy(nodal, y, d * sizeof *y);
+    for (int i = 0; i < BR_STRANDS; i++) {
+        const struct br_strand *t = &s->strand[i];
+        for (size_t lane = 0; lane < t->lanes; lane++)
+            for (size_t e = 0; e < br_span_length(t); e++) {
+                strain_at(s, t, lane, e, rate, kappa);
+                pass_on(s->d, y, kappa);
+                nodal += d;
+                memcpy(nodal, y, d * sizeof *y);
+            }
+    }
+}
+
+void br_pieces_get(const void *self, double *displacement, double *velocity)
+{
+    if (displacement)
+        get_nodes(self, false, displacement);
+    if (velocity)
+        get_nodes(self, true, velocity);
+}
+
+void br_pieces_strain_rate(const void *self, double *rate)
+{
+    const struct br_pieces *s = self;
+    for (int i = 0; i < BR_STRANDS; i++) {
+        const struct br_strand *t = &s->strand[i];
+        for (size_t lane = 0; lane < t->lanes; lane++)
+            for (size_t e = 0; e < br_span_length(t); e++, rate += s->d) {
+                strain_at(s, t, lane, e, true, rate);
+                if (s->d == 2)
+                    rate[1] *= (double)BR_LQ_ROOT3;
+            }
+    }
+}
+
+/* The tip's value, by carrying what has been found across each span over all of them. */
+static void carry_over(int d, const struct br_strand *t, const double *across, double *y)
+{
+    for (size_t lane = 0; lane < t->lanes; lane++) {
+        y[0] += (d == 2 ? (double)br_span_length(t) * y[1] : 0) + across[lane];
+        if (d == 2)
+            y[1] += across[BR_LANES + lane];
+    }
+}
+
+void br_pieces_read_tip(const struct br_pieces *s, double *displacement, double *velocity)
+{
+    _Alignas(64) double u[BR_LQ_MOST * BR_LANES], v[BR_LQ_MOST * BR_LANES];
+    double tip[BR_LQ_MOST] = {0}, rate[BR_LQ_MOST] = {0};
+    for (int i = 0; i < BR_STRANDS; i++) {
+        const struct br_strand *t = &s->strand[i];
+        if (!t->lanes)
+            continue;
+        s->kernel->carry(&t->strip, u, v);
+        carry_over(s->d, t, u, tip);
+        carry_over(s->d, t, v, rate);
+    }
+    if (displacement)
+        *displacement = tip[0];
+    if (velocity)
+        *velocity = rate[0];
+}
