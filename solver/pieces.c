@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/pieces.h"
 
+#include <string.h>
+
 #include "solver/pieces_state.h"
 
 /* Steps after which the tip is read off the field: seldom enough to cost nothing, often enough that
@@ -15,6 +17,34 @@ static void pieces_free(void *self)
     free(s->arena);
     free(s->loads);
     free(s);
+}
+
+/* The increments and costates at the ends of all spans, for the tip's costate h; the tip's
+ * increment goes into y (out). */
+static void join(struct br_pieces *s, double *h, double *y)
+{
+    for (int i = BR_STRANDS; i-- > 0;) {
+        struct br_strand *t = &s->strand[i];
+        s->kernel->join_left(&t->strip, t->q, t->z, h, t->right);
+    }
+    y[0] = y[1] = 0;
+    for (int i = 0; i < BR_STRANDS; i++) {
+        struct br_strand *t = &s->strand[i];
+        s->kernel->join_right(&t->strip, t->z, y, t->left, t->right);
+    }
+}
+
+/* What a unit force at the tip does, while q and z are zero. */
+static void find_influence(struct br_pieces *s)
+{
+    double unit[BR_LQ_MOST] = {1 / s->r, 0};
+    join(s, unit, s->force_increment);
+    s->compliance = -s->force_increment[0];
+    const size_t bytes = (size_t)s->d * BR_LANES * sizeof(double);
+    for (int i = 0; i < BR_STRANDS; i++) {
+        memcpy(s->strand[i].force_right, s->strand[i].right, bytes);
+        memcpy(s->strand[i].force_left, s->strand[i].left, bytes);
+    }
 }
 
 static enum br_status pieces_create(const struct br_field *field,
@@ -35,9 +65,7 @@ static enum br_status pieces_create(const struct br_field *field,
         status = br_pieces_tables(s, err);
     if (status)
         return status;
-    const double unit[BR_LQ_MOST] = {1 / s->r, 0};
-    br_pieces_join(s, true, unit, s->force_increment);
-    s->compliance = -s->force_increment[0];
+    find_influence(s);
     return BR_OK;
 }
 
@@ -56,12 +84,12 @@ static enum br_status pieces_predict(void *self, const struct br_drive *drive, d
         return status;
     s->drive.factor = drive->factor;
     for (int i = 0; i < BR_STRANDS; i++)
-        if (s->strand[i].lanes)
+        if (s->strand[i].strip.lanes)
             s->kernel->gather(&s->strand[i].strip, drive->factor, s->strand[i].q, s->strand[i].z);
     double costate[BR_LQ_MOST] = {0};
     for (int c = 0; c < s->d; c++)
         costate[c] = -(drive->factor * s->tip_load[c] + drive->tip[c] / s->r);
-    br_pieces_join(s, false, costate, s->tip_increment);
+    join(s, costate, s->tip_increment);
     s->tip_increment[0] += s->tip_bias;
     *velocity = s->tip_velocity + s->tip_increment[0];
     return BR_OK;
@@ -72,7 +100,7 @@ static void add_force(struct br_pieces *s, double force)
 {
     for (int i = 0; i < BR_STRANDS; i++) {
         struct br_strand *t = &s->strand[i];
-        for (size_t j = 0; t->lanes && j < (size_t)s->d * BR_LANES; j++) {
+        for (size_t j = 0; t->strip.lanes && j < (size_t)s->d * BR_LANES; j++) {
             t->right[j] += force * t->force_right[j];
             t->left[j] += force * t->force_left[j];
         }
@@ -80,8 +108,8 @@ static void add_force(struct br_pieces *s, double force)
 }
 
 /* Reads the tip off the field. The round-off of an increment hardly changes from step to step: what
- * it was on average since the last look is taken off the next ones, or a tip that sticks would creep
- * by it. */
+ * it was on average since the last look is taken off the next ones, or a tip that sticks would
+ * creep by it. */
 static void look(struct br_pieces *s)
 {
     double velocity;
@@ -95,7 +123,7 @@ static double pieces_finish(void *self, double force)
     struct br_pieces *s = self;
     add_force(s, force);
     for (int i = 0; i < BR_STRANDS; i++)
-        if (s->strand[i].lanes)
+        if (s->strand[i].strip.lanes)
             s->kernel->advance(&s->strand[i].strip, &s->drive, s->strand[i].right,
                                s->strand[i].left);
     s->tip_velocity += s->tip_increment[0] + force * s->force_increment[0];

@@ -54,6 +54,7 @@ static size_t lay_out(struct br_pieces *s, double *arena)
         strip->state = take(arena, &used, br_span_length(t) * 2 * entry);
         strip->end = take(arena, &used, strip->pieces * BR_ENDS * entry);
         strip->join = take(arena, &used, strip->pieces * BR_JOINS * d * d);
+        strip->span_join = take(arena, &used, BR_SPAN_JOINS * d * entry);
         strip->weight = take(arena, &used, strip->length * 2 * d * d);
         double **const ends[] = {&t->q,    &t->z,           &t->right,
                                  &t->left, &t->force_right, &t->force_left};
@@ -74,11 +75,11 @@ enum br_status br_pieces_lay_out(struct br_pieces *s, struct br_error *err)
 {
     const struct cut cut = choose_cut(s->field.n);
     struct br_strand *odd = &s->strand[BR_ODD], *even = &s->strand[BR_EVEN];
-    odd->lanes = cut.odd > 0;
+    odd->strip.lanes = cut.odd > 0;
     odd->strip.pieces = cut.odd > 0;
     odd->strip.length = cut.odd;
     even->first = cut.odd;
-    even->lanes = cut.pieces ? BR_LANES : 0;
+    even->strip.lanes = cut.pieces ? BR_LANES : 0;
     even->strip.pieces = cut.pieces;
     even->strip.length = cut.length;
     s->arena = br_allocate_aligned(lay_out(s, NULL), sizeof(double));
@@ -145,7 +146,7 @@ void br_pieces_set(void *self, const double *displacement, const double *velocit
     struct br_pieces *s = self;
     for (int i = 0; i < BR_STRANDS; i++) {
         const struct br_strand *t = &s->strand[i];
-        for (size_t lane = 0; lane < t->lanes; lane++) {
+        for (size_t lane = 0; lane < t->strip.lanes; lane++) {
             for (size_t e = 0; e < br_span_length(t); e++)
                 set_element(s, t, lane, e, displacement, velocity);
             for (size_t j = 0; j < t->strip.pieces; j++)
@@ -186,7 +187,7 @@ static void get_nodes(const struct br_pieces *s, bool rate, double *nodal)
     memcpy(nodal, y, d * sizeof *y);
     for (int i = 0; i < BR_STRANDS; i++) {
         const struct br_strand *t = &s->strand[i];
-        for (size_t lane = 0; lane < t->lanes; lane++)
+        for (size_t lane = 0; lane < t->strip.lanes; lane++)
             for (size_t e = 0; e < br_span_length(t); e++) {
                 strain_at(s, t, lane, e, rate, kappa);
                 pass_on(s->d, y, kappa);
@@ -209,7 +210,7 @@ void br_pieces_strain_rate(const void *self, double *rate)
     const struct br_pieces *s = self;
     for (int i = 0; i < BR_STRANDS; i++) {
         const struct br_strand *t = &s->strand[i];
-        for (size_t lane = 0; lane < t->lanes; lane++)
+        for (size_t lane = 0; lane < t->strip.lanes; lane++)
             for (size_t e = 0; e < br_span_length(t); e++, rate += s->d) {
                 strain_at(s, t, lane, e, true, rate);
                 if (s->d == 2)
@@ -221,7 +222,7 @@ void br_pieces_strain_rate(const void *self, double *rate)
 /* The tip's value, by carrying what has been found across each span over all of them. */
 static void carry_over(int d, const struct br_strand *t, const double *across, double *y)
 {
-    for (size_t lane = 0; lane < t->lanes; lane++) {
+    for (size_t lane = 0; lane < t->strip.lanes; lane++) {
         y[0] += (d == 2 ? (double)br_span_length(t) * y[1] : 0) + across[lane];
         if (d == 2)
             y[1] += across[BR_LANES + lane];
@@ -234,7 +235,7 @@ void br_pieces_read_tip(const struct br_pieces *s, double *displacement, double 
     double tip[BR_LQ_MOST] = {0}, rate[BR_LQ_MOST] = {0};
     for (int i = 0; i < BR_STRANDS; i++) {
         const struct br_strand *t = &s->strand[i];
-        if (!t->lanes)
+        if (!t->strip.lanes)
             continue;
         s->kernel->carry(&t->strip, u, v);
         carry_over(s->d, t, u, tip);

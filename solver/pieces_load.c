@@ -20,7 +20,7 @@ static void spread(const struct br_pieces *s, struct br_strand *t, const double 
     const size_t d = (size_t)s->d, length = br_span_length(t);
     for (size_t e = 0; e < length; e++)
         for (size_t c = 0; c < d; c++)
-            for (size_t lane = 0; lane < t->lanes; lane++)
+            for (size_t lane = 0; lane < t->strip.lanes; lane++)
                 t->strip.load[(e * d + c) * BR_LANES + lane] =
                     vector[(t->first + lane * length + e) * d + c] / s->r;
 }
@@ -54,7 +54,7 @@ enum br_status br_pieces_set_load(struct br_pieces *s, const double *vector, str
             spread(s, t, vector);
             next += br_span_length(t) * d * BR_LANES;
         }
-        if (t->lanes)
+        if (t->strip.lanes)
             s->kernel->charge(&t->strip, s->drive.uniform);
     }
     return BR_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What pieces.c marches, pieces_layout.c lays out, pieces_tables.c tabulates, pieces_joins.c joins
+/* What pieces.c marches, pieces_layout.c lays out, pieces_tables.c tabulates
  * and pieces_load.c loads; for these alone. The mathematics is in pieces.h. */
 #ifndef BR_PIECES_STATE_H
 #define BR_PIECES_STATE_H
@@ -8,22 +8,14 @@
 #include "solver/pieces.h"
 #include "solver/sweep_kernel.h"
 
-typedef double br_matrix[BR_LQ_MOST][BR_LQ_MOST];
-
-/* The join of a span to what lies to its right. */
-struct br_span_join {
-    br_matrix pass, gain, yield, costate, transfer;
-};
-
 /* Spans side by side, and what a step hands them. */
 struct br_strand {
     struct br_strip strip;
-    size_t first; /* element */
-    size_t lanes; /* in use: all, or 1; none: no such spans */
+    size_t first;                                            /* element */
     double *q, *z, *right, *left, *force_right, *force_left; /* d * BR_LANES each */
 };
 
-enum { BR_ODD, BR_EVEN, BR_STRANDS, BR_MOST_SPANS = 1 + BR_LANES };
+enum { BR_ODD, BR_EVEN, BR_STRANDS };
 
 struct br_pieces {
     struct br_field field;
@@ -31,15 +23,14 @@ struct br_pieces {
     int d;
     double k, r;                         /* s; R, see lq.h */
     struct br_strand strand[BR_STRANDS]; /* the rest at the clamped end, and the equal spans */
-    struct br_span_join join[BR_MOST_SPANS];
-    double *arena; /* all arrays but the loads */
+    double *arena;                       /* all arrays but the loads */
     double *loads; /* of the strips, where they differ from node to node; NULL so far */
     struct br_strip_drive drive;
     double tip_load[BR_LQ_MOST]; /* of the last node over R, for a factor of 1 */
     double tip_increment[BR_LQ_MOST], force_increment[BR_LQ_MOST];
     double tip_velocity, tip_displacement, compliance;
     double tip_bias; /* mean of what the joins' increment lacks of the field's, m/s */
-    size_t steps; /* since the tip was set */
+    size_t steps;    /* since the tip was set */
 };
 
 /* Elements of a span. */
@@ -53,10 +44,6 @@ enum br_status br_pieces_lay_out(struct br_pieces *s, struct br_error *err);
 
 /* Fills all tables and joins. Fails with BR_SINGULAR or BR_NO_MEMORY. */
 enum br_status br_pieces_tables(struct br_pieces *s, struct br_error *err);
-
-/* Solves for the ends of all spans, given q and z (influence: zeros) and the tip's costate; the
- * tip's increment goes into tip. */
-void br_pieces_join(struct br_pieces *s, bool influence, const double *tip_costate, double *tip);
 
 /* Another load vector, N; NULL: none. Fails with BR_NO_MEMORY. */
 enum br_status br_pieces_set_load(struct br_pieces *s, const double *vector, struct br_error *err);

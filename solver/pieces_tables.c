@@ -28,14 +28,7 @@ static void set_identity(int d, block a)
             a[i][j] = i == j;
 }
 
-static void keep(int d, const block a, br_matrix to)
-{
-    for (int i = 0; i < d; i++)
-        for (int j = 0; j < d; j++)
-            to[i][j] = (double)a[i][j];
-}
-
-/* The same as d by d doubles, by rows. */
+/* As d by d doubles, by rows. */
 static void pack(int d, const block a, double *to)
 {
     for (int i = 0; i < d; i++)
@@ -207,22 +200,28 @@ static void fill_span(int d, const struct whole *piece, size_t pieces, double *t
     memcpy(span->p, c, sizeof c);
 }
 
+static void pack_lane(int d, const block a, int which, size_t lane, double *to)
+{
+    for (int i = 0; i < d * d; i++)
+        to[(size_t)(which * d * d + i) * BR_LANES + lane] = (double)a[i / d][i % d];
+}
+
 /* The joins of the spans, from the tip to the clamped end. */
 static void fill_ends(struct br_pieces *s, const struct whole span[BR_STRANDS])
 {
     const int d = s->d;
-    struct br_span_join *to = s->join + s->strand[BR_ODD].lanes + s->strand[BR_EVEN].lanes;
     block c = {{0}};
-    for (int i = BR_STRANDS; i-- > 0;)
-        for (size_t lane = s->strand[i].lanes; lane-- > 0;) {
+    for (int i = BR_STRANDS; i-- > 0;) {
+        double *to = s->strand[i].strip.span_join;
+        for (size_t lane = s->strand[i].strip.lanes; lane-- > 0;) {
             const struct join join = join_of(d, &span[i], c);
-            to--;
-            keep(d, join.pass, to->pass);
-            keep(d, join.gain, to->gain);
-            keep(d, join.yield, to->yield);
-            keep(d, join.costate, to->costate);
-            keep(d, join.transfer, to->transfer);
+            pack_lane(d, join.pass, BR_JOIN_PASS, lane, to);
+            pack_lane(d, join.gain, BR_JOIN_GAIN, lane, to);
+            pack_lane(d, join.yield, BR_JOIN_YIELD, lane, to);
+            pack_lane(d, join.costate, BR_JOIN_COSTATE, lane, to);
+            pack_lane(d, join.transfer, BR_JOIN_TRANSFER, lane, to);
         }
+    }
 }
 
 static void fill_strand(struct br_strand *t, const struct br_lq *lq, double k,
@@ -254,7 +253,7 @@ enum br_status br_pieces_tables(struct br_pieces *s, struct br_error *err)
                          s->field.kind == BR_AXIAL ? "axial" : "bending");
     struct whole span[BR_STRANDS];
     for (int i = 0; i < BR_STRANDS && !status; i++)
-        if (s->strand[i].lanes)
+        if (s->strand[i].strip.lanes)
             fill_strand(&s->strand[i], &lq, s->k, gain, p, longest, &span[i]);
     if (!status)
         fill_ends(s, span);

@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/mman.h>
 
 static const struct {
     const char *text;
@@ -63,10 +64,15 @@ void *br_allocate(size_t count, size_t size)
 
 void *br_allocate_aligned(size_t count, size_t size)
 {
-    enum { LINE = 64 };
-    if (fails_now() || (size && count > (SIZE_MAX - LINE) / size))
+    enum { LINE = 64, HUGE_PAGE = 2 << 20 };
+    if (fails_now() || (size && count > (SIZE_MAX - HUGE_PAGE) / size))
         return NULL;
-    const size_t bytes = (count * size + LINE) / LINE * LINE;
-    void *p = aligned_alloc(LINE, bytes);
-    return p ? memset(p, 0, bytes) : NULL;
+    const size_t wanted = count * size, unit = wanted >= HUGE_PAGE ? HUGE_PAGE : LINE;
+    const size_t bytes = (wanted + unit) / unit * unit;
+    void *p = aligned_alloc(unit, bytes);
+    if (!p)
+        return NULL;
+    if (unit == HUGE_PAGE) /* fewer misses of the address tables; a refusal does no harm */
+        madvise(p, bytes, MADV_HUGEPAGE);
+    return memset(p, 0, bytes);
 }

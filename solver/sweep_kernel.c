@@ -63,15 +63,16 @@ INLINE void subtract_transposed(int d, const double *a, const vec *x, vec *sum)
 
 /* ---- an element ---- */
 
-/* s = g + G'p,    p = A'p - K'g - F */
-INLINE void element_left(int d, const double *gain, const vec *g, const vec *f, vec *p, vec *s)
+/* s = g + G'p,    p = A'p - K'g - F, for -F */
+INLINE void element_left(int d, const double *gain, const vec *g, const vec *minus_f, vec *p,
+                         vec *s)
 {
     vec next[2];
     s[0] = d == 1 ? g[0] + p[0] : (g[0] + p[1]) + half * p[0];
     if (d == 2)
         s[1] = g[1] - lever * p[0];
     for (int i = 0; i < d; i++)
-        next[i] = -f[i];
+        next[i] = minus_f[i];
     subtract_transposed(d, gain, g, next);
     add_transposed(d, gain + 2 * d * d, p, next);
     for (int i = 0; i < d; i++)
@@ -127,23 +128,24 @@ INLINE struct piece piece_at(int d, const struct br_strip *s, size_t j, size_t l
     };
 }
 
-/* Costates p to the left, s into the scratch. */
-INLINE void piece_left(int d, const struct br_strip *s, const struct piece *at, const vec f[2],
-                       double factor, vec p[VECTORS][2])
+/* Costates p to the left, s into the scratch; minus_f: the load that is the same everywhere. */
+INLINE void piece_left(int d, bool loaded, const struct br_strip *s, const struct piece *at,
+                       const vec *minus_f, double factor, vec p[VECTORS][2])
 {
     const size_t entry = (size_t)d * BR_LANES;
     for (size_t e = s->length; e-- > 0;)
 #pragma GCC unroll 2
         for (int v = 0; v < VECTORS; v++) {
-            const double *gain = s->gain + e * (size_t)(3 * d * d);
-            vec g[2], sum[2], own[2];
+            vec g[2], sum[2], f[2];
             load_all(d, at->state + e * 2 * entry + v * BR_WIDTH, g);
-            if (at->load) {
-                load_all(d, at->load + e * entry + v * BR_WIDTH, own);
+            for (int i = 0; i < d; i++)
+                f[i] = minus_f[i];
+            if (loaded) {
+                load_all(d, at->load + e * entry + v * BR_WIDTH, f);
                 for (int i = 0; i < d; i++)
-                    own[i] *= factor;
+                    f[i] *= -factor;
             }
-            element_left(d, gain, g, at->load ? own : f, p[v], sum);
+            element_left(d, s->gain + e * (size_t)(3 * d * d), g, f, p[v], sum);
             store_all(d, sum, s->scratch + e * entry + v * BR_WIDTH);
         }
 }
@@ -152,12 +154,14 @@ INLINE void piece_left(int d, const struct br_strip *s, const struct piece *at, 
  * that comes next are asked for meanwhile. */
 INLINE void piece_right(int d, const struct br_strip *s, const struct piece *at, vec y[VECTORS][2])
 {
-    const size_t entry = (size_t)d * BR_LANES, whole = s->length * 2 * entry;
+    const size_t entry = (size_t)d * BR_LANES;
     vec z[VECTORS][2], q[VECTORS][2];
     for (int v = 0; v < VECTORS; v++)
         for (int i = 0; i < d; i++)
             z[v][i] = q[v][i] = (vec){0};
-    for (size_t e = 0; e < s->length; e++)
+    const double *next = at->state + s->length * 4 * entry; /* its right end is wanted first */
+    for (size_t e = 0; e < s->length; e++) {
+        next -= 2 * entry;
 #pragma GCC unroll 2
         for (int v = 0; v < VECTORS; v++) {
             const double *gain = s->gain + e * (size_t)(3 * d * d);
@@ -168,7 +172,7 @@ INLINE void piece_right(int d, const struct br_strip *s, const struct piece *at,
             load_all(d, state, g);
             load_all(d, state + entry, w);
             for (int i = 0; i < 2 * d; i++)
-                __builtin_prefetch(state + whole + i * BR_LANES);
+                __builtin_prefetch(next + v * BR_WIDTH + i * BR_LANES);
             element_right(d, gain, sum, y[v], minus_kappa);
             element_state(d, s, minus_kappa, g, w);
             store_all(d, g, state);
@@ -176,6 +180,7 @@ INLINE void piece_right(int d, const struct br_strip *s, const struct piece *at,
             add(d, weight, g, z[v]);
             add(d, weight + d * d, g, q[v]);
         }
+    }
     for (int v = 0; v < VECTORS; v++) {
         store_all(d, z[v], at->end + BR_END_Z * entry + v * BR_WIDTH);
         store_all(d, q[v], at->end + BR_END_Q * entry + v * BR_WIDTH);
@@ -208,6 +213,8 @@ INLINE void gather_of(int d, const struct br_strip *s, double factor, size_t lan
         const double *join = join_of(d, s, j);
         double *end = piece_at(d, s, j, lane).end;
         vec next[2], drift[2];
+        for (int i = 0; i < BR_ENDS * d; i++) /* of a piece further on */
+            __builtin_prefetch(end - (8 * BR_ENDS * d - i) * BR_LANES);
         load_end(d, end, BR_END_Q, factor, next);
         load_end(d, end, BR_END_Z, factor, drift);
         store_all(d, h, end + BR_END_H * entry);
@@ -221,6 +228,63 @@ INLINE void gather_of(int d, const struct br_strip *s, double factor, size_t lan
     }
     store_all(d, h, q + lane);
     store_all(d, sum, z + lane);
+}
+
+/* Lane by lane, but all that does not wait for the neighbour at once. */
+INLINE void add_lanewise(int d, const struct br_strip *s, int which, const double *x, double *sum)
+{
+    const double *a = s->span_join + which * d * d * BR_LANES;
+    for (int lane = 0; lane < BR_LANES; lane += BR_WIDTH)
+        for (int i = 0; i < d; i++) {
+            vec total = load(sum + i * BR_LANES + lane);
+            for (int j = 0; j < d; j++)
+                total += load(a + (i * d + j) * BR_LANES + lane) * load(x + j * BR_LANES + lane);
+            store(total, sum + i * BR_LANES + lane);
+        }
+}
+
+INLINE void join_left_of(size_t d, const struct br_strip *s, const double *q, const double *z,
+                         double *h, double *right)
+{
+    const double *pass = s->span_join + BR_JOIN_PASS * d * d * BR_LANES;
+    _Alignas(64) double own[2 * BR_LANES];
+    memcpy(own, q, d * BR_LANES * sizeof *own);
+    add_lanewise((int)d, s, BR_JOIN_TRANSFER, z, own);
+    for (size_t lane = s->lanes; lane-- > 0;) {
+        double next[2];
+        for (size_t i = 0; i < d; i++) {
+            right[i * BR_LANES + lane] = h[i];
+            next[i] = own[i * BR_LANES + lane];
+            for (size_t j = 0; j < d; j++)
+                next[i] += pass[(j * d + i) * BR_LANES + lane] * h[j];
+        }
+        for (size_t i = 0; i < d; i++)
+            h[i] = next[i];
+    }
+}
+
+INLINE void join_right_of(size_t d, const struct br_strip *s, const double *z, double *y,
+                          double *left, double *right)
+{
+    const double *pass = s->span_join + BR_JOIN_PASS * d * d * BR_LANES;
+    _Alignas(64) double own[2 * BR_LANES] = {0}, away[2 * BR_LANES];
+    for (size_t i = 0; i < d * BR_LANES; i++)
+        away[i] = -right[i];
+    add_lanewise((int)d, s, BR_JOIN_GAIN, z, own);
+    add_lanewise((int)d, s, BR_JOIN_YIELD, away, own);
+    for (size_t lane = 0; lane < s->lanes; lane++) {
+        double next[2];
+        for (size_t i = 0; i < d; i++) {
+            left[i * BR_LANES + lane] = y[i];
+            next[i] = own[i * BR_LANES + lane];
+            for (size_t j = 0; j < d; j++)
+                next[i] += pass[(i * d + j) * BR_LANES + lane] * y[j];
+            own[i * BR_LANES + lane] = next[i];
+        }
+        for (size_t i = 0; i < d; i++)
+            y[i] = next[i];
+    }
+    add_lanewise((int)d, s, BR_JOIN_COSTATE, own, right);
 }
 
 /* The increment at a piece's right end, and the costate there. */
@@ -246,24 +310,31 @@ INLINE void cross(int d, const double *join, const double *end, const vec *right
     }
 }
 
-INLINE void advance_of(int d, const struct br_strip *s, const struct br_strip_drive *drive,
-                       size_t lane, const double *right, const double *left)
+INLINE void advance_of(int d, bool loaded, const struct br_strip *strip,
+                       const struct br_strip_drive *drive, const double *right, const double *left)
 {
-    vec y[VECTORS][2], c[VECTORS][2], f[2];
+    const struct br_strip s = *strip; /* nothing aliases it */
+    const double factor = drive->factor;
+    vec minus_f[2];
     for (int i = 0; i < d; i++)
-        f[i] = drive->factor * drive->uniform[i] - (vec){0};
-    for (int v = 0; v < VECTORS; v++) {
-        load_all(d, left + lane + v * BR_WIDTH, y[v]);
-        load_all(d, right + lane + v * BR_WIDTH, c[v]);
-    }
-    for (size_t j = 0; j < s->pieces; j++) {
-        const struct piece at = piece_at(d, s, j, lane);
-        vec inside[VECTORS][2], p[VECTORS][2];
-        memcpy(inside, y, sizeof inside);
-        for (int v = 0; v < VECTORS; v++)
-            cross(d, join_of(d, s, j), at.end + v * BR_WIDTH, c[v], y[v], p[v]);
-        piece_left(d, s, &at, f, drive->factor, p);
-        piece_right(d, s, &at, inside);
+        minus_f[i] = -factor * drive->uniform[i] - (vec){0};
+    for (size_t lane = 0; lane < BR_LANES; lane += GO) {
+        vec y[VECTORS][2], c[VECTORS][2];
+        for (int v = 0; v < VECTORS; v++) {
+            load_all(d, left + lane + v * BR_WIDTH, y[v]);
+            load_all(d, right + lane + v * BR_WIDTH, c[v]);
+        }
+        for (size_t j = 0; j < s.pieces; j++) {
+            const struct piece at = piece_at(d, &s, j, lane);
+            vec inside[VECTORS][2], p[VECTORS][2];
+            memcpy(inside, y, sizeof inside);
+            for (int i = 0; i < BR_ENDS * d * BR_LANES; i += 8)
+                __builtin_prefetch(at.end + BR_ENDS * d * BR_LANES + i);
+            for (int v = 0; v < VECTORS; v++)
+                cross(d, join_of(d, &s, j), at.end + v * BR_WIDTH, c[v], y[v], p[v]);
+            piece_left(d, loaded, &s, &at, minus_f, factor, p);
+            piece_right(d, &s, &at, inside);
+        }
     }
 }
 
@@ -275,10 +346,12 @@ INLINE void charge_of(int d, const struct br_strip *s, const double *uniform, si
     const vec g[2] = {{0}};
     vec p[2] = {{0}}, y[2] = {{0}}, sum[2], minus_kappa[2], f[2];
     for (int i = 0; i < d; i++)
-        f[i] = uniform[i] - (vec){0};
+        f[i] = -uniform[i] - (vec){0};
     for (size_t e = s->length; e-- > 0;) {
         if (at.load)
             load_all(d, at.load + e * entry, f);
+        for (int i = 0; i < d && at.load; i++)
+            f[i] = -f[i];
         element_left(d, s->gain + e * (size_t)(3 * d * d), g, f, p, sum);
         store_all(d, sum, s->scratch + e * entry);
     }
@@ -321,14 +394,35 @@ static void gather(const struct br_strip *s, double factor, double *q, double *z
             gather_of(2, s, factor, lane, q, z);
 }
 
+static void join_left(const struct br_strip *s, const double *q, const double *z, double *h,
+                      double *right)
+{
+    if (s->d == 1)
+        join_left_of(1, s, q, z, h, right);
+    else
+        join_left_of(2, s, q, z, h, right);
+}
+
+static void join_right(const struct br_strip *s, const double *z, double *y, double *left,
+                       double *right)
+{
+    if (s->d == 1)
+        join_right_of(1, s, z, y, left, right);
+    else
+        join_right_of(2, s, z, y, left, right);
+}
+
 static void advance(const struct br_strip *s, const struct br_strip_drive *drive,
                     const double *right, const double *left)
 {
-    for (size_t lane = 0; lane < BR_LANES; lane += GO)
-        if (s->d == 1)
-            advance_of(1, s, drive, lane, right, left);
-        else
-            advance_of(2, s, drive, lane, right, left);
+    if (s->d == 1 && !s->load)
+        advance_of(1, false, s, drive, right, left);
+    else if (s->d == 1)
+        advance_of(1, true, s, drive, right, left);
+    else if (!s->load)
+        advance_of(2, false, s, drive, right, left);
+    else
+        advance_of(2, true, s, drive, right, left);
 }
 
 static void charge(const struct br_strip *s, const double uniform[2])
@@ -361,6 +455,8 @@ const struct br_kernel JOINED(br_kernel_, BR_KERNEL) = {
     .name = STRING_OF(BR_KERNEL),
     .available = JOINED(br_kernel_available_, BR_KERNEL),
     .gather = gather,
+    .join_left = join_left,
+    .join_right = join_right,
     .advance = advance,
     .charge = charge,
     .carry = carry,

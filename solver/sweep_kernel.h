@@ -23,16 +23,17 @@ enum {
     BR_ENDS
 };
 
-/* The join of a piece to what lies to its right, d by d each, by rows. */
+/* The join of a piece, or a span, to what lies to its right, d by d each, by rows. */
 enum {
     BR_JOIN_PASS,     /* M Phi */
     BR_JOIN_GAIN,     /* M */
     BR_JOIN_YIELD,    /* M Z */
     BR_JOIN_COSTATE,  /* C */
     BR_JOIN_TRANSFER, /* Phi'C M */
-    BR_JOIN_LEAD,     /* what z adds to the span's */
-    BR_JOIN_LAG,      /* and what h takes from it */
-    BR_JOIN_REACH,    /* h for a unit costate at the span's right end */
+    BR_SPAN_JOINS,
+    BR_JOIN_LEAD = BR_SPAN_JOINS, /* what z adds to the span's */
+    BR_JOIN_LAG,                  /* and what h takes from it */
+    BR_JOIN_REACH,                /* h for a unit costate at the span's right end */
     BR_JOINS
 };
 
@@ -42,6 +43,8 @@ struct br_strip {
     double *gain;          /* per element of a piece K, S^-1, A: 3 d^2 */
     double *weight;        /* per element what g adds to z and q: 2 d^2 */
     double *join;          /* BR_JOINS d^2 a piece */
+    double *span_join;     /* BR_SPAN_JOINS d^2, each for every lane */
+    size_t lanes;          /* in use, from the first on; the others rest */
     double alpha, k, gamma /* k alpha */;
     double *state;   /* 2 d an element: g and kappa_w */
     double *load;    /* d an element: F / R at its left node; NULL: none, or the same everywhere */
@@ -62,6 +65,15 @@ struct br_kernel {
     /* What state and load of all pieces add to the spans' left costates, q, and right increments,
      * z (out, d each). */
     void (*gather)(const struct br_strip *strip, double factor, double *q, double *z);
+
+    /* The recursion over the spans of a strip. To the left: h is that of its right end (in), and
+     * of its left end (out); `right` (out, d each) keeps it for each span. Then to the right: y is
+     * the increment at its left end (in), and at its right end (out), and `left` and `right` (out)
+     * what advance takes. */
+    void (*join_left)(const struct br_strip *strip, const double *q, const double *z, double *h,
+                      double *right);
+    void (*join_right)(const struct br_strip *strip, const double *z, double *y, double *left,
+                       double *right);
 
     /* One step, after gather; right: the costates at the spans' right ends, left: the increments
      * at their left ends (in, d each). */
