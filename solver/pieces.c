@@ -136,13 +136,15 @@ static enum br_status pieces_create(const struct br_field *field,
                                     const struct br_linear_options *options, void **self,
                                     struct br_error *err)
 {
-    (void)options;
     struct br_pieces *s = br_allocate(1, sizeof *s);
     *self = s;
     if (!s)
         return br_no_memory(err, "a solver");
     s->field = *field;
-    s->kernel = br_kernel_best();
+    s->kernel = options->kernel ? options->kernel : br_kernel_best();
+    if (!s->kernel->available())
+        return br_fail(err, BR_BAD_INPUT, "kernel %s is not available on this machine",
+                       s->kernel->name);
     s->d = field->kind == BR_AXIAL ? 1 : 2;
     s->k = field->k;
     choose_pieces(s);

@@ -238,3 +238,11 @@ const struct br_kernel *br_kernel_best(void)
         kernel++;
     return *kernel;
 }
+
+const struct br_kernel *br_kernel_find(const char *name)
+{
+    for (const struct br_kernel *const *kernel = br_kernels; *kernel; kernel++)
+        if (strcmp((*kernel)->name, name) == 0)
+            return *kernel;
+    return NULL;
+}

@@ -52,4 +52,7 @@ extern const struct br_kernel *const br_kernels[];
 /* The first that is available. */
 const struct br_kernel *br_kernel_best(void);
 
+/* The kernel of that name, available or not; NULL: there is none. */
+const struct br_kernel *br_kernel_find(const char *name);
+
 #endif

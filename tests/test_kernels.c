@@ -207,8 +207,72 @@ static void test_all_kernels(void **state)
     free(b);
 }
 
+static void test_find(void **state)
+{
+    (void)state;
+    for (const struct br_kernel *const *k = br_kernels; *k; k++)
+        assert_ptr_equal(br_kernel_find((*k)->name), *k);
+    assert_null(br_kernel_find("sse2"));
+    assert_null(br_kernel_find(""));
+}
+
+static bool never(void)
+{
+    return false;
+}
+
+/* One that the machine has not is refused, not run. */
+static void test_unavailable(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_march *march;
+    const struct br_kernel none = {.name = "none", .available = never};
+    const struct br_scene scene = br_test_bare();
+    struct br_method method = br_test_method("lanes", NULL, NULL);
+    method.linear.kernel = &none;
+    REFUSED(br_march_create(&march, &scene, 9, 4, &method, &err), BR_BAD_INPUT,
+            "kernel none is not available on this machine");
+}
+
+static size_t steps_counted;
+
+static bool always(void)
+{
+    return true;
+}
+
+static void count_step(const struct br_sweep *sweep)
+{
+    steps_counted++;
+    br_kernel_find("portable")->step(sweep);
+}
+
+/* The one that is asked for does the work. */
+static void test_heeded(void **state)
+{
+    (void)state;
+    const struct br_kernel counting = {"counting", always, count_step,
+                                       br_kernel_find("portable")->carry};
+    const struct br_scene scene = br_test_bare();
+    struct br_method method = br_test_method("lanes", NULL, NULL);
+    method.linear.kernel = &counting;
+    struct br_march *march = br_test_march(&scene, 7, 4, &method);
+    br_test_advance(march, 4);
+    br_march_free(march);
+    assert_true(steps_counted >= 4);
+    assert_ptr_equal(br_linear_solver_kernel(&br_lanes, &method.linear), &counting);
+    assert_ptr_equal(br_linear_solver_kernel(&br_lanes, &br_linear_defaults), br_kernel_best());
+    assert_null(br_linear_solver_kernel(&br_riccati, &method.linear));
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_kernels)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_all_kernels),
+        cmocka_unit_test(test_find),
+        cmocka_unit_test(test_unavailable),
+        cmocka_unit_test(test_heeded),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
