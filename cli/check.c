@@ -75,6 +75,22 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
     return status;
 }
 
+/* An option that no solver would heed is refused, not ignored. */
+static enum br_status check_heeded(const struct run *r, struct br_error *err)
+{
+    if (!r->options.kernel)
+        return BR_OK;
+    for (size_t i = 0; i < r->count; i++)
+        for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+            const struct br_verify_study *v = &r->check[i].verify->study[kind];
+            if (v->count && br_linear_solver_heeds(v->method.solver, "--kernel"))
+                return BR_OK;
+        }
+    return br_fail(err, BR_BAD_INPUT,
+                   "--kernel: no study here has a solver that heeds it, as --solver %s does",
+                   br_riccati.name);
+}
+
 /* ---- computing ---- */
 
 static int by_work(const void *a, const void *b)
@@ -199,6 +215,8 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
 static enum br_status check(struct run *r, struct br_error *err)
 {
     enum br_status status = read_scenes(r, err);
+    if (!status)
+        status = check_heeded(r, err);
     if (!status && r->options.compare)
         status = br_check_read_json(r->options.compare, &r->old, err);
     if (!status && r->options.compare)

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/kernel_option.h"
 #include "cli/names.h"
 #include "cli/number_option.h"
 #include "tables/check_emitter.h"
@@ -40,6 +41,8 @@ static void fill_table(struct option_table *t, struct br_check_options *o)
          "one scene after the other, the cheapest first, until one fails", NULL},
         {"solver", 0, POPT_ARG_STRING, &o->solver, 0,
          "linear solver, instead of what the scenes say", "NAME"},
+        {"kernel", 0, POPT_ARG_STRING, &o->kernel, 0,
+         "instruction set of the solver riccati (default: the best)", "NAME"},
         {"contact", 0, POPT_ARG_STRING, &o->contact, 0, "contact rule, likewise", "NAME"},
         {"friction", 0, POPT_ARG_STRING, &o->friction, 0, "friction rule, likewise", "NAME"},
         {"threads", 0, POPT_ARG_STRING, &o->threads, 0, "threads; 0, the default: all cores",
@@ -90,6 +93,9 @@ static enum br_status read_method(struct br_check_options *o, struct br_error *e
         return unknown("contact", o->contact, br_contact_names(), err);
     if (o->friction && !(o->method.friction = br_friction_rule_find(o->friction)))
         return unknown("friction", o->friction, br_friction_names(), err);
+    const enum br_status status = br_read_kernel_option(o->kernel, &o->method.kernel, err);
+    if (status)
+        return status;
     return br_read_count_option("threads", o->threads, 4096, &o->thread_count, err);
 }
 
@@ -122,6 +128,8 @@ enum br_status br_check_options_parse(int argc, const char **argv, struct br_che
         if (code == HELP) {
             o->help = 1;
             poptPrintHelp(context, stdout, 0);
+            printf("\n");
+            br_print_kernels(stdout);
         } else
             status = keep_file(context, o, (size_t)(code - FIRST_FILE), err);
     if (!status && code < -1)
@@ -144,6 +152,7 @@ void br_check_options_clear(struct br_check_options *o)
     free(o->scene);
     free(o->compare);
     free(o->solver);
+    free(o->kernel);
     free(o->contact);
     free(o->friction);
     free(o->threads);

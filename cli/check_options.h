@@ -9,12 +9,12 @@ enum { BR_MOST_CHECK_FORMATS = 8 };
 
 struct br_check_options {
     char *file[BR_MOST_CHECK_FORMATS]; /* by the registry of emitters; NULL: not given */
-    char *compare, *solver, *contact, *friction, *threads;
+    char *compare, *solver, *kernel, *contact, *friction, *threads;
     int all, fail_fast, quiet, help;
     char **scene; /* scenes; owned */
     size_t scenes;
 
-    struct br_check_method method; /* what solver, contact and friction name */
+    struct br_check_method method; /* what solver, kernel, contact and friction name */
     int thread_count;              /* 0: all cores */
 };
 

@@ -23,6 +23,16 @@ const char *br_solver_names(void)
     return text;
 }
 
+const char *br_kernel_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_kernel *const *k = br_kernels; *k; k++)
+        if ((*k)->available())
+            join(text, sizeof text, (*k)->name);
+    return text;
+}
+
 const char *br_contact_names(void)
 {
     static char text[256];

@@ -4,6 +4,7 @@
 #define BR_NAMES_H
 
 const char *br_solver_names(void);
+const char *br_kernel_names(void); /* those that are available here */
 const char *br_contact_names(void);
 const char *br_friction_names(void);
 const char *br_judge_names(void);

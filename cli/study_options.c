@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/kernel_option.h"
 #include "cli/names.h"
 #include "cli/number_option.h"
 #include "study/number_list.h"
@@ -17,6 +18,7 @@ static void print_registries(FILE *out)
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
         fprintf(out, "  %-12s %s%s%s\n", (*s)->name, (*s)->title, *(*s)->options ? "; heeds " : "",
                 (*s)->options);
+    br_print_kernels(out);
     fprintf(out, "References (--reference):\n");
     for (const struct br_judge *const *j = br_judges; *j; j++)
         fprintf(out, "  %-12s %s\n", (*j)->syntax, (*j)->title);
@@ -81,6 +83,8 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
         {"solver", 0, POPT_ARG_STRING, &o->solver, 0, "linear solver", "NAME"},
         {"reference-solver", 0, POPT_ARG_STRING, &o->reference_solver, 0,
          "that of the reference, where it differs", "NAME"},
+        {"kernel", 0, POPT_ARG_STRING, &o->kernel, 0,
+         "instruction set of the solver riccati (default: the best)", "NAME"},
         {"contact", 0, POPT_ARG_STRING, &o->contact, 0, "where contact takes its force", "NAME"},
         {"friction", 0, POPT_ARG_STRING, &o->friction, 0, "friction law", "NAME"},
         {"scaling", 0, POPT_ARG_STRING, &o->scaling, 0,
@@ -116,7 +120,7 @@ void br_study_options_clear(struct br_study_options *o)
 {
     char **texts[] = {&o->n,       &o->k,          &o->reference, &o->solver, &o->reference_solver,
                       &o->contact, &o->friction,   &o->scaling,   &o->out,    &o->format,
-                      &o->norm,    &o->refinement, &o->threads};
+                      &o->norm,    &o->refinement, &o->threads,   &o->kernel};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         free(*texts[i]);
         *texts[i] = NULL;
@@ -175,8 +179,10 @@ static enum br_status read_method(const struct br_study_options *o, struct br_st
         return unknown("solver", o->solver, br_solver_names(), err);
     if (o->scaling)
         m.linear.scaling = o->scaling;
-    const enum br_status status =
+    enum br_status status =
         br_read_count_option("refinement", o->refinement, 100, &m.linear.refinement, err);
+    if (!status)
+        status = br_read_kernel_option(o->kernel, &m.linear.kernel, err);
     if (status)
         return status;
     r->method = r->reference_method = m;
@@ -190,14 +196,13 @@ static enum br_status read_method(const struct br_study_options *o, struct br_st
 static enum br_status check_heeded(const struct br_study_options *o,
                                    const struct br_study_request *r, struct br_error *err)
 {
-    const char *heeded[] = {r->method.solver->options, r->reference_method.solver->options};
     const struct {
-        const char *option;
-        bool given;
-    } given[] = {{"--scaling", o->scaling != NULL}, {"--refinement", o->refinement != NULL}};
+        const char *option, *value; /* NULL: not given */
+    } given[] = {
+        {"--scaling", o->scaling}, {"--refinement", o->refinement}, {"--kernel", o->kernel}};
     for (size_t i = 0; i < sizeof given / sizeof *given; i++)
-        if (given[i].given && !strstr(heeded[0], given[i].option) &&
-            !strstr(heeded[1], given[i].option))
+        if (given[i].value && !br_linear_solver_heeds(r->method.solver, given[i].option) &&
+            !br_linear_solver_heeds(r->reference_method.solver, given[i].option))
             return br_fail(err, BR_BAD_INPUT, "%s: solver %s does not heed it", given[i].option,
                            r->method.solver->name);
     return BR_OK;

@@ -10,7 +10,7 @@
 /* As given, before they are checked; NULL: not given. */
 struct br_study_options {
     char *n, *k, *reference, *norm;
-    char *solver, *reference_solver, *contact, *friction, *scaling;
+    char *solver, *reference_solver, *kernel, *contact, *friction, *scaling;
     char *refinement, *threads;
     char *out, *format;
     int quiet, no_plots, help;

@@ -2,6 +2,8 @@
 /* Which kernels there are, and which of them this machine can run. */
 #include "solver/sweep_kernel.h"
 
+#include <string.h>
+
 bool br_kernel_available_portable(void);
 bool br_kernel_available_avx2(void);
 bool br_kernel_available_avx512(void);
@@ -41,4 +43,12 @@ const struct br_kernel *br_kernel_best(void)
     while (!(*kernel)->available())
         kernel++;
     return *kernel;
+}
+
+const struct br_kernel *br_kernel_find(const char *name)
+{
+    for (const struct br_kernel *const *kernel = br_kernels; *kernel; kernel++)
+        if (strcmp((*kernel)->name, name) == 0)
+            return *kernel;
+    return NULL;
 }

@@ -3,7 +3,8 @@
 
 #include <string.h>
 
-const struct br_linear_options br_linear_defaults = {.scaling = "none", .refinement = 0};
+const struct br_linear_options br_linear_defaults = {
+    .scaling = "none", .refinement = 0, .kernel = NULL};
 
 const struct br_linear_solver *const br_linear_solvers[] = {
     &br_riccati,
@@ -18,4 +19,17 @@ const struct br_linear_solver *br_linear_solver_find(const char *name)
         if (strcmp((*s)->name, name) == 0)
             return *s;
     return NULL;
+}
+
+bool br_linear_solver_heeds(const struct br_linear_solver *solver, const char *option)
+{
+    return strstr(solver->options, option) != NULL;
+}
+
+const struct br_kernel *br_linear_solver_kernel(const struct br_linear_solver *solver,
+                                                const struct br_linear_options *options)
+{
+    if (!br_linear_solver_heeds(solver, "--kernel"))
+        return NULL;
+    return options->kernel ? options->kernel : br_kernel_best();
 }

@@ -14,11 +14,13 @@
 #define BR_LINEAR_SOLVER_H
 
 #include "solver/field.h"
+#include "solver/sweep_kernel.h"
 
 /* Options that solvers may heed; each says which in its `options` text. */
 struct br_linear_options {
-    const char *scaling; /* umfpack: "none", "sum" or "max" */
-    int refinement;      /* umfpack: largest number of refinement steps a solve */
+    const char *scaling;            /* umfpack: "none", "sum" or "max" */
+    int refinement;                 /* umfpack: largest number of refinement steps a solve */
+    const struct br_kernel *kernel; /* riccati; NULL: the best that is available */
 };
 
 extern const struct br_linear_options br_linear_defaults;
@@ -86,5 +88,12 @@ extern const struct br_linear_solver *const br_linear_solvers[];
 
 /* The solver of that name, or NULL. */
 const struct br_linear_solver *br_linear_solver_find(const char *name);
+
+/* Whether the solver heeds an option, "--scaling" say. */
+bool br_linear_solver_heeds(const struct br_linear_solver *solver, const char *option);
+
+/* The kernel that the solver runs with these options; NULL: it has none. */
+const struct br_kernel *br_linear_solver_kernel(const struct br_linear_solver *solver,
+                                                const struct br_linear_options *options);
 
 #endif

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/pieces.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "solver/pieces_state.h"
 
-/* Steps after which the tip is read off the field: seldom enough to cost nothing, often enough that
- * round-off of its increments stays that of a few. */
-static const size_t look_every = 16;
+/* Round-off of the tip's increment is small beside the velocity that it leads to. */
+static const double most_bias = 1e-8;
 
 static void pieces_free(void *self)
 {
@@ -25,12 +25,12 @@ static void join(struct br_pieces *s, double *h, double *y)
 {
     for (int i = BR_STRANDS; i-- > 0;) {
         struct br_strand *t = &s->strand[i];
-        s->kernel->join_left(&t->strip, t->q, t->z, h, t->right);
+        s->kernel->join_left(&t->strip, t->q, t->z, h, t->ends.right);
     }
     y[0] = y[1] = 0;
     for (int i = 0; i < BR_STRANDS; i++) {
         struct br_strand *t = &s->strand[i];
-        s->kernel->join_right(&t->strip, t->z, y, t->left, t->right);
+        s->kernel->join_right(&t->strip, t->z, y, t->ends.left, t->ends.right);
     }
 }
 
@@ -42,8 +42,8 @@ static void find_influence(struct br_pieces *s)
     s->compliance = -s->force_increment[0];
     const size_t bytes = (size_t)s->d * BR_LANES * sizeof(double);
     for (int i = 0; i < BR_STRANDS; i++) {
-        memcpy(s->strand[i].force_right, s->strand[i].right, bytes);
-        memcpy(s->strand[i].force_left, s->strand[i].left, bytes);
+        memcpy(s->strand[i].force_right, s->strand[i].ends.right, bytes);
+        memcpy(s->strand[i].force_left, s->strand[i].ends.left, bytes);
     }
 }
 
@@ -51,13 +51,15 @@ static enum br_status pieces_create(const struct br_field *field,
                                     const struct br_linear_options *options, void **self,
                                     struct br_error *err)
 {
-    (void)options;
     struct br_pieces *s = br_allocate(1, sizeof *s);
     *self = s;
     if (!s)
         return br_no_memory(err, "a solver");
     s->field = *field;
-    s->kernel = br_kernel_best();
+    s->kernel = options->kernel ? options->kernel : br_kernel_best();
+    if (!s->kernel->available())
+        return br_fail(err, BR_BAD_INPUT, "kernel %s is not available on this machine",
+                       s->kernel->name);
     s->d = field->kind == BR_AXIAL ? 1 : 2;
     s->k = field->k;
     enum br_status status = br_pieces_lay_out(s, err);
@@ -90,8 +92,11 @@ static enum br_status pieces_predict(void *self, const struct br_drive *drive, d
     for (int c = 0; c < s->d; c++)
         costate[c] = -(drive->factor * s->tip_load[c] + drive->tip[c] / s->r);
     join(s, costate, s->tip_increment);
-    s->tip_increment[0] += s->tip_bias;
     *velocity = s->tip_velocity + s->tip_increment[0];
+    if (!(fabs(s->tip_bias) <= most_bias * fabs(*velocity)))
+        s->tip_bias = 0; /* that of a motion which has died away since */
+    s->tip_increment[0] += s->tip_bias;
+    *velocity += s->tip_bias;
     return BR_OK;
 }
 
@@ -101,21 +106,23 @@ static void add_force(struct br_pieces *s, double force)
     for (int i = 0; i < BR_STRANDS; i++) {
         struct br_strand *t = &s->strand[i];
         for (size_t j = 0; t->strip.lanes && j < (size_t)s->d * BR_LANES; j++) {
-            t->right[j] += force * t->force_right[j];
-            t->left[j] += force * t->force_left[j];
+            t->ends.right[j] += force * t->force_right[j];
+            t->ends.left[j] += force * t->force_left[j];
         }
     }
 }
 
-/* Reads the tip off the field. The round-off of an increment hardly changes from step to step: what
- * it was on average since the last look is taken off the next ones, or a tip that sticks would
- * creep by it. */
-static void look(struct br_pieces *s)
+/* Reads the tip off the field: what is only incremented drifts. The round-off of the joins'
+ * increment hardly changes from step to step; what it was is taken off the next one, or a tip that
+ * sticks would creep by it. */
+static void look_at_tip(struct br_pieces *s, double told)
 {
-    double velocity;
-    br_pieces_read_tip(s, &s->tip_displacement, &velocity);
-    s->tip_bias += (velocity - s->tip_velocity) / (double)look_every;
-    s->tip_velocity = velocity;
+    const struct br_strip_ends *odd = &s->strand[BR_ODD].ends, *even = &s->strand[BR_EVEN].ends;
+    s->tip_velocity = br_pieces_at_tip(s, (const double *const[]){odd->velocity, even->velocity});
+    s->tip_bias += s->tip_velocity - told;
+    if (s->d == 1)
+        s->tip_displacement =
+            br_pieces_at_tip(s, (const double *const[]){odd->displacement, even->displacement});
 }
 
 static double pieces_finish(void *self, double force)
@@ -124,18 +131,15 @@ static double pieces_finish(void *self, double force)
     add_force(s, force);
     for (int i = 0; i < BR_STRANDS; i++)
         if (s->strand[i].strip.lanes)
-            s->kernel->advance(&s->strand[i].strip, &s->drive, s->strand[i].right,
-                               s->strand[i].left);
-    s->tip_velocity += s->tip_increment[0] + force * s->force_increment[0];
-    s->tip_displacement += s->k * s->tip_velocity;
-    if (++s->steps % look_every == 0)
-        look(s);
+            s->kernel->advance(&s->strand[i].strip, &s->drive, &s->strand[i].ends);
+    look_at_tip(s, s->tip_velocity + s->tip_increment[0] + force * s->force_increment[0]);
     return s->tip_velocity;
 }
 
 static double pieces_tip_displacement(const void *self)
 {
-    return ((const struct br_pieces *)self)->tip_displacement;
+    const struct br_pieces *s = self;
+    return s->d == 1 ? s->tip_displacement : br_pieces_tip_displacement(s); /* the laws need u */
 }
 
 const struct br_field_solver br_pieces = {

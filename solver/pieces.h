@@ -14,7 +14,7 @@
  *
  * A step is a pass over the joins (predict), which tells the tip's velocity, and one over the
  * elements (finish), which also sums z and q for the next step. What the tip gathers from
- * increments drifts; it is read off the field every br_pieces_look_every steps. */
+ * increments drifts; it is read off the field every few steps. */
 #ifndef BR_PIECES_H
 #define BR_PIECES_H
 

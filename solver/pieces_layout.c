@@ -56,8 +56,9 @@ static size_t lay_out(struct br_pieces *s, double *arena)
         strip->join = take(arena, &used, strip->pieces * BR_JOINS * d * d);
         strip->span_join = take(arena, &used, BR_SPAN_JOINS * d * entry);
         strip->weight = take(arena, &used, strip->length * 2 * d * d);
-        double **const ends[] = {&t->q,    &t->z,           &t->right,
-                                 &t->left, &t->force_right, &t->force_left};
+        double **const ends[] = {
+            &t->q,          &t->z,         &t->force_right,   &t->force_left,
+            &t->ends.right, &t->ends.left, &t->ends.velocity, &t->ends.displacement};
         for (size_t e = 0; e < sizeof ends / sizeof *ends; e++)
             *ends[e] = take(arena, &used, entry);
     }
@@ -89,7 +90,7 @@ enum br_status br_pieces_lay_out(struct br_pieces *s, struct br_error *err)
     return BR_OK;
 }
 
-/* g of an element, kappa_w after it. */
+/* kappa_w of an element, kappa_v after it. */
 static double *state_at(const struct br_pieces *s, const struct br_strand *t, size_t lane, size_t e)
 {
     return t->strip.state + e * 2 * (size_t)s->d * BR_LANES + lane;
@@ -113,12 +114,12 @@ static void set_element(const struct br_pieces *s, const struct br_strand *t, si
 {
     const size_t d = (size_t)s->d;
     const size_t node = t->first + lane * br_span_length(t) + e;
-    double *g = state_at(s, t, lane, e), *w = g + d * BR_LANES, u[BR_LQ_MOST], v[BR_LQ_MOST];
-    strain_of(s->d, displacement + node * d, u);
+    double *to = state_at(s, t, lane, e), w[BR_LQ_MOST], v[BR_LQ_MOST];
+    strain_of(s->d, displacement + node * d, w);
     strain_of(s->d, velocity + node * d, v);
     for (size_t c = 0; c < d; c++) {
-        w[c * BR_LANES] = u[c];
-        g[c * BR_LANES] = t->strip.alpha * u[c] + v[c];
+        to[c * BR_LANES] = w[c];
+        to[(d + c) * BR_LANES] = v[c];
     }
 }
 
@@ -129,10 +130,10 @@ static void weigh(const struct br_pieces *s, const struct br_strand *t, size_t l
     double sum[2 * BR_LQ_MOST] = {0}; /* z, q */
     for (size_t e = 0; e < t->strip.length; e++) {
         const double *weight = t->strip.weight + e * 2 * d * d;
-        const double *g = state_at(s, t, lane, j * t->strip.length + e);
+        const double *w = state_at(s, t, lane, j * t->strip.length + e), *v = w + d * BR_LANES;
         for (size_t i = 0; i < 2 * d; i++)
             for (size_t c = 0; c < d; c++)
-                sum[i] += weight[i * d + c] * g[c * BR_LANES];
+                sum[i] += weight[i * d + c] * (t->strip.alpha * w[c * BR_LANES] + v[c * BR_LANES]);
     }
     double *end = t->strip.end + j * BR_ENDS * d * BR_LANES + lane;
     for (size_t c = 0; c < d; c++) {
@@ -153,9 +154,8 @@ void br_pieces_set(void *self, const double *displacement, const double *velocit
                 weigh(s, t, lane, j);
         }
     }
-    s->steps = 0;
     s->tip_bias = 0;
-    br_pieces_read_tip(s, &s->tip_displacement, NULL);
+    s->tip_displacement = br_pieces_tip_displacement(s);
     s->tip_velocity = velocity[s->field.n * (size_t)s->d];
 }
 
@@ -175,9 +175,9 @@ static void pass_on(int d, double *y, const double *kappa)
 static void strain_at(const struct br_pieces *s, const struct br_strand *t, size_t lane, size_t e,
                       bool rate, double *kappa)
 {
-    const double *g = state_at(s, t, lane, e), *w = g + s->d * BR_LANES;
+    const double *state = state_at(s, t, lane, e) + (rate ? s->d * BR_LANES : 0);
     for (int c = 0; c < s->d; c++)
-        kappa[c] = rate ? g[c * BR_LANES] - t->strip.alpha * w[c * BR_LANES] : w[c * BR_LANES];
+        kappa[c] = state[c * BR_LANES];
 }
 
 static void get_nodes(const struct br_pieces *s, bool rate, double *nodal)
@@ -219,30 +219,28 @@ void br_pieces_strain_rate(const void *self, double *rate)
     }
 }
 
-/* The tip's value, by carrying what has been found across each span over all of them. */
-static void carry_over(int d, const struct br_strand *t, const double *across, double *y)
+double br_pieces_at_tip(const struct br_pieces *s, const double *const across[BR_STRANDS])
 {
-    for (size_t lane = 0; lane < t->strip.lanes; lane++) {
-        y[0] += (d == 2 ? (double)br_span_length(t) * y[1] : 0) + across[lane];
-        if (d == 2)
-            y[1] += across[BR_LANES + lane];
-    }
-}
-
-void br_pieces_read_tip(const struct br_pieces *s, double *displacement, double *velocity)
-{
-    _Alignas(64) double u[BR_LQ_MOST * BR_LANES], v[BR_LQ_MOST * BR_LANES];
-    double tip[BR_LQ_MOST] = {0}, rate[BR_LQ_MOST] = {0};
+    double tip = 0, slope = 0;
     for (int i = 0; i < BR_STRANDS; i++) {
         const struct br_strand *t = &s->strand[i];
-        if (!t->strip.lanes)
-            continue;
-        s->kernel->carry(&t->strip, u, v);
-        carry_over(s->d, t, u, tip);
-        carry_over(s->d, t, v, rate);
+        for (size_t lane = 0; lane < t->strip.lanes; lane++) {
+            tip += across[i][lane];
+            if (s->d == 1)
+                continue;
+            tip += (double)br_span_length(t) * slope;
+            slope += across[i][BR_LANES + lane];
+        }
     }
-    if (displacement)
-        *displacement = tip[0];
-    if (velocity)
-        *velocity = rate[0];
+    return tip;
+}
+
+double br_pieces_tip_displacement(const void *self)
+{
+    const struct br_pieces *s = self;
+    _Alignas(64) double across[BR_STRANDS][BR_LQ_MOST * BR_LANES];
+    for (int i = 0; i < BR_STRANDS; i++)
+        if (s->strand[i].strip.lanes)
+            s->kernel->carry(&s->strand[i].strip, across[i]);
+    return br_pieces_at_tip(s, (const double *const[]){across[BR_ODD], across[BR_EVEN]});
 }

@@ -11,8 +11,9 @@
 /* Spans side by side, and what a step hands them. */
 struct br_strand {
     struct br_strip strip;
-    size_t first;                                            /* element */
-    double *q, *z, *right, *left, *force_right, *force_left; /* d * BR_LANES each */
+    size_t first; /* element */
+    struct br_strip_ends ends;
+    double *q, *z, *force_right, *force_left; /* d * BR_LANES each */
 };
 
 enum { BR_ODD, BR_EVEN, BR_STRANDS };
@@ -53,7 +54,10 @@ void br_pieces_set(void *self, const double *displacement, const double *velocit
 void br_pieces_get(const void *self, double *displacement, double *velocity);
 void br_pieces_strain_rate(const void *self, double *rate);
 
-/* The tip's displacement and velocity, read off the field (either may be NULL). */
-void br_pieces_read_tip(const struct br_pieces *s, double *displacement, double *velocity);
+/* The tip's value, given what it is across each span: its right end relative to its left one. */
+double br_pieces_at_tip(const struct br_pieces *s, const double *const across[BR_STRANDS]);
+
+/* The tip's displacement, read off the field, m. */
+double br_pieces_tip_displacement(const void *self);
 
 #endif

@@ -232,7 +232,6 @@ static void fill_strand(struct br_strand *t, const struct br_lq *lq, double k,
     strip->d = lq->d;
     strip->k = k;
     strip->alpha = (double)lq->alpha;
-    strip->gamma = (double)(lq->alpha * k);
     fill_weights(lq, gain, strip->length, p + longest + 1, strip->weight, &piece);
     memcpy(piece.p, p[strip->length], sizeof piece.p);
     fill_span(lq->d, &piece, strip->pieces, strip->join, span);

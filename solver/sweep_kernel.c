@@ -39,12 +39,19 @@ INLINE void store_all(int d, const vec *from, double *to)
         store(from[i], to + i * BR_LANES);
 }
 
-/* sum += a x, or a'x; d by d */
+/* sum += a x, sum -= a x, and so with a'; d by d */
 INLINE void add(int d, const double *a, const vec *x, vec *sum)
 {
     for (int i = 0; i < d; i++)
         for (int j = 0; j < d; j++)
             sum[i] += a[i * d + j] * x[j];
+}
+
+INLINE void subtract(int d, const double *a, const vec *x, vec *sum)
+{
+    for (int i = 0; i < d; i++)
+        for (int j = 0; j < d; j++)
+            sum[i] -= a[i * d + j] * x[j];
 }
 
 INLINE void add_transposed(int d, const double *a, const vec *x, vec *sum)
@@ -79,35 +86,41 @@ INLINE void element_left(int d, const double *gain, const vec *g, const vec *min
         p[i] = next[i];
 }
 
-/* y = T y + G kappa, for -kappa */
-INLINE void pass_on(int d, const vec *minus_kappa, vec *y)
+/* y = T y + G kappa */
+INLINE void pass_on(int d, const vec *kappa, vec *y)
 {
     if (d == 1) {
-        y[0] -= minus_kappa[0];
+        y[0] += kappa[0];
         return;
     }
-    y[0] = ((y[0] + y[1]) - half * minus_kappa[0]) + lever * minus_kappa[1];
-    y[1] -= minus_kappa[0];
+    y[0] = ((y[0] + y[1]) + half * kappa[0]) - lever * kappa[1];
+    y[1] += kappa[0];
 }
 
-/* -kappa = S^-1 s + K y, and y goes on */
-INLINE void element_right(int d, const double *gain, const vec *s, vec *y, vec *minus_kappa)
+/* kappa = -(K y + S^-1 s), and y goes on */
+INLINE void element_right(int d, const double *gain, const vec *s, vec *y, vec *kappa)
 {
     for (int i = 0; i < d; i++)
-        minus_kappa[i] = (vec){0};
-    add(d, gain + d * d, s, minus_kappa);
-    add(d, gain, y, minus_kappa);
-    pass_on(d, minus_kappa, y);
+        kappa[i] = (vec){0};
+    subtract(d, gain + d * d, s, kappa);
+    subtract(d, gain, y, kappa);
+    pass_on(d, kappa, y);
 }
 
-/* The strain g and the displacement's kappa_w after the step. */
-INLINE void element_state(int d, const struct br_strip *s, const vec *minus_kappa, vec *g, vec *w)
+/* The state after the step. */
+INLINE void element_state(int d, double k, const vec *kappa, vec *w, vec *v)
 {
     for (int i = 0; i < d; i++) {
-        const vec strain = g[i] - minus_kappa[i], rate = strain - s->alpha * w[i];
-        w[i] += s->k * rate;
-        g[i] = strain + s->gamma * rate;
+        v[i] += kappa[i];
+        w[i] += k * v[i];
     }
+}
+
+/* g = alpha w + v */
+INLINE void strain(int d, double alpha, const vec *w, const vec *v, vec *g)
+{
+    for (int i = 0; i < d; i++)
+        g[i] = alpha * w[i] + v[i];
 }
 
 /* ---- a piece ---- */
@@ -136,8 +149,11 @@ INLINE void piece_left(int d, bool loaded, const struct br_strip *s, const struc
     for (size_t e = s->length; e-- > 0;)
 #pragma GCC unroll 2
         for (int v = 0; v < VECTORS; v++) {
-            vec g[2], sum[2], f[2];
-            load_all(d, at->state + e * 2 * entry + v * BR_WIDTH, g);
+            const double *state = at->state + e * 2 * entry + v * BR_WIDTH;
+            vec w[2], rate[2], g[2], sum[2], f[2];
+            load_all(d, state, w);
+            load_all(d, state + entry, rate);
+            strain(d, s->alpha, w, rate, g);
             for (int i = 0; i < d; i++)
                 f[i] = minus_f[i];
             if (loaded) {
@@ -150,9 +166,14 @@ INLINE void piece_left(int d, bool loaded, const struct br_strip *s, const struc
         }
 }
 
+/* What goes from piece to piece along a span, for one vector. */
+struct along {
+    vec y[2], velocity[2], displacement;
+};
+
 /* Increments y to the right, the new state, and what it adds to z and q. The lines of the piece
  * that comes next are asked for meanwhile. */
-INLINE void piece_right(int d, const struct br_strip *s, const struct piece *at, vec y[VECTORS][2])
+INLINE void piece_right(int d, const struct br_strip *s, const struct piece *at, struct along *go)
 {
     const size_t entry = (size_t)d * BR_LANES;
     vec z[VECTORS][2], q[VECTORS][2];
@@ -167,16 +188,20 @@ INLINE void piece_right(int d, const struct br_strip *s, const struct piece *at,
             const double *gain = s->gain + e * (size_t)(3 * d * d);
             const double *weight = s->weight + e * (size_t)(2 * d * d);
             double *state = at->state + e * 2 * entry + v * BR_WIDTH;
-            vec g[2], w[2], sum[2], minus_kappa[2];
+            vec w[2], rate[2], g[2], sum[2], kappa[2];
             load_all(d, s->scratch + e * entry + v * BR_WIDTH, sum);
-            load_all(d, state, g);
-            load_all(d, state + entry, w);
+            load_all(d, state, w);
+            load_all(d, state + entry, rate);
             for (int i = 0; i < 2 * d; i++)
                 __builtin_prefetch(next + v * BR_WIDTH + i * BR_LANES);
-            element_right(d, gain, sum, y[v], minus_kappa);
-            element_state(d, s, minus_kappa, g, w);
-            store_all(d, g, state);
-            store_all(d, w, state + entry);
+            element_right(d, gain, sum, go[v].y, kappa);
+            element_state(d, s->k, kappa, w, rate);
+            store_all(d, w, state);
+            store_all(d, rate, state + entry);
+            pass_on(d, rate, go[v].velocity);
+            if (d == 1)
+                go[v].displacement += w[0];
+            strain(d, s->alpha, w, rate, g);
             add(d, weight, g, z[v]);
             add(d, weight + d * d, g, q[v]);
         }
@@ -310,8 +335,16 @@ INLINE void cross(int d, const double *join, const double *end, const vec *right
     }
 }
 
+INLINE void start(int d, size_t lane, const double *left, struct along *go)
+{
+    load_all(d, left + lane, go->y);
+    for (int i = 0; i < d; i++)
+        go->velocity[i] = (vec){0};
+    go->displacement = (vec){0};
+}
+
 INLINE void advance_of(int d, bool loaded, const struct br_strip *strip,
-                       const struct br_strip_drive *drive, const double *right, const double *left)
+                       const struct br_strip_drive *drive, const struct br_strip_ends *ends)
 {
     const struct br_strip s = *strip; /* nothing aliases it */
     const double factor = drive->factor;
@@ -319,21 +352,31 @@ INLINE void advance_of(int d, bool loaded, const struct br_strip *strip,
     for (int i = 0; i < d; i++)
         minus_f[i] = -factor * drive->uniform[i] - (vec){0};
     for (size_t lane = 0; lane < BR_LANES; lane += GO) {
-        vec y[VECTORS][2], c[VECTORS][2];
+        struct along go[VECTORS];
+        vec y[VECTORS][2], right[VECTORS][2];
         for (int v = 0; v < VECTORS; v++) {
-            load_all(d, left + lane + v * BR_WIDTH, y[v]);
-            load_all(d, right + lane + v * BR_WIDTH, c[v]);
+            start(d, lane + v * BR_WIDTH, ends->left, &go[v]);
+            load_all(d, ends->right + lane + v * BR_WIDTH, right[v]);
+            for (int i = 0; i < d; i++)
+                y[v][i] = go[v].y[i];
         }
         for (size_t j = 0; j < s.pieces; j++) {
             const struct piece at = piece_at(d, &s, j, lane);
-            vec inside[VECTORS][2], p[VECTORS][2];
-            memcpy(inside, y, sizeof inside);
-            for (int i = 0; i < BR_ENDS * d * BR_LANES; i += 8)
-                __builtin_prefetch(at.end + BR_ENDS * d * BR_LANES + i);
-            for (int v = 0; v < VECTORS; v++)
-                cross(d, join_of(d, &s, j), at.end + v * BR_WIDTH, c[v], y[v], p[v]);
+            vec p[VECTORS][2];
+            for (int i = 0; i < BR_ENDS * d; i++)
+                __builtin_prefetch(at.end + (BR_ENDS * d + i) * BR_LANES);
+            for (int v = 0; v < VECTORS; v++) {
+                for (int i = 0; i < d; i++)
+                    go[v].y[i] = y[v][i]; /* as the joins have it */
+                cross(d, join_of(d, &s, j), at.end + v * BR_WIDTH, right[v], y[v], p[v]);
+            }
             piece_left(d, loaded, &s, &at, minus_f, factor, p);
-            piece_right(d, &s, &at, inside);
+            piece_right(d, &s, &at, go);
+        }
+        for (int v = 0; v < VECTORS; v++) {
+            store_all(d, go[v].velocity, ends->velocity + lane + v * BR_WIDTH);
+            if (d == 1)
+                store(go[v].displacement, ends->displacement + lane + v * BR_WIDTH);
         }
     }
 }
@@ -344,7 +387,7 @@ INLINE void charge_of(int d, const struct br_strip *s, const double *uniform, si
     const size_t entry = (size_t)d * BR_LANES;
     const struct piece at = piece_at(d, s, j, lane);
     const vec g[2] = {{0}};
-    vec p[2] = {{0}}, y[2] = {{0}}, sum[2], minus_kappa[2], f[2];
+    vec p[2] = {{0}}, y[2] = {{0}}, sum[2], kappa[2], f[2];
     for (int i = 0; i < d; i++)
         f[i] = -uniform[i] - (vec){0};
     for (size_t e = s->length; e-- > 0;) {
@@ -357,30 +400,22 @@ INLINE void charge_of(int d, const struct br_strip *s, const double *uniform, si
     }
     for (size_t e = 0; e < s->length; e++) {
         load_all(d, s->scratch + e * entry, sum);
-        element_right(d, s->gain + e * (size_t)(3 * d * d), sum, y, minus_kappa);
+        element_right(d, s->gain + e * (size_t)(3 * d * d), sum, y, kappa);
     }
     store_all(d, p, at.end + BR_END_LOAD_Q * entry);
     store_all(d, y, at.end + BR_END_LOAD_Z * entry);
 }
 
-INLINE void carry_of(int d, const struct br_strip *s, size_t lane, double *displacement,
-                     double *velocity)
+INLINE void carry_of(int d, const struct br_strip *s, size_t lane, double *displacement)
 {
     const size_t entry = (size_t)d * BR_LANES;
-    vec u[2] = {{0}}, rate[2] = {{0}};
+    vec y[2] = {{0}};
     for (size_t e = 0; e < s->pieces * s->length; e++) {
-        vec g[2], w[2];
-        load_all(d, s->state + e * 2 * entry + lane, g);
-        load_all(d, s->state + (e * 2 + 1) * entry + lane, w);
-        for (int i = 0; i < d; i++) {
-            g[i] = s->alpha * w[i] - g[i];
-            w[i] = -w[i];
-        }
-        pass_on(d, w, u);
-        pass_on(d, g, rate);
+        vec w[2];
+        load_all(d, s->state + e * 2 * entry + lane, w);
+        pass_on(d, w, y);
     }
-    store_all(d, u, displacement + lane);
-    store_all(d, rate, velocity + lane);
+    store_all(d, y, displacement + lane);
 }
 
 /* ---- the kernel's functions: d becomes a constant ---- */
@@ -413,16 +448,16 @@ static void join_right(const struct br_strip *s, const double *z, double *y, dou
 }
 
 static void advance(const struct br_strip *s, const struct br_strip_drive *drive,
-                    const double *right, const double *left)
+                    const struct br_strip_ends *ends)
 {
     if (s->d == 1 && !s->load)
-        advance_of(1, false, s, drive, right, left);
+        advance_of(1, false, s, drive, ends);
     else if (s->d == 1)
-        advance_of(1, true, s, drive, right, left);
+        advance_of(1, true, s, drive, ends);
     else if (!s->load)
-        advance_of(2, false, s, drive, right, left);
+        advance_of(2, false, s, drive, ends);
     else
-        advance_of(2, true, s, drive, right, left);
+        advance_of(2, true, s, drive, ends);
 }
 
 static void charge(const struct br_strip *s, const double uniform[2])
@@ -435,13 +470,13 @@ static void charge(const struct br_strip *s, const double uniform[2])
                 charge_of(2, s, uniform, j, lane);
 }
 
-static void carry(const struct br_strip *s, double *displacement, double *velocity)
+static void carry(const struct br_strip *s, double *displacement)
 {
     for (size_t lane = 0; lane < BR_LANES; lane += BR_WIDTH)
         if (s->d == 1)
-            carry_of(1, s, lane, displacement, velocity);
+            carry_of(1, s, lane, displacement);
         else
-            carry_of(2, s, lane, displacement, velocity);
+            carry_of(2, s, lane, displacement);
 }
 
 #define NAME_OF(kernel) #kernel

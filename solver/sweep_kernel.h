@@ -45,8 +45,8 @@ struct br_strip {
     double *join;          /* BR_JOINS d^2 a piece */
     double *span_join;     /* BR_SPAN_JOINS d^2, each for every lane */
     size_t lanes;          /* in use, from the first on; the others rest */
-    double alpha, k, gamma /* k alpha */;
-    double *state;   /* 2 d an element: g and kappa_w */
+    double alpha, k;       /* g = alpha kappa_w + kappa_v; the time step, s */
+    double *state;         /* 2 d an element: kappa_w and kappa_v */
     double *load;    /* d an element: F / R at its left node; NULL: none, or the same everywhere */
     double *end;     /* BR_ENDS d a piece */
     double *scratch; /* d an element of one piece */
@@ -56,6 +56,13 @@ struct br_strip {
 struct br_strip_drive {
     double factor;     /* of the load */
     double uniform[2]; /* F / R at every node, for a factor of 1; used where strip->load is NULL */
+};
+
+/* The ends of the spans, d * BR_LANES each. */
+struct br_strip_ends {
+    double *right, *left; /* in: the costates at the right ends, the increments at the left ones */
+    double *velocity;     /* out: at the right ends, relative to fixed left ends */
+    double *displacement; /* out: the same, axial only */
 };
 
 struct br_kernel {
@@ -75,17 +82,15 @@ struct br_kernel {
     void (*join_right)(const struct br_strip *strip, const double *z, double *y, double *left,
                        double *right);
 
-    /* One step, after gather; right: the costates at the spans' right ends, left: the increments
-     * at their left ends (in, d each). */
+    /* One step, after gather. */
     void (*advance)(const struct br_strip *strip, const struct br_strip_drive *drive,
-                    const double *right, const double *left);
+                    const struct br_strip_ends *ends);
 
     /* What the load adds to the ends of the pieces. */
     void (*charge)(const struct br_strip *strip, const double uniform[2]);
 
-    /* Displacement and velocity at the right ends of spans whose left ends are fixed (out, d
-     * each). */
-    void (*carry)(const struct br_strip *strip, double *displacement, double *velocity);
+    /* The displacement at the right ends of spans whose left ends are fixed (out, d each). */
+    void (*carry)(const struct br_strip *strip, double *displacement);
 };
 
 /* NULL-terminated, the fastest first; the last runs anywhere. */
@@ -93,5 +98,8 @@ extern const struct br_kernel *const br_kernels[];
 
 /* The first that is available. */
 const struct br_kernel *br_kernel_best(void);
+
+/* The kernel of that name, available or not; NULL: there is none. */
+const struct br_kernel *br_kernel_find(const char *name);
 
 #endif

@@ -8,6 +8,7 @@
 /* Methods for all studies of a check, instead of what the scene says; NULL: as it says. */
 struct br_check_method {
     const struct br_linear_solver *solver;
+    const struct br_kernel *kernel; /* for studies whose solver heeds it */
     const struct br_contact_rule *contact;
     const struct br_friction_rule *friction;
 };

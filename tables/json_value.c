@@ -37,9 +37,11 @@ json_t *br_json_estimate(const struct br_estimate *e)
 
 json_t *br_json_method(const struct br_method *m)
 {
-    return json_pack("{s:s, s:s, s:i, s:s, s:s}", "solver", m->solver->name, "scaling",
-                     m->linear.scaling, "refinement", m->linear.refinement, "contact",
-                     m->contact->name, "friction", m->friction->name);
+    const struct br_kernel *kernel = br_linear_solver_kernel(m->solver, &m->linear);
+    return json_pack("{s:s, s:o, s:s, s:i, s:s, s:s}", "solver", m->solver->name, "kernel",
+                     br_json_string(kernel ? kernel->name : NULL), "scaling", m->linear.scaling,
+                     "refinement", m->linear.refinement, "contact", m->contact->name, "friction",
+                     m->friction->name);
 }
 
 json_t *br_json_provenance(const struct br_provenance *p)

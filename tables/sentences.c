@@ -27,7 +27,9 @@ static void describe_method(const struct br_study *s, const struct br_method *m,
 {
     const char *contact = s->scene->contact.modelled ? m->contact->name : "none";
     const char *friction = s->scene->friction.law == BR_FRICTIONLESS ? "none" : m->friction->name;
-    snprintf(text, size, "solver %s, contact %s, friction %s", m->solver->name, contact, friction);
+    const struct br_kernel *kernel = br_linear_solver_kernel(m->solver, &m->linear);
+    snprintf(text, size, "solver %s%s%s, contact %s, friction %s", m->solver->name,
+             kernel ? " on " : "", kernel ? kernel->name : "", contact, friction);
 }
 
 /* "a fine run of the same scheme, n = 12800, ..." */

@@ -202,10 +202,12 @@ static void test_override(void **state)
     (void)state;
     struct made_check m;
     made_create(&m);
-    br_check_override(&m.verify, &(struct br_check_method){.contact = br_contact_rules[1]});
+    br_check_override(&m.verify, &(struct br_check_method){.contact = br_contact_rules[1],
+                                                           .kernel = br_kernels[0]});
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
         assert_ptr_equal(m.verify.study[kind].method.contact, br_contact_rules[1]);
         assert_ptr_equal(m.verify.study[kind].method.solver, br_linear_solvers[0]);
+        assert_ptr_equal(m.verify.study[kind].method.linear.kernel, br_kernels[0]);
     }
     made_clear(&m);
 }

@@ -9,6 +9,7 @@
 
 #include "cli_driver.h"
 #include "reference/judge.h"
+#include "solver/sweep_kernel.h"
 #include "support.h"
 
 /* A scene that takes no time, with its verify part; lines 11 to 13. */
@@ -42,6 +43,9 @@ static void test_verdicts(void **state)
     cli_expect("check bad.yaml plain.yaml good.yaml --fail-fast", NULL, 1,
                "stopped at the first scene that failed");
     cli_expect("check good.yaml --contact implicit --solver umfpack --threads 2", NULL, 0, "PASS");
+    cli_expect("check good.yaml --solver riccati --kernel portable --json k.json", NULL, 0, "PASS");
+    assert_true(cli_file_contains("k.json", "\"kernel\": \"portable\""));
+    cli_expect("check --help", NULL, 0, "\n  portable     available here\n");
 }
 
 static void test_refusals(void **state)
@@ -61,6 +65,10 @@ static void test_refusals(void **state)
         {"check nowhere", "scene 'nowhere' is no file and no bundled scene"},
         {"check --all good.yaml", "--all and scenes are given"},
         {"check good.yaml --threads -1", "--threads: found '-1'"},
+        {"check good.yaml --solver riccati --kernel sse2",
+         "--kernel: found 'sse2', expected one of: "},
+        {"check good.yaml --solver umfpack --kernel portable",
+         "--kernel: no study here has a solver that heeds it, as --solver riccati does"},
         {"check good.yaml --solver magic", "--solver: found 'magic', expected one of: riccati"},
         {"check good.yaml --contact magic", "--contact: found 'magic'"},
         {"check good.yaml --friction magic", "--friction: found 'magic'"},

@@ -84,12 +84,17 @@ static void test_bad_options(void **state)
         {"study example1 --reference none --k .01,.004", "not all among those of k = 0.004 s"},
         {"study example1 --reference none --n 10", "found 1 meshes and 4 time steps, expected"},
         {"study example1 --reference guess", "--reference: found 'guess'"},
-        {"study example1 --solver lu", "--solver: found 'lu', expected one of: riccati, lanes, umfpack"},
+        {"study example1 --solver lu",
+         "--solver: found 'lu', expected one of: riccati, plain, umfpack"},
         {"study example1 --contact soft", "expected one of: lagged, implicit"},
         {"study example1 --friction dry", "expected one of: exact, regularised"},
         {"study example1 --format pdf", "expected one of: text, csv, markdown, latex, json"},
         {"study example1 --scaling sum", "--scaling: solver riccati does not heed it"},
         {"study example1 --solver umfpack --scaling big", "expected one of: none, sum, max"},
+        {"study example1 --kernel portable", "--kernel: solver riccati does not heed it"},
+        {"study example1 --solver riccati --kernel sse2",
+         "--kernel: found 'sse2', expected one of: "},
+        {"tables --solver riccati --kernel ''", "--kernel: found '', expected one of: "},
         {"study example1 --refinement -1", "--refinement: found '-1'"},
         {"study example1 --threads -1", "--threads: found '-1'"},
         {"study example1 --threads x",
@@ -243,6 +248,8 @@ static void test_help(void **state)
             strstr(out.output, i ? "Usage: beamrate study SCENE [" : "Usage: beamrate tables ["));
         for (size_t j = 0; br_linear_solvers[j]; j++)
             assert_non_null(strstr(out.output, br_linear_solvers[j]->title));
+        for (size_t j = 0; br_kernels[j]; j++)
+            assert_non_null(strstr(out.output, br_kernels[j]->name));
         for (size_t j = 0; br_contact_rules[j]; j++)
             assert_non_null(strstr(out.output, br_contact_rules[j]->title));
         for (size_t j = 0; br_friction_rules[j]; j++)
@@ -260,6 +267,31 @@ static void test_data_folder(void **state)
     (void)state;
     cli_expect("study example1 " SMALL, &(struct cli_circumstances){.data = cli_folder()}, 2,
                "is no file and no bundled scene");
+}
+
+/* Every kernel runs and is named in the results, or is refused where the machine has it not. */
+static void test_kernels(void **state)
+{
+    (void)state;
+    for (const struct br_kernel *const *k = br_kernels; *k; k++) {
+        char line[256], text[64], json[64];
+        snprintf(line, sizeof line,
+                 "study example2 --out kernel --solver riccati --kernel %s " SMALL, (*k)->name);
+        if (!(*k)->available()) {
+            cli_expect(line, NULL, 2, "which this machine does not have, expected one of: ");
+            continue;
+        }
+        cli_expect(line, NULL, 0, "");
+        snprintf(text, sizeof text, "solver riccati on %s", (*k)->name);
+        snprintf(json, sizeof json, "\"kernel\": \"%s\"", (*k)->name);
+        assert_true(cli_file_contains("kernel/example2.txt", text));
+        assert_true(cli_file_contains("kernel/example2.json", json));
+    }
+    cli_expect("study example2 --out kernel --reference-solver riccati --reference fine:20,0.05 "
+               "--kernel portable " SMALL,
+               NULL, 0, "");
+    assert_true(cli_file_contains("kernel/example2.json", "\"kernel\": \"portable\""));
+    assert_true(cli_file_contains("kernel/example2.json", "\"kernel\": null"));
 }
 
 /* Ctrl-C reaches gnuplot, too: its failure must not hide that the user wanted to stop. */
@@ -304,6 +336,7 @@ int main(void)
         cmocka_unit_test(test_failures),    cmocka_unit_test(test_help),
         cmocka_unit_test(test_data_folder), cmocka_unit_test(test_interrupted_plots),
         cmocka_unit_test(test_odd_names),   cmocka_unit_test(test_norms),
+        cmocka_unit_test(test_kernels),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

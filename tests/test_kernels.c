@@ -1,214 +1,259 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every kernel of the fast solver against the recursions written out in long double, lane by lane.
- */
+/* Every kernel of the fast solver against the recursion as it is written down, field by field: any
+ * number of elements, any data, any load, forces at the tip that no law has chosen. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "solver/sweep_kernel.h"
 #include "support.h"
 
-enum { MOST_LENGTH = 24, MOST_D = 2, MOST = MOST_LENGTH * 4 * MOST_D * MOST_D * BR_LANES };
+enum { STEPS = 40, MOST_N = 1500 };
 
-struct arrays {
-    _Alignas(64) double gain[MOST], weight[MOST], load[MOST], state[MOST], scratch[MOST];
-    _Alignas(64) double right[MOST], left[MOST], q[MOST], z[MOST], velocity[MOST],
-        displacement[MOST];
+static const struct br_linear_solver *const solvers[] = {&br_riccati, &br_plain};
+
+struct pair {
+    struct br_field field;
+    const struct br_field_solver *solver[2];
+    void *state[2];
+    double *load, *value[2];
+    size_t size;
+    double scale[2]; /* largest displacement and velocity so far */
 };
 
-static struct br_sweep sweep_of(struct arrays *a, int d, size_t length)
+static struct br_field random_field(struct br_test_random *r)
 {
-    return (struct br_sweep){
-        .d = d,
-        .length = length,
-        .table = {a->gain, a->weight},
-        .factor = 0.7,
-        .r = {1.3, 0.4},
-        .alpha = 0.6,
-        .k = 0.25,
-        .state = a->state,
-        .scratch = a->scratch,
-        .right = a->right,
-        .left = a->left,
-        .q = a->q,
-        .z = a->z,
-        .velocity = a->velocity,
-        .displacement = a->displacement,
+    struct br_field field = {
+        .kind = (enum br_field_kind)br_test_index(r, 2),
+        .n = 1 + (size_t)br_test_log_uniform(r, 1, MOST_N),
+        .density = br_test_index(r, 4) ? br_test_log_uniform(r, 1e-3, 1e3) : 0,
+        .stiffness = br_test_log_uniform(r, 1e-2, 1e2),
+        .viscosity = br_test_index(r, 4) ? br_test_log_uniform(r, 1e-3, 10) : 0,
+        .k = br_test_log_uniform(r, 1e-5, 0.1),
     };
+    field.h = br_test_log_uniform(r, 0.1, 10) / (double)field.n;
+    return field;
 }
 
-static void fill(struct br_test_random *random, double *x)
+static void start(struct pair *p, struct br_test_random *r, const struct br_kernel *kernel)
 {
-    for (size_t i = 0; i < MOST; i++)
-        x[i] = br_test_uniform(random, -0.5, 0.5);
-}
-
-/* A, K'R, S^-1 and K do not have to belong together for this. */
-static void fill_all(struct br_test_random *random, struct arrays *a)
-{
-    memset(a, 0, sizeof *a);
-    fill(random, a->gain);
-    fill(random, a->weight);
-    fill(random, a->load);
-    fill(random, a->state);
-    fill(random, a->right);
-    fill(random, a->left);
-}
-
-typedef long double real;
-
-static real at(const double *x, size_t index, size_t lane)
-{
-    return x[index * BR_LANES + lane];
-}
-
-/* T y + G kappa */
-static void carry(int d, real *y, const real *kappa)
-{
-    const real y0 = y[0], y1 = d == 2 ? y[1] : 0;
-    y[0] = d == 1 ? y0 + kappa[0] : y0 + y1 + kappa[0] / 2 - kappa[1] / 6;
-    if (d == 2)
-        y[1] = y1 + kappa[0];
-}
-
-static void product(int d, const double *matrix, bool transposed, const real *x, real *sum)
-{
-    for (int i = 0; i < d; i++)
-        for (int j = 0; j < d; j++)
-            sum[i] += (real)matrix[transposed ? j * d + i : i * d + j] * x[j];
-}
-
-/* One lane of one step, in place; the closed loop A is taken from the table, as it is. */
-static void expected_lane(const struct br_sweep *s, size_t lane, struct arrays *a)
-{
-    const int d = s->d;
-    const size_t dd = (size_t)d;
-    real drive[MOST_LENGTH][MOST_D], p[MOST_D], y[MOST_D], q[MOST_D] = {0}, z[MOST_D] = {0},
-                                                           v[MOST_D] = {0}, u = 0;
-    for (size_t i = 0; i < dd; i++) {
-        p[i] = at(s->right, i, lane);
-        y[i] = at(s->left, i, lane);
+    struct br_error err = {0};
+    p->field = random_field(r);
+    p->size = br_field_size(&p->field);
+    p->load = calloc(p->size, sizeof *p->load);
+    assert_non_null(p->load);
+    for (int i = 0; i < 2; i++) {
+        struct br_linear_options options = br_linear_defaults;
+        options.kernel = kernel;
+        p->solver[i] = p->field.kind == BR_AXIAL ? solvers[i]->axial : solvers[i]->bending;
+        p->value[i] = calloc(2 * p->size, sizeof *p->value[i]);
+        assert_non_null(p->value[i]);
+        MUST(p->solver[i]->create(&p->field, &options, &p->state[i], &err));
     }
-    for (size_t e = 0; e < s->length; e++) {
-        const double *gain = s->table.gain + e * 4 * dd * dd;
-        real g[MOST_D], next[MOST_D] = {0};
-        for (size_t i = 0; i < dd; i++) {
-            g[i] = at(s->state, e * 2 * dd + i, lane);
-            const real control = d == 1 ? p[0] : i == 0 ? p[0] / 2 + p[1] : -p[0] / 6;
-            const size_t index = e * dd + i;
-            const real sigma = !s->load      ? 0
-                               : s->lanewise ? at(s->load, index, lane)
-                                             : (real)s->load[index];
-            drive[e][i] = s->r[i] * g[i] + control + s->factor * sigma;
-        }
-        product(d, gain, false, p, next);
-        product(d, gain + dd * dd, false, g, next);
-        memcpy(p, next, sizeof p);
-    }
-    for (size_t e = s->length; e-- > 0;) {
-        const double *gain = s->table.gain + e * 4 * dd * dd;
-        const double *weight = s->table.weight + e * 2 * dd * dd;
-        real m[MOST_D] = {0}, kappa[MOST_D], next[MOST_D] = {0}, g[MOST_D], rate[MOST_D];
-        product(d, gain + 2 * dd * dd, false, drive[e], m);
-        memcpy(kappa, m, sizeof kappa);
-        product(d, gain + 3 * dd * dd, false, y, kappa);
-        carry(d, next, m); /* T 0 + G m */
-        product(d, gain, true, y, next);
-        memcpy(y, next, sizeof y);
-        for (size_t i = 0; i < dd; i++) {
-            const size_t ig = (e * 2 * dd + i) * BR_LANES + lane;
-            const size_t iw = (e * 2 * dd + dd + i) * BR_LANES + lane;
-            rate[i] = a->state[ig] - s->alpha * a->state[iw] + kappa[i];
-            const real w = a->state[iw] + s->k * rate[i];
-            g[i] = s->alpha * w + rate[i];
-            a->state[iw] = (double)w;
-            a->state[ig] = (double)g[i];
-            u += w;
-        }
-        carry(d, v, rate);
-        product(d, weight, false, g, z);
-        product(d, weight + dd * dd, false, g, q);
-    }
-    for (size_t i = 0; i < dd; i++) {
-        a->q[i * BR_LANES + lane] = (double)q[i];
-        a->z[i * BR_LANES + lane] = (double)z[i];
-        a->velocity[i * BR_LANES + lane] = (double)v[i];
-    }
-    if (d == 1)
-        a->displacement[lane] = (double)u;
+    CLOSE(p->solver[0]->tip_compliance(p->state[0]), p->solver[1]->tip_compliance(p->state[1]),
+          1e-11 * p->solver[1]->tip_compliance(p->state[1]));
 }
 
-static void same(const double *x, const double *y, size_t count, const char *kernel,
-                 const char *what)
+static void finish(struct pair *p)
 {
-    for (size_t i = 0; i < count; i++)
-        if (!(fabs(x[i] - y[i]) <= 1e-12 * fmax(1, fabs(y[i]))))
-            fail_msg("%s: %s %zu is %.17g, expected %.17g", kernel, what, i, x[i], y[i]);
+    for (int i = 0; i < 2; i++) {
+        p->solver[i]->free(p->state[i]);
+        free(p->value[i]);
+    }
+    free(p->load);
 }
 
-static void check(const struct br_kernel *kernel, struct arrays *a, struct arrays *b,
-                  const struct br_sweep *shape)
+/* Smooth nodal values that respect the clamp; bending: with the scaled slope. */
+static void fill_smooth(const struct pair *p, double *nodal, double size, double waves)
 {
-    *b = *a;
-    struct br_sweep by_kernel = sweep_of(a, shape->d, shape->length);
-    struct br_sweep by_hand = sweep_of(b, shape->d, shape->length);
-    by_kernel.load = shape->load ? a->load : NULL;
-    by_hand.load = shape->load ? b->load : NULL;
-    by_kernel.lanewise = by_hand.lanewise = shape->lanewise;
-    kernel->step(&by_kernel);
-    for (size_t lane = 0; lane < BR_LANES; lane++)
-        expected_lane(&by_hand, lane, b);
-    same(a->state, b->state, MOST, kernel->name, "state");
-    same(a->q, b->q, MOST, kernel->name, "q");
-    same(a->z, b->z, MOST, kernel->name, "z");
-    same(a->velocity, b->velocity, MOST, kernel->name, "velocity");
-    same(a->displacement, b->displacement, MOST, kernel->name, "displacement");
-
-    double *across = a->displacement;
-    kernel->carry(&by_kernel, across);
-    for (size_t lane = 0; lane < BR_LANES; lane++) {
-        real y[MOST_D] = {0}, w[MOST_D];
-        for (size_t e = shape->length; e-- > 0;) {
-            for (size_t i = 0; i < (size_t)shape->d; i++)
-                w[i] = at(a->state, (e * 2 + 1) * (size_t)shape->d + i, lane);
-            carry(shape->d, y, w);
-        }
-        for (size_t i = 0; i < (size_t)shape->d; i++)
-            CLOSE(across[i * BR_LANES + lane], (double)y[i], 1e-12 * fmax(1, fabs((double)y[i])));
+    const size_t d = br_field_unknowns(p->field.kind);
+    for (size_t i = 0; i <= p->field.n; i++) {
+        const double x = (double)i / (double)p->field.n;
+        nodal[i * d] = size * x * x * cos(waves * x);
+        if (d == 2)
+            nodal[i * d + 1] = size / (double)p->field.n *
+                               (2 * x * cos(waves * x) - waves * x * x * sin(waves * x));
     }
+}
+
+static void set(struct pair *p, struct br_test_random *r)
+{
+    double *nodal = calloc(2 * p->size, sizeof *nodal);
+    assert_non_null(nodal);
+    fill_smooth(p, nodal, br_test_uniform(r, -1, 1), br_test_uniform(r, 0, 5));
+    fill_smooth(p, nodal + p->size, br_test_uniform(r, -1, 1), br_test_uniform(r, 0, 5));
+    for (int i = 0; i < 2; i++)
+        p->solver[i]->set(p->state[i], nodal, nodal + p->size);
+    free(nodal);
+}
+
+/* None, one that is the same at every node, or one that is not. */
+static struct br_drive random_load(struct pair *p, struct br_test_random *r)
+{
+    const size_t kind = br_test_index(r, 3), d = br_field_unknowns(p->field.kind);
+    const double even = br_test_uniform(r, -1, 1);
+    for (size_t i = 0; i < p->size; i++)
+        p->load[i] = p->field.h * (kind == 1 ? (i % d ? 0 : even) : br_test_uniform(r, -1, 1));
+    for (size_t i = p->size - d; i < p->size; i++)
+        p->load[i] = p->field.h * br_test_uniform(r, -1, 1); /* the last node is like no other */
+    return (struct br_drive){.vector = kind ? p->load : NULL, .changed = true};
+}
+
+/* Velocities are found from g = alpha kappa_w + kappa_v, and have the round-off of both. */
+static double magnitude(const struct pair *p, int which)
+{
+    const double rate = p->field.viscosity + p->field.k * p->field.stiffness;
+    return p->scale[which] + (which ? p->field.stiffness / rate * p->scale[0] : 0);
+}
+
+static void compare(struct pair *p, int which, const char *kernel)
+{
+    for (size_t j = 0; j < p->size; j++)
+        p->scale[which] = fmax(p->scale[which], fabs(p->value[1][(size_t)which * p->size + j]));
+    const double round_off = br_riccati.round_off(&p->field, &br_linear_defaults) +
+                             br_plain.round_off(&p->field, &br_linear_defaults);
+    for (size_t j = (size_t)which * p->size; j < (size_t)(which + 1) * p->size; j++)
+        if (!(fabs(p->value[0][j] - p->value[1][j]) <= round_off * magnitude(p, which)))
+            fail_msg("%s, n = %zu: %s %zu is %.17g, expected %.17g +- %g", kernel, p->field.n,
+                     which ? "velocity" : "displacement", j, p->value[0][j], p->value[1][j],
+                     round_off * magnitude(p, which));
+}
+
+static void step(struct pair *p, struct br_drive *drive, double force, const char *kernel)
+{
+    struct br_error err = {0};
+    double tip[2], free_tip[2];
+    for (int i = 0; i < 2; i++) {
+        MUST(p->solver[i]->predict(p->state[i], drive, &free_tip[i], &err));
+        tip[i] = p->solver[i]->finish(p->state[i], force);
+        p->solver[i]->get(p->state[i], p->value[i], p->value[i] + p->size);
+    }
+    drive->changed = false;
+    compare(p, 0, kernel);
+    compare(p, 1, kernel);
+    const double round_off = 2 * br_riccati.round_off(&p->field, &br_linear_defaults);
+    const double pull = magnitude(p, 1) + fabs(force) * p->solver[1]->tip_compliance(p->state[1]);
+    CLOSE(tip[0], tip[1], round_off * pull);
+    CLOSE(free_tip[0], free_tip[1], round_off * pull);
+    CLOSE(p->solver[0]->tip_displacement(p->state[0]), p->solver[1]->tip_displacement(p->state[1]),
+          round_off * p->scale[0]);
+}
+
+static void check_strain_rate(struct pair *p)
+{
+    const double scale = 4 * magnitude(p, 1); /* a strain is a difference of four nodal values or two */
+    const size_t count = p->field.n * br_field_unknowns(p->field.kind);
+    for (int i = 0; i < 2; i++)
+        p->solver[i]->strain_rate(p->state[i], p->value[i]);
+    for (size_t j = 0; j < count; j++)
+        CLOSE(p->value[0][j], p->value[1][j],
+              br_riccati.round_off(&p->field, &br_linear_defaults) * scale);
+}
+
+static void check(const struct br_kernel *kernel, uint64_t seed)
+{
+    struct br_test_random r = {seed};
+    struct pair p = {0};
+    start(&p, &r, kernel);
+    if (br_test_index(&r, 2))
+        set(&p, &r);
+    struct br_drive drive = random_load(&p, &r);
+    for (int i = 0; i < STEPS; i++) {
+        if (br_test_index(&r, 8) == 0)
+            drive = random_load(&p, &r);
+        drive.factor = br_test_uniform(&r, -1, 1);
+        drive.tip[0] = br_test_uniform(&r, -1, 1);
+        drive.tip[1] = p.field.kind == BR_BENDING ? p.field.h * br_test_uniform(&r, -1, 1) : 0;
+        step(&p, &drive, br_test_uniform(&r, -1, 1), kernel->name);
+    }
+    check_strain_rate(&p);
+    finish(&p);
 }
 
 static void test_all_kernels(void **state)
 {
     (void)state;
-    struct br_test_random random = {5};
-    struct arrays *a = aligned_alloc(64, sizeof *a), *b = aligned_alloc(64, sizeof *b);
-    assert_non_null(a);
-    assert_non_null(b);
+    const uint64_t cases = br_test_quick() ? 8 : 400;
     size_t kernels = 0;
     for (const struct br_kernel *const *k = br_kernels; *k; k++) {
         if (!(*k)->available())
             continue;
         kernels++;
-        for (int d = 1; d <= 2; d++)
-            for (size_t length = 1; length <= MOST_LENGTH; length++)
-                for (int load = 0; load < 3; load++) {
-                    fill_all(&random, a);
-                    const struct br_sweep shape = {.d = d,
-                                                   .length = length,
-                                                   .load = load ? a->load : NULL,
-                                                   .lanewise = load == 2};
-                    check(*k, a, b, &shape);
-                }
+        for (uint64_t seed = 1; seed <= cases; seed++)
+            check(*k, seed);
     }
     assert_true(kernels >= 1);
     assert_true(br_kernel_best()->available());
-    free(a);
-    free(b);
+}
+
+static void test_find(void **state)
+{
+    (void)state;
+    for (const struct br_kernel *const *k = br_kernels; *k; k++)
+        assert_ptr_equal(br_kernel_find((*k)->name), *k);
+    assert_null(br_kernel_find("sse2"));
+    assert_null(br_kernel_find(""));
+}
+
+static bool never(void)
+{
+    return false;
+}
+
+/* One that the machine has not is refused, not run. */
+static void test_unavailable(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_march *march;
+    const struct br_kernel none = {.name = "none", .available = never};
+    const struct br_scene scene = br_test_bare();
+    struct br_method method = br_test_method("riccati", NULL, NULL);
+    method.linear.kernel = &none;
+    REFUSED(br_march_create(&march, &scene, 9, 4, &method, &err), BR_BAD_INPUT,
+            "kernel none is not available on this machine");
+}
+
+static size_t steps_counted;
+
+static bool always(void)
+{
+    return true;
+}
+
+static void count_step(const struct br_strip *strip, const struct br_strip_drive *drive,
+                       const struct br_strip_ends *ends)
+{
+    steps_counted++;
+    br_kernel_find("portable")->advance(strip, drive, ends);
+}
+
+/* The one that is asked for does the work. */
+static void test_heeded(void **state)
+{
+    (void)state;
+    struct br_kernel counting = *br_kernel_find("portable");
+    counting.name = "counting";
+    counting.available = always;
+    counting.advance = count_step;
+    const struct br_scene scene = br_test_bare();
+    struct br_method method = br_test_method("riccati", NULL, NULL);
+    method.linear.kernel = &counting;
+    struct br_march *march = br_test_march(&scene, 7, 4, &method);
+    br_test_advance(march, 4);
+    br_march_free(march);
+    assert_true(steps_counted >= 4);
+    assert_ptr_equal(br_linear_solver_kernel(&br_riccati, &method.linear), &counting);
+    assert_ptr_equal(br_linear_solver_kernel(&br_riccati, &br_linear_defaults), br_kernel_best());
+    assert_null(br_linear_solver_kernel(&br_plain, &method.linear));
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_kernels)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_all_kernels),
+        cmocka_unit_test(test_find),
+        cmocka_unit_test(test_unavailable),
+        cmocka_unit_test(test_heeded),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@
 #include "reference/certificate.h"
 #include "support.h"
 
-enum { STEPS = 30, MOST_N = 48 };
+enum { STEPS = 30, MOST_N = 48, MOST_KERNEL_N = 700 };
 
 static const char *const loads[] = {"0",
                                     "30*t",
@@ -104,7 +104,7 @@ static void compare(const struct br_march *a, const struct br_march *b, enum br_
 {
     const struct br_field *f = br_march_field(a, kind);
     const size_t size = br_field_size(f);
-    double w[2][2 * (MOST_N + 1)], v[2][2 * (MOST_N + 1)];
+    double w[2][2 * (MOST_KERNEL_N + 1)], v[2][2 * (MOST_KERNEL_N + 1)];
     br_march_get(a, kind, w[0], v[0]);
     br_march_get(b, kind, w[1], v[1]);
     *scale = fmax(*scale, fmax(largest(w[0], size), f->k * largest(v[0], size)));
@@ -180,6 +180,43 @@ static void test_random_data(void **state)
             check_case(*s, seed);
 }
 
+/* A march on each of two kernels: as close as the round-off predicted for both allows. */
+static void check_kernel(const struct br_kernel *kernel, uint64_t seed)
+{
+    struct br_test_random r = {seed};
+    struct br_scene scene = random_scene(&r);
+    make_stable(&scene);
+    const size_t n = 1 + br_test_index(&r, MOST_KERNEL_N);
+    struct br_march *march[2];
+    struct br_method method = br_test_method("riccati", NULL, NULL);
+    method.contact = br_contact_rules[br_test_index(&r, 2)];
+    method.friction = br_friction_rules[br_test_index(&r, 2)];
+    for (int i = 0; i < 2; i++) {
+        method.linear.kernel = i ? kernel : br_kernel_find("portable");
+        march[i] = br_test_march(&scene, n, STEPS, &method);
+    }
+    double scale[2] = {0, 0};
+    for (size_t step = 1; step <= STEPS; step++) {
+        br_test_advance(march[0], step);
+        br_test_advance(march[1], step);
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+            compare(march[0], march[1], (enum br_field_kind)kind, &scale[kind],
+                    2 * br_march_round_off(march[0]));
+    }
+    br_march_free(march[0]);
+    br_march_free(march[1]);
+    br_scene_clear(&scene);
+}
+
+static void test_kernels(void **state)
+{
+    (void)state;
+    const uint64_t cases = br_test_quick() ? 10 : 300;
+    for (const struct br_kernel *const *k = br_kernels; *k; k++)
+        for (uint64_t seed = 1; (*k)->available() && seed <= cases; seed++)
+            check_kernel(*k, seed);
+}
+
 /* Every scaling and refinement that the options offer gives the same march. */
 static void test_options(void **state)
 {
@@ -191,7 +228,8 @@ static void test_options(void **state)
     for (size_t i = 0; i < 3; i++)
         for (int refinement = 0; refinement < 3; refinement++) {
             struct br_method method = br_test_method("umfpack", NULL, NULL);
-            method.linear = (struct br_linear_options){scalings[i], refinement};
+            method.linear =
+                (struct br_linear_options){.scaling = scalings[i], .refinement = refinement};
             const struct br_test_end end = br_test_run(&scene, 20, 50, &method);
             AT_MOST(br_test_deviation(&end, &expected), 1e-9);
         }
@@ -258,9 +296,8 @@ static void test_not_finite(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_data),
-        cmocka_unit_test(test_options),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_random_data), cmocka_unit_test(test_kernels),
+        cmocka_unit_test(test_options),     cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_not_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Round-off of every solver, measured against the golden values and predicted. */
+#include <stdio.h>
+#include <string.h>
+
+#include "tests/bench/bench.h"
+
+static double predicted(const struct br_scene *scene, const struct br_test_golden *row,
+                        const struct br_method *method)
+{
+    struct br_march *march = br_test_march(scene, row->n, row->steps, method);
+    const double round_off = br_march_round_off(march);
+    br_march_free(march);
+    return round_off;
+}
+
+static void run_row(struct bench *b, const struct br_test_golden *row,
+                    const struct br_method *method)
+{
+    struct br_scene scene = br_test_bundled(row->scene);
+    const struct br_test_end end = br_test_run(&scene, row->n, row->steps, method);
+    const double deviation = br_test_deviation(&end, &row->end);
+    const double limit = predicted(&scene, row, method);
+    br_scene_clear(&scene);
+    printf("%-8s %8zu %12.1e %12.1e\n", method->solver->name, row->n, deviation, limit);
+    fflush(stdout);
+    bench_record_value(b, "relative", deviation, "%s round-off n=%zu", method->solver->name,
+                       row->n);
+    if (!(deviation <= limit))
+        fail_msg("%s, n = %zu: the round-off is %g, predicted were at most %g",
+                 method->solver->name, row->n, deviation, limit);
+}
+
+void bench_accuracy(void **state)
+{
+    struct br_test_golden rows[BR_TEST_MOST_GOLDEN];
+    const size_t count = br_test_golden(rows);
+    printf("\nRound-off of Example 2 with k = 1e-3 s, relative to quadruple precision\n");
+    printf("%-8s %8s %12s %12s\n", "solver", "n", "measured", "predicted");
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
+        for (size_t i = 0; i < count; i++) {
+            const struct br_method method = br_test_method((*s)->name, "lagged", "exact");
+            if (strcmp(rows[i].scene, "example2") == 0)
+                run_row(*state, &rows[i], &method);
+        }
+}

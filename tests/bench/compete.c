@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The fast solver beside others on the same march, which must end at the same tip. */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "tests/bench/bench.h"
+#include "tests/bench/peers.h"
+
+enum { STEPS = 200 };
+
+static const struct br_linear_solver *const peers[] = {
+    &br_riccati,
+    &br_umfpack,
+#ifdef BENCH_CHOLMOD
+    &peer_cholmod_simplicial,
+    &peer_cholmod_supernodal,
+#endif
+    &peer_banded,
+};
+
+/* Largest relative difference of the tips after some steps of 1e-3 s. */
+static double deviation_of(const struct br_scene *scene, size_t n, const struct br_method *method,
+                           const struct br_method *other)
+{
+    struct br_scene s = *scene;
+    s.duration = 1e-3 * STEPS;
+    const struct br_test_end a = br_test_run(&s, n, STEPS, method);
+    const struct br_test_end b = br_test_run(&s, n, STEPS, other);
+    return br_test_deviation(&b, &a);
+}
+
+/* The condition number of the assembled form is about n^4 for bending: a wrong system is told by
+ * the coarse meshes, and on the finest nothing is promised. */
+static double allowed(size_t n)
+{
+    return DBL_EPSILON * pow((double)n, 4);
+}
+
+/* Whether the library can factorise at all; else says why not. */
+static bool can_march(struct bench *b, const struct br_scene *scene, size_t n,
+                      const struct br_method *method)
+{
+    struct br_error err = {0};
+    struct br_march *march;
+    if (br_march_create(&march, scene, n, STEPS, method, &err) == BR_OK) {
+        br_march_free(march);
+        return true;
+    }
+    printf("  %-20s %7zu   failed: %s\n", method->solver->name, n, err.message);
+    bench_record_skipped(b, err.message, "peer %s n=%zu", method->solver->name, n);
+    if (n <= 400)
+        fail_msg("%s failed at n = %zu", method->solver->name, n);
+    return false;
+}
+
+static void run_peer(struct bench *b, const struct br_scene *scene, size_t n,
+                     const struct br_linear_solver *peer, double fast)
+{
+    const struct br_method usual = bench_fast_method();
+    struct br_method method = usual;
+    method.solver = peer;
+    if (!can_march(b, scene, n, &method))
+        return;
+    const struct bench_march march = {scene, &method, n, 60};
+    const struct bench_time t = bench_march(&march).step;
+    const double deviation = deviation_of(scene, n, &usual, &method), limit = allowed(n);
+    printf("  %-20s %7zu %9.2f %9.2f %9.2f %9.1f %12.1e\n", peer->name, n, t.median, t.least,
+           t.most, t.least / fast, deviation);
+    fflush(stdout);
+    bench_record(b, "ns/element-step", &t, "peer %s n=%zu", peer->name, n);
+    bench_record_value(b, "times the fast solver's", t.least / fast, "peer ratio %s n=%zu",
+                       peer->name, n);
+    if (!(deviation <= limit))
+        fail_msg("%s, n = %zu: its tip is %g off, expected at most %g: it solves another system",
+                 peer->name, n, deviation, limit);
+}
+
+void bench_peers(void **state)
+{
+    static const size_t sizes[] = {100, 400, 3200, 12800};
+    struct br_scene scene = bench_scene(BENCH_BOTH);
+    const struct br_method method = bench_fast_method();
+    printf("\nPeers: the same steps of Example 2, both fields, right side and tip included; ns an "
+           "element-step,\nas a multiple of %s (by the least), and how far the tip is off after %d "
+           "steps\n",
+           method.solver->name, STEPS);
+    printf("  %-20s %7s %9s %9s %9s %9s %12s\n", "", "n", "median", "least", "most", "ratio",
+           "tip off by");
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        const struct bench_march march = {&scene, &method, sizes[i], 4};
+        const struct bench_time t = bench_march(&march).step;
+        printf("  %-20s %7zu %9.2f %9.2f %9.2f\n", method.solver->name, sizes[i], t.median, t.least,
+               t.most);
+        for (size_t p = 0; p < sizeof peers / sizeof *peers; p++)
+            run_peer(*state, &scene, sizes[i], peers[p], t.least);
+    }
+#ifndef BENCH_CHOLMOD
+    printf("  CHOLMOD was not found: skipped\n");
+#endif
+    br_scene_clear(&scene);
+}

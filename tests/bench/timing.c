@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+
+#include "solver/clock.h"
+#include "tests/bench/bench.h"
+
+enum { REPEATS = 7 };
+
+static const double repeat_seconds = 0.015;
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+struct bench_time bench_time(void (*work)(void *self), void *self, double amount)
+{
+    double ns[REPEATS];
+    work(self); /* warm */
+    for (int i = 0; i < REPEATS; i++) {
+        const double start = br_seconds();
+        work(self);
+        ns[i] = 1e9 * (br_seconds() - start) / amount;
+    }
+    qsort(ns, REPEATS, sizeof *ns, by_value);
+    return (struct bench_time){ns[REPEATS / 2], ns[0], ns[REPEATS - 1]};
+}
+
+struct running {
+    struct br_march *march;
+    size_t steps;
+};
+
+static void advance(void *self)
+{
+    const struct running *r = self;
+    br_test_advance(r->march, br_march_steps_done(r->march) + r->steps);
+}
+
+struct bench_march_time bench_march(const struct bench_march *b)
+{
+    const double start = br_seconds(), guess = b->guess > 0 ? b->guess : 100;
+    const double wanted = 1e9 * repeat_seconds / (guess * (double)b->n);
+    struct running r = {.steps = wanted > 2 ? (size_t)wanted : 2};
+    const size_t total = (REPEATS + 1) * r.steps;
+    struct br_scene scene = *b->scene;
+    scene.duration = total < 1000 ? 1e-3 * (double)total : 1;
+    r.march = br_test_march(&scene, b->n, total, b->method);
+    struct bench_march_time t = {bench_time(advance, &r, (double)(b->n * r.steps)), 0};
+    br_march_free(r.march);
+    t.seconds = br_seconds() - start;
+    return t;
+}
