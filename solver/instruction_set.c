@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/instruction_set.h"
 
-#if defined __x86_64__
+#if defined __x86_64__ && !defined BR_NO_FMA
 bool br_has_avx512(void)
 {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&

@@ -7,19 +7,27 @@
 
 #include <stdbool.h>
 
-/* For each, the fastest first: EXPAND(name, the attributes of functions compiled for it). */
-#if defined __x86_64__ && !defined BR_NO_FMA
-#define BR_INSTRUCTION_SETS(EXPAND)                                                    \
-    EXPAND(avx512, __attribute__((target("avx512f,avx512dq,avx512vl,fma,avx2")))) \
-    EXPAND(avx2, __attribute__((target("avx2,fma"))))                             \
-    EXPAND(portable, )
+/* EXPAND(name) for each, the fastest first; the last runs anywhere. */
+#define BR_INSTRUCTION_SETS(EXPAND) EXPAND(avx512) EXPAND(avx2) EXPAND(portable)
+
+/* The attributes of functions compiled for it. */
+#if defined __x86_64__
+#define BR_TARGET_avx512 __attribute__((target("avx512f,avx512dq,avx512vl,fma,avx2")))
+#define BR_TARGET_avx2 __attribute__((target("avx2,fma")))
 #else
-#define BR_INSTRUCTION_SETS(EXPAND) EXPAND(portable, )
+#define BR_TARGET_avx512
+#define BR_TARGET_avx2
 #endif
+#define BR_TARGET_portable
+
+/* The doubles in its vectors. */
+#define BR_LANES_avx512 8
+#define BR_LANES_avx2 4
+#define BR_LANES_portable 2
 
 /* Whether the processor has it. */
 bool br_has_avx512(void);
 bool br_has_avx2(void);
-bool br_has_portable(void); /* every one */
+bool br_has_portable(void);
 
 #endif

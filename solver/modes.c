@@ -23,7 +23,8 @@ void br_view_modes(struct br_view *view, size_t modes)
         view->scale[i] = 1;
 }
 
-/* The two highest of bending from the curvature: P_2'' = 12 sqrt(5), P_3'' = 60 sqrt(7) (2x - 1). */
+/* The two highest of bending from the curvature: P_2'' = 12 sqrt(5), P_3'' = 60 sqrt(7) (2x - 1).
+ */
 static void scale_nodes(struct br_view *view, const struct br_field *field)
 {
     const double root = sqrt(field->h);

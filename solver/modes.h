@@ -22,7 +22,7 @@ size_t br_mode_count(enum br_field_kind kind, enum br_measure measure);
 /* Values that make up a measure on a mesh of n elements: all modes, or 1 for the tip. */
 size_t br_measure_size(enum br_field_kind kind, enum br_measure measure, size_t n);
 
-enum { BR_MOST_MODES = 4, BR_MODE_LANES = 8 };
+enum { BR_MOST_MODES = 4, BR_MOST_LANES = 8 };
 
 /* How modes follow from values. */
 enum br_layout {
@@ -32,8 +32,8 @@ enum br_layout {
      * (w, s): scale times (W - C/6, D - S/12, C, S - 2 D) with
      * W = w0 + w1, D = w1 - w0, S = s0 + s1, C = s1 - s0. */
     BR_BY_NODE,
-    /* Eight elements side by side, for vectors: mode i of element e is
-     * value[(e / 8 * modes + i) * 8 + e % 8]; after the last element come zeros. */
+    /* Some elements side by side, for vectors: mode i of element e is
+     * value[(e / lanes * modes + i) * lanes + e % lanes]; after the last element come zeros. */
     BR_IN_LANES,
 };
 

@@ -7,8 +7,6 @@
 
 #include "study/ladder_kernel.h"
 
-enum { LANES = BR_MODE_LANES };
-
 struct rung {
     size_t n;
     size_t parent;    /* what it is projected from: a rung, or `count` + a root */
@@ -97,9 +95,9 @@ static bool find_parent(const struct br_ladder *ladder, size_t r, size_t *parent
     return found;
 }
 
-static size_t round_up(size_t count)
+static size_t round_up(size_t count, size_t lanes)
 {
-    return (count + LANES - 1) / LANES * LANES;
+    return (count + lanes - 1) / lanes * lanes;
 }
 
 static enum br_status add_rungs(struct br_ladder *ladder, const struct br_mesh_list *rungs,
@@ -110,12 +108,12 @@ static enum br_status add_rungs(struct br_ladder *ladder, const struct br_mesh_l
     if (!ladder->rung || !ladder->order)
         return br_no_memory(err, "the ladder of meshes");
     ladder->count = rungs->count;
-    ladder->size = round_up(rungs->count);
+    ladder->size = round_up(rungs->count, BR_MOST_LANES);
     for (size_t r = 0; r < rungs->count; r++) {
         ladder->rung[r] = (struct rung){.n = rungs->n[r], .offset = ladder->size};
         if (rungs->n[r] == 0)
             return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
-        ladder->size += round_up(rungs->n[r]) * ladder->modes;
+        ladder->size += round_up(rungs->n[r], BR_MOST_LANES) * ladder->modes;
     }
     for (size_t r = 0; r < rungs->count; r++) {
         struct rung *rung = &ladder->rung[r];
@@ -228,7 +226,8 @@ double br_ladder_norm(const struct br_ladder *ladder, const double *projection)
     const struct rung *rung = &ladder->rung[r];
     const double *modes = projection + rung->offset;
     double sum = projection[r];
-    for (size_t i = 0; i < round_up(rung->n) * ladder->modes; i++)
+    const size_t count = round_up(rung->n, ladder->kernel->lanes) * ladder->modes;
+    for (size_t i = 0; i < count; i++)
         sum += modes[i] * modes[i];
     return sqrt(sum);
 }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The element loops of ladder.h, eight elements of a rung side by side in the lanes of vectors.
+/* The element loops of ladder.h, elements of a rung side by side in the lanes of vectors.
  * Every sum is taken in an order that depends on the mesh alone. */
 #ifndef BR_LADDER_KERNEL_H
 #define BR_LADDER_KERNEL_H
 
+#include "solver/instruction_set.h"
 #include "solver/modes.h"
 
 /* One rung from its parent. */
@@ -16,6 +17,7 @@ struct br_projecting {
 
 struct br_ladder_kernel {
     const char *name; /* the instruction set */
+    size_t lanes;     /* of its vectors, at most BR_MOST_LANES, and of the modes in lanes */
     bool (*available)(void);
 
     /* coarse = sum_j E_j' fine_j; returns the sum of the squares of what that loses,
@@ -25,6 +27,9 @@ struct br_ladder_kernel {
     /* The sum of the squares of a - b, n elements; b has the modes in lanes. */
     double (*distance)(const struct br_view *a, size_t n, const double *b);
 };
+
+#define BR_LADDER_KERNEL(set) extern const struct br_ladder_kernel br_ladder_##set;
+BR_INSTRUCTION_SETS(BR_LADDER_KERNEL)
 
 /* NULL-terminated, the fastest first; the last runs anywhere. */
 extern const struct br_ladder_kernel *const br_ladder_kernels[];

@@ -94,8 +94,8 @@ static enum br_status create_audit(struct br_lockstep *l, struct br_channel *c,
         return br_no_memory(err, "the auditor's values");
     if (at->measure == BR_TIP)
         return BR_OK;
-    const enum br_status status = br_ladder_create(
-        &c->audit_ladder, br_mode_count(at->kind, at->measure), &root, &root, err);
+    const enum br_status status =
+        br_ladder_create(&c->audit_ladder, br_mode_count(at->kind, at->measure), &root, &root, err);
     if (status)
         return status;
     c->audit_projection = br_allocate_aligned(br_ladder_size(c->audit_ladder), sizeof(double));

@@ -1,0 +1,366 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One kernel, for the instruction set BR_SET: this file is compiled for each (meson.build), and
+ * contracted (solver/sweep.h). Whole vectors of elements whose ratio is 1, 2 or 4 are loaded as
+ * they lie in memory and sorted by shuffles; other ratios, and the elements left over at the end,
+ * are collected one by one. */
+#include <string.h>
+
+#include "solver/instruction_set.h"
+#include "study/ladder_kernel.h"
+
+#define JOINED(a, b) a##b
+#define JOIN(a, b) JOINED(a, b)
+#define TEXT(a) #a
+#define NAME(a) TEXT(a)
+#define LANES JOIN(BR_LANES_, BR_SET)
+
+enum { MOST = BR_MOST_MODES, MOST_RATIO = 4 };
+
+/* Never passed by value: how that goes depends on the instruction set. */
+typedef double vec __attribute__((vector_size(8 * LANES)));
+
+#define INLINE static inline __attribute__((always_inline))
+
+/* x in all lanes. */
+#define ALL(x) ((x) - (vec){0})
+
+/* Every other one of the values of a and b; those of a from the second on, and b's first. */
+#if LANES == 8
+#define EVEN(a, b) SHUFFLE(a, b, 0, 2, 4, 6, 8, 10, 12, 14)
+#define ODD(a, b) SHUFFLE(a, b, 1, 3, 5, 7, 9, 11, 13, 15)
+#define SHIFT(a, b) SHUFFLE(a, b, 1, 2, 3, 4, 5, 6, 7, 8)
+#elif LANES == 4
+#define EVEN(a, b) SHUFFLE(a, b, 0, 2, 4, 6)
+#define ODD(a, b) SHUFFLE(a, b, 1, 3, 5, 7)
+#define SHIFT(a, b) SHUFFLE(a, b, 1, 2, 3, 4)
+#else
+#define EVEN(a, b) SHUFFLE(a, b, 0, 2)
+#define ODD(a, b) SHUFFLE(a, b, 1, 3)
+#define SHIFT(a, b) SHUFFLE(a, b, 1, 2)
+#endif
+#if defined __clang__
+#define SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#else
+typedef long long places __attribute__((vector_size(8 * LANES)));
+#define SHUFFLE(a, b, ...) __builtin_shuffle(a, b, (places){__VA_ARGS__})
+#endif
+
+INLINE void load(const double *from, vec *to)
+{
+    memcpy(to, from, sizeof *to);
+}
+
+INLINE void store(const vec *from, double *to)
+{
+    memcpy(to, from, sizeof *from);
+}
+
+/* `count` vectors that stand `apart`, as one row of values; then vector i has the values i,
+ * i + count, ... of it. count: a power of two. */
+INLINE void load_sorted(int count, const double *from, int apart, vec *x)
+{
+    for (int i = 0; i < count; i++)
+        load(from + i * apart, &x[i]);
+    for (int done = 1; done < count; done *= 2) {
+        vec next[MOST * MOST_RATIO];
+        for (int i = 0; i < count / 2; i++) {
+            next[i] = EVEN(x[2 * i], x[2 * i + 1]);
+            next[i + count / 2] = ODD(x[2 * i], x[2 * i + 1]);
+        }
+        for (int i = 0; i < count; i++)
+            x[i] = next[i];
+    }
+}
+
+/* The nodes of all children of a vector of elements: value[j][i] of child j's two nodes. */
+INLINE void fetch_nodes(int modes, int ratio, const double *from, vec value[][MOST])
+{
+    const int unknowns = modes / 2, count = ratio * unknowns;
+    vec node[MOST / 2 * (MOST_RATIO + 1)];
+    load_sorted(count, from, LANES, node);
+    for (int i = 0; i < unknowns; i++) {
+        const vec next = ALL(from[count * LANES + i]);
+        node[count + i] = SHIFT(node[i], next);
+    }
+    for (int j = 0; j < ratio; j++)
+        for (int i = 0; i < modes; i++)
+            value[j][i] = node[j * unknowns + i];
+}
+
+/* The values of all children of a vector of elements from `first` on, value[j] those of child j. */
+INLINE void fetch(const struct br_view *v, enum br_layout layout, int modes, int ratio,
+                  size_t first, vec value[][MOST])
+{
+    vec row[MOST * MOST_RATIO];
+    const double *from = v->values + first * (size_t)(modes * ratio);
+    switch (layout) {
+    case BR_BY_NODE:
+        fetch_nodes(modes, ratio, v->values + first * (size_t)(modes / 2 * ratio), value);
+        return;
+    case BR_BY_ELEMENT:
+        load_sorted(ratio * modes, from, LANES, row);
+        for (int j = 0; j < ratio; j++)
+            for (int i = 0; i < modes; i++)
+                value[j][i] = row[j * modes + i];
+        return;
+    case BR_IN_LANES:
+        for (int i = 0; i < modes; i++) {
+            load_sorted(ratio, from + i * LANES, modes * LANES, row);
+            for (int j = 0; j < ratio; j++)
+                value[j][i] = row[j];
+        }
+    }
+}
+
+/* Where value i of element e stands. */
+static inline size_t place_of(const struct br_view *v, size_t e, size_t i)
+{
+    switch (v->layout) {
+    case BR_BY_NODE:
+        return e * (v->modes / 2) + i;
+    case BR_IN_LANES:
+        return (e / LANES * v->modes + i) * LANES + e % LANES;
+    case BR_BY_ELEMENT:
+        break;
+    }
+    return e * v->modes + i;
+}
+
+/* Elements that are collected one by one: e, e + stride, ..., `live` of them. */
+struct few {
+    size_t e, stride, live;
+};
+
+/* Their values; zeros in the other lanes. */
+INLINE void collect(const struct br_view *v, int modes, const struct few *few, vec *value)
+{
+    for (int i = 0; i < modes; i++) {
+        double lane[LANES] = {0};
+        for (size_t l = 0; l < few->live; l++)
+            lane[l] = v->values[place_of(v, few->e + l * few->stride, (size_t)i)];
+        load(lane, &value[i]);
+    }
+}
+
+/* Values -> modes, in place (solver/modes.h). */
+INLINE void make_modes(const double *scale, enum br_layout layout, int modes, vec *x)
+{
+    if (layout == BR_IN_LANES)
+        return;
+    if (layout == BR_BY_NODE && modes == 2) {
+        const vec sum = x[0] + x[1], difference = x[1] - x[0];
+        x[0] = sum;
+        x[1] = difference;
+    } else if (layout == BR_BY_NODE) {
+        const vec w = x[0] + x[2], d = x[2] - x[0], s = x[1] + x[3], c = x[3] - x[1];
+        x[0] = w - ALL(1.0 / 6) * c;
+        x[1] = d - ALL(1.0 / 12) * s;
+        x[2] = c;
+        x[3] = s - ALL(2.0) * d;
+    }
+    for (int i = 0; i < modes; i++)
+        x[i] *= ALL(scale[i]);
+}
+
+/* sum += E' x */
+INLINE void add_child(int modes, const double *transfer, const vec *x, vec *sum)
+{
+    for (int i = 0; i < modes; i++)
+        for (int m = i; m < modes; m++)
+            sum[m] += ALL(transfer[i * modes + m]) * x[i];
+}
+
+/* loss += (x - E sum)^2 */
+INLINE void add_loss(int modes, const double *transfer, const vec *x, const vec *sum, vec *loss)
+{
+    for (int i = 0; i < modes; i++) {
+        vec rest = x[i];
+        for (int m = i; m < modes; m++)
+            rest -= ALL(transfer[i * modes + m]) * sum[m];
+        loss[i] += rest * rest;
+    }
+}
+
+/* A vector of elements of a rung. */
+INLINE void project_vector(const struct br_projecting *p, enum br_layout layout, int modes,
+                           int ratio, size_t first, vec *loss)
+{
+    vec x[MOST_RATIO][MOST], sum[MOST];
+    fetch(&p->fine, layout, modes, ratio, first, x);
+    for (int i = 0; i < modes; i++)
+        sum[i] = ALL(0.0);
+    for (int j = 0; j < ratio; j++) {
+        make_modes(p->fine.scale, layout, modes, x[j]);
+        add_child(modes, p->transfer + j * modes * modes, x[j], sum);
+    }
+    for (int j = 0; j < ratio; j++)
+        add_loss(modes, p->transfer + j * modes * modes, x[j], sum, loss);
+    for (int i = 0; i < modes; i++)
+        store(&sum[i], p->coarse + first * (size_t)modes + i * LANES);
+}
+
+/* `live` of them with any ratio. */
+INLINE void project_few(const struct br_projecting *p, int modes, size_t first, size_t live,
+                        vec *loss)
+{
+    const size_t square = (size_t)(modes * modes);
+    struct few child = {0, p->ratio, live};
+    vec x[MOST] = {ALL(0.0)}, sum[MOST];
+    for (int i = 0; i < modes; i++)
+        sum[i] = ALL(0.0);
+    for (size_t j = 0; j < p->ratio; j++) {
+        child.e = first * p->ratio + j;
+        collect(&p->fine, modes, &child, x);
+        make_modes(p->fine.scale, p->fine.layout, modes, x);
+        add_child(modes, p->transfer + j * square, x, sum);
+    }
+    for (size_t j = 0; j < p->ratio; j++) {
+        child.e = first * p->ratio + j;
+        collect(&p->fine, modes, &child, x);
+        make_modes(p->fine.scale, p->fine.layout, modes, x);
+        add_loss(modes, p->transfer + j * square, x, sum, loss);
+    }
+    for (int i = 0; i < modes; i++)
+        store(&sum[i], p->coarse + first * (size_t)modes + i * LANES);
+}
+
+/* All whole vectors of a rung; returns the number of their elements. */
+INLINE size_t project_whole(const struct br_projecting *p, enum br_layout layout, int modes,
+                            int ratio, vec *loss)
+{
+    size_t e = 0;
+    for (; e + LANES <= p->n; e += LANES)
+        project_vector(p, layout, modes, ratio, e, loss);
+    return e;
+}
+
+INLINE size_t project_ratio(const struct br_projecting *p, enum br_layout layout, int modes,
+                            vec *loss)
+{
+    switch (p->ratio) {
+    case 1:
+        return project_whole(p, layout, modes, 1, loss);
+    case 2:
+        return project_whole(p, layout, modes, 2, loss);
+    case 4:
+        return project_whole(p, layout, modes, 4, loss);
+    default:
+        return 0;
+    }
+}
+
+INLINE double total(int modes, const vec *x)
+{
+    vec sum = x[0];
+    for (int i = 1; i < modes; i++)
+        sum += x[i];
+    double lane[LANES];
+    store(&sum, lane);
+    for (int width = LANES / 2; width > 0; width /= 2)
+        for (int l = 0; l < width; l++)
+            lane[l] += lane[l + width];
+    return lane[0];
+}
+
+INLINE double project_modes(const struct br_projecting *p, int modes)
+{
+    vec loss[MOST] = {ALL(0.0)};
+    size_t e = 0;
+    switch (p->fine.layout) {
+    case BR_BY_ELEMENT:
+        if (p->ratio == 1)
+            e = project_whole(p, BR_BY_ELEMENT, modes, 1, loss);
+        break;
+    case BR_BY_NODE:
+        if (modes > 1)
+            e = project_ratio(p, BR_BY_NODE, modes, loss);
+        break;
+    case BR_IN_LANES:
+        e = project_ratio(p, BR_IN_LANES, modes, loss);
+    }
+    for (; e < p->n; e += LANES)
+        project_few(p, modes, e, p->n - e < LANES ? p->n - e : LANES, loss);
+    return total(modes, loss);
+}
+
+JOIN(BR_TARGET_, BR_SET)
+static double project(const struct br_projecting *p)
+{
+    switch (p->fine.modes) {
+    case 1:
+        return project_modes(p, 1);
+    case 2:
+        return project_modes(p, 2);
+    default:
+        return project_modes(p, 4);
+    }
+}
+
+/* sum += (x - b)^2 */
+INLINE void add_difference(int modes, const vec *x, const double *b, vec *sum)
+{
+    for (int i = 0; i < modes; i++) {
+        vec other;
+        load(b + i * LANES, &other);
+        const vec difference = x[i] - other;
+        sum[i] += difference * difference;
+    }
+}
+
+INLINE size_t distance_whole(const struct br_view *a, size_t n, const double *b,
+                             enum br_layout layout, int modes, vec *sum)
+{
+    size_t e = 0;
+    for (; e + LANES <= n; e += LANES) {
+        vec x[1][MOST];
+        fetch(a, layout, modes, 1, e, x);
+        make_modes(a->scale, layout, modes, x[0]);
+        add_difference(modes, x[0], b + e * (size_t)modes, sum);
+    }
+    return e;
+}
+
+INLINE double distance_modes(const struct br_view *a, size_t n, const double *b, int modes)
+{
+    vec sum[MOST] = {ALL(0.0)}, x[MOST] = {ALL(0.0)};
+    size_t e = 0;
+    switch (a->layout) {
+    case BR_BY_ELEMENT:
+        e = distance_whole(a, n, b, BR_BY_ELEMENT, modes, sum);
+        break;
+    case BR_BY_NODE:
+        if (modes > 1)
+            e = distance_whole(a, n, b, BR_BY_NODE, modes, sum);
+        break;
+    case BR_IN_LANES:
+        e = distance_whole(a, n, b, BR_IN_LANES, modes, sum);
+    }
+    if (e < n) {
+        const struct few rest = {e, 1, n - e};
+        collect(a, modes, &rest, x);
+        make_modes(a->scale, a->layout, modes, x);
+        add_difference(modes, x, b + e * (size_t)modes, sum);
+    }
+    return total(modes, sum);
+}
+
+JOIN(BR_TARGET_, BR_SET)
+static double distance(const struct br_view *a, size_t n, const double *b)
+{
+    switch (a->modes) {
+    case 1:
+        return distance_modes(a, n, b, 1);
+    case 2:
+        return distance_modes(a, n, b, 2);
+    default:
+        return distance_modes(a, n, b, 4);
+    }
+}
+
+const struct br_ladder_kernel JOIN(br_ladder_, BR_SET) = {
+    .name = NAME(BR_SET),
+    .lanes = LANES,
+    .available = JOIN(br_has_, BR_SET),
+    .project = project,
+    .distance = distance,
+};
