@@ -12,7 +12,7 @@ struct rung {
     size_t parent;    /* what it is projected from: a rung, or `count` + a root */
     size_t ratio;     /* parent's n over n */
     size_t offset;    /* of its modes in a projection, where they are in lanes */
-    double *transfer; /* E_j of each child j: modes^2 by rows */
+    double *transfer; /* as in ladder_kernel.h */
 };
 
 struct br_ladder {
@@ -59,13 +59,14 @@ static double transfer(const gsl_integration_glfixed_table *gauss, const struct 
 
 static enum br_status fill_transfers(struct rung *rung, size_t modes, struct br_error *err)
 {
-    rung->transfer = br_allocate_aligned(rung->ratio * modes * modes, sizeof *rung->transfer);
+    const size_t half = (rung->ratio + 1) / 2;
+    rung->transfer = br_allocate_aligned(half * modes * modes, sizeof *rung->transfer);
     gsl_integration_glfixed_table *gauss = gsl_integration_glfixed_table_alloc(BR_MOST_MODES);
     if (!rung->transfer || !gauss) {
         gsl_integration_glfixed_table_free(gauss);
         return br_no_memory(err, "the ladder of meshes");
     }
-    for (size_t j = 0; j < rung->ratio; j++)
+    for (size_t j = 0; j < half; j++)
         for (size_t i = 0; i < modes; i++)
             for (size_t m = i; m < modes; m++)
                 rung->transfer[(j * modes + i) * modes + m] = transfer(gauss, rung, j, i, m);

@@ -11,7 +11,8 @@
 struct br_projecting {
     struct br_view fine;    /* a function on ratio * n elements */
     size_t n, ratio;        /* elements of the rung; of its parent's, those in one of the rung */
-    const double *transfer; /* E_j of each child j: modes^2 by rows, zero below the diagonal */
+    const double *transfer; /* E_j of the first (ratio + 1)/2 children, modes^2 by rows each, zero
+                               below the diagonal; the others' are their mirror images */
     double *coarse;         /* out: modes in lanes (BR_IN_LANES) */
 };
 

@@ -162,22 +162,47 @@ INLINE void make_modes(const double *scale, enum br_layout layout, int modes, ve
         x[i] *= ALL(scale[i]);
 }
 
-/* sum += E' x */
-INLINE void add_child(int modes, const double *transfer, const vec *x, vec *sum)
+/* The children j and ratio - 1 - j are mirror images, and so are their transfers: those from even
+ * modes to odd ones and back differ in sign. Half of the work is saved by taking the sum s and the
+ * difference d of the two. */
+INLINE void mirror(int modes, vec *first, vec *last)
+{
+    for (int i = 0; i < modes; i++) {
+        const vec s = first[i] + last[i], d = first[i] - last[i];
+        first[i] = s;
+        last[i] = d;
+    }
+}
+
+/* sum += E' x, of two such children, or of the middle one with s = d = x */
+INLINE void add_children(int modes, const double *transfer, const vec *s, const vec *d, vec *sum)
 {
     for (int i = 0; i < modes; i++)
         for (int m = i; m < modes; m++)
-            sum[m] += ALL(transfer[i * modes + m]) * x[i];
+            sum[m] += ALL(transfer[i * modes + m]) * ((m - i) % 2 ? d[i] : s[i]);
 }
 
-/* loss += (x - E sum)^2 */
+/* loss += 2 (x - E sum)^2, of both together */
+INLINE void add_losses(int modes, const double *transfer, const vec *s, const vec *d,
+                       const vec *sum, vec *loss)
+{
+    for (int i = 0; i < modes; i++) {
+        vec rest[2] = {s[i], d[i]};
+        for (int m = i; m < modes; m++)
+            rest[(m - i) % 2] -= ALL(2 * transfer[i * modes + m]) * sum[m];
+        loss[i] += rest[0] * rest[0];
+        loss[i] += rest[1] * rest[1];
+    }
+}
+
+/* The same for the middle child. */
 INLINE void add_loss(int modes, const double *transfer, const vec *x, const vec *sum, vec *loss)
 {
     for (int i = 0; i < modes; i++) {
         vec rest = x[i];
         for (int m = i; m < modes; m++)
             rest -= ALL(transfer[i * modes + m]) * sum[m];
-        loss[i] += rest * rest;
+        loss[i] += (rest + rest) * rest;
     }
 }
 
@@ -185,43 +210,60 @@ INLINE void add_loss(int modes, const double *transfer, const vec *x, const vec 
 INLINE void project_vector(const struct br_projecting *p, enum br_layout layout, int modes,
                            int ratio, size_t first, vec *loss)
 {
+    const int square = modes * modes;
     vec x[MOST_RATIO][MOST], sum[MOST];
     fetch(&p->fine, layout, modes, ratio, first, x);
-    for (int i = 0; i < modes; i++)
-        sum[i] = ALL(0.0);
-    for (int j = 0; j < ratio; j++) {
-        make_modes(p->fine.scale, layout, modes, x[j]);
-        add_child(modes, p->transfer + j * modes * modes, x[j], sum);
-    }
     for (int j = 0; j < ratio; j++)
-        add_loss(modes, p->transfer + j * modes * modes, x[j], sum, loss);
+        make_modes(p->fine.scale, layout, modes, x[j]);
+    for (int i = 0; i < modes; i++)
+        sum[i] = ratio == 1 ? x[0][i] : ALL(0.0);
+    for (int j = 0; j < ratio / 2; j++) {
+        mirror(modes, x[j], x[ratio - 1 - j]);
+        add_children(modes, p->transfer + j * square, x[j], x[ratio - 1 - j], sum);
+    }
+    for (int j = 0; j < ratio / 2; j++)
+        add_losses(modes, p->transfer + j * square, x[j], x[ratio - 1 - j], sum, loss);
     for (int i = 0; i < modes; i++)
         store(&sum[i], p->coarse + first * (size_t)modes + i * LANES);
 }
 
-/* `live` of them with any ratio. */
-INLINE void project_few(const struct br_projecting *p, int modes, size_t first, size_t live,
-                        vec *loss)
+/* The children j and ratio - 1 - j of few elements, or the middle one. */
+INLINE void collect_children(const struct br_projecting *p, int modes, const struct few *few,
+                             size_t j, vec x[2][MOST])
+{
+    for (int last = 0; last < 2; last++) {
+        const struct few children = {
+            .e = few->e * p->ratio + (last ? p->ratio - 1 - j : j),
+            .stride = p->ratio,
+            .live = few->live,
+        };
+        collect(&p->fine, modes, &children, x[last]);
+        make_modes(p->fine.scale, p->fine.layout, modes, x[last]);
+    }
+    if (2 * j + 1 < p->ratio)
+        mirror(modes, x[0], x[1]);
+}
+
+/* Few elements, with any ratio. */
+INLINE void project_few(const struct br_projecting *p, int modes, const struct few *few, vec *loss)
 {
     const size_t square = (size_t)(modes * modes);
-    struct few child = {0, p->ratio, live};
-    vec x[MOST] = {ALL(0.0)}, sum[MOST];
+    vec x[2][MOST] = {{ALL(0.0)}}, sum[MOST];
     for (int i = 0; i < modes; i++)
         sum[i] = ALL(0.0);
-    for (size_t j = 0; j < p->ratio; j++) {
-        child.e = first * p->ratio + j;
-        collect(&p->fine, modes, &child, x);
-        make_modes(p->fine.scale, p->fine.layout, modes, x);
-        add_child(modes, p->transfer + j * square, x, sum);
+    for (size_t j = 0; 2 * j < p->ratio; j++) {
+        collect_children(p, modes, few, j, x);
+        add_children(modes, p->transfer + j * square, x[0], x[1], sum);
     }
-    for (size_t j = 0; j < p->ratio; j++) {
-        child.e = first * p->ratio + j;
-        collect(&p->fine, modes, &child, x);
-        make_modes(p->fine.scale, p->fine.layout, modes, x);
-        add_loss(modes, p->transfer + j * square, x, sum, loss);
+    for (size_t j = 0; 2 * j < p->ratio; j++) {
+        collect_children(p, modes, few, j, x);
+        if (2 * j + 1 < p->ratio)
+            add_losses(modes, p->transfer + j * square, x[0], x[1], sum, loss);
+        else
+            add_loss(modes, p->transfer + j * square, x[0], sum, loss);
     }
     for (int i = 0; i < modes; i++)
-        store(&sum[i], p->coarse + first * (size_t)modes + i * LANES);
+        store(&sum[i], p->coarse + few->e * (size_t)modes + i * LANES);
 }
 
 /* All whole vectors of a rung; returns the number of their elements. */
@@ -278,9 +320,11 @@ INLINE double project_modes(const struct br_projecting *p, int modes)
     case BR_IN_LANES:
         e = project_ratio(p, BR_IN_LANES, modes, loss);
     }
-    for (; e < p->n; e += LANES)
-        project_few(p, modes, e, p->n - e < LANES ? p->n - e : LANES, loss);
-    return total(modes, loss);
+    for (; e < p->n; e += LANES) {
+        const struct few few = {e, 1, p->n - e < LANES ? p->n - e : LANES};
+        project_few(p, modes, &few, loss);
+    }
+    return total(modes, loss) / 2;
 }
 
 JOIN(BR_TARGET_, BR_SET)
