@@ -112,34 +112,27 @@ INLINE void fetch(const struct br_view *v, enum br_layout layout, int modes, int
     }
 }
 
-/* Where value i of element e stands. */
-static inline size_t place_of(const struct br_view *v, size_t e, size_t i)
-{
-    switch (v->layout) {
-    case BR_BY_NODE:
-        return e * (v->modes / 2) + i;
-    case BR_IN_LANES:
-        return (e / LANES * v->modes + i) * LANES + e % LANES;
-    case BR_BY_ELEMENT:
-        break;
-    }
-    return e * v->modes + i;
-}
-
 /* Elements that are collected one by one: e, e + stride, ..., `live` of them. */
 struct few {
     size_t e, stride, live;
 };
 
 /* Their values; zeros in the other lanes. */
-INLINE void collect(const struct br_view *v, int modes, const struct few *few, vec *value)
+INLINE void collect(const struct br_view *v, enum br_layout layout, int modes,
+                    const struct few *few, vec *value)
 {
-    for (int i = 0; i < modes; i++) {
-        double lane[LANES] = {0};
-        for (size_t l = 0; l < few->live; l++)
-            lane[l] = v->values[place_of(v, few->e + l * few->stride, (size_t)i)];
-        load(lane, &value[i]);
+    const size_t width = (size_t)(layout == BR_BY_NODE ? modes / 2 : modes);
+    double row[MOST][LANES] = {0};
+    for (size_t l = 0; l < few->live; l++) {
+        const size_t e = few->e + l * few->stride;
+        const double *from = v->values + e * width;
+        if (layout == BR_IN_LANES)
+            from = v->values + e / LANES * LANES * width + e % LANES;
+        for (int i = 0; i < modes; i++)
+            row[i][l] = from[layout == BR_IN_LANES ? i * LANES : i];
     }
+    for (int i = 0; i < modes; i++)
+        load(row[i], &value[i]);
 }
 
 /* Values -> modes, in place (solver/modes.h). */
@@ -182,14 +175,14 @@ INLINE void add_children(int modes, const double *transfer, const vec *s, const 
             sum[m] += ALL(transfer[i * modes + m]) * ((m - i) % 2 ? d[i] : s[i]);
 }
 
-/* loss += 2 (x - E sum)^2, of both together */
+/* loss += 2 (x - E sum)^2, of both together; twice the sum is given */
 INLINE void add_losses(int modes, const double *transfer, const vec *s, const vec *d,
-                       const vec *sum, vec *loss)
+                       const vec *twice, vec *loss)
 {
     for (int i = 0; i < modes; i++) {
         vec rest[2] = {s[i], d[i]};
         for (int m = i; m < modes; m++)
-            rest[(m - i) % 2] -= ALL(2 * transfer[i * modes + m]) * sum[m];
+            rest[(m - i) % 2] -= ALL(transfer[i * modes + m]) * twice[m];
         loss[i] += rest[0] * rest[0];
         loss[i] += rest[1] * rest[1];
     }
@@ -211,7 +204,7 @@ INLINE void project_vector(const struct br_projecting *p, enum br_layout layout,
                            int ratio, size_t first, vec *loss)
 {
     const int square = modes * modes;
-    vec x[MOST_RATIO][MOST], sum[MOST];
+    vec x[MOST_RATIO][MOST], sum[MOST], twice[MOST];
     fetch(&p->fine, layout, modes, ratio, first, x);
     for (int j = 0; j < ratio; j++)
         make_modes(p->fine.scale, layout, modes, x[j]);
@@ -221,15 +214,17 @@ INLINE void project_vector(const struct br_projecting *p, enum br_layout layout,
         mirror(modes, x[j], x[ratio - 1 - j]);
         add_children(modes, p->transfer + j * square, x[j], x[ratio - 1 - j], sum);
     }
+    for (int i = 0; i < modes; i++)
+        twice[i] = sum[i] + sum[i];
     for (int j = 0; j < ratio / 2; j++)
-        add_losses(modes, p->transfer + j * square, x[j], x[ratio - 1 - j], sum, loss);
+        add_losses(modes, p->transfer + j * square, x[j], x[ratio - 1 - j], twice, loss);
     for (int i = 0; i < modes; i++)
         store(&sum[i], p->coarse + first * (size_t)modes + i * LANES);
 }
 
 /* The children j and ratio - 1 - j of few elements, or the middle one. */
-INLINE void collect_children(const struct br_projecting *p, int modes, const struct few *few,
-                             size_t j, vec x[2][MOST])
+INLINE void collect_children(const struct br_projecting *p, enum br_layout layout, int modes,
+                             const struct few *few, size_t j, vec x[2][MOST])
 {
     for (int last = 0; last < 2; last++) {
         const struct few children = {
@@ -237,28 +232,31 @@ INLINE void collect_children(const struct br_projecting *p, int modes, const str
             .stride = p->ratio,
             .live = few->live,
         };
-        collect(&p->fine, modes, &children, x[last]);
-        make_modes(p->fine.scale, p->fine.layout, modes, x[last]);
+        collect(&p->fine, layout, modes, &children, x[last]);
+        make_modes(p->fine.scale, layout, modes, x[last]);
     }
     if (2 * j + 1 < p->ratio)
         mirror(modes, x[0], x[1]);
 }
 
 /* Few elements, with any ratio. */
-INLINE void project_few(const struct br_projecting *p, int modes, const struct few *few, vec *loss)
+INLINE void project_few(const struct br_projecting *p, enum br_layout layout, int modes,
+                        const struct few *few, vec *loss)
 {
     const size_t square = (size_t)(modes * modes);
-    vec x[2][MOST] = {{ALL(0.0)}}, sum[MOST];
+    vec x[2][MOST] = {{ALL(0.0)}}, sum[MOST], twice[MOST];
     for (int i = 0; i < modes; i++)
         sum[i] = ALL(0.0);
     for (size_t j = 0; 2 * j < p->ratio; j++) {
-        collect_children(p, modes, few, j, x);
+        collect_children(p, layout, modes, few, j, x);
         add_children(modes, p->transfer + j * square, x[0], x[1], sum);
     }
+    for (int i = 0; i < modes; i++)
+        twice[i] = sum[i] + sum[i];
     for (size_t j = 0; 2 * j < p->ratio; j++) {
-        collect_children(p, modes, few, j, x);
+        collect_children(p, layout, modes, few, j, x);
         if (2 * j + 1 < p->ratio)
-            add_losses(modes, p->transfer + j * square, x[0], x[1], sum, loss);
+            add_losses(modes, p->transfer + j * square, x[0], x[1], twice, loss);
         else
             add_loss(modes, p->transfer + j * square, x[0], sum, loss);
     }
@@ -266,29 +264,34 @@ INLINE void project_few(const struct br_projecting *p, int modes, const struct f
         store(&sum[i], p->coarse + few->e * (size_t)modes + i * LANES);
 }
 
-/* All whole vectors of a rung; returns the number of their elements. */
-INLINE size_t project_whole(const struct br_projecting *p, enum br_layout layout, int modes,
-                            int ratio, vec *loss)
+/* All whole vectors of a rung. */
+INLINE void project_whole(const struct br_projecting *p, enum br_layout layout, int modes,
+                          int ratio, vec *loss)
 {
-    size_t e = 0;
-    for (; e + LANES <= p->n; e += LANES)
-        project_vector(p, layout, modes, ratio, e, loss);
-    return e;
+    double transfer[MOST_RATIO / 2 * MOST * MOST]; /* no store can change what is local */
+    struct br_projecting local = *p;
+    for (int i = 0; i < ratio / 2 * modes * modes; i++)
+        transfer[i] = p->transfer[i];
+    local.transfer = transfer;
+    for (size_t e = 0; e + LANES <= p->n; e += LANES)
+        project_vector(&local, layout, modes, ratio, e, loss);
 }
 
-INLINE size_t project_ratio(const struct br_projecting *p, enum br_layout layout, int modes,
-                            vec *loss)
+INLINE void project_layout(const struct br_projecting *p, enum br_layout layout, int modes,
+                           vec *loss)
 {
-    switch (p->ratio) {
-    case 1:
-        return project_whole(p, layout, modes, 1, loss);
-    case 2:
-        return project_whole(p, layout, modes, 2, loss);
-    case 4:
-        return project_whole(p, layout, modes, 4, loss);
-    default:
-        return 0;
-    }
+    if (p->ratio == 1)
+        project_whole(p, layout, modes, 1, loss);
+    else if (p->ratio == 2 && layout != BR_BY_ELEMENT)
+        project_whole(p, layout, modes, 2, loss);
+    else if (p->ratio == 4 && layout != BR_BY_ELEMENT)
+        project_whole(p, layout, modes, 4, loss);
+    else
+        for (size_t e = 0; e + LANES <= p->n; e += LANES)
+            project_few(p, layout, modes, &(struct few){e, 1, LANES}, loss);
+    const size_t rest = p->n % LANES;
+    if (rest)
+        project_few(p, layout, modes, &(struct few){p->n - rest, 1, rest}, loss);
 }
 
 INLINE double total(int modes, const vec *x)
@@ -307,23 +310,12 @@ INLINE double total(int modes, const vec *x)
 INLINE double project_modes(const struct br_projecting *p, int modes)
 {
     vec loss[MOST] = {ALL(0.0)};
-    size_t e = 0;
-    switch (p->fine.layout) {
-    case BR_BY_ELEMENT:
-        if (p->ratio == 1)
-            e = project_whole(p, BR_BY_ELEMENT, modes, 1, loss);
-        break;
-    case BR_BY_NODE:
-        if (modes > 1)
-            e = project_ratio(p, BR_BY_NODE, modes, loss);
-        break;
-    case BR_IN_LANES:
-        e = project_ratio(p, BR_IN_LANES, modes, loss);
-    }
-    for (; e < p->n; e += LANES) {
-        const struct few few = {e, 1, p->n - e < LANES ? p->n - e : LANES};
-        project_few(p, modes, &few, loss);
-    }
+    if (p->fine.layout == BR_BY_ELEMENT)
+        project_layout(p, BR_BY_ELEMENT, modes, loss);
+    else if (p->fine.layout == BR_IN_LANES)
+        project_layout(p, BR_IN_LANES, modes, loss);
+    else if (modes > 1)
+        project_layout(p, BR_BY_NODE, modes, loss);
     return total(modes, loss) / 2;
 }
 
@@ -351,40 +343,32 @@ INLINE void add_difference(int modes, const vec *x, const double *b, vec *sum)
     }
 }
 
-INLINE size_t distance_whole(const struct br_view *a, size_t n, const double *b,
-                             enum br_layout layout, int modes, vec *sum)
+INLINE void distance_layout(const struct br_view *a, size_t n, const double *b,
+                            enum br_layout layout, int modes, vec *sum)
 {
     size_t e = 0;
+    vec x[1][MOST] = {{ALL(0.0)}};
     for (; e + LANES <= n; e += LANES) {
-        vec x[1][MOST];
         fetch(a, layout, modes, 1, e, x);
         make_modes(a->scale, layout, modes, x[0]);
         add_difference(modes, x[0], b + e * (size_t)modes, sum);
     }
-    return e;
+    if (e < n) {
+        collect(a, layout, modes, &(struct few){e, 1, n - e}, x[0]);
+        make_modes(a->scale, layout, modes, x[0]);
+        add_difference(modes, x[0], b + e * (size_t)modes, sum);
+    }
 }
 
 INLINE double distance_modes(const struct br_view *a, size_t n, const double *b, int modes)
 {
-    vec sum[MOST] = {ALL(0.0)}, x[MOST] = {ALL(0.0)};
-    size_t e = 0;
-    switch (a->layout) {
-    case BR_BY_ELEMENT:
-        e = distance_whole(a, n, b, BR_BY_ELEMENT, modes, sum);
-        break;
-    case BR_BY_NODE:
-        if (modes > 1)
-            e = distance_whole(a, n, b, BR_BY_NODE, modes, sum);
-        break;
-    case BR_IN_LANES:
-        e = distance_whole(a, n, b, BR_IN_LANES, modes, sum);
-    }
-    if (e < n) {
-        const struct few rest = {e, 1, n - e};
-        collect(a, modes, &rest, x);
-        make_modes(a->scale, a->layout, modes, x);
-        add_difference(modes, x, b + e * (size_t)modes, sum);
-    }
+    vec sum[MOST] = {ALL(0.0)};
+    if (a->layout == BR_BY_ELEMENT)
+        distance_layout(a, n, b, BR_BY_ELEMENT, modes, sum);
+    else if (a->layout == BR_IN_LANES)
+        distance_layout(a, n, b, BR_IN_LANES, modes, sum);
+    else if (modes > 1)
+        distance_layout(a, n, b, BR_BY_NODE, modes, sum);
     return total(modes, sum);
 }
 
