@@ -24,16 +24,20 @@ typedef double vec __attribute__((vector_size(8 * LANES)));
 /* x in all lanes. */
 #define ALL(x) ((x) - (vec){0})
 
-/* Every other one of the values of a and b; those of a from the second on, and b's first. */
+/* f of each lane; every other one of the values of a and b; those of a from the second on, and b's
+ * first. */
 #if LANES == 8
+#define EACH(f) f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7)
 #define EVEN(a, b) SHUFFLE(a, b, 0, 2, 4, 6, 8, 10, 12, 14)
 #define ODD(a, b) SHUFFLE(a, b, 1, 3, 5, 7, 9, 11, 13, 15)
 #define SHIFT(a, b) SHUFFLE(a, b, 1, 2, 3, 4, 5, 6, 7, 8)
 #elif LANES == 4
+#define EACH(f) f(0), f(1), f(2), f(3)
 #define EVEN(a, b) SHUFFLE(a, b, 0, 2, 4, 6)
 #define ODD(a, b) SHUFFLE(a, b, 1, 3, 5, 7)
 #define SHIFT(a, b) SHUFFLE(a, b, 1, 2, 3, 4)
 #else
+#define EACH(f) f(0), f(1)
 #define EVEN(a, b) SHUFFLE(a, b, 0, 2)
 #define ODD(a, b) SHUFFLE(a, b, 1, 3)
 #define SHIFT(a, b) SHUFFLE(a, b, 1, 2)
@@ -121,18 +125,21 @@ struct few {
 INLINE void collect(const struct br_view *v, enum br_layout layout, int modes,
                     const struct few *few, vec *value)
 {
+    static const double zeros[MOST * LANES];
     const size_t width = (size_t)(layout == BR_BY_NODE ? modes / 2 : modes);
-    double row[MOST][LANES] = {0};
-    for (size_t l = 0; l < few->live; l++) {
+    const int step = layout == BR_IN_LANES ? LANES : 1;
+    const double *from[LANES];
+    for (size_t l = 0; l < LANES; l++) {
         const size_t e = few->e + l * few->stride;
-        const double *from = v->values + e * width;
-        if (layout == BR_IN_LANES)
-            from = v->values + e / LANES * LANES * width + e % LANES;
-        for (int i = 0; i < modes; i++)
-            row[i][l] = from[layout == BR_IN_LANES ? i * LANES : i];
+        from[l] = layout == BR_IN_LANES ? v->values + e / LANES * LANES * width + e % LANES
+                                        : v->values + e * width;
+        if (l >= few->live)
+            from[l] = zeros;
     }
+#define AT(l) from[l][i * step]
     for (int i = 0; i < modes; i++)
-        load(row[i], &value[i]);
+        value[i] = (vec){EACH(AT)};
+#undef AT
 }
 
 /* Values -> modes, in place (solver/modes.h). */
@@ -222,11 +229,12 @@ INLINE void project_vector(const struct br_projecting *p, enum br_layout layout,
         store(&sum[i], p->coarse + first * (size_t)modes + i * LANES);
 }
 
-/* The children j and ratio - 1 - j of few elements, or the middle one. */
+/* The children j and ratio - 1 - j of few elements, mirrored, or twice the middle one. */
 INLINE void collect_children(const struct br_projecting *p, enum br_layout layout, int modes,
                              const struct few *few, size_t j, vec x[2][MOST])
 {
-    for (int last = 0; last < 2; last++) {
+    const bool middle = 2 * j + 1 == p->ratio;
+    for (int last = 0; last < (middle ? 1 : 2); last++) {
         const struct few children = {
             .e = few->e * p->ratio + (last ? p->ratio - 1 - j : j),
             .stride = p->ratio,
@@ -235,26 +243,34 @@ INLINE void collect_children(const struct br_projecting *p, enum br_layout layou
         collect(&p->fine, layout, modes, &children, x[last]);
         make_modes(p->fine.scale, layout, modes, x[last]);
     }
-    if (2 * j + 1 < p->ratio)
+    if (!middle) {
         mirror(modes, x[0], x[1]);
+        return;
+    }
+    for (int i = 0; i < modes; i++)
+        x[1][i] = x[0][i];
 }
 
-/* Few elements, with any ratio. */
+/* Few elements, with any ratio. Of very many children only the last ones are kept. */
 INLINE void project_few(const struct br_projecting *p, enum br_layout layout, int modes,
                         const struct few *few, vec *loss)
 {
     const size_t square = (size_t)(modes * modes);
-    vec x[2][MOST] = {{ALL(0.0)}}, sum[MOST], twice[MOST];
+    enum { KEPT = 8 };
+    vec kept[KEPT][2][MOST], sum[MOST], twice[MOST];
     for (int i = 0; i < modes; i++)
         sum[i] = ALL(0.0);
     for (size_t j = 0; 2 * j < p->ratio; j++) {
+        vec(*x)[MOST] = kept[j % KEPT];
         collect_children(p, layout, modes, few, j, x);
         add_children(modes, p->transfer + j * square, x[0], x[1], sum);
     }
     for (int i = 0; i < modes; i++)
         twice[i] = sum[i] + sum[i];
     for (size_t j = 0; 2 * j < p->ratio; j++) {
-        collect_children(p, layout, modes, few, j, x);
+        vec(*x)[MOST] = kept[j % KEPT];
+        if (p->ratio > 2 * KEPT)
+            collect_children(p, layout, modes, few, j, x);
         if (2 * j + 1 < p->ratio)
             add_losses(modes, p->transfer + j * square, x[0], x[1], twice, loss);
         else
