@@ -8,7 +8,6 @@
 
 struct fine {
     struct br_march *march;
-    double *nodal; /* workspace */
     double seconds;
 };
 
@@ -18,7 +17,6 @@ static void fine_free(void *self)
     if (!f)
         return;
     br_march_free(f->march);
-    free(f->nodal);
     free(f);
 }
 
@@ -28,9 +26,6 @@ static enum br_status fine_create(void **self, const struct br_judge_request *r,
     struct fine *f = br_allocate(1, sizeof *f);
     *self = f;
     if (!f)
-        return br_no_memory(err, "the reference");
-    f->nodal = br_allocate(2 * (r->n + 1), sizeof *f->nodal);
-    if (!f->nodal)
         return br_no_memory(err, "the reference");
     const double start = br_seconds();
     const enum br_status status =
@@ -51,11 +46,10 @@ static enum br_status fine_advance(void *self, size_t i, struct br_error *err)
 }
 
 /* Its own mesh is the only one. */
-static void fine_look(void *self, const struct br_look_at *at, double *values, double *rest)
+static void fine_look(void *self, const struct br_look_at *at, struct br_view *view)
 {
-    struct fine *f = self;
-    br_look(f->march, at->kind, at->measure, f->nodal, values);
-    *rest = 0;
+    const struct fine *f = self;
+    br_look(f->march, at->kind, at->measure, view);
 }
 
 static struct br_judge_report fine_report(const void *self)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What cells are judged by: a registry. A judge knows the solution at the time
  * levels t_i = i T / levels and gives it in the measures of solver/modes.h that it was
- * asked for: element by element in orthonormal Legendre modes on its meshes. */
+ * asked for, on its meshes. */
 #ifndef BR_JUDGE_H
 #define BR_JUDGE_H
 
@@ -54,9 +54,9 @@ struct br_judge {
     /* Goes on to time level i, never back. */
     enum br_status (*advance)(void *self, size_t i, struct br_error *err);
 
-    /* A measure of the solution there, on the mesh of that index: its br_measure_size
-     * values (out), and the square of the L2 norm of what those leave out (out). */
-    void (*look)(void *self, const struct br_look_at *at, double *values, double *rest);
+    /* A measure of the solution there, on the mesh of that index. view: out, and the values where
+     * its values point to; the tip has one, in m. */
+    void (*look)(void *self, const struct br_look_at *at, struct br_view *view);
 
     struct br_judge_report (*report)(const void *self);
 

@@ -2,25 +2,22 @@
 #include "solver/look.h"
 
 void br_look(const struct br_march *march, enum br_field_kind kind, enum br_measure measure,
-             double *work, double *values)
+             struct br_view *view)
 {
-    const struct br_field *field = br_march_field(march, kind);
+    br_view_field(view, br_march_field(march, kind), measure);
     switch (measure) {
     case BR_DISPLACEMENT:
-        br_march_get(march, kind, work, NULL);
-        br_modes(field, work, values);
+        br_march_get(march, kind, view->values, NULL);
         return;
     case BR_VELOCITY:
-        br_march_get(march, kind, NULL, work);
-        br_modes(field, work, values);
+        br_march_get(march, kind, NULL, view->values);
         return;
     case BR_STRAIN_RATE:
-        br_march_strain_rate(march, kind, work);
-        br_strain_modes(field, work, values);
+        br_march_strain_rate(march, kind, view->values);
         return;
     case BR_TIP:
     case BR_MEASURES:
         break;
     }
-    *values = br_march_tip_displacement(march, kind);
+    *view->values = br_march_tip_displacement(march, kind);
 }

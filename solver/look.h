@@ -6,8 +6,8 @@
 #include "solver/march.h"
 #include "solver/modes.h"
 
-/* values (out): br_measure_size of them; work: br_field_size doubles. */
+/* view: out, with br_measure_size values where its values point to; the tip has one, in m. */
 void br_look(const struct br_march *march, enum br_field_kind kind, enum br_measure measure,
-             double *work, double *values);
+             struct br_view *view);
 
 #endif

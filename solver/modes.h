@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What errors are measured in, and a finite element function in Legendre polynomials
- * that are orthonormal on each element: the squared L2 norm is the sum of the squared
- * modes. */
+ * that are orthonormal on each element, its modes: the squared L2 norm is the sum of the
+ * squared modes. */
 #ifndef BR_MODES_H
 #define BR_MODES_H
 
@@ -22,12 +22,35 @@ size_t br_mode_count(enum br_field_kind kind, enum br_measure measure);
 /* Values that make up a measure on a mesh of n elements: all modes, or 1 for the tip. */
 size_t br_measure_size(enum br_field_kind kind, enum br_measure measure, size_t n);
 
-/* Modes of a displacement or velocity (out, n * br_mode_count values) from its nodal
- * values (in, laid out as in solver/field.h). */
-void br_modes(const struct br_field *field, const double *nodal, double *modes);
+enum { BR_MOST_MODES = 4, BR_MOST_LANES = 8 };
 
-/* Modes of a strain rate (out) from the elements' scaled strains (in, m/s, as
- * br_field_solver's strain_rate gives them). */
-void br_strain_modes(const struct br_field *field, const double *strain, double *modes);
+/* How modes follow from values. */
+enum br_layout {
+    /* value[e * modes + i] * scale[i] is mode i of element e */
+    BR_BY_ELEMENT,
+    /* Nodal values as in solver/field.h. Two modes, u: scale times (u0 + u1, u1 - u0). Four modes,
+     * (w, s): scale times (W - C/6, D - S/12, C, S - 2 D) with
+     * W = w0 + w1, D = w1 - w0, S = s0 + s1, C = s1 - s0. */
+    BR_BY_NODE,
+    /* Some elements side by side, for vectors: mode i of element e is
+     * value[(e / lanes * modes + i) * lanes + e % lanes]; after the last element come zeros. */
+    BR_IN_LANES,
+};
+
+/* A function on a mesh as somebody happens to have it. */
+struct br_view {
+    enum br_layout layout;
+    size_t modes;                /* an element: 1, 2 or 4; 0 for the tip's one value */
+    double scale[BR_MOST_MODES]; /* 1 in lanes */
+    double rest;                 /* the square of the L2 norm of what the modes leave out */
+    double *values;              /* room for br_measure_size of them, which is enough for nodes */
+};
+
+/* The view (out, but its values) of a measure of a field by its march: displacements and velocities
+ * by node; strain rates by element as br_field_solver's strain_rate gives them, m/s. */
+void br_view_field(struct br_view *view, const struct br_field *field, enum br_measure measure);
+
+/* The view (out, but its values) by elements, modes as they are. */
+void br_view_modes(struct br_view *view, size_t modes);
 
 #endif

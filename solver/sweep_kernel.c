@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Compiled once for each instruction set, as BR_KERNEL with vectors of BR_WIDTH doubles
- * (solver/meson.build), and contracted. Two vectors side by side hide the latency of the
- * recursions. */
+/* Compiled once for each instruction set, BR_SET (instruction_set.h), and contracted. Two vectors
+ * side by side hide the latency of the recursions. */
 #include "solver/sweep_kernel.h"
 
 #include <string.h>
 
-enum { VECTORS = 2, GO = VECTORS * BR_WIDTH };
+#define JOINED_(a, b) a##b
+#define JOINED(a, b) JOINED_(a, b)
+#define NAME_OF(set) #set
+#define STRING_OF(set) NAME_OF(set)
 
-typedef double vec __attribute__((vector_size(8 * BR_WIDTH)));
+enum { WIDTH = JOINED(BR_WIDTH_, BR_SET), VECTORS = 2, GO = VECTORS * WIDTH };
+
+typedef double vec __attribute__((vector_size(8 * WIDTH)));
 
 #define INLINE static inline __attribute__((always_inline))
 
@@ -18,13 +22,13 @@ static const double half = 0.5, lever = 0.28867513459481288225;
 INLINE vec load(const double *from)
 {
     vec v;
-    memcpy(&v, __builtin_assume_aligned(from, 8 * BR_WIDTH), sizeof v);
+    memcpy(&v, __builtin_assume_aligned(from, 8 * WIDTH), sizeof v);
     return v;
 }
 
 INLINE void store(vec v, double *to)
 {
-    memcpy(__builtin_assume_aligned(to, 8 * BR_WIDTH), &v, sizeof v);
+    memcpy(__builtin_assume_aligned(to, 8 * WIDTH), &v, sizeof v);
 }
 
 INLINE void load_all(int d, const double *from, vec *to)
@@ -149,7 +153,7 @@ INLINE void piece_left(int d, bool loaded, const struct br_strip *s, const struc
     for (size_t e = s->length; e-- > 0;)
 #pragma GCC unroll 2
         for (int v = 0; v < VECTORS; v++) {
-            const double *state = at->state + e * 2 * entry + v * BR_WIDTH;
+            const double *state = at->state + e * 2 * entry + v * WIDTH;
             vec w[2], rate[2], g[2], sum[2], f[2];
             load_all(d, state, w);
             load_all(d, state + entry, rate);
@@ -157,12 +161,12 @@ INLINE void piece_left(int d, bool loaded, const struct br_strip *s, const struc
             for (int i = 0; i < d; i++)
                 f[i] = minus_f[i];
             if (loaded) {
-                load_all(d, at->load + e * entry + v * BR_WIDTH, f);
+                load_all(d, at->load + e * entry + v * WIDTH, f);
                 for (int i = 0; i < d; i++)
                     f[i] *= -factor;
             }
             element_left(d, s->gain + e * (size_t)(3 * d * d), g, f, p[v], sum);
-            store_all(d, sum, s->scratch + e * entry + v * BR_WIDTH);
+            store_all(d, sum, s->scratch + e * entry + v * WIDTH);
         }
 }
 
@@ -187,13 +191,13 @@ INLINE void piece_right(int d, const struct br_strip *s, const struct piece *at,
         for (int v = 0; v < VECTORS; v++) {
             const double *gain = s->gain + e * (size_t)(3 * d * d);
             const double *weight = s->weight + e * (size_t)(2 * d * d);
-            double *state = at->state + e * 2 * entry + v * BR_WIDTH;
+            double *state = at->state + e * 2 * entry + v * WIDTH;
             vec w[2], rate[2], g[2], sum[2], kappa[2];
-            load_all(d, s->scratch + e * entry + v * BR_WIDTH, sum);
+            load_all(d, s->scratch + e * entry + v * WIDTH, sum);
             load_all(d, state, w);
             load_all(d, state + entry, rate);
             for (int i = 0; i < 2 * d; i++)
-                __builtin_prefetch(next + v * BR_WIDTH + i * BR_LANES);
+                __builtin_prefetch(next + v * WIDTH + i * BR_LANES);
             element_right(d, gain, sum, go[v].y, kappa);
             element_state(d, s->k, kappa, w, rate);
             store_all(d, w, state);
@@ -207,8 +211,8 @@ INLINE void piece_right(int d, const struct br_strip *s, const struct piece *at,
         }
     }
     for (int v = 0; v < VECTORS; v++) {
-        store_all(d, z[v], at->end + BR_END_Z * entry + v * BR_WIDTH);
-        store_all(d, q[v], at->end + BR_END_Q * entry + v * BR_WIDTH);
+        store_all(d, z[v], at->end + BR_END_Z * entry + v * WIDTH);
+        store_all(d, q[v], at->end + BR_END_Q * entry + v * WIDTH);
     }
 }
 
@@ -259,7 +263,7 @@ INLINE void gather_of(int d, const struct br_strip *s, double factor, size_t lan
 INLINE void add_lanewise(int d, const struct br_strip *s, int which, const double *x, double *sum)
 {
     const double *a = s->span_join + which * d * d * BR_LANES;
-    for (int lane = 0; lane < BR_LANES; lane += BR_WIDTH)
+    for (int lane = 0; lane < BR_LANES; lane += WIDTH)
         for (int i = 0; i < d; i++) {
             vec total = load(sum + i * BR_LANES + lane);
             for (int j = 0; j < d; j++)
@@ -355,8 +359,8 @@ INLINE void advance_of(int d, bool loaded, const struct br_strip *strip,
         struct along go[VECTORS];
         vec y[VECTORS][2], right[VECTORS][2];
         for (int v = 0; v < VECTORS; v++) {
-            start(d, lane + v * BR_WIDTH, ends->left, &go[v]);
-            load_all(d, ends->right + lane + v * BR_WIDTH, right[v]);
+            start(d, lane + (size_t)(v * WIDTH), ends->left, &go[v]);
+            load_all(d, ends->right + lane + v * WIDTH, right[v]);
             for (int i = 0; i < d; i++)
                 y[v][i] = go[v].y[i];
         }
@@ -368,15 +372,15 @@ INLINE void advance_of(int d, bool loaded, const struct br_strip *strip,
             for (int v = 0; v < VECTORS; v++) {
                 for (int i = 0; i < d; i++)
                     go[v].y[i] = y[v][i]; /* as the joins have it */
-                cross(d, join_of(d, &s, j), at.end + v * BR_WIDTH, right[v], y[v], p[v]);
+                cross(d, join_of(d, &s, j), at.end + v * WIDTH, right[v], y[v], p[v]);
             }
             piece_left(d, loaded, &s, &at, minus_f, factor, p);
             piece_right(d, &s, &at, go);
         }
         for (int v = 0; v < VECTORS; v++) {
-            store_all(d, go[v].velocity, ends->velocity + lane + v * BR_WIDTH);
+            store_all(d, go[v].velocity, ends->velocity + lane + v * WIDTH);
             if (d == 1)
-                store(go[v].displacement, ends->displacement + lane + v * BR_WIDTH);
+                store(go[v].displacement, ends->displacement + lane + v * WIDTH);
         }
     }
 }
@@ -422,7 +426,7 @@ INLINE void carry_of(int d, const struct br_strip *s, size_t lane, double *displ
 
 static void gather(const struct br_strip *s, double factor, double *q, double *z)
 {
-    for (size_t lane = 0; lane < BR_LANES; lane += BR_WIDTH)
+    for (size_t lane = 0; lane < BR_LANES; lane += WIDTH)
         if (s->d == 1)
             gather_of(1, s, factor, lane, q, z);
         else
@@ -463,7 +467,7 @@ static void advance(const struct br_strip *s, const struct br_strip_drive *drive
 static void charge(const struct br_strip *s, const double uniform[2])
 {
     for (size_t j = 0; j < s->pieces; j++)
-        for (size_t lane = 0; lane < BR_LANES; lane += BR_WIDTH)
+        for (size_t lane = 0; lane < BR_LANES; lane += WIDTH)
             if (s->d == 1)
                 charge_of(1, s, uniform, j, lane);
             else
@@ -472,23 +476,16 @@ static void charge(const struct br_strip *s, const double uniform[2])
 
 static void carry(const struct br_strip *s, double *displacement)
 {
-    for (size_t lane = 0; lane < BR_LANES; lane += BR_WIDTH)
+    for (size_t lane = 0; lane < BR_LANES; lane += WIDTH)
         if (s->d == 1)
             carry_of(1, s, lane, displacement);
         else
             carry_of(2, s, lane, displacement);
 }
 
-#define NAME_OF(kernel) #kernel
-#define STRING_OF(kernel) NAME_OF(kernel)
-#define JOINED_(a, b) a##b
-#define JOINED(a, b) JOINED_(a, b)
-
-bool JOINED(br_kernel_available_, BR_KERNEL)(void);
-
-const struct br_kernel JOINED(br_kernel_, BR_KERNEL) = {
-    .name = STRING_OF(BR_KERNEL),
-    .available = JOINED(br_kernel_available_, BR_KERNEL),
+const struct br_kernel JOINED(br_kernel_, BR_SET) = {
+    .name = STRING_OF(BR_SET),
+    .available = JOINED(br_has_, BR_SET),
     .gather = gather,
     .join_left = join_left,
     .join_right = join_right,

@@ -10,6 +10,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "solver/instruction_set.h"
+
 enum { BR_LANES = 16 };
 
 /* What the end values of a piece are, d * BR_LANES each. */
@@ -92,6 +94,9 @@ struct br_kernel {
     /* The displacement at the right ends of spans whose left ends are fixed (out, d each). */
     void (*carry)(const struct br_strip *strip, double *displacement);
 };
+
+#define BR_KERNEL_OF(set) extern const struct br_kernel br_kernel_##set;
+BR_INSTRUCTION_SETS(BR_KERNEL_OF)
 
 /* NULL-terminated, the fastest first; the last runs anywhere. */
 extern const struct br_kernel *const br_kernels[];

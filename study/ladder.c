@@ -3,35 +3,27 @@
 
 #include <gsl/gsl_integration.h>
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
 
-enum { MODES = 4 };
-
-/* Four doubles in the vector extension of GCC and Clang; never passed by value. */
-typedef double quad __attribute__((vector_size(32), aligned(16)));
-
-/* E_j: the modes of child j of an element, prolong[i][m] from the element's mode m.
- * By rows (what child mode i adds to the element's modes, times E_j') and by columns. */
-struct transfer {
-    quad row[MODES], column[MODES];
-};
+#include "study/ladder_kernel.h"
 
 struct rung {
-    size_t n, modes;        /* elements, modes an element */
-    size_t parent;          /* what it is projected from: a rung, or `count` + a root */
-    size_t ratio;           /* parent's n over n */
-    size_t offset;          /* of its modes in a projection; its loss stands before them */
-    struct transfer *child; /* ratio of them */
+    size_t n;
+    size_t parent;    /* what it is projected from: a rung, or `count` + a root */
+    size_t ratio;     /* parent's n over n */
+    size_t offset;    /* of its modes in a projection, where they are in lanes */
+    double *transfer; /* as in ladder_kernel.h */
 };
 
 struct br_ladder {
+    const struct br_ladder_kernel *kernel;
+    size_t modes;
     size_t count; /* rungs */
     size_t roots;
     size_t *root; /* elements of each */
-    size_t size;  /* doubles in a projection */
-    size_t modes;
+    size_t size;  /* doubles in a projection: the losses of all rungs, then their modes */
     struct rung *rung;
+    size_t *order; /* of the rungs, parents first */
 };
 
 /* P_i on [0, 1], orthonormal. */
@@ -50,29 +42,34 @@ static double legendre(size_t i, double x)
     }
 }
 
-/* E_j[i][m] = ratio^-1/2 int_0^1 P_i(x) P_m((j + x)/ratio) dx, zero for i > m. */
-static enum br_status fill_transfers(struct rung *rung, struct br_error *err)
+/* E_j[i][m] = ratio^-1/2 int_0^1 P_i(x) P_m((j + x)/ratio) dx for i <= m: the modes of child j of
+ * an element from the element's mode m; exactly the identity where the ratio is 1. */
+static double transfer(const gsl_integration_glfixed_table *gauss, const struct rung *rung,
+                       size_t j, size_t i, size_t m)
 {
-    rung->child = br_allocate(rung->ratio, sizeof *rung->child);
-    gsl_integration_glfixed_table *gauss = gsl_integration_glfixed_table_alloc(MODES);
-    if (!rung->child || !gauss) {
+    const double ratio = (double)rung->ratio;
+    double sum = 0;
+    for (size_t q = 0; q < BR_MOST_MODES; q++) {
+        double x, weight;
+        gsl_integration_glfixed_point(0, 1, q, &x, &weight, gauss);
+        sum += weight * legendre(i, x) * legendre(m, ((double)j + x) / ratio) / sqrt(ratio);
+    }
+    return rung->ratio > 1 ? sum : i == m;
+}
+
+static enum br_status fill_transfers(struct rung *rung, size_t modes, struct br_error *err)
+{
+    const size_t half = (rung->ratio + 1) / 2;
+    rung->transfer = br_allocate_aligned(half * modes * modes, sizeof *rung->transfer);
+    gsl_integration_glfixed_table *gauss = gsl_integration_glfixed_table_alloc(BR_MOST_MODES);
+    if (!rung->transfer || !gauss) {
         gsl_integration_glfixed_table_free(gauss);
         return br_no_memory(err, "the ladder of meshes");
     }
-    const double ratio = (double)rung->ratio;
-    for (size_t j = 0; j < rung->ratio; j++)
-        for (size_t q = 0; q < MODES; q++) {
-            double x, weight;
-            gsl_integration_glfixed_point(0, 1, q, &x, &weight, gauss);
-            for (size_t i = 0; i < rung->modes; i++)
-                for (size_t m = i; m < rung->modes; m++)
-                    rung->child[j].row[i][m] += weight * legendre(i, x) *
-                                                legendre(m, ((double)j + x) / ratio) / sqrt(ratio);
-        }
-    for (size_t j = 0; j < rung->ratio; j++)
-        for (size_t i = 0; i < MODES; i++)
-            for (size_t m = 0; m < MODES; m++)
-                rung->child[j].column[m][i] = rung->child[j].row[i][m];
+    for (size_t j = 0; j < half; j++)
+        for (size_t i = 0; i < modes; i++)
+            for (size_t m = i; m < modes; m++)
+                rung->transfer[(j * modes + i) * modes + m] = transfer(gauss, rung, j, i, m);
     gsl_integration_glfixed_table_free(gauss);
     return BR_OK;
 }
@@ -99,20 +96,25 @@ static bool find_parent(const struct br_ladder *ladder, size_t r, size_t *parent
     return found;
 }
 
+static size_t round_up(size_t count, size_t lanes)
+{
+    return (count + lanes - 1) / lanes * lanes;
+}
+
 static enum br_status add_rungs(struct br_ladder *ladder, const struct br_mesh_list *rungs,
                                 struct br_error *err)
 {
     ladder->rung = br_allocate(rungs->count, sizeof *ladder->rung);
-    if (!ladder->rung)
+    ladder->order = br_allocate(rungs->count, sizeof *ladder->order);
+    if (!ladder->rung || !ladder->order)
         return br_no_memory(err, "the ladder of meshes");
     ladder->count = rungs->count;
+    ladder->size = round_up(rungs->count, BR_MOST_LANES);
     for (size_t r = 0; r < rungs->count; r++) {
-        const struct rung rung = {
-            .n = rungs->n[r], .modes = ladder->modes, .offset = ladder->size + 1};
-        if (rung.n == 0)
+        ladder->rung[r] = (struct rung){.n = rungs->n[r], .offset = ladder->size};
+        if (rungs->n[r] == 0)
             return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
-        ladder->rung[r] = rung;
-        ladder->size += 1 + rung.n * rung.modes;
+        ladder->size += round_up(rungs->n[r], BR_MOST_LANES) * ladder->modes;
     }
     for (size_t r = 0; r < rungs->count; r++) {
         struct rung *rung = &ladder->rung[r];
@@ -120,11 +122,22 @@ static enum br_status add_rungs(struct br_ladder *ladder, const struct br_mesh_l
             return br_fail(err, BR_BAD_INPUT, "n = %zu does not divide the reference's %zu",
                            rung->n, ladder->root[0]);
         rung->ratio = parent_n(ladder, rung->parent) / rung->n;
-        const enum br_status status = fill_transfers(rung, err);
+        const enum br_status status = fill_transfers(rung, ladder->modes, err);
         if (status)
             return status;
     }
     return BR_OK;
+}
+
+/* Finer rungs first: each needs its parent. */
+static void sort_rungs(struct br_ladder *ladder)
+{
+    for (size_t r = 0; r < ladder->count; r++) {
+        size_t i = r;
+        for (; i > 0 && ladder->rung[ladder->order[i - 1]].n < ladder->rung[r].n; i--)
+            ladder->order[i] = ladder->order[i - 1];
+        ladder->order[i] = r;
+    }
 }
 
 enum br_status br_ladder_create(struct br_ladder **out, size_t modes,
@@ -135,13 +148,17 @@ enum br_status br_ladder_create(struct br_ladder **out, size_t modes,
     *out = ladder;
     if (!ladder)
         return br_no_memory(err, "the ladder of meshes");
+    ladder->kernel = br_ladder_kernel_best();
     ladder->modes = modes;
     ladder->root = br_allocate(roots->count, sizeof *ladder->root);
     if (!ladder->root)
         return br_no_memory(err, "the ladder of meshes");
     ladder->roots = roots->count;
     memcpy(ladder->root, roots->n, roots->count * sizeof *ladder->root);
-    return add_rungs(ladder, rungs, err);
+    const enum br_status status = add_rungs(ladder, rungs, err);
+    if (!status)
+        sort_rungs(ladder);
+    return status;
 }
 
 void br_ladder_free(struct br_ladder *ladder)
@@ -149,10 +166,16 @@ void br_ladder_free(struct br_ladder *ladder)
     if (!ladder)
         return;
     for (size_t r = 0; ladder->rung && r < ladder->count; r++)
-        free(ladder->rung[r].child);
+        free(ladder->rung[r].transfer);
     free(ladder->rung);
+    free(ladder->order);
     free(ladder->root);
     free(ladder);
+}
+
+void br_ladder_use(struct br_ladder *ladder, const struct br_ladder_kernel *kernel)
+{
+    ladder->kernel = kernel;
 }
 
 size_t br_ladder_size(const struct br_ladder *ladder)
@@ -160,124 +183,52 @@ size_t br_ladder_size(const struct br_ladder *ladder)
     return ladder->size;
 }
 
-/* One element of four modes: coarse = sum_j E_j' fine_j; returns the squared loss,
- * sum_j |fine_j - E_j coarse|^2. */
-static double project_cubic(const struct rung *rung, const double *fine, double *coarse)
+/* The projection's part on a rung. */
+static struct br_view view_of(const struct br_ladder *ladder, size_t r, double *projection)
 {
-    quad sum = {0};
-    for (size_t j = 0; j < rung->ratio; j++)
-        for (size_t i = 0; i < MODES; i++)
-            sum += rung->child[j].row[i] * fine[j * MODES + i];
-    quad loss = {0};
-    for (size_t j = 0; j < rung->ratio; j++) {
-        quad rest;
-        memcpy(&rest, fine + j * MODES, sizeof rest);
-        for (size_t m = 0; m < MODES; m++)
-            rest -= rung->child[j].column[m] * sum[m];
-        loss += rest * rest;
-    }
-    memcpy(coarse, &sum, sizeof sum);
-    return (loss[0] + loss[1]) + (loss[2] + loss[3]);
+    struct br_view view;
+    br_view_modes(&view, ladder->modes);
+    view.layout = BR_IN_LANES;
+    view.rest = projection[r];
+    view.values = projection + ladder->rung[r].offset;
+    return view;
 }
 
-/* The same for two modes. */
-static double project_linear(const struct rung *rung, const double *fine, double *coarse)
-{
-    double sum[2] = {0, 0}, loss = 0;
-    for (size_t j = 0; j < rung->ratio; j++) {
-        const quad *row = rung->child[j].row;
-        sum[0] += row[0][0] * fine[2 * j];
-        sum[1] += row[0][1] * fine[2 * j] + row[1][1] * fine[2 * j + 1];
-    }
-    for (size_t j = 0; j < rung->ratio; j++) {
-        const quad *row = rung->child[j].row;
-        const double rest0 = fine[2 * j] - row[0][0] * sum[0] - row[0][1] * sum[1];
-        const double rest1 = fine[2 * j + 1] - row[1][1] * sum[1];
-        loss += rest0 * rest0 + rest1 * rest1;
-    }
-    memcpy(coarse, sum, sizeof sum);
-    return loss;
-}
-
-/* The same for piecewise constants: coarse = sum_j E_j fine_j. */
-static double project_constant(const struct rung *rung, const double *fine, double *coarse)
-{
-    double sum = 0, loss = 0;
-    for (size_t j = 0; j < rung->ratio; j++)
-        sum += rung->child[j].row[0][0] * fine[j];
-    for (size_t j = 0; j < rung->ratio; j++) {
-        const double rest = fine[j] - rung->child[j].row[0][0] * sum;
-        loss += rest * rest;
-    }
-    *coarse = sum;
-    return loss;
-}
-
-/* Four modes have vectors, the others are few. */
-static double project_element(const struct rung *rung, const double *fine, double *coarse)
-{
-    switch (rung->modes) {
-    case 1:
-        return project_constant(rung, fine, coarse);
-    case 2:
-        return project_linear(rung, fine, coarse);
-    default:
-        return project_cubic(rung, fine, coarse);
-    }
-}
-
-static void project_rung(const struct br_ladder *ladder, size_t r, const struct br_root_value *root,
-                         double *projection)
-{
-    const struct rung *rung = &ladder->rung[r];
-    const double *fine;
-    double loss;
-    if (rung->parent < ladder->count) {
-        fine = projection + ladder->rung[rung->parent].offset;
-        loss = fine[-1];
-    } else {
-        fine = root[rung->parent - ladder->count].modes;
-        loss = root[rung->parent - ladder->count].rest;
-    }
-    double *coarse = projection + rung->offset;
-    for (size_t e = 0; e < rung->n; e++)
-        loss +=
-            project_element(rung, fine + e * rung->ratio * rung->modes, coarse + e * rung->modes);
-    coarse[-1] = loss;
-}
-
-void br_ladder_project(const struct br_ladder *ladder, const struct br_root_value *root,
+void br_ladder_project(const struct br_ladder *ladder, const struct br_view *root,
                        double *projection)
 {
-    /* Finer rungs first: each needs its parent. */
-    for (size_t below = SIZE_MAX;;) {
-        size_t n = 0;
-        for (size_t r = 0; r < ladder->count; r++)
-            if (ladder->rung[r].n < below && ladder->rung[r].n > n)
-                n = ladder->rung[r].n;
-        if (n == 0)
-            return;
-        for (size_t r = 0; r < ladder->count; r++)
-            if (ladder->rung[r].n == n)
-                project_rung(ladder, r, root, projection);
-        below = n;
+    for (size_t i = 0; i < ladder->count; i++) {
+        const size_t r = ladder->order[i];
+        const struct rung *rung = &ladder->rung[r];
+        const struct br_projecting p = {
+            .fine = rung->parent < ladder->count ? view_of(ladder, rung->parent, projection)
+                                                 : root[rung->parent - ladder->count],
+            .n = rung->n,
+            .ratio = rung->ratio,
+            .transfer = rung->transfer,
+            .coarse = projection + rung->offset,
+        };
+        projection[r] = p.fine.rest + ladder->kernel->project(&p);
     }
 }
 
-double br_ladder_distance(const struct br_ladder *ladder, size_t r, const double *modes,
+double br_ladder_distance(const struct br_ladder *ladder, size_t r, const struct br_view *view,
                           const double *projection)
 {
     const struct rung *rung = &ladder->rung[r];
-    const double *reference = projection + rung->offset;
-    const size_t count = rung->n * rung->modes;
-    double even = 0, odd = 0; /* two chains */
-    for (size_t i = 0; i + 1 < count; i += 2) {
-        const double a = modes[i] - reference[i], b = modes[i + 1] - reference[i + 1];
-        even += a * a;
-        odd += b * b;
-    }
-    if (count % 2)
-        even +=
-            (modes[count - 1] - reference[count - 1]) * (modes[count - 1] - reference[count - 1]);
-    return sqrt(even + odd + projection[rung->offset - 1]);
+    return sqrt(ladder->kernel->distance(view, rung->n, projection + rung->offset) + view->rest +
+                projection[r]);
+}
+
+/* By Pythagoras, from the coarsest rung: the shortest sum. */
+double br_ladder_norm(const struct br_ladder *ladder, const double *projection)
+{
+    const size_t r = ladder->order[ladder->count - 1];
+    const struct rung *rung = &ladder->rung[r];
+    const double *modes = projection + rung->offset;
+    double sum = projection[r];
+    const size_t count = round_up(rung->n, ladder->kernel->lanes) * ladder->modes;
+    for (size_t i = 0; i < count; i++)
+        sum += modes[i] * modes[i];
+    return sqrt(sum);
 }

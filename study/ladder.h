@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* L2 distances between functions on nested meshes, exactly.
  *
- * On each element a function is given by its orthonormal Legendre modes (modes.h).
+ * On each element a function is given by its orthonormal Legendre modes, as a view of it
+ * tells them (solver/modes.h).
  * The reference is projected from its own meshes down a ladder of coarser ones; what each rung
  * loses is kept as a sum of squares. For a function v of rung n,
  *     |v - ref|^2 = |v - P_n ref|^2 + |ref - P_n ref|^2    (Pythagoras),
@@ -13,9 +14,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "solver/modes.h"
 #include "solver/status.h"
 
 struct br_ladder;
+struct br_ladder_kernel;
 
 /* Numbers of elements; borrowed. */
 struct br_mesh_list {
@@ -31,24 +34,23 @@ enum br_status br_ladder_create(struct br_ladder **ladder, size_t modes,
                                 struct br_error *err);
 void br_ladder_free(struct br_ladder *ladder); /* accepts NULL */
 
-/* Doubles in a projection of one function onto all rungs. */
+/* Takes this kernel (ladder_kernel.h), not the best one; its last digits are its own. */
+void br_ladder_use(struct br_ladder *ladder, const struct br_ladder_kernel *kernel);
+
+/* Doubles in a projection of one function onto all rungs, a multiple of 8: fastest at the start
+ * of a cache line. */
 size_t br_ladder_size(const struct br_ladder *ladder);
 
-/* A function on a root mesh: the modes of its projection there (in, root * modes
- * values), and the square of the L2 norm of what that leaves out. */
-struct br_root_value {
-    double *modes;
-    double rest;
-};
-
-/* Projects a function given on every root mesh onto all rungs; `projection`: out,
+/* Projects a function given on every root mesh (in) onto all rungs; `projection`: out,
  * br_ladder_size values. */
-void br_ladder_project(const struct br_ladder *ladder, const struct br_root_value *root,
+void br_ladder_project(const struct br_ladder *ladder, const struct br_view *root,
                        double *projection);
 
-/* L2 distance of a function with the given modes (in) on the
- * mesh n[rung] from the projected one. */
-double br_ladder_distance(const struct br_ladder *ladder, size_t rung, const double *modes,
+/* L2 distance of a function (in) on the mesh n[rung] from the projected one. */
+double br_ladder_distance(const struct br_ladder *ladder, size_t rung, const struct br_view *view,
                           const double *projection);
+
+/* L2 norm of the projected function. */
+double br_ladder_norm(const struct br_ladder *ladder, const double *projection);
 
 #endif

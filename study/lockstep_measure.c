@@ -10,14 +10,6 @@ static struct br_channel *channel_at(struct br_lockstep *l, int kind, int measur
     return c->used && (last || !c->last_only) ? c : NULL;
 }
 
-static double norm(const double *modes, size_t count, double rest)
-{
-    double sum = rest;
-    for (size_t i = 0; i < count; i++)
-        sum += modes[i] * modes[i];
-    return sqrt(sum);
-}
-
 static double reference_time(const struct br_lockstep *l, size_t level)
 {
     return l->study->scene->duration * (double)level / (double)l->study->reference.steps;
@@ -40,14 +32,13 @@ static double project(struct br_lockstep *l, struct br_channel *c, struct br_loo
                       double *projection)
 {
     for (at.mesh = 0; at.mesh < (c->ladder ? l->roots : 1); at.mesh++)
-        l->reference.judge->look(l->reference.self, &at, c->root[at.mesh].modes,
-                                 &c->root[at.mesh].rest);
-    if (c->ladder)
-        br_ladder_project(c->ladder, c->root, projection);
-    else
-        *projection = l->study->reference_tip[at.kind] = c->root[0].modes[0];
-    return norm(c->root[0].modes, br_measure_size(at.kind, at.measure, l->root[0]),
-                c->root[0].rest);
+        l->reference.judge->look(l->reference.self, &at, &c->root[at.mesh]);
+    if (!c->ladder) {
+        *projection = l->study->reference_tip[at.kind] = c->root[0].values[0];
+        return fabs(*projection);
+    }
+    br_ladder_project(c->ladder, c->root, projection);
+    return br_ladder_norm(c->ladder, projection);
 }
 
 void br_lockstep_project(struct br_lockstep *l, struct br_slot slot, size_t level)
@@ -68,12 +59,11 @@ void br_lockstep_project(struct br_lockstep *l, struct br_slot slot, size_t leve
 /* The distance of the reference, as last looked at, from the auditor. */
 static double audit(struct br_lockstep *l, struct br_channel *c, const struct br_look_at *at)
 {
-    double rest;
-    l->auditor.judge->look(l->auditor.self, at, c->audit, &rest);
-    const size_t size = br_measure_size(at->kind, at->measure, l->root[0]);
-    for (size_t i = 0; i < size; i++)
-        c->audit[i] -= c->root[0].modes[i];
-    return norm(c->audit, size, rest);
+    l->auditor.judge->look(l->auditor.self, at, &c->audit);
+    if (!c->audit_ladder)
+        return fabs(c->audit.values[0] - c->root[0].values[0]);
+    br_ladder_project(c->audit_ladder, c->root, c->audit_projection);
+    return br_ladder_distance(c->audit_ladder, 0, &c->audit, c->audit_projection);
 }
 
 enum br_status br_lockstep_audit(struct br_lockstep *l, size_t level, struct br_error *err)
@@ -101,8 +91,8 @@ static double distance(struct br_lockstep *l, size_t index, const struct br_chan
 {
     const struct br_runner *r = &l->cell[index];
     if (!c->ladder)
-        return fabs(r->modes[0] - *reference);
-    return br_ladder_distance(c->ladder, br_study_row(l->study, index), r->modes, reference);
+        return fabs(r->view.values[0] - *reference);
+    return br_ladder_distance(c->ladder, br_study_row(l->study, index), &r->view, reference);
 }
 
 void br_lockstep_measure(struct br_lockstep *l, size_t index, struct br_slot slot)
@@ -126,7 +116,7 @@ void br_lockstep_measure(struct br_lockstep *l, size_t index, struct br_slot slo
                 br_fail(&r->error, BR_NOT_FINITE, "the error at t = %g s is %g", t, size);
             sample.size[kind][measure] = size;
             if (measure == BR_TIP)
-                cell->tip[kind] = r->modes[0];
+                cell->tip[kind] = r->view.values[0];
         }
     if (r->error.status)
         br_cell_failed(l->study, index, &r->error);

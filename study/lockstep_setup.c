@@ -72,16 +72,34 @@ static enum br_status create_roots(struct br_lockstep *l, struct br_channel *c,
                                    const struct br_look_at *at, struct br_error *err)
 {
     c->root = br_allocate(l->roots, sizeof *c->root);
-    c->audit = br_allocate(br_measure_size(at->kind, at->measure, l->root[0]), sizeof(double));
-    if (!c->root || !c->audit)
+    if (!c->root)
         return br_no_memory(err, "the reference's values");
     for (size_t i = 0; i < l->roots; i++) {
-        c->root[i].modes =
-            br_allocate(br_measure_size(at->kind, at->measure, l->root[i]), sizeof(double));
-        if (!c->root[i].modes)
+        c->root[i].values =
+            br_allocate_aligned(br_measure_size(at->kind, at->measure, l->root[i]), sizeof(double));
+        if (!c->root[i].values)
             return br_no_memory(err, "the reference's values");
     }
     return BR_OK;
+}
+
+/* What the auditor needs. */
+static enum br_status create_audit(struct br_lockstep *l, struct br_channel *c,
+                                   const struct br_look_at *at, struct br_error *err)
+{
+    const struct br_mesh_list root = {1, l->root};
+    c->audit.values =
+        br_allocate(br_measure_size(at->kind, at->measure, l->root[0]), sizeof(double));
+    if (!c->audit.values)
+        return br_no_memory(err, "the auditor's values");
+    if (at->measure == BR_TIP)
+        return BR_OK;
+    const enum br_status status =
+        br_ladder_create(&c->audit_ladder, br_mode_count(at->kind, at->measure), &root, &root, err);
+    if (status)
+        return status;
+    c->audit_projection = br_allocate_aligned(br_ladder_size(c->audit_ladder), sizeof(double));
+    return c->audit_projection ? BR_OK : br_no_memory(err, "the auditor's values");
 }
 
 static enum br_status create_channel(struct br_lockstep *l, enum br_field_kind kind,
@@ -91,6 +109,8 @@ static enum br_status create_channel(struct br_lockstep *l, enum br_field_kind k
     const struct br_look_at at = {kind, measure, 0};
     const struct br_mesh_list roots = {l->roots, l->root}, rungs = {l->study->n_count, l->study->n};
     enum br_status status = create_roots(l, c, &at, err);
+    if (!status && l->study->auditor)
+        status = create_audit(l, c, &at, err);
     if (!status && measure != BR_TIP)
         status = br_ladder_create(&c->ladder, br_mode_count(kind, measure), &roots, &rungs, err);
     c->size = c->ladder ? br_ladder_size(c->ladder) : 1;
@@ -118,7 +138,7 @@ static enum br_status create_buffers(struct br_lockstep *l, struct br_error *err
     for (size_t i = 0; i < BR_CHANNELS * BR_LOCKSTEP_BUFFERS; i++) {
         struct br_channel *c = &l->channel[i / BR_LOCKSTEP_BUFFERS];
         double **projection = &c->projection[i % BR_LOCKSTEP_BUFFERS];
-        if (c->used && !(*projection = br_allocate(l->batch * c->size, sizeof(double))))
+        if (c->used && !(*projection = br_allocate_aligned(l->batch * c->size, sizeof(double))))
             return br_no_memory(err, "the reference's projections");
     }
     return BR_OK;
@@ -223,9 +243,11 @@ static void channel_clear(struct br_channel *c, size_t roots)
 {
     br_ladder_free(c->ladder);
     for (size_t i = 0; c->root && i < roots; i++)
-        free(c->root[i].modes);
+        free(c->root[i].values);
     free(c->root);
-    free(c->audit);
+    br_ladder_free(c->audit_ladder);
+    free(c->audit.values);
+    free(c->audit_projection);
     for (int b = 0; b < BR_LOCKSTEP_BUFFERS; b++)
         free(c->projection[b]);
 }

@@ -17,9 +17,11 @@ struct br_channel {
     bool used, last_only;                    /* only at t = T */
     size_t size;                             /* of a projection */
     struct br_ladder *ladder;                /* NULL: one number, the tip's */
-    struct br_root_value *root;              /* the reference on its meshes */
+    struct br_view *root;                    /* the reference on its meshes */
     double *projection[BR_LOCKSTEP_BUFFERS]; /* batch * size */
-    double *audit;                           /* the auditor on the reference's mesh */
+    struct br_view audit;                    /* the auditor on the first of them */
+    struct br_ladder *audit_ladder;          /* that mesh alone; NULL: the tip's */
+    double *audit_projection;                /* the reference there */
 };
 
 /* A judge at work. */

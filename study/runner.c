@@ -7,8 +7,7 @@
 void br_runner_clear(struct br_runner *r)
 {
     br_march_free(r->march);
-    free(r->nodal);
-    free(r->modes);
+    free(r->view.values);
     *r = (struct br_runner){0};
 }
 
@@ -21,9 +20,8 @@ enum br_status br_runner_start(struct br_runner *r, const struct br_scene *scene
     r->seconds += br_seconds() - start;
     if (status)
         return r->error.status = status;
-    r->nodal = br_allocate(2 * (at.n + 1), sizeof *r->nodal);
-    r->modes = br_allocate(4 * at.n, sizeof *r->modes);
-    if (!r->nodal || !r->modes)
+    r->view.values = br_allocate_aligned(BR_MOST_MODES * at.n, sizeof *r->view.values);
+    if (!r->view.values)
         return br_no_memory(&r->error, "a cell");
     return BR_OK;
 }
@@ -39,5 +37,5 @@ enum br_status br_runner_advance(struct br_runner *r, size_t step)
 
 void br_runner_look(struct br_runner *r, enum br_field_kind kind, enum br_measure measure)
 {
-    br_look(r->march, kind, measure, r->nodal, r->modes);
+    br_look(r->march, kind, measure, &r->view);
 }

@@ -9,7 +9,7 @@ struct br_resolution;
 
 struct br_runner {
     struct br_march *march;
-    double *nodal, *modes;
+    struct br_view view;
     double seconds;
     struct br_error error; /* status BR_OK while all is well */
 };
@@ -22,7 +22,7 @@ void br_runner_clear(struct br_runner *runner);
 /* Steps on to its time level `step`, and counts the seconds. */
 enum br_status br_runner_advance(struct br_runner *runner, size_t step);
 
-/* runner->modes = a measure of the march as it is. */
+/* runner->view = a measure of the march as it is. */
 void br_runner_look(struct br_runner *runner, enum br_field_kind kind, enum br_measure measure);
 
 #endif

@@ -27,12 +27,12 @@ static double *random_function(struct br_test_random *r, const struct br_field *
     return nodal;
 }
 
-static double *modes_of(const struct br_field *f, const double *nodal)
+static struct br_view view_of(const struct br_field *f, const double *nodal)
 {
-    double *modes = calloc(f->n * br_mode_count(f->kind, BR_DISPLACEMENT), sizeof *modes);
-    assert_non_null(modes);
-    br_modes(f, nodal, modes);
-    return modes;
+    struct br_view view;
+    br_view_field(&view, f, BR_DISPLACEMENT);
+    view.values = (double *)(uintptr_t)nodal;
+    return view;
 }
 
 /* The function at element e, xi: Lagrange or Hermite shape functions. */
@@ -81,21 +81,18 @@ static struct br_ladder *create(enum br_field_kind kind, size_t finest, size_t c
 static double *projection_of(const struct br_ladder *ladder, const struct br_field *f,
                              const double *nodal)
 {
-    double *modes = modes_of(f, nodal);
+    const struct br_view view = view_of(f, nodal);
     double *projection = calloc(br_ladder_size(ladder), sizeof *projection);
     assert_non_null(projection);
-    br_ladder_project(ladder, &(struct br_root_value){modes, 0}, projection);
-    free(modes);
+    br_ladder_project(ladder, &view, projection);
     return projection;
 }
 
 static double distance(const struct br_ladder *ladder, size_t rung, const struct br_field *f,
                        const double *nodal, const double *projection)
 {
-    double *modes = modes_of(f, nodal);
-    const double d = br_ladder_distance(ladder, rung, modes, projection);
-    free(modes);
-    return d;
+    const struct br_view view = view_of(f, nodal);
+    return br_ladder_distance(ladder, rung, &view, projection);
 }
 
 /* Ladders: chains, gaps, branches that do not divide each other, duplicates, the

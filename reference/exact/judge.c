@@ -112,16 +112,17 @@ static enum br_status exact_advance(void *self, size_t i, struct br_error *err)
     return BR_OK;
 }
 
-static void exact_look(void *self, const struct br_look_at *at, double *values, double *rest)
+static void exact_look(void *self, const struct br_look_at *at, struct br_view *view)
 {
     struct exact_judge *e = self;
     if (at->measure == BR_TIP) {
-        *values = e->state->tip[part_of(at->kind, BR_TIP).field].displacement;
-        *rest = 0;
+        br_view_modes(view, 0);
+        *view->values = e->state->tip[part_of(at->kind, BR_TIP).field].displacement;
         return;
     }
+    br_view_modes(view, br_mode_count(at->kind, at->measure));
     br_exact_projection_apply(e->projection[at->kind][at->measure][at->mesh], e->exact, e->state,
-                              values, rest);
+                              view->values, &view->rest);
 }
 
 /* A root mean square over the beam, times sqrt(L), is an L2 norm. */

@@ -107,16 +107,20 @@ static enum br_status mms_advance(void *self, size_t i, struct br_error *err)
     return BR_OK;
 }
 
-static void mms_look(void *self, const struct br_look_at *at, double *values, double *rest)
+static void mms_look(void *self, const struct br_look_at *at, struct br_view *view)
 {
     struct mms_judge *j = self;
     const double start = br_seconds();
     struct br_projection_rest sums = {0};
-    if (at->measure == BR_TIP)
-        *values = br_derivative_at(j->tip[at->kind], j->length, j->time);
-    else
-        sums = br_projection_apply(j->projection[at->kind][at->measure][at->mesh], j->time, values);
-    *rest = sums.rest;
+    if (at->measure == BR_TIP) {
+        br_view_modes(view, 0);
+        *view->values = br_derivative_at(j->tip[at->kind], j->length, j->time);
+    } else {
+        br_view_modes(view, br_mode_count(at->kind, at->measure));
+        sums = br_projection_apply(j->projection[at->kind][at->measure][at->mesh], j->time,
+                                   view->values);
+    }
+    view->rest = sums.rest;
     double *tail = &j->tail[at->kind][at->measure];
     *tail = fmax(*tail, sums.tail);
     j->seconds += br_seconds() - start;

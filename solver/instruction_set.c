@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/instruction_set.h"
+
+#if defined __x86_64__ && !defined BR_NO_FMA
+bool br_has_avx512(void)
+{
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
+}
+
+bool br_has_avx2(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+}
+#else
+bool br_has_avx512(void)
+{
+    return false;
+}
+
+bool br_has_avx2(void)
+{
+    return false;
+}
+#endif
+
+bool br_has_portable(void)
+{
+    return true;
+}
