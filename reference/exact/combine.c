@@ -22,7 +22,8 @@ INLINE void combine_block(size_t count, const double *factor, size_t width, cons
             memcpy(&row, table + k * width + (size_t)i * LANES, sizeof row);
             sum[i] += factor[k] * row;
         }
-    memcpy(out, sum, (size_t)vectors * sizeof *sum);
+    for (int i = 0; i < vectors; i++)
+        memcpy(out + i * LANES, &sum[i], sizeof *sum);
 }
 
 INLINE void combine(size_t count, const double *factor, size_t width, const double *table,
