@@ -84,7 +84,8 @@ static void test_bad_options(void **state)
         {"study example1 --reference none --k .01,.004", "not all among those of k = 0.004 s"},
         {"study example1 --reference none --n 10", "found 1 meshes and 4 time steps, expected"},
         {"study example1 --reference guess", "--reference: found 'guess'"},
-        {"study example1 --solver lu", "--solver: found 'lu', expected one of: riccati, lanes, umfpack"},
+        {"study example1 --solver lu",
+         "--solver: found 'lu', expected one of: riccati, lanes, umfpack"},
         {"study example1 --contact soft", "expected one of: lagged, implicit"},
         {"study example1 --friction dry", "expected one of: exact, regularised"},
         {"study example1 --format pdf", "expected one of: text, csv, markdown, latex, json"},
@@ -270,7 +271,10 @@ static void test_interrupted_plots(void **state)
     cli_path("bin", program);
     assert_int_equal(mkdir(program, 0777), 0);
     snprintf(path, sizeof path, "%s:/usr/bin:/bin", program);
-    cli_write_file("bin/gnuplot", "#!/bin/sh\nkill -INT $PPID\nexit 1\n");
+    cli_write_file(
+        "bin/gnuplot",
+        "#!/bin/sh\n" /* one of those at work: a second Ctrl-C ends the program at once */
+        "mkdir \"$0.pressed\" 2>/dev/null && kill -INT $PPID\nexit 1\n");
     cli_path("bin/gnuplot", program);
     assert_int_equal(chmod(program, 0755), 0);
     cli_expect("study example2 --n 5,10 --k 0.1,0.05 --quiet --out drawing",
