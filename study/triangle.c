@@ -67,18 +67,19 @@ static bool better(const struct candidate *c, const struct candidate *best)
     return score > best_score || (score == best_score && c->work < best->work);
 }
 
-/* The best pair of the wanted inequality whose cells are not yet used. */
+/* The best pair of the wanted inequality whose cells are not yet used, from a score on. Up to 1
+ * there is nothing to show. */
 static struct candidate best_pair(const struct br_study *s, const double *printed, const bool *used,
-                                  bool too_near)
+                                  bool too_near, double least)
 {
     const size_t cells = s->n_count * s->k_count;
-    struct candidate best = {.score = 1}; /* up to 1 there is nothing to show */
+    struct candidate best = {.score = least, .work = INFINITY};
     for (size_t i = 0; i < cells; i++)
         for (size_t j = 0; j < cells; j++) {
             if (used[i] || used[j])
                 continue;
             const struct candidate c = rate(s, printed, i, j);
-            if (c.too_near == too_near && better(&c, &best))
+            if (c.too_near == too_near && c.score > 1 && better(&c, &best))
                 best = c;
         }
     return best;
@@ -99,9 +100,9 @@ static size_t choose_pairs(const struct br_study *s, const double *printed, size
 {
     size_t count = 0;
     while (count < most) {
-        struct candidate c = best_pair(s, printed, used, count % 2 == 0);
-        if (c.a == c.b)
-            c = best_pair(s, printed, used, count % 2 != 0);
+        struct candidate c = {0};
+        for (size_t attempt = 0; attempt < 4 && c.a == c.b; attempt++)
+            c = best_pair(s, printed, used, (count + attempt) % 2 == 0, attempt < 2 ? plain : 1);
         if (c.a == c.b)
             break;
         used[c.a] = used[c.b] = true;
