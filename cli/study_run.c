@@ -17,6 +17,8 @@ struct run {
     struct br_session session;
     struct br_output output;
     struct br_provenance provenance;
+    struct br_renderer renderer;
+    bool missing; /* gnuplot */
 };
 
 static void describe(struct run *r, size_t page)
@@ -59,39 +61,52 @@ static enum br_status write_tables(struct run *r, size_t i, struct br_error *err
     return BR_OK;
 }
 
-static enum br_status write_plots(struct run *r, size_t i, bool *missing, struct br_error *err)
+/* Ctrl-C ends gnuplot, too: that is no failure of its own. */
+static enum br_status check_signals(enum br_status status, struct br_error *err)
+{
+    return br_signals_caught() ? br_fail(err, BR_INTERRUPTED, "interrupted") : status;
+}
+
+static enum br_status write_plots(struct run *r, size_t i, struct br_error *err)
 {
     const struct br_report *report = &r->session.page[i].report;
-    for (const struct br_plot *const *p = br_plots; *p; p++) {
-        char script[512];
+    enum br_status status = BR_OK;
+    for (const struct br_plot *const *p = br_plots; *p && !status; p++) {
+        char script[BR_SCRIPT_NAME];
         if (!(*p)->applies(report))
             continue;
-        enum br_status status = br_plot_file(*p, report, "gp", script, sizeof script, err);
+        status = br_plot_file(*p, report, "gp", script, sizeof script, err);
         if (!status)
             status = br_plot_write(*p, report, r->output.staging, err);
-        if (status)
-            return status;
-        if (!*missing)
-            status = br_plot_render(r->output.staging, script, missing, err);
-        if (br_signals_caught()) /* Ctrl-C ends gnuplot, too: that is no failure of its own */
-            return br_fail(err, BR_INTERRUPTED, "interrupted");
-        if (status && !*missing)
-            return status;
+        if (!status && !r->missing) {
+            status = br_renderer_add(&r->renderer, r->output.staging, script, &r->missing, err);
+            if (r->missing)
+                status = BR_OK;
+        }
     }
-    return BR_OK;
+    return check_signals(status, err);
+}
+
+/* The plots first: they are rendered while the tables are written. */
+static enum br_status write_pages(struct run *r, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < r->session.pages && !status && !r->options->no_plots; i++)
+        status = write_plots(r, i, err);
+    for (size_t i = 0; i < r->session.pages && !status; i++)
+        status = write_tables(r, i, err);
+    struct br_error rendering = {0};
+    if (br_renderer_finish(&r->renderer, &rendering) && !status)
+        status = br_fail(err, rendering.status, "%s", rendering.message);
+    return check_signals(status, err);
 }
 
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
-    bool missing = false;
-    for (size_t i = 0; i < r->session.pages; i++) {
-        enum br_status status = write_tables(r, i, err);
-        if (!status && !r->options->no_plots)
-            status = write_plots(r, i, &missing, err);
-        if (status)
-            return status;
-    }
-    if (missing)
+    const enum br_status status = write_pages(r, err);
+    if (status)
+        return status;
+    if (r->missing)
         fprintf(stderr, "beamrate: gnuplot is not installed: the plots are written as scripts "
                         "(*.gp) and data, but not rendered\n");
     return br_output_commit(&r->output, err);

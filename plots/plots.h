@@ -7,6 +7,7 @@
 #define BR_PLOTS_H
 
 #include <stdio.h>
+#include <sys/types.h>
 
 #include "study/report.h"
 
@@ -39,9 +40,28 @@ enum br_status br_plot_file(const struct br_plot *plot, const struct br_report *
 enum br_status br_plot_write(const struct br_plot *plot, const struct br_report *report,
                              const char *folder, struct br_error *err);
 
-/* Runs gnuplot on a script in its folder. *missing (out): gnuplot is not installed, and
- * the call fails with BR_IO. Fails with BR_IO, too, where gnuplot does, with the line in
- * which it says why, and where a picture is not complete (a full disk). */
+/* Scripts that gnuplot is at work on, a few side by side, in order. Begins as zeros. */
+enum { BR_MOST_RENDERINGS = 8, BR_SCRIPT_NAME = 512 };
+struct br_renderer {
+    size_t count;
+    struct br_rendering {
+        char folder[4096], script[BR_SCRIPT_NAME];
+        pid_t child;
+        int said; /* the end of a pipe: what gnuplot says */
+    } at_work[BR_MOST_RENDERINGS];
+};
+
+/* Starts gnuplot on a script in its folder, when there is room: waits for the oldest one and
+ * fails where that did. *missing (out): gnuplot is not installed, and the call fails with BR_IO.
+ * Finish the renderer even after a failure. */
+enum br_status br_renderer_add(struct br_renderer *renderer, const char *folder, const char *script,
+                               bool *missing, struct br_error *err);
+
+/* Waits for all of them. Fails with BR_IO where gnuplot did, with the line in which the first one
+ * says why, and where a picture is not complete (a full disk). */
+enum br_status br_renderer_finish(struct br_renderer *renderer, struct br_error *err);
+
+/* Both for one script. */
 enum br_status br_plot_render(const char *folder, const char *script, bool *missing,
                               struct br_error *err);
 

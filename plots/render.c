@@ -15,7 +15,7 @@ extern char **environ;
 /* Starts gnuplot without a shell; what it says goes to `saying`. Returns an errno. */
 static int start(const char *folder, const char *script, int saying, pid_t *child)
 {
-    char copy[4096], gnuplot[] = "gnuplot", defaults[] = "--default-settings";
+    char copy[BR_SCRIPT_NAME], gnuplot[] = "gnuplot", defaults[] = "--default-settings";
     if (strlen(script) >= sizeof copy)
         return ENAMETOOLONG;
     strcpy(copy, script);
@@ -103,39 +103,82 @@ static enum br_status check_pictures(const char *folder, const char *script, str
     return BR_OK;
 }
 
-static enum br_status run(const char *folder, const char *script, const int ends[2], bool *missing,
-                          struct br_error *err)
+/* Starts gnuplot on a script. */
+static enum br_status begin(struct br_rendering *r, bool *missing, struct br_error *err)
+{
+    int ends[2];
+    struct stat there;
+    if (stat(r->folder, &there) != 0) /* else a missing folder looks like a missing gnuplot */
+        return br_fail(err, BR_IO, "%s: %s", r->folder, strerror(errno));
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        return br_fail(err, BR_IO, "no pipe for gnuplot: %s", strerror(errno));
+    const int failure = start(r->folder, r->script, ends[1], &r->child);
+    close(ends[1]);
+    r->said = ends[0];
+    if (!failure)
+        return BR_OK;
+    close(ends[0]);
+    *missing = failure == ENOENT;
+    return br_fail(err, BR_IO, "gnuplot cannot be run: %s",
+                   *missing ? "it is not installed" : strerror(failure));
+}
+
+/* Waits for its end. */
+static enum br_status end(const struct br_rendering *r, struct br_error *err)
 {
     char said[4096];
     int ending = 0;
-    pid_t child;
-    const int failure = start(folder, script, ends[1], &child);
-    close(ends[1]);
-    *missing = failure == ENOENT;
-    if (failure)
-        return br_fail(err, BR_IO, "gnuplot cannot be run: %s",
-                       *missing ? "it is not installed" : strerror(failure));
-    read_all(ends[0], said, sizeof said);
-    while (waitpid(child, &ending, 0) < 0 && errno == EINTR)
+    read_all(r->said, said, sizeof said);
+    close(r->said);
+    while (waitpid(r->child, &ending, 0) < 0 && errno == EINTR)
         ;
     if (!(WIFEXITED(ending) && WEXITSTATUS(ending) == 0))
-        return br_fail(err, BR_IO, "gnuplot failed in %s: %s", folder, reason(said));
-    return BR_OK;
+        return br_fail(err, BR_IO, "gnuplot failed in %s: %s", r->folder, reason(said));
+    return check_pictures(r->folder, r->script, err);
+}
+
+static enum br_status end_oldest(struct br_renderer *r, struct br_error *err)
+{
+    const enum br_status status = end(&r->at_work[0], err);
+    memmove(r->at_work, r->at_work + 1, --r->count * sizeof *r->at_work);
+    return status;
+}
+
+enum br_status br_renderer_add(struct br_renderer *r, const char *folder, const char *script,
+                               bool *missing, struct br_error *err)
+{
+    *missing = false;
+    if (r->count == BR_MOST_RENDERINGS) {
+        const enum br_status status = end_oldest(r, err);
+        if (status)
+            return status;
+    }
+    struct br_rendering *next = &r->at_work[r->count];
+    const int folder_length = snprintf(next->folder, sizeof next->folder, "%s", folder);
+    const int script_length = snprintf(next->script, sizeof next->script, "%s", script);
+    if ((size_t)folder_length >= sizeof next->folder ||
+        (size_t)script_length >= sizeof next->script)
+        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
+    const enum br_status status = begin(next, missing, err);
+    r->count += status == BR_OK;
+    return status;
+}
+
+enum br_status br_renderer_finish(struct br_renderer *r, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    while (r->count) {
+        struct br_error failure = {0};
+        if (end_oldest(r, &failure) && !status)
+            status = br_fail(err, failure.status, "%s", failure.message);
+    }
+    return status;
 }
 
 enum br_status br_plot_render(const char *folder, const char *script, bool *missing,
                               struct br_error *err)
 {
-    int ends[2];
-    struct stat there;
-    *missing = false;
-    if (stat(folder, &there) != 0) /* else a missing folder looks like a missing gnuplot */
-        return br_fail(err, BR_IO, "%s: %s", folder, strerror(errno));
-    if (pipe2(ends, O_CLOEXEC) != 0)
-        return br_fail(err, BR_IO, "no pipe for gnuplot: %s", strerror(errno));
-    enum br_status status = run(folder, script, ends, missing, err);
-    close(ends[0]);
-    if (!status)
-        status = check_pictures(folder, script, err);
-    return status;
+    struct br_renderer renderer = {0};
+    const enum br_status status = br_renderer_add(&renderer, folder, script, missing, err);
+    return status ? status : br_renderer_finish(&renderer, err);
 }

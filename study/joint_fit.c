@@ -39,36 +39,87 @@ static double signed_error(double log_c, double order, double x, double x_ref)
     return exp(log_c + order * log(x)) - exp(log_c + order * log(x_ref));
 }
 
+/* Its derivative with respect to the order; that to log C is itself. */
+static double signed_rate(double log_c, double order, double x, double x_ref)
+{
+    const double rate = exp(log_c + order * log(x)) * log(x);
+    return x_ref > 0 ? rate - exp(log_c + order * log(x_ref)) * log(x_ref) : rate;
+}
+
 static double combine(double a, double b, double r)
 {
     const double square = a * a + 2 * r * a * b + b * b;
     return sqrt(square < 0 ? 0 : square); /* NaN stays */
 }
 
-static double model(const struct problem *problem, const gsl_vector *v,
-                    const struct br_observation *o)
+static void spread(const struct problem *problem, const gsl_vector *v, double full[UNKNOWNS])
 {
-    double full[UNKNOWNS] = {0};
+    for (size_t i = 0; i < UNKNOWNS; i++)
+        full[i] = 0;
     for (size_t i = 0; i < kinds[problem->kind].count; i++)
         full[kinds[problem->kind].unknown[i]] = gsl_vector_get(v, i);
-    const double a =
-        problem->kind == BR_JOINT_TIME ? 0 : signed_error(full[LOG_C_H], full[P], o->h, o->h_ref);
-    const double b =
-        problem->kind == BR_JOINT_SPACE ? 0 : signed_error(full[LOG_C_K], full[Q], o->k, o->k_ref);
-    return combine(a, b, sin(full[THETA]));
 }
+
+static double part_h(const struct problem *problem, const double full[UNKNOWNS],
+                     const struct br_observation *o)
+{
+    return problem->kind == BR_JOINT_TIME ? 0
+                                          : signed_error(full[LOG_C_H], full[P], o->h, o->h_ref);
+}
+
+static double part_k(const struct problem *problem, const double full[UNKNOWNS],
+                     const struct br_observation *o)
+{
+    return problem->kind == BR_JOINT_SPACE ? 0
+                                           : signed_error(full[LOG_C_K], full[Q], o->k, o->k_ref);
+}
+
+static const double least_model = 1e-300;
 
 /* Residuals log(model / error). */
 static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
 {
     const struct problem *problem = params;
+    double full[UNKNOWNS];
+    spread(problem, v, full);
+    const double r = sin(full[THETA]);
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
-        const double m = model(problem, v, o);
-        const double f = log((m < 1e-300 ? 1e-300 : m) / o->error);
+        const double m = combine(part_h(problem, full, o), part_k(problem, full, o), r);
+        const double f = log((m < least_model ? least_model : m) / o->error);
         if (!isfinite(f))
             return GSL_EDOM;
         gsl_vector_set(out, i, f);
+    }
+    return GSL_SUCCESS;
+}
+
+/* d log(model) / d unknown: with m^2 = a^2 + 2 r a b + b^2, m dm = (a + r b) da + (b + r a) db +
+ * a b dr. */
+static int jacobian(const gsl_vector *v, void *params, gsl_matrix *out)
+{
+    const struct problem *problem = params;
+    double full[UNKNOWNS];
+    spread(problem, v, full);
+    const double r = sin(full[THETA]), slope = cos(full[THETA]);
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct br_observation *o = &problem->observation[i];
+        const double a = part_h(problem, full, o), b = part_k(problem, full, o);
+        const double m = combine(a, b, r), square = m * m;
+        const double by_a = (a + r * b) / square, by_b = (b + r * a) / square;
+        const double rate[UNKNOWNS] = {
+            [LOG_C_H] = by_a * a,
+            [P] = by_a * signed_rate(full[LOG_C_H], full[P], o->h, o->h_ref),
+            [LOG_C_K] = by_b * b,
+            [Q] = by_b * signed_rate(full[LOG_C_K], full[Q], o->k, o->k_ref),
+            [THETA] = a * b / square * slope,
+        };
+        for (size_t j = 0; j < kinds[problem->kind].count; j++) {
+            const double value = square > 0 ? rate[kinds[problem->kind].unknown[j]] : 0;
+            if (!isfinite(value))
+                return GSL_EDOM;
+            gsl_matrix_set(out, i, j, value);
+        }
     }
     return GSL_SUCCESS;
 }
@@ -134,15 +185,17 @@ static struct attempt attempt_from(const struct problem *problem, const double f
         out.value[i] = out.deviation[i] = NAN;
     const size_t unknowns = kinds[problem->kind].count;
     gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
-    parameters.fdtype = GSL_MULTIFIT_NLINEAR_CTRDIFF;
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(
         gsl_multifit_nlinear_trust, &parameters, problem->count, unknowns);
     gsl_vector *start = gsl_vector_alloc(unknowns);
     if (w && start) {
         for (size_t i = 0; i < unknowns; i++)
             gsl_vector_set(start, i, full[kinds[problem->kind].unknown[i]]);
-        gsl_multifit_nlinear_fdf fdf = {
-            .f = residuals, .n = problem->count, .p = unknowns, .params = (void *)problem};
+        gsl_multifit_nlinear_fdf fdf = {.f = residuals,
+                                        .df = jacobian,
+                                        .n = problem->count,
+                                        .p = unknowns,
+                                        .params = (void *)problem};
         int info;
         if (gsl_multifit_nlinear_init(start, &fdf, w) == GSL_SUCCESS) {
             gsl_multifit_nlinear_driver(500, 1e-10, 1e-10, 0, NULL, NULL, &info, w);

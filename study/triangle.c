@@ -3,10 +3,15 @@
 
 #include <math.h>
 
+/* From this score on a pair shows a contradiction plainly, and the cheapest one will do: a finer
+ * pair would cost a hundred times as much and say the same. */
+static const double plain = 1.5;
+
 /* A pair of cells and how plainly it may contradict the printed values. */
 struct candidate {
     size_t a, b; /* indices of cells; every level of a is one of b */
     double score;
+    double work;   /* element-steps of both */
     bool too_near; /* which inequality: the printed values need a larger distance */
 };
 
@@ -25,6 +30,11 @@ static void allowed(const struct br_cell *a, const struct br_cell *b, double pri
     const double gap = same_levels ? fabs(printed_a - printed_b) : printed_a - printed_b;
     *least = fmax(0, gap - digits);
     *most = printed_a + printed_b + digits;
+}
+
+static double work_of(const struct br_resolution *at)
+{
+    return (double)at->n * (double)at->steps;
 }
 
 static bool comparable(const struct br_cell *a, const struct br_cell *b)
@@ -47,21 +57,29 @@ static struct candidate rate(const struct br_study *s, const double *printed, si
     const double far = fabs(ours_a - ours_b) / most;
     c.too_near = near >= far;
     c.score = fmax(near, far);
+    c.work = work_of(&a->at) + work_of(&b->at);
     return isfinite(c.score) ? c : (struct candidate){.a = i, .b = j};
 }
 
-/* The best pair of the wanted inequality whose cells are not yet used. */
+static bool better(const struct candidate *c, const struct candidate *best)
+{
+    const double score = fmin(c->score, plain), best_score = fmin(best->score, plain);
+    return score > best_score || (score == best_score && c->work < best->work);
+}
+
+/* The best pair of the wanted inequality whose cells are not yet used, from a score on. Up to 1
+ * there is nothing to show. */
 static struct candidate best_pair(const struct br_study *s, const double *printed, const bool *used,
-                                  bool too_near)
+                                  bool too_near, double least)
 {
     const size_t cells = s->n_count * s->k_count;
-    struct candidate best = {.score = 1}; /* below 1 there is nothing to show */
+    struct candidate best = {.score = least, .work = INFINITY};
     for (size_t i = 0; i < cells; i++)
         for (size_t j = 0; j < cells; j++) {
             if (used[i] || used[j])
                 continue;
             const struct candidate c = rate(s, printed, i, j);
-            if (c.too_near == too_near && c.score > best.score)
+            if (c.too_near == too_near && c.score > 1 && better(&c, &best))
                 best = c;
         }
     return best;
@@ -82,9 +100,9 @@ static size_t choose_pairs(const struct br_study *s, const double *printed, size
 {
     size_t count = 0;
     while (count < most) {
-        struct candidate c = best_pair(s, printed, used, count % 2 == 0);
-        if (c.a == c.b)
-            c = best_pair(s, printed, used, count % 2 != 0);
+        struct candidate c = {0};
+        for (size_t attempt = 0; attempt < 4 && c.a == c.b; attempt++)
+            c = best_pair(s, printed, used, (count + attempt) % 2 == 0, attempt < 2 ? plain : 1);
         if (c.a == c.b)
             break;
         used[c.a] = used[c.b] = true;

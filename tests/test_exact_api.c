@@ -12,6 +12,7 @@
 #include <pthread.h>
 #include <string.h>
 
+#include "reference/exact/shared.h"
 #include "tests/exact_scenes.h"
 
 /* Coefficients and remainder on one element, by plain quadrature. */
@@ -165,6 +166,32 @@ static void test_refusals(void **unused)
     br_exact_free(exact);
 }
 
+/* Shared by those who would get the same one, and by nobody else. */
+static void test_shared(void **unused)
+{
+    (void)unused;
+    const struct br_scene scene = paper_example(2), same_data = scene;
+    const struct br_exact_options modest = {.tolerance = 1e-4, .max_modes = 64},
+                                  any = {.tolerance = 1e-4},
+                                  fine = {.tolerance = 1e-6, .max_modes = 64},
+                                  least = {.tolerance = 1e-4, .max_modes = 18};
+    const struct br_exact *exact[6];
+    assert_int_equal(br_exact_borrow(&exact[0], &scene, &modest, NULL), BR_OK);
+    assert_int_equal(br_exact_borrow(&exact[1], &scene, &any, NULL), BR_OK);
+    assert_int_equal(br_exact_borrow(&exact[2], &scene, &fine, NULL), BR_OK);
+    assert_int_equal(br_exact_borrow(&exact[3], &same_data, &modest, NULL), BR_OK);
+    assert_int_equal(br_exact_borrow(&exact[4], &scene, &least, NULL), BR_OK);
+    assert_true(exact[1] == exact[0]);
+    assert_true(exact[2] != exact[0] && exact[3] != exact[0] && exact[4] != exact[0]);
+    assert_true(br_exact_report(exact[0], BR_EXACT_AXIAL).modes >= 18); /* 18 may be cut short */
+    br_exact_give_back(exact[0]);
+    assert_int_equal(br_exact_borrow(&exact[5], &scene, &modest, NULL), BR_OK);
+    assert_true(exact[5] == exact[1]); /* still there for its second user */
+    for (size_t i = 1; i < 6; i++)
+        br_exact_give_back(exact[i]);
+    br_exact_give_back(NULL);
+}
+
 /* Every allocation fails once. */
 static void test_allocations(void **unused)
 {
@@ -237,9 +264,9 @@ static void test_threads(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_projection), cmocka_unit_test(test_derivatives),
-        cmocka_unit_test(test_refusals),   cmocka_unit_test(test_allocations),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_shared),      cmocka_unit_test(test_projection),
+        cmocka_unit_test(test_derivatives), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_allocations), cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests_name("exact: interface", tests, NULL, NULL);
 }

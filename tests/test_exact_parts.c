@@ -22,10 +22,10 @@ static void test_legendre(void **unused)
     (void)unused;
     double c[] = {1, 2 / sqrt(3) / 4, 1 / sqrt(5) / 2, 0};
     for (double x = 0; x <= 1; x += 0.125) {
-        double p[4], dp[4], q[4], value = 0, rate = 0, integral = 0, series = 0;
+        double p[4], dp[4], both[4], q[4], value = 0, rate = 0, integral = 0, series = 0;
         double d[] = {c[0], c[1], c[2], 0};
         br_legendre_derivative(3, x, p, dp);
-        br_legendre_integral(3, x, q);
+        br_legendre_integral(3, x, both, q);
         for (size_t k = 0; k < 3; k++) {
             value += c[k] * p[k];
             rate += c[k] * dp[k];
@@ -35,10 +35,45 @@ static void test_legendre(void **unused)
         br_legendre(4, x, p);
         for (size_t k = 0; k < 4; k++)
             series += d[k] * p[k];
+        for (size_t k = 0; k < 3; k++)
+            assert_near(both[k], p[k], 2e-15);
         assert_near(value, 3 * x * x - 2 * x + 1, 1e-15);
         assert_near(rate, 6 * x - 2, 1e-14);
         assert_near(integral, x * x * x - x * x + x, 1e-15);
         assert_near(series, x * x * x - x * x + x, 1e-15);
+    }
+}
+
+/* What stands in tables is what the formulas give, bit by bit. */
+static void test_legendre_tables(void **unused)
+{
+    (void)unused;
+    double p[40];
+    br_legendre(40, 1, p); /* P_k(1) = 1 */
+    for (size_t k = 0; k < 40; k++) {
+        const double n = (double)k;
+        assert_true(p[k] == sqrt(2 * n + 1));
+        assert_true(k == 0 || br_legendre_coupling(k) == 0.5 / sqrt(4 * n * n - 1));
+    }
+}
+
+/* As many as there may be, against the longer way. */
+static void test_legendre_integrals(void **unused)
+{
+    (void)unused;
+    for (double x = 0; x <= 1; x += 1.0 / 64) {
+        double p[BR_MOST_INTEGRALS + 1], both[BR_MOST_INTEGRALS], q[BR_MOST_INTEGRALS];
+        br_legendre(BR_MOST_INTEGRALS + 1, x, p);
+        br_legendre_integral(BR_MOST_INTEGRALS, x, both, q);
+        for (size_t k = 0; k < BR_MOST_INTEGRALS; k++) {
+            double c[BR_MOST_INTEGRALS + 1] = {0}, sum = 0;
+            c[k] = 1;
+            br_legendre_integrate(BR_MOST_INTEGRALS, c);
+            for (size_t l = 0; l <= BR_MOST_INTEGRALS; l++)
+                sum += c[l] * p[l];
+            assert_near(both[k], p[k], 2e-14);
+            assert_near(q[k], sum, 2e-15);
+        }
     }
 }
 
@@ -54,8 +89,8 @@ static void test_radau_tables(void **unused)
     for (size_t k = 0; k < S; k++) {
         double samples[S];
         for (size_t j = 0; j < S; j++) {
-            double exact[S], sum = 0;
-            br_legendre_integral(S, r.node[j], exact);
+            double p[S], exact[S], sum = 0;
+            br_legendre_integral(S, r.node[j], p, exact);
             for (size_t l = 0; l < S; l++)
                 sum += value[j][l] * r.integral[l][k];
             assert_near(sum, exact[k], 1e-15);
@@ -150,8 +185,9 @@ static void test_projections(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_legendre),        cmocka_unit_test(test_radau_tables),
-        cmocka_unit_test(test_radau_stability), cmocka_unit_test(test_modes),
+        cmocka_unit_test(test_legendre),           cmocka_unit_test(test_legendre_tables),
+        cmocka_unit_test(test_legendre_integrals), cmocka_unit_test(test_radau_tables),
+        cmocka_unit_test(test_radau_stability),    cmocka_unit_test(test_modes),
         cmocka_unit_test(test_projections),
     };
     return cmocka_run_group_tests_name("exact: parts", tests, NULL, NULL);

@@ -387,6 +387,59 @@ static void test_plots(void **state)
             "evil");
 }
 
+static void write_script(const char *folder, const char *name, const char *text)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs(text, out);
+    assert_int_equal(fclose(out), 0);
+}
+
+/* More scripts than are rendered at once; one fails, the others are done all the same, and the
+ * first failure is told. */
+static void test_renderer(void **state)
+{
+    (void)state;
+    enum { SCRIPTS = 2 * BR_MOST_RENDERINGS + 1, BAD = BR_MOST_RENDERINGS + 3 };
+    struct br_error err = {0};
+    struct br_renderer renderer = {0};
+    char folder[64], script[64], file[64], path[256];
+    bool absent = false;
+    make_folder(folder);
+    for (int i = 0; i < SCRIPTS; i++) {
+        bool missing = false;
+        snprintf(script, sizeof script, "s%d.gp", i);
+        write_script(folder, script,
+                     i == BAD || i == SCRIPTS - 1
+                         ? "plot nonsense\n"
+                         : "stem = ARG0[1:strlen(ARG0)-3]\n"
+                           "set terminal svg\nset output stem.'.svg'\nplot x\n"
+                           "set terminal pngcairo\nset output stem.'.png'\nplot x\n"
+                           "unset output\n");
+        const enum br_status status = br_renderer_add(&renderer, folder, script, &missing, &err);
+        if (!missing)
+            MUST(status);
+        absent |= missing;
+    }
+    snprintf(script, sizeof script, "\"s%d.gp\"", BAD);
+    if (!absent)
+        REFUSED(br_renderer_finish(&renderer, &err), BR_IO, script);
+    assert_int_equal(renderer.count, 0);
+    for (int i = 0; i < SCRIPTS; i++) {
+        static const char *const endings[] = {"png", "svg", "gp"};
+        const bool drawn = !absent && i != BAD && i != SCRIPTS - 1;
+        for (size_t j = 0; j < 3; j++) {
+            snprintf(file, sizeof file, "s%d.%s", i, endings[j]);
+            assert_int_equal(is_there(folder, file), drawn || j == 2);
+            snprintf(path, sizeof path, "%s/%s", folder, file);
+            remove(path);
+        }
+    }
+    remove_folder(folder);
+}
+
 /* The data of "error against h" hold every error that is a number. */
 static void test_plot_data(void **state)
 {
@@ -414,7 +467,7 @@ int main(void)
         cmocka_unit_test(test_csv),       cmocka_unit_test(test_json),
         cmocka_unit_test(test_latex),     cmocka_unit_test(test_text_and_markdown),
         cmocka_unit_test(test_one_field), cmocka_unit_test(test_plots),
-        cmocka_unit_test(test_plot_data),
+        cmocka_unit_test(test_renderer),  cmocka_unit_test(test_plot_data),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -105,6 +105,27 @@ static void test_planted(void **state)
     br_scene_clear(&scene);
 }
 
+/* Of many pairs that would do the cheapest is marched. */
+static void test_cheapest(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_study s = run(&scene);
+    struct br_error err = {0};
+    struct br_triangle triangle;
+    size_t count;
+    double printed[CELLS];
+    for (size_t i = 0; i < CELLS; i++)
+        printed[i] = s.cell[i].error[BR_PART_TOTAL] / 10;
+    MUST(br_triangles(&s, printed, 1, &triangle, &count, 1, &err));
+    assert_int_equal(count, 1);
+    assert_true(triangle.contradiction);
+    assert_int_equal(triangle.a.n * triangle.a.steps, 10 * 10);
+    assert_int_equal(triangle.b.n * triangle.b.steps, 10 * 20);
+    br_study_clear(&s);
+    br_scene_clear(&scene);
+}
+
 static void test_nothing_printed(void **state)
 {
     (void)state;
@@ -226,9 +247,10 @@ static void test_printed_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sound),           cmocka_unit_test(test_planted),
-        cmocka_unit_test(test_nothing_printed), cmocka_unit_test(test_printed_tables),
-        cmocka_unit_test(test_printed_files),   cmocka_unit_test(test_unequal_levels),
+        cmocka_unit_test(test_sound),          cmocka_unit_test(test_planted),
+        cmocka_unit_test(test_cheapest),       cmocka_unit_test(test_nothing_printed),
+        cmocka_unit_test(test_printed_tables), cmocka_unit_test(test_printed_files),
+        cmocka_unit_test(test_unequal_levels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,13 +2,13 @@
 /* The exact reference as a judge. */
 #include <math.h>
 
-#include "reference/exact/exact.h"
+#include "reference/exact/shared.h"
 #include "reference/judge.h"
 #include "solver/clock.h"
 #include "solver/modes.h"
 
 struct exact_judge {
-    struct br_exact *exact;
+    const struct br_exact *exact; /* shared */
     struct br_exact_state *state;
     struct br_exact_projection **projection[2][BR_MEASURES]; /* by br_field_kind, then by mesh */
     bool modelled[2];
@@ -30,7 +30,7 @@ static void exact_free(void *self)
             free(projection);
         }
     br_exact_state_free(e->state);
-    br_exact_free(e->exact);
+    br_exact_give_back(e->exact);
     free(e);
 }
 
@@ -93,7 +93,7 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
         options.max_modes = 64;
     options.stop = r->stop;
     options.stop_self = r->stop_self;
-    enum br_status status = br_exact_create(&e->exact, r->scene, &options, err);
+    enum br_status status = br_exact_borrow(&e->exact, r->scene, &options, err);
     if (!status)
         status = br_exact_state_create(&e->state, e->exact, err);
     if (!status)

@@ -16,8 +16,8 @@ void br_legendre_derivative(size_t count, double xi, double *p, double *dp);
 
 enum { BR_MOST_INTEGRALS = 15 };
 
-/* q[k] = integral of p_k from 0 to xi, k < count <= BR_MOST_INTEGRALS. */
-void br_legendre_integral(size_t count, double xi, double *q);
+/* p[k] = p_k(xi), q[k] = integral of p_k from 0 to xi, k < count <= BR_MOST_INTEGRALS. */
+void br_legendre_integral(size_t count, double xi, double *p, double *q);
 
 /* alpha_k in: integral from 0 of p_k = alpha_{k+1} p_{k+1} - alpha_k p_{k-1}, k >= 1. */
 double br_legendre_coupling(size_t k);

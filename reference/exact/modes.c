@@ -5,6 +5,7 @@
 #include <gsl/gsl_integration.h>
 #include <lapacke.h>
 
+#include "reference/exact/combine.h"
 #include "reference/exact/legendre.h"
 
 size_t br_modes_length(const struct br_modes *modes, size_t order)
@@ -111,8 +112,7 @@ void br_modes_free(struct br_modes *modes)
 
 void br_modes_expand(const struct br_modes *modes, size_t order, const double *q, double *c)
 {
-    const int m = (int)modes->count;
-    cblas_dgemv(CblasColMajor, CblasNoTrans, m, m, 1, modes->curve, m, q, 1, 0, c, 1); /* c = U q */
+    br_combine_best()(modes->count, q, modes->count, modes->curve, c); /* c = U q */
     for (size_t d = 0; d < modes->degree - order; d++)
         br_legendre_integrate(modes->count + d, c);
 }

@@ -109,31 +109,43 @@ static double fraction(const struct br_tip *tip, double t)
     return fmin(fmax((t - tip->start) / tip->length, 0), 1);
 }
 
-struct br_tip_state br_tip_at(const struct br_tip *tip, double theta)
-{
+/* A step's p_k at one moment, and their integrals from its start, over its length. */
+struct moment {
     double value[S], integral[S];
-    br_legendre(S, theta, value);
-    br_legendre_integral(S, theta, integral);
+};
+
+static struct moment moment_at(double theta)
+{
+    struct moment at;
+    br_legendre_integral(S, theta, at.value, at.integral);
+    return at;
+}
+
+static struct br_tip_state tip_at(const struct br_tip *tip, const struct moment *at)
+{
     return (struct br_tip_state){
-        .displacement = tip->displacement + tip->length * br_radau_sum(tip->velocity, integral),
-        .velocity = br_radau_sum(tip->velocity, value),
-        .force = br_radau_sum(tip->force, value),
+        .displacement = tip->displacement + tip->length * br_radau_sum(tip->velocity, at->integral),
+        .velocity = br_radau_sum(tip->velocity, at->value),
+        .force = br_radau_sum(tip->force, at->value),
         .phase = tip->phase,
     };
+}
+
+struct br_tip_state br_tip_at(const struct br_tip *tip, double theta)
+{
+    const struct moment at = moment_at(theta);
+    return tip_at(tip, &at);
 }
 
 struct br_tip_state br_track_at(const struct br_track *track, double t, double *q, double *v)
 {
     const size_t n = br_track_find(track, t), m = track->modes;
     const struct br_tip *tip = &track->tip[n];
-    const double theta = fraction(tip, t);
+    const struct moment at = moment_at(fraction(tip, t));
     const double *start = &track->displacement[n * m], *series = &track->velocity[n * m * S];
-    double value[S], integral[S];
-    br_legendre(S, theta, value);
-    br_legendre_integral(S, theta, integral);
     for (size_t i = 0; q && i < m; i++)
-        q[i] = start[i] + tip->length * br_radau_sum(&series[i * S], integral);
+        q[i] = start[i] + tip->length * br_radau_sum(&series[i * S], at.integral);
     for (size_t i = 0; v && i < m; i++)
-        v[i] = br_radau_sum(&series[i * S], value);
-    return br_tip_at(tip, theta);
+        v[i] = br_radau_sum(&series[i * S], at.value);
+    return tip_at(tip, &at);
 }

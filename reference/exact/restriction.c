@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* In two stages: the series on groups of elements, in as many local polynomials as round-off lets
+ * matter, and these on the elements, by one table for all groups. Elements that do not fill the
+ * last group get it moved back over those before. */
+#include "reference/exact/restriction.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "reference/exact/combine.h"
+#include "reference/exact/interval.h"
+#include "reference/exact/remainder.h"
+
+/* Local coefficients are left out of the tables where the root of the sum of their squares is
+ * below this part of the series, and out of a sum at this part of what they are added to. */
+static const double table_tail = 1e-18, sum_tail = 1e-17;
+
+struct br_restriction {
+    struct br_restriction_shape shape;
+    br_combine *combine;
+    size_t group, groups; /* elements in each, and their number */
+    size_t terms;         /* local coefficients of a group that are kept */
+    double *coarse;       /* length x (groups x terms): the series on the groups */
+    double *fine;         /* terms x (group x (degree + 1)); NULL for groups of one element */
+    double *rest;         /* length x length, R' with rest = |R series|^2 */
+    double *local;        /* groups x terms, workspace */
+    double *left;         /* length, workspace */
+    double *square;       /* terms, workspace */
+};
+
+/* The norm of a function on an element whose coefficients have the norm 1 on [0, 1]. */
+static double scale(const struct br_restriction *r)
+{
+    return r->shape.scale / sqrt((double)r->shape.elements);
+}
+
+/* ---- the choice of groups ---- */
+
+/* About how many local coefficients count: p_k oscillates like cos(k phi), most at the ends,
+ * where phi spans 2 sqrt(h). */
+static double likely_terms(const struct br_restriction_shape *s, size_t group)
+{
+    const double h = (double)group / (double)s->elements;
+    return fmin((double)s->length, 8 + 2 * (double)s->length * sqrt(h));
+}
+
+/* Multiplications of an application. */
+static double cost(const struct br_restriction_shape *s, size_t group)
+{
+    const double values = (double)s->elements * (double)(s->degree + 1);
+    const double groups = ceil((double)s->elements / (double)group);
+    const double terms = likely_terms(s, group);
+    return group == 1 ? values * (double)s->length
+                      : groups * terms * (double)s->length + values * terms;
+}
+
+static size_t choose_group(const struct br_restriction_shape *s)
+{
+    size_t best = 1;
+    for (size_t group = 2; group <= s->elements; group *= 2)
+        if (cost(s, group) < cost(s, best))
+            best = group;
+    return best;
+}
+
+static size_t first_element(const struct br_restriction *r, size_t g)
+{
+    const size_t first = g * r->group, last = r->shape.elements - r->group;
+    return first < last ? first : last;
+}
+
+/* The series on group g. */
+static void move_to(const struct br_restriction *r, size_t g, struct br_interval *series)
+{
+    const long double n = (long double)r->shape.elements;
+    br_interval_move(series, (long double)first_element(r, g) / n, (long double)r->group / n);
+}
+
+/* A group's series, of r->terms, on its element j. */
+static void move_inside(const struct br_restriction *r, size_t j, struct br_interval *local)
+{
+    br_interval_move(local, (long double)j / (long double)r->group, 1 / (long double)r->group);
+}
+
+/* ---- what is left out ---- */
+
+/* |R_0 c|^2 is what the group's elements from `first` on leave out of its series c. */
+static enum br_status reduce_group(const struct br_restriction *r, size_t first,
+                                   struct br_interval *local, struct br_remainder *group,
+                                   struct br_error *err)
+{
+    const size_t terms = local->count, kept = r->shape.degree + 1;
+    enum br_status status = br_remainder_init(group, terms, terms > kept ? terms - kept : 0, err);
+    for (size_t j = first; j < r->group && !status; j++) {
+        move_inside(r, j, local);
+        for (size_t k = 0; k < terms; k++)
+            for (size_t l = kept; l < terms; l++)
+                *br_remainder_block(group, l - kept, k) =
+                    scale(r) * (double)local->r[k * terms + l];
+        status = br_remainder_add(group, err);
+    }
+    return status;
+}
+
+/* Adds R_0 times the series on a group. */
+static enum br_status add_group(const struct br_remainder *group, const struct br_interval *series,
+                                struct br_remainder *all, struct br_error *err)
+{
+    for (size_t k = 0; k < series->count; k++)
+        for (size_t i = 0; i < group->columns; i++) {
+            long double sum = 0;
+            for (size_t l = i; l < group->columns && l <= k; l++)
+                sum += *br_remainder_r(group, i, l) * series->r[k * series->count + l];
+            *br_remainder_block(all, i, k) = (double)sum;
+        }
+    return br_remainder_add(all, err);
+}
+
+/* Groups first to last - 1, of which the elements before `skipped` do not count. */
+static enum br_status add_groups(struct br_restriction *r, const size_t range[2], size_t skipped,
+                                 struct br_interval *series, struct br_interval *local,
+                                 struct br_remainder *all, struct br_error *err)
+{
+    struct br_remainder group;
+    enum br_status status = reduce_group(r, skipped, local, &group, err);
+    for (size_t g = range[0]; g < range[1] && !status; g++) {
+        move_to(r, g, series);
+        status = add_group(&group, series, all, err);
+    }
+    br_remainder_clear(&group);
+    return status;
+}
+
+static enum br_status fill_rest(struct br_restriction *r, struct br_interval *series,
+                                struct br_interval *local, struct br_error *err)
+{
+    const size_t length = r->shape.length, last = r->groups - 1;
+    const size_t skipped = last * r->group - first_element(r, last);
+    struct br_remainder all;
+    enum br_status status = br_remainder_init(&all, length, local->count, err);
+    if (!status)
+        status = add_groups(r, (size_t[]){0, last}, 0, series, local, &all, err);
+    if (!status)
+        status = add_groups(r, (size_t[]){last, r->groups}, skipped, series, local, &all, err);
+    for (size_t k = 0; k < length && !status; k++)
+        memcpy(&r->rest[k * length], br_remainder_r(&all, 0, k), length * sizeof *r->rest);
+    br_remainder_clear(&all);
+    return status;
+}
+
+/* ---- the tables ---- */
+
+/* The number of local coefficients that count in any series of norm 1. square: length x length,
+ * workspace. */
+static size_t count_terms(const struct br_restriction *r, struct br_interval *series,
+                          double *square)
+{
+    const size_t length = r->shape.length;
+    const double h = (double)r->group / (double)r->shape.elements;
+    memset(square, 0, length * length * sizeof *square);
+    for (size_t g = 0; g < r->groups; g++) {
+        move_to(r, g, series);
+        for (size_t i = 0; i < length * length; i++)
+            square[i] += h * (double)(series->r[i] * series->r[i]);
+    }
+    size_t terms = 1;
+    for (size_t k = 0; k < length; k++) {
+        double tail = 0;
+        for (size_t l = length; l-- > terms;)
+            if (!((tail += square[k * length + l]) <= table_tail * table_tail))
+                terms = l + 1;
+    }
+    return terms;
+}
+
+static void fill_coarse(struct br_restriction *r, struct br_interval *series)
+{
+    const size_t length = r->shape.length;
+    const double factor = r->fine ? 1 : scale(r);
+    for (size_t g = 0; g < r->groups; g++) {
+        move_to(r, g, series);
+        for (size_t k = 0; k < length; k++)
+            for (size_t l = 0; l < r->terms && l <= k; l++)
+                r->coarse[(k * r->groups + g) * r->terms + l] =
+                    factor * (double)series->r[k * length + l];
+    }
+}
+
+static void fill_fine(struct br_restriction *r, struct br_interval *local)
+{
+    const size_t kept = r->shape.degree + 1;
+    for (size_t j = 0; j < r->group; j++) {
+        move_inside(r, j, local);
+        for (size_t k = 0; k < r->terms; k++)
+            for (size_t l = 0; l < kept && l <= k; l++)
+                r->fine[(k * r->group + j) * kept + l] =
+                    scale(r) * (double)local->r[k * r->terms + l];
+    }
+}
+
+static enum br_status allocate(struct br_restriction *r, struct br_error *err)
+{
+    const size_t length = r->shape.length, kept = r->shape.degree + 1;
+    r->coarse = br_allocate(length * r->groups * r->terms, sizeof *r->coarse);
+    r->local = br_allocate(r->groups * r->terms, sizeof *r->local);
+    r->left = br_allocate(length, sizeof *r->left);
+    r->square = br_allocate(r->terms, sizeof *r->square);
+    if (r->group > 1)
+        r->fine = br_allocate(r->terms * r->group * kept, sizeof *r->fine);
+    const bool done = r->coarse && r->local && r->left && r->square && (r->fine || r->group == 1);
+    return done ? BR_OK : br_no_memory(err, "a projection");
+}
+
+static enum br_status fill(struct br_restriction *r, struct br_interval *series,
+                           struct br_interval *local, struct br_error *err)
+{
+    const size_t length = r->shape.length;
+    enum br_status status = br_interval_init(series, length, err);
+    r->rest = br_allocate(length * length, sizeof *r->rest);
+    if (status || !r->rest)
+        return br_no_memory(err, "a projection");
+    const size_t terms = count_terms(r, series, r->rest);
+    r->terms = r->group == 1 ? r->shape.degree + 1 : terms;
+    status = allocate(r, err);
+    if (!status)
+        status = br_interval_init(local, terms, err);
+    if (status)
+        return status;
+    fill_coarse(r, series);
+    if (r->fine)
+        fill_fine(r, local);
+    return fill_rest(r, series, local, err);
+}
+
+enum br_status br_restriction_create(struct br_restriction **out,
+                                     const struct br_restriction_shape *shape, struct br_error *err)
+{
+    struct br_restriction *r = br_allocate(1, sizeof *r);
+    *out = r;
+    if (!r)
+        return br_no_memory(err, "a projection");
+    r->shape = *shape;
+    r->combine = br_combine_best();
+    r->group = choose_group(shape);
+    r->groups = (shape->elements + r->group - 1) / r->group;
+    struct br_interval series = {0}, local = {0};
+    const enum br_status status = fill(r, &series, &local, err);
+    br_interval_clear(&series);
+    br_interval_clear(&local);
+    if (status) {
+        br_restriction_free(r);
+        *out = NULL;
+    }
+    return status;
+}
+
+void br_restriction_free(struct br_restriction *r)
+{
+    if (!r)
+        return;
+    free(r->coarse);
+    free(r->fine);
+    free(r->rest);
+    free(r->local);
+    free(r->left);
+    free(r->square);
+    free(r);
+}
+
+/* ---- the application ---- */
+
+/* How many of `count` squares count in their sum; all of them if one is not a number. */
+static size_t significant(size_t count, const double *square)
+{
+    double sum = 0, tail = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += square[i];
+    while (count > 1 && tail + square[count - 1] <= sum_tail * sum_tail * sum)
+        tail += square[--count];
+    return count;
+}
+
+static double sum_of_squares(size_t count, const double *x)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += x[i] * x[i];
+    return sum;
+}
+
+static size_t significant_series(const struct br_restriction *r, const double *series)
+{
+    for (size_t k = 0; k < r->shape.length; k++)
+        r->left[k] = series[k] * series[k];
+    return significant(r->shape.length, r->left);
+}
+
+static size_t significant_terms(const struct br_restriction *r)
+{
+    memset(r->square, 0, r->terms * sizeof *r->square);
+    for (size_t g = 0; g < r->groups; g++)
+        for (size_t l = 0; l < r->terms; l++)
+            r->square[l] += r->local[g * r->terms + l] * r->local[g * r->terms + l];
+    return significant(r->terms, r->square);
+}
+
+void br_restriction_apply(struct br_restriction *r, const double *series, double *c, double *rest)
+{
+    const size_t length = r->shape.length, kept = r->shape.degree + 1;
+    const size_t count = significant_series(r, series);
+    r->combine(count, series, r->groups * r->terms, r->coarse, r->fine ? r->local : c);
+    if (r->fine) {
+        const size_t terms = significant_terms(r);
+        for (size_t g = 0; g < r->groups; g++)
+            r->combine(terms, r->local + g * r->terms, r->group * kept, r->fine,
+                       c + first_element(r, g) * kept);
+    }
+    r->combine(length, series, length, r->rest, r->left);
+    *rest = sum_of_squares(length, r->left);
+}

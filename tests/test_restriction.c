@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The projection of a Legendre series on elements against its definition: integrals over each
+ * element by Gauss's rule, in long double. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "reference/exact/combine.h"
+#include "reference/exact/restriction.h"
+#include "tests/support.h"
+
+enum { MOST_LENGTH = 160, MOST_POINTS = 160, MOST_LOCAL = 20 };
+
+/* p_k(x), k < count, orthonormal on [0, 1], by the recurrence of the usual ones. */
+static void legendre(size_t count, long double x, long double *p)
+{
+    const long double y = 2 * x - 1;
+    long double before = 0, here = 1;
+    for (size_t k = 0; k < count; k++) {
+        const long double n = (long double)k;
+        p[k] = sqrtl(2 * n + 1) * here;
+        const long double next = ((2 * n + 1) * y * here - n * before) / (n + 1);
+        before = here;
+        here = next;
+    }
+}
+
+/* Gauss's points and weights on [0, 1]: Newton's method from Tricomi's guess. */
+static void gauss(size_t points, long double *x, long double *weight)
+{
+    for (size_t i = 0; i < points; i++) {
+        const long double n = (long double)points;
+        long double y = cosl(acosl(-1) * ((long double)i + 0.75L) / (n + 0.5L)), slope = 0;
+        for (int step = 0; step < 20; step++) {
+            long double before = 0, here = 1;
+            for (size_t k = 0; k < points; k++) {
+                const long double m = (long double)k;
+                const long double next = ((2 * m + 1) * y * here - m * before) / (m + 1);
+                before = here;
+                here = next;
+            }
+            slope = n * (y * here - before) / (y * y - 1);
+            y -= here / slope;
+        }
+        x[i] = (1 - y) / 2;
+        weight[i] = 1 / ((1 - y * y) * slope * slope);
+    }
+}
+
+/* How far an application is from the definition. */
+struct deviation {
+    long double norm;             /* of the series */
+    long double values;           /* L2 norm of the error of c */
+    long double rest, rest_error; /* roots: what is right, the error */
+};
+
+static struct deviation deviation_of(const struct br_restriction_shape *s, const double *series,
+                                     const double *c, double rest)
+{
+    static long double x[MOST_POINTS], weight[MOST_POINTS], p[MOST_POINTS][MOST_LOCAL];
+    const size_t kept = s->degree + 1;
+    const size_t points = s->length < 30 || s->elements < 50 ? s->length + 2 : 40;
+    struct deviation d = {0};
+    long double all = 0;
+    assert_true(points <= MOST_POINTS);
+    gauss(points, x, weight);
+    for (size_t i = 0; i < points; i++)
+        legendre(MOST_LOCAL, x[i], p[i]);
+    const long double root_h = s->scale / sqrtl((long double)s->elements);
+    for (size_t e = 0; e < s->elements; e++) {
+        long double local[MOST_LOCAL] = {0}, value[MOST_POINTS], square = 0, left = 0;
+        for (size_t i = 0; i < points; i++) {
+            long double global[MOST_LENGTH];
+            legendre(s->length, ((long double)e + x[i]) / (long double)s->elements, global);
+            value[i] = 0;
+            for (size_t k = 0; k < s->length; k++)
+                value[i] += root_h * series[k] * global[k];
+            for (size_t l = 0; l < kept; l++)
+                local[l] += weight[i] * value[i] * p[i][l];
+            square += weight[i] * value[i] * value[i];
+        }
+        for (size_t i = 0; i < points; i++) {
+            long double difference = value[i];
+            for (size_t l = 0; l < kept; l++)
+                difference -= local[l] * p[i][l];
+            left += weight[i] * difference * difference;
+        }
+        for (size_t l = 0; l < kept; l++) {
+            const long double error = c[e * kept + l] - local[l];
+            d.values += error * error;
+        }
+        all += square;
+        d.rest += left;
+    }
+    d.norm = sqrtl(all);
+    d.values = sqrtl(d.values);
+    d.rest = sqrtl(d.rest);
+    d.rest_error = fabsl(sqrtl(rest) - d.rest);
+    return d;
+}
+
+static void check(const struct br_restriction_shape *shape, const double *series)
+{
+    struct br_error err = {0};
+    struct br_restriction *r = NULL;
+    const size_t values = shape->elements * (shape->degree + 1);
+    double *c = calloc(values, sizeof *c), rest = NAN;
+    assert_non_null(c);
+    for (size_t i = 0; i < values; i++)
+        c[i] = NAN;
+    MUST(br_restriction_create(&r, shape, &err));
+    br_restriction_apply(r, series, c, &rest);
+    br_restriction_free(r);
+    const struct deviation d = deviation_of(shape, series, c, rest);
+    const double slack = br_test_slack();
+    AT_MOST((double)(d.values / d.norm), 1e-15 * slack);
+    /* What is left out is right in its own size, down to the long doubles' own round-off. */
+    AT_MOST((double)((d.rest_error - 3e-18L * d.norm * (long double)slack) / (d.rest + 1e-300L)),
+            1e-13 * slack);
+    free(c);
+}
+
+static void fill(size_t length, double decay, double *series)
+{
+    struct br_test_random random = {length + 17};
+    for (size_t k = 0; k < length; k++)
+        series[k] = br_test_uniform(&random, -1, 1) * pow(decay, (double)k);
+}
+
+static void check_all(const struct br_restriction_shape *shape)
+{
+    double series[MOST_LENGTH];
+    fill(shape->length, 1, series);
+    check(shape, series);
+    fill(shape->length, 0.1, series); /* smooth: only some of the terms count */
+    check(shape, series);
+}
+
+static void test_definition(void **unused)
+{
+    (void)unused;
+    static const size_t elements[] = {1, 7, 100, 3200, 12800};
+    const size_t count = br_test_quick() ? 3 : sizeof elements / sizeof *elements;
+    for (size_t i = 0; i < count; i++)
+        for (size_t degree = 0; degree <= 3; degree++)
+            check_all(&(struct br_restriction_shape){21, elements[i], degree, 1.5});
+}
+
+/* Elements that do not fill groups: the last one overlaps. */
+static void test_primes(void **unused)
+{
+    (void)unused;
+    check_all(&(struct br_restriction_shape){20, 3203, 3, 1});
+    check_all(&(struct br_restriction_shape){19, 997, 1, 1});
+}
+
+static void test_lengths(void **unused)
+{
+    (void)unused;
+    static const size_t lengths[] = {1, 2, 3, 5, 60, 150};
+    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
+        check_all(&(struct br_restriction_shape){lengths[i], 13, 3, 1});
+        check_all(&(struct br_restriction_shape){lengths[i], 640, 1, 1});
+    }
+}
+
+/* A derivative has lost a degree for each order; a polynomial of the elements' degree leaves
+ * nothing out, and the zero series nothing at all. */
+static void test_nothing_left(void **unused)
+{
+    (void)unused;
+    struct br_error err = {0};
+    for (size_t degree = 0; degree <= 3; degree++) {
+        const struct br_restriction_shape shape = {25, 3200, degree, 1};
+        struct br_restriction *r = NULL;
+        double series[25] = {0}, rest = NAN;
+        double *c = calloc(3200 * (degree + 1), sizeof *c);
+        MUST(br_restriction_create(&r, &shape, &err));
+        br_restriction_apply(r, series, c, &rest);
+        assert_true(rest == 0);
+        for (size_t i = 0; i < 3200 * (degree + 1); i++)
+            assert_true(c[i] == 0);
+        for (size_t k = 0; k <= degree; k++)
+            series[k] = 1;
+        br_restriction_apply(r, series, c, &rest);
+        assert_true(rest == 0);
+        br_restriction_free(r);
+        free(c);
+    }
+}
+
+/* None is lost. */
+static void test_not_finite(void **unused)
+{
+    (void)unused;
+    struct br_error err = {0};
+    const struct br_restriction_shape shape = {20, 3200, 3, 1};
+    struct br_restriction *r = NULL;
+    double *c = calloc(3200 * 4, sizeof *c);
+    MUST(br_restriction_create(&r, &shape, &err));
+    for (size_t k = 0; k < 20; k++) {
+        double series[20] = {1}, rest = 0;
+        series[k] = NAN;
+        br_restriction_apply(r, series, c, &rest);
+        assert_true(isnan(rest));
+        assert_true(isnan(c[0]));
+    }
+    br_restriction_free(r);
+    free(c);
+}
+
+static void test_combiners(void **unused)
+{
+    (void)unused;
+    struct br_test_random random = {3};
+    double factor[9], table[9 * 111], sum[111], expected[111];
+    for (size_t i = 0; i < 9; i++)
+        factor[i] = br_test_uniform(&random, -1, 1);
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        table[i] = br_test_uniform(&random, -1, 1);
+    for (size_t width = 1; width <= 111; width++) {
+        for (size_t j = 0; j < width; j++) {
+            double value = 0;
+            for (size_t k = 0; k < 9; k++) {
+                const double product = factor[k] * table[k * width + j];
+                value += product;
+            }
+            expected[j] = value;
+        }
+        for (size_t i = 0; i < br_combiner_count; i++) {
+            if (!br_combiners[i].available())
+                continue;
+            memset(sum, 0, sizeof sum);
+            br_combiners[i].combine(9, factor, width, table, sum);
+            assert_memory_equal(sum, expected, width * sizeof *sum);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_definition), cmocka_unit_test(test_primes),
+        cmocka_unit_test(test_lengths),    cmocka_unit_test(test_nothing_left),
+        cmocka_unit_test(test_not_finite), cmocka_unit_test(test_combiners),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
