@@ -8,7 +8,7 @@
 
 struct fine {
     struct br_march *march;
-    double seconds;
+    double seconds[2]; /* by br_field_kind */
 };
 
 static void fine_free(void *self)
@@ -28,20 +28,22 @@ static enum br_status fine_create(void **self, const struct br_judge_request *r,
     if (!f)
         return br_no_memory(err, "the reference");
     const double start = br_seconds();
-    const enum br_status status =
-        br_march_create(&f->march, r->scene, r->n, r->levels, &r->method, err);
-    f->seconds = br_seconds() - start;
+    enum br_status status = br_march_create(&f->march, r->scene, r->n, r->levels, &r->method, err);
+    if (!status && r->lead > 0)
+        status = br_march_allow_lead(f->march, r->lead, err);
+    f->seconds[BR_AXIAL] = br_seconds() - start;
     return status;
 }
 
-static enum br_status fine_advance(void *self, size_t i, struct br_error *err)
+static enum br_status fine_advance(void *self, enum br_field_kind kind, size_t i,
+                                   struct br_error *err)
 {
     struct fine *f = self;
     const double start = br_seconds();
     enum br_status status = BR_OK;
-    while (!status && br_march_steps_done(f->march) < i)
-        status = br_march_step(f->march, err);
-    f->seconds += br_seconds() - start;
+    while (!status && br_march_field_steps(f->march, kind) < i)
+        status = br_march_step_field(f->march, kind, err);
+    f->seconds[kind] += br_seconds() - start;
     return status;
 }
 
@@ -57,7 +59,7 @@ static struct br_judge_report fine_report(const void *self)
     const struct fine *f = self;
     struct br_judge_report report = {
         .round_off = br_march_round_off(f->march),
-        .seconds = f->seconds,
+        .seconds = f->seconds[BR_AXIAL] + f->seconds[BR_BENDING],
         .unstable = br_march_contact_unstable(f->march),
     };
     for (int measure = 0; measure < BR_MEASURES; measure++)

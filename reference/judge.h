@@ -14,6 +14,7 @@ struct br_judge_request {
     struct br_method method;       /* fine only */
     size_t n;                      /* fine only: its elements */
     size_t levels;                 /* time levels after t = 0; for fine, its steps */
+    size_t lead;                   /* time levels that the axial field may be ahead by */
     bool modest;                   /* exact only: give up where it takes more than moderate work */
     bool measured[2][BR_MEASURES]; /* by br_field_kind: what it will be looked at for */
     size_t mesh_count;             /* the meshes that it will be looked at on */
@@ -51,8 +52,9 @@ struct br_judge {
                              struct br_error *err);
     void (*free)(void *self); /* accepts NULL */
 
-    /* Goes on to time level i, never back. */
-    enum br_status (*advance)(void *self, size_t i, struct br_error *err);
+    /* Goes on to time level i in one field, never back. The two fields may be advanced and looked
+     * at in different threads; the axial one is there first, and by at most the request's lead. */
+    enum br_status (*advance)(void *self, enum br_field_kind kind, size_t i, struct br_error *err);
 
     /* A measure of the solution there, on the mesh of that index. view: out, and the values where
      * its values point to; the tip has one, in m. */

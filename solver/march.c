@@ -12,14 +12,17 @@ struct part {
     const struct br_field_solver *solver;
     void *state;
     struct br_step_load load;
+    size_t done; /* steps */
 };
 
 struct br_march {
     const struct br_scene *scene;
     struct br_method method;
-    size_t steps, done;
+    size_t steps;
     struct part part[2]; /* by br_field_kind */
     struct br_tip tip;
+    double *penetration; /* (u_n - g)_+ of the last `lead` steps, m */
+    size_t lead;
 };
 
 struct br_method br_method_default(void)
@@ -110,6 +113,7 @@ enum br_status br_march_create(struct br_march **out, const struct br_scene *sce
     m->scene = scene;
     m->method = *method;
     m->steps = steps;
+    status = br_march_allow_lead(m, 1, err);
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
         status = create_part(m, (enum br_field_kind)kind, n, err);
     if (status) {
@@ -131,7 +135,16 @@ void br_march_free(struct br_march *m)
             part->solver->free(part->state);
         br_step_load_clear(&part->load);
     }
+    free(m->penetration);
     free(m);
+}
+
+enum br_status br_march_allow_lead(struct br_march *m, size_t steps, struct br_error *err)
+{
+    free(m->penetration);
+    m->lead = steps;
+    m->penetration = br_allocate(steps, sizeof *m->penetration);
+    return m->penetration ? BR_OK : br_no_memory(err, "a march");
 }
 
 /* v*: the tip's velocity at t_n with no tip force. */
@@ -140,13 +153,22 @@ static enum br_status predict(struct br_march *m, enum br_field_kind kind, doubl
 {
     struct part *part = &m->part[kind];
     const enum br_status status =
-        br_step_load_update(&part->load, &part->field, time_level(m, m->done + 1), err);
+        br_step_load_update(&part->load, &part->field, time_level(m, part->done + 1), err);
     if (status)
         return status;
     const enum br_status predicted =
         part->solver->predict(part->state, &part->load.drive, velocity, err);
     part->load.drive.changed = false;
     return predicted;
+}
+
+/* (u_n - g)_+. A contact force at u_n knows it without the loss of a difference. */
+static double penetration(const struct br_march *m)
+{
+    const struct br_contact *contact = &m->scene->contact;
+    if (contact->modelled && m->method.contact->at_new_step && contact->stiffness > 0)
+        return m->tip.contact_force / contact->stiffness;
+    return br_penetration(contact, m->tip.displacement);
 }
 
 /* Equation (16), or (27): v_n with the contact force at u_{n-1} or at u_n. */
@@ -165,16 +187,8 @@ static enum br_status step_axial(struct br_march *m, struct br_error *err)
         m->scene->contact.modelled ? m->method.contact->force(&m->scene->contact, &contact) : 0;
     m->tip.velocity[BR_AXIAL] = part->solver->finish(part->state, m->tip.contact_force);
     m->tip.displacement = part->solver->tip_displacement(part->state);
+    m->penetration[part->done % m->lead] = penetration(m);
     return BR_OK;
-}
-
-/* (u_n - g)_+. A contact force at u_n knows it without the loss of a difference. */
-static double penetration(const struct br_march *m)
-{
-    const struct br_contact *contact = &m->scene->contact;
-    if (contact->modelled && m->method.contact->at_new_step && contact->stiffness > 0)
-        return m->tip.contact_force / contact->stiffness;
-    return br_penetration(contact, m->tip.displacement);
 }
 
 /* Inequality (17), or (28) and (30): A v + lambda e_tip = rhs with lambda from
@@ -184,7 +198,7 @@ static enum br_status step_bending(struct br_march *m, struct br_error *err)
     struct part *part = &m->part[BR_BENDING];
     struct br_friction_state friction = {
         .compliance = part->solver->tip_compliance(part->state),
-        .bound = br_friction_bound(m->scene, penetration(m)),
+        .bound = br_friction_bound(m->scene, m->penetration[part->done % m->lead]),
         .regularisation = m->scene->friction.regularisation,
     };
     const enum br_status status = predict(m, BR_BENDING, &friction.free_velocity, err);
@@ -198,40 +212,53 @@ static enum br_status step_bending(struct br_march *m, struct br_error *err)
 }
 
 /* A march that has left the numbers says so at once. */
-static enum br_status check_finite(const struct br_march *m, struct br_error *err)
+static enum br_status check_finite(const struct br_march *m, enum br_field_kind kind,
+                                   struct br_error *err)
 {
     static const char *const names[] = {"axial", "bending"};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (!isfinite(m->tip.velocity[kind]))
-            return br_fail(err, BR_NOT_FINITE,
-                           "the march blew up at t = %g s (step %zu of %zu, k = %g s): the %s "
-                           "velocity of the tip is %g m/s",
-                           br_march_time(m), m->done, m->steps, m->part[kind].field.k, names[kind],
-                           m->tip.velocity[kind]);
-    return BR_OK;
+    const struct part *part = &m->part[kind];
+    if (isfinite(m->tip.velocity[kind]))
+        return BR_OK;
+    return br_fail(err, BR_NOT_FINITE,
+                   "the march blew up at t = %g s (step %zu of %zu, k = %g s): the %s velocity of "
+                   "the tip is %g m/s",
+                   time_level(m, part->done), part->done, m->steps, part->field.k, names[kind],
+                   m->tip.velocity[kind]);
+}
+
+enum br_status br_march_step_field(struct br_march *m, enum br_field_kind kind,
+                                   struct br_error *err)
+{
+    struct part *part = &m->part[kind];
+    if (part->modelled) {
+        const enum br_status status = kind == BR_AXIAL ? step_axial(m, err) : step_bending(m, err);
+        if (status)
+            return status;
+    }
+    part->done++;
+    return check_finite(m, kind, err);
 }
 
 enum br_status br_march_step(struct br_march *m, struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    if (m->part[BR_AXIAL].modelled)
-        status = step_axial(m, err);
-    if (!status && m->part[BR_BENDING].modelled)
-        status = step_bending(m, err);
-    if (status)
-        return status;
-    m->done++;
-    return check_finite(m, err);
+    const enum br_status status = br_march_step_field(m, BR_AXIAL, err);
+    return status ? status : br_march_step_field(m, BR_BENDING, err);
 }
 
 size_t br_march_steps_done(const struct br_march *m)
 {
-    return m->done;
+    const size_t axial = m->part[BR_AXIAL].done, bending = m->part[BR_BENDING].done;
+    return axial < bending ? axial : bending;
+}
+
+size_t br_march_field_steps(const struct br_march *m, enum br_field_kind kind)
+{
+    return m->part[kind].done;
 }
 
 double br_march_time(const struct br_march *m)
 {
-    return time_level(m, m->done);
+    return time_level(m, br_march_steps_done(m));
 }
 
 const struct br_tip *br_march_tip(const struct br_march *m)

@@ -41,7 +41,17 @@ void br_march_free(struct br_march *march); /* accepts NULL */
  * a march that blows up), BR_SINGULAR; the state is then lost. */
 enum br_status br_march_step(struct br_march *march, struct br_error *err);
 
-/* Steps done so far, and the time reached, s. */
+/* One step of one field. Nothing of the bending field acts on the axial one, so this may be ahead by
+ * the steps that are allowed (1 at first), also in another thread, if the bending field waits for
+ * it, and it for the bending field where that is behind by so many. Fails as br_march_step. */
+enum br_status br_march_step_field(struct br_march *march, enum br_field_kind kind,
+                                   struct br_error *err);
+enum br_status br_march_allow_lead(struct br_march *march, size_t steps, struct br_error *err);
+
+/* Steps of one field done so far. */
+size_t br_march_field_steps(const struct br_march *march, enum br_field_kind kind);
+
+/* Steps of both fields done so far, and the time reached, s. */
 size_t br_march_steps_done(const struct br_march *march);
 double br_march_time(const struct br_march *march);
 

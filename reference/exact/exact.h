@@ -94,6 +94,10 @@ void br_exact_state_free(struct br_exact_state *state);
  * cost the same and are as accurate as the steps' ends. */
 void br_exact_at(const struct br_exact *exact, double t, struct br_exact_state *state);
 
+/* The same for what the state has of one field; the other field's may be at another time. */
+void br_exact_field_at(const struct br_exact *exact, enum br_exact_field field, double t,
+                       struct br_exact_state *state);
+
 /* A function of x: a modelled field's displacement or velocity, derived. */
 struct br_exact_part {
     enum br_exact_field field;

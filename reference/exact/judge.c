@@ -14,7 +14,7 @@ struct exact_judge {
     bool modelled[2];
     size_t meshes, levels;
     double length, duration; /* m, s */
-    double seconds;
+    double seconds[2]; /* by br_field_kind */
 };
 
 static void exact_free(void *self)
@@ -98,17 +98,19 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
         status = br_exact_state_create(&e->state, e->exact, err);
     if (!status)
         status = create_all_projections(e, r, err);
-    e->seconds = br_seconds() - start;
+    e->seconds[BR_AXIAL] = br_seconds() - start;
     return status;
 }
 
-static enum br_status exact_advance(void *self, size_t i, struct br_error *err)
+static enum br_status exact_advance(void *self, enum br_field_kind kind, size_t i,
+                                    struct br_error *err)
 {
     struct exact_judge *e = self;
     (void)err;
     const double start = br_seconds();
-    br_exact_at(e->exact, e->duration * (double)i / (double)e->levels, e->state);
-    e->seconds += br_seconds() - start;
+    br_exact_field_at(e->exact, part_of(kind, BR_TIP).field,
+                      e->duration * (double)i / (double)e->levels, e->state);
+    e->seconds[kind] += br_seconds() - start;
     return BR_OK;
 }
 
@@ -129,7 +131,7 @@ static void exact_look(void *self, const struct br_look_at *at, struct br_view *
 static struct br_judge_report exact_report(const void *self)
 {
     const struct exact_judge *e = self;
-    struct br_judge_report report = {.seconds = e->seconds};
+    struct br_judge_report report = {.seconds = e->seconds[BR_AXIAL] + e->seconds[BR_BENDING]};
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         if (!e->modelled[kind])
             continue;

@@ -57,20 +57,26 @@ void br_exact_state_free(struct br_exact_state *state)
     free(state);
 }
 
+void br_exact_field_at(const struct br_exact *exact, enum br_exact_field field, double t,
+                       struct br_exact_state *state)
+{
+    const struct br_track *track = exact->solution->track[field];
+    if (!track)
+        return;
+    const double time = fmin(fmax(t, 0), exact->duration);
+    const struct br_tip_state tip =
+        br_track_at(track, time, state->mode[field][0], state->mode[field][1]);
+    state->tip[field].displacement = tip.displacement + track->gap;
+    state->tip[field].velocity = tip.velocity;
+    const double force = br_law_force_at(&exact->solution->law[field], time, &tip);
+    *(field == BR_EXACT_AXIAL ? &state->contact_force : &state->friction_force) = force;
+}
+
 void br_exact_at(const struct br_exact *exact, double t, struct br_exact_state *state)
 {
     state->time = fmin(fmax(t, 0), exact->duration);
-    for (size_t i = 0; i < BR_EXACT_FIELDS; i++) {
-        const struct br_track *track = exact->solution->track[i];
-        if (!track)
-            continue;
-        const struct br_tip_state tip =
-            br_track_at(track, state->time, state->mode[i][0], state->mode[i][1]);
-        state->tip[i].displacement = tip.displacement + track->gap;
-        state->tip[i].velocity = tip.velocity;
-        const double force = br_law_force_at(&exact->solution->law[i], state->time, &tip);
-        *(i == BR_EXACT_AXIAL ? &state->contact_force : &state->friction_force) = force;
-    }
+    br_exact_field_at(exact, BR_EXACT_AXIAL, t, state);
+    br_exact_field_at(exact, BR_EXACT_BENDING, t, state);
     state->friction_bound = br_law_bound(&exact->solution->law[BR_EXACT_BENDING], state->time);
 }
 

@@ -14,9 +14,9 @@ struct mms_judge {
     char *solution[2];                                 /* NULL: not modelled */
     size_t meshes, levels;
     double length, duration;     /* m, s */
-    double time;                 /* s */
+    double time[2];              /* by br_field_kind, s */
     double tail[2][BR_MEASURES]; /* the largest of br_projection_rest, squared */
-    double seconds;
+    double seconds[2];           /* by br_field_kind */
 };
 
 static void mms_free(void *self)
@@ -99,11 +99,12 @@ static enum br_status mms_create(void **self, const struct br_judge_request *r,
     return status ? status : create_part(j, BR_BENDING, r, err);
 }
 
-static enum br_status mms_advance(void *self, size_t i, struct br_error *err)
+static enum br_status mms_advance(void *self, enum br_field_kind kind, size_t i,
+                                  struct br_error *err)
 {
     struct mms_judge *j = self;
     (void)err;
-    j->time = j->duration * (double)i / (double)j->levels;
+    j->time[kind] = j->duration * (double)i / (double)j->levels;
     return BR_OK;
 }
 
@@ -114,23 +115,23 @@ static void mms_look(void *self, const struct br_look_at *at, struct br_view *vi
     struct br_projection_rest sums = {0};
     if (at->measure == BR_TIP) {
         br_view_modes(view, 0);
-        *view->values = br_derivative_at(j->tip[at->kind], j->length, j->time);
+        *view->values = br_derivative_at(j->tip[at->kind], j->length, j->time[at->kind]);
     } else {
         br_view_modes(view, br_mode_count(at->kind, at->measure));
-        sums = br_projection_apply(j->projection[at->kind][at->measure][at->mesh], j->time,
+        sums = br_projection_apply(j->projection[at->kind][at->measure][at->mesh], j->time[at->kind],
                                    view->values);
     }
     view->rest = sums.rest;
     double *tail = &j->tail[at->kind][at->measure];
     *tail = fmax(*tail, sums.tail);
-    j->seconds += br_seconds() - start;
+    j->seconds[at->kind] += br_seconds() - start;
 }
 
 /* The modes fall quickly: what lies beyond the last ones is no larger than they are. */
 static struct br_judge_report mms_report(const void *self)
 {
     const struct mms_judge *j = self;
-    struct br_judge_report report = {.seconds = j->seconds};
+    struct br_judge_report report = {.seconds = j->seconds[BR_AXIAL] + j->seconds[BR_BENDING]};
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         for (int measure = 0; measure < BR_MEASURES; measure++)
             report.own_error[kind][measure] = sqrt(j->tail[kind][measure]);
