@@ -72,12 +72,13 @@ static enum br_status create_roots(struct br_lockstep *l, struct br_channel *c,
                                    const struct br_look_at *at, struct br_error *err)
 {
     c->root = br_allocate(l->roots, sizeof *c->root);
-    c->audit = br_allocate(br_measure_size(at->kind, at->measure, l->root[0]), sizeof(double));
+    c->audit =
+        br_allocate_aligned(br_measure_size(at->kind, at->measure, l->root[0]), sizeof(double));
     if (!c->root || !c->audit)
         return br_no_memory(err, "the reference's values");
     for (size_t i = 0; i < l->roots; i++) {
         c->root[i].modes =
-            br_allocate(br_measure_size(at->kind, at->measure, l->root[i]), sizeof(double));
+            br_allocate_aligned(br_measure_size(at->kind, at->measure, l->root[i]), sizeof(double));
         if (!c->root[i].modes)
             return br_no_memory(err, "the reference's values");
     }
