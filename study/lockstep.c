@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The reference is marched a batch of time levels at a time and leaves their
- * projections (ladder.h) in one of two buffers; each cell then takes its own
- * steps through the batch and measures its errors, while the reference is
- * already filling the other buffer. These are OpenMP tasks whose dependences are
- * the buffers and the marches. Every march is one sequence of operations
- * whichever threads run it, so the result has the same bits on any number. */
+/* The reference is marched a batch of time levels at a time, its two fields apart, and leaves its
+ * projections (ladder.h) in one of a few buffers; the cells then take their own steps through the
+ * batch and measure their errors, while the reference is already filling the other buffers. These
+ * are OpenMP tasks whose dependences are the buffers and the marches. The bending field follows the
+ * axial one, which never waits for it but for a free buffer. Every march is one sequence of
+ * operations whichever threads run it, so the result has the same bits on any number. */
 #include "study/lockstep.h"
 
 #include <stdio.h>
@@ -27,21 +27,56 @@ static bool should_stop(struct br_lockstep *l)
     return atomic_load(&l->stopped);
 }
 
-static void reference_batch(struct br_lockstep *l, size_t b)
+static struct br_slot slot_at(const struct br_lockstep *l, size_t index)
 {
-    struct br_error *error = &l->reference.error;
-    for (size_t i = b * l->batch; i < batch_end(l, b) && !should_stop(l); i++) {
-        const struct br_slot slot = {b % BR_LOCKSTEP_BUFFERS, i % l->batch};
-        const bool audited =
-            l->auditor.judge && (i % l->audit_every == 0 || i + 1 == l->level_count);
-        enum br_status status = l->reference.judge->advance(l->reference.self, l->level[i], error);
-        if (!status)
-            br_lockstep_project(l, slot, l->level[i]);
-        if (!status && audited)
-            status = br_lockstep_audit(l, l->level[i], error);
-        if (status)
-            atomic_store(&l->stopped, true);
+    return (struct br_slot){index / l->batch % BR_LOCKSTEP_BUFFERS, index % l->batch};
+}
+
+/* Whether the reference, in one field or the other, has failed before that level. */
+static bool failed_before(const struct br_lockstep *l, size_t index)
+{
+    return atomic_load(&l->first_failed) <= index;
+}
+
+static enum br_status reference_level(struct br_lockstep *l, enum br_field_kind kind, size_t index,
+                                      struct br_error *err)
+{
+    const size_t level = l->level[index];
+    const struct br_slot slot = slot_at(l, index);
+    const enum br_status status = l->reference.judge->advance(l->reference.self, kind, level, err);
+    if (status)
+        return status;
+    br_lockstep_project(l, kind, slot, level);
+    return br_lockstep_audits(l, index) ? br_lockstep_audit(l, kind, slot, level, err) : BR_OK;
+}
+
+static bool models(const struct br_lockstep *l, enum br_field_kind kind)
+{
+    const struct br_scene *scene = l->study->scene;
+    return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
+}
+
+/* A field that fails stops the other one only beyond that level, so that the first failure is told,
+ * whichever thread was faster. */
+static void reference_batch(struct br_lockstep *l, enum br_field_kind kind, size_t b)
+{
+    struct br_lane *lane = &l->lane[kind];
+    for (size_t i = b * l->batch; i < batch_end(l, b) && models(l, kind); i++) {
+        if (should_stop(l) || lane->error.status || failed_before(l, i))
+            return;
+        if (!reference_level(l, kind, i, &lane->error))
+            continue;
+        lane->failed = i;
+        size_t first = atomic_load(&l->first_failed);
+        while (i < first && !atomic_compare_exchange_weak(&l->first_failed, &first, i)) {
+        }
     }
+}
+
+static void add_up_batch(struct br_lockstep *l, size_t b)
+{
+    for (size_t i = b * l->batch; i < batch_end(l, b) && !failed_before(l, i); i++)
+        br_lockstep_add_up(l, slot_at(l, i), i);
 }
 
 static void cell_batch(struct br_lockstep *l, size_t b, size_t index)
@@ -51,19 +86,28 @@ static void cell_batch(struct br_lockstep *l, size_t b, size_t index)
     for (size_t i = b * l->batch; i < batch_end(l, b) && !r->error.status; i++) {
         if (l->level[i] % ratio != 0)
             continue;
-        if (atomic_load(&l->stopped))
+        if (atomic_load(&l->stopped) || failed_before(l, i))
             return;
         if (br_runner_advance(r, l->level[i] / ratio))
             br_cell_failed(l->study, index, &r->error);
         else
-            br_lockstep_measure(l, index, (struct br_slot){b % BR_LOCKSTEP_BUFFERS, i % l->batch});
+            br_lockstep_measure(l, index, slot_at(l, i));
     }
+}
+
+static void crew_batch(struct br_lockstep *l, size_t b, size_t crew)
+{
+    for (size_t i = l->crew[crew]; i < l->crew[crew + 1]; i++)
+        cell_batch(l, b, l->member[i]);
 }
 
 /* ---- running ---- */
 
+/* Batches of each study that are spawned at once, at most about. */
+enum { AHEAD = 16 };
+
 /* All the studies of a call, and how far they are. */
-struct crew {
+struct work {
     struct br_lockstep *step;
     size_t count;
     atomic_size_t finished_batches;
@@ -71,52 +115,68 @@ struct crew {
     const struct br_observer *observer;
 };
 
-static void tell(struct crew *crew, struct br_lockstep *l)
+static void tell(struct work *work, struct br_lockstep *l)
 {
-    if (atomic_load(&l->stopped))
+    if (atomic_load(&l->stopped) || failed_before(l, l->level_count))
         return;
-    const size_t done = atomic_fetch_add(&crew->finished_batches, 1) + 1;
-    if (crew->observer && crew->observer->progress)
-        crew->observer->progress(crew->observer->self, (double)done / (double)crew->all_batches);
+    const size_t done = atomic_fetch_add(&work->finished_batches, 1) + 1;
+    if (work->observer && work->observer->progress)
+        work->observer->progress(work->observer->self, (double)done / (double)work->all_batches);
 }
 
-/* The tasks of batch b: the reference fills a buffer, then the cells read it. */
-static void spawn_batch(struct crew *crew, struct br_lockstep *l, size_t b)
+/* The tasks of batch b: each field of the reference fills its buffer, then the cells read them. */
+static void spawn_batch(struct work *work, struct br_lockstep *l, size_t b)
 {
-    (void)crew; /* without OpenMP */
-    struct br_bench *reference = &l->reference;
-    char *buffer = &l->token[b % BR_LOCKSTEP_BUFFERS];
-    (void)reference, (void)buffer;
-#pragma omp task depend(inout : reference[0]) depend(inout : buffer[0])
+    (void)work; /* without OpenMP */
+    struct br_lane *axial = &l->lane[BR_AXIAL], *bending = &l->lane[BR_BENDING];
+    char *from_axial = &axial->token[b % BR_LOCKSTEP_BUFFERS], *tally = &l->tally;
+    char *from_bending = &bending->token[b % BR_LOCKSTEP_BUFFERS];
+    (void)from_axial, (void)from_bending, (void)tally;
+#pragma omp task depend(inout : axial[0]) depend(inout : from_axial[0])
+    reference_batch(l, BR_AXIAL, b);
+#pragma omp task depend(inout                                              \
+                        : bending[0]) depend(in                            \
+                                             : from_axial[0]) depend(inout \
+                                                                     : from_bending[0])
     {
-        reference_batch(l, b);
-        tell(crew, l);
+        reference_batch(l, BR_BENDING, b);
+        tell(work, l);
     }
-    for (size_t i = 0; i < br_study_cells(l->study); i++) {
-        struct br_runner *cell = &l->cell[i];
-        (void)cell;
-#pragma omp task depend(inout : cell[0]) depend(in : buffer[0])
-        cell_batch(l, b, i);
+#pragma omp task depend(inout : tally[0]) depend(in : from_axial[0]) depend(in : from_bending[0])
+    add_up_batch(l, b);
+    for (size_t i = 0; i < l->crews; i++) {
+        size_t *crew = &l->crew[i];
+        (void)crew;
+#pragma omp task depend(inout : crew[0]) depend(in : from_axial[0]) depend(in : from_bending[0])
+        crew_batch(l, b, i);
     }
 }
 
-/* Batches of each study that wait to be run, at most: time and memory of the tasks that
- * are known at once grow faster than their number. */
-enum { MOST_AHEAD = 64 };
+/* Waits until the bending field is through with the batch that had a buffer before, so that few
+ * tasks are known at once: their time and memory grow faster than their number. */
+static void wait_for_buffer(struct br_lockstep *l, size_t b)
+{
+    char *before = &l->lane[BR_BENDING].token[b % BR_LOCKSTEP_BUFFERS];
+    (void)before;
+#pragma omp task if (0) depend(in : before[0])
+    {
+    }
+}
 
-static void spawn_all(struct crew *crew)
+static void spawn_all(struct work *work)
 {
     size_t most = 0;
-    for (size_t s = 0; s < crew->count; s++)
-        most = crew->step[s].batches > most ? crew->step[s].batches : most;
-    for (size_t b = 0; b < most; b++) {
-        for (size_t s = 0; s < crew->count; s++)
-            if (b < crew->step[s].batches && !atomic_load(&crew->step[s].stopped))
-                spawn_batch(crew, &crew->step[s], b);
-        if (b % MOST_AHEAD == MOST_AHEAD - 1) {
-#pragma omp taskwait
+    for (size_t s = 0; s < work->count; s++)
+        most = work->step[s].batches > most ? work->step[s].batches : most;
+    for (size_t b = 0; b < most; b++)
+        for (size_t s = 0; s < work->count; s++) {
+            struct br_lockstep *l = &work->step[s];
+            if (b >= l->batches || atomic_load(&l->stopped) || failed_before(l, l->level_count))
+                continue;
+            if (b % AHEAD == AHEAD - 1)
+                wait_for_buffer(l, b);
+            spawn_batch(work, l, b);
         }
-    }
 }
 
 /* What the reference tells, kept with the study. */
@@ -147,8 +207,11 @@ static bool succeeded(struct br_study *first)
 
 static enum br_status conclude(struct br_lockstep *l, struct br_error *err)
 {
-    if (l->reference.error.status)
-        l->study->failure = l->reference.error;
+    const struct br_lane *axial = &l->lane[BR_AXIAL], *bending = &l->lane[BR_BENDING];
+    const bool axial_first =
+        axial->error.status && (!bending->error.status || axial->failed <= bending->failed);
+    if (axial->error.status || bending->error.status)
+        l->study->failure = axial_first ? axial->error : bending->error;
     for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++)
         if (l->cell[i].error.status == BR_NO_MEMORY)
             l->study->failure = l->cell[i].error;
@@ -165,57 +228,57 @@ static enum br_status conclude(struct br_lockstep *l, struct br_error *err)
     return status;
 }
 
-static void create(struct crew *crew, struct br_study *studies, size_t s)
+static void create(struct work *work, struct br_study *studies, size_t s)
 {
-    struct br_lockstep *l = &crew->step[s];
+    struct br_lockstep *l = &work->step[s];
     if (studies[s].failure.status)
         l->study = &studies[s];
-    else if (br_lockstep_create(l, &studies[s], crew->observer, &studies[s].failure))
+    else if (br_lockstep_create(l, &studies[s], work->observer, &studies[s].failure))
         l->batches = 0; /* nothing to march */
 }
 
 /* Sets up all studies: an exact reference works its solution out there. Those of one scene
  * one after the other, since they all read its functions (scene.h). */
-static void create_all(struct crew *crew, struct br_study *studies, int threads)
+static void create_all(struct work *work, struct br_study *studies, int threads)
 {
     (void)threads; /* without OpenMP */
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (size_t first = 0; first < crew->count; first++) {
+    for (size_t first = 0; first < work->count; first++) {
         bool is_first = true;
         for (size_t s = 0; s < first; s++)
             is_first &= studies[s].scene != studies[first].scene;
-        for (size_t s = first; s < crew->count && is_first; s++)
+        for (size_t s = first; s < work->count && is_first; s++)
             if (studies[s].scene == studies[first].scene)
-                create(crew, studies, s);
+                create(work, studies, s);
     }
-    for (size_t s = 0; s < crew->count; s++)
-        crew->all_batches += crew->step[s].batches;
+    for (size_t s = 0; s < work->count; s++)
+        work->all_batches += work->step[s].batches;
 }
 
 enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
                            const struct br_observer *observer, struct br_error *err)
 {
-    struct crew crew = {.count = count, .observer = observer};
-    crew.step = br_allocate(count, sizeof *crew.step);
-    if (!crew.step)
+    struct work work = {.count = count, .observer = observer};
+    work.step = br_allocate(count, sizeof *work.step);
+    if (!work.step)
         return br_no_memory(err, "the studies");
 #ifdef _OPENMP
     if (threads <= 0)
         threads = omp_get_num_procs();
 #endif
-    create_all(&crew, studies, threads);
+    create_all(&work, studies, threads);
     bool fatal = false;
     for (size_t s = 0; s < count; s++)
         fatal |= is_fatal(&studies[s].failure);
 #pragma omp parallel num_threads(threads) if (!fatal)
 #pragma omp single
     if (!fatal)
-        spawn_all(&crew);
+        spawn_all(&work);
     enum br_status status = BR_OK;
     for (size_t s = 0; s < count && !status; s++)
-        status = conclude(&crew.step[s], err);
+        status = conclude(&work.step[s], err);
     for (size_t s = 0; s < count; s++)
-        br_lockstep_clear(&crew.step[s]);
-    free(crew.step);
+        br_lockstep_clear(&work.step[s]);
+    free(work.step);
     return status;
 }

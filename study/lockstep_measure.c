@@ -41,19 +41,15 @@ static double project(struct br_lockstep *l, struct br_channel *c, struct br_loo
     return br_ladder_norm(c->ladder, projection);
 }
 
-void br_lockstep_project(struct br_lockstep *l, struct br_slot slot, size_t level)
+void br_lockstep_project(struct br_lockstep *l, enum br_field_kind kind, struct br_slot slot,
+                         size_t level)
 {
-    const double t = reference_time(l, level);
-    struct br_sample sample = {.time = t, .weight = t - l->scale_time};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        for (int measure = 0; measure < BR_MEASURES; measure++) {
-            const struct br_look_at at = {(enum br_field_kind)kind, (enum br_measure)measure, 0};
-            struct br_channel *c = channel_at(l, kind, measure, level == l->study->reference.steps);
-            if (c)
-                sample.size[kind][measure] = project(l, c, at, slot_of(c, slot));
-        }
-    add_to_all(l, &sample, l->scale_sum);
-    l->scale_time = t;
+    double *size = l->scale[slot.buffer][slot.index].size[kind];
+    for (int measure = 0; measure < BR_MEASURES; measure++) {
+        const struct br_look_at at = {kind, (enum br_measure)measure, 0};
+        struct br_channel *c = channel_at(l, kind, measure, level == l->study->reference.steps);
+        size[measure] = c ? project(l, c, at, slot_of(c, slot)) : 0;
+    }
 }
 
 /* The distance of the reference, as last looked at, from the auditor. */
@@ -66,23 +62,42 @@ static double audit(struct br_lockstep *l, struct br_channel *c, const struct br
     return br_ladder_distance(c->audit_ladder, 0, &c->audit, c->audit_projection);
 }
 
-enum br_status br_lockstep_audit(struct br_lockstep *l, size_t level, struct br_error *err)
+bool br_lockstep_audits(const struct br_lockstep *l, size_t index)
 {
-    const enum br_status status = l->auditor.judge->advance(l->auditor.self, level, err);
-    if (status)
-        return status;
-    const double t = reference_time(l, level);
-    struct br_sample sample = {.time = t, .weight = t - l->audit_time};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        for (int measure = 0; measure < BR_MEASURES; measure++) {
-            const struct br_look_at at = {(enum br_field_kind)kind, (enum br_measure)measure, 0};
-            struct br_channel *c = channel_at(l, kind, measure, level == l->study->reference.steps);
-            if (c)
-                sample.size[kind][measure] = audit(l, c, &at);
-        }
-    add_to_all(l, &sample, l->audit_sum);
-    l->audit_time = t;
-    return BR_OK;
+    return l->auditor.judge && (index % l->audit_every == 0 || index + 1 == l->level_count);
+}
+
+enum br_status br_lockstep_audit(struct br_lockstep *l, enum br_field_kind kind,
+                                 struct br_slot slot, size_t level, struct br_error *err)
+{
+    const enum br_status status = l->auditor.judge->advance(l->auditor.self, kind, level, err);
+    double *size = l->audit[slot.buffer][slot.index].size[kind];
+    for (int measure = 0; measure < BR_MEASURES && !status; measure++) {
+        const struct br_look_at at = {kind, (enum br_measure)measure, 0};
+        struct br_channel *c = channel_at(l, kind, measure, level == l->study->reference.steps);
+        size[measure] = c ? audit(l, c, &at) : 0;
+    }
+    return status;
+}
+
+/* A sample's share of an integral over time goes back to the one before it. */
+static void add_sample(const struct br_lockstep *l, struct br_sample *sample, double *last,
+                       struct br_norm_sum *sum)
+{
+    sample->weight = sample->time - *last;
+    *last = sample->time;
+    add_to_all(l, sample, sum);
+}
+
+void br_lockstep_add_up(struct br_lockstep *l, struct br_slot slot, size_t index)
+{
+    const double t = reference_time(l, l->level[index]);
+    struct br_sample *scale = &l->scale[slot.buffer][slot.index];
+    struct br_sample *audited = &l->audit[slot.buffer][slot.index];
+    scale->time = audited->time = t;
+    add_sample(l, scale, &l->scale_time, l->scale_sum);
+    if (br_lockstep_audits(l, index))
+        add_sample(l, audited, &l->audit_time, l->audit_sum);
 }
 
 /* The distance of a cell, as it stands, from the reference in one measure. */

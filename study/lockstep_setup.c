@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdint.h>
+
 #include "study/lockstep_state.h"
 
-static const size_t buffer_bytes = 8u << 20; /* of a batch's projections, at most */
+static const size_t buffer_bytes = 4u << 20; /* of a batch's projections, at most */
 static const size_t most_levels = 32;        /* in a batch */
+static const double least_work = 1e5;        /* element-steps of a crew in a batch, about */
 static const size_t most_audits = 1000;      /* of the reference, about */
 
 /* Every reference step that is a time level of some cell, 0 included. */
@@ -141,7 +144,26 @@ static enum br_status create_buffers(struct br_lockstep *l, struct br_error *err
         if (c->used && !(*projection = br_allocate_aligned(l->batch * c->size, sizeof(double))))
             return br_no_memory(err, "the reference's projections");
     }
+    for (int b = 0; b < BR_LOCKSTEP_BUFFERS; b++) {
+        l->scale[b] = br_allocate(l->batch, sizeof *l->scale[b]);
+        l->audit[b] = br_allocate(l->batch, sizeof *l->audit[b]);
+        if (!l->scale[b] || !l->audit[b])
+            return br_no_memory(err, "the reference's sizes");
+    }
     return BR_OK;
+}
+
+/* Steps of the reference in the longest run of as many batches as there are buffers. */
+static size_t longest_lead(const struct br_lockstep *l)
+{
+    const size_t run = BR_LOCKSTEP_BUFFERS * l->batch;
+    size_t most = 1;
+    for (size_t i = 0; i < l->level_count; i += l->batch) {
+        const size_t last = i + run < l->level_count ? i + run : l->level_count - 1;
+        const size_t steps = l->level[last] - l->level[i];
+        most = steps > most ? steps : most;
+    }
+    return most;
 }
 
 static enum br_status create_sums(struct br_lockstep *l, struct br_error *err)
@@ -170,6 +192,7 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
         .method = s->reference_method,
         .n = s->reference.n,
         .levels = s->reference.steps,
+        .lead = longest_lead(l),
         .mesh_count = l->roots,
         .mesh = l->root,
         .stop = l->observer ? l->observer->stop : NULL,
@@ -187,10 +210,11 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
     l->auditor.judge = s->auditor;
     l->audit_every = l->level_count / most_audits + 1;
     request.modest = true;
-    if (!s->auditor->create(&l->auditor.self, &request, &l->auditor.error))
+    struct br_error refusal = {0};
+    if (!s->auditor->create(&l->auditor.self, &request, &refusal))
         return BR_OK;
-    if (l->auditor.error.status == BR_NO_MEMORY)
-        return br_fail(err, BR_NO_MEMORY, "%s", l->auditor.error.message);
+    if (refusal.status == BR_NO_MEMORY)
+        return br_fail(err, BR_NO_MEMORY, "%s", refusal.message);
     dismiss_auditor(l);
     return BR_OK;
 }
@@ -215,6 +239,34 @@ static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
     return BR_OK;
 }
 
+/* Element-steps of a cell in a batch, about. */
+static double work_of(const struct br_lockstep *l, size_t cell)
+{
+    const struct br_resolution at = l->study->cell[cell].at;
+    return (double)at.n * (double)at.steps / (double)l->batches;
+}
+
+/* Cells go into crews whose tasks are long enough to be worth their while, whatever the number of
+ * threads. */
+static enum br_status create_crews(struct br_lockstep *l, struct br_error *err)
+{
+    const size_t cells = br_study_cells(l->study);
+    l->member = br_allocate(cells, sizeof *l->member);
+    l->crew = br_allocate(cells + 1, sizeof *l->crew);
+    if (!l->member || !l->crew)
+        return br_no_memory(err, "the cells");
+    double work = 0;
+    for (size_t i = 0; i < cells; i++) {
+        l->member[i] = i;
+        work += work_of(l, i);
+        if (work < least_work && i + 1 < cells)
+            continue;
+        l->crew[++l->crews] = i + 1;
+        work = 0;
+    }
+    return BR_OK;
+}
+
 enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
                                   const struct br_observer *observer, struct br_error *err)
 {
@@ -222,6 +274,7 @@ enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
     for (; s; s = s->next_norm)
         l->norms++;
     l->observer = observer;
+    atomic_init(&l->first_failed, SIZE_MAX);
     choose_channels(l);
     enum br_status status = list_levels(l, err);
     if (!status)
@@ -236,6 +289,8 @@ enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
         status = create_judges(l, err);
     if (!status)
         status = create_cells(l, err);
+    if (!status)
+        status = create_crews(l, err);
     return status;
 }
 
@@ -262,7 +317,13 @@ void br_lockstep_clear(struct br_lockstep *l)
         l->auditor.judge->free(l->auditor.self);
     for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++)
         br_runner_clear(&l->cell[i]);
+    for (int b = 0; b < BR_LOCKSTEP_BUFFERS; b++) {
+        free(l->scale[b]);
+        free(l->audit[b]);
+    }
     free(l->cell);
+    free(l->crew);
+    free(l->member);
     free(l->cell_sum);
     free(l->scale_sum);
     free(l->audit_sum);

@@ -10,7 +10,7 @@
 #include "study/runner.h"
 #include "study/study.h"
 
-enum { BR_LOCKSTEP_BUFFERS = 2, BR_CHANNELS = 2 * BR_MEASURES };
+enum { BR_LOCKSTEP_BUFFERS = 4, BR_CHANNELS = 2 * BR_MEASURES };
 
 /* One measure of one field of the reference and the cells. */
 struct br_channel {
@@ -28,7 +28,13 @@ struct br_channel {
 struct br_bench {
     const struct br_judge *judge;
     void *self;
+};
+
+/* One field of the reference on its way. */
+struct br_lane {
     struct br_error error; /* status BR_OK while all is well */
+    size_t failed;         /* the level at which it failed */
+    char token[BR_LOCKSTEP_BUFFERS];
 };
 
 struct br_lockstep {
@@ -36,19 +42,26 @@ struct br_lockstep {
     size_t norms;                           /* in the chain */
     struct br_channel channel[BR_CHANNELS]; /* see br_channel_of */
     struct br_bench reference, auditor;     /* the auditor's judge may be NULL */
+    struct br_lane lane[2];                 /* of the reference, by br_field_kind */
+    atomic_size_t first_failed;             /* the first level at which a field failed */
     size_t *root;                           /* the meshes on which the reference is looked at */
     size_t roots;
-    size_t audit_every;            /* of the levels, so that there are not too many audits */
-    struct br_runner *cell;        /* br_study_cells */
-    struct br_norm_sum *cell_sum;  /* norms for each cell */
-    struct br_norm_sum *scale_sum; /* norms: of the reference itself */
-    struct br_norm_sum *audit_sum; /* norms: of its distance from the auditor */
-    double scale_time, audit_time; /* of the last samples, s */
-    size_t *level;                 /* reference steps at which some cell has a time level */
+    size_t audit_every;     /* of the levels, so that there are not too many audits */
+    struct br_runner *cell; /* br_study_cells */
+    size_t *member;         /* the cells, crew by crew: those of a crew march in one task */
+    size_t *crew;           /* where each begins in member, and the end of the last */
+    size_t crews;
+    struct br_sample *scale[BR_LOCKSTEP_BUFFERS]; /* batch each: sizes of the reference */
+    struct br_sample *audit[BR_LOCKSTEP_BUFFERS]; /* and of its distance from the auditor */
+    struct br_norm_sum *cell_sum;                 /* norms for each cell */
+    struct br_norm_sum *scale_sum;                /* norms: of the reference itself */
+    struct br_norm_sum *audit_sum;                /* norms: of its distance from the auditor */
+    double scale_time, audit_time;                /* of the last samples, s */
+    size_t *level; /* reference steps at which some cell has a time level */
     size_t level_count, batch, batches;
     const struct br_observer *observer;
     atomic_bool stopped;
-    char token[BR_LOCKSTEP_BUFFERS]; /* what the tasks depend on: the buffers */
+    char tally; /* what the tasks that add up depend on */
 };
 
 /* That of a field in a measure. */
@@ -68,11 +81,19 @@ struct br_slot {
     size_t buffer, index;
 };
 
-/* Looks at the reference, which is at a level, and projects it into a slot. */
-void br_lockstep_project(struct br_lockstep *lockstep, struct br_slot slot, size_t level);
+/* Looks at one field of the reference, which is at a level, and projects it into a slot. */
+void br_lockstep_project(struct br_lockstep *lockstep, enum br_field_kind kind, struct br_slot slot,
+                         size_t level);
 
-/* Measures the reference, as last looked at, against the auditor at a level. */
-enum br_status br_lockstep_audit(struct br_lockstep *lockstep, size_t level, struct br_error *err);
+/* Whether the reference is audited at the level of that index. */
+bool br_lockstep_audits(const struct br_lockstep *lockstep, size_t index);
+
+/* Measures that field, as last looked at, against the auditor, into a slot. */
+enum br_status br_lockstep_audit(struct br_lockstep *lockstep, enum br_field_kind kind,
+                                 struct br_slot slot, size_t level, struct br_error *err);
+
+/* Adds up what has been measured of the reference in a slot, level after level. */
+void br_lockstep_add_up(struct br_lockstep *lockstep, struct br_slot slot, size_t index);
 
 /* Measures a cell as it stands against a slot. */
 void br_lockstep_measure(struct br_lockstep *lockstep, size_t cell, struct br_slot slot);

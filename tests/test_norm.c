@@ -334,7 +334,7 @@ static void odd_free(void *self)
     (void)self;
 }
 
-static enum br_status odd_advance(void *self, size_t i, struct br_error *err)
+static enum br_status odd_advance(void *self, enum br_field_kind kind, size_t i, struct br_error *err)
 {
     (void)self, (void)err;
     audited_level = i;

@@ -14,7 +14,7 @@ struct exact_judge {
     bool modelled[2];
     size_t meshes, levels;
     double length, duration; /* m, s */
-    double seconds[2]; /* by br_field_kind */
+    double seconds[2];       /* by br_field_kind */
 };
 
 static void exact_free(void *self)

@@ -201,12 +201,12 @@ static void fill_fine(struct br_restriction *r, struct br_interval *local)
 static enum br_status allocate(struct br_restriction *r, struct br_error *err)
 {
     const size_t length = r->shape.length, kept = r->shape.degree + 1;
-    r->coarse = br_allocate(length * r->groups * r->terms, sizeof *r->coarse);
-    r->local = br_allocate(r->groups * r->terms, sizeof *r->local);
+    r->coarse = br_allocate_aligned(length * r->groups * r->terms, sizeof *r->coarse);
+    r->local = br_allocate_aligned(r->groups * r->terms, sizeof *r->local);
     r->left = br_allocate(length, sizeof *r->left);
     r->square = br_allocate(r->terms, sizeof *r->square);
     if (r->group > 1)
-        r->fine = br_allocate(r->terms * r->group * kept, sizeof *r->fine);
+        r->fine = br_allocate_aligned(r->terms * r->group * kept, sizeof *r->fine);
     const bool done = r->coarse && r->local && r->left && r->square && (r->fine || r->group == 1);
     return done ? BR_OK : br_no_memory(err, "a projection");
 }

@@ -118,8 +118,8 @@ static void mms_look(void *self, const struct br_look_at *at, struct br_view *vi
         *view->values = br_derivative_at(j->tip[at->kind], j->length, j->time[at->kind]);
     } else {
         br_view_modes(view, br_mode_count(at->kind, at->measure));
-        sums = br_projection_apply(j->projection[at->kind][at->measure][at->mesh], j->time[at->kind],
-                                   view->values);
+        sums = br_projection_apply(j->projection[at->kind][at->measure][at->mesh],
+                                   j->time[at->kind], view->values);
     }
     view->rest = sums.rest;
     double *tail = &j->tail[at->kind][at->measure];
