@@ -142,11 +142,9 @@ INLINE void collect(const struct br_view *v, enum br_layout layout, int modes,
 #undef AT
 }
 
-/* Values -> modes, in place (solver/modes.h). */
-INLINE void make_modes(const double *scale, enum br_layout layout, int modes, vec *x)
+/* Values -> modes without their scales, in place (solver/modes.h). */
+INLINE void combine(enum br_layout layout, int modes, vec *x)
 {
-    if (layout == BR_IN_LANES)
-        return;
     if (layout == BR_BY_NODE && modes == 2) {
         const vec sum = x[0] + x[1], difference = x[1] - x[0];
         x[0] = sum;
@@ -158,7 +156,13 @@ INLINE void make_modes(const double *scale, enum br_layout layout, int modes, ve
         x[2] = c;
         x[3] = s - ALL(2.0) * d;
     }
-    for (int i = 0; i < modes; i++)
+}
+
+/* Values -> modes, in place. */
+INLINE void make_modes(const double *scale, enum br_layout layout, int modes, vec *x)
+{
+    combine(layout, modes, x);
+    for (int i = 0; i < modes && layout != BR_IN_LANES; i++)
         x[i] *= ALL(scale[i]);
 }
 
@@ -206,25 +210,43 @@ INLINE void add_loss(int modes, const double *transfer, const vec *x, const vec 
     }
 }
 
-/* A vector of elements of a rung. */
-INLINE void project_vector(const struct br_projecting *p, enum br_layout layout, int modes,
-                           int ratio, size_t first, vec *loss)
+/* Transfers for modes without their scales: diag(scale) E, and diag(scale)^-1 E for the loss, which
+ * is the scales' to mend. Copies, since no store can change what is local. */
+struct scaled {
+    double scale[MOST], sum[MOST_RATIO / 2 * MOST * MOST], loss[MOST_RATIO / 2 * MOST * MOST];
+};
+
+INLINE void scale_transfers(const struct br_projecting *p, int modes, int ratio, struct scaled *t)
 {
+    for (int i = 0; i < modes; i++)
+        t->scale[i] = p->fine.scale[i];
+    for (int i = 0; i < ratio / 2 * modes * modes; i++) {
+        const double scale = t->scale[i / modes % modes];
+        t->sum[i] = p->transfer[i] * scale;
+        t->loss[i] = p->transfer[i] / scale;
+    }
+}
+
+/* A vector of elements of a rung; the loss of each mode is without the square of its scale. */
+INLINE void project_vector(const struct br_projecting *p, const struct scaled *t,
+                           enum br_layout layout, int modes, int ratio, size_t first, vec *loss)
+{
+    const double *loss_transfer = layout == BR_IN_LANES ? t->sum : t->loss; /* without scales */
     const int square = modes * modes;
     vec x[MOST_RATIO][MOST], sum[MOST], twice[MOST];
     fetch(&p->fine, layout, modes, ratio, first, x);
     for (int j = 0; j < ratio; j++)
-        make_modes(p->fine.scale, layout, modes, x[j]);
+        combine(layout, modes, x[j]);
     for (int i = 0; i < modes; i++)
-        sum[i] = ratio == 1 ? x[0][i] : ALL(0.0);
+        sum[i] = ratio == 1 ? ALL(t->scale[i]) * x[0][i] : ALL(0.0);
     for (int j = 0; j < ratio / 2; j++) {
         mirror(modes, x[j], x[ratio - 1 - j]);
-        add_children(modes, p->transfer + j * square, x[j], x[ratio - 1 - j], sum);
+        add_children(modes, t->sum + j * square, x[j], x[ratio - 1 - j], sum);
     }
     for (int i = 0; i < modes; i++)
         twice[i] = sum[i] + sum[i];
     for (int j = 0; j < ratio / 2; j++)
-        add_losses(modes, p->transfer + j * square, x[j], x[ratio - 1 - j], twice, loss);
+        add_losses(modes, loss_transfer + j * square, x[j], x[ratio - 1 - j], twice, loss);
     for (int i = 0; i < modes; i++)
         store(&sum[i], p->coarse + first * (size_t)modes + i * LANES);
 }
@@ -284,13 +306,14 @@ INLINE void project_few(const struct br_projecting *p, enum br_layout layout, in
 INLINE void project_whole(const struct br_projecting *p, enum br_layout layout, int modes,
                           int ratio, vec *loss)
 {
-    double transfer[MOST_RATIO / 2 * MOST * MOST]; /* no store can change what is local */
-    struct br_projecting local = *p;
-    for (int i = 0; i < ratio / 2 * modes * modes; i++)
-        transfer[i] = p->transfer[i];
-    local.transfer = transfer;
+    const struct br_projecting local = *p;
+    struct scaled t;
+    vec unscaled[MOST] = {ALL(0.0)};
+    scale_transfers(p, modes, ratio, &t);
     for (size_t e = 0; e + LANES <= p->n; e += LANES)
-        project_vector(&local, layout, modes, ratio, e, loss);
+        project_vector(&local, &t, layout, modes, ratio, e, unscaled);
+    for (int i = 0; i < modes; i++)
+        loss[i] += ALL(t.scale[i] * t.scale[i]) * unscaled[i];
 }
 
 INLINE void project_layout(const struct br_projecting *p, enum br_layout layout, int modes,
