@@ -336,7 +336,7 @@ static void odd_free(void *self)
 
 static enum br_status odd_advance(void *self, enum br_field_kind kind, size_t i, struct br_error *err)
 {
-    (void)self, (void)err;
+    (void)self, (void)kind, (void)err;
     audited_level = i;
     return BR_OK;
 }
