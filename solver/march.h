@@ -41,9 +41,9 @@ void br_march_free(struct br_march *march); /* accepts NULL */
  * a march that blows up), BR_SINGULAR; the state is then lost. */
 enum br_status br_march_step(struct br_march *march, struct br_error *err);
 
-/* One step of one field. Nothing of the bending field acts on the axial one, so this may be ahead by
- * the steps that are allowed (1 at first), also in another thread, if the bending field waits for
- * it, and it for the bending field where that is behind by so many. Fails as br_march_step. */
+/* One step of one field. Nothing of the bending field acts on the axial one, so this may be ahead
+ * by the steps that are allowed (1 at first), also in another thread, if the bending field waits
+ * for it, and it for the bending field where that is behind by so many. Fails as br_march_step. */
 enum br_status br_march_step_field(struct br_march *march, enum br_field_kind kind,
                                    struct br_error *err);
 enum br_status br_march_allow_lead(struct br_march *march, size_t steps, struct br_error *err);

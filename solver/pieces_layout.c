@@ -161,39 +161,35 @@ void br_pieces_set(void *self, const double *displacement, const double *velocit
 
 /* ---- to nodal values ---- */
 
-static void pass_on(int d, double *y, const double *kappa)
+/* What each span has at its left end, given what it is across each; y: at the left end of the first
+ * (in), and at the right end of the last (out). */
+static void find_left_ends(const struct br_pieces *s, const struct br_strand *t,
+                           const double *across, double *y, double *left)
 {
-    if (d == 1) {
-        y[0] += kappa[0];
-        return;
+    for (size_t lane = 0; lane < t->strip.lanes; lane++) {
+        for (int c = 0; c < s->d; c++)
+            left[c * BR_LANES + (int)lane] = y[c];
+        y[0] += across[lane];
+        if (s->d == 1)
+            continue;
+        y[0] += (double)br_span_length(t) * y[1];
+        y[1] += across[BR_LANES + lane];
     }
-    y[0] += y[1] + (0.5 * kappa[0] - (double)BR_LQ_LEVER * kappa[1]);
-    y[1] += kappa[0];
-}
-
-/* kappa_w or kappa_v of an element. */
-static void strain_at(const struct br_pieces *s, const struct br_strand *t, size_t lane, size_t e,
-                      bool rate, double *kappa)
-{
-    const double *state = state_at(s, t, lane, e) + (rate ? s->d * BR_LANES : 0);
-    for (int c = 0; c < s->d; c++)
-        kappa[c] = state[c * BR_LANES];
 }
 
 static void get_nodes(const struct br_pieces *s, bool rate, double *nodal)
 {
+    _Alignas(64) double across[BR_LQ_MOST * BR_LANES], left[BR_LQ_MOST * BR_LANES] = {0};
     const size_t d = (size_t)s->d;
-    double y[BR_LQ_MOST] = {0}, kappa[BR_LQ_MOST];
+    double y[BR_LQ_MOST] = {0};
     memcpy(nodal, y, d * sizeof *y);
     for (int i = 0; i < BR_STRANDS; i++) {
         const struct br_strand *t = &s->strand[i];
-        for (size_t lane = 0; lane < t->strip.lanes; lane++)
-            for (size_t e = 0; e < br_span_length(t); e++) {
-                strain_at(s, t, lane, e, rate, kappa);
-                pass_on(s->d, y, kappa);
-                nodal += d;
-                memcpy(nodal, y, d * sizeof *y);
-            }
+        if (!t->strip.lanes)
+            continue;
+        s->kernel->carry(&t->strip, rate, across);
+        find_left_ends(s, t, across, y, left);
+        s->kernel->expand(&t->strip, rate, left, nodal + (t->first + 1) * d);
     }
 }
 
@@ -212,27 +208,20 @@ void br_pieces_strain_rate(const void *self, double *rate)
         const struct br_strand *t = &s->strand[i];
         for (size_t lane = 0; lane < t->strip.lanes; lane++)
             for (size_t e = 0; e < br_span_length(t); e++, rate += s->d) {
-                strain_at(s, t, lane, e, true, rate);
+                const double *kappa = state_at(s, t, lane, e) + s->d * BR_LANES;
+                rate[0] = kappa[0];
                 if (s->d == 2)
-                    rate[1] *= (double)BR_LQ_ROOT3;
+                    rate[1] = (double)BR_LQ_ROOT3 * kappa[BR_LANES];
             }
     }
 }
 
 double br_pieces_at_tip(const struct br_pieces *s, const double *const across[BR_STRANDS])
 {
-    double tip = 0, slope = 0;
-    for (int i = 0; i < BR_STRANDS; i++) {
-        const struct br_strand *t = &s->strand[i];
-        for (size_t lane = 0; lane < t->strip.lanes; lane++) {
-            tip += across[i][lane];
-            if (s->d == 1)
-                continue;
-            tip += (double)br_span_length(t) * slope;
-            slope += across[i][BR_LANES + lane];
-        }
-    }
-    return tip;
+    double y[BR_LQ_MOST] = {0}, left[BR_LQ_MOST * BR_LANES];
+    for (int i = 0; i < BR_STRANDS; i++)
+        find_left_ends(s, &s->strand[i], across[i], y, left);
+    return y[0];
 }
 
 double br_pieces_tip_displacement(const void *self)
@@ -241,6 +230,6 @@ double br_pieces_tip_displacement(const void *self)
     _Alignas(64) double across[BR_STRANDS][BR_LQ_MOST * BR_LANES];
     for (int i = 0; i < BR_STRANDS; i++)
         if (s->strand[i].strip.lanes)
-            s->kernel->carry(&s->strand[i].strip, across[i]);
+            s->kernel->carry(&s->strand[i].strip, false, across[i]);
     return br_pieces_at_tip(s, (const double *const[]){across[BR_ODD], across[BR_EVEN]});
 }

@@ -3,33 +3,12 @@
  * side by side hide the latency of the recursions. */
 #include "solver/sweep_kernel.h"
 
-#include <string.h>
+#include "solver/vectors.h"
 
-#define JOINED_(a, b) a##b
-#define JOINED(a, b) JOINED_(a, b)
-#define NAME_OF(set) #set
-#define STRING_OF(set) NAME_OF(set)
-
-enum { WIDTH = JOINED(BR_WIDTH_, BR_SET), VECTORS = 2, GO = VECTORS * WIDTH };
-
-typedef double vec __attribute__((vector_size(8 * WIDTH)));
-
-#define INLINE static inline __attribute__((always_inline))
+enum { VECTORS = 2, GO = VECTORS * WIDTH };
 
 /* The entries of G that are not 0 or 1; see lq.h. */
 static const double half = 0.5, lever = 0.28867513459481288225;
-
-INLINE vec load(const double *from)
-{
-    vec v;
-    memcpy(&v, __builtin_assume_aligned(from, 8 * WIDTH), sizeof v);
-    return v;
-}
-
-INLINE void store(vec v, double *to)
-{
-    memcpy(__builtin_assume_aligned(to, 8 * WIDTH), &v, sizeof v);
-}
 
 INLINE void load_all(int d, const double *from, vec *to)
 {
@@ -410,16 +389,48 @@ INLINE void charge_of(int d, const struct br_strip *s, const double *uniform, si
     store_all(d, y, at.end + BR_END_LOAD_Z * entry);
 }
 
-INLINE void carry_of(int d, const struct br_strip *s, size_t lane, double *displacement)
+/* kappa_w or kappa_v, carried from the left ends of the spans. */
+INLINE void carry_of(int d, const struct br_strip *s, bool rate, size_t lane, double *across)
 {
     const size_t entry = (size_t)d * BR_LANES;
+    const double *state = s->state + lane + (rate ? entry : 0);
     vec y[2] = {{0}};
     for (size_t e = 0; e < s->pieces * s->length; e++) {
-        vec w[2];
-        load_all(d, s->state + e * 2 * entry + lane, w);
-        pass_on(d, w, y);
+        vec kappa[2];
+        load_all(d, state + e * 2 * entry, kappa);
+        pass_on(d, kappa, y);
     }
-    store_all(d, y, displacement + lane);
+    store_all(d, y, across + lane);
+}
+
+/* The row at the end of each element of a lane, as nodal values in order. */
+INLINE void expand_of(int d, const struct br_strip *s, bool rate, size_t lane, const double *left,
+                      double *nodal)
+{
+    const size_t entry = (size_t)d * BR_LANES, length = s->pieces * s->length;
+    const size_t together = WIDTH >= d ? (size_t)(WIDTH / d) : 1; /* elements of a block of rows */
+    const double *state = s->state + lane + (rate ? entry : 0);
+    vec y[2], row[WIDTH];
+    load_all(d, left + lane, y);
+    for (size_t e = 0; e < length; e += together) {
+        for (size_t i = 0; i < together; i++) {
+            vec kappa[2] = {{0}};
+            if (e + i < length)
+                load_all(d, state + (e + i) * 2 * entry, kappa);
+            pass_on(d, kappa, y);
+            for (int c = 0; c < d; c++)
+                row[i * (size_t)d + (size_t)c] = y[c];
+        }
+        transpose(row);
+        const size_t count = (length - e < together ? length - e : together) * (size_t)d;
+        for (size_t l = 0; l < WIDTH && lane + l < s->lanes; l++) {
+            double *to = nodal + ((lane + l) * length + e) * (size_t)d;
+            if (count == WIDTH)
+                store(row[l], to);
+            else
+                memcpy(to, &row[l], count * sizeof *to);
+        }
+    }
 }
 
 /* ---- the kernel's functions: d becomes a constant ---- */
@@ -474,22 +485,32 @@ static void charge(const struct br_strip *s, const double uniform[2])
                 charge_of(2, s, uniform, j, lane);
 }
 
-static void carry(const struct br_strip *s, double *displacement)
+static void carry(const struct br_strip *s, bool rate, double *across)
 {
     for (size_t lane = 0; lane < BR_LANES; lane += WIDTH)
         if (s->d == 1)
-            carry_of(1, s, lane, displacement);
+            carry_of(1, s, rate, lane, across);
         else
-            carry_of(2, s, lane, displacement);
+            carry_of(2, s, rate, lane, across);
 }
 
-const struct br_kernel JOINED(br_kernel_, BR_SET) = {
-    .name = STRING_OF(BR_SET),
-    .available = JOINED(br_has_, BR_SET),
+static void expand(const struct br_strip *s, bool rate, const double *left, double *nodal)
+{
+    for (size_t lane = 0; lane < s->lanes; lane += WIDTH)
+        if (s->d == 1)
+            expand_of(1, s, rate, lane, left, nodal);
+        else
+            expand_of(2, s, rate, lane, left, nodal);
+}
+
+const struct br_kernel BR_JOIN(br_kernel_, BR_SET) = {
+    .name = BR_QUOTE(BR_SET),
+    .available = BR_JOIN(br_has_, BR_SET),
     .gather = gather,
     .join_left = join_left,
     .join_right = join_right,
     .advance = advance,
     .charge = charge,
     .carry = carry,
+    .expand = expand,
 };

@@ -91,8 +91,13 @@ struct br_kernel {
     /* What the load adds to the ends of the pieces. */
     void (*charge)(const struct br_strip *strip, const double uniform[2]);
 
-    /* The displacement at the right ends of spans whose left ends are fixed (out, d each). */
-    void (*carry)(const struct br_strip *strip, double *displacement);
+    /* The displacement or its rate at the right ends of spans whose left ends are fixed (out, d
+     * each). */
+    void (*carry)(const struct br_strip *strip, bool rate, double *across);
+
+    /* The same at every node but the left end of the first span, in order (out, d a node); left:
+     * at the spans' left ends (in, d each). */
+    void (*expand)(const struct br_strip *strip, bool rate, const double *left, double *nodal);
 };
 
 #define BR_KERNEL_OF(set) extern const struct br_kernel br_kernel_##set;

@@ -85,7 +85,7 @@ INLINE void project_vector(const struct br_projecting *p, const struct scaled *t
     for (int j = 0; j < ratio / 2; j++)
         add_losses(modes, loss_transfer + j * square, x[j], x[ratio - 1 - j], twice, loss);
     for (int i = 0; i < modes; i++)
-        store(&sum[i], p->coarse + first * (size_t)modes + i * LANES);
+        store(sum[i], p->coarse + first * (size_t)modes + i * LANES);
 }
 
 /* The children j and ratio - 1 - j of few elements, mirrored, or twice the middle one. */
@@ -136,7 +136,7 @@ INLINE void project_few(const struct br_projecting *p, enum br_layout layout, in
             add_loss(modes, p->transfer + j * square, x[0], sum, loss);
     }
     for (int i = 0; i < modes; i++)
-        store(&sum[i], p->coarse + few->e * (size_t)modes + i * LANES);
+        store(sum[i], p->coarse + few->e * (size_t)modes + i * LANES);
 }
 
 /* All whole vectors of a rung. */
@@ -176,7 +176,7 @@ INLINE double total(int modes, const vec *x)
     for (int i = 1; i < modes; i++)
         sum += x[i];
     double lane[LANES];
-    store(&sum, lane);
+    store(sum, lane);
     for (int width = LANES / 2; width > 0; width /= 2)
         for (int l = 0; l < width; l++)
             lane[l] += lane[l + width];
@@ -212,7 +212,7 @@ INLINE void add_difference(int modes, const vec *x, const double *b, vec *sum)
 {
     for (int i = 0; i < modes; i++) {
         vec other;
-        load(b + i * LANES, &other);
+        other = load(b + i * LANES);
         const vec difference = x[i] - other;
         sum[i] += difference * difference;
     }
@@ -259,10 +259,10 @@ static double distance(const struct br_view *a, size_t n, const double *b)
     }
 }
 
-const struct br_ladder_kernel JOIN(br_ladder_, BR_SET) = {
-    .name = NAME(BR_SET),
+const struct br_ladder_kernel BR_JOIN(br_ladder_, BR_SET) = {
+    .name = BR_QUOTE(BR_SET),
     .lanes = LANES,
-    .available = JOIN(br_has_, BR_SET),
+    .available = BR_JOIN(br_has_, BR_SET),
     .project = project,
     .distance = distance,
 };

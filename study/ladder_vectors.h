@@ -6,26 +6,12 @@
 #ifndef BR_LADDER_VECTORS_H
 #define BR_LADDER_VECTORS_H
 
-#include <string.h>
-
-#include "solver/instruction_set.h"
+#include "solver/vectors.h"
 #include "study/ladder_kernel.h"
 
-#define JOINED(a, b) a##b
-#define JOIN(a, b) JOINED(a, b)
-#define TEXT(a) #a
-#define NAME(a) TEXT(a)
-#define LANES JOIN(BR_WIDTH_, BR_SET)
+#define LANES WIDTH
 
 enum { MOST = BR_MOST_MODES, MOST_RATIO = 4 };
-
-/* Never passed by value: how that goes depends on the instruction set. */
-typedef double vec __attribute__((vector_size(8 * LANES)));
-
-#define INLINE static inline __attribute__((always_inline))
-
-/* x in all lanes. */
-#define ALL(x) ((x) - (vec){0})
 
 /* f of each lane; every other one of the values of a and b; those of a from the second on, and b's
  * first. */
@@ -45,29 +31,13 @@ typedef double vec __attribute__((vector_size(8 * LANES)));
 #define ODD(a, b) SHUFFLE(a, b, 1, 3)
 #define SHIFT(a, b) SHUFFLE(a, b, 1, 2)
 #endif
-#if defined __clang__
-#define SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
-#else
-typedef long long places __attribute__((vector_size(8 * LANES)));
-#define SHUFFLE(a, b, ...) __builtin_shuffle(a, b, (places){__VA_ARGS__})
-#endif
-
-INLINE void load(const double *from, vec *to)
-{
-    memcpy(to, from, sizeof *to);
-}
-
-INLINE void store(const vec *from, double *to)
-{
-    memcpy(to, from, sizeof *from);
-}
 
 /* `count` vectors that stand `apart`, as one row of values; then vector i has the values i,
  * i + count, ... of it. count: a power of two. */
 INLINE void load_sorted(int count, const double *from, int apart, vec *x)
 {
     for (int i = 0; i < count; i++)
-        load(from + i * apart, &x[i]);
+        x[i] = load(from + i * apart);
     for (int done = 1; done < count; done *= 2) {
         vec next[MOST * MOST_RATIO];
         for (int i = 0; i < count / 2; i++) {
