@@ -79,26 +79,28 @@ static void add_up_batch(struct br_lockstep *l, size_t b)
         br_lockstep_add_up(l, slot_at(l, i), i);
 }
 
-static void cell_batch(struct br_lockstep *l, size_t b, size_t index)
+/* A cell goes on to the level of that index, if it is one of its own, and is measured there. */
+static void cell_level(struct br_lockstep *l, size_t index, size_t cell)
 {
-    struct br_runner *r = &l->cell[index];
-    const size_t ratio = l->study->reference.steps / l->study->cell[index].at.steps;
-    for (size_t i = b * l->batch; i < batch_end(l, b) && !r->error.status; i++) {
-        if (l->level[i] % ratio != 0)
-            continue;
-        if (atomic_load(&l->stopped) || failed_before(l, i))
-            return;
-        if (br_runner_advance(r, l->level[i] / ratio))
-            br_cell_failed(l->study, index, &r->error);
-        else
-            br_lockstep_measure(l, index, slot_at(l, i));
-    }
+    struct br_runner *r = &l->cell[cell];
+    const size_t ratio = l->study->reference.steps / l->study->cell[cell].at.steps;
+    if (r->error.status || l->level[index] % ratio != 0)
+        return;
+    if (br_runner_advance(r, l->level[index] / ratio))
+        br_cell_failed(l->study, cell, &r->error);
+    else
+        br_lockstep_measure(l, cell, slot_at(l, index));
 }
 
+/* Level by level: the cells of a crew read the same projection while it is near. */
 static void crew_batch(struct br_lockstep *l, size_t b, size_t crew)
 {
-    for (size_t i = l->crew[crew]; i < l->crew[crew + 1]; i++)
-        cell_batch(l, b, l->member[i]);
+    for (size_t i = b * l->batch; i < batch_end(l, b); i++) {
+        if (atomic_load(&l->stopped) || failed_before(l, i))
+            return;
+        for (size_t c = l->crew[crew]; c < l->crew[crew + 1]; c++)
+            cell_level(l, i, c);
+    }
 }
 
 /* ---- running ---- */

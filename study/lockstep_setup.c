@@ -3,7 +3,7 @@
 
 #include "study/lockstep_state.h"
 
-static const size_t buffer_bytes = 4u << 20; /* of a batch's projections, at most */
+static const size_t buffer_bytes = 1u << 20; /* of a batch's projections, at most */
 static const size_t most_levels = 32;        /* in a batch */
 static const double least_work = 1e5;        /* element-steps of a crew in a batch, about */
 static const size_t most_audits = 1000;      /* of the reference, about */
@@ -251,13 +251,11 @@ static double work_of(const struct br_lockstep *l, size_t cell)
 static enum br_status create_crews(struct br_lockstep *l, struct br_error *err)
 {
     const size_t cells = br_study_cells(l->study);
-    l->member = br_allocate(cells, sizeof *l->member);
     l->crew = br_allocate(cells + 1, sizeof *l->crew);
-    if (!l->member || !l->crew)
+    if (!l->crew)
         return br_no_memory(err, "the cells");
     double work = 0;
     for (size_t i = 0; i < cells; i++) {
-        l->member[i] = i;
         work += work_of(l, i);
         if (work < least_work && i + 1 < cells)
             continue;
@@ -323,7 +321,6 @@ void br_lockstep_clear(struct br_lockstep *l)
     }
     free(l->cell);
     free(l->crew);
-    free(l->member);
     free(l->cell_sum);
     free(l->scale_sum);
     free(l->audit_sum);

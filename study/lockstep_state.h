@@ -48,9 +48,7 @@ struct br_lockstep {
     size_t roots;
     size_t audit_every;     /* of the levels, so that there are not too many audits */
     struct br_runner *cell; /* br_study_cells */
-    size_t *member;         /* the cells, crew by crew: those of a crew march in one task */
-    size_t *crew;           /* where each begins in member, and the end of the last */
-    size_t crews;
+    size_t *crew, crews; /* the first cells of crews, whose cells march in one task; and the end */
     struct br_sample *scale[BR_LOCKSTEP_BUFFERS]; /* batch each: sizes of the reference */
     struct br_sample *audit[BR_LOCKSTEP_BUFFERS]; /* and of its distance from the auditor */
     struct br_norm_sum *cell_sum;                 /* norms for each cell */
