@@ -62,8 +62,11 @@ struct bench_march {
 /* What it took. */
 struct bench_march_time {
     struct bench_time step; /* ns an element-step, both fields being one */
-    double seconds;         /* in all, set-up included */
+    double set_up;          /* s */
 };
+
+/* What a march will take, s, if setting it up does. */
+double bench_march_cost(const struct bench_march *march, double set_up);
 
 /* Marches with k = 1e-3 s, or less where that makes more than a second. */
 struct bench_march_time bench_march(const struct bench_march *march);

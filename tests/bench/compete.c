@@ -72,8 +72,8 @@ static void run_peer(struct bench *b, const struct br_scene *scene, size_t n,
     bench_record_value(b, "times the fast solver's", t.least / fast, "peer ratio %s n=%zu",
                        peer->name, n);
     if (!(deviation <= limit))
-        fail_msg("%s, n = %zu: its tip is %g off, expected at most %g: it solves another system",
-                 peer->name, n, deviation, limit);
+        fail_msg("n = %zu: the tips of %s and %s differ by %g, expected at most %g: another system",
+                 n, usual.solver->name, peer->name, deviation, limit);
 }
 
 void bench_peers(void **state)

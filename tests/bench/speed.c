@@ -32,10 +32,10 @@ static void print_fractions(const struct series *s, size_t n, double ns)
     printf("\n");
 }
 
-/* One row; the time of an element-step (in: a guess, 0: unknown; out) and of all of it (out). */
-static void run_row(const struct series *s, size_t n, double *ns, double *seconds)
+/* One row; returns what it took. */
+static struct bench_march_time run_row(const struct series *s, size_t n, double guess)
 {
-    const struct bench_march march = {&s->scene, &s->method, n, *ns};
+    const struct bench_march march = {&s->scene, &s->method, n, guess};
     const struct bench_march_time t = bench_march(&march);
     printf("%-8s %-9s %-8s %8zu %9.2f %9.2f %9.2f", s->method.solver->name, s->kernel,
            bench_field_names[s->fields], n, t.step.median, t.step.least, t.step.most);
@@ -43,8 +43,7 @@ static void run_row(const struct series *s, size_t n, double *ns, double *second
     fflush(stdout);
     bench_record(s->bench, "ns/element-step", &t.step, "%s %s %s n=%zu", s->method.solver->name,
                  s->kernel, bench_field_names[s->fields], n);
-    *ns = t.step.least;
-    *seconds = t.seconds;
+    return t;
 }
 
 static void skip_row(const struct series *s, size_t n, double seconds)
@@ -57,19 +56,29 @@ static void skip_row(const struct series *s, size_t n, double seconds)
                          bench_field_names[s->fields], n);
 }
 
+/* What a row will take, s, by the one before. */
+static double cost_of(const struct series *s, size_t i, const struct bench_march_time *before)
+{
+    const struct bench_march march = {&s->scene, &s->method, sizes[i], before->step.least};
+    const double growth = i > 0 ? (double)sizes[i] / (double)sizes[i - 1] : 1;
+    return bench_march_cost(&march, before->set_up * growth);
+}
+
 static void run_series(const struct series *s)
 {
-    double ns, seconds = 0, least = INFINITY, most = 0;
+    double least = INFINITY, most = 0;
     size_t fastest = 0, slowest = 0;
     const struct bench_march pilot = {&s->scene, &s->method, sizes[0], 0};
-    ns = bench_march(&pilot).step.least;
+    struct bench_march_time t = bench_march(&pilot);
     for (size_t i = 0; i < SIZES; i++) {
-        const double expected = i ? seconds * (double)sizes[i] / (double)sizes[i - 1] : 0;
-        if (sizes[i] > 12800 && expected > most_seconds) {
-            skip_row(s, sizes[i], expected);
+        const double cost = cost_of(s, i, &t);
+        if (!(cost <= most_seconds)) {
+            skip_row(s, sizes[i], cost);
+            t.set_up = cost; /* the next would not take less */
             continue;
         }
-        run_row(s, sizes[i], &ns, &seconds);
+        t = run_row(s, sizes[i], t.step.least);
+        const double ns = t.step.least;
         if (ns < least)
             least = ns, fastest = sizes[i];
         if (ns > most)

@@ -38,17 +38,29 @@ static void advance(void *self)
     br_test_advance(r->march, br_march_steps_done(r->march) + r->steps);
 }
 
+/* In each repeat. */
+static size_t steps_of(const struct bench_march *b)
+{
+    const double guess = b->guess > 0 ? b->guess : 100;
+    const double wanted = 1e9 * repeat_seconds / (guess * (double)b->n);
+    return wanted > 2 ? (size_t)wanted : 2;
+}
+
+double bench_march_cost(const struct bench_march *b, double set_up)
+{
+    return set_up + 1e-9 * b->guess * (double)(b->n * steps_of(b) * (REPEATS + 1));
+}
+
 struct bench_march_time bench_march(const struct bench_march *b)
 {
-    const double start = br_seconds(), guess = b->guess > 0 ? b->guess : 100;
-    const double wanted = 1e9 * repeat_seconds / (guess * (double)b->n);
-    struct running r = {.steps = wanted > 2 ? (size_t)wanted : 2};
+    const double start = br_seconds();
+    struct running r = {.steps = steps_of(b)};
     const size_t total = (REPEATS + 1) * r.steps;
     struct br_scene scene = *b->scene;
     scene.duration = total < 1000 ? 1e-3 * (double)total : 1;
     r.march = br_test_march(&scene, b->n, total, b->method);
-    struct bench_march_time t = {bench_time(advance, &r, (double)(b->n * r.steps)), 0};
+    const double set_up = br_seconds() - start;
+    const struct bench_time step = bench_time(advance, &r, (double)(b->n * r.steps));
     br_march_free(r.march);
-    t.seconds = br_seconds() - start;
-    return t;
+    return (struct bench_march_time){step, set_up};
 }
