@@ -128,7 +128,8 @@ void br_ranks_leave(void)
 
 void br_ranks_abort(const char *why)
 {
-    fprintf(stderr, "beamrate: rank %d of %d: %s\n", ranks.rank, ranks.size, why);
+    if (why)
+        fprintf(stderr, "beamrate: rank %d of %d: %s\n", ranks.rank, ranks.size, why);
     fflush(NULL);
     MPI_Abort(MPI_COMM_WORLD, br_status_exit_code(BR_IO));
     _Exit(br_status_exit_code(BR_IO));

@@ -56,6 +56,30 @@ static void pause_a_little(void)
     nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL);
 }
 
+static void flush(void)
+{
+    for (int i = 0; i < 500 && !br_ranks_sent(); i++)
+        pause_a_little();
+}
+
+/* Rank 0 tells the others that it ends, in good order or by an abort. */
+static void tell_end(bool aborts)
+{
+    for (int r = 1; r < br_ranks_size(); r++)
+        br_ranks_send(r, BR_TALK_OVER, &aborts, sizeof aborts, NULL);
+}
+
+/* Where a rank is lost. Those that are left end by themselves: a launcher that was told to carry on
+ * would not end them. */
+_Noreturn static void give_up(const char *why)
+{
+    if (br_ranks_first()) {
+        tell_end(true);
+        flush();
+    }
+    br_ranks_abort(why);
+}
+
 /* Until every other rank has said how it ended. */
 static enum br_status hear_ends(enum br_status status, struct br_error *err)
 {
@@ -65,7 +89,7 @@ static enum br_status hear_ends(enum br_status status, struct br_error *err)
         struct br_error failure = {0};
         bool came;
         if (br_talk_receive(&m, &came, &failure) || br_talk_listen(1, br_ranks_size(), &failure))
-            br_ranks_abort(status ? err->message : failure.message);
+            give_up(status ? err->message : failure.message);
         if (came && m.kind == BR_TALK_LEAVE) {
             const struct br_error said = br_talk_error(&m);
             talk->left[m.from] = true;
@@ -91,6 +115,8 @@ static void wait_for_over(void)
         if (br_talk_receive(&m, &came, &failure))
             br_ranks_abort(failure.message);
         br_talk()->over |= came && m.kind == BR_TALK_OVER;
+        if (came && m.kind == BR_TALK_OVER && m.bytes[0])
+            br_ranks_abort(NULL); /* rank 0 says why */
         free(m.bytes);
         if (!came)
             pause_a_little();
@@ -104,19 +130,17 @@ enum br_status br_spread_end(enum br_status status, struct br_error *err)
         if (!br_talk())
             br_ranks_abort("out of memory for the ranks");
         if (br_talk()->lost)
-            br_ranks_abort(err->message);
+            give_up(err->message);
         br_talk_start_listening();
         if (br_ranks_first()) {
-            for (int r = 1; r < br_ranks_size(); r++)
-                br_ranks_send(r, BR_TALK_OVER, NULL, 0, NULL);
+            tell_end(false);
             status = hear_ends(status, err);
         } else {
             err->status = status;
             br_talk_send_error(0, BR_TALK_LEAVE, status ? err : &none, NULL);
             wait_for_over();
         }
-        while (!br_ranks_sent())
-            pause_a_little();
+        flush();
     }
     br_talk_forget();
     br_ranks_leave();

@@ -18,7 +18,7 @@ enum br_talk {
     BR_TALK_GIVE, /* a group's index */
     BR_TALK_STOP, /* the error that ends the call */
     BR_TALK_ALL,  /* the results of all groups */
-    BR_TALK_OVER, /* nothing: its program ends */
+    BR_TALK_OVER, /* whether it aborts: its program ends */
     /* both ways */
     BR_TALK_BEAT, /* to rank 0: the fraction of the group that is done */
 };

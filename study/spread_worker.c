@@ -82,8 +82,10 @@ static enum br_status heed(struct worker *w, const struct br_message *m, struct 
         w->all = true;
         return unpack_all(call, m, err);
     case BR_TALK_OVER:
+        if (m->bytes[0])
+            br_ranks_abort(NULL); /* rank 0 says why */
         br_talk()->over = true;
-        br_fail(&error, BR_INTERRUPTED, "rank 0 has ended");
+        br_fail(&error, BR_IO, "rank 0 has ended");
         br_talk_stop(call, &error);
         return BR_OK;
     default: /* a beat */
@@ -91,12 +93,13 @@ static enum br_status heed(struct worker *w, const struct br_message *m, struct 
     }
 }
 
+/* What comes after the results of all belongs to the next call, or to the end. */
 static enum br_status heed_all(struct worker *w, struct br_error *err)
 {
     struct br_message m;
     bool came = true;
     enum br_status status = BR_OK;
-    while (!status && came) {
+    while (!status && came && !w->all) {
         status = br_talk_receive(&m, &came, err);
         if (!status && came)
             status = heed(w, &m, err);
