@@ -49,7 +49,8 @@ bool br_ranks_sent(void);
 /* Leaves the others in good order, once all of them have sent everything. */
 void br_ranks_leave(void);
 
-/* Ends all ranks at once, with exit code 3, after saying why on standard error; NULL: silently. */
+/* Ends all ranks at once, with exit code 3, after saying why on standard error; NULL: silently,
+ * since another rank has said it. */
 _Noreturn void br_ranks_abort(const char *why);
 
 #endif

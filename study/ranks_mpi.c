@@ -3,6 +3,7 @@
 #include <sched.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "study/launcher.h"
 #include "study/ranks.h"
@@ -126,12 +127,17 @@ void br_ranks_leave(void)
     MPI_Finalize();
 }
 
+/* One rank alone asks for it: mpirun was seen to crash when several did at once. The others
+ * are ended by that soon, or, where the launcher was told to carry on, end by themselves. */
 void br_ranks_abort(const char *why)
 {
     if (why)
         fprintf(stderr, "beamrate: rank %d of %d: %s\n", ranks.rank, ranks.size, why);
     fflush(NULL);
-    MPI_Abort(MPI_COMM_WORLD, br_status_exit_code(BR_IO));
+    if (why && ranks.rank <= 1)
+        MPI_Abort(MPI_COMM_WORLD, br_status_exit_code(BR_IO));
+    else
+        sleep(5);
     _Exit(br_status_exit_code(BR_IO));
 }
 
