@@ -10,6 +10,7 @@
 #include "cli/signals.h"
 #include "cli/whole_file.h"
 #include "solver/clock.h"
+#include "study/ranks.h"
 #include "study/scene_file.h"
 #include "tables/check_emitter.h"
 
@@ -115,7 +116,8 @@ static enum br_status compute(struct run *r, struct br_error *err)
     const size_t at_once = r->options.fail_fast ? 1 : r->count;
     if (r->options.fail_fast)
         qsort(r->check, r->count, sizeof *r->check, by_work);
-    const struct br_observer *observer = br_progress_start("checking", r->options.quiet);
+    const struct br_observer *observer =
+        br_progress_start("checking", r->options.quiet || !br_ranks_first());
     enum br_status status = BR_OK;
     while (r->done < r->count && !status && !(r->options.fail_fast && failed_so_far(r))) {
         status = br_check_run(&r->check[r->done], at_once, r->options.thread_count, observer, err);
@@ -212,12 +214,11 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status check(struct run *r, struct br_error *err)
+/* What the reports need, before a long computation. */
+static enum br_status prepare_reports(struct run *r, struct br_error *err)
 {
-    enum br_status status = read_scenes(r, err);
-    if (!status)
-        status = check_heeded(r, err);
-    if (!status && r->options.compare)
+    enum br_status status = BR_OK;
+    if (r->options.compare)
         status = br_check_read_json(r->options.compare, &r->old, err);
     if (!status && r->options.compare)
         status = br_compare_check(r->check, r->count, &r->old, err);
@@ -225,8 +226,20 @@ static enum br_status check(struct run *r, struct br_error *err)
         status = open_files(r, err);
     if (!status)
         status = check_places(r, err);
+    return status;
+}
+
+static enum br_status check(struct run *r, struct br_error *err)
+{
+    enum br_status status = read_scenes(r, err);
+    if (!status)
+        status = check_heeded(r, err);
+    if (!status && br_ranks_first())
+        status = prepare_reports(r, err);
     if (!status)
         status = compute(r, err);
+    if (!br_ranks_first())
+        return status; /* rank 0 writes, and has the verdict */
     if (!status && r->options.compare)
         status = br_compare(r->check, r->done, r->options.all && r->done == r->count, &r->old,
                             &r->comparison, err);

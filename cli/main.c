@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <signal.h>
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/command.h"
 #include "cli/provenance.h"
 #include "cli/signals.h"
+#include "study/ranks.h"
+#include "study/spread.h"
 
 extern const struct br_command br_command_check, br_command_study, br_command_tables;
 
@@ -40,30 +42,48 @@ static enum br_status check_stdout(struct br_error *err)
     return BR_OK;
 }
 
-int main(int argc, const char **argv)
+/* Only rank 0 of several speaks. */
+static enum br_status join_ranks(struct br_error *err)
+{
+    const enum br_status status = br_ranks_start(err);
+    if (!br_ranks_first() && !freopen("/dev/null", "w", stdout))
+        return br_fail(err, BR_IO, "/dev/null: %s", strerror(errno));
+    return status;
+}
+
+static enum br_status run_command(int argc, const char **argv, struct br_error *err)
 {
     if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0) {
         print_help(argc < 2 ? stderr : stdout);
-        return br_status_exit_code(argc < 2 ? BR_BAD_INPUT : BR_OK);
+        return argc < 2 ? br_fail(err, BR_BAD_INPUT, "no command is given") : BR_OK;
     }
     if (strcmp(argv[1], "--version") == 0) {
         printf("beamrate %s (%s)\n", br_version(), br_commit());
-        return 0;
+        return BR_OK;
     }
     const struct br_command *command = find_command(argv[1]);
-    if (!command) {
-        fprintf(stderr, "beamrate: '%s' is no command; 'beamrate --help' lists them\n", argv[1]);
-        return br_status_exit_code(BR_BAD_INPUT);
-    }
+    if (!command)
+        return br_fail(err, BR_BAD_INPUT, "'%s' is no command; 'beamrate --help' lists them",
+                       argv[1]);
     br_signals_install();
     br_remember_command_line(argc, argv);
     static char name[64]; /* for the usage line */
     snprintf(name, sizeof name, "beamrate %s", command->name);
     argv[1] = name;
+    return command->run(argc - 1, argv + 1, err);
+}
+
+int main(int argc, const char **argv)
+{
     struct br_error err = {0};
-    enum br_status status = command->run(argc - 1, argv + 1, &err);
+    enum br_status status = join_ranks(&err);
+    if (!status)
+        status = run_command(argc, argv, &err);
     if (!status)
         status = check_stdout(&err);
+    status = br_spread_end(status, &err);
+    if (!br_ranks_first())
+        return 0; /* rank 0 tells, and ends with the exit code */
     if (status == BR_INTERRUPTED) {
         fprintf(stderr, "beamrate: interrupted; nothing was written\n");
         br_signals_raise_again();

@@ -9,6 +9,7 @@
 #include "cli/signals.h"
 #include "cli/study_session.h"
 #include "plots/plots.h"
+#include "study/ranks.h"
 #include "tables/emitter.h"
 
 /* A run on its way to its files. */
@@ -148,17 +149,18 @@ enum br_status br_study_run_jobs(const struct br_study_job *jobs, size_t count,
                                  struct br_error *err)
 {
     struct run r = {.options = options};
+    const bool writes = br_ranks_first();
     enum br_status status = br_session_prepare(&r.session, jobs, count, options, with_exact, err);
-    if (!status)
+    if (!status && writes)
         status = br_output_open(&r.output, options->out ? options->out : "results", err);
     br_provenance_fill(&r.provenance, r.session.request.threads);
     if (!status)
-        status = br_session_compute(&r.session, options->quiet, err);
-    if (!status)
+        status = br_session_compute(&r.session, options->quiet || !writes, err);
+    if (!status && writes)
         status = show(&r, err);
-    if (!status)
+    if (!status && writes)
         status = write_all(&r, err);
-    if (!status && !options->quiet)
+    if (!status && writes && !options->quiet)
         printf("Written to %s/\n", r.output.folder);
     if (!status)
         status = check_cells(&r.session, err);

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "study/lockstep.h"
+#include "study/spread.h"
 
 const char *br_flag_name(enum br_flag flag)
 {
@@ -181,7 +181,7 @@ enum br_status br_study_run_each(struct br_study *studies, size_t count, int thr
         if (prepare(&studies[i], &studies[i].failure) == BR_NO_MEMORY)
             status = br_fail(err, BR_NO_MEMORY, "%s", studies[i].failure.message);
     if (!status)
-        status = br_lockstep(studies, count, threads, observer, err);
+        status = br_spread(studies, count, threads, observer, err);
     for (size_t i = 0; i < count && status; i++)
         for (struct br_study *s = &studies[i]; s; s = s->next_norm)
             br_study_clear(s);

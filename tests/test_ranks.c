@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The program under mpirun, on one machine: the same bits as one process, one voice, exit codes,
+ * and ranks that die. $MPIRUN and $PROGRAM are paths. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli_driver.h"
+#include "support.h"
+
+static struct cli_outcome out, other;
+
+/* Runs the program on so many ranks, or, for 0, without mpirun. */
+static void run(int ranks, const char *line, struct cli_outcome *outcome)
+{
+    char whole[1024];
+    setenv("BEAMRATE", ranks ? getenv("MPIRUN") : getenv("PROGRAM"), 1);
+    if (ranks)
+        snprintf(whole, sizeof whole, "--oversubscribe -n %d %s %s", ranks, getenv("PROGRAM"),
+                 line);
+    else
+        snprintf(whole, sizeof whole, "%s", line);
+    cli_run_line(whole, NULL, outcome);
+}
+
+/* Under a shell that does something to rank 2 after a second; `$$` becomes the program. */
+static void run_with(const char *deed, const char *line, struct cli_outcome *outcome)
+{
+    char script[512];
+    setenv("BEAMRATE", getenv("MPIRUN"), 1);
+    snprintf(script, sizeof script,
+             "if [ \"$OMPI_COMM_WORLD_RANK\" = 2 ]; then (sleep 1; %s) & fi; exec '%s' %s", deed,
+             getenv("PROGRAM"), line);
+    const char *const word[] = {"--oversubscribe", "-n", "4", "sh", "-c", script, NULL};
+    cli_run(word, NULL, outcome);
+}
+
+static size_t count(const char *text, const char *part)
+{
+    size_t found = 0;
+    for (const char *at = text; (at = strstr(at, part)); at += strlen(part))
+        found++;
+    return found;
+}
+
+/* ---- the same bits ---- */
+
+/* A result file without times, dates and the command. The seconds of a CSV are its column 8. */
+static char *read_without_times(const char *name)
+{
+    static const char *const varies[] = {"seconds", "date", "command", "threads"};
+    char path[512], line[4096], *text = NULL;
+    size_t size;
+    cli_path(name, path);
+    const bool csv = strstr(name, ".csv") != NULL;
+    FILE *in = fopen(path, "r"), *memory = open_memstream(&text, &size);
+    if (!in)
+        fail_msg("%s is not there", path);
+    assert_non_null(memory);
+    while (fgets(line, sizeof line, in)) {
+        bool keep = true;
+        for (size_t i = 0; i < sizeof varies / sizeof *varies && !csv; i++)
+            keep &= !strstr(line, varies[i]);
+        int column = 0;
+        for (const char *c = line; keep && *c; c++) {
+            column += *c == ',';
+            if (!csv || column != 7)
+                fputc(*c, memory);
+        }
+    }
+    fclose(in);
+    fclose(memory);
+    return text;
+}
+
+static void expect_same_file(const char *a, const char *b)
+{
+    char *one = read_without_times(a), *two = read_without_times(b);
+    assert_true(strlen(one) > 100);
+    assert_string_equal(one, two);
+    free(one);
+    free(two);
+}
+
+static void test_same_bits(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line, *name[3];
+    } rows[] = {
+        {"tables --n 10,20,40 --k 0.02,0.01,0.005 --reference fine:160,1e-3 --norm l2,energy",
+         {"table1", "table2", "table2-energy"}},
+        {"study example3 --n 10,15,40 --k 0.02,0.01,0.005", {"example3"}}, /* slices */
+        {"study release --reference none", {"release-meshes", "release-steps"}},
+    };
+    static const int ranks[] = {2, 4}, threads[] = {2, 1};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        for (size_t j = 0; j < 2; j++) {
+            char line[512], a[64], b[64];
+            snprintf(line, sizeof line, "%s --no-plots --out one --threads 1", rows[i].line);
+            if (j == 0)
+                run(0, line, &out);
+            snprintf(line, sizeof line, "%s --no-plots --out many --threads %d", rows[i].line,
+                     threads[j]);
+            run(ranks[j], line, &other);
+            assert_int_equal(out.exit_code, 0);
+            assert_int_equal(other.exit_code, 0);
+            assert_int_equal(count(other.output, "Written to"), 1);
+            for (size_t f = 0; f < 3 && rows[i].name[f]; f++)
+                for (int json = 0; json < 2; json++) {
+                    const char *extension = json ? "json" : "csv";
+                    snprintf(a, sizeof a, "one/%s.%s", rows[i].name[f], extension);
+                    snprintf(b, sizeof b, "many/%s.%s", rows[i].name[f], extension);
+                    expect_same_file(a, b);
+                }
+        }
+}
+
+static void cut_last_line(char *text)
+{
+    size_t end = strlen(text);
+    while (end > 0 && text[end - 1] == '\n')
+        end--;
+    while (end > 0 && text[end - 1] != '\n')
+        end--;
+    text[end] = '\0';
+    assert_true(end > 100);
+}
+
+static void test_check(void **state)
+{
+    (void)state;
+    const char *good = "check example3 --quiet --tap -",
+               *bad = "check example1 --contact implicit --quiet --tap -";
+    run(0, good, &out);
+    run(3, good, &other);
+    assert_int_equal(out.exit_code, 0);
+    assert_int_equal(other.exit_code, 0);
+    cut_last_line(out.output); /* it ends with the time */
+    cut_last_line(other.output);
+    assert_string_equal(out.output, other.output);
+    run(0, bad, &out);
+    run(2, bad, &other);
+    assert_int_equal(out.exit_code, 1);
+    assert_int_equal(other.exit_code, 1);
+    assert_int_equal(count(other.output, "beamrate:"), 1);
+    assert_int_equal(count(other.output, "1.."), 1);
+}
+
+/* ---- one voice ---- */
+
+static void test_bad_input(void **state)
+{
+    (void)state;
+    static const char *const rows[] = {
+        "study nowhere", "study example1 --n 10 --k .1 --reference fine:100,.04 --out none",
+        "study example1 --out /proc/nowhere"};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        run(3, rows[i], &out);
+        assert_int_equal(out.exit_code, 2);
+        assert_int_equal(count(out.output, "beamrate:"), 1);
+    }
+    assert_false(cli_is_there("none"));
+    run(2, "--version", &out);
+    assert_int_equal(out.exit_code, 0);
+    assert_int_equal(count(out.output, "beamrate "), 1);
+}
+
+/* One rank alone cannot read the scene. */
+static void test_other_files(void **state)
+{
+    (void)state;
+    setenv("BEAMRATE", getenv("MPIRUN"), 1);
+    char script[512];
+    cli_write_file("scene.yaml", "title: x\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
+                                 "axial: {stiffness: 1000 N, viscosity: 1 N s, load: 'x [N/m]'}\n");
+    cli_write_file("other.yaml",
+                   "title: x\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
+                   "axial: {stiffness: 1000 N, viscosity: 1 N s, load: 'x^2 [N/m]'}\n");
+    static const struct {
+        const char *name, *message;
+        int code;
+    } rows[] = {{"other.yaml", "rank 1 was asked for other studies than rank 0", 2},
+                {"none.yaml", "rank 1: scene 'none.yaml' is no file", 2}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        snprintf(
+            script, sizeof script,
+            "f=scene.yaml; [ $OMPI_COMM_WORLD_RANK = 0 ] || f=%s; exec '%s' study $f --out mixed",
+            rows[i].name, getenv("PROGRAM"));
+        const char *const word[] = {"--oversubscribe", "-n", "2", "sh", "-c", script, NULL};
+        cli_run(word, NULL, &out);
+        assert_int_equal(out.exit_code, rows[i].code);
+        if (!strstr(out.output, rows[i].message))
+            fail_msg("expected '%s', found:\n%s", rows[i].message, out.output);
+        assert_false(cli_is_there("mixed"));
+    }
+}
+
+/* ---- ranks that die ---- */
+
+#define LONG "study example2 --n 1600,3200 --k 1e-4 --reference fine:6400,1e-5 --quiet --no-plots"
+
+static void test_killed(void **state)
+{
+    (void)state;
+    run_with("kill -KILL $$", LONG " --out killed", &out);
+    assert_true(out.exit_code > 0);
+    assert_non_null(strstr(out.output, "rank 2"));
+    assert_false(cli_is_there("killed"));
+}
+
+/* As where a machine hangs, or a launcher does not see that a rank is gone. */
+static void test_silent(void **state)
+{
+    (void)state;
+    setenv("BEAMRATE_SILENCE", "1.5", 1);
+    run_with("kill -STOP $$", LONG " --out silent", &out);
+    unsetenv("BEAMRATE_SILENCE");
+    assert_int_equal(out.exit_code, 3);
+    assert_non_null(strstr(out.output, "rank 2 has not been heard from"));
+    assert_false(cli_is_there("silent"));
+}
+
+/* A rank that is told to end, and mpirun, too. */
+static void test_interrupted(void **state)
+{
+    (void)state;
+    run_with("kill -TERM $$", LONG " --out ended", &out);
+    assert_true(out.exit_code != 0);
+    assert_int_equal(count(out.output, "interrupted; nothing was written"), 1);
+    assert_false(cli_is_there("ended"));
+    const char *const word[] = {"--oversubscribe",
+                                "-n",
+                                "2",
+                                getenv("PROGRAM"),
+                                "study",
+                                "example2",
+                                "--n",
+                                "3200",
+                                "--k",
+                                "1e-4",
+                                "--reference",
+                                "fine:6400,1e-5",
+                                "--quiet",
+                                "--out",
+                                "ended",
+                                NULL};
+    cli_run(word, &(struct cli_circumstances){.interrupt_after = 1500}, &out);
+    assert_true(out.exit_code != 0);
+    assert_false(cli_is_there("ended"));
+}
+
+/* Where a launcher is there, but MPI knows nothing of it. */
+static void test_not_joined(void **state)
+{
+    (void)state;
+    setenv("SLURM_STEP_NUM_TASKS", "4", 1);
+    setenv("SLURM_PROCID", "0", 1);
+    run(0, "study example1 --out alone", &out);
+    unsetenv("SLURM_STEP_NUM_TASKS");
+    unsetenv("SLURM_PROCID");
+    assert_int_equal(out.exit_code, 2);
+    assert_non_null(strstr(out.output, "started by srun (Slurm) as one of 4 processes, but "));
+    assert_false(cli_is_there("alone"));
+}
+
+int main(void)
+{
+    /* In a container one is root; on a desktop a rank may not have a core of its own. */
+    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+    const struct CMUnitTest with_mpi[] = {
+        cmocka_unit_test(test_same_bits),   cmocka_unit_test(test_check),
+        cmocka_unit_test(test_bad_input),   cmocka_unit_test(test_other_files),
+        cmocka_unit_test(test_killed),      cmocka_unit_test(test_silent),
+        cmocka_unit_test(test_interrupted), cmocka_unit_test(test_not_joined),
+    };
+    const struct CMUnitTest without[] = {cmocka_unit_test(test_not_joined)};
+    return getenv("MPIRUN") ? cmocka_run_group_tests(with_mpi, cli_make_folder, cli_remove_folder)
+                            : cmocka_run_group_tests(without, cli_make_folder, cli_remove_folder);
+}

@@ -1,0 +1,296 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Work cut into units for ranks, in one process: how it is cut, that the parts put together again
+ * have the bits of the whole, and what the environment says of launchers. No MPI. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "study/fingerprint.h"
+#include "study/launcher.h"
+#include "study/lockstep.h"
+#include "study/unit_march.h"
+#include "support.h"
+
+static const size_t grid_n[] = {10, 20, 30, 40}, grid_steps[] = {20, 50, 100, 200};
+
+/* A study with cells, as br_study_run prepares it. */
+static struct br_study prepared(const struct br_scene *scene, const struct br_judge *judge,
+                                struct br_resolution reference)
+{
+    struct br_study s = {
+        .scene = scene,
+        .norm = &br_norm_l2,
+        .method = br_method_default(),
+        .judge = judge,
+        .reference_method = br_method_default(),
+        .reference = reference,
+        .n_count = 4,
+        .k_count = 4,
+        .n = grid_n,
+        .steps = grid_steps,
+    };
+    s.cell = br_allocate(16, sizeof *s.cell);
+    assert_non_null(s.cell);
+    for (size_t i = 0; i < 16; i++)
+        s.cell[i].at = (struct br_resolution){grid_n[i / 4], grid_steps[i % 4]};
+    return s;
+}
+
+static const struct br_resolution of_levels = {0, 200};
+
+static void expect_same(const struct br_study *a, const struct br_study *b)
+{
+    assert_int_equal(a->failure.status, b->failure.status);
+    assert_memory_equal(&a->reference_scale, &b->reference_scale, sizeof a->reference_scale);
+    assert_memory_equal(a->reference_tip, b->reference_tip, sizeof a->reference_tip);
+    assert_memory_equal(a->reference_error, b->reference_error, sizeof a->reference_error);
+    assert_string_equal(a->events ? a->events : "", b->events ? b->events : "");
+    assert_true(a->auditor == b->auditor);
+    for (size_t i = 0; i < 16; i++) {
+        assert_int_equal(a->cell[i].at.steps, b->cell[i].at.steps);
+        assert_memory_equal(a->cell[i].error, b->cell[i].error, sizeof a->cell[i].error);
+        assert_memory_equal(a->cell[i].tip, b->cell[i].tip, sizeof a->cell[i].tip);
+        assert_memory_equal(a->cell[i].worst_time, b->cell[i].worst_time,
+                            sizeof a->cell[i].worst_time);
+    }
+}
+
+/* All groups in turn, the last one first, as ranks might end. */
+static void march_groups(struct br_study *studies, const struct br_units *units)
+{
+    struct br_error err = {0};
+    for (size_t g = units->groups; g-- > 0;) {
+        struct br_parcel parcel;
+        MUST(br_group_march(studies, units, g, 2, NULL, &parcel, &err));
+        MUST(br_group_unpack(studies, units, g, &parcel, &err));
+        free(parcel.bytes);
+    }
+}
+
+static void test_same_bits(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example3");
+    for (int ranks = 1; ranks <= 5; ranks += 2) {
+        struct br_error err = {0};
+        struct br_study whole[3], parts[3];
+        struct br_study *const sets[] = {whole, parts};
+        for (int i = 0; i < 2; i++) {
+            struct br_study *s = sets[i];
+            s[0] = prepared(&scene, &br_judge_exact, of_levels);
+            s[1] = prepared(&scene, &br_judge_fine, (struct br_resolution){120, 200});
+            s[1].auditor = &br_judge_exact;
+            s[2] = prepared(&scene, &br_judge_exact, of_levels);
+            s[2].norm = &br_norm_energy;
+            s[0].next_norm = &s[2]; /* a chain */
+        }
+        MUST(br_lockstep(whole, 2, 1, NULL, &err));
+        struct br_units units;
+        MUST(br_units_create(&units, parts, 2, ranks, 1, &err));
+        assert_true(units.count == 2 || ranks > 1);
+        march_groups(parts, &units);
+        for (int i = 0; i < 3; i++)
+            expect_same(&whole[i], &parts[i]);
+        br_units_clear(&units);
+        for (int i = 0; i < 3; i++) {
+            br_study_clear(&whole[i]);
+            br_study_clear(&parts[i]);
+        }
+    }
+    br_scene_clear(&scene);
+}
+
+/* A study that fails is a result of its own, and the others go on. */
+static void test_failure(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example1");
+    struct br_error err = {0};
+    struct br_study s[2] = {prepared(&scene, &br_judge_exact, of_levels),
+                            prepared(&scene, &br_judge_exact, of_levels)};
+    s[0].method.friction = br_friction_rule_find("regularised");
+    scene.friction.regularisation = 0; /* which that needs */
+    struct br_units units;
+    MUST(br_units_create(&units, s, 2, 3, 1, &err));
+    march_groups(s, &units);
+    assert_int_equal(s[0].failure.status, BR_BAD_INPUT);
+    assert_int_equal(s[1].failure.status, BR_OK);
+    assert_true(s[1].cell[15].error[BR_PART_TOTAL] > 0);
+    br_units_clear(&units);
+    br_study_clear(&s[0]);
+    br_study_clear(&s[1]);
+    br_scene_clear(&scene);
+}
+
+/* ---- how it is cut ---- */
+
+static size_t slices_of(const struct br_units *units, size_t study)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < units->count; i++)
+        if (units->unit[i].study == study) {
+            count++;
+            assert_true(units->unit[i].slice < units->unit[i].slices);
+        }
+    return count;
+}
+
+static void test_cutting(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example1");
+    struct br_error err = {0};
+    const size_t n[] = {100, 200, 400, 800}, steps[] = {5000, 6000, 8000, 10000};
+    struct br_study s[] = {prepared(&scene, &br_judge_exact, (struct br_resolution){0, 120000}),
+                           prepared(&scene, &br_judge_fine, (struct br_resolution){12000, 120000})};
+    for (int i = 0; i < 2; i++) {
+        s[i].n = n;
+        s[i].steps = steps;
+        for (size_t c = 0; c < 16; c++)
+            s[i].cell[c].at = (struct br_resolution){n[c / 4], steps[c % 4]};
+    }
+    const struct {
+        size_t studies;
+        int ranks, threads;
+        size_t exact, fine; /* slices, at least; 1: exactly */
+    } rows[] = {
+        {1, 1, 1, 1, 0}, {1, 2, 1, 2, 0}, {1, 4, 1, 3, 0}, {2, 4, 1, 1, 1}, {2, 8, 4, 1, 1},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_units units;
+        MUST(br_units_create(&units, s, rows[i].studies, rows[i].ranks, rows[i].threads, &err));
+        const size_t exact = slices_of(&units, 0), fine = slices_of(&units, 1);
+        assert_int_equal(exact + fine, units.count);
+        assert_true(rows[i].exact == 1 ? exact == 1 : exact >= rows[i].exact);
+        assert_int_equal(fine, rows[i].fine);
+        assert_int_equal(units.first[units.groups], units.count);
+        assert_true(units.groups >= 1);
+        br_units_clear(&units);
+    }
+    struct br_units none;
+    MUST(br_units_create(&none, s, 0, 4, 1, &err));
+    assert_int_equal(none.groups, 0);
+    br_units_clear(&none);
+    br_study_clear(&s[0]);
+    br_study_clear(&s[1]);
+    br_scene_clear(&scene);
+}
+
+static void test_slices(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example1");
+    struct br_study s = prepared(&scene, &br_judge_exact, of_levels);
+    double all = 0;
+    for (size_t i = 0; i < 16; i++)
+        all += br_cell_cost(&s, i);
+    for (size_t slices = 1; slices <= 16; slices++) {
+        size_t owner[16];
+        double load[16] = {0};
+        const double most = br_slice_cells(&s, slices, owner);
+        for (size_t i = 0; i < 16; i++) {
+            assert_true(owner[i] < slices);
+            load[owner[i]] += br_cell_cost(&s, i);
+        }
+        for (size_t i = 0; i < slices; i++)
+            assert_true(load[i] > 0 && load[i] <= most);
+        const double ideal = fmax(all / (double)slices, br_cell_cost(&s, 15));
+        assert_true(most <= 4.0 / 3 * ideal * (1 + 1e-12)); /* Graham's bound */
+    }
+    br_study_clear(&s);
+    br_scene_clear(&scene);
+}
+
+/* ---- what comes from elsewhere ---- */
+
+static void test_cut_off(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example1");
+    struct br_error err = {0};
+    struct br_study s = prepared(&scene, &br_judge_exact, of_levels);
+    struct br_units units;
+    struct br_parcel parcel;
+    MUST(br_units_create(&units, &s, 1, 1, 1, &err));
+    MUST(br_group_march(&s, &units, 0, 1, NULL, &parcel, &err));
+    const size_t size = parcel.size;
+    for (size_t i = 0; i < 20; i++) {
+        parcel = (struct br_parcel){.bytes = parcel.bytes, .size = size * i / 20};
+        REFUSED(br_group_unpack(&s, &units, 0, &parcel, &err), BR_IO, "cut off");
+        free(s.events);
+        s.events = NULL;
+    }
+    free(parcel.bytes);
+    br_units_clear(&units);
+    br_study_clear(&s);
+    br_scene_clear(&scene);
+}
+
+static void test_fingerprint(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example4"), other = br_test_bundled("example4");
+    struct br_study s = prepared(&scene, &br_judge_exact, of_levels), t = s;
+    const unsigned long long print = br_studies_fingerprint(&s, 1);
+    t.scene = &other;
+    assert_true(br_studies_fingerprint(&t, 1) == print);
+    t.method.solver = &br_umfpack;
+    assert_true(br_studies_fingerprint(&t, 1) != print);
+    t = s;
+    t.k_count = 3;
+    assert_true(br_studies_fingerprint(&t, 1) != print);
+    t = s;
+    t.scene = &other;
+    other.friction.coefficient *= 1 + 1e-6;
+    assert_true(br_studies_fingerprint(&t, 1) != print);
+    other.friction.coefficient = scene.friction.coefficient;
+    other.axial.tip_force.constant = 1;
+    assert_true(br_studies_fingerprint(&t, 1) != print);
+    br_study_clear(&s);
+    br_scene_clear(&scene);
+    br_scene_clear(&other);
+}
+
+static void test_launchers(void **state)
+{
+    (void)state;
+    static const char *const variables[] = {
+        "OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK", "PMI_SIZE", "PMI_RANK",
+        "SLURM_STEP_NUM_TASKS", "SLURM_PROCID"};
+    static const struct {
+        const char *value[6]; /* of those; NULL: not set */
+        int size, rank;
+    } rows[] = {
+        {{NULL}, 1, 0},
+        {{"4", "3"}, 4, 3},
+        {{"1", "0"}, 1, 0},
+        {{NULL, NULL, "2", "1"}, 2, 1},
+        {{NULL, NULL, NULL, NULL, "8", "7"}, 8, 7},
+        {{"4", "2", NULL, NULL, "2", "1"}, 4, 2}, /* mpirun in a Slurm job */
+        {{"1", "0", NULL, NULL, "2", "1"}, 1, 0},
+        {{NULL, NULL, NULL, NULL, NULL, "0"}, 1, 0}, /* a batch script */
+        {{"many"}, 1, 0},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        for (size_t v = 0; v < 6; v++)
+            if (rows[i].value[v])
+                setenv(variables[v], rows[i].value[v], 1);
+            else
+                unsetenv(variables[v]);
+        const struct br_launch launch = br_launch_read();
+        assert_int_equal(launch.size, rows[i].size);
+        assert_int_equal(launch.rank, rows[i].rank);
+        assert_true((launch.launcher != NULL) == (launch.size > 1));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_same_bits), cmocka_unit_test(test_failure),
+        cmocka_unit_test(test_cutting),   cmocka_unit_test(test_slices),
+        cmocka_unit_test(test_cut_off),   cmocka_unit_test(test_fingerprint),
+        cmocka_unit_test(test_launchers),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
