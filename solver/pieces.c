@@ -132,6 +132,7 @@ static double pieces_finish(void *self, double force)
     for (int i = 0; i < BR_STRANDS; i++)
         if (s->strand[i].strip.lanes)
             s->kernel->advance(&s->strand[i].strip, &s->drive, &s->strand[i].ends);
+    s->advanced = true;
     look_at_tip(s, s->tip_velocity + s->tip_increment[0] + force * s->force_increment[0]);
     return s->tip_velocity;
 }

@@ -155,6 +155,7 @@ void br_pieces_set(void *self, const double *displacement, const double *velocit
         }
     }
     s->tip_bias = 0;
+    s->advanced = false;
     s->tip_displacement = br_pieces_tip_displacement(s);
     s->tip_velocity = velocity[s->field.n * (size_t)s->d];
 }
@@ -187,8 +188,9 @@ static void get_nodes(const struct br_pieces *s, bool rate, double *nodal)
         const struct br_strand *t = &s->strand[i];
         if (!t->strip.lanes)
             continue;
-        s->kernel->carry(&t->strip, rate, across);
-        find_left_ends(s, t, across, y, left);
+        if (!rate || !s->advanced)
+            s->kernel->carry(&t->strip, rate, across);
+        find_left_ends(s, t, rate && s->advanced ? t->ends.velocity : across, y, left);
         s->kernel->expand(&t->strip, rate, left, nodal + (t->first + 1) * d);
     }
 }

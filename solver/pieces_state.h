@@ -30,6 +30,7 @@ struct br_pieces {
     double tip_load[BR_LQ_MOST]; /* of the last node over R, for a factor of 1 */
     double tip_increment[BR_LQ_MOST], force_increment[BR_LQ_MOST];
     double tip_velocity, tip_displacement, compliance;
+    bool advanced;   /* the strands' ends have the velocities across the spans */
     double tip_bias; /* mean of what the joins' increment lacks of the field's, m/s */
     size_t steps;    /* since the tip was set */
 };

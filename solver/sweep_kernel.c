@@ -211,31 +211,39 @@ INLINE void load_end(int d, const double *end, int which, double factor, vec *va
                    factor * load(end + (which + BR_END_LOAD_Q - BR_END_Q) * entry + i * BR_LANES);
 }
 
-/* h goes to the left through the joins of a span, which ends free; z gathers. */
+/* One piece further to the left: h goes through its join, and the span's z gathers. */
+INLINE void gather_piece(int d, const double *join, double *end, double factor, vec *h, vec *sum)
+{
+    const int entry = d * BR_LANES;
+    vec next[2], drift[2];
+    load_end(d, end, BR_END_Q, factor, next);
+    load_end(d, end, BR_END_Z, factor, drift);
+    store_all(d, h, end + BR_END_H * entry);
+    store_all(d, drift, end + BR_END_DRIFT * entry);
+    add(d, join + BR_JOIN_LEAD * d * d, drift, sum);
+    add(d, join + BR_JOIN_LAG * d * d, h, sum);
+    add(d, join + BR_JOIN_TRANSFER * d * d, drift, next);
+    add_transposed(d, join + BR_JOIN_PASS * d * d, h, next);
+    for (int i = 0; i < d; i++)
+        h[i] = next[i];
+}
+
+/* A span ends free. */
 INLINE void gather_of(int d, const struct br_strip *s, double factor, size_t lane, double *q,
                       double *z)
 {
-    const int entry = d * BR_LANES;
-    vec h[2] = {{0}}, sum[2] = {{0}};
+    vec h[VECTORS][2] = {{{0}}}, sum[VECTORS][2] = {{{0}}};
     for (size_t j = s->pieces; j-- > 0;) {
-        const double *join = join_of(d, s, j);
         double *end = piece_at(d, s, j, lane).end;
-        vec next[2], drift[2];
         for (int i = 0; i < BR_ENDS * d; i++) /* of a piece further on */
             __builtin_prefetch(end - (8 * BR_ENDS * d - i) * BR_LANES);
-        load_end(d, end, BR_END_Q, factor, next);
-        load_end(d, end, BR_END_Z, factor, drift);
-        store_all(d, h, end + BR_END_H * entry);
-        store_all(d, drift, end + BR_END_DRIFT * entry);
-        add(d, join + BR_JOIN_LEAD * d * d, drift, sum);
-        add(d, join + BR_JOIN_LAG * d * d, h, sum);
-        add(d, join + BR_JOIN_TRANSFER * d * d, drift, next);
-        add_transposed(d, join + BR_JOIN_PASS * d * d, h, next);
-        for (int i = 0; i < d; i++)
-            h[i] = next[i];
+        for (int v = 0; v < VECTORS; v++)
+            gather_piece(d, join_of(d, s, j), end + v * WIDTH, factor, h[v], sum[v]);
     }
-    store_all(d, h, q + lane);
-    store_all(d, sum, z + lane);
+    for (int v = 0; v < VECTORS; v++) {
+        store_all(d, h[v], q + lane + v * WIDTH);
+        store_all(d, sum[v], z + lane + v * WIDTH);
+    }
 }
 
 /* Lane by lane, but all that does not wait for the neighbour at once. */
@@ -394,41 +402,48 @@ INLINE void carry_of(int d, const struct br_strip *s, bool rate, size_t lane, do
 {
     const size_t entry = (size_t)d * BR_LANES;
     const double *state = s->state + lane + (rate ? entry : 0);
-    vec y[2] = {{0}};
-    for (size_t e = 0; e < s->pieces * s->length; e++) {
-        vec kappa[2];
-        load_all(d, state + e * 2 * entry, kappa);
-        pass_on(d, kappa, y);
-    }
-    store_all(d, y, across + lane);
+    vec y[VECTORS][2] = {{{0}}};
+    for (size_t e = 0; e < s->pieces * s->length; e++)
+        for (int v = 0; v < VECTORS; v++) {
+            vec kappa[2];
+            load_all(d, state + e * 2 * entry + v * WIDTH, kappa);
+            pass_on(d, kappa, y[v]);
+        }
+    for (int v = 0; v < VECTORS; v++)
+        store_all(d, y[v], across + lane + v * WIDTH);
 }
 
-/* The row at the end of each element of a lane, as nodal values in order. */
+/* Block after block of WIDTH values of each lane: rows of lanes become lanes of rows. */
 INLINE void expand_of(int d, const struct br_strip *s, bool rate, size_t lane, const double *left,
                       double *nodal)
 {
     const size_t entry = (size_t)d * BR_LANES, length = s->pieces * s->length;
-    const size_t together = WIDTH >= d ? (size_t)(WIDTH / d) : 1; /* elements of a block of rows */
+    const size_t together = (size_t)(WIDTH / d); /* elements of a block */
     const double *state = s->state + lane + (rate ? entry : 0);
-    vec y[2], row[WIDTH];
-    load_all(d, left + lane, y);
+    vec y[VECTORS][2], row[VECTORS][WIDTH];
+    for (int v = 0; v < VECTORS; v++)
+        load_all(d, left + lane + v * WIDTH, y[v]);
     for (size_t e = 0; e < length; e += together) {
-        for (size_t i = 0; i < together; i++) {
-            vec kappa[2] = {{0}};
-            if (e + i < length)
-                load_all(d, state + (e + i) * 2 * entry, kappa);
-            pass_on(d, kappa, y);
-            for (int c = 0; c < d; c++)
-                row[i * (size_t)d + (size_t)c] = y[c];
-        }
-        transpose(row);
-        const size_t count = (length - e < together ? length - e : together) * (size_t)d;
-        for (size_t l = 0; l < WIDTH && lane + l < s->lanes; l++) {
-            double *to = nodal + ((lane + l) * length + e) * (size_t)d;
-            if (count == WIDTH)
-                store(row[l], to);
-            else
-                memcpy(to, &row[l], count * sizeof *to);
+        const size_t live = length - e < together ? length - e : together;
+        for (size_t i = 0; i < together; i++)
+            for (int v = 0; v < VECTORS; v++) {
+                vec kappa[2] = {{0}};
+                if (i < live)
+                    load_all(d, state + (e + i) * 2 * entry + v * WIDTH, kappa);
+                pass_on(d, kappa, y[v]);
+                for (int c = 0; c < d; c++)
+                    row[v][i * (size_t)d + (size_t)c] = y[v][c];
+            }
+        for (int v = 0; v < VECTORS; v++) {
+            transpose(row[v]);
+            const size_t first = lane + (size_t)(v * WIDTH);
+            for (size_t l = 0; l < WIDTH && first + l < s->lanes; l++) {
+                double *to = nodal + ((first + l) * length + e) * (size_t)d;
+                if (live == together)
+                    store(row[v][l], to);
+                else
+                    memcpy(to, &row[v][l], live * (size_t)d * sizeof *to);
+            }
         }
     }
 }
@@ -437,7 +452,7 @@ INLINE void expand_of(int d, const struct br_strip *s, bool rate, size_t lane, c
 
 static void gather(const struct br_strip *s, double factor, double *q, double *z)
 {
-    for (size_t lane = 0; lane < BR_LANES; lane += WIDTH)
+    for (size_t lane = 0; lane < BR_LANES; lane += GO)
         if (s->d == 1)
             gather_of(1, s, factor, lane, q, z);
         else
@@ -487,7 +502,7 @@ static void charge(const struct br_strip *s, const double uniform[2])
 
 static void carry(const struct br_strip *s, bool rate, double *across)
 {
-    for (size_t lane = 0; lane < BR_LANES; lane += WIDTH)
+    for (size_t lane = 0; lane < BR_LANES; lane += GO)
         if (s->d == 1)
             carry_of(1, s, rate, lane, across);
         else
@@ -496,7 +511,7 @@ static void carry(const struct br_strip *s, bool rate, double *across)
 
 static void expand(const struct br_strip *s, bool rate, const double *left, double *nodal)
 {
-    for (size_t lane = 0; lane < s->lanes; lane += WIDTH)
+    for (size_t lane = 0; lane < s->lanes; lane += GO)
         if (s->d == 1)
             expand_of(1, s, rate, lane, left, nodal);
         else
