@@ -25,12 +25,14 @@ static void join(struct br_pieces *s, double *h, double *y)
 {
     for (int i = BR_STRANDS; i-- > 0;) {
         struct br_strand *t = &s->strand[i];
-        s->kernel->join_left(&t->strip, t->q, t->z, h, t->ends.right);
+        if (t->strip.lanes)
+            s->kernel->join_left(&t->strip, t->q, t->z, h, t->ends.right);
     }
     y[0] = y[1] = 0;
     for (int i = 0; i < BR_STRANDS; i++) {
         struct br_strand *t = &s->strand[i];
-        s->kernel->join_right(&t->strip, t->z, y, t->ends.left, t->ends.right);
+        if (t->strip.lanes)
+            s->kernel->join_right(&t->strip, t->z, y, t->ends.left, t->ends.right);
     }
 }
 
