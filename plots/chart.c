@@ -143,8 +143,8 @@ static void write_marks(FILE *out, const struct br_panel *p)
                 "lc rgb '#444444'\n",
                 m->x, m->x);
         write_label(out, "", m->label);
-        fprintf(out, " at first %.9g,graph %.3g %s offset %s,0 font ',%d'\n", m->x, m->height,
-                m->left ? "right" : "left", m->left ? "-0.8" : "0.8", BR_PAGE_SMALL);
+        fprintf(out, " at first %.9g,graph %.3g left rotate offset %s,0 font ',%d'\n", m->x,
+                m->height, m->left ? "-1.6" : "1.8", BR_PAGE_SMALL);
     }
 }
 

@@ -43,9 +43,9 @@ bool br_draw_figure2(const struct br_paper *paper, struct br_chart *chart)
     NAME(&chart->panel[0], "horizontal");
     NAME(&chart->panel[1], "vertical");
     chart->panel[1].y_low = -0.1;
-    chart->panel[1].y_high = 0.125;
+    chart->panel[1].y_high = 0.25;
     lay_out_inset(chart,
-                  (struct br_panel){.left = 0.675, .right = 0.965, .bottom = 0.68, .top = 0.775});
+                  (struct br_panel){.left = 0.675, .right = 0.965, .bottom = 0.56, .top = 0.765});
     return br_draw_field(e, BR_AXIAL, &chart->panel[0]) &&
            br_draw_field(e, BR_BENDING, &chart->panel[1]) &&
            draw_early_slip(&paper->early, &chart->panel[2]);
@@ -72,9 +72,10 @@ bool br_draw_figure3(const struct br_paper *paper, struct br_chart *chart)
     br_chart_lay_out(chart, 1);
     struct br_panel *p = &chart->panel[0];
     p->log_y = true;
-    p->y_low = 1;
+    p->y_low = 1e-3;
     p->y_high = 1e7;
-    lay_out_inset(chart, (struct br_panel){.left = 0.6, .right = 0.93, .bottom = 0.4, .top = 0.6});
+    lay_out_inset(chart,
+                  (struct br_panel){.left = 0.6, .right = 0.93, .bottom = 0.39, .top = 0.535});
     return br_draw_bound(e, 1, "friction bound h(t) = c_V u(1,t)", p) &&
            br_draw_stress(e, "tangential stress {/Symbol s}_V(1,t)", p) &&
            draw_early_forces(&paper->early, &chart->panel[1]);
@@ -142,22 +143,22 @@ bool br_draw_figure7(const struct br_paper *paper, struct br_chart *chart)
            br_draw_tip(e, BR_AXIAL, "", &chart->panel[1]);
 }
 
-/* When the exact tip begins to stick or to slip. */
-static void mark_phases(const struct br_example *e, struct br_panel *p)
+/* When the exact tip begins to stick or to slip; height: of the later labels. */
+static void mark_phases(const struct br_example *e, double height, struct br_panel *p)
 {
     for (size_t i = 0; i < e->events; i++)
         if (e->event[i].field == BR_EXACT_BENDING && e->event[i].time > 0) {
             struct br_mark *mark =
                 br_chart_mark(p, e->event[i].time, "%s", br_phase_text(e->event[i].phase));
-            mark->height = 0.05;
             mark->left = e->event[i].time > 0.5 * e->scene.duration;
+            mark->height = mark->left ? height : 0.05;
         }
 }
 
 bool br_draw_figure8(const struct br_paper *paper, struct br_chart *chart)
 {
     const bool drawn = draw_bending(&paper->example[3], chart);
-    mark_phases(&paper->example[3], &chart->panel[1]);
+    mark_phases(&paper->example[3], 0.05, &chart->panel[1]);
     return drawn;
 }
 
@@ -168,7 +169,7 @@ bool br_draw_figure9(const struct br_paper *paper, struct br_chart *chart)
     NAME(&chart->panel[0], "friction bound");
     NAME(&chart->panel[1], "tangential stress");
     chart->panel[1].columns = 2;
-    mark_phases(e, &chart->panel[1]);
+    mark_phases(e, 0.4, &chart->panel[1]);
     return br_draw_bound(e, 1, "h(t) = c_V u(1,t)", &chart->panel[0]) &&
            br_draw_bound(e, 1, "bounds h(t) and -h(t)", &chart->panel[1]) &&
            br_draw_bound(e, -1, "", &chart->panel[1]) &&
@@ -197,7 +198,7 @@ static bool draw_sweep(const struct br_sweep *s, struct br_panel *p)
     p->x_high = s->point[s->points - 1].coefficient;
     p->y_low = 0.05;
     snprintf(p->y_label, sizeof p->y_label, "|u| + |w| (m^{3/2})");
-    br_chart_mark(p, s->paper, "the paper's")->height = 0.92;
+    br_chart_mark(p, s->paper, "the paper's")->height = 0.55;
     return most && last && printed;
 }
 
@@ -215,7 +216,7 @@ bool br_draw_figure10(const struct br_paper *paper, struct br_chart *chart)
     for (size_t i = 0; i < contact->points; i++)
         if (contact->point[i].unstable) {
             br_chart_mark(left, contact->point[i].coefficient, "as printed: amplifies")->height =
-                0.82;
+                0.4;
             break;
         }
     return true;
