@@ -115,7 +115,7 @@ static void mark_release(const struct br_example *e, double height, struct br_pa
 bool br_draw_figure5(const struct br_paper *paper, struct br_chart *chart)
 {
     const bool drawn = draw_bending(&paper->example[2], chart);
-    mark_release(&paper->example[2], 0.5, &chart->panel[1]);
+    mark_release(&paper->example[2], 0.3, &chart->panel[1]);
     return drawn;
 }
 
@@ -198,7 +198,9 @@ static bool draw_sweep(const struct br_sweep *s, struct br_panel *p)
     p->x_high = s->point[s->points - 1].coefficient;
     p->y_low = 0.05;
     snprintf(p->y_label, sizeof p->y_label, "|u| + |w| (m^{3/2})");
-    br_chart_mark(p, s->paper, "the paper's")->height = 0.55;
+    struct br_mark *mark = br_chart_mark(p, s->paper, "the paper's");
+    mark->height = 0.06;
+    mark->left = true;
     return most && last && printed;
 }
 

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "plots/gnuplot.h"
 #include "plots/plots.h"
 
 extern char **environ;
@@ -123,8 +124,8 @@ static enum br_status begin(struct br_rendering *r, bool *missing, struct br_err
                    *missing ? "it is not installed" : strerror(failure));
 }
 
-/* Waits for its end. */
-static enum br_status end(const struct br_rendering *r, struct br_error *err)
+/* Waits for its end, and for nothing else. */
+static enum br_status wait_for(const struct br_rendering *r, struct br_error *err)
 {
     char said[4096];
     int ending = 0;
@@ -134,7 +135,27 @@ static enum br_status end(const struct br_rendering *r, struct br_error *err)
         ;
     if (!(WIFEXITED(ending) && WEXITSTATUS(ending) == 0))
         return br_fail(err, BR_IO, "gnuplot failed in %s: %s", r->folder, reason(said));
-    return check_pictures(r->folder, r->script, err);
+    return BR_OK;
+}
+
+/* The same, and its pictures must be whole. */
+static enum br_status end(const struct br_rendering *r, struct br_error *err)
+{
+    const enum br_status status = wait_for(r, err);
+    return status ? status : check_pictures(r->folder, r->script, err);
+}
+
+enum br_status br_gnuplot_run(const char *folder, const char *script, bool *missing,
+                              struct br_error *err)
+{
+    struct br_rendering r = {0};
+    *missing = false;
+    const int folder_length = snprintf(r.folder, sizeof r.folder, "%s", folder);
+    const int script_length = snprintf(r.script, sizeof r.script, "%s", script);
+    if ((size_t)folder_length >= sizeof r.folder || (size_t)script_length >= sizeof r.script)
+        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
+    const enum br_status status = begin(&r, missing, err);
+    return status ? status : wait_for(&r, err);
 }
 
 static enum br_status end_oldest(struct br_renderer *r, struct br_error *err)
