@@ -150,3 +150,32 @@ void br_step_cost_end(struct br_step_cost *cost)
         cost->seconds[part] = cost->seconds[part] > own ? cost->seconds[part] - own : 0;
     }
 }
+
+/* ---- observers ---- */
+
+static enum br_status mark_step(void *self, const struct br_march *march,
+                                const struct br_history_row *row, struct br_error *err)
+{
+    (void)march, (void)err;
+    const struct br_cost_mark *mark = self;
+    if (row->step == 0)
+        mark->cost->last = br_seconds(); /* what was before is setting up */
+    else
+        br_step_cost_lap(mark->cost, mark->part);
+    return BR_OK;
+}
+
+static enum br_status mark_row(void *self, const struct br_history_row *row, struct br_error *err)
+{
+    return mark_step(self, NULL, row, err);
+}
+
+struct br_history_observer br_cost_mark_step(struct br_cost_mark *mark)
+{
+    return (struct br_history_observer){.self = mark, .step = mark_step};
+}
+
+struct br_history_observer br_cost_mark_output(struct br_cost_mark *mark)
+{
+    return (struct br_history_observer){.self = mark, .row = mark_row, .look = mark_step};
+}

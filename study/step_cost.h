@@ -46,4 +46,13 @@ void br_step_cost_end(struct br_step_cost *cost);
 /* The time since the last reading goes to a part; cost NULL: nothing. For observers. */
 void br_step_cost_lap(struct br_step_cost *cost, enum br_cost_part part);
 
+/* An observer that ends a part: put it behind the observers whose work that is. `step` tells which
+ * of an observer's calls are meant: that of every step, or those of rows and looks. */
+struct br_cost_mark {
+    struct br_step_cost *cost;
+    enum br_cost_part part;
+};
+struct br_history_observer br_cost_mark_step(struct br_cost_mark *mark);
+struct br_history_observer br_cost_mark_output(struct br_cost_mark *mark);
+
 #endif
