@@ -9,10 +9,11 @@
 #include "study/ranks.h"
 #include "study/spread.h"
 
-extern const struct br_command br_command_check, br_command_study, br_command_tables;
+extern const struct br_command br_command_check, br_command_run, br_command_study,
+    br_command_tables;
 
 const struct br_command *const br_commands[] = {&br_command_tables, &br_command_study,
-                                                &br_command_check, NULL};
+                                                &br_command_check, &br_command_run, NULL};
 
 static void print_help(FILE *out)
 {
