@@ -4,6 +4,8 @@
 #ifndef BR_MOVIE_H
 #define BR_MOVIE_H
 
+#include <stdio.h>
+
 #include "study/history.h"
 
 /* A row of the registry. */
