@@ -135,20 +135,18 @@ struct br_history_observer br_pictures_observer(struct br_pictures *p)
 
 /* ---- drawing ---- */
 
-/* A picture of gnuplot's that is not there, or empty, means a full disk. */
 static enum br_status check_files(const struct br_pictures *p, const struct br_movie *movie,
                                   struct br_error *err)
 {
     const size_t files = p->format->frames ? p->record.looks : 1;
-    for (size_t i = 0; i < files; i++) {
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < files && !status; i++) {
         char name[512], path[2048];
-        struct stat info;
         br_movie_file(movie, i, name, sizeof name);
         snprintf(path, sizeof path, "%s/%s", p->output.staging, name);
-        if (stat(path, &info) != 0 || info.st_size == 0)
-            return br_fail(err, BR_IO, "gnuplot wrote no complete %s; the disk may be full", name);
+        status = br_picture_check(path, err);
     }
-    return BR_OK;
+    return status;
 }
 
 static enum br_status write_file(const struct br_pictures *p, const struct br_movie *movie,

@@ -14,6 +14,10 @@
 enum br_status br_gnuplot_run(const char *folder, const char *script, bool *missing,
                               struct br_error *err);
 
+/* Whether a picture that gnuplot has drawn is whole, which gnuplot does not look at: fails with
+ * BR_IO where it is not there, or does not end as its kind does. */
+enum br_status br_picture_check(const char *path, struct br_error *err);
+
 /* Whether the installed gnuplot has a terminal; *missing as above, and then the call succeeds. */
 enum br_status br_gnuplot_has(const char *terminal, bool *has, bool *missing, struct br_error *err);
 

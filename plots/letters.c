@@ -136,7 +136,7 @@ static void write_page(FILE *out, const char *title, const struct br_history_rec
     }
     if (!shown)
         return;
-    fprintf(out, "set title '%s'\nplot ", title);
+    fprintf(out, "%s\nset title '%s'\nplot ", shown > 1 ? "set key below" : "unset key", title);
     for (size_t c = 0, d = 0; c < count; c++)
         if (curve[c].wanted)
             fprintf(out, "%s$d%zu using 1:2 with lines title '%s'", d ? ", " : "", d,
@@ -151,7 +151,7 @@ static void write_pages(FILE *out, const struct br_scene *s, const struct br_his
     const bool rubs = s->friction.law != BR_FRICTIONLESS;
     fprintf(out,
             "set terminal dumb noenhanced size %d,%d\nset output '%s'\n"
-            "set xlabel 'time (s)'\nset xrange [0:%.9g]\nset offsets graph 0,0,0.05,0.05\n",
+            "set xlabel 'time (s)'\nset xrange [0:%.9g]\n",
             columns, LINES, output_name, s->duration);
     write_page(out, "horizontal displacement of the tip, u(L) (m)", r,
                (const struct curve[]){{"u", axial_of, s->axial.modelled}}, 1);

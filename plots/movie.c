@@ -188,10 +188,12 @@ static void write_terminal(FILE *out, const struct br_movie *m)
 {
     const size_t frames = m->record->looks;
     if (m->format->frames)
-        fputs("set terminal pngcairo size 900,520 font 'DejaVu Sans,13'\n", out);
+        fputs("set terminal pngcairo size 900,520 rounded font 'DejaVu Sans,13'\n", out);
     else
-        fprintf(out, "set terminal %s animate delay %s loop 0 size 900,520 font 'DejaVu Sans,13'\n",
-                m->format->terminal, m->format == &gif ? "8" : "80");
+        fprintf(
+            out,
+            "set terminal %s animate delay %s loop 0 size 900,520 rounded font 'DejaVu Sans,13'\n",
+            m->format->terminal, m->format == &gif ? "8" : "80");
     if (!m->format->frames) {
         fputs("set output ", out);
         char file[512];
@@ -209,8 +211,8 @@ static void write_stage(FILE *out, const struct br_movie *m)
     fprintf(
         out,
         " noenhanced at screen 0.03,0.95 left font ',17'\n"
-        "set label 2 sprintf('drawn larger: u %%g times, w %%g times', axial_scale, bending_scale) "
-        "at screen 0.97,0.045 right\n"
+        "set label 2 sprintf('u drawn %%g times as large, w %%g times', axial_scale, bending_scale) "
+        "at screen 0.03,0.885 left\n"
         "set xrange [-0.05*length:1.5*length]; set yrange [-0.62*length:0.62*length]\n"
         "set lmargin at screen 0.03; set rmargin at screen 0.84\n"
         "set bmargin at screen 0.09; set tmargin at screen 0.9\n"
@@ -222,9 +224,9 @@ static void write_stage(FILE *out, const struct br_movie *m)
         "fc rgb '#888888' fs solid 1 noborder\n");
     if (m->scene->contact.modelled)
         fputs("edge = length + axial_scale*gap\n"
-              "set object 2 rectangle from edge,-0.5*length to edge + 0.1*length,0.5*length "
+              "set object 2 rectangle from edge,-0.5*length to 1.5*length,0.5*length "
               "fc rgb '#dddddd' fs solid 1 noborder behind\n"
-              "set label 3 'obstacle' at edge + 0.05*length,-0.54*length center\n",
+              "set label 3 'obstacle' at edge + 0.02*length,-0.46*length left\n",
               out);
 }
 

@@ -71,3 +71,8 @@ double br_larger(double a, double b)
 {
     return isnan(a) || isnan(b) ? NAN : fmax(a, b);
 }
+
+double br_smaller(double a, double b)
+{
+    return -br_larger(-a, -b);
+}

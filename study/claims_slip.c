@@ -15,7 +15,7 @@ static double resting(const struct br_history_record *record, double *slowest)
     for (size_t i = 1; i < record->rows; i++) {
         const double speed = fabs(record->row[i].velocity[BR_BENDING]);
         steps += !(speed > 0);
-        *slowest = fmin(*slowest, speed);
+        *slowest = br_smaller(*slowest, speed);
     }
     return record->rows > 1 ? (double)steps * record->row[1].time : NAN;
 }
@@ -190,9 +190,9 @@ static void measure_penetrates(const struct br_paper *p, struct br_finding *f)
     bool opens = false;
     f->value = f->exact = INFINITY;
     for (size_t i = 1; i < e->record.rows; i++)
-        f->value = fmin(f->value, e->record.row[i].displacement[BR_AXIAL] - gap);
+        f->value = br_smaller(f->value, e->record.row[i].displacement[BR_AXIAL] - gap);
     for (size_t i = 1; i < e->exacts; i++)
-        f->exact = fmin(f->exact, e->exact[i].displacement[BR_AXIAL] - gap);
+        f->exact = br_smaller(f->exact, e->exact[i].displacement[BR_AXIAL] - gap);
     for (size_t i = 0; i < e->events; i++)
         opens = opens || e->event[i].phase == BR_OPEN;
     f->error = fabs(f->value - f->exact);
