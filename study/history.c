@@ -120,6 +120,17 @@ static void append_last(const struct run *r, struct br_error *err)
              last->step, last->time, last->velocity[BR_AXIAL], last->velocity[BR_BENDING]);
 }
 
+/* The last good row, if it was not told: without the bending displacement, which is lost. */
+static void tell_last(const struct run *r)
+{
+    const struct br_history_request *q = r->request;
+    if (!q->stride || is_row(r))
+        return;
+    for (size_t i = 0; i < q->observers; i++)
+        if (q->observer[i].row)
+            q->observer[i].row(q->observer[i].self, &r->row, NULL);
+}
+
 static enum br_status march(struct run *r, struct br_error *err)
 {
     enum br_status status = first_row(r, err);
@@ -129,6 +140,7 @@ static enum br_status march(struct run *r, struct br_error *err)
         status = br_march_step(r->march, err);
         if (status) {
             append_last(r, err);
+            tell_last(r);
             return status;
         }
         fill_row(r);

@@ -82,7 +82,7 @@ static size_t list_observers(struct run *r, struct br_history_observer list[MOST
     if (q->explain)
         list[count++] = br_cost_mark_step(&r->record);
     list[count++] = (struct br_history_observer){.self = r, .step = watch_checks};
-    if (q->explain)
+    if (q->explain && r->report->summed)
         list[count++] = br_cost_mark_step(&r->check);
     for (size_t i = 0; i < q->outputs && i < BR_MOST_OUTPUTS; i++)
         list[count++] = q->output[i];
