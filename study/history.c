@@ -115,7 +115,7 @@ static void append_last(const struct run *r, struct br_error *err)
     const struct br_history_row *last = &r->row;
     const size_t used = strlen(err->message);
     snprintf(err->message + used, sizeof err->message - used,
-             "; the last good step, %zu at t = %.17g s, has velocities of %.3g m/s (axial) and "
+             "; the last good step, %zu at t = %.15g s, has velocities of %.3g m/s (axial) and "
              "%.3g m/s (bending) at the tip",
              last->step, last->time, last->velocity[BR_AXIAL], last->velocity[BR_BENDING]);
 }

@@ -39,7 +39,7 @@ static void check_step(struct run *r, const struct br_history_row *row)
     if (!br_certificate_check(&c, &report->limits, &verdict))
         return;
     if (report->bad_steps++ == 0)
-        br_fail(&report->verdict, BR_VERDICT, "step %zu, t = %.17g s: %.400s", row->step, row->time,
+        br_fail(&report->verdict, BR_VERDICT, "step %zu, t = %.15g s: %.400s", row->step, row->time,
                 verdict.message);
 }
 
