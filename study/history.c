@@ -115,9 +115,20 @@ static void append_last(const struct run *r, struct br_error *err)
     const struct br_history_row *last = &r->row;
     const size_t used = strlen(err->message);
     snprintf(err->message + used, sizeof err->message - used,
-             "; the last good step, %zu at t = %.17g s, has velocities of %.3g m/s (axial) and "
+             "; the last good step, %zu at t = %.15g s, has velocities of %.3g m/s (axial) and "
              "%.3g m/s (bending) at the tip",
              last->step, last->time, last->velocity[BR_AXIAL], last->velocity[BR_BENDING]);
+}
+
+/* The last good row, if it was not told: without the bending displacement, which is lost. */
+static void tell_last(const struct run *r)
+{
+    const struct br_history_request *q = r->request;
+    if (!q->stride || is_row(r))
+        return;
+    for (size_t i = 0; i < q->observers; i++)
+        if (q->observer[i].row)
+            q->observer[i].row(q->observer[i].self, &r->row, NULL);
 }
 
 static enum br_status march(struct run *r, struct br_error *err)
@@ -129,6 +140,7 @@ static enum br_status march(struct run *r, struct br_error *err)
         status = br_march_step(r->march, err);
         if (status) {
             append_last(r, err);
+            tell_last(r);
             return status;
         }
         fill_row(r);

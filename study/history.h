@@ -25,7 +25,8 @@ struct br_history_observer {
      * the elements, which br_march_tip_displacement makes. */
     enum br_status (*step)(void *self, const struct br_march *march,
                            const struct br_history_row *row, struct br_error *err);
-    /* Every level of the request's stride, the first and the last, with all values. */
+    /* Every level of the request's stride, the first and the last, with all values; of a march that
+     * fails the last good one, its bending displacement NAN where it had not been asked for. */
     enum br_status (*row)(void *self, const struct br_history_row *row, struct br_error *err);
     /* The chosen levels: br_march_get has the fields. */
     enum br_status (*look)(void *self, const struct br_march *march,

@@ -39,7 +39,7 @@ static void check_step(struct run *r, const struct br_history_row *row)
     if (!br_certificate_check(&c, &report->limits, &verdict))
         return;
     if (report->bad_steps++ == 0)
-        br_fail(&report->verdict, BR_VERDICT, "step %zu, t = %.17g s: %.400s", row->step, row->time,
+        br_fail(&report->verdict, BR_VERDICT, "step %zu, t = %.15g s: %.400s", row->step, row->time,
                 verdict.message);
 }
 
@@ -82,7 +82,7 @@ static size_t list_observers(struct run *r, struct br_history_observer list[MOST
     if (q->explain)
         list[count++] = br_cost_mark_step(&r->record);
     list[count++] = (struct br_history_observer){.self = r, .step = watch_checks};
-    if (q->explain)
+    if (q->explain && r->report->summed)
         list[count++] = br_cost_mark_step(&r->check);
     for (size_t i = 0; i < q->outputs && i < BR_MOST_OUTPUTS; i++)
         list[count++] = q->output[i];

@@ -146,6 +146,7 @@ static enum br_status open_hdf5(struct br_fields_file **out, const struct br_fie
     struct br_fields_file *f = *out = br_allocate(1, sizeof *f);
     if (!f)
         return br_no_memory(err, "the fields' file");
+    H5dont_atexit(); /* where a file could not be closed, HDF5 1.10 crashes at exit */
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* what fails is told by us */
     snprintf(f->path, sizeof f->path, "%s", q->path);
     f->file = f->t = H5I_INVALID_HID;

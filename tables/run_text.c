@@ -64,8 +64,8 @@ static void tip(FILE *out, const struct br_run_report *p)
 {
     const struct br_history_row *row = &p->end.last;
     const bool axial = p->marched.axial.modelled, bending = p->marched.bending.modelled;
-    fprintf(out, "\nTip at t = %.15g s%s  %s\n", row->time,
-            p->failure.status ? " (the last good step)" : "", "");
+    fprintf(out, "\nTip at t = %.15g s%s\n", row->time,
+            p->failure.status ? " (the last good step)" : "");
     fprintf(out, "                          %20s  %22s\n", "axial, u", "bending, w");
     fprintf(out, "  displacement, m     ");
     value(out, axial, row->displacement[BR_AXIAL]);
