@@ -10,7 +10,8 @@
 #include "cli/signals.h"
 #include "plots/gnuplot.h"
 
-enum { FRAMES = 120, ROWS = 2000, NARROW = 40, USUAL = 80, WIDE = 160 };
+/* All frames are kept with all nodes: 120 MB at most. */
+enum { FRAMES = 120, MOST_ELEMENTS = 20000, ROWS = 2000, NARROW = 40, USUAL = 80, WIDE = 160 };
 
 /* ---- where the movie goes ---- */
 
@@ -87,6 +88,9 @@ static enum br_status open_movie(struct br_pictures *p, struct br_error *err)
     struct br_error inner = {0};
     if (strlen(p->request.animate) >= sizeof folder)
         return br_fail(err, BR_BAD_INPUT, "--animate: the name is too long");
+    if (p->request.n > MOST_ELEMENTS)
+        return br_fail(err, BR_BAD_INPUT, "--animate: n is %zu, expected at most %d", p->request.n,
+                       MOST_ELEMENTS);
     enum br_status status = choose_format(p, err);
     if (!status)
         status = split(p, folder, sizeof folder, err);

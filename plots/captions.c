@@ -3,17 +3,26 @@
 
 #include "plots/figures.h"
 
-/* "0 (exact 4e-05)" with its bar and unit. */
+/* "last time at rest 0.8 +- 0.001 s, exact 0.8 s, the paper 0.68 s" */
 static void write_value(FILE *out, const struct br_claim *claim, const struct br_finding *f)
 {
     const char *unit = claim->unit[0] == '1' ? "" : claim->unit, *blank = *unit ? " " : "";
-    fprintf(out, "%s: %.6g%s%s", claim->measured, f->value, blank, unit);
+    fprintf(out, "%s %.6g", claim->measured, f->value);
     if (isfinite(f->error))
         fprintf(out, " +- %.2g", f->error);
+    fprintf(out, "%s%s", blank, unit);
     if (isfinite(f->exact))
         fprintf(out, ", exact %.6g%s%s", f->exact, blank, unit);
     if (isfinite(f->printed))
         fprintf(out, ", the paper %.6g%s%s", f->printed, blank, unit);
+}
+
+/* As the claims' table says it, in a sentence. */
+static const char *verdict(enum br_agreement agreement)
+{
+    return agreement == BR_AGREES    ? "We agree"
+           : agreement == BR_DIFFERS ? "We differ"
+                                     : "This is undecided";
 }
 
 static void write_findings(FILE *out, int figure, const struct br_finding *findings,
@@ -22,20 +31,21 @@ static void write_findings(FILE *out, int figure, const struct br_finding *findi
     for (size_t i = 0; br_claims[i]; i++) {
         if (br_claims[i]->figure != figure)
             continue;
-        fprintf(out, "%s\"%s\" We %s. ", bullet, br_claims[i]->statement,
-                br_agreement_name(findings[i].agreement));
+        fprintf(out, "%s\"%s\" %s: ", bullet, br_claims[i]->statement,
+                verdict(findings[i].agreement));
         write_value(out, br_claims[i], &findings[i]);
         fprintf(out, "%s%s.\n", *findings[i].note ? "; " : "", findings[i].note);
     }
 }
 
-/* What the exact solution's tip does, one phase after the other. */
+/* What happens at the tip of the exact solution. */
 static void write_events(FILE *out, const struct br_example *e, const char *bullet)
 {
-    fprintf(out, "%sThe exact tip", bullet);
+    fprintf(out, "%sThe exact solution:", bullet);
     for (size_t i = 0; i < e->events; i++)
-        fprintf(out, "%s %s from t = %.6g s on", i ? "," : "", br_phase_text(e->event[i].phase),
-                e->event[i].time);
+        fprintf(out, "%s at t = %.6g s %s%s", i ? "," : "", e->event[i].time,
+                e->event[i].field == BR_EXACT_BENDING ? "the tip " : "",
+                br_phase_text(e->event[i].phase));
     fputs(".\n", out);
 }
 

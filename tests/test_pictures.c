@@ -87,6 +87,8 @@ static void test_bad_options(void **state)
     cli_expect("run example2 --animate x.mp4", NULL, 2,
                "--animate: found 'x.mp4', expected a name that ends with: .gif");
     cli_expect("run example2 --animate no%d.gif", NULL, 2, "expected a file's name");
+    cli_expect("run example2 --n 20001 --animate x.gif", NULL, 2,
+               "n is 20001, expected at most 20000");
     cli_write_file("wall", "");
     cli_expect("run example2 --animate wall/x.gif", NULL, 2,
                "--animate cannot write in the folder wall");
