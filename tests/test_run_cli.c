@@ -78,6 +78,7 @@ static void test_summary(void **state)
         "friction force, N                      -3000  of a bound of 3000 (100 %): slip towards -w",
         "t = 0.8               slipped towards -w",
         "lost to friction",
+        "bending field       modelled  40 unknowns, cubic Hermite elements",
         "axial field         skipped   the scene has no axial part",
         "contact             skipped   the scene has no contact part: no lagged force",
         "initial data        skipped   zero: not interpolated",
