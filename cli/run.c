@@ -17,9 +17,9 @@
 struct run {
     struct br_run_options options;
     struct br_run_plan plan;
-    char path[1024]; /* of the scene */
-    char *text;      /* of the scene's file */
-    struct br_scene scene;
+    char path[1024];                /* of the scene */
+    char *text;                     /* of the scene's file */
+    struct br_scene scene, marched; /* the latter borrows from the former */
     struct br_run_report report;
     struct br_provenance provenance;
     struct br_whole_file json;
@@ -55,7 +55,7 @@ static enum br_status open_files(struct run *r, struct br_error *err)
     if (status || !r->options.out)
         return status;
     const struct br_fields_request fields = {
-        .scene = &r->scene,
+        .scene = &r->marched,
         .n = r->plan.n,
         .steps = r->plan.steps,
         .looks = r->plan.levels,
@@ -123,12 +123,11 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
 static enum br_status run_scene(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
-    struct br_scene marched;
     enum br_status status = read_scene(r, err);
     if (!status)
         status = br_run_plan_make(&r->options, &r->scene, &r->plan, err);
     if (!status)
-        status = br_model_select(&r->scene, r->plan.wanted, &marched, err);
+        status = br_model_select(&r->scene, r->plan.wanted, &r->marched, err);
     if (!status)
         status = open_files(r, err);
     if (!status)

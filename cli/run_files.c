@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/run_files.h"
 
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -13,6 +14,7 @@ enum br_status br_run_files_open(struct br_run_files *f, const char *folder,
     if (status)
         return status;
     br_history_csv_head(f->history);
+    f->scene = request->scene;
     f->format = br_fields_formats[0];
     struct br_fields_request fields = *request;
     snprintf(f->path, sizeof f->path, "%s/%s", f->output.staging, f->format->file_name);
@@ -20,10 +22,20 @@ enum br_status br_run_files_open(struct br_run_files *f, const char *folder,
     return f->format->open(&f->fields, &fields, err);
 }
 
+/* What is not modelled is an empty field, not a zero. */
 static enum br_status write_row(void *self, const struct br_history_row *row, struct br_error *err)
 {
     struct br_run_files *f = self;
-    br_history_csv_row(f->history, row);
+    struct br_history_row told = *row;
+    if (!f->scene->axial.modelled)
+        told.displacement[BR_AXIAL] = told.velocity[BR_AXIAL] = NAN;
+    if (!f->scene->bending.modelled)
+        told.displacement[BR_BENDING] = told.velocity[BR_BENDING] = NAN;
+    if (!f->scene->contact.modelled)
+        told.contact_force = NAN;
+    if (f->scene->friction.law == BR_FRICTIONLESS)
+        told.friction_force = told.friction_bound = NAN;
+    br_history_csv_row(f->history, &told);
     return ferror(f->history) ? br_fail(err, BR_IO, "history.csv could not be written") : BR_OK;
 }
 

@@ -10,6 +10,7 @@
 
 struct br_run_files {
     struct br_output output;
+    const struct br_scene *scene; /* as it is marched; borrowed */
     FILE *history;
     const struct br_fields_format *format;
     struct br_fields_file *fields;

@@ -41,6 +41,22 @@ static double time_level(const struct br_march *m, size_t n)
     return m->scene->duration * (double)n / (double)m->steps;
 }
 
+/* Evaluated by clones: marches of one scene may be created in different threads. */
+static enum br_status interpolate(const struct part *part, const struct br_function *value,
+                                  const struct br_function *slope, double *nodal,
+                                  struct br_error *err)
+{
+    struct br_function own = {0}, own_slope = {0};
+    enum br_status status = br_function_clone(value, &own, err);
+    if (!status && slope)
+        status = br_function_clone(slope, &own_slope, err);
+    if (!status)
+        status = br_interpolate(&part->field, &own, slope ? &own_slope : NULL, nodal, err);
+    br_function_free(&own);
+    br_function_free(&own_slope);
+    return status;
+}
+
 static enum br_status set_initial(struct part *part, const struct br_function *displacement,
                                   const struct br_function *displacement_slope,
                                   const struct br_function *velocity,
@@ -52,10 +68,9 @@ static enum br_status set_initial(struct part *part, const struct br_function *d
     double *nodal = br_allocate(2 * size, sizeof *nodal);
     if (!nodal)
         return br_no_memory(err, "the initial data");
-    enum br_status status =
-        br_interpolate(&part->field, displacement, displacement_slope, nodal, err);
+    enum br_status status = interpolate(part, displacement, displacement_slope, nodal, err);
     if (!status)
-        status = br_interpolate(&part->field, velocity, velocity_slope, nodal + size, err);
+        status = interpolate(part, velocity, velocity_slope, nodal + size, err);
     if (!status)
         part->solver->set(part->state, nodal, nodal + size);
     free(nodal);

@@ -105,8 +105,9 @@ static void crew_batch(struct br_lockstep *l, size_t b, size_t crew)
 
 /* ---- running ---- */
 
-/* Batches of each study that are spawned at once, at most about. */
-enum { AHEAD = 16 };
+/* Batches of each study that are known at once, at most: time and memory of waiting tasks grow
+ * faster than their number. */
+enum { AHEAD = 128 };
 
 /* All the studies of a call, and how far they are. */
 struct work {
@@ -134,34 +135,20 @@ static void spawn_batch(struct work *work, struct br_lockstep *l, size_t b)
     char *from_axial = &axial->token[b % BR_LOCKSTEP_BUFFERS], *tally = &l->tally;
     char *from_bending = &bending->token[b % BR_LOCKSTEP_BUFFERS];
     (void)from_axial, (void)from_bending, (void)tally;
-#pragma omp task depend(inout : axial[0]) depend(inout : from_axial[0])
+#pragma omp task depend(inout : axial[0], from_axial[0])
     reference_batch(l, BR_AXIAL, b);
-#pragma omp task depend(inout                                              \
-                        : bending[0]) depend(in                            \
-                                             : from_axial[0]) depend(inout \
-                                                                     : from_bending[0])
+#pragma omp task depend(inout : bending[0], from_bending[0]) depend(in : from_axial[0])
     {
         reference_batch(l, BR_BENDING, b);
         tell(work, l);
     }
-#pragma omp task depend(inout : tally[0]) depend(in : from_axial[0]) depend(in : from_bending[0])
+#pragma omp task depend(inout : tally[0]) depend(in : from_axial[0], from_bending[0])
     add_up_batch(l, b);
     for (size_t i = 0; i < l->crews; i++) {
         size_t *crew = &l->crew[i];
         (void)crew;
-#pragma omp task depend(inout : crew[0]) depend(in : from_axial[0]) depend(in : from_bending[0])
+#pragma omp task depend(inout : crew[0]) depend(in : from_axial[0], from_bending[0])
         crew_batch(l, b, i);
-    }
-}
-
-/* Waits until the bending field is through with the batch that had a buffer before, so that few
- * tasks are known at once: their time and memory grow faster than their number. */
-static void wait_for_buffer(struct br_lockstep *l, size_t b)
-{
-    char *before = &l->lane[BR_BENDING].token[b % BR_LOCKSTEP_BUFFERS];
-    (void)before;
-#pragma omp task if (0) depend(in : before[0])
-    {
     }
 }
 
@@ -170,15 +157,16 @@ static void spawn_all(struct work *work)
     size_t most = 0;
     for (size_t s = 0; s < work->count; s++)
         most = work->step[s].batches > most ? work->step[s].batches : most;
-    for (size_t b = 0; b < most; b++)
+    for (size_t b = 0; b < most; b++) {
         for (size_t s = 0; s < work->count; s++) {
             struct br_lockstep *l = &work->step[s];
-            if (b >= l->batches || atomic_load(&l->stopped) || failed_before(l, l->level_count))
-                continue;
-            if (b % AHEAD == AHEAD - 1)
-                wait_for_buffer(l, b);
-            spawn_batch(work, l, b);
+            if (b < l->batches && !atomic_load(&l->stopped) && !failed_before(l, l->level_count))
+                spawn_batch(work, l, b);
         }
+        if (b % AHEAD == AHEAD - 1 || b + 1 == most) {
+#pragma omp taskwait
+        }
+    }
 }
 
 /* What the reference tells, kept with the study. */

@@ -4,9 +4,10 @@
 #include "study/lockstep_state.h"
 
 /* The channel, or NULL where it is not in use at that level. */
-static struct br_channel *channel_at(struct br_lockstep *l, int kind, int measure, bool last)
+static struct br_channel *channel_at(struct br_lockstep *l, enum br_field_kind kind, int measure,
+                                     bool last)
 {
-    struct br_channel *c = br_channel_of(l, (enum br_field_kind)kind, (enum br_measure)measure);
+    struct br_channel *c = br_channel_of(l, kind, (enum br_measure)measure);
     return c->used && (last || !c->last_only) ? c : NULL;
 }
 
@@ -122,7 +123,7 @@ void br_lockstep_measure(struct br_lockstep *l, size_t index, struct br_slot slo
     };
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         for (int measure = 0; measure < BR_MEASURES; measure++) {
-            const struct br_channel *c = channel_at(l, kind, measure, last);
+            const struct br_channel *c = channel_at(l, (enum br_field_kind)kind, measure, last);
             if (!c)
                 continue;
             br_runner_look(r, (enum br_field_kind)kind, (enum br_measure)measure);

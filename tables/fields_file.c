@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tables/fields_file.h"
 
+#include <math.h>
+
 extern const struct br_fields_format br_fields_csv;
 #ifdef BR_HAVE_HDF5
 extern const struct br_fields_format br_fields_hdf5;
@@ -31,4 +33,8 @@ void br_field_values(const struct br_march *march, double *values, double *work)
         values[4 * nodes + i] = velocity[2 * i];
         values[5 * nodes + i] = velocity[2 * i + 1] / field->h;
     }
+    const bool marched[2] = {br_march_models(march, BR_AXIAL), br_march_models(march, BR_BENDING)};
+    for (size_t i = 0; i < BR_FIELD_VARIABLES * nodes; i++)
+        if (!marched[i < 2 * nodes ? BR_AXIAL : BR_BENDING])
+            values[i] = NAN;
 }

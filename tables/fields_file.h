@@ -9,8 +9,8 @@
 
 /* What is being written. Borrowed. */
 struct br_fields_request {
-    const char *path; /* of the file */
-    const struct br_scene *scene;
+    const char *path;                       /* of the file */
+    const struct br_scene *scene;           /* as it is marched */
     size_t n, steps, looks;                 /* elements; steps; output times */
     const struct br_provenance *provenance; /* with its scene */
 };

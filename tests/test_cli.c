@@ -287,7 +287,7 @@ static void test_kernels(void **state)
         assert_true(cli_file_contains("kernel/example2.txt", text));
         assert_true(cli_file_contains("kernel/example2.json", json));
     }
-    cli_expect("study example2 --out kernel --reference-solver riccati --reference fine:20,0.05 "
+    cli_expect("study example2 --out kernel --reference-solver plain --reference fine:20,0.05 "
                "--kernel portable " SMALL,
                NULL, 0, "");
     assert_true(cli_file_contains("kernel/example2.json", "\"kernel\": \"portable\""));

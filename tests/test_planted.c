@@ -50,10 +50,10 @@ __attribute__((format(printf, 1, 2))) static int run(const char *format, ...)
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
-/* A copy of the one line of the build's commands that contains a word. */
-static char *command_with(const char *word)
+/* A copy of the first line of the build's commands, from some place on, that contains a word. */
+static char *command_with(const char *from, const char *word)
 {
-    const char *at = strstr(commands, word);
+    const char *at = strstr(from, word);
     if (!at)
         fail_msg("the build has no command with '%s'", word);
     const char *begin = at;
@@ -83,27 +83,41 @@ static void plant(const struct planted_bug *bug)
     free(source);
 }
 
-/* Compiles the planted source as the build would, and links it before the libraries, so that it
- * stands in for the sound one. */
-static void build(const struct planted_bug *bug)
+/* Compiles the planted source as the build would by one of its commands; returns its end. */
+static const char *compile(const struct planted_bug *bug, const char *from, int number)
 {
-    const char *build_root = environment("BEAMRATE_BUILD");
     char word[256];
     snprintf(word, sizeof word, "/%s\n", bug->file);
-    char *compile = command_with(word), *link = command_with(" -o cli/beamrate ");
-    char *tail = strstr(compile, " -MD ");
+    const char *at = strstr(from, word);
+    if (!at)
+        return NULL;
+    char *command = command_with(at, word), *tail = strstr(command, " -MD ");
     assert_non_null(tail);
     *tail = '\0';
-    if (run("cd '%s' && %s -w -o %s/bug.o -c %s/bug.c >%s/log 2>&1", build_root, compile, folder,
-            folder, folder) != 0)
+    if (run("cd '%s' && %s -w -o %s/bug%d.o -c %s/bug.c >%s/log 2>&1",
+            environment("BEAMRATE_BUILD"), command, folder, number, folder, folder) != 0)
         fail_msg("%s does not compile: see %s/log", bug->name, folder);
+    free(command);
+    return at + 1;
+}
+
+/* Every time the build compiles that source, for an instruction set each perhaps; and links the
+ * objects before the libraries, so that they stand in for the sound ones. */
+static void build(const struct planted_bug *bug)
+{
+    int objects = 0;
+    run("rm -f %s/bug*.o", folder);
+    for (const char *at = commands; (at = compile(bug, at, objects)) != NULL;)
+        objects++;
+    if (objects == 0)
+        fail_msg("the build has no command for %s", bug->file);
+    char *link = command_with(commands, " -o cli/beamrate ");
     char *rest = strstr(link, " -o cli/beamrate ");
     *rest = '\0';
     rest += strlen(" -o cli/beamrate ");
-    if (run("cd '%s' && %s -o %s/beamrate %s/bug.o %s >%s/log 2>&1", build_root, link, folder,
-            folder, rest, folder) != 0)
+    if (run("cd '%s' && %s -o %s/beamrate %s/bug*.o %s >%s/log 2>&1", environment("BEAMRATE_BUILD"),
+            link, folder, folder, rest, folder) != 0)
         fail_msg("%s does not link: see %s/log", bug->name, folder);
-    free(compile);
     free(link);
 }
 

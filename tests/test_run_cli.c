@@ -78,6 +78,7 @@ static void test_summary(void **state)
         "friction force, N                      -3000  of a bound of 3000 (100 %): slip towards -w",
         "t = 0.8               slipped towards -w",
         "lost to friction",
+        "bending field       modelled  40 unknowns, cubic Hermite elements",
         "axial field         skipped   the scene has no axial part",
         "contact             skipped   the scene has no contact part: no lagged force",
         "initial data        skipped   zero: not interpolated",
@@ -181,6 +182,9 @@ static void test_files(void **state)
     assert_int_equal(count_lines("f/history.csv"), 12);
     if (strcmp(br_fields_formats[0]->name, "csv") == 0)
         assert_int_equal(count_lines("f/fields.csv"), 1 + 11 * 11);
+    /* what is not modelled is empty, not zero */
+    cli_expect("run example3 --n 10 --k 0.01 --out h --quiet", NULL, 0, "");
+    assert_true(cli_file_contains("h/history.csv", "\n0,0,,0,,0,,,3000\n1,0.01"));
     /* a disk that is full leaves nothing behind */
     const struct cli_circumstances full = {.file_size = 2000};
     cli_expect("run example2 --n 1000 --k 0.01 --out g --quiet", &full, 3, "beamrate: ");
