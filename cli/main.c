@@ -9,10 +9,12 @@
 #include "study/ranks.h"
 #include "study/spread.h"
 
-extern const struct br_command br_command_check, br_command_study, br_command_tables;
+extern const struct br_command br_command_check, br_command_figures, br_command_run,
+    br_command_study, br_command_tables;
 
-const struct br_command *const br_commands[] = {&br_command_tables, &br_command_study,
-                                                &br_command_check, NULL};
+const struct br_command *const br_commands[] = {&br_command_tables,  &br_command_study,
+                                                &br_command_check,   &br_command_run,
+                                                &br_command_figures, NULL};
 
 static void print_help(FILE *out)
 {

@@ -11,26 +11,31 @@
 #include "study/number_list.h"
 #include "tables/emitter.h"
 
-/* One line a row of each registry, below the options. */
-static void print_registries(FILE *out)
+void br_print_method_registries(FILE *out)
 {
-    fprintf(out, "\nLinear solvers (--solver, --reference-solver), the first is the default:\n");
+    fprintf(out, "\nLinear solvers (--solver), the first is the default:\n");
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
         fprintf(out, "  %-12s %s%s%s\n", (*s)->name, (*s)->title, *(*s)->options ? "; heeds " : "",
                 (*s)->options);
     br_print_kernels(out);
-    fprintf(out, "References (--reference):\n");
-    for (const struct br_judge *const *j = br_judges; *j; j++)
-        fprintf(out, "  %-12s %s\n", (*j)->syntax, (*j)->title);
-    fprintf(out, "Norms (--norm):\n");
-    for (const struct br_norm *const *n = br_norms; *n; n++)
-        fprintf(out, "  %-12s %s\n", (*n)->name, (*n)->title);
     fprintf(out, "Contact (--contact):\n");
     for (const struct br_contact_rule *const *c = br_contact_rules; *c; c++)
         fprintf(out, "  %-12s %s\n", (*c)->name, (*c)->title);
     fprintf(out, "Friction (--friction):\n");
     for (const struct br_friction_rule *const *f = br_friction_rules; *f; f++)
         fprintf(out, "  %-12s %s\n", (*f)->name, (*f)->title);
+}
+
+/* One line a row of each registry, below the options. */
+static void print_registries(FILE *out)
+{
+    br_print_method_registries(out);
+    fprintf(out, "References (--reference):\n");
+    for (const struct br_judge *const *j = br_judges; *j; j++)
+        fprintf(out, "  %-12s %s\n", (*j)->syntax, (*j)->title);
+    fprintf(out, "Norms (--norm):\n");
+    for (const struct br_norm *const *n = br_norms; *n; n++)
+        fprintf(out, "  %-12s %s\n", (*n)->name, (*n)->title);
     fprintf(out, "Formats (--format):\n");
     for (const struct br_emitter *const *e = br_emitters; *e; e++)
         fprintf(out, "  %-12s %s\n", (*e)->name, (*e)->title);

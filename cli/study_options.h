@@ -4,6 +4,7 @@
 #define BR_STUDY_OPTIONS_H
 
 #include <popt.h>
+#include <stdio.h>
 
 #include "study/study.h"
 
@@ -43,5 +44,8 @@ void br_study_options_clear(struct br_study_options *options);
 enum br_status br_study_request_read(const struct br_study_options *options,
                                      struct br_study_request *request, struct br_error *err);
 void br_study_request_clear(struct br_study_request *request);
+
+/* One line a solver, kernel, contact rule and friction rule, below a command's options. */
+void br_print_method_registries(FILE *out);
 
 #endif

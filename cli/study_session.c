@@ -1,30 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/study_session.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/progress.h"
+#include "cli/read_text.h"
 #include "cli/signals.h"
 #include "reference/printed.h"
 #include "solver/clock.h"
 #include "study/differences.h"
 #include "study/scene_file.h"
-
-static enum br_status read_whole(const char *path, char **text, struct br_error *err)
-{
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno));
-    const size_t most = 1u << 20;
-    *text = br_allocate(most, 1);
-    if (*text)
-        (*text)[fread(*text, 1, most - 1, file)] = '\0';
-    fclose(file);
-    return *text ? BR_OK : br_no_memory(err, "the scene");
-}
 
 /* ---- the grid ---- */
 
@@ -229,7 +216,7 @@ static enum br_status prepare(struct br_session *s, size_t i, const struct br_st
     if (!status)
         status = br_scene_read(w->path, &w->scene, err);
     if (!status)
-        status = read_whole(w->path, &w->text, err);
+        status = br_read_text(w->path, &w->text, err);
     if (!status)
         status = make_grid(s, i, err);
     if (!status)

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "plots/gnuplot.h"
 #include "plots/plots.h"
 
 extern char **environ;
@@ -68,15 +69,15 @@ static const char *reason(char *text)
     return why ? why : "it does not say why";
 }
 
-/* Whether the script's picture ends like this, but for white space. */
-static bool ends_with(const char *folder, const char *script, const char *extension,
-                      const char *ending)
+/* How whole pictures end, but for white space. A WebP says its length at the start instead. */
+static const struct {
+    const char *extension, *ending;
+} endings[] = {{".svg", "</svg>"}, {".png", "IEND\xae\x42\x60\x82"}, {".gif", ";"}, {".webp", ""}};
+
+static bool ends_with(const char *path, const char *ending)
 {
-    char path[4096], tail[32];
-    const char *dot = strrchr(script, '.');
-    const int stem = (int)(dot ? (size_t)(dot - script) : strlen(script));
-    const int length = snprintf(path, sizeof path, "%s/%.*s.%s", folder, stem, script, extension);
-    FILE *file = length > 0 && (size_t)length < sizeof path ? fopen(path, "rb") : NULL;
+    char tail[32];
+    FILE *file = fopen(path, "rb");
     if (!file)
         return false;
     size_t got = 0;
@@ -86,21 +87,32 @@ static bool ends_with(const char *folder, const char *script, const char *extens
     while (got > 0 && isspace((unsigned char)tail[got - 1]))
         got--;
     const size_t size = strlen(ending);
-    return got >= size && memcmp(tail + got - size, ending, size) == 0;
+    return got > 0 && got >= size && memcmp(tail + got - size, ending, size) == 0;
 }
 
 /* gnuplot does not look whether its files were written. */
+enum br_status br_picture_check(const char *path, struct br_error *err)
+{
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; i < sizeof endings / sizeof *endings && dot; i++)
+        if (strcmp(dot, endings[i].extension) == 0 && ends_with(path, endings[i].ending))
+            return BR_OK;
+    return br_fail(err, BR_IO, "gnuplot wrote no complete %.900s; the disk may be full", path);
+}
+
+/* The pictures of a script. */
 static enum br_status check_pictures(const char *folder, const char *script, struct br_error *err)
 {
-    static const struct {
-        const char *extension, *ending;
-    } pictures[] = {{"svg", "</svg>"}, {"png", "IEND\xae\x42\x60\x82"}};
-    for (size_t i = 0; i < sizeof pictures / sizeof *pictures; i++)
-        if (!ends_with(folder, script, pictures[i].extension, pictures[i].ending))
-            return br_fail(err, BR_IO,
-                           "gnuplot wrote no complete .%s for %s/%s; the disk may be full",
-                           pictures[i].extension, folder, script);
-    return BR_OK;
+    static const char *const extensions[] = {"svg", "png"};
+    char path[4096 + BR_SCRIPT_NAME + 8];
+    const char *dot = strrchr(script, '.');
+    const int stem = (int)(dot ? (size_t)(dot - script) : strlen(script));
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < 2 && !status; i++) {
+        snprintf(path, sizeof path, "%s/%.*s.%s", folder, stem, script, extensions[i]);
+        status = br_picture_check(path, err);
+    }
+    return status;
 }
 
 /* Starts gnuplot on a script. */
@@ -123,8 +135,8 @@ static enum br_status begin(struct br_rendering *r, bool *missing, struct br_err
                    *missing ? "it is not installed" : strerror(failure));
 }
 
-/* Waits for its end. */
-static enum br_status end(const struct br_rendering *r, struct br_error *err)
+/* Waits for its end, and for nothing else. */
+static enum br_status wait_for(const struct br_rendering *r, struct br_error *err)
 {
     char said[4096];
     int ending = 0;
@@ -134,7 +146,27 @@ static enum br_status end(const struct br_rendering *r, struct br_error *err)
         ;
     if (!(WIFEXITED(ending) && WEXITSTATUS(ending) == 0))
         return br_fail(err, BR_IO, "gnuplot failed in %s: %s", r->folder, reason(said));
-    return check_pictures(r->folder, r->script, err);
+    return BR_OK;
+}
+
+/* The same, and its pictures must be whole. */
+static enum br_status end(const struct br_rendering *r, struct br_error *err)
+{
+    const enum br_status status = wait_for(r, err);
+    return status ? status : check_pictures(r->folder, r->script, err);
+}
+
+enum br_status br_gnuplot_run(const char *folder, const char *script, bool *missing,
+                              struct br_error *err)
+{
+    struct br_rendering r = {0};
+    *missing = false;
+    const int folder_length = snprintf(r.folder, sizeof r.folder, "%s", folder);
+    const int script_length = snprintf(r.script, sizeof r.script, "%s", script);
+    if ((size_t)folder_length >= sizeof r.folder || (size_t)script_length >= sizeof r.script)
+        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
+    const enum br_status status = begin(&r, missing, err);
+    return status ? status : wait_for(&r, err);
 }
 
 static enum br_status end_oldest(struct br_renderer *r, struct br_error *err)

@@ -81,8 +81,8 @@ static enum br_status update_tip(struct br_step_load *load, const struct br_fiel
     return status;
 }
 
-enum br_status br_step_load_update(struct br_step_load *load, const struct br_field *field,
-                                   double t, struct br_error *err)
+static enum br_status update(struct br_step_load *load, const struct br_field *field, double t,
+                             struct br_error *err)
 {
     struct br_drive *drive = &load->drive;
     enum br_status status = BR_OK;
@@ -96,4 +96,15 @@ enum br_status br_step_load_update(struct br_step_load *load, const struct br_fi
         !(br_function_is_zero(&load->tip_force) && br_function_is_zero(&load->tip_moment)))
         status = update_tip(load, field, t, err);
     return status;
+}
+
+enum br_status br_step_load_update(struct br_step_load *load, const struct br_field *field,
+                                   double t, struct br_error *err)
+{
+    struct br_error inner; /* not cleared: this is every step */
+    const enum br_status status = update(load, field, t, &inner);
+    if (!status)
+        return BR_OK;
+    return br_fail(err, status, "%s load: %.900s", field->kind == BR_AXIAL ? "axial" : "bending",
+                   inner.message);
 }

@@ -83,6 +83,7 @@ enum br_status br_pieces_lay_out(struct br_pieces *s, struct br_error *err)
     even->strip.lanes = cut.pieces ? BR_LANES : 0;
     even->strip.pieces = cut.pieces;
     even->strip.length = cut.length;
+    odd->strip.d = even->strip.d = s->d; /* of an empty one, too: it is joined like the others */
     s->arena = br_allocate_aligned(lay_out(s, NULL), sizeof(double));
     if (!s->arena)
         return br_no_memory(err, "a solver");

@@ -8,6 +8,7 @@
 
 #include "reference/mms/manufactured.h"
 #include "study/expression.h"
+#include "study/scene_scan.h"
 #include "study/scene_value.h"
 #include "study/verify_file.h"
 
@@ -180,6 +181,24 @@ static enum br_status check_texts(const struct br_scene_reader *r)
     return BR_OK;
 }
 
+/* Every function that is given is finite, and the initial ones respect the clamp. */
+static enum br_status check_functions(const struct br_scene_reader *r, size_t line,
+                                      const size_t seen[MOST_KEYS])
+{
+    struct br_error inner = {0};
+    for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
+        if (seen[k - br_scene_keys] && br_scene_scan(r->scene, k, &inner))
+            return br_scene_refuse(r, seen[k - br_scene_keys], k->name, "%s", inner.message);
+    size_t culprit = 0;
+    if (!br_scene_check_initial(r->scene, &culprit, &inner))
+        return BR_OK;
+    for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
+        if ((k->kind == BR_KEY_INITIAL || k->kind == BR_KEY_HISTORY) && k->offset == culprit &&
+            seen[k - br_scene_keys])
+            return br_scene_refuse(r, seen[k - br_scene_keys], k->name, "%s", inner.message);
+    return br_scene_refuse(r, line, "scene", "%s", inner.message); /* from a solution */
+}
+
 static enum br_status read_document(const struct br_scene_reader *r, struct br_verify *verify)
 {
     const yaml_node_t *root = yaml_document_get_root_node(r->document);
@@ -196,8 +215,8 @@ static enum br_status read_document(const struct br_scene_reader *r, struct br_v
         status = br_scene_refuse(r, br_yaml_line(root), "scene", "%s", inner.message);
     if (!status)
         status = apply_solutions(r, seen);
-    if (!status && br_scene_check_initial(r->scene, &inner))
-        status = br_scene_refuse(r, br_yaml_line(root), "scene", "%s", inner.message);
+    if (!status)
+        status = check_functions(r, br_yaml_line(root), seen);
     if (!status && verify)
         status = read_verify(r, verify);
     return status;

@@ -132,7 +132,16 @@ static enum br_status check_initial(const struct initial *d, struct br_error *er
     return check_slope(d, scale, err);
 }
 
-enum br_status br_scene_check_initial(const struct br_scene *s, struct br_error *err)
+/* Whose fault it is: the slope's, where there is one and the value is sound at the clamp. */
+static const struct br_function *fault_of(const struct initial *d)
+{
+    const double scale = largest(d->value, d->length);
+    const bool sound = fabs(value_at(0, (void *)d->value)) <= 1e-12 * scale;
+    return sound && d->slope && !br_function_is_zero(d->slope) ? d->slope : d->value;
+}
+
+enum br_status br_scene_check_initial(const struct br_scene *s, size_t *culprit,
+                                      struct br_error *err)
 {
     const struct br_bending *b = &s->bending;
     const struct initial data[] = {
@@ -143,17 +152,24 @@ enum br_status br_scene_check_initial(const struct br_scene *s, struct br_error 
         {"bending velocity", &b->velocity, "velocity_slope", &b->velocity_slope, s->length},
     };
     if (s->density == 0 &&
-        !(br_function_is_zero(&s->axial.velocity) && br_function_is_zero(&b->velocity)))
+        !(br_function_is_zero(&s->axial.velocity) && br_function_is_zero(&b->velocity))) {
+        *culprit =
+            br_function_is_zero(&s->axial.velocity) ? AT(bending.velocity) : AT(axial.velocity);
         return br_fail(err, BR_BAD_INPUT,
                        "an initial velocity means nothing without density, expected none");
+    }
     if (!br_function_is_zero(&b->stick_force) &&
-        (!b->solution || s->friction.law == BR_FRICTIONLESS))
+        (!b->solution || s->friction.law == BR_FRICTIONLESS)) {
+        *culprit = AT(bending.stick_force);
         return br_fail(err, BR_BAD_INPUT,
                        "bending stick_force belongs to friction and a solution, expected both");
+    }
     for (size_t i = 0; i < sizeof data / sizeof *data; i++) {
         const enum br_status status = check_initial(&data[i], err);
-        if (status)
+        if (status) {
+            *culprit = (size_t)((const char *)fault_of(&data[i]) - (const char *)s);
             return status;
+        }
     }
     return BR_OK;
 }

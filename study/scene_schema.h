@@ -34,7 +34,9 @@ struct br_scene_key {
 extern const struct br_scene_key br_scene_keys[];
 
 /* Refuses (BR_BAD_INPUT) initial data that break the clamp, that are not finite,
- * or whose slope is missing or is not the derivative. */
-enum br_status br_scene_check_initial(const struct br_scene *scene, struct br_error *err);
+ * or whose slope is missing or is not the derivative. *culprit (out): where in struct br_scene the
+ * function at fault is. */
+enum br_status br_scene_check_initial(const struct br_scene *scene, size_t *culprit,
+                                      struct br_error *err);
 
 #endif

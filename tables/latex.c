@@ -4,45 +4,13 @@
 #include <string.h>
 
 #include "tables/emitter.h"
+#include "tables/latex_text.h"
 #include "tables/sentences.h"
-
-/* Plain ASCII into TeX's text mode. */
-static void print_escaped(FILE *out, const char *text)
-{
-    for (; *text; text++)
-        switch (*text) {
-        case '_':
-        case '%':
-        case '&':
-        case '#':
-        case '$':
-        case '{':
-        case '}':
-            fprintf(out, "\\%c", *text);
-            break;
-        case '^':
-            fputs("\\^{}", out);
-            break;
-        case '\\':
-            fputs("\\textbackslash{}", out);
-            break;
-        case '~':
-            fputs("\\textasciitilde{}", out);
-            break;
-        case '|':
-        case '<':
-        case '>':
-            fprintf(out, "$%c$", *text);
-            break;
-        default:
-            fputc(*text, out);
-        }
-}
 
 static void comment(void *self, const char *text)
 {
     FILE *out = self;
-    print_escaped(out, text);
+    br_print_latex(out, text);
     fputs("\\par\n", out);
 }
 
@@ -64,7 +32,7 @@ static void open_table(FILE *out, const struct br_report *r, const char *title, 
 {
     const struct br_study *s = r->study;
     fprintf(out, "\n\\begin{table}\n\\centering\n\\caption{");
-    print_escaped(out, r->caption);
+    br_print_latex(out, r->caption);
     fprintf(out, ": %s}\n\\begin{tabular}{r", title);
     for (size_t j = 0; j < s->k_count; j++)
         fputc('r', out);

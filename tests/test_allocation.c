@@ -6,6 +6,7 @@
 
 #include "reference/certificate.h"
 #include "study/ladder.h"
+#include "study/run.h"
 #include "study/scene_file.h"
 #include "study/study.h"
 #include "support.h"
@@ -182,6 +183,40 @@ static void test_study(void **state)
     }
 }
 
+static enum br_status run_scene(const void *data, struct br_error *err)
+{
+    struct br_run_report report;
+    struct br_history_record record = {0};
+    const struct br_history_observer recorder = br_history_recorder(&record, 4);
+    static const size_t level[] = {0, 3};
+    const struct br_run_request request = {
+        .scene = data,
+        .method = br_method_default(),
+        .n = 4,
+        .steps = 8,
+        .stride = 1,
+        .level = level,
+        .levels = 2,
+        .check = true,
+        .explain = true,
+        .output = &recorder,
+        .outputs = 1,
+    };
+    const enum br_status status = br_run(&request, &report, err);
+    br_history_record_clear(&record);
+    return status;
+}
+
+static void test_run(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene;
+    MUST(br_scene_read(scene_path, &scene, &err));
+    sweep(run_scene, &scene, 20);
+    br_scene_clear(&scene);
+}
+
 /* The hook itself: it fails the allocation it was told to, once. */
 static void test_hook(void **state)
 {
@@ -215,6 +250,7 @@ int main(void)
         cmocka_unit_test(test_hook),   cmocka_unit_test(test_exit_codes),
         cmocka_unit_test(test_scene),  cmocka_unit_test(test_march),
         cmocka_unit_test(test_ladder), cmocka_unit_test(test_study),
+        cmocka_unit_test(test_run),
     };
     return cmocka_run_group_tests(tests, write_scene, remove_scene);
 }

@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* beamrate figures: Figures 2 to 10 of the paper, and what its section 3.2 says. */
+#include <popt.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/command.h"
+#include "cli/number_option.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/provenance.h"
+#include "cli/signals.h"
+#include "plots/figures.h"
+#include "plots/plots.h"
+#include "study/ranks.h"
+#include "tables/claims_emitter.h"
+
+static const char usage[] =
+    "[OPTION...]\n\nFigures 2 to 10 of the paper from Examples 1 to 4 at h = k = 1e-3, each as a "
+    "gnuplot script,\ndata, SVG and PNG with a caption; and every statement of section 3.2 with our "
+    "value, its error\nbar, and whether they agree (claims.csv, .md, .tex). README.md shows them "
+    "all.\n\nExample:\n  beamrate figures --out figures\n";
+
+struct options {
+    char *out, *threads;
+    int quiet, help, thread_count;
+};
+
+static enum br_status parse(int argc, const char **argv, struct options *o, struct br_error *err)
+{
+    enum { HELP = 1 };
+    const struct poptOption table[] = {
+        {"out", 0, POPT_ARG_STRING, &o->out, 0, "folder of the results (default: figures)", "DIR"},
+        {"threads", 0, POPT_ARG_STRING, &o->threads, 0, "threads; 0, the default: all cores",
+         "COUNT"},
+        {"quiet", 0, POPT_ARG_NONE, &o->quiet, 0, "no progress, no claims on the terminal", NULL},
+        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        POPT_TABLEEND};
+    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
+    if (!context)
+        return br_no_memory(err, "the options");
+    poptSetOtherOptionHelp(context, usage);
+    int code;
+    while ((code = poptGetNextOpt(context)) > 0) {
+        o->help = 1;
+        poptPrintHelp(context, stdout, 0);
+    }
+    enum br_status status = BR_OK;
+    const char *word = poptPeekArg(context);
+    if (code < -1)
+        status = br_fail(err, BR_BAD_INPUT, "%s: %s; '--help' lists the options",
+                         poptBadOption(context, POPT_BADOPTION_NOALIAS), poptStrerror(code));
+    else if (word && !o->help)
+        status = br_fail(err, BR_BAD_INPUT, "found '%s', expected options alone", word);
+    poptFreeContext(context);
+    return status ? status
+                  : br_read_count_option("threads", o->threads, 4096, &o->thread_count, err);
+}
+
+struct run {
+    const struct options *options;
+    struct br_paper paper;
+    struct br_finding finding[BR_MOST_CLAIMS];
+    struct br_output output;
+    struct br_provenance provenance;
+    struct br_renderer renderer;
+    bool missing; /* gnuplot */
+};
+
+/* What a file of a figure holds. */
+struct content {
+    const char *extension;
+    void (*write)(FILE *out, const struct run *r, const struct br_figure *f,
+                  const struct br_chart *chart);
+};
+
+static void write_data(FILE *out, const struct run *r, const struct br_figure *f,
+                       const struct br_chart *chart)
+{
+    (void)r, (void)f;
+    br_chart_write_data(out, chart);
+}
+
+static void write_script(FILE *out, const struct run *r, const struct br_figure *f,
+                         const struct br_chart *chart)
+{
+    (void)r, (void)f;
+    br_chart_write_script(out, chart);
+}
+
+static void write_caption(FILE *out, const struct run *r, const struct br_figure *f,
+                          const struct br_chart *chart)
+{
+    (void)chart;
+    br_figure_caption(out, f, &r->paper, r->finding);
+}
+
+static enum br_status write_files(struct run *r, const struct br_figure *f,
+                                  const struct br_chart *chart, struct br_error *err)
+{
+    static const struct content contents[] = {
+        {"dat", write_data}, {"gp", write_script}, {"txt", write_caption}};
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < sizeof contents / sizeof *contents && !status; i++) {
+        char name[128];
+        FILE *file;
+        snprintf(name, sizeof name, "%s.%s", chart->stem, contents[i].extension);
+        status = br_output_file(&r->output, name, &file, err);
+        if (status)
+            return status;
+        contents[i].write(file, r, f, chart);
+        status = br_output_close(file, name, err);
+    }
+    return status;
+}
+
+static enum br_status write_figure(struct run *r, const struct br_figure *f, struct br_error *err)
+{
+    struct br_chart chart;
+    enum br_status status = br_figure_draw(f, &r->paper, &chart, err);
+    if (!status)
+        status = write_files(r, f, &chart, err);
+    char script[BR_SCRIPT_NAME];
+    snprintf(script, sizeof script, "%s.gp", chart.stem);
+    br_chart_clear(&chart);
+    if (!status && !r->missing) {
+        status = br_renderer_add(&r->renderer, r->output.staging, script, &r->missing, err);
+        if (r->missing)
+            status = BR_OK;
+    }
+    return status;
+}
+
+static enum br_status write_readme(struct run *r, struct br_error *err)
+{
+    FILE *file;
+    const enum br_status status = br_output_file(&r->output, "README.md", &file, err);
+    if (status)
+        return status;
+    br_figures_readme(file, &r->paper, r->finding);
+    return br_output_close(file, "README.md", err);
+}
+
+static enum br_status write_claims(struct run *r, const struct br_claims_page *page,
+                                   struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (const struct br_claims_emitter *const *e = br_claims_emitters; *e && !status; e++) {
+        char name[64];
+        FILE *file;
+        if (!(*e)->extension)
+            continue;
+        snprintf(name, sizeof name, "claims%s", (*e)->extension);
+        status = br_output_file(&r->output, name, &file, err);
+        if (status)
+            return status;
+        (*e)->emit(file, page);
+        status = br_output_close(file, name, err);
+    }
+    return status;
+}
+
+/* The figures first: they are rendered while the tables are written. */
+static enum br_status write_all(struct run *r, struct br_error *err)
+{
+    const struct br_claims_page page = {
+        .finding = r->finding,
+        .n = r->paper.request.n,
+        .per_second = r->paper.request.per_second,
+        .provenance = &r->provenance,
+    };
+    enum br_status status = BR_OK;
+    for (const struct br_figure *const *f = br_figures; *f && !status; f++)
+        status = write_figure(r, *f, err);
+    if (!status)
+        status = write_readme(r, err);
+    if (!status)
+        status = write_claims(r, &page, err);
+    struct br_error rendering = {0};
+    if (br_renderer_finish(&r->renderer, &rendering) && !status)
+        status = br_fail(err, rendering.status, "%s", rendering.message);
+    if (br_signals_caught()) /* Ctrl-C ends gnuplot, too: that is no failure of its own */
+        status = br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (status)
+        return status;
+    if (r->missing)
+        fprintf(stderr, "beamrate: gnuplot is not installed: the figures are written as scripts "
+                        "(*.gp) and data, but not rendered\n");
+    status = br_output_commit(&r->output, err);
+    if (!status && !r->options->quiet) {
+        br_claims_emitters[0]->emit(stdout, &page);
+        printf("Written to %s/\n", r->output.folder);
+    }
+    return status;
+}
+
+static enum br_status compute(struct run *r, struct br_error *err)
+{
+    struct br_paper_request request = br_paper_request_default();
+    request.threads = r->options->thread_count;
+    const bool quiet = r->options->quiet || !br_ranks_first();
+    const struct br_observer *observer = br_progress_start("marching", quiet);
+    const enum br_status status = br_paper_run(&r->paper, &request, observer, err);
+    br_progress_end();
+    for (size_t i = 0; br_claims[i] && !status; i++)
+        r->finding[i] = br_claim_measure(br_claims[i], &r->paper);
+    return status;
+}
+
+static enum br_status run(int argc, const char **argv, struct br_error *err)
+{
+    struct options options = {0};
+    struct run r = {.options = &options};
+    enum br_status status = parse(argc, argv, &options, err);
+    const bool works = !options.help, writes = works && br_ranks_first();
+    if (writes && !status)
+        status = br_output_open(&r.output, options.out ? options.out : "figures", err);
+    br_provenance_fill(&r.provenance, options.thread_count);
+    if (works && !status)
+        status = compute(&r, err); /* on every rank: it takes a second */
+    if (writes && !status)
+        status = write_all(&r, err);
+    br_paper_clear(&r.paper);
+    br_output_discard(&r.output);
+    free(options.out);
+    free(options.threads);
+    return status;
+}
+
+const struct br_command br_command_figures = {
+    .name = "figures",
+    .arguments = "",
+    .title = "the paper's Figures 2 to 10, and what its section 3.2 says beside what we find",
+    .run = run,
+};

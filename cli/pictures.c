@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/pictures.h"
+
+#include <ctype.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/signals.h"
+#include "plots/gnuplot.h"
+
+/* All frames are kept with all nodes: 120 MB at most. */
+enum { FRAMES = 120, MOST_ELEMENTS = 20000, ROWS = 2000, NARROW = 40, USUAL = 80, WIDE = 160 };
+
+/* ---- where the movie goes ---- */
+
+/* gnuplot reads the name in quotes, and as a format. */
+static bool is_stem(const char *stem)
+{
+    if (!isalnum((unsigned char)*stem) && *stem != '_')
+        return false;
+    for (const char *c = stem; *c; c++)
+        if (iscntrl((unsigned char)*c) || strchr("'\"\\%`", *c))
+            return false;
+    return true;
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+/* Splits dir/name.gif into folder and stem; frames are called frame-0001.png in their folder. */
+static enum br_status split(struct br_pictures *p, char *folder, size_t size, struct br_error *err)
+{
+    const char *file = p->request.animate;
+    const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file;
+    if (p->format->frames) {
+        snprintf(folder, size, "%s", file);
+        snprintf(p->stem, sizeof p->stem, "frame");
+        return BR_OK;
+    }
+    const int length = (int)(strlen(name) - strlen(p->format->extension));
+    snprintf(folder, size, "%.*s", slash ? (int)(slash - file) : 1, slash ? file : ".");
+    if (slash == file)
+        snprintf(folder, size, "/");
+    snprintf(p->stem, sizeof p->stem, "%.*s", length, name);
+    return is_stem(p->stem)
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT,
+                         "--animate: found '%s', expected a file's name that begins with "
+                         "a letter or digit and has no quote, percent sign or backslash",
+                         file);
+}
+
+static enum br_status choose_format(struct br_pictures *p, struct br_error *err)
+{
+    const char *file = p->request.animate;
+    p->format = br_movie_format_of(is_folder(file) ? "/" : file);
+    if (p->format)
+        return BR_OK;
+    char known[256] = "";
+    for (const struct br_movie_format *const *f = br_movie_formats; *f; f++) {
+        const size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s (%s)", used ? ", " : "", (*f)->extension,
+                 (*f)->title);
+    }
+    return br_fail(err, BR_BAD_INPUT, "--animate: found '%s', expected a name that ends with: %s",
+                   file, known);
+}
+
+static enum br_status check_terminal(struct br_pictures *p, struct br_error *err)
+{
+    bool has;
+    const enum br_status status = br_gnuplot_has(p->format->terminal, &has, &p->missing, err);
+    if (status || p->missing || has)
+        return status;
+    return br_fail(err, BR_BAD_INPUT,
+                   "--animate: found '%s', but the installed gnuplot has no terminal '%s'",
+                   p->request.animate, p->format->terminal);
+}
+
+static enum br_status open_movie(struct br_pictures *p, struct br_error *err)
+{
+    char folder[sizeof p->output.folder];
+    struct br_error inner = {0};
+    if (strlen(p->request.animate) >= sizeof folder)
+        return br_fail(err, BR_BAD_INPUT, "--animate: the name is too long");
+    if (p->request.n > MOST_ELEMENTS)
+        return br_fail(err, BR_BAD_INPUT, "--animate: n is %zu, expected at most %d", p->request.n,
+                       MOST_ELEMENTS);
+    enum br_status status = choose_format(p, err);
+    if (!status)
+        status = split(p, folder, sizeof folder, err);
+    if (!status)
+        status = check_terminal(p, err);
+    if (!status && br_output_open(&p->output, folder, &inner))
+        status = br_fail(err, inner.status, "--animate %s", inner.message + strlen("--out: "));
+    return status;
+}
+
+/* ---- what is kept ---- */
+
+static enum br_status keep_step(void *self, const struct br_march *march,
+                                const struct br_history_row *row, struct br_error *err)
+{
+    struct br_pictures *p = self;
+    const bool last = row->step == p->request.steps;
+    const bool frame = p->frames && (row->step % p->frames == 0 || last);
+    const bool kept = p->rows && (row->step % p->rows == 0 || last);
+    if (!frame && !kept)
+        return BR_OK;
+    struct br_history_row whole = *row;
+    whole.displacement[BR_BENDING] = br_march_tip_displacement(march, BR_BENDING);
+    enum br_status status = BR_OK;
+    if (frame)
+        status = p->keep.look(p->keep.self, march, &whole, err);
+    if (!status && kept)
+        status = p->keep.row(p->keep.self, &whole, err);
+    return status;
+}
+
+enum br_status br_pictures_open(struct br_pictures *p, const struct br_pictures_request *request,
+                                struct br_error *err)
+{
+    *p = (struct br_pictures){.request = *request};
+    p->keep = br_history_recorder(&p->record, request->n);
+    p->rows = request->plot ? br_history_stride(request->steps, ROWS) : 0;
+    p->frames = request->animate ? br_history_stride(request->steps, FRAMES) : 0;
+    return request->animate ? open_movie(p, err) : BR_OK;
+}
+
+struct br_history_observer br_pictures_observer(struct br_pictures *p)
+{
+    return (struct br_history_observer){.self = p, .step = keep_step};
+}
+
+/* ---- drawing ---- */
+
+static enum br_status check_files(const struct br_pictures *p, const struct br_movie *movie,
+                                  struct br_error *err)
+{
+    const size_t files = p->format->frames ? p->record.looks : 1;
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < files && !status; i++) {
+        char name[512], path[2048];
+        br_movie_file(movie, i, name, sizeof name);
+        snprintf(path, sizeof path, "%s/%s", p->output.staging, name);
+        status = br_picture_check(path, err);
+    }
+    return status;
+}
+
+static enum br_status write_file(const struct br_pictures *p, const struct br_movie *movie,
+                                 const char *extension,
+                                 void (*write)(FILE *, const struct br_movie *),
+                                 struct br_error *err)
+{
+    char name[300];
+    FILE *file;
+    snprintf(name, sizeof name, "%s.%s", p->stem, extension);
+    const enum br_status status = br_output_file(&p->output, name, &file, err);
+    if (status)
+        return status;
+    write(file, movie);
+    return br_output_close(file, name, err);
+}
+
+static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
+{
+    const struct br_movie movie = {p->request.scene, &p->record, p->format, p->stem};
+    char script[300];
+    snprintf(script, sizeof script, "%s.gp", p->stem);
+    enum br_status status = write_file(p, &movie, "dat", br_movie_write_data, err);
+    if (!status)
+        status = write_file(p, &movie, "gp", br_movie_write_script, err);
+    if (!status && !p->missing) {
+        status = br_gnuplot_run(p->output.staging, script, &p->missing, err);
+        if (!status)
+            status = check_files(p, &movie, err);
+    }
+    if (br_signals_caught()) /* Ctrl-C ends gnuplot, too */
+        status = br_fail(err, BR_INTERRUPTED, "interrupted");
+    return status ? status : br_output_commit(&p->output, err);
+}
+
+static int columns_of(FILE *letters)
+{
+    struct winsize size;
+    if (ioctl(fileno(letters), TIOCGWINSZ, &size) != 0 || size.ws_col < NARROW)
+        return USUAL;
+    return size.ws_col < WIDE ? size.ws_col : WIDE;
+}
+
+static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct br_error *err)
+{
+    bool missing;
+    struct br_error inner = {0};
+    fflush(letters);
+    if (!br_gnuplot_letters(letters, p->request.scene, &p->record, columns_of(letters), &missing,
+                            &inner))
+        return BR_OK;
+    if (!missing)
+        return br_fail(err, inner.status, "%s", inner.message);
+    fprintf(stderr, "beamrate: gnuplot is not installed: --plot shows nothing\n");
+    return BR_OK;
+}
+
+enum br_status br_pictures_finish(struct br_pictures *p, FILE *letters, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    if (p->request.plot && letters && p->record.rows > 1)
+        status = draw_letters(p, letters, err);
+    if (!status && p->request.animate && p->record.looks > 0)
+        status = draw_movie(p, err);
+    if (!status && p->missing)
+        fprintf(stderr, "beamrate: gnuplot is not installed: the animation is written as a script "
+                        "(*.gp) and data, but not rendered\n");
+    return status;
+}
+
+void br_pictures_discard(struct br_pictures *p)
+{
+    br_output_discard(&p->output);
+    br_history_record_clear(&p->record);
+}

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* beamrate run SCENE: marches one scene. */
+#include <stdio.h>
+
+#include "cli/command.h"
+#include "cli/pictures.h"
+#include "cli/progress.h"
+#include "cli/provenance.h"
+#include "cli/read_text.h"
+#include "cli/run_files.h"
+#include "cli/run_options.h"
+#include "cli/whole_file.h"
+#include "solver/clock.h"
+#include "study/ranks.h"
+#include "study/scene_file.h"
+
+struct run {
+    struct br_run_options options;
+    struct br_run_plan plan;
+    char path[1024];                /* of the scene */
+    char *text;                     /* of the scene's file */
+    struct br_scene scene, marched; /* the latter borrows from the former */
+    struct br_run_report report;
+    struct br_provenance provenance;
+    struct br_whole_file json;
+    struct br_run_files files;
+    struct br_pictures pictures;
+};
+
+static enum br_status read_scene(struct run *r, struct br_error *err)
+{
+    enum br_status status = br_scene_find(r->options.scene, r->path, sizeof r->path, err);
+    if (!status)
+        status = br_scene_read(r->path, &r->scene, err);
+    return status ? status : br_read_text(r->path, &r->text, err);
+}
+
+static enum br_status open_files(struct run *r, struct br_error *err)
+{
+    br_provenance_fill(&r->provenance, 1);
+    r->provenance.scene_path = r->path;
+    r->provenance.scene_text = r->text;
+    enum br_status status = br_whole_file_open(&r->json, "json", r->options.json, err);
+    if (!status && br_whole_file_replaces(&r->json, r->path))
+        status = br_fail(err, BR_BAD_INPUT, "--json would replace the scene %s", r->json.path);
+    const struct br_pictures_request pictures = {
+        .animate = r->options.animate,
+        .plot = r->options.plot,
+        .scene = &r->scene,
+        .n = r->plan.n,
+        .steps = r->plan.steps,
+    };
+    if (!status)
+        status = br_pictures_open(&r->pictures, &pictures, err);
+    if (status || !r->options.out)
+        return status;
+    const struct br_fields_request fields = {
+        .scene = &r->marched,
+        .n = r->plan.n,
+        .steps = r->plan.steps,
+        .looks = r->plan.levels,
+        .provenance = &r->provenance,
+    };
+    return br_run_files_open(&r->files, r->options.out, &fields, err);
+}
+
+static enum br_status march(struct run *r, struct br_error *err)
+{
+    struct br_history_observer output[2];
+    size_t outputs = 0;
+    if (r->options.out)
+        output[outputs++] = br_run_files_observer(&r->files);
+    if (r->options.animate || r->options.plot)
+        output[outputs++] = br_pictures_observer(&r->pictures);
+    const struct br_run_request request = {
+        .scene = &r->scene,
+        .wanted = r->plan.wanted,
+        .method = r->plan.method,
+        .n = r->plan.n,
+        .steps = r->plan.steps,
+        .stride = r->plan.stride,
+        .level = r->plan.level,
+        .levels = r->plan.levels,
+        .check = r->options.check,
+        .energies = r->options.energies,
+        .explain = r->options.explain,
+        .output = output,
+        .outputs = outputs,
+        .progress = br_progress_start("marching", r->options.quiet),
+    };
+    const enum br_status status = br_run(&request, &r->report, err);
+    br_progress_end();
+    return status;
+}
+
+static enum br_status write_results(struct run *r, double start, struct br_error *err)
+{
+    const struct br_run_page page = {&r->report, &r->provenance, br_seconds() - start};
+    enum br_status status = BR_OK;
+    if (r->options.out)
+        status = br_run_files_commit(&r->files, &page, err);
+    if (!status && r->json.file)
+        status = br_run_json(r->json.file, &page, err);
+    if (!status && !r->options.quiet && r->json.file != stdout)
+        br_run_text(stdout, &page);
+    if (!status)
+        status = br_pictures_finish(&r->pictures, r->json.file == stdout ? NULL : stdout, err);
+    return status ? status : br_whole_file_commit(&r->json, err);
+}
+
+/* Results are kept also where the march stopped, or a step is beyond its certificate's limits. */
+static enum br_status conclude(const struct run *r, struct br_error *err)
+{
+    const struct br_run_report *p = &r->report;
+    if (p->failure.status)
+        return br_fail(err, p->failure.status, "%.1000s", p->failure.message);
+    if (p->bad_steps)
+        return br_fail(err, BR_VERDICT, "%zu of %zu steps are beyond the certificate's limits: %s",
+                       p->bad_steps, p->steps, p->verdict.message);
+    return BR_OK;
+}
+
+static enum br_status run_scene(struct run *r, struct br_error *err)
+{
+    const double start = br_seconds();
+    enum br_status status = read_scene(r, err);
+    if (!status)
+        status = br_run_plan_make(&r->options, &r->scene, &r->plan, err);
+    if (!status)
+        status = br_model_select(&r->scene, r->plan.wanted, &r->marched, err);
+    if (!status)
+        status = open_files(r, err);
+    if (!status)
+        status = march(r, err);
+    if (!status)
+        status = write_results(r, start, err);
+    return status ? status : conclude(r, err);
+}
+
+static void clear(struct run *r)
+{
+    br_run_files_discard(&r->files);
+    br_pictures_discard(&r->pictures);
+    br_whole_file_discard(&r->json);
+    br_run_plan_clear(&r->plan);
+    br_scene_clear(&r->scene);
+    free(r->text);
+    br_run_options_clear(&r->options);
+}
+
+static enum br_status run(int argc, const char **argv, struct br_error *err)
+{
+    static struct run r;
+    if (!br_ranks_first())
+        return BR_OK; /* one march is the work of one rank */
+    enum br_status status = br_run_options_parse(argc, argv, &r.options, err);
+    if (!status && !r.options.help)
+        status = run_scene(&r, err);
+    clear(&r);
+    return status;
+}
+
+const struct br_command br_command_run = {
+    .name = "run",
+    .arguments = "SCENE",
+    .title = "marches one scene: its tip, its energies, its fields",
+    .run = run,
+};

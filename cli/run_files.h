@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The files of a run in --out: the tip's history and the fields, written while it marches, and its
+ * summary. They are put in place together, also where a march stopped early. */
+#ifndef BR_RUN_FILES_H
+#define BR_RUN_FILES_H
+
+#include "cli/output.h"
+#include "tables/fields_file.h"
+#include "tables/run_page.h"
+
+struct br_run_files {
+    struct br_output output;
+    const struct br_scene *scene; /* as it is marched; borrowed */
+    FILE *history;
+    const struct br_fields_format *format;
+    struct br_fields_file *fields;
+    char path[2048]; /* of the fields */
+};
+
+/* Opens them in a folder. request->path is not needed. Fails with BR_BAD_INPUT, BR_IO,
+ * BR_NO_MEMORY; discard them even then. */
+enum br_status br_run_files_open(struct br_run_files *files, const char *folder,
+                                 const struct br_fields_request *request, struct br_error *err);
+
+/* An observer that writes them; they must outlive the march. */
+struct br_history_observer br_run_files_observer(struct br_run_files *files);
+
+/* Writes the summary, and puts all in place. Fails with BR_IO or BR_NO_MEMORY. */
+enum br_status br_run_files_commit(struct br_run_files *files, const struct br_run_page *page,
+                                   struct br_error *err);
+void br_run_files_discard(struct br_run_files *files);
+
+#endif

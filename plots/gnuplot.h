@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* gnuplot for what is not a picture in SVG and PNG. */
+#ifndef BR_GNUPLOT_H
+#define BR_GNUPLOT_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "solver/status.h"
+#include "study/history.h"
+
+/* Runs a script in its folder and waits. *missing (out): gnuplot is not installed, and the call
+ * fails with BR_IO, as it does where gnuplot does. */
+enum br_status br_gnuplot_run(const char *folder, const char *script, bool *missing,
+                              struct br_error *err);
+
+/* Whether a picture that gnuplot has drawn is whole, which gnuplot does not look at: fails with
+ * BR_IO where it is not there, or does not end as its kind does. */
+enum br_status br_picture_check(const char *path, struct br_error *err);
+
+/* Whether the installed gnuplot has a terminal; *missing as above, and then the call succeeds. */
+enum br_status br_gnuplot_has(const char *terminal, bool *has, bool *missing, struct br_error *err);
+
+/* Draws the tip's history with letters: displacements and forces over time, `columns` wide, into
+ * `out`. Fails as br_gnuplot_run. */
+enum br_status br_gnuplot_letters(FILE *out, const struct br_scene *scene,
+                                  const struct br_history_record *record, int columns,
+                                  bool *missing, struct br_error *err);
+
+#endif

@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plots/movie.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "plots/page.h"
+
+static const struct br_movie_format gif = {".gif", "gif", "animated GIF", false};
+static const struct br_movie_format webp = {".webp", "webp", "animated WebP", false};
+static const struct br_movie_format folder = {"/", "pngcairo", "a folder of PNG frames", true};
+const struct br_movie_format *const br_movie_formats[] = {&gif, &webp, &folder, NULL};
+
+const struct br_movie_format *br_movie_format_of(const char *file)
+{
+    const size_t length = strlen(file);
+    for (const struct br_movie_format *const *f = br_movie_formats; *f; f++) {
+        const size_t ending = strlen((*f)->extension);
+        if (length >= ending && strcmp(file + length - ending, (*f)->extension) == 0)
+            return *f;
+    }
+    return NULL;
+}
+
+void br_movie_file(const struct br_movie *m, size_t frame, char *file, size_t size)
+{
+    if (m->format->frames)
+        snprintf(file, size, "%s-%04zu.png", m->stem, frame + 1);
+    else
+        snprintf(file, size, "%s%s", m->stem, m->format->extension);
+}
+
+/* ---- scales ---- */
+
+/* How much larger things are drawn than they are. */
+struct scales {
+    double axial, bending;    /* 1 */
+    double contact, friction; /* m of the picture per N */
+    double most_axial;        /* |u|, m */
+};
+
+/* The largest number 1, 2 or 5 times a power of ten that is no larger. */
+static double round_down(double value)
+{
+    const double power = pow(10, floor(log10(value)));
+    const double digit = value / power;
+    return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
+}
+
+/* What brings `most` to at most `wanted`; 1 where nothing moves. */
+static double scale_to(double most, double wanted)
+{
+    return most > 0 && isfinite(most) ? round_down(wanted / most) : 1;
+}
+
+static double most_of_field(const struct br_history_record *r, enum br_field_kind kind)
+{
+    const size_t unknowns = br_field_unknowns(kind);
+    double most = 0;
+    for (size_t look = 0; look < r->looks; look++) {
+        const double *nodal = br_history_field(r, look, kind, false);
+        for (size_t i = 0; i <= r->n; i++)
+            most = fmax(most, fabs(nodal[i * unknowns]));
+    }
+    return most;
+}
+
+static struct scales find_scales(const struct br_movie *m)
+{
+    const double length = m->scene->length;
+    double contact = 0, friction = 0;
+    for (size_t i = 0; i < m->record->looks; i++) {
+        contact = fmax(contact, fabs(m->record->at[i].contact_force));
+        friction = fmax(friction, fabs(m->record->at[i].friction_force));
+    }
+    const double axial = most_of_field(m->record, BR_AXIAL);
+    const double gap = m->scene->contact.modelled ? m->scene->contact.gap : 0;
+    return (struct scales){
+        .axial = scale_to(fmax(axial, gap), 0.2 * length),
+        .bending = scale_to(most_of_field(m->record, BR_BENDING), 0.3 * length),
+        .contact = contact > 0 ? 0.25 * length / contact : 0,
+        .friction = friction > 0 ? 0.2 * length / friction : 0,
+        .most_axial = axial > 0 ? axial : 1,
+    };
+}
+
+/* ---- data ---- */
+
+enum { POINTS = 200 };
+
+void br_movie_write_data(FILE *out, const struct br_movie *m)
+{
+    const struct br_history_record *r = m->record;
+    const size_t every = r->n > POINTS ? r->n / POINTS : 1;
+    fputs("# SPDX-License-Identifier: GPL-3.0-or-later\n# ", out);
+    br_write_comment(out, m->scene->title);
+    fputs("# one block a frame: x (m) | u (m) | w (m)\n", out);
+    for (size_t look = 0; look < r->looks; look++) {
+        const double *u = br_history_field(r, look, BR_AXIAL, false);
+        const double *w = br_history_field(r, look, BR_BENDING, false);
+        fprintf(out, "# frame %zu: t = %.9g s\n", look + 1, r->at[look].time);
+        for (size_t i = 0;; i = i + every < r->n ? i + every : r->n) {
+            fprintf(out, "%.9g %.9g %.9g\n", (double)i / (double)r->n * m->scene->length, u[i],
+                    w[2 * i]);
+            if (i == r->n)
+                break;
+        }
+        fputs("\n\n", out);
+    }
+}
+
+/* ---- the script ---- */
+
+typedef double of_frame(const struct br_history_row *row);
+
+static double time_of(const struct br_history_row *row)
+{
+    return row->time;
+}
+
+static double contact_of(const struct br_history_row *row)
+{
+    return row->contact_force;
+}
+
+/* The scheme has no friction force at t = 0. */
+static double friction_of(const struct br_history_row *row)
+{
+    return isnan(row->friction_force) ? 0 : row->friction_force;
+}
+
+static double bound_of(const struct br_history_row *row)
+{
+    return row->friction_bound;
+}
+
+static double speed_of(const struct br_history_row *row)
+{
+    return row->velocity[BR_BENDING];
+}
+
+static double axial_of(const struct br_history_row *row)
+{
+    return row->displacement[BR_AXIAL];
+}
+
+static double bending_of(const struct br_history_row *row)
+{
+    return row->displacement[BR_BENDING];
+}
+
+static void write_array(FILE *out, const char *name, const struct br_history_record *r,
+                        of_frame *value)
+{
+    fprintf(out, "array %s[%zu] = [", name, r->looks);
+    for (size_t i = 0; i < r->looks; i++)
+        fprintf(out, "%s%.9g", i == 0 ? "" : i % 8 ? ", " : ", \\\n    ", value(&r->at[i]));
+    fputs("]\n", out);
+}
+
+static void write_head(FILE *out, const struct br_movie *m)
+{
+    const struct scales s = find_scales(m);
+    char file[512];
+    br_movie_file(m, 0, file, sizeof file);
+    fputs("# SPDX-License-Identifier: GPL-3.0-or-later\n# ", out);
+    br_write_comment(out, m->scene->title);
+    fprintf(out,
+            "# Draws %s%s from %s.dat;\n# edit it, and draw again, in this folder, with\n"
+            "#     gnuplot %s.gp\n\nset encoding utf8\n",
+            file, m->format->frames ? " and so on" : "", m->stem, m->stem);
+    fprintf(
+        out,
+        "length = %.9g # m\ngap = %.9g # m\naxial_scale = %.9g\nbending_scale = %.9g\n"
+        "contact_scale = %.9g # m per N\nfriction_scale = %.9g # m per N\nmost = %.9g # |u|, m\n",
+        m->scene->length, m->scene->contact.modelled ? m->scene->contact.gap : 0, s.axial,
+        s.bending, s.contact, s.friction, s.most_axial);
+    write_array(out, "time", m->record, time_of);
+    write_array(out, "contact", m->record, contact_of);
+    write_array(out, "friction", m->record, friction_of);
+    write_array(out, "bound", m->record, bound_of);
+    write_array(out, "speed", m->record, speed_of);
+    write_array(out, "u", m->record, axial_of);
+    write_array(out, "w", m->record, bending_of);
+}
+
+static void write_terminal(FILE *out, const struct br_movie *m)
+{
+    const size_t frames = m->record->looks;
+    if (m->format->frames)
+        fputs("set terminal pngcairo size 900,520 rounded font 'DejaVu Sans,13'\n", out);
+    else
+        fprintf(
+            out,
+            "set terminal %s animate delay %s loop 0 size 900,520 rounded font 'DejaVu Sans,13'\n",
+            m->format->terminal, m->format == &gif ? "8" : "80");
+    if (!m->format->frames) {
+        fputs("set output ", out);
+        char file[512];
+        br_movie_file(m, 0, file, sizeof file);
+        br_write_quoted(out, file);
+        fputc('\n', out);
+    }
+    fprintf(out, "frames = %zu\n", frames);
+}
+
+static void write_stage(FILE *out, const struct br_movie *m)
+{
+    fprintf(out, "set label 1 ");
+    br_write_quoted(out, m->scene->title);
+    fprintf(
+        out,
+        " noenhanced at screen 0.03,0.95 left font ',17'\n"
+        "set label 2 sprintf('u drawn %%g times as large, w %%g times', axial_scale, bending_scale) "
+        "at screen 0.03,0.885 left\n"
+        "set xrange [-0.05*length:1.5*length]; set yrange [-0.62*length:0.62*length]\n"
+        "set lmargin at screen 0.03; set rmargin at screen 0.84\n"
+        "set bmargin at screen 0.09; set tmargin at screen 0.9\n"
+        "unset key; unset border; unset tics\n"
+        "set palette defined (0 '#0d0887', 0.5 '#cb4679', 1 '#f0b040')\n"
+        "set cbrange [-most:most]; set cblabel 'horizontal displacement u (m)'\n"
+        "set colorbox user origin 0.87,0.15 size 0.02,0.65; set cbtics\n"
+        "set object 1 rectangle from -0.04*length,-0.2*length to 0,0.2*length "
+        "fc rgb '#888888' fs solid 1 noborder\n");
+    if (m->scene->contact.modelled)
+        fputs("edge = length + axial_scale*gap\n"
+              "set object 2 rectangle from edge,-0.5*length to 1.5*length,0.5*length "
+              "fc rgb '#dddddd' fs solid 1 noborder behind\n"
+              "set label 3 'obstacle' at edge + 0.02*length,-0.46*length left\n",
+              out);
+}
+
+/* Arrows from the tip: the contact pushes left, friction against the slip, lambda up being -. */
+static void write_forces(FILE *out, const struct br_movie *m)
+{
+    fputs("    tx = length + axial_scale*u[i]; ty = bending_scale*w[i]\n"
+          "    set label 4 sprintf('t = %.4f s', time[i]) at screen 0.97,0.95 right font ',17'\n",
+          out);
+    if (m->scene->contact.modelled)
+        fputs(
+            "    set label 5 sprintf('contact force %.4g N', contact[i]) at screen 0.03,0.045 left\n"
+            "    if (contact[i] > 0) {\n"
+            "        set arrow 1 from tx + contact_scale*contact[i],ty to tx,ty lw 4 "
+            "lc rgb '#e8704f' front\n"
+            "    } else { unset arrow 1 }\n",
+            out);
+    if (m->scene->friction.law == BR_FRICTIONLESS)
+        return;
+    fputs(
+        "    state = speed[i] == 0 || abs(friction[i]) < bound[i] ? 'sticks' : 'slips'\n"
+        "    set label 6 sprintf('friction %.4g N of %.4g N: %s', abs(friction[i]), bound[i], state) "
+        "at screen 0.32,0.045 left\n"
+        "    set arrow 2 from tx,ty to tx,ty - friction_scale*friction[i] lw 4 "
+        "lc rgb '#0d0887' front\n"
+        "    # The bound, to both sides, as far as the picture reaches.\n"
+        "    b = friction_scale*bound[i]; d = 0.03*length\n"
+        "    if (b < 0.5*length) {\n"
+        "        set arrow 3 from tx - d,ty + b to tx + d,ty + b nohead lw 3 lc rgb '#444444' front\n"
+        "        set arrow 4 from tx - d,ty - b to tx + d,ty - b nohead lw 3 lc rgb '#444444' front\n"
+        "    } else { unset arrow 3; unset arrow 4 }\n",
+        out);
+}
+
+void br_movie_write_script(FILE *out, const struct br_movie *m)
+{
+    write_head(out, m);
+    write_terminal(out, m);
+    write_stage(out, m);
+    fputs("do for [i=1:frames] {\n", out);
+    if (m->format->frames)
+        fprintf(out, "    set output sprintf('%s-%%04d.png', i)\n", m->stem);
+    write_forces(out, m);
+    fprintf(out,
+            "    plot '%s.dat' index i - 1 using ($1 + axial_scale*$2):(bending_scale*$3):2 "
+            "with lines lw 8 lc palette\n}\nunset output\n",
+            m->stem);
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The fields at the output times in a file: HDF5 where the build has it, CSV otherwise. One const
+ * record a format; they are written look by look, so that no more than one is in memory. */
+#ifndef BR_FIELDS_FILE_H
+#define BR_FIELDS_FILE_H
+
+#include "study/run.h"
+#include "tables/emitter.h"
+
+/* What is being written. Borrowed. */
+struct br_fields_request {
+    const char *path;                       /* of the file */
+    const struct br_scene *scene;           /* as it is marched */
+    size_t n, steps, looks;                 /* elements; steps; output times */
+    const struct br_provenance *provenance; /* with its scene */
+};
+
+struct br_fields_file; /* of the format */
+
+struct br_fields_format {
+    const char *name;      /* "hdf5", "csv" */
+    const char *file_name; /* in the folder of results */
+    const char *title;     /* one line for a person */
+    /* Each fails with BR_IO or BR_NO_MEMORY. close: stopped is NULL, or why the march stopped
+     * before all looks were made; frees the file in any case, and accepts NULL. */
+    enum br_status (*open)(struct br_fields_file **file, const struct br_fields_request *request,
+                           struct br_error *err);
+    enum br_status (*look)(struct br_fields_file *file, const struct br_march *march,
+                           const struct br_history_row *row, struct br_error *err);
+    enum br_status (*close)(struct br_fields_file *file, const char *stopped, struct br_error *err);
+};
+
+/* NULL-terminated, the best first. */
+extern const struct br_fields_format *const br_fields_formats[];
+
+/* The variables, in the order of the file; x and t aside. */
+enum { BR_FIELD_VARIABLES = 6 };
+struct br_field_variable {
+    const char *name, *unit, *meaning;
+};
+extern const struct br_field_variable br_field_variables[BR_FIELD_VARIABLES];
+
+/* All nodal values of a march as it is: (out) BR_FIELD_VARIABLES times n + 1 values in the units
+ * of the variables, those of one variable behind each other. Slopes are physical, w_x, not the h
+ * w_x of solver/field.h. work: workspace, 4 (n + 1) values. */
+void br_field_values(const struct br_march *march, double *values, double *work);
+
+#endif

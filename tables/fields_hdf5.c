@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* HDF5: x (nodes), t (times) and each variable (times, nodes) with `unit` and `meaning` as
+ * attributes; the scene's text, version, n, k and, where it is so, `stopped` at the root. */
+#include <hdf5.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "tables/fields_file.h"
+
+struct br_fields_file {
+    char path[2048];
+    hid_t file, t, variable[BR_FIELD_VARIABLES]; /* H5I_INVALID_HID: not open */
+    hsize_t nodes, looks;
+    double *work; /* values, then workspace */
+};
+
+static enum br_status fail(const struct br_fields_file *f, const char *what, struct br_error *err)
+{
+    return br_fail(err, BR_IO, "%s: HDF5 could not write %s", f->path, what);
+}
+
+/* ---- attributes ---- */
+
+static bool text_attribute(hid_t where, const char *name, const char *text)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    bool good = H5Tset_size(type, strlen(text) + 1) >= 0 && H5Tset_cset(type, H5T_CSET_UTF8) >= 0;
+    const hid_t attribute =
+        good ? H5Acreate2(where, name, type, space, H5P_DEFAULT, H5P_DEFAULT) : H5I_INVALID_HID;
+    good = attribute >= 0 && H5Awrite(attribute, type, text) >= 0;
+    if (attribute >= 0)
+        H5Aclose(attribute);
+    H5Sclose(space);
+    H5Tclose(type);
+    return good;
+}
+
+static bool number_attribute(hid_t where, const char *name, double value)
+{
+    const hid_t space = H5Screate(H5S_SCALAR);
+    const hid_t attribute =
+        H5Acreate2(where, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT);
+    const bool good = attribute >= 0 && H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value) >= 0;
+    if (attribute >= 0)
+        H5Aclose(attribute);
+    H5Sclose(space);
+    return good;
+}
+
+/* An attribute is at most 64 kB: a longer text is a data set of its name. */
+static bool text_anyhow(hid_t file, const char *name, const char *text)
+{
+    if (strlen(text) < 60000)
+        return text_attribute(file, name, text);
+    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, strlen(text) + 1);
+    const hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const bool good = set >= 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0;
+    if (set >= 0)
+        H5Dclose(set);
+    H5Sclose(space);
+    H5Tclose(type);
+    return good;
+}
+
+/* ---- data sets ---- */
+
+/* Grows by one time with each look; nodes 0: one value a time. */
+static hid_t create_set(hid_t file, const char *name, hsize_t nodes)
+{
+    const int rank = nodes ? 2 : 1;
+    const hsize_t size[2] = {0, nodes}, most[2] = {H5S_UNLIMITED, nodes};
+    const hsize_t chunk[2] = {nodes ? 1 : 256, nodes};
+    const hid_t space = H5Screate_simple(rank, size, most);
+    const hid_t options = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(options, rank, chunk);
+    const hid_t set =
+        H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, options, H5P_DEFAULT);
+    H5Pclose(options);
+    H5Sclose(space);
+    return set;
+}
+
+static bool append(const struct br_fields_file *f, hid_t set, hsize_t nodes, const double *values)
+{
+    const int rank = nodes ? 2 : 1;
+    const hsize_t size[2] = {f->looks + 1, nodes}, start[2] = {f->looks, 0}, count[2] = {1, nodes};
+    if (H5Dset_extent(set, size) < 0)
+        return false;
+    const hid_t place = H5Dget_space(set), memory = H5Screate_simple(rank, count, NULL);
+    const bool good = H5Sselect_hyperslab(place, H5S_SELECT_SET, start, NULL, count, NULL) >= 0 &&
+                      H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, values) >= 0;
+    H5Sclose(memory);
+    H5Sclose(place);
+    return good;
+}
+
+static bool write_x(const struct br_fields_file *f, double h)
+{
+    for (hsize_t i = 0; i < f->nodes; i++)
+        f->work[i] = h * (double)i;
+    const hid_t space = H5Screate_simple(1, &f->nodes, NULL);
+    const hid_t set =
+        H5Dcreate2(f->file, "x", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const bool good =
+        set >= 0 && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, f->work) >= 0 &&
+        text_attribute(set, "unit", "m") && text_attribute(set, "meaning", "nodes");
+    if (set >= 0)
+        H5Dclose(set);
+    H5Sclose(space);
+    return good;
+}
+
+static bool create_sets(struct br_fields_file *f)
+{
+    f->t = create_set(f->file, "t", 0);
+    bool good = f->t >= 0 && text_attribute(f->t, "unit", "s") &&
+                text_attribute(f->t, "meaning", "output times");
+    for (int v = 0; v < BR_FIELD_VARIABLES && good; v++) {
+        const struct br_field_variable *variable = &br_field_variables[v];
+        f->variable[v] = create_set(f->file, variable->name, f->nodes);
+        good = f->variable[v] >= 0 && text_attribute(f->variable[v], "unit", variable->unit) &&
+               text_attribute(f->variable[v], "meaning", variable->meaning);
+    }
+    return good;
+}
+
+static bool describe(const struct br_fields_file *f, const struct br_fields_request *q)
+{
+    const struct br_provenance *p = q->provenance;
+    return text_attribute(f->file, "program", "beamrate") &&
+           text_attribute(f->file, "version", p->version) &&
+           text_attribute(f->file, "commit", p->commit) &&
+           text_attribute(f->file, "command_line", p->command_line) &&
+           text_attribute(f->file, "scene_name", q->scene->name) &&
+           number_attribute(f->file, "n", (double)q->n) &&
+           number_attribute(f->file, "k", q->scene->duration / (double)q->steps) &&
+           text_anyhow(f->file, "scene", p->scene_text);
+}
+
+/* ---- the format ---- */
+
+static enum br_status open_hdf5(struct br_fields_file **out, const struct br_fields_request *q,
+                                struct br_error *err)
+{
+    struct br_fields_file *f = *out = br_allocate(1, sizeof *f);
+    if (!f)
+        return br_no_memory(err, "the fields' file");
+    H5dont_atexit(); /* where a file could not be closed, HDF5 1.10 crashes at exit */
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* what fails is told by us */
+    snprintf(f->path, sizeof f->path, "%s", q->path);
+    f->file = f->t = H5I_INVALID_HID;
+    for (int v = 0; v < BR_FIELD_VARIABLES; v++)
+        f->variable[v] = H5I_INVALID_HID;
+    f->nodes = q->n + 1;
+    f->work = br_allocate((size_t)(BR_FIELD_VARIABLES + 4) * f->nodes, sizeof *f->work);
+    if (!f->work)
+        return br_no_memory(err, "the fields' file");
+    f->file = H5Fcreate(q->path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    if (f->file < 0)
+        return fail(f, "the file", err);
+    if (!describe(f, q))
+        return fail(f, "the attributes", err);
+    if (!write_x(f, q->scene->length / (double)q->n) || !create_sets(f))
+        return fail(f, "the data sets", err);
+    return BR_OK;
+}
+
+static enum br_status look_hdf5(struct br_fields_file *f, const struct br_march *march,
+                                const struct br_history_row *row, struct br_error *err)
+{
+    br_field_values(march, f->work, f->work + BR_FIELD_VARIABLES * f->nodes);
+    if (!append(f, f->t, 0, &row->time))
+        return fail(f, "t", err);
+    for (size_t v = 0; v < BR_FIELD_VARIABLES; v++)
+        if (!append(f, f->variable[v], f->nodes, f->work + v * f->nodes))
+            return fail(f, br_field_variables[v].name, err);
+    f->looks++;
+    return BR_OK;
+}
+
+static enum br_status close_hdf5(struct br_fields_file *f, const char *stopped,
+                                 struct br_error *err)
+{
+    if (!f)
+        return BR_OK;
+    bool good = true;
+    if (stopped && f->file >= 0)
+        good = text_attribute(f->file, "stopped", stopped);
+    for (int v = 0; v < BR_FIELD_VARIABLES; v++)
+        if (f->variable[v] >= 0)
+            good = H5Dclose(f->variable[v]) >= 0 && good;
+    if (f->t >= 0)
+        good = H5Dclose(f->t) >= 0 && good;
+    if (f->file >= 0)
+        good = H5Fclose(f->file) >= 0 && good;
+    const enum br_status status = good ? BR_OK : fail(f, "the file whole", err);
+    free(f->work);
+    free(f);
+    return status;
+}
+
+extern const struct br_fields_format br_fields_hdf5;
+const struct br_fields_format br_fields_hdf5 = {
+    .name = "hdf5",
+    .file_name = "fields.h5",
+    .title = "HDF5, for Python, Octave, Julia and the like",
+    .open = open_hdf5,
+    .look = look_hdf5,
+    .close = close_hdf5,
+};

@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A run's summary for a person. */
+#include <math.h>
+#include <string.h>
+
+#include "tables/plain_text.h"
+#include "tables/run_page.h"
+
+enum { SHOWN_EVENTS = 20 };
+
+static const char *direction(int sign)
+{
+    return sign > 0 ? " towards +w" : sign < 0 ? " towards -w" : "";
+}
+
+static void head(FILE *out, const struct br_run_page *page)
+{
+    const struct br_run_report *p = page->report;
+    const struct br_kernel *kernel = br_linear_solver_kernel(p->method.solver, &p->method.linear);
+    br_print_plain(out, p->scene->title);
+    fprintf(out, "\n");
+    br_print_plain(out, page->provenance->scene_path);
+    fprintf(out,
+            "\n%zu elements, h = %g m; %zu steps of k = %g s\nsolver %s%s%s, contact %s, friction "
+            "%s\n",
+            p->n, p->h, p->steps, p->k, p->method.solver->name, kernel ? ", kernel " : "",
+            kernel ? kernel->name : "", p->method.contact->name, p->method.friction->name);
+    if (p->failure.status) {
+        fprintf(out, "\nSTOPPED: ");
+        br_print_plain(out, p->failure.message);
+        fprintf(out, "\n");
+    }
+    if (p->contact_unstable)
+        fprintf(out, "\nThe lagged contact is beyond its stability limit here: the tip may chatter "
+                     "at the step's rate.\n--contact implicit has no such limit.\n");
+}
+
+/* ---- the tip ---- */
+
+static void value(FILE *out, bool marched, double x)
+{
+    if (marched)
+        fprintf(out, "  %22.15g", x);
+    else
+        fprintf(out, "  %22s", "not marched");
+}
+
+static void friction_now(FILE *out, const struct br_run_report *p)
+{
+    const struct br_history_row *row = &p->end.last;
+    if (p->marched.friction.law == BR_FRICTIONLESS)
+        return;
+    fprintf(out, "  friction force, N     %22.15g  of a bound of %.15g", row->friction_force,
+            row->friction_bound);
+    if (row->friction_bound > 0)
+        fprintf(out, " (%.4g %%)", 100 * fabs(row->friction_force) / row->friction_bound);
+    if (p->watch.steps > 0)
+        fprintf(out, ": %s%s", br_tip_regime_word(p->watch.regime),
+                p->watch.regime == BR_TIP_SLIP ? direction(p->watch.direction) : "");
+    fprintf(out, "\n");
+}
+
+static void tip(FILE *out, const struct br_run_report *p)
+{
+    const struct br_history_row *row = &p->end.last;
+    const bool axial = p->marched.axial.modelled, bending = p->marched.bending.modelled;
+    fprintf(out, "\nTip at t = %.15g s%s\n", row->time,
+            p->failure.status ? " (the last good step)" : "");
+    fprintf(out, "                          %20s  %22s\n", "axial, u", "bending, w");
+    fprintf(out, "  displacement, m     ");
+    value(out, axial, row->displacement[BR_AXIAL]);
+    value(out, bending, row->displacement[BR_BENDING]);
+    fprintf(out, "\n  velocity, m/s       ");
+    value(out, axial, row->velocity[BR_AXIAL]);
+    value(out, bending, row->velocity[BR_BENDING]);
+    fprintf(out, "\n");
+    if (p->marched.contact.modelled)
+        fprintf(out, "  contact force, N      %22.15g  %s\n", row->contact_force,
+                p->watch.closed ? "closed" : "open");
+    friction_now(out, p);
+    if (p->marched.contact.modelled)
+        fprintf(out, "  largest contact force  %.10g N at t = %.10g s\n",
+                p->watch.contact_force.value, p->watch.contact_force.time);
+    if (p->marched.friction.law != BR_FRICTIONLESS)
+        fprintf(out, "  largest friction force %.10g N at t = %.10g s\n",
+                p->watch.friction_force.value, p->watch.friction_force.time);
+}
+
+/* ---- events ---- */
+
+static void at_start(FILE *out, const struct br_tip_watch *w)
+{
+    fprintf(out, "  at first              %s%s",
+            w->contact ? w->closed_at_start ? "closed" : "open" : "",
+            w->contact && w->friction ? ", " : "");
+    if (w->friction && w->steps > 0)
+        fprintf(out, "%s%s in the first step", br_tip_regime_word(w->regime_at_start),
+                direction(w->direction_at_start));
+    fprintf(out, "\n");
+}
+
+static void shares(FILE *out, const struct br_tip_watch *w)
+{
+    const double percent = w->steps ? 100 / (double)w->steps : 0;
+    fprintf(out, "  of the time:");
+    if (w->contact)
+        fprintf(out, " closed %.4g %%%s", percent * (double)w->closed_steps,
+                w->friction ? "," : "");
+    if (w->friction)
+        fprintf(out, " stick %.4g %%, slip %.4g %%, no bound %.4g %%",
+                percent * (double)w->regime_steps[BR_TIP_STICK],
+                percent * (double)w->regime_steps[BR_TIP_SLIP],
+                percent * (double)w->regime_steps[BR_TIP_FREE]);
+    fprintf(out, "\n");
+}
+
+static void events(FILE *out, const struct br_run_report *p)
+{
+    const struct br_tip_watch *w = &p->watch;
+    if (!w->contact && !w->friction)
+        return;
+    fprintf(out,
+            "\nEvents at the tip (told at the first time level of the new regime: each happened in "
+            "the step\nbefore it, up to k = %g s earlier)\n",
+            p->k);
+    at_start(out, w);
+    size_t all = 0;
+    for (int kind = 0; kind < BR_TIP_EVENTS; kind++)
+        all += w->count[kind];
+    for (size_t i = 0; i < w->events && i < SHOWN_EVENTS; i++)
+        fprintf(out, "  t = %-16.10g  %s%s\n", w->event[i].time,
+                br_tip_event_word(w->event[i].kind), direction(w->event[i].direction));
+    if (all > SHOWN_EVENTS)
+        fprintf(out, "  ... and %zu more\n", all - SHOWN_EVENTS);
+    fprintf(out, "  in all:");
+    for (int kind = 0; kind < BR_TIP_EVENTS; kind++)
+        fprintf(out, "%s %s %zu", kind ? "," : "", br_tip_event_word((enum br_tip_event_kind)kind),
+                w->count[kind]);
+    fprintf(out, "\n");
+    shares(out, w);
+}
+
+/* ---- energies ---- */
+
+static void two(FILE *out, const struct br_run_report *p, const char *name, const double x[2])
+{
+    fprintf(out, "  %-20s", name);
+    value(out, p->marched.axial.modelled, x[BR_AXIAL]);
+    value(out, p->marched.bending.modelled, x[BR_BENDING]);
+    fprintf(out, "\n");
+}
+
+static void one(FILE *out, const char *name, double x)
+{
+    fprintf(out, "  %-20s  %22.15g\n", name, x);
+}
+
+static void works(FILE *out, const struct br_run_report *p)
+{
+    const struct br_work *w = &p->work;
+    two(out, p, "work of the loads", w->loads);
+    two(out, p, "lost to viscosity", w->viscous);
+    if (p->marched.friction.law != BR_FRICTIONLESS)
+        one(out, "lost to friction", w->friction);
+    one(out, "lost to the scheme", w->scheme);
+    if (p->marched.contact.modelled)
+        one(out, "  by its contact", w->scheme_contact);
+    fprintf(out,
+            "  balance: from %.15g at t = 0 to %.15g; what is missing is %.2g of the terms' sum\n",
+            br_energy_total(&p->energy_start), br_energy_total(&p->energy_now),
+            fabs(br_energy_imbalance(&p->energy_start, &p->energy_now, w)));
+}
+
+static void energies(FILE *out, const struct br_run_report *p)
+{
+    if (!p->at_end)
+        return;
+    fprintf(out, "\nEnergies at t = %.15g s, J\n", p->end.last.time);
+    fprintf(out, "                          %20s  %22s\n", "axial", "bending");
+    two(out, p, "kinetic", p->energy_now.kinetic);
+    two(out, p, "stored", p->energy_now.stored);
+    if (p->marched.contact.modelled)
+        one(out, "of the contact", p->energy_now.contact);
+    if (p->summed) {
+        works(out, p);
+        return;
+    }
+    if (p->marched.friction.law != BR_FRICTIONLESS)
+        one(out, "lost to friction", p->watch.friction_work);
+    fprintf(out, "  work of the loads, losses to viscosity and to the scheme, and the balance need "
+                 "the fields\n  of every step: --energies or --check sums them\n");
+}
+
+/* ---- the certificate ---- */
+
+static void certificate(FILE *out, const struct br_run_report *p)
+{
+    if (!p->checked)
+        return;
+    const struct br_certificate *c = &p->worst, *limit = &p->limits;
+    const struct {
+        const char *name;
+        double worst, limit;
+        bool modelled;
+    } rows[] = {
+        {"axial equation (27)", c->axial_residual, limit->axial_residual,
+         p->marched.axial.modelled},
+        {"bending equation (28)", c->bending_residual, limit->bending_residual,
+         p->marched.bending.modelled},
+        {"update u_n = u_{n-1} + k v_n", c->update, limit->update, true},
+        {"contact law (10)", c->contact, limit->contact, p->marched.contact.modelled},
+        {"friction law (12)", c->friction, limit->friction,
+         p->marched.friction.law != BR_FRICTIONLESS},
+    };
+    fprintf(out, "\nCertificate of every step, by code that the solver does not share: the worst, "
+                 "and its limit\n");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (rows[i].modelled)
+            fprintf(out, "  %-30s %10.3g  %10.3g  %s\n", rows[i].name, rows[i].worst, rows[i].limit,
+                    rows[i].worst <= rows[i].limit ? "good" : "BAD");
+    if (p->bad_steps)
+        fprintf(out, "  %zu of %zu steps are beyond a limit; the first: %s\n", p->bad_steps,
+                p->end.last.step, p->verdict.message);
+}
+
+/* ---- what is modelled, and what it costs ---- */
+
+static void model(FILE *out, const struct br_run_report *p)
+{
+    fprintf(out, "\nWhat is modelled, and what is skipped\n");
+    for (size_t i = 0; i < p->model_rows; i++)
+        fprintf(out, "  %-18s  %-8s  %s\n", p->model[i].part,
+                p->model[i].modelled ? "modelled" : "skipped", p->model[i].why);
+}
+
+static void cost(FILE *out, const struct br_run_report *p)
+{
+    const struct br_step_cost *c = &p->cost;
+    const double steps = (double)p->end.last.step;
+    if (!p->explained || steps == 0)
+        return;
+    double all = 0;
+    for (int part = 0; part < BR_COST_PARTS; part++)
+        all += c->seconds[part];
+    fprintf(out,
+            "\nCost of the parts of a step, as measured (a reading of the clock, %.0f ns, is "
+            "taken off)\n  %-26s %12s %14s %8s\n",
+            1e9 * c->lap_seconds, "", "ns a step", "ns an element", "share");
+    for (int part = 0; part < BR_COST_PARTS; part++) {
+        if (c->laps[part] == 0)
+            continue;
+        const double ns = 1e9 * c->seconds[part] / steps;
+        fprintf(out, "  %-26s %12.1f %14.4f %6.1f %%\n", br_cost_part_text((enum br_cost_part)part),
+                ns, ns / (double)p->n, all > 0 ? 100 * c->seconds[part] / all : 0);
+    }
+    fprintf(out, "  %-26s %12.1f %14.4f\n", "sum", 1e9 * all / steps,
+            1e9 * all / steps / (double)p->n);
+}
+
+static void time_used(FILE *out, const struct br_run_page *page)
+{
+    const struct br_run_report *p = page->report;
+    const double steps = (double)p->end.last.step;
+    fprintf(out, "\nTime: %.3g s, of it %.3g s of setting up", page->wall_seconds,
+            p->end.set_up_seconds);
+    if (steps > 0)
+        fprintf(out, " and %.4g us a step, %.4g ns an element-step%s",
+                1e6 * p->end.march_seconds / steps,
+                1e9 * p->end.march_seconds / steps / (double)p->n,
+                p->checked  ? ", the check included"
+                : p->summed ? ", the energies included"
+                            : "");
+    fprintf(out, "\n");
+}
+
+void br_run_text(FILE *out, const struct br_run_page *page)
+{
+    const struct br_run_report *p = page->report;
+    head(out, page);
+    tip(out, p);
+    events(out, p);
+    energies(out, p);
+    certificate(out, p);
+    model(out, p);
+    cost(out, p);
+    if (p->scene->remark) {
+        fprintf(out, "\nRemark: ");
+        br_print_plain(out, p->scene->remark);
+        fprintf(out, "\n");
+    }
+    time_used(out, page);
+}

@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* `figures`, and the pictures of `run`, as a user sees them. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli_driver.h"
+#include "plots/figures.h"
+#include "support.h"
+
+static bool has_gnuplot(void)
+{
+    return getenv("GNUPLOT") != NULL;
+}
+
+/* Draws a script again; whether gnuplot had nothing to say, but how many frames a GIF has. */
+static bool is_silent(const char *folder, const char *script)
+{
+    char command[1024], path[512], said[256] = "";
+    cli_path(folder, path);
+    snprintf(command, sizeof command, "cd '%s' && '%s' --default-settings '%s' 2>&1", path,
+             getenv("GNUPLOT"), script);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    const size_t got = fread(said, 1, sizeof said - 1, pipe);
+    const bool silent = got == 0 || strstr(said, " frames in animation sequence\n");
+    if (!silent || strstr(said, "arning"))
+        print_error("%s: %s\n", script, said);
+    return pclose(pipe) == 0 && silent && !strstr(said, "arning");
+}
+
+static void test_figures(void **state)
+{
+    (void)state;
+    cli_expect("figures --out figures", NULL, 0, "11 agree, 5 differ, 0 undecided");
+    for (size_t i = 0; br_figures[i]; i++) {
+        char name[64];
+        static const char *const kinds[] = {"gp", "dat", "txt", "svg", "png"};
+        for (size_t k = 0; k < (has_gnuplot() ? 5 : 3); k++) {
+            snprintf(name, sizeof name, "figures/figure%d.%s", br_figures[i]->number, kinds[k]);
+            if (!cli_is_there(name))
+                fail_msg("%s is not there", name);
+        }
+        snprintf(name, sizeof name, "figures/figure%d.txt", br_figures[i]->number);
+        assert_true(cli_file_contains(name, br_figures[i]->says));
+        snprintf(name, sizeof name, "figure%d.gp", br_figures[i]->number);
+        assert_true(!has_gnuplot() || is_silent("figures", name));
+    }
+    static const char *const tables[] = {"claims.csv", "claims.md", "claims.tex", "README.md"};
+    for (size_t t = 0; t < 4; t++) {
+        char name[64];
+        snprintf(name, sizeof name, "figures/%s", tables[t]);
+        assert_true(cli_is_there(name));
+    }
+    for (size_t i = 0; br_claims[i]; i++) {
+        char row[128];
+        snprintf(row, sizeof row, "\n%s,%s,", br_claims[i]->name, br_claims[i]->section);
+        assert_true(cli_file_contains("figures/claims.csv", row));
+    }
+    assert_true(cli_file_contains("figures/claims.csv", ",s,0.68,0.8,"));
+    assert_true(cli_file_contains("figures/claims.csv", ",0.8,differ,"));
+}
+
+static void test_without_gnuplot(void **state)
+{
+    (void)state;
+    const struct cli_circumstances nowhere = {.path = "/nowhere"};
+    cli_expect("figures --quiet --out bare", &nowhere, 0, "gnuplot is not installed");
+    assert_true(cli_is_there("bare/figure10.gp") && cli_is_there("bare/claims.md"));
+    assert_false(cli_is_there("bare/figure10.png"));
+    cli_expect("run example2 --n 10 --k 0.1 --quiet --animate bare.gif", &nowhere, 0,
+               "gnuplot is not installed: the animation is written as a script");
+    assert_true(cli_is_there("bare.gp") && cli_is_there("bare.dat"));
+    assert_false(cli_is_there("bare.gif"));
+    cli_expect("run example2 --n 10 --k 0.1 --quiet --plot", &nowhere, 0,
+               "gnuplot is not installed: --plot shows nothing");
+}
+
+static void test_bad_options(void **state)
+{
+    (void)state;
+    cli_expect("figures here", NULL, 2, "found 'here', expected options alone");
+    cli_expect("figures --threads x", NULL, 2, "--threads: found 'x'");
+    cli_expect("figures --out ''", NULL, 2, "expected a folder's name");
+    cli_expect("figures --help", NULL, 0, "Usage: beamrate figures [");
+    cli_expect("run example2 --animate x.mp4", NULL, 2,
+               "--animate: found 'x.mp4', expected a name that ends with: .gif");
+    cli_expect("run example2 --animate no%d.gif", NULL, 2, "expected a file's name");
+    cli_expect("run example2 --n 20001 --animate x.gif", NULL, 2,
+               "n is 20001, expected at most 20000");
+    cli_write_file("wall", "");
+    cli_expect("run example2 --animate wall/x.gif", NULL, 2,
+               "--animate cannot write in the folder wall");
+    assert_false(cli_is_there("x.mp4"));
+}
+
+/* The frames of a GIF: image descriptors, found by walking its blocks (GIF89a). */
+static int gif_frames(const char *name)
+{
+    static unsigned char bytes[1 << 22];
+    char path[512];
+    cli_path(name, path);
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    const size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    assert_true(size > 13 && size < sizeof bytes && memcmp(bytes, "GIF89a", 6) == 0);
+    size_t at = 13 + (bytes[10] & 0x80 ? (size_t)3 << ((bytes[10] & 7) + 1) : 0);
+    int frames = 0;
+    while (at < size && bytes[at] != 0x3b) {
+        if (bytes[at] == 0x2c) {
+            const unsigned char flags = bytes[at + 9];
+            frames++;
+            at += 10 + (flags & 0x80 ? (size_t)3 << ((flags & 7) + 1) : 0) + 1;
+        } else
+            at += 2; /* an extension */
+        while (at < size && bytes[at])
+            at += bytes[at] + 1u;
+        at++;
+    }
+    assert_true(at == size - 1);
+    return frames;
+}
+
+static void test_animation(void **state)
+{
+    (void)state;
+    if (!has_gnuplot())
+        skip();
+    /* 50 steps: every one, and t = 0 */
+    cli_expect("run example2 --n 10 --k 0.02 --quiet --animate moving.gif", NULL, 0, "");
+    assert_int_equal(gif_frames("moving.gif"), 51);
+    /* 1000 steps: every ninth, and the last */
+    cli_expect("run example3 --n 10 --quiet --animate long.gif", NULL, 0, "");
+    assert_int_equal(gif_frames("long.gif"), 113);
+    assert_true(is_silent(".", "moving.gp") && is_silent(".", "long.gp"));
+    cli_expect("run example1 --n 10 --k 0.25 --quiet --animate frames/", NULL, 0, "");
+    assert_int_equal(cli_count_files("frames"), 5 + 2);
+    assert_true(cli_is_there("frames/frame-0005.png"));
+    /* whole or not at all */
+    cli_expect("run example2 --n 10 --k 0.02 --quiet --animate full.gif",
+               &(struct cli_circumstances){.file_size = 40000}, 3, "");
+    assert_false(cli_is_there("full.gif") || cli_is_there("full.gp"));
+}
+
+static void test_plot(void **state)
+{
+    (void)state;
+    if (!has_gnuplot())
+        skip();
+    cli_expect("run example4 --n 10 --plot", NULL, 0, "friction force and its bound (N)");
+    cli_expect("run example3 --n 10 --plot", NULL, 0, "vertical displacement of the tip");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_figures),     cmocka_unit_test(test_without_gnuplot),
+        cmocka_unit_test(test_bad_options), cmocka_unit_test(test_animation),
+        cmocka_unit_test(test_plot),
+    };
+    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
+}

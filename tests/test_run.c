@@ -1,0 +1,423 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A march that is watched: rows and looks, events, energies, what is modelled. */
+#include "study/run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "tests/support.h"
+
+/* ---- energies ---- */
+
+/* A function of x at the nodes, with its slope for bending. */
+static void fill(const struct br_field *f, double (*value)(double), double (*slope)(double),
+                 double *nodal)
+{
+    const size_t d = br_field_unknowns(f->kind);
+    for (size_t i = 0; i <= f->n; i++) {
+        nodal[d * i] = value(f->h * (double)i);
+        if (d == 2)
+            nodal[2 * i + 1] = f->h * slope(f->h * (double)i);
+    }
+}
+
+static double identity(double x)
+{
+    return x;
+}
+
+static double square(double x)
+{
+    return x * x;
+}
+
+static double twice(double x)
+{
+    return 2 * x;
+}
+
+/* On L = 2: u = x, w = x^2 lie in the spaces, so their energies are exact. */
+static void test_energy_of_states(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bare();
+    scene.length = 2;
+    scene.density = 3;
+    scene.axial.stiffness = 5;
+    scene.bending.stiffness = 7;
+    const struct br_field axial = br_field_of_scene(&scene, BR_AXIAL, 6, 0.1);
+    const struct br_field bending = br_field_of_scene(&scene, BR_BENDING, 6, 0.1);
+    double u[7], w[14];
+    fill(&axial, identity, NULL, u);
+    fill(&bending, square, twice, w);
+    CLOSE(br_energy_stored(&axial, u), 5.0 / 2 * 2, 1e-14);
+    CLOSE(br_energy_kinetic(&axial, u), 3.0 / 2 * 8 / 3, 1e-14);
+    CLOSE(br_energy_stored(&bending, w), 7.0 / 2 * 4 * 2, 1e-12);
+    CLOSE(br_energy_kinetic(&bending, w), 3.0 / 2 * 32 / 5, 1e-13);
+}
+
+static struct br_run_report run(const struct br_scene *scene, size_t n, size_t steps,
+                                const char *contact)
+{
+    struct br_error err = {0};
+    struct br_run_report report;
+    const struct br_run_request request = {
+        .scene = scene,
+        .method = br_test_method(NULL, contact, NULL),
+        .n = n,
+        .steps = steps,
+        .check = true,
+    };
+    MUST(br_run(&request, &report, &err));
+    return report;
+}
+
+/* A cantilever that creeps to rest under q: q^2 L^5/(40 a) but for the elements' bubbles, which
+ * have (h/L)^4/36 of it. The load does twice that work; viscosity and the scheme have the other
+ * half. */
+static void test_energy_at_rest(void **state)
+{
+    (void)state;
+    const double q = 3, a = 2, exact = q * q / (40 * a) * (1 - pow(1.0 / 8, 4) / 36);
+    struct br_scene scene = br_test_bare();
+    scene.duration = 60;
+    scene.axial.modelled = false;
+    scene.bending.stiffness = a;
+    scene.bending.load = br_test_load("3");
+    const struct br_run_report p = run(&scene, 8, 6000, NULL);
+    CLOSE(p.energy_now.stored[BR_BENDING], exact, 1e-11 * exact);
+    AT_MOST(p.energy_now.kinetic[BR_BENDING], 1e-20);
+    CLOSE(p.work.loads[BR_BENDING], 2 * exact, 1e-10 * exact);
+    CLOSE(p.work.viscous[BR_BENDING] + p.work.scheme, exact, 1e-10 * exact);
+    AT_MOST(fabs(br_energy_imbalance(&p.energy_start, &p.energy_now, &p.work)), 1e-12);
+    br_scene_clear(&scene);
+}
+
+/* Without a load energy is only lost; with smaller steps, less of it to the scheme, in proportion.
+ */
+static void test_free_decay(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bare();
+    scene.duration = 2;
+    scene.axial.viscosity = scene.bending.viscosity = 0.05;
+    scene.axial.displacement = br_test_function("0.1*x");
+    scene.bending.displacement = br_test_function("0.1*x^2");
+    scene.bending.displacement_slope = br_test_function("0.2*x");
+    const struct br_run_report coarse = run(&scene, 10, 4000, NULL);
+    const struct br_run_report fine = run(&scene, 10, 8000, NULL);
+    const double start = 0.5 * 0.01 + 0.5 * 0.04;
+    CLOSE(br_energy_total(&fine.energy_start), start, 1e-13);
+    CLOSE(br_energy_total(&fine.energy_now) + fine.work.viscous[0] + fine.work.viscous[1] +
+              fine.work.scheme,
+          start, 1e-11 * start);
+    assert_true(fine.work.viscous[0] > 0 && fine.work.viscous[1] > 0);
+    assert_true(fine.work.loads[0] == 0 && fine.work.loads[1] == 0);
+    CLOSE(coarse.work.scheme / fine.work.scheme, 2, 0.1);
+    br_scene_clear(&scene);
+}
+
+/* Every term counts: without one of them the balance is out by more than round-off. */
+static void test_every_term(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    const struct br_run_report p = run(&scene, 20, 500, "lagged");
+    AT_MOST(fabs(br_energy_imbalance(&p.energy_start, &p.energy_now, &p.work)), 1e-12);
+    const size_t offsets[] = {
+        offsetof(struct br_work, loads[0]),      offsetof(struct br_work, loads[1]),
+        offsetof(struct br_work, viscous[0]),    offsetof(struct br_work, viscous[1]),
+        offsetof(struct br_work, friction),      offsetof(struct br_work, scheme),
+        offsetof(struct br_work, scheme_contact)};
+    for (size_t i = 0; i < sizeof offsets / sizeof *offsets; i++) {
+        struct br_work spoilt = p.work;
+        *(double *)((char *)&spoilt + offsets[i]) = 0;
+        assert_true(fabs(br_energy_imbalance(&p.energy_start, &p.energy_now, &spoilt)) > 1e-6);
+        *(double *)((char *)&spoilt + offsets[i]) = NAN;
+        assert_true(isnan(br_energy_imbalance(&p.energy_start, &p.energy_now, &spoilt)));
+    }
+    CLOSE(p.work.friction, p.watch.friction_work, 1e-12 * p.work.friction);
+    assert_int_equal(p.bad_steps, 0);
+    br_scene_clear(&scene);
+}
+
+/* ---- events ---- */
+
+static void watch_rows(struct br_tip_watch *w, const double rows[][4], size_t count)
+{
+    struct br_scene scene = br_test_bare();
+    scene.contact = (struct br_contact){true, 1, 1};
+    scene.friction.law = BR_COULOMB;
+    const struct br_history_observer o = br_tip_watch_start(w, &scene, 10);
+    for (size_t i = 0; i < count; i++) {
+        const struct br_history_row row = {
+            .step = i,
+            .time = 0.1 * (double)i,
+            .displacement = {rows[i][0], NAN},
+            .friction_force = rows[i][1],
+            .friction_bound = rows[i][2],
+            .velocity = {0, rows[i][3]},
+        };
+        assert_int_equal(o.step(o.self, NULL, &row, NULL), BR_OK);
+    }
+}
+
+static void test_events(void **state)
+{
+    (void)state;
+    static const double rows[][4] = {
+        {0, NAN, 0, 0},  {0, 0, 0, 1}, /* open: free */
+        {2, 5, 5, 1},                  /* closed, slips up */
+        {2, 4, 5, 0},                  /* sticks */
+        {2, -5, 5, -1},                /* slips down: a reversal through a stick */
+        {2, 5, 5, 1},                  /* and at once */
+        {1, 0, 0, 1},                  /* opened: u = g is open */
+        {1.5, -1, 2, 0},               /* closed and sticks */
+        {1.5, 2, 2, 1},                /* slips on in the direction it last did */
+    };
+    static const struct {
+        enum br_tip_event_kind kind;
+        size_t step;
+        int direction;
+    } expected[] = {
+        {BR_TIP_CLOSED, 2, 0},    {BR_TIP_SLIPPED, 2, 1},  {BR_TIP_STUCK, 3, 0},
+        {BR_TIP_REVERSED, 4, -1}, {BR_TIP_REVERSED, 5, 1}, {BR_TIP_OPENED, 6, 0},
+        {BR_TIP_CLOSED, 7, 0},    {BR_TIP_STUCK, 7, 0},    {BR_TIP_SLIPPED, 8, 1},
+    };
+    static struct br_tip_watch w;
+    watch_rows(&w, rows, sizeof rows / sizeof *rows);
+    assert_false(w.closed_at_start);
+    assert_int_equal(w.regime_at_start, BR_TIP_FREE);
+    assert_int_equal(w.events, sizeof expected / sizeof *expected);
+    for (size_t i = 0; i < w.events; i++) {
+        assert_int_equal(w.event[i].kind, expected[i].kind);
+        assert_int_equal(w.event[i].step, expected[i].step);
+        assert_int_equal(w.event[i].direction, expected[i].direction);
+    }
+    assert_int_equal(w.closed_steps, 6);
+    assert_int_equal(w.regime_steps[BR_TIP_FREE], 2);
+    assert_int_equal(w.regime_steps[BR_TIP_STICK], 2);
+    assert_int_equal(w.regime_steps[BR_TIP_SLIP], 4);
+    CLOSE(w.friction_work, 0.1 * (5 + 5 + 5 + 2), 1e-14);
+    CLOSE(w.friction_force.value, 5, 0);
+}
+
+/* Example 3 lets go at 0.8 s: within a step. */
+static void test_release(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example3");
+    const struct br_run_report p = run(&scene, 20, 10000, NULL);
+    assert_int_equal(p.watch.count[BR_TIP_SLIPPED], 1);
+    assert_int_equal(p.watch.events, 1);
+    CLOSE(p.watch.event[0].time, 0.8, 1.01 * p.k);
+    assert_int_equal(p.watch.event[0].direction, -1);
+    br_scene_clear(&scene);
+}
+
+/* ---- the history ---- */
+
+static void test_rows_and_looks(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    const struct br_method method = br_method_default();
+    struct br_history_record record = {0};
+    const struct br_history_observer recorder = br_history_recorder(&record, 10);
+    static const size_t level[] = {0, 7, 200};
+    const struct br_history_request request = {
+        .scene = &scene,
+        .method = &method,
+        .n = 10,
+        .steps = 200,
+        .stride = 3,
+        .level = level,
+        .levels = 3,
+        .observer = &recorder,
+        .observers = 1,
+    };
+    struct br_march *march;
+    struct br_history_end end;
+    MUST(br_history_run(&request, &march, &end, &err));
+    assert_int_equal(record.rows, 68); /* 0, 3, ..., 198, 200 */
+    assert_int_equal(record.row[66].step, 198);
+    assert_int_equal(record.row[67].step, 200);
+    assert_int_equal(end.last.step, 200);
+    assert_int_equal(record.looks, 3);
+    struct br_march *again = br_test_march(&scene, 10, 200, &method);
+    double w[22], v[22];
+    for (size_t i = 0; i < 3; i++) {
+        br_test_advance(again, level[i]);
+        assert_int_equal(record.at[i].step, level[i]);
+        br_march_get(again, BR_BENDING, w, v);
+        assert_memory_equal(br_history_field(&record, i, BR_BENDING, false), w, sizeof w);
+        assert_memory_equal(br_history_field(&record, i, BR_BENDING, true), v, sizeof v);
+        br_march_get(again, BR_AXIAL, w, v);
+        assert_memory_equal(br_history_field(&record, i, BR_AXIAL, false), w, 11 * sizeof *w);
+        assert_memory_equal(br_history_field(&record, i, BR_AXIAL, true), v, 11 * sizeof *v);
+    }
+    const double tip = br_march_tip_displacement(again, BR_BENDING);
+    assert_true(record.row[67].displacement[BR_BENDING] == tip);
+    assert_true(record.row[67].velocity[BR_BENDING] == br_march_tip(again)->velocity[BR_BENDING]);
+    assert_true(isnan(record.row[0].friction_force));
+    br_march_free(again);
+    br_march_free(march);
+    br_history_record_clear(&record);
+    br_scene_clear(&scene);
+}
+
+static void test_stride(void **state)
+{
+    (void)state;
+    for (size_t steps = 1; steps < 300; steps++)
+        for (size_t rows = 2; rows < 40; rows++) {
+            const size_t stride = br_history_stride(steps, rows);
+            assert_true(steps / stride + 1 + (steps % stride != 0) <= rows);
+            assert_true(stride == 1 ||
+                        steps / (stride - 1) + 1 + (steps % (stride - 1) != 0) > rows);
+        }
+}
+
+/* Measuring the parts of a step changes no bit of it. */
+static void test_cost(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_run_request request = {
+        .scene = &scene, .method = br_method_default(), .n = 50, .steps = 100};
+    struct br_run_report plain, explained;
+    MUST(br_run(&request, &plain, &err));
+    request.explain = true;
+    MUST(br_run(&request, &explained, &err));
+    assert_memory_equal(plain.end.last.displacement, explained.end.last.displacement,
+                        sizeof plain.end.last.displacement);
+    assert_memory_equal(plain.end.last.velocity, explained.end.last.velocity,
+                        sizeof plain.end.last.velocity);
+    const struct br_step_cost *c = &explained.cost;
+    assert_int_equal(c->laps[BR_COST_LOAD_AXIAL], 100);
+    assert_int_equal(c->laps[BR_COST_FIELD_BENDING], 200);
+    assert_int_equal(c->laps[BR_COST_FRICTION], 100);
+    assert_int_equal(c->laps[BR_COST_CHECK], 0);
+    assert_true(c->seconds[BR_COST_FIELD_BENDING] > 0);
+    br_scene_clear(&scene);
+}
+
+struct stop_at {
+    size_t step, told;
+};
+
+static enum br_status stop(void *self, const struct br_march *march,
+                           const struct br_history_row *row, struct br_error *err)
+{
+    (void)march;
+    struct stop_at *s = self;
+    s->told = row->step;
+    return row->step == s->step ? br_fail(err, BR_IO, "the disk is full") : BR_OK;
+}
+
+/* An observer's failure is the run's; a march's is a result. */
+static void test_failures(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_run_report report;
+    struct br_scene scene = br_test_bare();
+    scene.axial.load = br_test_load("exp(1000*t)");
+    struct stop_at s = {.step = 5};
+    struct br_history_observer observer = {.self = &s, .step = stop};
+    struct br_run_request request = {.scene = &scene,
+                                     .method = br_method_default(),
+                                     .n = 4,
+                                     .steps = 100,
+                                     .output = &observer,
+                                     .outputs = 1,
+                                     .stride = 50};
+    REFUSED(br_run(&request, &report, &err), BR_IO, "the disk is full");
+    assert_int_equal(s.told, 5);
+    struct br_history_record record = {0};
+    observer = br_history_recorder(&record, 4);
+    MUST(br_run(&request, &report, &err));
+    assert_int_equal(report.failure.status, BR_NOT_FINITE);
+    assert_non_null(strstr(report.failure.message, "axial load: "));
+    assert_non_null(strstr(report.failure.message, "t = 0.70999999999999996 s"));
+    assert_non_null(strstr(report.failure.message, "the last good step, 70 at t = 0.7 s"));
+    assert_int_equal(report.end.last.step, 70);
+    assert_int_equal(record.rows, 3); /* 0, 50, 70 */
+    assert_int_equal(record.row[2].step, 70);
+    assert_false(report.at_end);
+    br_history_record_clear(&record);
+    br_scene_clear(&scene);
+}
+
+/* ---- what is modelled ---- */
+
+static const struct br_model_row *find(const struct br_run_report *p, const char *key)
+{
+    for (size_t i = 0; i < p->model_rows; i++)
+        if (strcmp(p->model[i].key, key) == 0)
+            return &p->model[i];
+    fail_msg("no row '%s'", key);
+    return NULL;
+}
+
+static void test_model(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_run_report p;
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_run_request request = {
+        .scene = &scene, .method = br_method_default(), .n = 4, .steps = 10};
+    request.wanted = BR_WANT_BENDING;
+    REFUSED(br_run(&request, &p, &err), BR_BAD_INPUT, "Coulomb's friction bound");
+    request.wanted = BR_WANT_AXIAL;
+    MUST(br_run(&request, &p, &err));
+    assert_false(find(&p, "bending")->modelled);
+    assert_false(find(&p, "friction")->modelled);
+    assert_true(find(&p, "contact")->modelled);
+    const double u = p.end.last.displacement[BR_AXIAL];
+
+    scene.friction.law = BR_TRESCA;
+    request.wanted = 0;
+    MUST(br_run(&request, &p, &err));
+    assert_false(find(&p, "axial")->modelled);
+    assert_non_null(strstr(find(&p, "axial")->why, "--fields axial,bending marches it"));
+    assert_false(find(&p, "contact")->modelled);
+    assert_true(p.end.last.displacement[BR_AXIAL] == 0);
+    const double w = p.end.last.displacement[BR_BENDING];
+    request.wanted = BR_WANT_AXIAL | BR_WANT_BENDING;
+    MUST(br_run(&request, &p, &err));
+    assert_true(find(&p, "axial")->modelled);
+    assert_true(p.end.last.displacement[BR_AXIAL] == u);
+    assert_true(p.end.last.displacement[BR_BENDING] == w); /* to the bit */
+
+    scene.friction.law = BR_FRICTIONLESS;
+    request.wanted = 0;
+    MUST(br_run(&request, &p, &err));
+    assert_true(find(&p, "axial")->modelled && find(&p, "bending")->modelled);
+    assert_non_null(strstr(find(&p, "friction")->why, "no friction algebra"));
+    assert_non_null(strstr(find(&p, "axial_load")->why, "one evaluation of its history a step"));
+    assert_non_null(strstr(find(&p, "initial_data")->why, "not interpolated"));
+    br_scene_clear(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_energy_of_states),
+        cmocka_unit_test(test_energy_at_rest),
+        cmocka_unit_test(test_free_decay),
+        cmocka_unit_test(test_every_term),
+        cmocka_unit_test(test_events),
+        cmocka_unit_test(test_release),
+        cmocka_unit_test(test_rows_and_looks),
+        cmocka_unit_test(test_stride),
+        cmocka_unit_test(test_cost),
+        cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_model),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* `beamrate run` as a user meets it. */
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tables/fields_file.h"
+#include "tests/cli_driver.h"
+#include "tests/support.h"
+
+#define SCENE                                                     \
+    "title: a rod\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n" \
+    "axial:\n  stiffness: 100 N\n  viscosity: 1 N s\n  load: 10*t [N/m]\n"
+
+static void test_bad_input(void **state)
+{
+    (void)state;
+    cli_write_file("rod.yaml", SCENE);
+    cli_write_file("pole.yaml", SCENE "  tip_force: 1/(1 - t) [N]\n");
+    cli_write_file("clamp.yaml", SCENE "  displacement: x + 1 [m]\n");
+    cli_write_file("gap.yaml", SCENE "contact:\n  gap: -1 m\n  stiffness: 1 N/m\n");
+    cli_write_file("word.yaml", SCENE "  tip_force: sin(t [N]\n");
+    static const struct {
+        const char *line, *message;
+    } rows[] = {
+        {"run", "no scene is given"},
+        {"run nowhere", "scene 'nowhere' is no file and no bundled scene"},
+        {"run rod.yaml more", "found 'more', expected nothing more"},
+        {"run pole.yaml", "pole.yaml:9: tip_force: found inf at t = 1 s, expected a finite number"},
+        {"run clamp.yaml", "clamp.yaml:9: displacement: initial axial displacement is 1 at x = 0"},
+        {"run gap.yaml", "gap.yaml:10: gap: found -1 m, expected a value >= 0 m"},
+        {"run word.yaml", "word.yaml:9: tip_force: 'sin(t' is no expression in x and t"},
+        {"run rod.yaml --n 0", "--n: found '0'"},
+        {"run rod.yaml --n 1.5", "--n: found 1.5, expected whole numbers"},
+        {"run rod.yaml --n 10,20", "--n: found '10,20', expected one number of elements"},
+        {"run rod.yaml --k 0.3", "the nearest that do are 0.3333333333 and 0.25"},
+        {"run rod.yaml --k 0", "--k: found '0', expected one time above 0"},
+        {"run rod.yaml --k 1e-3m", "--k: found '1e-3m'"},
+        {"run rod.yaml --k 0.1,0.2", "--k: found '0.1,0.2'"},
+        {"run rod.yaml --solver magic", "--solver: found 'magic'"},
+        {"run rod.yaml --scaling sum", "--scaling: solver riccati does not heed it"},
+        {"run rod.yaml --fields u", "--fields: found 'u', expected axial, bending or"},
+        {"run rod.yaml --fields bending", "the scene has no bending part"},
+        {"run example2 --fields bending", "Coulomb's friction bound"},
+        {"run rod.yaml --at 0.1", "--at needs --out"},
+        {"run rod.yaml --every 0.1", "--every needs --out"},
+        {"run rod.yaml --at 0 --every 1 --out r", "--at and --every are given"},
+        {"run rod.yaml --at 2 --out r", "--at: found 2 s, expected a time of [0, 1] s"},
+        {"run rod.yaml --at 0,-0.5 --out r", "--at: found -0.5 s, expected a time of [0, 1] s"},
+        {"run rod.yaml --at nan --out r", "--at: found 'nan'"},
+        {"run rod.yaml --at 0.5, --out r", "--at: found ''"},
+        {"run rod.yaml --at 0.5,0.5 --out r", "--at: 0.5 s is given twice"},
+        {"run rod.yaml --at 0.0005 --out r",
+         "expected a multiple of k = 0.001 s; the nearest are 0 s and 0.001 s"},
+        {"run rod.yaml --every 2 --out r", "--every: found 2 s, expected a time of [0, 1] s"},
+        {"run rod.yaml --every 0 --out r", "--every: found '0'"},
+        {"run rod.yaml --every 1e-4 --out r", "--every: found 0.0001 s, expected a multiple"},
+        {"run rod.yaml --rows 1 --out r", "--rows: found '1', expected 2 or more"},
+        {"run rod.yaml --json rod.yaml", "--json would replace the scene rod.yaml"},
+        {"run rod.yaml --json no/such/x", "--json: cannot write 'no/such/x'"},
+        {"run rod.yaml --out ''", "--out: found ''"},
+        {"run rod.yaml --bogus", "--bogus: unknown option"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        cli_expect(rows[i].line, NULL, 2, rows[i].message);
+    assert_false(cli_is_there("r"));
+}
+
+static void test_summary(void **state)
+{
+    (void)state;
+    static const char *const said[] = {
+        "Example 3, Tresca friction",
+        "20 elements, h = 0.05 m; 1000 steps of k = 0.001 s",
+        "not marched",
+        "friction force, N                      -3000  of a bound of 3000 (100 %): slip towards -w",
+        "t = 0.8               slipped towards -w",
+        "lost to friction",
+        "bending field       modelled  40 unknowns, cubic Hermite elements",
+        "axial field         skipped   the scene has no axial part",
+        "contact             skipped   the scene has no contact part: no lagged force",
+        "initial data        skipped   zero: not interpolated",
+        "Time: ",
+    };
+    for (size_t i = 0; i < sizeof said / sizeof *said; i++)
+        cli_expect("run example3 --n 20", NULL, 0, said[i]);
+    cli_expect("run example3 --n 20 --quiet", NULL, 0, "");
+    cli_expect("run example3 --n 20 --explain", NULL, 0, "bending field");
+    cli_expect("run example3 --n 20 --explain", NULL, 0, "ns an element");
+    cli_expect("run example3 --n 20 --check", NULL, 0, "Certificate of every step");
+    cli_expect("run example3 --n 20 --energies", NULL, 0, "balance: from 0 at t = 0 to");
+    cli_expect("run impact --k 0.02", NULL, 0,
+               "  ... and 47 more\n  in all: closed 34, opened 33,");
+    cli_expect("run impact --k 0.02", NULL, 0, "beyond its stability limit");
+    static struct cli_outcome out;
+    cli_run_line("run example3 --n 20 --quiet", NULL, &out);
+    assert_string_equal(out.output, "");
+}
+
+/* One JSON value by its path, "a.b.c". */
+static const json_t *look_up(const json_t *value, const char *path)
+{
+    char text[128];
+    snprintf(text, sizeof text, "%s", path);
+    for (char *key = strtok(text, "."); key; key = strtok(NULL, ".")) {
+        value = json_object_get(value, key);
+        if (!value)
+            fail_msg("no '%s' in the JSON", path);
+    }
+    return value;
+}
+
+static double number(const json_t *root, const char *path)
+{
+    return json_number_value(look_up(root, path));
+}
+
+static void test_json(void **state)
+{
+    (void)state;
+    static struct cli_outcome out;
+    cli_run_line("run example3 --n 20 --check --explain --json -", NULL, &out);
+    assert_int_equal(out.exit_code, 0);
+    json_error_t error;
+    json_t *root = json_loads(out.output, 0, &error);
+    assert_non_null(root);
+    assert_string_equal(json_string_value(look_up(root, "format")), "beamrate run 1");
+    CLOSE(number(root, "tip.displacement.bending"), -0.24875, 1e-10);
+    assert_true(json_is_null(look_up(root, "tip.displacement.axial")));
+    assert_true(json_is_null(look_up(root, "tip.contact_force")));
+    assert_true(json_is_null(look_up(root, "stopped")));
+    CLOSE(number(root, "tip.friction_bound"), 3000, 0);
+    assert_string_equal(json_string_value(look_up(root, "tip.regime")), "slip");
+    CLOSE(number(root, "events.counts.slipped"), 1, 0);
+    CLOSE(number(root, "events.resolution"), 1e-3, 1e-18);
+    const json_t *event = json_array_get(look_up(root, "events.list"), 0);
+    CLOSE(number(event, "t"), 0.8, 1.01e-3);
+    CLOSE(number(event, "direction"), -1, 0);
+    AT_MOST(fabs(number(root, "energies.imbalance")), 1e-12);
+    AT_MOST(number(root, "certificate.worst.bending"), number(root, "certificate.limits.bending"));
+    CLOSE(number(root, "certificate.bad_steps"), 0, 0);
+    assert_true(json_array_size(look_up(root, "model")) > 5);
+    assert_true(json_array_size(look_up(root, "cost")) > 3);
+    assert_true(number(root, "seconds.per_element_step") > 0);
+    assert_non_null(strstr(json_string_value(look_up(root, "scene.text")), "law: tresca"));
+    json_decref(root);
+    cli_expect("run example1 --n 4 --quiet --json one.json", NULL, 0, "");
+    assert_true(cli_file_contains("one.json", "\"format\": \"beamrate run 1\""));
+}
+
+static size_t count_lines(const char *name)
+{
+    char path[512];
+    cli_path(name, path);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    size_t lines = 0;
+    for (int c; (c = fgetc(file)) != EOF;)
+        lines += c == '\n';
+    fclose(file);
+    return lines;
+}
+
+static void test_files(void **state)
+{
+    (void)state;
+    const char *fields = br_fields_formats[0]->file_name;
+    char name[64];
+    cli_expect("run example2 --n 10 --k 0.01 --at 0.5,0,1 --out f --quiet", NULL, 0, "");
+    assert_int_equal(cli_count_files("f"), 4);
+    assert_int_equal(count_lines("f/history.csv"), 102);
+    assert_true(cli_file_contains(
+        "f/history.csv", "step,t,u,w,u_t,w_t,contact_force,friction_force,friction_bound\n0,0,"));
+    snprintf(name, sizeof name, "f/%s", fields);
+    assert_true(cli_is_there(name));
+    assert_true(cli_file_contains("f/summary.txt", "Example 2"));
+    assert_true(cli_file_contains("f/summary.json", "\"beamrate run 1\""));
+    cli_expect("run example2 --n 10 --k 0.01 --rows 11 --every 0.1 --out f --quiet", NULL, 0, "");
+    assert_int_equal(cli_count_files("f"), 4);
+    assert_int_equal(count_lines("f/history.csv"), 12);
+    if (strcmp(br_fields_formats[0]->name, "csv") == 0)
+        assert_int_equal(count_lines("f/fields.csv"), 1 + 11 * 11);
+    /* what is not modelled is empty, not zero */
+    cli_expect("run example3 --n 10 --k 0.01 --out h --quiet", NULL, 0, "");
+    assert_true(cli_file_contains("h/history.csv", "\n0,0,,0,,0,,,3000\n1,0.01"));
+    /* a disk that is full leaves nothing behind */
+    const struct cli_circumstances full = {.file_size = 2000};
+    cli_expect("run example2 --n 1000 --k 0.01 --out g --quiet", &full, 3, "beamrate: ");
+    assert_false(cli_is_there("g"));
+}
+
+/* The rows that were made are kept, and the last line says why there are no more. */
+static void test_blow_up(void **state)
+{
+    (void)state;
+    cli_write_file("pole.yaml", SCENE "  tip_force: 1/(0.50005 - t)/(t < 0.50005) [N]\n");
+    cli_write_file("big.yaml", "title: b\nlength: 1 m\nduration: 1 s\ndensity: 1e-9 kg/m\n"
+                               "axial:\n  stiffness: 0.01 N\n  viscosity: 0 N s\n"
+                               "  load: 1e306*t [N/m]\n");
+    cli_expect("run big.yaml --n 10 --out b", NULL, 3, "the march blew up at t = ");
+    assert_true(cli_file_contains("b/history.csv", "\n# stopped: the march blew up at t = "));
+    assert_true(cli_file_contains("b/summary.json", "\"stopped\": \"the march blew up"));
+    assert_true(cli_file_contains("b/summary.txt", "STOPPED: the march blew up"));
+    assert_int_equal(cli_count_files("b"), 4);
+    cli_expect("run pole.yaml", NULL, 2,
+               "pole.yaml:9: tip_force: found -inf at t = 0.5009765625 s");
+    /* between the places where a scene is looked at */
+    cli_write_file("thin.yaml", SCENE "  tip_force: 1 + sqrt(abs(t - 0.70065) - 0.0003) [N]\n");
+    cli_expect("run thin.yaml --n 10 --k 1e-4 --out t --rows 10", NULL, 3,
+               "axial load: the tip force is ");
+    assert_true(cli_file_contains("t/history.csv", "# stopped: axial load: the tip force is "));
+    assert_true(cli_file_contains("t/history.csv", "\n7003,0.7"));
+}
+
+static void test_interrupt(void **state)
+{
+    (void)state;
+    const struct cli_circumstances soon = {.interrupt_after = 300};
+    static struct cli_outcome out;
+    cli_run_line("run example2 --n 1000 --k 1e-6 --out i --quiet", &soon, &out);
+    assert_int_equal(out.exit_code, -2);
+    assert_false(cli_is_there("i"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bad_input), cmocka_unit_test(test_summary),
+        cmocka_unit_test(test_json),      cmocka_unit_test(test_files),
+        cmocka_unit_test(test_blow_up),   cmocka_unit_test(test_interrupt),
+    };
+    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
+}
