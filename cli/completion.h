@@ -46,7 +46,7 @@ extern const struct br_shell br_bash, br_zsh, br_fish;
 /* NULL-terminated. */
 extern const struct br_shell *const br_shells[];
 
-/* Text between single quotes, for any of the shells; what they take for a sign is left out. */
+/* Text between single quotes, for any of the shells; a backslash becomes a blank. */
 void br_write_shell_quoted(FILE *out, const char *text);
 
 #endif

@@ -77,6 +77,6 @@ void br_write_shell_quoted(FILE *out, const char *text)
 {
     fputc('\'', out);
     for (const char *c = text; *c; c++)
-        fputc(strchr("'\\", *c) ? ' ' : *c, out);
+        *c == '\'' ? fputs("'\\''", out) : fputc(*c == '\\' ? ' ' : *c, out);
     fputc('\'', out);
 }

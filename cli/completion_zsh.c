@@ -8,7 +8,7 @@ static void write_option(FILE *out, const struct br_help_option *option)
 {
     fprintf(out, "            '--%s%s[", option->name, *option->argument ? "=" : "");
     for (const char *c = option->help; *c; c++)
-        fputc(strchr("'\\[]:", *c) ? ' ' : *c, out);
+        *c == '\'' ? fputs("'\\''", out) : fputc(strchr("\\[]:", *c) ? ' ' : *c, out);
     fputc(']', out);
     const char *words;
     const enum br_value_kind kind = br_option_values(option, &words);

@@ -13,7 +13,7 @@ const struct br_shell *const br_shells[] = {&br_bash, &br_zsh, &br_fish, NULL};
 
 static const char usage[] = SHELLS
     "\n\nPrints what makes a shell complete the commands, their options, values and scenes.\n\n"
-    "Examples:\n  beamrate completions bash > beamrate.bash && . ./beamrate.bash\n"
+    "Examples:\n  beamrate completions bash > beamrate.bash\n"
     "  beamrate completions zsh > _beamrate\n  beamrate completions fish > beamrate.fish\n";
 
 enum { HELP = 1 };
