@@ -13,8 +13,9 @@
 void br_scene_template_write(FILE *out, const char *schema);
 
 /* The JSON schema (draft 7) of a scene. It refuses nothing that the program takes, but for numbers
- * in an odd notation (hexadecimal, -0); what needs more than one value at a time (a slope that is no derivative, an
- * expression that does not parse) is left to the program. Fails with BR_NO_MEMORY. */
+ * in an odd notation (hexadecimal, -0); what needs more than one value at a time (a slope that is
+ * no derivative, an expression that does not parse) is left to the program. Fails with
+ * BR_NO_MEMORY. */
 enum br_status br_scene_schema_write(FILE *out, struct br_error *err);
 
 #endif

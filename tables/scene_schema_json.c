@@ -130,8 +130,8 @@ static json_t *verify(void)
     json_t *properties = json_object();
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
         json_object_set_new(properties, br_verify_names[kind], verify_study());
-    return json_pack("{s:s, s:b, s:o}", "type", "object", "additionalProperties", 0, "properties",
-                     properties);
+    return json_pack("{s:s, s:i, s:b, s:o}", "type", "object", "minProperties", 1,
+                     "additionalProperties", 0, "properties", properties);
 }
 
 /* ---- keys and sections ---- */
