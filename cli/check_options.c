@@ -8,6 +8,7 @@
 #include "cli/kernel_option.h"
 #include "cli/names.h"
 #include "cli/number_option.h"
+#include "cli/suggest.h"
 #include "tables/check_emitter.h"
 
 static const char usage[] =
@@ -133,8 +134,7 @@ enum br_status br_check_options_parse(int argc, const char **argv, struct br_che
         } else
             status = keep_file(context, o, (size_t)(code - FIRST_FILE), err);
     if (!status && code < -1)
-        status = br_fail(err, BR_BAD_INPUT, "%s: %s; '--help' lists the options",
-                         poptBadOption(context, POPT_BADOPTION_NOALIAS), poptStrerror(code));
+        status = br_bad_option(context, table.row, code, err);
     else if (!status && !o->help)
         status = read_scenes(context, o, err);
     poptFreeContext(context);

@@ -8,6 +8,7 @@
 #include "cli/kernel_option.h"
 #include "cli/names.h"
 #include "cli/number_option.h"
+#include "cli/suggest.h"
 #include "study/number_list.h"
 #include "tables/emitter.h"
 
@@ -113,8 +114,7 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
     const int code = read_all(context, o);
     enum br_status status = BR_OK;
     if (code < -1)
-        status = br_fail(err, BR_BAD_INPUT, "%s: %s; '--help' lists the options",
-                         poptBadOption(context, POPT_BADOPTION_NOALIAS), poptStrerror(code));
+        status = br_bad_option(context, table, code, err);
     else if (!o->help)
         status = read_argument(context, argument, err);
     poptFreeContext(context);

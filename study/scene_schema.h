@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scene format: one row a key. The reader, its messages and the README's
- * table follow this list. */
+/* The scene format: one row a key. The reader, its messages, the template and the JSON schema of
+ * tables/scene_format.h walk this list. */
 #ifndef BR_SCENE_SCHEMA_H
 #define BR_SCENE_SCHEMA_H
 
@@ -28,7 +28,12 @@ struct br_scene_key {
     const char *unit;         /* "" for none */
     size_t offset;            /* into struct br_scene */
     const char *help;         /* what is expected */
+    const char *example;      /* a value, for templates; the required ones make a scene together */
 };
+
+/* The names of the friction laws, by enum br_friction_law; NULL where none is written. */
+enum { BR_FRICTION_LAWS = 3 };
+extern const char *const br_friction_law_names[BR_FRICTION_LAWS];
 
 /* Ends with a row whose name is NULL. */
 extern const struct br_scene_key br_scene_keys[];

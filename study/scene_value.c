@@ -228,14 +228,14 @@ static enum br_status read_text(const struct br_scene_reader *r, const struct br
 static enum br_status read_law(const struct br_scene_reader *r, const struct br_scene_key *key,
                                const yaml_node_t *node)
 {
-    if (strcmp(br_yaml_text(node), "tresca") == 0)
-        r->scene->friction.law = BR_TRESCA;
-    else if (strcmp(br_yaml_text(node), "coulomb") == 0)
-        r->scene->friction.law = BR_COULOMB;
-    else
-        return br_scene_refuse(r, br_yaml_line(node), key->name,
-                               "found '%s', expected tresca or coulomb", br_yaml_text(node));
-    return BR_OK;
+    for (int law = 0; law < BR_FRICTION_LAWS; law++)
+        if (br_friction_law_names[law] &&
+            strcmp(br_yaml_text(node), br_friction_law_names[law]) == 0) {
+            r->scene->friction.law = (enum br_friction_law)law;
+            return BR_OK;
+        }
+    return br_scene_refuse(r, br_yaml_line(node), key->name,
+                           "found '%s', expected tresca or coulomb", br_yaml_text(node));
 }
 
 enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct br_scene_key *key,

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "study/expression.h"
 #include "study/scene_file.h"
@@ -246,4 +247,18 @@ double br_test_slack(void)
 {
     volatile long double one = 1, tiny = 1e-18L;
     return one + tiny == one ? 1e4 : 1;
+}
+
+void br_test_keep_wrong(const char *scene, const char *message)
+{
+    static int count;
+    const char *folder = getenv("BR_WRONG_SCENES");
+    if (!folder)
+        return;
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%d-%03d.yaml", folder, (int)getpid(), count++);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "# %s\n%s", message, scene);
+    assert_int_equal(fclose(file), 0);
 }

@@ -86,6 +86,10 @@ double br_test_deviation(const struct br_test_end *end, const struct br_test_end
 double br_test_distance(enum br_field_kind kind, double length, size_t coarse_n,
                         const double *coarse, size_t fine_n, const double *fine);
 
+/* Puts a scene that is refused with a message into the folder $BR_WRONG_SCENES, if that is set: the
+ * scene schema is tested with them. */
+void br_test_keep_wrong(const char *scene, const char *message);
+
 /* Whether long tests are to be left out (BR_TEST_QUICK is set: valgrind). */
 bool br_test_quick(void);
 

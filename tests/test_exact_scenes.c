@@ -99,8 +99,12 @@ static void test_events(void **state)
         const char *scene;
         size_t closes, opens, sticks, up, down; /* at t = 0 as well */
     } expected[] = {
-        {"impact", 3, 3, 0, 0, 0},    {"reversal", 0, 0, 5, 3, 2}, {"chatter", 2, 3, 2, 3, 1},
-        {"vibration", 0, 0, 0, 0, 0}, {"release", 0, 0, 1, 0, 1},  {"example3", 0, 0, 1, 0, 1},
+        {"impact", 3, 3, 0, 0, 0},        {"reversal", 0, 0, 5, 3, 2},
+        {"chatter", 2, 3, 2, 3, 1},       {"vibration", 0, 0, 0, 0, 0},
+        {"release", 0, 0, 1, 0, 1},       {"example3", 0, 0, 1, 0, 1},
+        {"landing", 1, 1, 0, 0, 0},       {"bouncing", 5, 6, 0, 0, 0},
+        {"heavy_damping", 1, 1, 0, 0, 1}, {"heavy_beam", 1, 0, 5, 0, 6},
+        {"close_bound", 0, 0, 2, 0, 1},
     };
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         struct br_scene scene = br_test_bundled(expected[i].scene);

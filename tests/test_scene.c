@@ -200,6 +200,7 @@ static void test_refusals(void **state)
         spoilt(refusals[i].line, refusals[i].replacement, text, sizeof text);
         const enum br_status status = read_text(text, &scene, &err);
         br_scene_clear(&scene);
+        br_test_keep_wrong(text, err.message);
         REFUSED(status, BR_BAD_INPUT, refusals[i].text);
         snprintf(where, sizeof where, "%s:%zu: %s: ", path, refusals[i].told, refusals[i].key);
         REFUSED(status, BR_BAD_INPUT, where);
@@ -242,6 +243,7 @@ static void test_files(void **state)
         struct br_scene scene;
         const enum br_status status = read_text(files[i].text, &scene, &err);
         br_scene_clear(&scene);
+        br_test_keep_wrong(files[i].text, err.message);
         REFUSED(status, BR_BAD_INPUT, files[i].message);
         REFUSED(status, BR_BAD_INPUT, path);
     }

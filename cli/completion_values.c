@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "cli/completion.h"
+#include "study/study.h"
+#include "tables/emitter.h"
+
+enum { MOST_WORDS = 256 };
+
+static void join(char text[MOST_WORDS], const char *name)
+{
+    const size_t used = strlen(text);
+    snprintf(text + used, MOST_WORDS - used, "%s%s", used ? " " : "", name);
+}
+
+/* The names of a registry's rows. */
+#define NAMES(function, type, registry)                       \
+    static const char *function(void)                         \
+    {                                                         \
+        static char text[MOST_WORDS];                         \
+        text[0] = '\0';                                       \
+        for (const struct type *const *r = registry; *r; r++) \
+            join(text, (*r)->name);                           \
+        return text;                                          \
+    }
+NAMES(solvers, br_linear_solver, br_linear_solvers)
+NAMES(kernels, br_kernel, br_kernels)
+NAMES(contacts, br_contact_rule, br_contact_rules)
+NAMES(frictions, br_friction_rule, br_friction_rules)
+NAMES(norms, br_norm, br_norms)
+NAMES(formats, br_emitter, br_emitters)
+
+/* Those that want numbers end with their colon. */
+static const char *references(void)
+{
+    static char text[MOST_WORDS];
+    text[0] = '\0';
+    for (const struct br_judge *const *j = br_judges; *j; j++) {
+        join(text, (*j)->name);
+        if ((*j)->nests)
+            strcat(text, ":");
+    }
+    return text;
+}
+
+static const char *scalings(void)
+{
+    return "none sum max";
+}
+
+/* Options by name, the same in all commands. */
+static const struct {
+    const char *option;
+    const char *(*words)(void);
+} values[] = {
+    {"solver", solvers},   {"reference-solver", solvers}, {"kernel", kernels},
+    {"contact", contacts}, {"friction", frictions},       {"norm", norms},
+    {"format", formats},   {"reference", references},     {"scaling", scalings},
+};
+
+enum br_value_kind br_option_values(const struct br_help_option *option, const char **words)
+{
+    *words = "";
+    if (strcmp(option->argument, "FILE") == 0)
+        return BR_VALUE_FILE;
+    if (strcmp(option->argument, "DIR") == 0)
+        return BR_VALUE_DIR;
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++)
+        if (*option->argument && strcmp(option->name, values[i].option) == 0) {
+            *words = values[i].words();
+            return strcmp(option->argument, "LIST") == 0 ? BR_VALUE_LIST : BR_VALUE_WORD;
+        }
+    return BR_VALUE_NONE;
+}
+
+void br_write_shell_quoted(FILE *out, const char *text)
+{
+    fputc('\'', out);
+    for (const char *c = text; *c; c++)
+        *c == '\'' ? fputs("'\\''", out) : fputc(*c == '\\' ? ' ' : *c, out);
+    fputc('\'', out);
+}

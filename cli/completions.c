@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* beamrate completions SHELL: what makes a shell complete commands, options and their values. */
+#include <popt.h>
+#include <string.h>
+
+#include "cli/completion.h"
+#include "cli/suggest.h"
+#include "study/scene_file.h"
+
+const struct br_shell *const br_shells[] = {&br_bash, &br_zsh, &br_fish, NULL};
+
+#define SHELLS "bash|zsh|fish"
+
+static const char usage[] = SHELLS
+    "\n\nPrints what makes a shell complete the commands, their options, values and scenes.\n\n"
+    "Examples:\n  beamrate completions bash > beamrate.bash\n"
+    "  beamrate completions zsh > _beamrate\n  beamrate completions fish > beamrate.fish\n";
+
+enum { HELP = 1 };
+
+/* *shell (out): NULL where help was asked for. */
+static enum br_status read_options(int argc, const char **argv, const struct br_shell **shell,
+                                   struct br_error *err)
+{
+    const struct poptOption table[] = {
+        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        POPT_TABLEEND,
+    };
+    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
+    if (!context)
+        return br_no_memory(err, "the options");
+    poptSetOtherOptionHelp(context, usage);
+    int code;
+    bool help = false;
+    while ((code = poptGetNextOpt(context)) == HELP) {
+        help = true;
+        poptPrintHelp(context, stdout, 0);
+    }
+    *shell = NULL;
+    enum br_status status = BR_OK;
+    if (code < -1)
+        status = br_bad_option(context, table, code, err);
+    else if (!help) {
+        const char *word = poptGetArg(context), *more = poptGetArg(context);
+        for (size_t i = 0; word && br_shells[i]; i++)
+            if (strcmp(br_shells[i]->name, word) == 0)
+                *shell = br_shells[i];
+        if (!*shell || more)
+            status = br_fail(err, BR_BAD_INPUT, "found '%s', expected one shell: " SHELLS,
+                             more   ? more
+                             : word ? word
+                                    : "");
+    }
+    poptFreeContext(context);
+    return status;
+}
+
+/* "bash|zsh|fish" as words. */
+static void read_words(const char *arguments, char words[128])
+{
+    words[0] = '\0';
+    if (strspn(arguments, "abcdefghijklmnopqrstuvwxyz|") != strlen(arguments))
+        return;
+    snprintf(words, 128, "%s", arguments);
+    for (char *c = words; *c; c++)
+        if (*c == '|')
+            *c = ' ';
+}
+
+static enum br_status collect_scenes(char *text, size_t size, struct br_error *err)
+{
+    char **name;
+    size_t count, used = 0;
+    const enum br_status status = br_scene_list(&name, &count, err);
+    text[0] = '\0';
+    for (size_t i = 0; i < count && !status && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? " " : "", name[i]);
+    br_scene_list_free(name, count);
+    return status;
+}
+
+static enum br_status collect(struct br_completions *all, struct br_error *err)
+{
+    enum br_status status = collect_scenes(all->scenes, sizeof all->scenes, err);
+    for (const struct br_command *const *c = br_commands;
+         *c && all->count < BR_MOST_COMMANDS && !status; c++) {
+        struct br_completion *one = &all->command[all->count++];
+        one->command = *c;
+        one->scenes = strstr((*c)->arguments, "SCENE") != NULL;
+        read_words((*c)->arguments, one->words);
+        status = br_command_help_read(*c, &one->help, err);
+    }
+    return status;
+}
+
+static enum br_status run(int argc, const char **argv, struct br_error *err)
+{
+    static struct br_completions all;
+    const struct br_shell *shell = NULL;
+    enum br_status status = read_options(argc, argv, &shell, err);
+    if (status || !shell)
+        return status;
+    all.count = 0;
+    status = collect(&all, err);
+    if (!status)
+        shell->write(stdout, &all);
+    return status;
+}
+
+const struct br_command br_command_completions = {
+    .name = "completions",
+    .arguments = SHELLS,
+    .title = "makes a shell complete commands, options, values and scenes",
+    .run = run,
+};

@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* beamrate scenes: the bundled scenes, and what a new one may say. */
+#include <errno.h>
+#include <popt.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/command.h"
+#include "cli/suggest.h"
+#include "cli/whole_file.h"
+#include "study/ranks.h"
+#include "study/scene_file.h"
+#include "tables/scene_format.h"
+
+static const char usage[] =
+    "[SCENE] [OPTION...]\n\nLists the bundled scenes, a line each; shows one; or begins a new "
+    "one.\n\nExamples:\n  beamrate scenes\n  beamrate scenes example2\n"
+    "  beamrate scenes --new my_scene.yaml\n  beamrate scenes --schema > scene.schema.json\n";
+
+struct options {
+    char *file; /* of --new */
+    char *scene;
+    int schema, help;
+};
+
+enum { HELP = 1 };
+
+static enum br_status read_options(int argc, const char **argv, struct options *o,
+                                   struct br_error *err)
+{
+    const struct poptOption table[] = {
+        {"new", 0, POPT_ARG_STRING, &o->file, 0,
+         "write a template with every key, its unit and default; - is standard output", "FILE"},
+        {"schema", 0, POPT_ARG_NONE, &o->schema, 0,
+         "print the JSON schema by which an editor completes and checks scenes", NULL},
+        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        POPT_TABLEEND,
+    };
+    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
+    if (!context)
+        return br_no_memory(err, "the options");
+    poptSetOtherOptionHelp(context, usage);
+    int code;
+    while ((code = poptGetNextOpt(context)) == HELP) {
+        o->help = 1;
+        poptPrintHelp(context, stdout, 0);
+    }
+    enum br_status status = BR_OK;
+    if (code < -1)
+        status = br_bad_option(context, table, code, err);
+    const char *word = status || o->help ? NULL : poptGetArg(context);
+    if (word && !(o->scene = strdup(word)))
+        status = br_no_memory(err, "the options");
+    word = word ? poptGetArg(context) : NULL;
+    if (!status && word)
+        status = br_fail(err, BR_BAD_INPUT, "found '%s', expected nothing more", word);
+    poptFreeContext(context);
+    if (!status && (o->scene != NULL) + (o->file != NULL) + o->schema > 1)
+        status = br_fail(err, BR_BAD_INPUT, "expected one of: a scene, --new, --schema");
+    return status;
+}
+
+/* ---- the list ---- */
+
+static enum br_status print_line(const char *name, size_t width, struct br_error *err)
+{
+    char path[1024];
+    struct br_scene scene = {0};
+    enum br_status status = br_scene_find(name, path, sizeof path, err);
+    if (!status)
+        status = br_scene_read(path, &scene, err);
+    if (!status || status == BR_UNSUPPORTED)
+        printf("%-*s  %s%s\n", (int)width, name, scene.title, status ? " (not in this build)" : "");
+    br_scene_clear(&scene);
+    return status == BR_UNSUPPORTED ? BR_OK : status;
+}
+
+static enum br_status list(struct br_error *err)
+{
+    char **name;
+    size_t count, width = 0;
+    enum br_status status = br_scene_list(&name, &count, err);
+    for (size_t i = 0; i < count; i++)
+        width = strlen(name[i]) > width ? strlen(name[i]) : width;
+    for (size_t i = 0; i < count && !status; i++)
+        status = print_line(name[i], width, err);
+    br_scene_list_free(name, count);
+    return status;
+}
+
+/* ---- one scene ---- */
+
+static enum br_status show(const char *name, struct br_error *err)
+{
+    char path[1024], piece[4096];
+    const enum br_status status = br_scene_find(name, path, sizeof path, err);
+    if (status)
+        return status;
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno));
+    for (size_t got; (got = fread(piece, 1, sizeof piece, file)) > 0;)
+        fwrite(piece, 1, got, stdout);
+    const bool failed = ferror(file);
+    fclose(file);
+    return failed ? br_fail(err, BR_IO, "%s could not be read", path) : BR_OK;
+}
+
+/* ---- a new one ---- */
+
+static enum br_status begin(const char *path, struct br_error *err)
+{
+    char schema[1024];
+    br_data_path("scene.schema.json", schema, sizeof schema);
+    if (strcmp(path, "-") != 0 && access(path, F_OK) == 0)
+        return br_fail(err, BR_BAD_INPUT, "--new: %s is there already and is not replaced", path);
+    struct br_whole_file file = {0};
+    enum br_status status = br_whole_file_open(&file, "new", path, err);
+    if (!status) {
+        br_scene_template_write(file.file, access(schema, R_OK) == 0 ? schema : NULL);
+        status = br_whole_file_commit(&file, err);
+    }
+    br_whole_file_discard(&file);
+    return status;
+}
+
+static enum br_status run(int argc, const char **argv, struct br_error *err)
+{
+    struct options o = {0};
+    enum br_status status = read_options(argc, argv, &o, err);
+    if (!status && !o.help && br_ranks_first())
+        status = o.file     ? begin(o.file, err)
+                 : o.schema ? br_scene_schema_write(stdout, err)
+                 : o.scene  ? show(o.scene, err)
+                            : list(err);
+    free(o.file);
+    free(o.scene);
+    return status;
+}
+
+const struct br_command br_command_scenes = {
+    .name = "scenes",
+    .arguments = "[SCENE]",
+    .title = "lists the bundled scenes, shows one, begins a new one",
+    .run = run,
+};

@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <jansson.h>
+#include <string.h>
+
+#include "study/scene_schema.h"
+#include "study/verify.h"
+#include "tables/scene_format.h"
+
+/* Regular expressions as JSON Schema has them (ECMA 262). */
+#define NUMBER "\\+?(\\d+\\.?\\d*|\\.\\d+)([eE][+-]?\\d+)?"
+#define NOT_ZERO "(?=[+\\d.]*[1-9])"
+enum { MOST_PATTERN = 512 };
+
+/* A unit as a regular expression. */
+static const char *escape(const char *unit, char text[64])
+{
+    size_t used = 0;
+    for (const char *c = unit; *c && used < 61; c++) {
+        if (strchr("^$.|?*+()[]{}\\", *c))
+            text[used++] = '\\';
+        text[used++] = *c;
+    }
+    text[used] = '\0';
+    return text;
+}
+
+/* Text in which no word is `without`, before "[unit]"; NULL: any. */
+static void expression_pattern(const char *unit, const char *without, char pattern[MOST_PATTERN])
+{
+    char escaped[64], ahead[32] = "";
+    if (without)
+        snprintf(ahead, sizeof ahead, "(?![^\\[]*\\b%s\\b)", without);
+    snprintf(pattern, MOST_PATTERN, "^%s\\s*[^\\s\\[].*\\[%s\\]$", ahead, escape(unit, escaped));
+}
+
+static json_t *expression(const char *unit, const char *without)
+{
+    char pattern[MOST_PATTERN];
+    expression_pattern(unit, without, pattern);
+    return json_pack("{s:s, s:s}", "type", "string", "pattern", pattern);
+}
+
+static json_t *number(const struct br_scene_key *key)
+{
+    char pattern[MOST_PATTERN], unit[64];
+    snprintf(pattern, sizeof pattern, "^ *%s" NUMBER " +%s$",
+             key->kind == BR_KEY_POSITIVE ? NOT_ZERO : "", escape(key->unit, unit));
+    return json_pack("{s:s, s:s}", "type", "string", "pattern", pattern);
+}
+
+static json_t *load(void)
+{
+    return json_pack("{s:[o, {s:s, s:b, s:[s, s], s:{s:o, s:o}}]}", "anyOf",
+                     expression("N/m", NULL), "type", "object", "additionalProperties", 0,
+                     "required", "shape", "history", "properties", "shape", expression("1", "t"),
+                     "history", expression("N/m", "x"));
+}
+
+static json_t *law(void)
+{
+    json_t *names = json_array();
+    for (int i = 0; i < BR_FRICTION_LAWS; i++)
+        if (br_friction_law_names[i])
+            json_array_append_new(names, json_string(br_friction_law_names[i]));
+    return json_pack("{s:o}", "enum", names);
+}
+
+/* ---- verify ---- */
+
+/* The names of a registry, whose rows begin with them. */
+#define ADD_NAMES(array, type, registry)                        \
+    for (const struct type *const *row = registry; *row; row++) \
+    json_array_append_new(array, json_string((*row)->name))
+
+static void add_methods(json_t *properties)
+{
+    json_t *solver = json_array(), *contact = json_array(), *friction = json_array();
+    ADD_NAMES(solver, br_linear_solver, br_linear_solvers);
+    ADD_NAMES(contact, br_contact_rule, br_contact_rules);
+    ADD_NAMES(friction, br_friction_rule, br_friction_rules);
+    json_object_set_new(properties, "solver", json_pack("{s:o}", "enum", solver));
+    json_object_set_new(properties, "contact", json_pack("{s:o}", "enum", contact));
+    json_object_set_new(properties, "friction", json_pack("{s:o}", "enum", friction));
+}
+
+/* "2 +- 0.1, at most 3e-4 m": as verify_file.c reads it. */
+static json_t *expectation(const struct br_norm *norm)
+{
+    char pattern[MOST_PATTERN], unit[64];
+    escape(norm->unit, unit);
+    snprintf(pattern, sizeof pattern,
+             "^ *" NUMBER " *\\+- *" NUMBER "( *, *(at most|constant *" NUMBER " *to) *" NUMBER
+             " *%s)?$",
+             unit);
+    return json_pack("{s:s, s:s, s:s}", "type", "string", "pattern", pattern, "description",
+                     norm->title);
+}
+
+static void add_expectations(json_t *properties)
+{
+    for (const struct br_norm *const *n = br_norms; *n; n++) {
+        json_object_set_new(properties, (*n)->name, expectation(*n));
+        for (int part = 0; part < BR_PARTS; part++) {
+            char key[64];
+            snprintf(key, sizeof key, "%s %s", (*n)->name, br_part_names[part]);
+            json_object_set_new(properties, key, expectation(*n));
+        }
+    }
+}
+
+static json_t *verify_study(void)
+{
+    json_t *properties = json_object();
+    json_object_set_new(properties, "n",
+                        json_pack("{s:[s, s], s:s, s:s}", "type", "number", "string", "pattern",
+                                  "^ *" NUMBER "( *, *" NUMBER ")* *$", "description",
+                                  "elements of the meshes"));
+    json_object_set_new(properties, "k",
+                        json_pack("{s:s, s:s, s:s}", "type", "string", "pattern",
+                                  "^ *" NUMBER "( *, *" NUMBER ")* s$", "description",
+                                  "time steps, s"));
+    add_methods(properties);
+    add_expectations(properties);
+    return json_pack("{s:s, s:b, s:[s, s], s:o}", "type", "object", "additionalProperties", 0,
+                     "required", "n", "k", "properties", properties);
+}
+
+static json_t *verify(void)
+{
+    json_t *properties = json_object();
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+        json_object_set_new(properties, br_verify_names[kind], verify_study());
+    return json_pack("{s:s, s:i, s:b, s:o}", "type", "object", "minProperties", 1,
+                     "additionalProperties", 0, "properties", properties);
+}
+
+/* ---- keys and sections ---- */
+
+static json_t *section(const char *name);
+
+static json_t *value(const struct br_scene_key *key)
+{
+    switch (key->kind) {
+    case BR_KEY_SECTION:
+        return section(key->name);
+    case BR_KEY_TEXT:
+        return json_pack("{s:[s, s, s, s]}", "type", "string", "number", "boolean", "null");
+    case BR_KEY_POSITIVE:
+    case BR_KEY_NOT_NEGATIVE:
+        return number(key);
+    case BR_KEY_LOAD:
+        return load();
+    case BR_KEY_INITIAL:
+        return expression(key->unit, "t");
+    case BR_KEY_HISTORY:
+        return expression(key->unit, "x");
+    case BR_KEY_SOLUTION:
+        return expression(key->unit, NULL);
+    case BR_KEY_LAW:
+        return law();
+    case BR_KEY_VERIFY:
+        break;
+    }
+    return verify();
+}
+
+static json_t *describe(const struct br_scene_key *key)
+{
+    json_t *v = value(key);
+    char text[256];
+    snprintf(text, sizeof text, "%s%s%s", key->help, *key->unit ? ", " : "", key->unit);
+    json_object_set_new(v, "description", json_string(text));
+    if (*key->example)
+        json_object_set_new(v, "examples", json_pack("[s]", key->example));
+    return v;
+}
+
+/* Where a friction law is chosen, its keys are needed and no other law's. */
+static json_t *rule_of_law(const char *name, enum br_friction_law chosen)
+{
+    json_t *required = json_array(), *refused = json_object();
+    for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
+        if (strcmp(k->section, name) != 0 || !k->law)
+            continue;
+        if (k->law == chosen)
+            json_array_append_new(required, json_string(k->name));
+        else
+            json_object_set_new(refused, k->name, json_false());
+    }
+    return json_pack("{s:{s:{s:{s:s}}}, s:{s:o, s:o}}", "if", "properties", "law", "const",
+                     br_friction_law_names[chosen], "then", "required", required, "properties",
+                     refused);
+}
+
+static void add_rules(json_t *object, const char *name)
+{
+    if (*name && strcmp(name, "friction") != 0)
+        return;
+    if (!*name) { /* br_scene_check: what means nothing without another */
+        json_object_set_new(
+            object, "anyOf",
+            json_pack("[{s:[s]}, {s:[s]}]", "required", "axial", "required", "bending"));
+        json_object_set_new(object, "dependencies",
+                            json_pack("{s:[s], s:[s]}", "contact", "axial", "friction", "bending"));
+        return;
+    }
+    json_t *rules = json_array();
+    for (int i = 0; i < BR_FRICTION_LAWS; i++)
+        if (br_friction_law_names[i])
+            json_array_append_new(rules, rule_of_law(name, (enum br_friction_law)i));
+    json_object_set_new(object, "allOf", rules);
+}
+
+/* The mapping of one section; "": the whole scene. */
+static json_t *section(const char *name)
+{
+    json_t *properties = json_object(), *required = json_array();
+    for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
+        if (strcmp(k->section, name) != 0)
+            continue;
+        json_object_set_new(properties, k->name, describe(k));
+        if (k->required && !k->law)
+            json_array_append_new(required, json_string(k->name));
+    }
+    json_t *object = json_pack("{s:s, s:b, s:o, s:o}", "type", "object", "additionalProperties", 0,
+                               "required", required, "properties", properties);
+    add_rules(object, name);
+    return object;
+}
+
+enum br_status br_scene_schema_write(FILE *out, struct br_error *err)
+{
+    json_t *o = json_pack("{s:s, s:s}", "$schema", "http://json-schema.org/draft-07/schema#",
+                          "title", "A scene of beamrate");
+    json_t *scene = section("");
+    const bool whole = o && scene && json_object_update(o, scene) == 0;
+    if (whole) {
+        json_dumpf(o, out, JSON_INDENT(1));
+        fputc('\n', out);
+    }
+    json_decref(scene);
+    json_decref(o);
+    return whole ? BR_OK : br_no_memory(err, "the JSON schema");
+}

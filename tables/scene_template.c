@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "study/scene_schema.h"
+#include "study/verify.h"
+#include "tables/scene_format.h"
+
+enum { COLUMN = 46 }; /* where comments begin */
+
+/* "  name: value", as a comment where it is optional; returns how wide that is. */
+static int write_entry(FILE *out, const struct br_scene_key *key, bool live)
+{
+    return fprintf(out, "%s%s%s:%s%s", *key->section ? "  " : "", live ? "" : "# ", key->name,
+                   *key->example ? " " : "", key->example);
+}
+
+/* What holds where the key is left out; "": it must be given. */
+static void write_default(FILE *out, const struct br_scene_key *key)
+{
+    const bool expression =
+        key->kind == BR_KEY_LOAD || key->kind == BR_KEY_INITIAL || key->kind == BR_KEY_HISTORY;
+    if (key->law)
+        fprintf(out, ", with law: %s", br_friction_law_names[key->law]);
+    if (key->required)
+        return;
+    if (key->kind == BR_KEY_SECTION)
+        fprintf(out, "; default: not modelled");
+    else if (expression)
+        fprintf(out, "; default: 0 [%s]", key->unit);
+    else if (*key->unit && key->kind != BR_KEY_SOLUTION)
+        fprintf(out, "; default: 0 %s", key->unit);
+    else
+        fprintf(out, "; default: none");
+}
+
+static const char *constraint(enum br_key_kind kind)
+{
+    return kind == BR_KEY_POSITIVE       ? ", > 0"
+           : kind == BR_KEY_NOT_NEGATIVE ? ", >= 0"
+           : kind == BR_KEY_LOAD         ? ", or {shape: \"F(x) [1]\", history: \"G(t) [N/m]\"}"
+           : kind == BR_KEY_HISTORY      ? ", of t"
+                                         : "";
+}
+
+static void write_key(FILE *out, const struct br_scene_key *key)
+{
+    const bool other_law = key->law && key->law != BR_COULOMB; /* that of the example */
+    const bool live =
+        (key->required && !other_law) || key->kind == BR_KEY_SECTION || key->kind == BR_KEY_LOAD;
+    const int width = write_entry(out, key, live);
+    fprintf(out, "%*s# %s%s", width < COLUMN ? COLUMN - width : 1, "", key->help,
+            constraint(key->kind));
+    write_default(out, key);
+    fputc('\n', out);
+}
+
+static void write_section(FILE *out, const char *section)
+{
+    for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
+        if (strcmp(k->section, section) == 0)
+            write_key(out, k);
+}
+
+/* As a comment: orders are measured first, by a scene without it. */
+static void write_verify(FILE *out, const struct br_scene_key *key)
+{
+    static const char *const lists[BR_VERIFY_KINDS][2] = {
+        [BR_VERIFY_SPACE] = {"10, 20, 40, 80, 160", "0.01 s"},
+        [BR_VERIFY_TIME] = {"10", "1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5 s"},
+        [BR_VERIFY_JOINT] = {"10, 20, 40, 80", "4e-3, 1e-3, 2.5e-4, 6.25e-5 s"},
+    };
+    fprintf(out,
+            "\n# %s: %s; without it 'beamrate check' says what it expects.\n"
+            "# A line is a norm, a part (none: the total), its order, and perhaps its constant.\n"
+            "# solver, contact and friction choose the method of a study.\n# %s:\n",
+            key->name, key->help, key->name);
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+        fprintf(out, "#   %s:\n#     n: %s\n#     k: %s\n", br_verify_names[kind], lists[kind][0],
+                lists[kind][1]);
+        if (kind == BR_VERIFY_SPACE)
+            fprintf(out, "#     %s %s: 2 +- 0.1\n", br_norms[0]->name,
+                    br_part_names[BR_PART_AXIAL]);
+        else
+            fprintf(out, "#     %s: 1 +- 0.1, at most 1 %s\n", br_norms[0]->name,
+                    br_norms[0]->unit);
+    }
+}
+
+void br_scene_template_write(FILE *out, const char *schema)
+{
+    if (schema)
+        fprintf(out, "# yaml-language-server: $schema=%s\n", schema);
+    fprintf(
+        out,
+        "# A scene of beamrate. Every number carries its unit; an expression, in x (m) and t (s),\n"
+        "# carries it in brackets. Keys behind a # are optional, values after them are examples.\n"
+        "# Delete what is not to be modelled: it then costs nothing.\n");
+    for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
+        if (*k->section)
+            continue;
+        if (k->kind == BR_KEY_VERIFY) {
+            write_verify(out, k);
+            continue;
+        }
+        if (k->kind == BR_KEY_SECTION)
+            fputc('\n', out);
+        write_key(out, k);
+        if (k->kind == BR_KEY_SECTION)
+            write_section(out, k->name);
+    }
+}

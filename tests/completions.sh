@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What the shells complete: every command, option, value and scene. bash by its own compgen; fish where
+# it is installed; zsh by its parser. $BEAMRATE is the program.
+set -u
+
+failures=0
+work=$(mktemp -d)
+trap 'rm -r "$work"' EXIT
+cd "$work" || exit 1
+touch mine.yaml mine.txt
+mkdir folder
+"$BEAMRATE" completions bash >beamrate.bash || exit 1
+"$BEAMRATE" completions zsh >_beamrate || exit 1
+"$BEAMRATE" completions fish >beamrate.fish || exit 1
+# shellcheck disable=SC1091
+. ./beamrate.bash
+
+# offers EXPECTED WORD...: the last word is being typed; EXPECTED, among others, is offered.
+offers() {
+    local expected=$1
+    shift
+    COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)) COMPREPLY=()
+    _beamrate
+    case " ${COMPREPLY[*]} " in *" $expected "*) return ;; esac
+    echo "bash: $*: offers '${COMPREPLY[*]}', expected '$expected'"
+    failures=$((failures + 1))
+}
+
+# The same: nothing but EXPECTED.
+offers_only() {
+    local expected=$1
+    offers "$@"
+    [ "${COMPREPLY[*]}" = "$expected" ] && return
+    echo "bash: $*: offers '${COMPREPLY[*]}', expected nothing but it"
+    failures=$((failures + 1))
+}
+
+commands=$("$BEAMRATE" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+[ "$(echo "$commands" | wc -w)" -ge 5 ] || exit 1
+for command in $commands; do
+    offers_only "$command" beamrate "${command%?}"
+    offers "$command" beamrate help ''
+    "$BEAMRATE" "$command" --help | grep -oE '^ +(-., )?--[-a-z]+(=[A-Z]+)?' | sed 's/.*--/--/' >arguments
+    grep -q -e --help arguments || failures=$((failures + 1))
+    while IFS='=' read -r option argument; do
+        offers "$option" beamrate "$command" "$option"
+        case $argument in
+        FILE) offers mine.txt beamrate "$command" "$option" m ;;
+        DIR) offers_only folder beamrate "$command" "$option" '' ;;
+        esac
+    done <arguments
+done
+names() { "$BEAMRATE" study --help | sed -n "/($1)/,/^[A-Z]/s/^  \([a-z0-9]*\)[: ].*/\1/p"; }
+for option in --contact --friction --norm --format --kernel; do
+    for name in $(names "$option"); do
+        offers "$name" beamrate study example1 "$option" ''
+        offers "$name" beamrate study example1 "$option" = ''
+    done
+done
+for scene in $("$BEAMRATE" scenes | sed 's/ .*//'); do
+    offers "$scene" beamrate study "$scene"
+    offers "$scene" beamrate check example1 ''
+done
+offers_only riccati beamrate tables --solver r
+offers_only umfpack beamrate tables --reference-solver = u
+offers_only riccati beamrate tables --solver = ri
+offers 'fine:' beamrate study example1 --reference f
+offers 'l2,tip' beamrate study example1 --norm l2,
+offers_only 'csv,latex' beamrate study example1 --format = csv,l
+offers_only mine.yaml beamrate study mine
+offers_only '--version' beamrate --v
+offers fish beamrate completions ''
+
+if command -v fish >/dev/null; then
+    # fish_offers EXPECTED LINE
+    fish_offers() {
+        fish --no-config -c "source beamrate.fish; complete -C '$2'" 2>&1 | grep -q "^$1" && return
+        echo "fish: $2: expected '$1'"
+        failures=$((failures + 1))
+    }
+    fish_offers study 'beamrate st'
+    fish_offers --norm 'beamrate study --no'
+    fish_offers umfpack 'beamrate check --solver '
+    fish_offers l2,tip 'beamrate study --norm l2,'
+    fish_offers moving_load 'beamrate study mov'
+    fish_offers zsh 'beamrate completions '
+fi
+if command -v zsh >/dev/null; then
+    zsh -n _beamrate || failures=$((failures + 1))
+fi
+if command -v shellcheck >/dev/null; then
+    shellcheck -s bash beamrate.bash || failures=$((failures + 1))
+fi
+[ "$failures" -eq 0 ]
