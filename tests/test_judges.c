@@ -20,7 +20,7 @@ static const struct meeting meetings[] = {
     {"example1", 400000},   {"example2", 200},       {"example3", 4000},    {"example4", 12000},
     {"impact", 8000},       {"reversal", 4000},      {"chatter", 8000},     {"vibration", 8000},
     {"release", 4000},      {"landing", 2000},       {"bouncing", 16000},   {"moving_load", 2000},
-    {"near_elastic", 1000}, {"heavy_damping", 2000}, {"heavy_beam", 64000}, {"close_bound", 64000},
+    {"near_elastic", 1000}, {"heavy_damping", 2000}, {"heavy_beam", 32000}, {"close_bound", 16000},
     {"initial_data", 4000},
 };
 
