@@ -40,6 +40,7 @@ static void *work(void *self)
 {
     struct br_work_bench *bench = self;
     const struct br_observer observer = {keep_fraction, is_stopped, bench};
+    pthread_setname_np(pthread_self(), "march"); /* tells it from MPI's own threads */
     while (wait_for_work(bench)) {
         br_group_march(bench->studies, bench->units, bench->group, bench->threads, &observer,
                        &bench->parcel, &bench->failure);

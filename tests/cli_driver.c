@@ -25,7 +25,10 @@ static void become_program(const char *const *word, const struct cli_circumstanc
     if (chdir(folder) != 0)
         _exit(120);
     dup2(output, STDOUT_FILENO);
-    dup2(output, STDERR_FILENO);
+    const int errors =
+        c->errors ? open(c->errors, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600) : output;
+    if (errors < 0 || dup2(errors, STDERR_FILENO) < 0)
+        _exit(122);
     const char *program = getenv("BEAMRATE");
     if (c->data)
         setenv("BEAMRATE_DATA", c->data, 1);
@@ -131,17 +134,21 @@ void cli_write_file(const char *name, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-/* Every row of every registry is in the help. */
-bool cli_file_contains(const char *name, const char *text)
+const char *cli_read(const char *name)
 {
+    static char contents[1 << 18];
     char path[512];
     cli_path(name, path);
     FILE *file = fopen(path, "r");
     assert_non_null(file);
-    static char contents[1 << 18];
     contents[fread(contents, 1, sizeof contents - 1, file)] = '\0';
     fclose(file);
-    return strstr(contents, text) != NULL;
+    return contents;
+}
+
+bool cli_file_contains(const char *name, const char *text)
+{
+    return strstr(cli_read(name), text) != NULL;
 }
 
 int cli_make_folder(void **state)

@@ -15,11 +15,12 @@ struct cli_circumstances {
     const char *data;    /* BEAMRATE_DATA; NULL: as it is */
     rlim_t file_size;    /* largest file, bytes; 0: any */
     int interrupt_after; /* ms; 0: never */
+    const char *errors;  /* the file that standard error goes to; NULL: to the output */
 };
 
 struct cli_outcome {
     int exit_code;                /* or -signal */
-    char output[CLI_MOST_OUTPUT]; /* standard output and error */
+    char output[CLI_MOST_OUTPUT]; /* standard output and, by default, error */
 };
 
 /* Runs `beamrate word...` (NULL-terminated); circumstances NULL: the usual ones. */
@@ -38,6 +39,7 @@ void cli_path(const char *name, char path[512]);
 bool cli_is_there(const char *name);
 size_t cli_count_files(const char *name); /* in a folder there, hidden ones included */
 void cli_write_file(const char *name, const char *text);
+const char *cli_read(const char *name); /* its first 256 KiB, until the next call */
 bool cli_file_contains(const char *name, const char *text);
 
 /* Set-up and tear-down of a group of tests. */
