@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the element loops of sweep_kernel.c do for one element in each lane of a vector, for the
+/* What the element loops of sweep_march.c do for one element in each lane of a vector, for the
  * benchmark, which holds their time against the machine's limits. To be counted anew when the loops
  * change: element_left, element_right, element_state, strain, pass_on and the weights. Instructions
  * that only move values are not counted, nor are the joins. */
