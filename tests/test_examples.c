@@ -237,7 +237,10 @@ static void test_man_page_is_complete(void **state)
 static void test_man_page_is_clean(void **state)
 {
     (void)state;
-    if (system("command -v groff >/dev/null") != 0)
+    /* a small installation may lack what groff wants for any page at all */
+    if (system(
+            "test -z \"$(printf '.TH A 1\\n' | groff -man -ww -z -Tutf8 -K utf8 2>&1 || echo no)\"") !=
+        0)
         skip();
     const char *data = getenv("BEAMRATE_DATA");
     assert_int_equal(
