@@ -112,7 +112,7 @@ int main(int argc, const char **argv)
     if (!br_ranks_first())
         return 0; /* rank 0 tells, and ends with the exit code */
     if (status == BR_INTERRUPTED) {
-        fprintf(stderr, "beamrate: interrupted; nothing was written\n");
+        fprintf(stderr, "beamrate: interrupted; no file is half written\n");
         br_signals_raise_again();
     }
     if (status)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate run SCENE: marches one scene. */
 #include <stdio.h>
+#include <string.h>
 
 #include "cli/command.h"
 #include "cli/pictures.h"
@@ -35,14 +36,47 @@ static enum br_status read_scene(struct run *r, struct br_error *err)
     return status ? status : br_read_text(r->path, &r->text, err);
 }
 
+/* Whether two files have one name but for what follows its last dot. */
+static bool same_stem(const char *a, const char *b)
+{
+    const char *x = strrchr(a, '/') ? strrchr(a, '/') + 1 : a;
+    const char *y = strrchr(b, '/') ? strrchr(b, '/') + 1 : b;
+    const size_t m = strrchr(x, '.') ? (size_t)(strrchr(x, '.') - x) : strlen(x);
+    const size_t n = strrchr(y, '.') ? (size_t)(strrchr(y, '.') - y) : strlen(y);
+    return m == n && strncmp(x, y, n) == 0;
+}
+
+/* One output must not replace another, or a scene. */
+static enum br_status check_places(const struct run *r, struct br_error *err)
+{
+    const struct br_run_options *o = &r->options;
+    if (br_whole_file_replaces(&r->json, r->path))
+        return br_fail(err, BR_BAD_INPUT, "--json would replace the scene %s", r->json.path);
+    if (o->out && br_whole_file_is_in(&r->json, o->out))
+        return br_fail(err, BR_BAD_INPUT,
+                       "--json: found '%s', expected a place outside of the folder of --out, which "
+                       "has a summary.json of its own",
+                       o->json);
+    const char *slash = o->animate ? strrchr(o->animate, '/') : NULL;
+    char folder[1024] = ".";
+    if (slash)
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash - o->animate + 1), o->animate);
+    if (o->animate && (br_whole_file_is_in(&r->json, o->animate) ||
+                       (br_whole_file_is_in(&r->json, folder) && same_stem(o->json, o->animate))))
+        return br_fail(err, BR_BAD_INPUT,
+                       "--json: found '%s', which --animate %s writes too, expected another name",
+                       o->json, o->animate);
+    return BR_OK;
+}
+
 static enum br_status open_files(struct run *r, struct br_error *err)
 {
     br_provenance_fill(&r->provenance, 1);
     r->provenance.scene_path = r->path;
     r->provenance.scene_text = r->text;
     enum br_status status = br_whole_file_open(&r->json, "json", r->options.json, err);
-    if (!status && br_whole_file_replaces(&r->json, r->path))
-        status = br_fail(err, BR_BAD_INPUT, "--json would replace the scene %s", r->json.path);
+    if (!status)
+        status = check_places(r, err);
     const struct br_pictures_request pictures = {
         .animate = r->options.animate,
         .plot = r->options.plot,

@@ -146,11 +146,11 @@ static enum br_status read_level(const char *option, double t, const struct br_s
     if (fabs(place - nearest) <= 1e-6)
         return BR_OK;
     const double below = floor(place);
-    return br_fail(err, BR_BAD_INPUT,
-                   "%s: found %g s, expected a multiple of k = %g s; the nearest are %.15g s and "
-                   "%.15g s",
-                   option, t, T / (double)steps, T * below / (double)steps,
-                   T * (below + 1) / (double)steps);
+    return br_fail(
+        err, BR_BAD_INPUT,
+        "%s: found %.10g s, expected a multiple of k = %g s; the nearest are %.15g s and "
+        "%.15g s",
+        option, t, T / (double)steps, T * below / (double)steps, T * (below + 1) / (double)steps);
 }
 
 static enum br_status not_a_time(const char *option, const char *found, const char *example,
@@ -214,7 +214,12 @@ static enum br_status read_every(const char *text, const struct br_scene *scene,
     if (!end || *end || !(t > 0))
         return not_a_time("--every", text, "a time above 0, like 0.1", err);
     const enum br_status status = read_level("--every", t, scene, plan->steps, &interval, err);
-    return status ? status : fill_levels(plan, interval, err);
+    if (status)
+        return status;
+    if (interval == 0)
+        return br_fail(err, BR_BAD_INPUT, "--every: found '%s', expected a multiple of k = %g s",
+                       text, scene->duration / (double)plan->steps);
+    return fill_levels(plan, interval, err);
 }
 
 /* Ten of about the same length, whatever the number of steps. */

@@ -107,6 +107,36 @@ bool br_whole_file_replaces(const struct br_whole_file *w, const char *path)
     return same;
 }
 
+/* Where a folder is or will be; to be freed; NULL: nowhere. */
+static char *place_of_folder(const char *folder)
+{
+    char *place = realpath(folder, NULL), *copy = place ? NULL : strdup(folder);
+    if (place || !copy)
+        return place;
+    for (size_t n = strlen(copy); n > 1 && copy[n - 1] == '/'; n--)
+        copy[n - 1] = '\0';
+    char *slash = strrchr(copy, '/'), *name = slash ? slash + 1 : copy;
+    char *parent = slash ? strndup(copy, (size_t)(slash - copy)) : strdup(".");
+    char *root = parent ? realpath(*parent ? parent : "/", NULL) : NULL;
+    if (root && asprintf(&place, "%s/%s", root, name) < 0)
+        place = NULL;
+    free(root);
+    free(parent);
+    free(copy);
+    return place;
+}
+
+bool br_whole_file_is_in(const struct br_whole_file *w, const char *folder)
+{
+    char *place = w->staging[0] ? place_of_folder(folder) : NULL;
+    const size_t length = place ? strlen(place) : 0;
+    const bool inside = place && strncmp(w->place, place, length) == 0 &&
+                        (w->place[length] == '\0' ||
+                         (w->place[length] == '/' && !strchr(w->place + length + 1, '/')));
+    free(place);
+    return inside;
+}
+
 enum br_status br_whole_file_commit(struct br_whole_file *w, struct br_error *err)
 {
     if (!w->file || w->file == stdout)

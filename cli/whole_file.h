@@ -25,6 +25,9 @@ enum br_status br_whole_file_open(struct br_whole_file *whole, const char *optio
 bool br_whole_file_same(const struct br_whole_file *a, const struct br_whole_file *b);
 bool br_whole_file_replaces(const struct br_whole_file *whole, const char *path);
 
+/* Whether it is that folder, which need not be there yet, or would stand in it. */
+bool br_whole_file_is_in(const struct br_whole_file *file, const char *folder);
+
 /* Puts what was written in its place. Fails with BR_IO; discard it all the same. */
 enum br_status br_whole_file_commit(struct br_whole_file *whole, struct br_error *err);
 

@@ -344,7 +344,8 @@ bool br_march_contact_unstable(const struct br_march *m)
         return false;
     const struct br_field *f = &m->part[BR_AXIAL].field;
     const double gain = m->scene->contact.stiffness * f->k * br_march_compliance(m, BR_AXIAL);
-    return !(gain <= 1 + f->viscosity / (f->viscosity + f->k * f->stiffness));
+    const double limit = 1 + f->viscosity / (f->viscosity + f->k * f->stiffness);
+    return !(gain <= (1 + 1e-12) * limit); /* at the limit, whatever the solver's last digits */
 }
 
 double br_march_round_off(const struct br_march *m)

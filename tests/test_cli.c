@@ -201,7 +201,7 @@ static void test_failures(void **state)
     assert_true(cli_is_there("bare/example1-h.gp") && !cli_is_there("bare/example1-h.png"));
     /* Ctrl-C: ends by the signal and leaves nothing */
     cli_expect("tables --out stopped --quiet", &(struct cli_circumstances){.interrupt_after = 700},
-               -SIGINT, "interrupted; nothing was written");
+               -SIGINT, "interrupted; no file is half written");
     assert_int_equal(cli_count_files("stopped"), 0);
     /* a file where the folder should be */
     cli_write_file("file", "");
@@ -310,7 +310,7 @@ static void test_interrupted_plots(void **state)
     assert_int_equal(chmod(program, 0755), 0);
     cli_expect("study example2 --n 5,10 --k 0.1,0.05 --quiet --out drawing",
                &(struct cli_circumstances){.path = path}, -SIGINT,
-               "interrupted; nothing was written");
+               "interrupted; no file is half written");
     assert_int_equal(cli_count_files("drawing"), 0);
 }
 

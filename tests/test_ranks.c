@@ -253,7 +253,7 @@ static void test_interrupted(void **state)
     (void)state;
     run_with("kill -TERM $$", "ended", &out);
     assert_true(out.exit_code != 0);
-    assert_int_equal(count(cli_read("errors"), "interrupted; nothing was written"), 1);
+    assert_int_equal(count(cli_read("errors"), "interrupted; no file is half written"), 1);
     assert_false(cli_is_there("ended"));
     unsetenv(KILL_AFTER);
     run_with("kill -INT $PPID", "ended", &out);
