@@ -57,7 +57,7 @@ static void test_bad_input(void **state)
         {"run rod.yaml --every 2 --out r", "--every: found 2 s, expected a time of [0, 1] s"},
         {"run rod.yaml --every 0 --out r", "--every: found '0'"},
         {"run rod.yaml --every 1e-12 --out r", "--every: found '1e-12', expected a multiple of k"},
-        {"run rod.yaml --out r --json r/history.csv", "outside of the folder of --out"},
+        {"run rod.yaml --out . --json history.csv", "outside of the folder of --out"},
         {"run rod.yaml --out r --json r", "outside of the folder of --out"},
         {"run rod.yaml --animate m.gif --json m.dat", "which --animate m.gif writes too"},
         {"run rod.yaml --every 1e-4 --out r", "--every: found 0.0001 s, expected a multiple"},
