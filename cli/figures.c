@@ -10,6 +10,7 @@
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/signals.h"
+#include "cli/suggest.h"
 #include "plots/figures.h"
 #include "plots/plots.h"
 #include "study/ranks.h"
@@ -48,8 +49,7 @@ static enum br_status parse(int argc, const char **argv, struct options *o, stru
     enum br_status status = BR_OK;
     const char *word = poptPeekArg(context);
     if (code < -1)
-        status = br_fail(err, BR_BAD_INPUT, "%s: %s; '--help' lists the options",
-                         poptBadOption(context, POPT_BADOPTION_NOALIAS), poptStrerror(code));
+        status = br_bad_option(context, table, code, err);
     else if (word && !o->help)
         status = br_fail(err, BR_BAD_INPUT, "found '%s', expected options alone", word);
     poptFreeContext(context);

@@ -7,6 +7,7 @@
 
 #include "cli/kernel_option.h"
 #include "cli/number_option.h"
+#include "cli/suggest.h"
 #include "study/history.h"
 #include "study/model.h"
 #include "study/number_list.h"
@@ -92,8 +93,7 @@ enum br_status br_run_options_parse(int argc, const char **argv, struct br_run_o
     }
     enum br_status status = BR_OK;
     if (code < -1)
-        status = br_fail(err, BR_BAD_INPUT, "%s: %s; '--help' lists the options",
-                         poptBadOption(context, POPT_BADOPTION_NOALIAS), poptStrerror(code));
+        status = br_bad_option(context, table, code, err);
     else if (!o->help)
         status = read_words(context, o, err);
     poptFreeContext(context);

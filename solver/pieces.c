@@ -23,16 +23,14 @@ static void pieces_free(void *self)
  * increment goes into y (out). */
 static void join(struct br_pieces *s, double *h, double *y)
 {
-    for (int i = BR_STRANDS; i-- > 0;) {
+    for (int i = s->strands; i-- > 0;) {
         struct br_strand *t = &s->strand[i];
-        if (t->strip.lanes)
-            s->kernel->join_left(&t->strip, t->q, t->z, h, t->ends.right);
+        s->kernel->join_left(&t->strip, t->q, t->z, h, t->ends.right);
     }
     y[0] = y[1] = 0;
-    for (int i = 0; i < BR_STRANDS; i++) {
+    for (int i = 0; i < s->strands; i++) {
         struct br_strand *t = &s->strand[i];
-        if (t->strip.lanes)
-            s->kernel->join_right(&t->strip, t->z, y, t->ends.left, t->ends.right);
+        s->kernel->join_right(&t->strip, t->z, y, t->ends.left, t->ends.right);
     }
 }
 
@@ -43,7 +41,7 @@ static void find_influence(struct br_pieces *s)
     join(s, unit, s->force_increment);
     s->compliance = -s->force_increment[0];
     const size_t bytes = (size_t)s->d * BR_LANES * sizeof(double);
-    for (int i = 0; i < BR_STRANDS; i++) {
+    for (int i = 0; i < s->strands; i++) {
         memcpy(s->strand[i].force_right, s->strand[i].ends.right, bytes);
         memcpy(s->strand[i].force_left, s->strand[i].ends.left, bytes);
     }
@@ -87,9 +85,8 @@ static enum br_status pieces_predict(void *self, const struct br_drive *drive, d
     if (status)
         return status;
     s->drive.factor = drive->factor;
-    for (int i = 0; i < BR_STRANDS; i++)
-        if (s->strand[i].strip.lanes)
-            s->kernel->gather(&s->strand[i].strip, drive->factor, s->strand[i].q, s->strand[i].z);
+    for (int i = 0; i < s->strands; i++)
+        s->kernel->gather(&s->strand[i].strip, drive->factor, s->strand[i].q, s->strand[i].z);
     double costate[BR_LQ_MOST] = {0};
     for (int c = 0; c < s->d; c++)
         costate[c] = -(drive->factor * s->tip_load[c] + drive->tip[c] / s->r);
@@ -105,9 +102,9 @@ static enum br_status pieces_predict(void *self, const struct br_drive *drive, d
 /* What a force that resists the tip adds at the ends of the spans. */
 static void add_force(struct br_pieces *s, double force)
 {
-    for (int i = 0; i < BR_STRANDS; i++) {
+    for (int i = 0; i < s->strands; i++) {
         struct br_strand *t = &s->strand[i];
-        for (size_t j = 0; t->strip.lanes && j < (size_t)s->d * BR_LANES; j++) {
+        for (size_t j = 0; j < (size_t)s->d * BR_LANES; j++) {
             t->ends.right[j] += force * t->force_right[j];
             t->ends.left[j] += force * t->force_left[j];
         }
@@ -119,21 +116,23 @@ static void add_force(struct br_pieces *s, double force)
  * sticks would creep by it. */
 static void look_at_tip(struct br_pieces *s, double told)
 {
-    const struct br_strip_ends *odd = &s->strand[BR_ODD].ends, *even = &s->strand[BR_EVEN].ends;
-    s->tip_velocity = br_pieces_at_tip(s, (const double *const[]){odd->velocity, even->velocity});
+    const double *velocity[BR_MOST_STRANDS], *displacement[BR_MOST_STRANDS];
+    for (int i = 0; i < s->strands; i++) {
+        velocity[i] = s->strand[i].ends.velocity;
+        displacement[i] = s->strand[i].ends.displacement;
+    }
+    s->tip_velocity = br_pieces_at_tip(s, velocity);
     s->tip_bias += s->tip_velocity - told;
     if (s->d == 1)
-        s->tip_displacement =
-            br_pieces_at_tip(s, (const double *const[]){odd->displacement, even->displacement});
+        s->tip_displacement = br_pieces_at_tip(s, displacement);
 }
 
 static double pieces_finish(void *self, double force)
 {
     struct br_pieces *s = self;
     add_force(s, force);
-    for (int i = 0; i < BR_STRANDS; i++)
-        if (s->strand[i].strip.lanes)
-            s->kernel->advance(&s->strand[i].strip, &s->drive, &s->strand[i].ends);
+    for (int i = 0; i < s->strands; i++)
+        s->kernel->advance(&s->strand[i].strip, &s->drive, &s->strand[i].ends);
     s->advanced = true;
     look_at_tip(s, s->tip_velocity + s->tip_increment[0] + force * s->force_increment[0]);
     return s->tip_velocity;

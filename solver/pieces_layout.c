@@ -47,7 +47,7 @@ static size_t lay_out(struct br_pieces *s, double *arena)
 {
     const size_t d = (size_t)s->d, entry = d * BR_LANES;
     size_t used = 0, longest = 0;
-    for (int i = 0; i < BR_STRANDS; i++) {
+    for (int i = 0; i < s->strands; i++) {
         struct br_strand *t = &s->strand[i];
         struct br_strip *strip = &t->strip;
         longest = strip->length > longest ? strip->length : longest;
@@ -64,7 +64,7 @@ static size_t lay_out(struct br_pieces *s, double *arena)
     }
     double *gain = take(arena, &used, longest * 3 * d * d);
     double *scratch = take(arena, &used, longest * entry);
-    for (int i = 0; i < BR_STRANDS && arena; i++) { /* gains go by the distance to the right end */
+    for (int i = 0; i < s->strands && arena; i++) { /* gains go by the distance to the right end */
         struct br_strip *strip = &s->strand[i].strip;
         strip->gain = gain + (longest - strip->length) * 3 * d * d;
         strip->scratch = scratch;
@@ -72,18 +72,23 @@ static size_t lay_out(struct br_pieces *s, double *arena)
     return used;
 }
 
+static void add_strand(struct br_pieces *s, size_t first, size_t lanes, const struct cut *cut)
+{
+    struct br_strand *t = &s->strand[s->strands++];
+    t->first = first;
+    t->strip.d = s->d;
+    t->strip.lanes = lanes;
+    t->strip.pieces = cut->pieces;
+    t->strip.length = cut->length;
+}
+
 enum br_status br_pieces_lay_out(struct br_pieces *s, struct br_error *err)
 {
     const struct cut cut = choose_cut(s->field.n);
-    struct br_strand *odd = &s->strand[BR_ODD], *even = &s->strand[BR_EVEN];
-    odd->strip.lanes = cut.odd > 0;
-    odd->strip.pieces = cut.odd > 0;
-    odd->strip.length = cut.odd;
-    even->first = cut.odd;
-    even->strip.lanes = cut.pieces ? BR_LANES : 0;
-    even->strip.pieces = cut.pieces;
-    even->strip.length = cut.length;
-    odd->strip.d = even->strip.d = s->d; /* of an empty one, too: it is joined like the others */
+    if (cut.odd)
+        add_strand(s, 0, 1, &(struct cut){.pieces = 1, .length = cut.odd});
+    if (cut.pieces)
+        add_strand(s, cut.odd, BR_LANES, &cut);
     s->arena = br_allocate_aligned(lay_out(s, NULL), sizeof(double));
     if (!s->arena)
         return br_no_memory(err, "a solver");
@@ -146,7 +151,7 @@ static void weigh(const struct br_pieces *s, const struct br_strand *t, size_t l
 void br_pieces_set(void *self, const double *displacement, const double *velocity)
 {
     struct br_pieces *s = self;
-    for (int i = 0; i < BR_STRANDS; i++) {
+    for (int i = 0; i < s->strands; i++) {
         const struct br_strand *t = &s->strand[i];
         for (size_t lane = 0; lane < t->strip.lanes; lane++) {
             for (size_t e = 0; e < br_span_length(t); e++)
@@ -185,10 +190,8 @@ static void get_nodes(const struct br_pieces *s, bool rate, double *nodal)
     const size_t d = (size_t)s->d;
     double y[BR_LQ_MOST] = {0};
     memcpy(nodal, y, d * sizeof *y);
-    for (int i = 0; i < BR_STRANDS; i++) {
+    for (int i = 0; i < s->strands; i++) {
         const struct br_strand *t = &s->strand[i];
-        if (!t->strip.lanes)
-            continue;
         if (!rate || !s->advanced)
             s->kernel->carry(&t->strip, rate, across);
         find_left_ends(s, t, rate && s->advanced ? t->ends.velocity : across, y, left);
@@ -207,7 +210,7 @@ void br_pieces_get(const void *self, double *displacement, double *velocity)
 void br_pieces_strain_rate(const void *self, double *rate)
 {
     const struct br_pieces *s = self;
-    for (int i = 0; i < BR_STRANDS; i++) {
+    for (int i = 0; i < s->strands; i++) {
         const struct br_strand *t = &s->strand[i];
         for (size_t lane = 0; lane < t->strip.lanes; lane++)
             for (size_t e = 0; e < br_span_length(t); e++, rate += s->d) {
@@ -219,10 +222,10 @@ void br_pieces_strain_rate(const void *self, double *rate)
     }
 }
 
-double br_pieces_at_tip(const struct br_pieces *s, const double *const across[BR_STRANDS])
+double br_pieces_at_tip(const struct br_pieces *s, const double *const across[BR_MOST_STRANDS])
 {
     double y[BR_LQ_MOST] = {0}, left[BR_LQ_MOST * BR_LANES];
-    for (int i = 0; i < BR_STRANDS; i++)
+    for (int i = 0; i < s->strands; i++)
         find_left_ends(s, &s->strand[i], across[i], y, left);
     return y[0];
 }
@@ -230,9 +233,11 @@ double br_pieces_at_tip(const struct br_pieces *s, const double *const across[BR
 double br_pieces_tip_displacement(const void *self)
 {
     const struct br_pieces *s = self;
-    _Alignas(64) double across[BR_STRANDS][BR_LQ_MOST * BR_LANES];
-    for (int i = 0; i < BR_STRANDS; i++)
-        if (s->strand[i].strip.lanes)
-            s->kernel->carry(&s->strand[i].strip, false, across[i]);
-    return br_pieces_at_tip(s, (const double *const[]){across[BR_ODD], across[BR_EVEN]});
+    _Alignas(64) double across[BR_MOST_STRANDS][BR_LQ_MOST * BR_LANES];
+    const double *of[BR_MOST_STRANDS];
+    for (int i = 0; i < s->strands; i++) {
+        s->kernel->carry(&s->strand[i].strip, false, across[i]);
+        of[i] = across[i];
+    }
+    return br_pieces_at_tip(s, of);
 }

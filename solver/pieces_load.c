@@ -29,9 +29,10 @@ static void spread(const struct br_pieces *s, struct br_strand *t, const double 
 static enum br_status allocate(struct br_pieces *s, struct br_error *err)
 {
     const size_t entry = (size_t)s->d * BR_LANES;
-    const size_t odd = br_span_length(&s->strand[BR_ODD]) * entry;
-    const size_t even = br_span_length(&s->strand[BR_EVEN]) * entry;
-    s->loads = br_allocate_aligned(odd + even, sizeof *s->loads);
+    size_t entries = 0;
+    for (int i = 0; i < s->strands; i++)
+        entries += br_span_length(&s->strand[i]);
+    s->loads = br_allocate_aligned(entries * entry, sizeof *s->loads);
     return s->loads ? BR_OK : br_no_memory(err, "the load of a solver");
 }
 
@@ -47,15 +48,14 @@ enum br_status br_pieces_set_load(struct br_pieces *s, const double *vector, str
         s->tip_load[c] = vector ? vector[s->field.n * d + c] / s->r : 0;
     }
     double *next = s->loads;
-    for (int i = 0; i < BR_STRANDS; i++) {
+    for (int i = 0; i < s->strands; i++) {
         struct br_strand *t = &s->strand[i];
         t->strip.load = even ? NULL : next;
         if (!even) {
             spread(s, t, vector);
             next += br_span_length(t) * d * BR_LANES;
         }
-        if (t->strip.lanes)
-            s->kernel->charge(&t->strip, s->drive.uniform);
+        s->kernel->charge(&t->strip, s->drive.uniform);
     }
     return BR_OK;
 }

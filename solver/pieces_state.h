@@ -16,15 +16,17 @@ struct br_strand {
     double *q, *z, *force_right, *force_left; /* d * BR_LANES each */
 };
 
-enum { BR_ODD, BR_EVEN, BR_STRANDS };
+enum { BR_MOST_STRANDS = 2 };
 
 struct br_pieces {
     struct br_field field;
     const struct br_kernel *kernel;
     int d;
-    double k, r;                         /* s; R, see lq.h */
-    struct br_strand strand[BR_STRANDS]; /* the rest at the clamped end, and the equal spans */
-    double *arena;                       /* all arrays but the loads */
+    double k, r;                              /* s; R, see lq.h */
+    struct br_strand strand[BR_MOST_STRANDS]; /* from the clamped end: the odd rest, and the equal
+                                                 spans; what the cut has of them */
+    int strands;
+    double *arena; /* all arrays but the loads */
     double *loads; /* of the strips, where they differ from node to node; NULL so far */
     struct br_strip_drive drive;
     double tip_load[BR_LQ_MOST]; /* of the last node over R, for a factor of 1 */
@@ -32,7 +34,6 @@ struct br_pieces {
     double tip_velocity, tip_displacement, compliance;
     bool advanced;   /* the strands' ends have the velocities across the spans */
     double tip_bias; /* mean of what the joins' increment lacks of the field's, m/s */
-    size_t steps;    /* since the tip was set */
 };
 
 /* Elements of a span. */
@@ -56,7 +57,7 @@ void br_pieces_get(const void *self, double *displacement, double *velocity);
 void br_pieces_strain_rate(const void *self, double *rate);
 
 /* The tip's value, given what it is across each span: its right end relative to its left one. */
-double br_pieces_at_tip(const struct br_pieces *s, const double *const across[BR_STRANDS]);
+double br_pieces_at_tip(const struct br_pieces *s, const double *const across[BR_MOST_STRANDS]);
 
 /* The tip's displacement, read off the field, m. */
 double br_pieces_tip_displacement(const void *self);

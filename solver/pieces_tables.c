@@ -207,11 +207,11 @@ static void pack_lane(int d, const block a, int which, size_t lane, double *to)
 }
 
 /* The joins of the spans, from the tip to the clamped end. */
-static void fill_ends(struct br_pieces *s, const struct whole span[BR_STRANDS])
+static void fill_ends(struct br_pieces *s, const struct whole span[BR_MOST_STRANDS])
 {
     const int d = s->d;
     block c = {{0}};
-    for (int i = BR_STRANDS; i-- > 0;) {
+    for (int i = s->strands; i-- > 0;) {
         double *to = s->strand[i].strip.span_join;
         for (size_t lane = s->strand[i].strip.lanes; lane-- > 0;) {
             const struct join join = join_of(d, &span[i], c);
@@ -229,7 +229,6 @@ static void fill_strand(struct br_strand *t, const struct br_lq *lq, double k,
 {
     struct whole piece;
     struct br_strip *strip = &t->strip;
-    strip->d = lq->d;
     strip->k = k;
     strip->alpha = (double)lq->alpha;
     fill_weights(lq, gain, strip->length, p + longest + 1, strip->weight, &piece);
@@ -240,20 +239,20 @@ static void fill_strand(struct br_strand *t, const struct br_lq *lq, double k,
 enum br_status br_pieces_tables(struct br_pieces *s, struct br_error *err)
 {
     const struct br_lq lq = br_lq_of_field(&s->field);
-    const size_t odd = s->strand[BR_ODD].strip.length, even = s->strand[BR_EVEN].strip.length;
-    const size_t longest = odd > even ? odd : even;
+    const struct br_strip *of = &s->strand[0].strip; /* the longest pieces have all gains */
+    if (s->strand[s->strands - 1].strip.length > of->length)
+        of = &s->strand[s->strands - 1].strip;
+    const size_t longest = of->length;
     s->r = (double)lq.r;
-    double *gains = s->strand[odd > even ? BR_ODD : BR_EVEN].strip.gain;
     struct br_lq_gain *gain = br_allocate(longest, sizeof *gain);
     block *p = br_allocate(2 * longest + 1, sizeof *p);
     enum br_status status = gain && p ? BR_OK : br_no_memory(err, "the tables of a solver");
-    if (!status && !fill_gains(&lq, longest, gains, gain, p))
+    if (!status && !fill_gains(&lq, longest, of->gain, gain, p))
         status = br_fail(err, BR_SINGULAR, "%s: the step is not positive definite",
                          s->field.kind == BR_AXIAL ? "axial" : "bending");
-    struct whole span[BR_STRANDS];
-    for (int i = 0; i < BR_STRANDS && !status; i++)
-        if (s->strand[i].strip.lanes)
-            fill_strand(&s->strand[i], &lq, s->k, gain, p, longest, &span[i]);
+    struct whole span[BR_MOST_STRANDS];
+    for (int i = 0; i < s->strands && !status; i++)
+        fill_strand(&s->strand[i], &lq, s->k, gain, p, longest, &span[i]);
     if (!status)
         fill_ends(s, span);
     free(gain);

@@ -5,8 +5,8 @@
 #include "solver/pieces.h"
 #include "solver/plain.h"
 
-/* Upper estimates; the benchmark and tests/ measure less. A tip that sticks gathers round-off of its
- * own, whatever the mesh. */
+/* Upper estimates; the benchmark and tests/ measure less. A tip that sticks gathers round-off of
+ * its own, whatever the mesh. */
 static double plain_round_off(const struct br_field *field, const struct br_linear_options *options)
 {
     (void)options;

@@ -38,4 +38,7 @@ extern const struct br_ladder_kernel *const br_ladder_kernels[];
 /* The first that is available. */
 const struct br_ladder_kernel *br_ladder_kernel_best(void);
 
+/* That of an instruction set by name; NULL: there is none. */
+const struct br_ladder_kernel *br_ladder_kernel_find(const char *name);
+
 #endif

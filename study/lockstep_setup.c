@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdint.h>
 
+#include "study/ladder_kernel.h"
 #include "study/lockstep_state.h"
 
 static const size_t buffer_bytes = 1u << 20; /* of a batch's projections, at most */
@@ -86,6 +87,21 @@ static enum br_status create_roots(struct br_lockstep *l, struct br_channel *c,
     return BR_OK;
 }
 
+/* With the kernel that the cells are marched by, where one was asked for: then another processor
+ * gives the same bits. */
+static enum br_status create_ladder(const struct br_lockstep *l, const struct br_look_at *at,
+                                    const struct br_mesh_list *roots,
+                                    const struct br_mesh_list *rungs, struct br_ladder **ladder,
+                                    struct br_error *err)
+{
+    const struct br_kernel *kernel = l->study->method.linear.kernel;
+    const enum br_status status =
+        br_ladder_create(ladder, br_mode_count(at->kind, at->measure), roots, rungs, err);
+    if (!status && kernel)
+        br_ladder_use(*ladder, br_ladder_kernel_find(kernel->name));
+    return status;
+}
+
 /* What the auditor needs. */
 static enum br_status create_audit(struct br_lockstep *l, struct br_channel *c,
                                    const struct br_look_at *at, struct br_error *err)
@@ -97,8 +113,7 @@ static enum br_status create_audit(struct br_lockstep *l, struct br_channel *c,
         return br_no_memory(err, "the auditor's values");
     if (at->measure == BR_TIP)
         return BR_OK;
-    const enum br_status status =
-        br_ladder_create(&c->audit_ladder, br_mode_count(at->kind, at->measure), &root, &root, err);
+    const enum br_status status = create_ladder(l, at, &root, &root, &c->audit_ladder, err);
     if (status)
         return status;
     c->audit_projection = br_allocate_aligned(br_ladder_size(c->audit_ladder), sizeof(double));
@@ -115,7 +130,7 @@ static enum br_status create_channel(struct br_lockstep *l, enum br_field_kind k
     if (!status && l->study->auditor)
         status = create_audit(l, c, &at, err);
     if (!status && measure != BR_TIP)
-        status = br_ladder_create(&c->ladder, br_mode_count(kind, measure), &roots, &rungs, err);
+        status = create_ladder(l, &at, &roots, &rungs, &c->ladder, err);
     c->size = c->ladder ? br_ladder_size(c->ladder) : 1;
     return status;
 }

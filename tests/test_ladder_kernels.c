@@ -261,12 +261,26 @@ static void test_same_mesh(void **state)
         }
 }
 
+/* --kernel forces both: every kernel of the solver has its counterpart here. */
+static void test_counterparts(void **state)
+{
+    (void)state;
+    for (const struct br_kernel *const *k = br_kernels; *k; k++) {
+        const struct br_ladder_kernel *other = br_ladder_kernel_find((*k)->name);
+        assert_non_null(other);
+        assert_string_equal(other->name, (*k)->name);
+        assert_int_equal(other->available(), (*k)->available());
+    }
+    assert_null(br_ladder_kernel_find("sse2"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_all_kernels),
         cmocka_unit_test(test_norm),
         cmocka_unit_test(test_same_mesh),
+        cmocka_unit_test(test_counterparts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,6 +27,8 @@ static void test_bad_input(void **state)
     } rows[] = {
         {"run", "no scene is given"},
         {"run nowhere", "scene 'nowhere' is no file and no bundled scene"},
+        {"run rod.yaml --solvr plain", "--solver"},
+        {"figures --ouf x", "--out"},
         {"run rod.yaml more", "found 'more', expected nothing more"},
         {"run pole.yaml", "pole.yaml:9: tip_force: found inf at t = 1 s, expected a finite number"},
         {"run clamp.yaml", "clamp.yaml:9: displacement: initial axial displacement is 1 at x = 0"},
