@@ -3,6 +3,9 @@
 
 #include <string.h>
 
+const struct br_iteration br_iteration_defaults = {
+    .parameter = 1, .tolerance = 1e-10, .most = 10000};
+
 double br_friction_bound(const struct br_scene *scene, double penetration)
 {
     switch (scene->friction.law) {
@@ -25,13 +28,13 @@ static double clamp(double lambda, double bound)
 }
 
 /* (12): stick, v = 0, while |lambda| <= h; slip with |lambda| = h otherwise. */
-static double exact_force(const struct br_friction_state *s)
+static double exact_force(struct br_friction_state *s)
 {
     return clamp(s->free_velocity / s->compliance, s->bound);
 }
 
 /* (29), corrected: lambda = h v / mu for |v| <= mu, h sign(v) beyond. */
-static double regularised_force(const struct br_friction_state *s)
+static double regularised_force(struct br_friction_state *s)
 {
     const double denominator = s->regularisation + s->bound * s->compliance;
     return clamp(s->bound * s->free_velocity / denominator, s->bound);

@@ -5,12 +5,24 @@
 
 #include "solver/scene.h"
 
+/* How rules that iterate do so. */
+struct br_iteration {
+    double parameter; /* over the one that converges fastest, 1 / z_tip: 1 is that one */
+    double tolerance; /* of lambda, relative to the bound */
+    size_t most;      /* iterations a step; a march that needs more fails */
+};
+
+extern const struct br_iteration br_iteration_defaults;
+
 /* With v = v* - lambda z: find lambda in bound * Sign(v), or its regularisation. */
 struct br_friction_state {
     double free_velocity;  /* v*, m/s */
     double compliance;     /* z_tip, m/s per N */
     double bound;          /* h(t_n) >= 0, N */
     double regularisation; /* mu, m/s */
+    double last;           /* lambda of the step before, N: where iterations start */
+    struct br_iteration iteration;
+    size_t iterations; /* out: added to by rules that iterate */
 };
 
 struct br_friction_rule {
@@ -18,8 +30,10 @@ struct br_friction_rule {
     const char *title; /* one line for a person */
     const char *citation;
     bool needs_regularisation; /* the scene must give mu > 0 */
-    /* lambda = -sigma_V(L), N: the friction force that resists the tip. */
-    double (*force)(const struct br_friction_state *state);
+    bool iterates;             /* heeds br_iteration */
+    /* lambda = -sigma_V(L), N: the friction force that resists the tip. NaN: the iterations did
+     * not converge. */
+    double (*force)(struct br_friction_state *state);
 };
 
 /* NULL-terminated; the first is the default. */

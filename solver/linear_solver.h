@@ -33,7 +33,7 @@ struct br_drive {
     double tip[2]; /* on the tip's unknowns, N; bending: force and moment over h */
 };
 
-/* A march of one field: create, then predict and finish once a step. */
+/* A march of one field: create, then predict and finish once a step. Every function is needed. */
 struct br_field_solver {
     /* Prepares the field's operator; the state starts at rest. Fails with
      * BR_SINGULAR, BR_BAD_INPUT (an option), BR_NO_MEMORY; free *self even then. */
@@ -66,6 +66,23 @@ struct br_field_solver {
     /* The tip's displacement, m. Cheap for axial; a pass over the elements for
      * bending, whose laws do not need it. */
     double (*tip_displacement)(const void *self);
+
+    /* ---- for schemes of more than an Euler step (scheme.h) ---- */
+
+    /* Another length of the steps, s; the state stays. Fails as create does. */
+    enum br_status (*set_step)(void *self, double k, struct br_error *err);
+
+    /* Room for `count` more states, 1, 2, ..., at rest; state 0 is the one that all else is about.
+     * Called once, if at all. Fails with BR_NO_MEMORY. */
+    enum br_status (*keep)(void *self, size_t count, struct br_error *err);
+
+    /* State `into` = sum of weight[j] times state j, j < count, itself among them or not. Weights
+     * of 0 are skipped: what they belong to need not be finite. */
+    void (*combine)(void *self, size_t into, size_t count, const double *weight);
+
+    /* L2 norms (out) of a state's strain (u_x or w_xx) by displacement and by velocity, from the
+     * elements: the size of an error estimate. */
+    void (*size)(const void *self, size_t state, double size[2]);
 };
 
 /* A row of the registry. */

@@ -28,10 +28,14 @@ struct br_march {
 struct br_method br_method_default(void)
 {
     return (struct br_method){
+        .scheme = br_time_schemes[0],
+        .tolerance = 1e-6,
         .solver = br_linear_solvers[0],
         .linear = br_linear_defaults,
         .contact = br_contact_rules[0],
         .friction = br_friction_rules[0],
+        .iteration = br_iteration_defaults,
+        .axial_degree = 1,
     };
 }
 

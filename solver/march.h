@@ -7,17 +7,31 @@
 #include "solver/contact.h"
 #include "solver/friction.h"
 #include "solver/linear_solver.h"
+#include "solver/scheme.h"
 
 /* How a scene is marched. */
 struct br_method {
+    const struct br_time_scheme *scheme;
+    double tolerance; /* of an adaptive scheme: error a step, relative to the largest strain */
     const struct br_linear_solver *solver;
     struct br_linear_options linear;
     const struct br_contact_rule *contact;
     const struct br_friction_rule *friction;
+    struct br_iteration iteration; /* of friction rules that iterate */
+    int axial_degree;              /* of the axial elements: 1, the paper's, or 2 */
 };
 
-/* The defaults: the first row of each registry. */
+/* The defaults: the first row of each registry, elements of degree 1. */
 struct br_method br_method_default(void);
+
+/* What a march has cost so far. */
+struct br_counts {
+    size_t steps;      /* accepted ones; an adaptive scheme's own */
+    size_t rejected;   /* steps of an adaptive scheme that were taken back */
+    size_t stages;     /* linear solves a field */
+    size_t iterations; /* of friction rules that iterate */
+    size_t set_ups;    /* changes of the linear solvers' step, the first not counted */
+};
 
 struct br_march;
 
@@ -56,6 +70,7 @@ size_t br_march_steps_done(const struct br_march *march);
 double br_march_time(const struct br_march *march);
 
 const struct br_tip *br_march_tip(const struct br_march *march);
+struct br_counts br_march_counts(const struct br_march *march);
 
 /* The tip's displacement in one field, m. */
 double br_march_tip_displacement(const struct br_march *march, enum br_field_kind kind);

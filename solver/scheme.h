@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Time schemes: a registry. All are made of one thing, the backward Euler step of linear_solver.h.
+ *
+ * A stage of an implicit scheme asks for the state Y = (w, v) with
+ *     Y = Z + tau Y',    tau = gamma k,
+ * where Z is a sum of states that are known and Y' obeys the equations of motion with the contact
+ * and friction laws at the stage's own time. That is an Euler step of length tau which starts at Z:
+ * schemes differ in gamma and in the weights of Z alone, and the laws are the same scalar problem
+ * (contact.h, friction.h), enforced exactly at every stage. The last stage of every scheme here is
+ * the step's end. */
+#ifndef BR_SCHEME_H
+#define BR_SCHEME_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum {
+    BR_MOST_STAGES = 5,
+    /* What weights refer to: the state at t_{n-1}, the stages of this step, the state at t_{n-2}
+     * and the stages of the step before. */
+    BR_NOW = 0,
+    BR_STAGE = 1,
+    BR_BEFORE = BR_STAGE + BR_MOST_STAGES,
+    BR_STAGE_BEFORE = BR_BEFORE + 1,
+    BR_KNOWN = BR_STAGE_BEFORE + BR_MOST_STAGES
+};
+
+struct br_stage {
+    double time;             /* t = t_{n-1} + time k */
+    double gamma;            /* tau over k */
+    double weight[BR_KNOWN]; /* of what Z is a sum of */
+};
+
+/* The stages of one step; the last one is at its end. */
+struct br_stages {
+    int count;
+    struct br_stage stage[BR_MOST_STAGES];
+    double error[BR_KNOWN]; /* weights of an estimate of the step's error; all 0: none */
+};
+
+struct br_integrator;
+
+struct br_time_scheme {
+    const char *name;  /* as on the command line */
+    const char *title; /* one line for a person */
+    const char *citation;
+    int order;          /* of the error where the solution is smooth */
+    int estimate_order; /* of the step's error estimate, O(k^that); 0: none */
+    bool may_lag;       /* takes the lagged contact of (16), too */
+    bool adaptive;      /* chooses its steps by a tolerance, and finds the times of switching; the
+                           march's steps are then where it is looked at */
+    /* Fills the stages of a step; since: how many steps there were since t = 0 or since the
+     * solution switched (stick, slip, contact opens or closes). With 0, only BR_NOW and BR_STAGE
+     * have weights; with 1, the step before was one that began with 0. */
+    void (*stages)(size_t since, struct br_stages *stages);
+    const struct br_integrator *integrator; /* of its own, instead of stages; NULL: none */
+};
+
+/* NULL-terminated; the first is the default, the paper's. */
+extern const struct br_time_scheme *const br_time_schemes[];
+const struct br_time_scheme *br_time_scheme_find(const char *name);
+
+/* Linear solves a step, where it is not the first. */
+int br_time_scheme_stages(const struct br_time_scheme *scheme);
+
+#endif
