@@ -2,6 +2,7 @@
 #include "solver/march.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "solver/load.h"
@@ -81,6 +82,20 @@ static enum br_status set_initial(struct part *part, const struct br_function *d
     return status;
 }
 
+/* Names the solvers that have what this one lacks. */
+static enum br_status refuse_degree(const struct br_linear_solver *solver, struct br_error *err)
+{
+    char names[256] = "";
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
+        if ((*s)->axial_quadratic) {
+            const size_t used = strlen(names);
+            snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", (*s)->name);
+        }
+    return br_fail(err, BR_BAD_INPUT,
+                   "the solver '%s' has no quadratic axial elements, expected one of %s",
+                   solver->name, names);
+}
+
 static enum br_status create_part(struct br_march *m, enum br_field_kind kind, size_t n,
                                   struct br_error *err)
 {
@@ -88,9 +103,13 @@ static enum br_status create_part(struct br_march *m, enum br_field_kind kind, s
     const struct br_scene *s = m->scene;
     part->modelled = kind == BR_AXIAL ? s->axial.modelled : s->bending.modelled;
     part->field = br_field_of_scene(s, kind, n, s->duration / (double)m->steps);
+    if (kind == BR_AXIAL)
+        part->field.degree = m->method.axial_degree;
     if (!part->modelled)
         return BR_OK;
-    part->solver = kind == BR_AXIAL ? m->method.solver->axial : m->method.solver->bending;
+    part->solver = br_linear_solver_for(m->method.solver, &part->field);
+    if (!part->solver)
+        return refuse_degree(m->method.solver, err);
     enum br_status status =
         part->solver->create(&part->field, &m->method.linear, &part->state, err);
     const struct br_forces forces = br_forces_of_scene(s, kind);
@@ -111,6 +130,9 @@ static enum br_status check_method(const struct br_scene *scene, size_t n, size_
         return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
     if (steps < 1)
         return br_fail(err, BR_BAD_INPUT, "there are no time steps, expected at least one");
+    if (method->axial_degree != 1 && method->axial_degree != 2)
+        return br_fail(err, BR_BAD_INPUT, "axial elements of degree %d, expected 1 or 2",
+                       method->axial_degree);
     if (scene->friction.law != BR_FRICTIONLESS && method->friction->needs_regularisation &&
         !(scene->friction.regularisation > 0))
         return br_fail(err, BR_BAD_INPUT,
@@ -312,7 +334,7 @@ void br_march_strain_rate(const struct br_march *m, enum br_field_kind kind, dou
     if (part->modelled)
         part->solver->strain_rate(part->state, rate);
     else
-        memset(rate, 0, part->field.n * br_field_unknowns(kind) * sizeof *rate);
+        memset(rate, 0, part->field.n * br_field_unknowns(&part->field) * sizeof *rate);
 }
 
 const struct br_field *br_march_field(const struct br_march *m, enum br_field_kind kind)
@@ -329,7 +351,7 @@ void br_march_load(const struct br_march *m, enum br_field_kind kind, double *lo
 {
     const struct part *part = &m->part[kind];
     const struct br_drive *drive = &part->load.drive;
-    const size_t size = br_field_size(&part->field), unknowns = br_field_unknowns(kind);
+    const size_t size = br_field_size(&part->field), unknowns = br_field_unknowns(&part->field);
     for (size_t i = 0; i < size; i++)
         load[i] = drive->vector ? drive->factor * drive->vector[i] : 0;
     for (size_t c = 0; c < unknowns; c++)

@@ -184,7 +184,7 @@ static enum br_status stiffness_create(const struct br_field *field,
     if (!s)
         return br_no_memory(err, "the stiffness form");
     s->field = *field;
-    s->unknowns = br_field_unknowns(field->kind);
+    s->unknowns = br_field_unknowns(field);
     if (field->n > 100 * 1000 * 1000)
         return br_fail(err, BR_BAD_INPUT, "umfpack: n is %zu, expected at most 1e8", field->n);
     s->order = (int)(s->unknowns * field->n);

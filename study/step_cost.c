@@ -44,7 +44,7 @@ static enum br_status create(const struct br_field *field, const struct br_linea
     if (!w)
         return br_no_memory(err, "a solver");
     w->kind = field->kind;
-    w->solver = field->kind == BR_AXIAL ? inner->axial : inner->bending;
+    w->solver = br_linear_solver_for(inner, field);
     return w->solver->create(field, options, &w->state, err);
 }
 
@@ -137,6 +137,7 @@ void br_step_cost_begin(struct br_step_cost *cost, struct br_method *method)
 {
     *cost = (struct br_step_cost){.lap_seconds = measure_lap(), .wrapped = *method->solver};
     cost->wrapped.axial = cost->wrapped.bending = &measuring;
+    cost->wrapped.axial_quadratic = method->solver->axial_quadratic ? &measuring : NULL;
     inner = method->solver;
     current = cost;
     method->solver = &cost->wrapped;
