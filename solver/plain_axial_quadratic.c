@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "solver/plain.h"
+#include "solver/states.h"
 #include "solver/sweep.h"
 
 struct gain {
@@ -21,25 +22,16 @@ struct gain {
     double tip[2];      /* zeta */
 };
 
-struct element {
-    double stretch[2]; /* elongation and bubble of u, m */
-    double rate[2];    /* of its velocity, m/s */
-};
-
-struct state {
-    struct element *element;  /* n */
-    double tip_displacement; /* m */
-    double tip_velocity;     /* m/s */
-};
+/* Of an element: elongation and bubble of u, m, and of its velocity, m/s. */
+enum { STRETCH = 0, RATE = 2, ELEMENT = 4 };
 
 struct rod {
     struct br_field field;
-    double alpha, r[2];   /* a / (c + ka); R */
-    double compliance;    /* z_tip */
-    struct gain *gain;    /* n */
-    double (*drive)[2];   /* n, workspace: S^-1 s, m/s */
-    struct state *state;  /* states; state 0 is marched */
-    size_t states;
+    double alpha, r[2];      /* a / (c + ka); R */
+    double compliance;       /* z_tip */
+    struct gain *gain;       /* n */
+    double (*drive)[2];      /* n, workspace: S^-1 s, m/s */
+    struct br_states states; /* ELEMENT numbers an element; the tip's displacement and velocity */
 };
 
 static void rod_free(void *self)
@@ -47,12 +39,16 @@ static void rod_free(void *self)
     struct rod *a = self;
     if (!a)
         return;
-    for (size_t j = 0; a->state && j < a->states; j++)
-        free(a->state[j].element);
-    free(a->state);
-    free(a->drive);
     free(a->gain);
+    free(a->drive);
+    br_states_clear(&a->states);
     free(a);
+}
+
+/* The tip's displacement and velocity in the state that marches. */
+static double *tip_of(const struct rod *a)
+{
+    return a->states.of[0] + ELEMENT * a->field.n;
 }
 
 /* ---- tables ---- */
@@ -94,7 +90,7 @@ static bool fill_gain(const real r[2], real m, real *p, struct gain *gain, real 
     return true;
 }
 
-static enum br_status fill_gains(struct rod *a, struct br_error *err)
+static enum br_status fill_tables(struct rod *a, struct br_error *err)
 {
     const struct br_field *f = &a->field;
     const real m = (real)f->density * f->h / f->k;
@@ -121,25 +117,6 @@ static enum br_status fill_gains(struct rod *a, struct br_error *err)
 
 /* ---- states ---- */
 
-/* Room for states first to first + count - 1, at rest. */
-static enum br_status add_states(struct rod *a, size_t count, struct br_error *err)
-{
-    struct state *all = br_allocate(a->states + count, sizeof *all);
-    if (!all)
-        return br_no_memory(err, "the axial solver");
-    for (size_t j = 0; j < a->states; j++)
-        all[j] = a->state[j];
-    free(a->state);
-    a->state = all;
-    for (size_t j = 0; j < count; j++) {
-        struct element *element = br_allocate(a->field.n, sizeof *element);
-        if (!element)
-            return br_no_memory(err, "the axial solver");
-        all[a->states++] = (struct state){.element = element};
-    }
-    return BR_OK;
-}
-
 static enum br_status rod_create(const struct br_field *field,
                                  const struct br_linear_options *options, void **self,
                                  struct br_error *err)
@@ -154,112 +131,79 @@ static enum br_status rod_create(const struct br_field *field,
     a->drive = br_allocate(field->n, sizeof *a->drive);
     if (!a->gain || !a->drive)
         return br_no_memory(err, "the axial solver");
-    const enum br_status status = add_states(a, 1, err);
-    return status ? status : fill_gains(a, err);
+    const enum br_status status = br_states_add(&a->states, ELEMENT * field->n + 2, 1, err);
+    return status ? status : fill_tables(a, err);
 }
 
 static enum br_status rod_set_step(void *self, double k, struct br_error *err)
 {
     struct rod *a = self;
     a->field.k = k;
-    return fill_gains(a, err);
+    return fill_tables(a, err);
 }
 
 static enum br_status rod_keep(void *self, size_t count, struct br_error *err)
 {
-    return add_states(self, count, err);
-}
-
-/* to = weight to, or += weight from; a weight of 0 forgets what was there. */
-static void scale(size_t n, double weight, struct state *to)
-{
-    for (size_t i = 0; i < n; i++)
-        for (int c = 0; c < 2; c++) {
-            struct element *e = &to->element[i];
-            e->stretch[c] = weight == 0 ? 0 : weight * e->stretch[c];
-            e->rate[c] = weight == 0 ? 0 : weight * e->rate[c];
-        }
-    to->tip_displacement = weight == 0 ? 0 : weight * to->tip_displacement;
-    to->tip_velocity = weight == 0 ? 0 : weight * to->tip_velocity;
-}
-
-static void add(size_t n, double weight, const struct state *from, struct state *to)
-{
-    for (size_t i = 0; i < n; i++)
-        for (int c = 0; c < 2; c++) {
-            to->element[i].stretch[c] += weight * from->element[i].stretch[c];
-            to->element[i].rate[c] += weight * from->element[i].rate[c];
-        }
-    to->tip_displacement += weight * from->tip_displacement;
-    to->tip_velocity += weight * from->tip_velocity;
+    struct rod *a = self;
+    return br_states_add(&a->states, a->states.size, count, err);
 }
 
 static void rod_combine(void *self, size_t into, size_t count, const double *weight)
 {
     struct rod *a = self;
-    scale(a->field.n, into < count ? weight[into] : 0, &a->state[into]);
-    for (size_t j = 0; j < count; j++)
-        if (j != into && weight[j] != 0)
-            add(a->field.n, weight[j], &a->state[j], &a->state[into]);
+    br_add_states(a->states.of[into], a->states.size, count, a->states.of, weight);
 }
 
 /* h u_x = stretch_0 + stretch_1 (2 xi - 1) */
-static double strain_square(const double stretch[2])
+static void rod_size(void *self, size_t state, double size[2])
 {
-    return stretch[0] * stretch[0] + stretch[1] * stretch[1] / 3;
-}
-
-static void rod_size(const void *self, size_t state, double size[2])
-{
-    const struct rod *a = self;
-    double displacement = 0, velocity = 0;
-    for (size_t i = 0; i < a->field.n; i++) {
-        displacement += strain_square(a->state[state].element[i].stretch);
-        velocity += strain_square(a->state[state].element[i].rate);
-    }
-    size[0] = sqrt(displacement / a->field.h);
-    size[1] = sqrt(velocity / a->field.h);
+    struct rod *a = self;
+    const double *from = a->states.of[state];
+    double sum[ELEMENT] = {0};
+    for (size_t i = 0; i < ELEMENT * a->field.n; i++)
+        sum[i % ELEMENT] += from[i] * from[i];
+    size[0] = sqrt((sum[STRETCH] + sum[STRETCH + 1] / 3) / a->field.h);
+    size[1] = sqrt((sum[RATE] + sum[RATE + 1] / 3) / a->field.h);
 }
 
 static void rod_set(void *self, const double *displacement, const double *velocity)
 {
     struct rod *a = self;
-    struct state *s = &a->state[0];
-    for (size_t i = 0; i < a->field.n; i++) {
-        const double *u = displacement + 2 * i, *v = velocity + 2 * i;
-        s->element[i] = (struct element){{u[2] - u[0], u[3]}, {v[2] - v[0], v[3]}};
-    }
-    s->tip_displacement = displacement[2 * a->field.n];
-    s->tip_velocity = velocity[2 * a->field.n];
+    const double *const nodal[2] = {displacement, velocity};
+    double *to = a->states.of[0];
+    for (size_t i = 0; i < a->field.n; i++)
+        for (int j = 0; j < 2; j++) {
+            *to++ = nodal[j][2 * i + 2] - nodal[j][2 * i];
+            *to++ = nodal[j][2 * i + 3];
+        }
+    for (int j = 0; j < 2; j++)
+        *to++ = nodal[j][2 * a->field.n];
 }
 
 static void rod_get(const void *self, double *displacement, double *velocity)
 {
     const struct rod *a = self;
-    double u[2] = {0, 0}, v[2] = {0, 0};
-    for (size_t i = 0; i <= a->field.n; i++) {
-        for (size_t c = 0; c < 2; c++) {
-            if (displacement)
-                displacement[2 * i + c] = u[c];
-            if (velocity)
-                velocity[2 * i + c] = v[c];
+    double *const nodal[2] = {displacement, velocity};
+    for (size_t j = 0; j < 2; j++) {
+        const double *from = a->states.of[0] + 2 * j;
+        if (!nodal[j])
+            continue;
+        nodal[j][0] = nodal[j][1] = 0;
+        for (size_t i = 0; i < a->field.n; i++, from += ELEMENT) {
+            nodal[j][2 * i + 2] = nodal[j][2 * i] + from[0];
+            nodal[j][2 * i + 3] = from[1];
         }
-        if (i == a->field.n)
-            break;
-        const struct element *e = &a->state[0].element[i];
-        u[0] += e->stretch[0];
-        u[1] = e->stretch[1];
-        v[0] += e->rate[0];
-        v[1] = e->rate[1];
     }
 }
 
 static void rod_strain_rate(const void *self, double *rate)
 {
     const struct rod *a = self;
-    for (size_t i = 0; i < a->field.n; i++)
-        for (size_t c = 0; c < 2; c++)
-            rate[2 * i + c] = a->state[0].element[i].rate[c];
+    const double *from = a->states.of[0];
+    for (size_t i = 0; i < a->field.n; i++, from += ELEMENT) {
+        rate[2 * i] = from[RATE];
+        rate[2 * i + 1] = from[RATE + 1];
+    }
 }
 
 /* ---- a step ---- */
@@ -274,14 +218,15 @@ static enum br_status rod_predict(void *self, const struct br_drive *drive, doub
     const double *load = drive->vector ? drive->vector : none;
     const size_t stride = drive->vector ? 2 : 0, n = a->field.n;
     const double factor = drive->factor, alpha = a->alpha, r0 = a->r[0], r1 = a->r[1];
+    const double *state = a->states.of[0];
     double p = -factor * load[stride * n] - drive->tip[0];
     double tip = 0;
     for (size_t i = n; i-- > 0;) {
         const struct gain *gain = &a->gain[i];
-        const struct element *e = &a->state[0].element[i];
-        const double along = r0 * (alpha * e->stretch[0] + e->rate[0]);
+        const double *e = state + ELEMENT * i;
+        const double along = r0 * (alpha * e[STRETCH] + e[RATE]);
         const double bubble =
-            r1 * (alpha * e->stretch[1] + e->rate[1]) - factor * load[stride * (i + 1) + 1];
+            r1 * (alpha * e[STRETCH + 1] + e[RATE + 1]) - factor * load[stride * (i + 1) + 1];
         const double s = along + p;
         a->drive[i][0] = gain->inverse[0] * s + gain->inverse[1] * bubble;
         a->drive[i][1] = gain->inverse[1] * s + gain->inverse[2] * bubble;
@@ -289,7 +234,7 @@ static enum br_status rod_predict(void *self, const struct br_drive *drive, doub
         p = gain->closed * p - (gain->feedback[0] * along + gain->feedback[1] * bubble +
                                 factor * load[stride * i]);
     }
-    *velocity = a->state[0].tip_velocity + tip;
+    *velocity = tip_of(a)[1] + tip;
     return BR_OK;
 }
 
@@ -300,21 +245,21 @@ static double rod_finish(void *self, double force)
     struct rod *a = self;
     const double k = a->field.k;
     double y = 0, u = 0, v = 0;
-    for (size_t i = 0; i < a->field.n; i++) {
+    double *e = a->states.of[0];
+    for (size_t i = 0; i < a->field.n; i++, e += ELEMENT) {
         const struct gain *gain = &a->gain[i];
-        struct element *e = &a->state[0].element[i];
         const double drive0 = a->drive[i][0] + force * gain->tip[0];
         const double drive1 = a->drive[i][1] + force * gain->tip[1];
-        e->rate[0] -= gain->feedback[0] * y + drive0;
-        e->rate[1] -= gain->feedback[1] * y + drive1;
+        e[RATE] -= gain->feedback[0] * y + drive0;
+        e[RATE + 1] -= gain->feedback[1] * y + drive1;
         y = gain->closed * y - drive0;
-        e->stretch[0] += k * e->rate[0];
-        e->stretch[1] += k * e->rate[1];
-        u += e->stretch[0];
-        v += e->rate[0];
+        e[STRETCH] += k * e[RATE];
+        e[STRETCH + 1] += k * e[RATE + 1];
+        u += e[STRETCH];
+        v += e[RATE];
     }
-    a->state[0].tip_displacement = u;
-    a->state[0].tip_velocity = v;
+    e[0] = u;
+    e[1] = v;
     return v;
 }
 
@@ -325,7 +270,7 @@ static double rod_compliance(const void *self)
 
 static double rod_tip_displacement(const void *self)
 {
-    return ((const struct rod *)self)->state[0].tip_displacement;
+    return tip_of(self)[0];
 }
 
 const struct br_field_solver br_plain_axial_quadratic = {

@@ -25,7 +25,12 @@ void br_field_values(const struct br_march *march, double *values, double *work)
     const struct br_field *field = br_march_field(march, BR_BENDING);
     const size_t nodes = field->n + 1;
     double *const displacement = work, *const velocity = work + 2 * nodes;
-    br_march_get(march, BR_AXIAL, values, values + nodes);
+    br_march_get(march, BR_AXIAL, displacement, velocity);
+    const size_t unknowns = br_field_unknowns(br_march_field(march, BR_AXIAL));
+    for (size_t i = 0; i < nodes; i++) {
+        values[i] = displacement[i * unknowns];
+        values[nodes + i] = velocity[i * unknowns];
+    }
     br_march_get(march, BR_BENDING, displacement, velocity);
     for (size_t i = 0; i < nodes; i++) {
         values[2 * nodes + i] = displacement[2 * i];

@@ -14,7 +14,7 @@
 static void fill(const struct br_field *f, double (*value)(double), double (*slope)(double),
                  double *nodal)
 {
-    const size_t d = br_field_unknowns(f->kind);
+    const size_t d = br_field_unknowns(f);
     for (size_t i = 0; i <= f->n; i++) {
         nodal[d * i] = value(f->h * (double)i);
         if (d == 2)

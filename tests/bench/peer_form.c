@@ -65,7 +65,7 @@ enum br_status peer_create(const struct br_field *field, const struct peer_libra
     if (!s)
         return br_no_memory(err, "a peer");
     s->field = *field;
-    s->unknowns = br_field_unknowns(field->kind);
+    s->unknowns = br_field_unknowns(field);
     s->library = library;
     s->matrix.order = field->n * s->unknowns;
     s->matrix.band = 2 * s->unknowns - 1;
