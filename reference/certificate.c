@@ -71,7 +71,8 @@ static void quadratic_times(const int matrix[3][3], real factor, const double *v
     out[3] = -force[1] / 4;
 }
 
-/* Rod: rho h/6 [2 1; 1 2], of three nodes rho h/30 [4 2 -1; ...].  Beam, for (w, h w_x): rho h/420 [...]. */
+/* Rod: rho h/6 [2 1; 1 2], of three nodes rho h/30 [4 2 -1; ...].  Beam, for (w, h w_x): rho h/420
+ * [...]. */
 static void mass_times(const struct balance *b, const double *v, real out[4])
 {
     static const int rod[2][2] = {{2, 1}, {1, 2}};
@@ -91,9 +92,9 @@ static void mass_times(const struct balance *b, const double *v, real out[4])
     }
 }
 
-/* Rod: 1/h [1 -1; -1 1], of three nodes 1/(3h) [7 -8 1; ...].  Beam: 1/h^3 [12 6 -12 6; 6 4 -6 2; ...]. A rigid motion has no
- * forces, so that of the element's first node is taken off beforehand, exactly but for
- * the last bits: the last two columns remain. */
+/* Rod: 1/h [1 -1; -1 1], of three nodes 1/(3h) [7 -8 1; ...].  Beam: 1/h^3 [12 6 -12 6; 6 4 -6 2;
+ * ...]. A rigid motion has no forces, so that of the element's first node is taken off beforehand,
+ * exactly but for the last bits: the last two columns remain. */
 static void stiffness_times(const struct balance *b, const double *w, real out[4])
 {
     static const int three[3][3] = {{7, -8, 1}, {-8, 16, -8}, {1, -8, 7}};
@@ -291,7 +292,8 @@ static double tip_displacement_error(const struct br_step *s)
     if (!s->scene->axial.modelled)
         return s->tip.displacement == 0 ? 0 : NAN;
     const double *u = s->field[BR_AXIAL].displacement;
-    return ratio(fabs(s->tip.displacement - at_tip(s, BR_AXIAL, u)), magnitude(u, size_of(s, BR_AXIAL)));
+    return ratio(fabs(s->tip.displacement - at_tip(s, BR_AXIAL, u)),
+                 magnitude(u, size_of(s, BR_AXIAL)));
 }
 
 /* (10): at u_{n-1} or u_n, as the method's contact rule has it. */
@@ -482,8 +484,7 @@ enum br_status br_witness_create(struct br_witness **out, const struct br_march 
     const struct br_field *field = br_march_field(march, BR_AXIAL);
     struct br_witness *w = br_allocate(1, sizeof *w);
     const size_t unknowns[2] = {unknowns_of(method, BR_AXIAL), unknowns_of(method, BR_BENDING)};
-    double *memory =
-        br_allocate(5 * (unknowns[0] + unknowns[1]) * (field->n + 1), sizeof *memory);
+    double *memory = br_allocate(5 * (unknowns[0] + unknowns[1]) * (field->n + 1), sizeof *memory);
     if (!w || !memory) {
         free(w);
         free(memory);

@@ -223,8 +223,7 @@ void br_energy_meter_step(struct br_energy_meter *m)
     const real k = (real)br_march_field(m->march, BR_AXIAL)->k;
     m->work.friction += k * (real)tip->friction_force * (real)m->after[BR_BENDING][1][2 * n];
     const size_t tip_of_rod = axial_tip(m);
-    const real way =
-        (real)m->after[BR_AXIAL][0][tip_of_rod] - m->before[BR_AXIAL][0][tip_of_rod];
+    const real way = (real)m->after[BR_AXIAL][0][tip_of_rod] - m->before[BR_AXIAL][0][tip_of_rod];
     m->work.scheme_contact +=
         (real)tip->contact_force * way - ((real)m->now.contact - (real)potential);
 }

@@ -139,7 +139,8 @@ enum br_status br_assemble_load(const struct br_field *field, const struct br_fu
     return status;
 }
 
-/* What the middle of each element lacks of its chord, four times. nodal: in/out, nodes are there. */
+/* What the middle of each element lacks of its chord, four times. nodal: in/out, nodes are there.
+ */
 static enum br_status interpolate_middles(const struct br_field *field,
                                           const struct br_function *value, double *nodal,
                                           struct br_error *err)

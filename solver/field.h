@@ -64,10 +64,9 @@ static inline void br_curvature(const double node[4], double curvature[2])
 enum br_status br_assemble_load(const struct br_field *field, const struct br_function *space,
                                 double t, double *vector, struct br_error *err);
 
-/* Interpolant (Lagrange, with the midpoints if quadratic, or Hermite) of a function of x, m or m/s, into
- * `nodal` (out, br_field_size values). slope: the function's derivative, for
- * bending only. The clamped node is set to zero.
- * Fails with BR_NOT_FINITE; BR_NO_MEMORY. */
+/* Interpolant (Lagrange, with the midpoints if quadratic, or Hermite) of a function of x, m or m/s,
+ * into `nodal` (out, br_field_size values). slope: the function's derivative, for bending only. The
+ * clamped node is set to zero. Fails with BR_NOT_FINITE; BR_NO_MEMORY. */
 enum br_status br_interpolate(const struct br_field *field, const struct br_function *value,
                               const struct br_function *slope, double *nodal, struct br_error *err);
 

@@ -50,7 +50,8 @@ struct br_field_solver {
     void (*get)(const void *self, double *displacement, double *velocity);
 
     /* What deforms the elements, by time: the rate of their elongation h u_x (if quadratic, of the
-     * pair elongation and bubble), or of the two curvature coefficients of br_curvature; n * br_field_unknowns values (out), m/s. */
+     * pair elongation and bubble), or of the two curvature coefficients of br_curvature; n *
+     * br_field_unknowns values (out), m/s. */
     void (*strain_rate)(const void *self, double *rate);
 
     /* First half of a step: solves with what drives the field and no contact or friction;

@@ -34,8 +34,8 @@ enum br_layout {
     /* value[e * modes + i] * scale[i] is mode i of element e */
     BR_BY_ELEMENT,
     /* Nodal values as in solver/field.h. Two modes, u: scale times (u0 + u1, u1 - u0). Three,
-     * (u, b): scale times (u0 + u1 - b/3, u1 - u0, b). Four modes, (w, s): scale times (W - C/6, D - S/12, C, S - 2 D) with
-     * W = w0 + w1, D = w1 - w0, S = s0 + s1, C = s1 - s0. */
+     * (u, b): scale times (u0 + u1 - b/3, u1 - u0, b). Four modes, (w, s): scale times (W - C/6, D
+     * - S/12, C, S - 2 D) with W = w0 + w1, D = w1 - w0, S = s0 + s1, C = s1 - s0. */
     BR_BY_NODE,
     /* Some elements side by side, for vectors: mode i of element e is
      * value[(e / lanes * modes + i) * lanes + e % lanes]; after the last element come zeros. */

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The recursions of plain.h for a rod of quadratic elements: still one state, y = u at the node, but
- * two controls, the element's elongation and its bubble (field.h):
- *     y_{i+1} = y_i + kappa_0,    T = 1,    G = (1 0),    R = (c + ka)/h diag(1, 1/3).
- * The bubble does not reach the nodes, but it has mass and bears load: with N the element's mass in
- * (y, kappa), and f its load,
- *     S = R + N_kk + G'PG,  H = N_ky + G'PT,  K = S^-1 H,  A = T - GK,
- *     P_i = (1 -K') N (1 -K')' + K'RK + A'PA    (the Joseph form),
- *     s_i = R g_i - (0 f)' + G'p_{i+1},  p_i = A'p_{i+1} - K'(R g_i - (0 f)') - F_i.
- * N's form is a sum of squares over the element's Legendre modes, so that nothing is lost there.
- * The state is the controls of u and of its velocity, which do not know the step. */
+/* The recursions of plain.h for a rod of quadratic elements: still one state, y = u at the node,
+ * but two controls, the element's elongation and its bubble (field.h): y_{i+1} = y_i + kappa_0, T =
+ * 1,    G = (1 0),    R = (c + ka)/h diag(1, 1/3). The bubble does not reach the nodes, but it has
+ * mass and bears load: with N the element's mass in (y, kappa), and f its load, S = R + N_kk +
+ * G'PG,  H = N_ky + G'PT,  K = S^-1 H,  A = T - GK, P_i = (1 -K') N (1 -K')' + K'RK + A'PA    (the
+ * Joseph form), s_i = R g_i - (0 f)' + G'p_{i+1},  p_i = A'p_{i+1} - K'(R g_i - (0 f)') - F_i. N's
+ * form is a sum of squares over the element's Legendre modes, so that nothing is lost there. The
+ * state is the controls of u and of its velocity, which do not know the step. */
 #include <math.h>
 
 #include "solver/plain.h"
@@ -231,8 +229,8 @@ static enum br_status rod_predict(void *self, const struct br_drive *drive, doub
         a->drive[i][0] = gain->inverse[0] * s + gain->inverse[1] * bubble;
         a->drive[i][1] = gain->inverse[1] * s + gain->inverse[2] * bubble;
         tip -= gain->tip[0] * s + gain->tip[1] * bubble;
-        p = gain->closed * p - (gain->feedback[0] * along + gain->feedback[1] * bubble +
-                                factor * load[stride * i]);
+        p = gain->closed * p -
+            (gain->feedback[0] * along + gain->feedback[1] * bubble + factor * load[stride * i]);
     }
     *velocity = tip_of(a)[1] + tip;
     return BR_OK;

@@ -12,8 +12,9 @@ static const double careful = 3;   /* without */
 enum br_status br_tips_create(struct br_tips *tips, const struct br_study *grid,
                               struct br_error *err)
 {
-    *tips = (struct br_tips){grid->n_count, grid->k_count, grid->n, grid->steps,
-                             grid->method.axial_degree, {NULL, NULL}};
+    *tips = (struct br_tips){
+        grid->n_count, grid->k_count, grid->n, grid->steps, grid->method.axial_degree,
+        {NULL, NULL}};
     const size_t cells = grid->n_count * grid->k_count;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         tips->value[kind] = br_allocate(cells, sizeof(double));

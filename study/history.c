@@ -33,7 +33,9 @@ static enum br_status first_row(struct run *r, struct br_error *err)
     r->row = (struct br_history_row){.friction_force = NAN};
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         br_march_get(r->march, (enum br_field_kind)kind, NULL, velocity);
-        r->row.velocity[kind] = velocity[axial->n * br_field_unknowns(br_march_field(r->march, (enum br_field_kind)kind))];
+        r->row.velocity[kind] =
+            velocity[axial->n *
+                     br_field_unknowns(br_march_field(r->march, (enum br_field_kind)kind))];
     }
     free(velocity);
     r->row.displacement[BR_AXIAL] = br_march_tip_displacement(r->march, BR_AXIAL);

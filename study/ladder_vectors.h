@@ -98,8 +98,7 @@ INLINE void fetch(const struct br_view *v, enum br_layout layout, int modes, int
     const double *from = v->values + first * (size_t)(modes * ratio);
     switch (layout) {
     case BR_BY_NODE:
-        fetch_nodes(modes, ratio, v->values + first * (size_t)(unknowns_of(modes) * ratio),
-                    value);
+        fetch_nodes(modes, ratio, v->values + first * (size_t)(unknowns_of(modes) * ratio), value);
         return;
     case BR_BY_ELEMENT:
         load_elements(ratio * modes, from, row);

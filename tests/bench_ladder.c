@@ -28,7 +28,8 @@ static struct br_view random_view(enum br_field_kind kind, size_t n)
     struct br_test_random random = {n};
     struct br_view view;
     br_view_field(&view, &field, BR_VELOCITY);
-    view.values = br_allocate_aligned(br_measure_size((struct br_elements){kind, 1}, BR_VELOCITY, n), sizeof(double));
+    view.values = br_allocate_aligned(
+        br_measure_size((struct br_elements){kind, 1}, BR_VELOCITY, n), sizeof(double));
     assert_non_null(view.values);
     for (size_t i = 0; i < br_field_size(&field); i++)
         view.values[i] = br_test_uniform(&random, -1, 1);

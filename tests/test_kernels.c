@@ -140,7 +140,8 @@ static void step(struct pair *p, struct br_drive *drive, double force, const cha
 
 static void check_strain_rate(struct pair *p)
 {
-    const double scale = 4 * magnitude(p, 1); /* a strain is a difference of four nodal values or two */
+    const double scale =
+        4 * magnitude(p, 1); /* a strain is a difference of four nodal values or two */
     const size_t count = p->field.n * br_field_unknowns(&p->field);
     for (int i = 0; i < 2; i++)
         p->solver[i]->strain_rate(p->state[i], p->value[i]);

@@ -37,8 +37,8 @@ static void solve_once(const struct br_linear_solver *s, const struct br_field *
     CLOSE(velocity, free_velocity - tip_force * solver->tip_compliance(self),
           1e-10 * (fabs(free_velocity) + fabs(velocity)));
     solver->get(self, nodal, NULL);
-    CLOSE(solver->tip_displacement(self),
-          nodal[br_field_size(field) - br_field_unknowns(field)], 1e-14 * fabs(velocity));
+    CLOSE(solver->tip_displacement(self), nodal[br_field_size(field) - br_field_unknowns(field)],
+          1e-14 * fabs(velocity));
     solver->free(self);
 }
 
@@ -121,8 +121,7 @@ static void test_uniform_load(void **state)
                         kind == BR_AXIAL
                             ? 8 * x * (2 * length - x) / 80
                             : 8 * x * x * (6 * length * length - 4 * length * x + x * x) / 960;
-                    CLOSE(nodal[i * br_field_unknowns(&field)], expected,
-                          tolerance_of(*s, &field));
+                    CLOSE(nodal[i * br_field_unknowns(&field)], expected, tolerance_of(*s, &field));
                 }
             }
 }

@@ -109,9 +109,8 @@ static void dense_step(struct dense *d, double t)
     dense_solve(d, z);
     const struct br_contact *c = &d->scene->contact;
     const real depth = d->u[tip] + d->k * v[tip] - c->gap;
-    d->contact_force = c->modelled && depth > 0
-                           ? c->stiffness * depth / (1 + c->stiffness * d->k * z[tip])
-                           : 0;
+    d->contact_force =
+        c->modelled && depth > 0 ? c->stiffness * depth / (1 + c->stiffness * d->k * z[tip]) : 0;
     for (size_t i = 1; i < d->nodes; i++) {
         d->v[i] = v[i] - d->contact_force * z[i];
         d->u[i] += d->k * d->v[i];
@@ -216,9 +215,14 @@ static void test_patch(void **state)
 
 static struct br_field field_of(size_t n)
 {
-    return (struct br_field){
-        .kind = BR_AXIAL, .n = n, .h = 1.5 / (double)n, .density = 2, .stiffness = 30,
-        .viscosity = 0.4, .k = 0.01, .degree = 2};
+    return (struct br_field){.kind = BR_AXIAL,
+                             .n = n,
+                             .h = 1.5 / (double)n,
+                             .density = 2,
+                             .stiffness = 30,
+                             .viscosity = 0.4,
+                             .k = 0.01,
+                             .degree = 2};
 }
 
 /* Interpolants of parabolas are the parabolas, but at the clamped end. */
@@ -405,6 +409,25 @@ static void test_wrong_bubble(void **state)
     br_scene_clear(&scene);
 }
 
+/* The size of a force on the last bubble beside one on the tip: its normal force stays in its
+ * element, 3 f (2 xi - 1). */
+static void test_size_of_residual(void **state)
+{
+    (void)state;
+    static const double rest[10], load[10] = {[9] = -0.5};
+    struct br_scene scene = rod_scene("0");
+    const struct br_method method = quadratic("plain");
+    const struct br_step step = {.scene = &scene,
+                                 .method = &method,
+                                 .n = 4,
+                                 .k = 0.1,
+                                 .field = {{rest, rest, rest, rest, load}},
+                                 .tip = {.contact_force = 2}};
+    const double tip = 2 * sqrt(1.5), bubble = 0.5 * sqrt(3 * 1.5 / 4);
+    CLOSE(br_certify(&step).axial_residual, hypot(tip, bubble) / (tip + bubble), 1e-14);
+    br_scene_clear(&scene);
+}
+
 /* ---- refusals ---- */
 
 static void test_refusals(void **state)
@@ -434,7 +457,8 @@ int main(void)
         cmocka_unit_test(test_dense),         cmocka_unit_test(test_patch),
         cmocka_unit_test(test_interpolation), cmocka_unit_test(test_states),
         cmocka_unit_test(test_set_step),      cmocka_unit_test(test_certificates),
-        cmocka_unit_test(test_wrong_bubble),  cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_wrong_bubble),  cmocka_unit_test(test_size_of_residual),
+        cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

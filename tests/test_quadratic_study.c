@@ -77,7 +77,8 @@ static void test_orders_in_space(void **state)
     }
 }
 
-/* Jointly, with k going as h^3, against the continuous problem: what converges is the right thing. */
+/* Jointly, with k going as h^3, against the continuous problem: what converges is the right thing.
+ */
 static void test_joint_orders(void **state)
 {
     (void)state;
@@ -99,8 +100,7 @@ static void test_joint_orders(void **state)
         };
         MUST(br_study_run(&s, 1, 2, NULL, &err));
         for (int c = 1; c < 3; c++) {
-            const double a = s.cell[c - 1].error[BR_PART_AXIAL],
-                         b = s.cell[c].error[BR_PART_AXIAL];
+            const double a = s.cell[c - 1].error[BR_PART_AXIAL], b = s.cell[c].error[BR_PART_AXIAL];
             print_message("# %-12s joint %.3e to %.3e: order %.3f\n", scenes[i], a, b, log2(a / b));
             CLOSE(log2(a / b), 3, 0.2);
         }
@@ -224,10 +224,10 @@ static void test_look(void **state)
         for (size_t e = 0; e < N; e++, v += 2)
             for (int q = 0; q < 3; q++) {
                 const double y = (q - 1) * sqrt(0.6), weight = (q == 1 ? 8 : 5) / 18.0;
-                const double value = measure == BR_STRAIN_RATE
-                                         ? (v[2] - v[0] + y * v[3]) / h
-                                         : (v[0] + v[2]) / 2 + y * (v[2] - v[0]) / 2 -
-                                               (1 - y * y) / 4 * v[3];
+                const double value =
+                    measure == BR_STRAIN_RATE
+                        ? (v[2] - v[0] + y * v[3]) / h
+                        : (v[0] + v[2]) / 2 + y * (v[2] - v[0]) / 2 - (1 - y * y) / 4 * v[3];
                 expected += h * weight * value * value;
             }
         for (size_t e = 0; e < N; e++) {
@@ -273,6 +273,10 @@ static void test_other_degree(void **state)
 static void test_one_element(void **state)
 {
     (void)state;
+    const struct br_elements elements = {BR_AXIAL, 2};
+    assert_int_equal(br_measure_size(elements, BR_DISPLACEMENT, 1), 4); /* two nodes */
+    assert_int_equal(br_measure_size(elements, BR_DISPLACEMENT, 9), 27);
+    assert_int_equal(br_measure_size(elements, BR_STRAIN_RATE, 1), 2);
     static const size_t n = 1, steps = 4;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
@@ -309,11 +313,8 @@ static void test_extrapolation(void **state)
     static const size_t n[] = {4, 8, 16, 32}, steps[] = {10, 20, 40, 80};
     for (int degree = 1; degree <= 2; degree++) {
         struct br_error err = {0};
-        struct br_study grid = {.method = {.axial_degree = degree},
-                                .n_count = 4,
-                                .k_count = 4,
-                                .n = n,
-                                .steps = steps};
+        struct br_study grid = {
+            .method = {.axial_degree = degree}, .n_count = 4, .k_count = 4, .n = n, .steps = steps};
         struct br_tips tips;
         MUST(br_tips_create(&tips, &grid, &err));
         for (int i = 0; i < 16; i++)
@@ -366,10 +367,14 @@ static void test_record(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_orders_in_space), cmocka_unit_test(test_joint_orders),
-        cmocka_unit_test(test_against_exact),   cmocka_unit_test(test_judges),
-        cmocka_unit_test(test_look),            cmocka_unit_test(test_other_degree),
-        cmocka_unit_test(test_one_element),     cmocka_unit_test(test_extrapolation),
+        cmocka_unit_test(test_orders_in_space),
+        cmocka_unit_test(test_joint_orders),
+        cmocka_unit_test(test_against_exact),
+        cmocka_unit_test(test_judges),
+        cmocka_unit_test(test_look),
+        cmocka_unit_test(test_other_degree),
+        cmocka_unit_test(test_one_element),
+        cmocka_unit_test(test_extrapolation),
         cmocka_unit_test(test_record),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

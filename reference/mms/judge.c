@@ -119,7 +119,8 @@ static void mms_look(void *self, const struct br_look_at *at, struct br_view *vi
         br_view_modes(view, 0);
         *view->values = br_derivative_at(j->tip[at->kind], j->length, j->time[at->kind]);
     } else {
-        br_view_modes(view, br_mode_count((struct br_elements){at->kind, j->axial_degree}, at->measure));
+        br_view_modes(view,
+                      br_mode_count((struct br_elements){at->kind, j->axial_degree}, at->measure));
         sums = br_projection_apply(j->projection[at->kind][at->measure][at->mesh],
                                    j->time[at->kind], view->values);
     }
