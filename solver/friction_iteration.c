@@ -109,7 +109,7 @@ static double penalty_duality_force(struct br_friction_state *s)
 
 const struct br_friction_rule br_penalty_duality = {
     .name = "penalty-duality",
-    .title = "the law itself by the paper's iteration; --friction-parameter is omega z_tip > 0",
+    .title = "the law itself by the paper's iteration; its parameter is omega z_tip > 0",
     .citation = "Bermudez and Moreno, Comput. Math. Appl. 7 (1981) 43-58",
     .iterates = true,
     .parameter_below = INFINITY,
@@ -119,7 +119,7 @@ const struct br_friction_rule br_penalty_duality = {
 
 const struct br_friction_rule br_uzawa = {
     .name = "uzawa",
-    .title = "the law itself by Uzawa's iteration; --friction-parameter is rho z_tip, in (0, 2)",
+    .title = "the law itself by Uzawa's iteration; its parameter is rho z_tip, below 2",
     .citation = "Glowinski, Numerical methods for nonlinear variational problems, 1984; Cheng and "
                 "Han, Comput. Methods Appl. Mech. Eng. 192 (2003) 1451-1462",
     .iterates = true,

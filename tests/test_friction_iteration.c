@@ -211,12 +211,75 @@ static void test_refusals(void **state)
     }
 }
 
+/* The tip's velocity and the friction force of both marches, to what the tolerance lets through:
+ * an error of lambda changes the velocity by z_tip times that, and each step's may stay. */
+static void compare_marches(const char *name, const struct br_friction_rule *rule)
+{
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled(name);
+    struct br_method method = br_method_default();
+    struct br_march *march = br_test_march(&scene, 50, 200, &method);
+    method.friction = rule;
+    struct br_march *iterated = br_test_march(&scene, 50, 200, &method);
+    const double z = br_march_compliance(march, BR_BENDING);
+    const double tolerance = method.iteration.tolerance;
+    for (int step = 1; step <= 200; step++) {
+        MUST(br_march_step(march, &err));
+        MUST(br_march_step(iterated, &err));
+        const struct br_tip *a = br_march_tip(march), *b = br_march_tip(iterated);
+        const double most = step * tolerance * a->friction_bound;
+        CLOSE(b->friction_force, a->friction_force, most + 1e-12);
+        CLOSE(b->velocity[BR_BENDING], a->velocity[BR_BENDING], z * most + 1e-13);
+    }
+    const size_t count = br_march_counts(iterated).iterations;
+    assert_in_range(count, 200, 200 * (size_t)most_iterations(rule, &method.iteration));
+    assert_int_equal(br_march_counts(march).iterations, 0);
+    br_march_free(march);
+    br_march_free(iterated);
+    br_scene_clear(&scene);
+}
+
+static void test_marches(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"example1", "example2", "example3", "example4"};
+    EACH(rule)
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
+        compare_marches(scenes[i], *rule);
+}
+
+/* A march whose iterations do not end says so; one with which they cannot is refused. */
+static void test_failing_march(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    EACH(rule)
+    {
+        struct br_method method = br_method_default();
+        method.friction = *rule;
+        method.iteration.most = 2;
+        struct br_march *march = br_test_march(&scene, 10, 10, &method);
+        enum br_status status = BR_OK;
+        for (int step = 1; step <= 10 && !status; step++)
+            status = br_march_step(march, &err);
+        REFUSED(status, BR_NOT_FINITE, (*rule)->name);
+        assert_non_null(strstr(err.message, "in 2 iterations at t = "));
+        br_march_free(march);
+        method.iteration.parameter = -1;
+        REFUSED(br_march_create(&march, &scene, 10, 10, &method, &err), BR_BAD_INPUT,
+                "is -1, expected a number above 0");
+    }
+    br_scene_clear(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_agreement),      cmocka_unit_test(test_one_iteration),
         cmocka_unit_test(test_contraction),    cmocka_unit_test(test_nan_at_once),
         cmocka_unit_test(test_no_convergence), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_marches),        cmocka_unit_test(test_failing_march),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
