@@ -438,7 +438,7 @@ static void test_refusals(void **state)
     struct br_method method = quadratic("umfpack");
     struct br_march *march;
     REFUSED(br_march_create(&march, &scene, 4, 4, &method, &err), BR_BAD_INPUT,
-            "no quadratic axial elements, expected one of riccati, plain");
+            "'umfpack' has no quadratic axial elements, expected one of riccati, plain");
     assert_null(march);
     scene.axial.modelled = false; /* nothing to refuse */
     MUST(br_march_create(&march, &scene, 4, 4, &method, &err));
