@@ -87,6 +87,30 @@ static double tip_displacement(const void *self)
     return w->solver->tip_displacement(w->state);
 }
 
+static enum br_status set_step(void *self, double k, struct br_error *err)
+{
+    struct wrapped *w = self;
+    return w->solver->set_step(w->state, k, err);
+}
+
+static enum br_status keep(void *self, size_t count, struct br_error *err)
+{
+    struct wrapped *w = self;
+    return w->solver->keep(w->state, count, err);
+}
+
+static void combine(void *self, size_t into, size_t count, const double *weight)
+{
+    struct wrapped *w = self;
+    w->solver->combine(w->state, into, count, weight);
+}
+
+static void size(void *self, size_t state, double sizes[2])
+{
+    struct wrapped *w = self;
+    w->solver->size(w->state, state, sizes);
+}
+
 static enum br_status predict(void *self, const struct br_drive *drive, double *velocity,
                               struct br_error *err)
 {
@@ -118,6 +142,10 @@ static const struct br_field_solver measuring = {
     .predict = predict,
     .finish = finish,
     .tip_displacement = tip_displacement,
+    .set_step = set_step,
+    .keep = keep,
+    .combine = combine,
+    .size = size,
 };
 
 /* What one lap adds to itself: the least of some trials, so that a pause does not count. */
