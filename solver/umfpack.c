@@ -174,7 +174,7 @@ static enum br_status create(const struct br_field *field, const struct br_linea
 static double round_off(const struct br_field *f, const struct br_linear_options *options)
 {
     const double more = f->kind == BR_AXIAL ? 20 : 100;
-    return br_assembled_round_off(f, 0) * (options->refinement > 0 ? more : 1);
+    return br_system_round_off(f, 0) * (options->refinement > 0 ? more : 1);
 }
 
 static const struct br_field_solver form = BR_ASSEMBLED(create);
