@@ -76,7 +76,7 @@ enum br_status br_run_options_parse(int argc, const char **argv, struct br_run_o
         {"scaling", 0, POPT_ARG_STRING, &m->scaling, 0,
          "umfpack's row scaling: none (default), sum or max", "NAME"},
         {"refinement", 0, POPT_ARG_STRING, &m->refinement, 0,
-         "umfpack's refinement steps a solve, at most (default 0)", "COUNT"},
+         "refinement steps a solve of assembled solvers, at most (default 0)", "COUNT"},
         {"quiet", 0, POPT_ARG_NONE, &o->quiet, 0, "no progress, no summary on the terminal", NULL},
         {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
         POPT_TABLEEND,

@@ -96,7 +96,7 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
         {"scaling", 0, POPT_ARG_STRING, &o->scaling, 0,
          "umfpack's row scaling: none (default), sum or max", "NAME"},
         {"refinement", 0, POPT_ARG_STRING, &o->refinement, 0,
-         "umfpack's refinement steps a solve, at most (default 0)", "COUNT"},
+         "refinement steps a solve of assembled solvers, at most (default 0)", "COUNT"},
         {"threads", 0, POPT_ARG_STRING, &o->threads, 0, "threads; 0, the default: all cores",
          "COUNT"},
         {"out", 0, POPT_ARG_STRING, &o->out, 0, "folder of the results (default results)", "DIR"},
