@@ -10,7 +10,7 @@ enum br_status br_system_init(struct br_system *s, const struct br_field *field,
                               const struct br_factoriser *factoriser, struct br_error *err)
 {
     s->field = *field;
-    s->unknowns = br_field_unknowns(field->kind);
+    s->unknowns = br_field_unknowns(field);
     s->nodal = br_field_size(field);
     s->factoriser = factoriser;
     s->refinement = factoriser->refines ? 0 : options->refinement;

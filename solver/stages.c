@@ -136,15 +136,12 @@ enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
         path->start[0] = m->tip.displacement;
         path->start[1] = step->k * m->tip.velocity[BR_AXIAL];
     }
-    br_part_keep(part, BR_NOW);
     for (int i = 0; i < stages->count; i++) {
         enum br_status status = br_part_start_stage(part, stages, i, step->k, err);
         if (!status)
             status = stage(m, kind, &stages->stage[i], step, i, path, err);
         if (status)
             return status;
-        if (i + 1 < stages->count)
-            br_part_keep(part, BR_STAGE + i);
     }
     if (kind == BR_AXIAL) {
         path->end[0] = m->tip.displacement;
