@@ -95,6 +95,60 @@ static void test_agreement(void **state)
     assert_in_range(stuck, all / 5, all - all / 5);
 }
 
+static double into(double lambda, double bound)
+{
+    return fmax(-bound, fmin(lambda, bound));
+}
+
+/* lambda <- P(lambda + rho v), as it is printed. */
+static double printed_uzawa(const struct br_friction_state *s)
+{
+    const double rho = s->iteration.parameter / s->compliance;
+    double lambda = into(s->last, s->bound);
+    for (size_t i = 0; i < s->iterations; i++)
+        lambda = into(lambda + rho * (s->free_velocity - lambda * s->compliance), s->bound);
+    return lambda;
+}
+
+/* Bermudez and Moreno's, with the Yosida regularisation of G = b Sign - omega I from its resolvent,
+ * and lambda in b Sign at the resolvent's velocity. */
+static double printed_penalty_duality(const struct br_friction_state *s)
+{
+    const double z = s->compliance, omega = s->iteration.parameter / z, zeta = 1 / (2 * omega);
+    const double last = into(s->last, s->bound);
+    double q = last - omega * (s->free_velocity - last * z), resolvent = 0;
+    for (size_t i = 0; i < s->iterations; i++) {
+        const double v = (s->free_velocity - z * q) / (1 + omega * z);
+        const double r = v + zeta * q, slack = fabs(r) - zeta * s->bound;
+        resolvent = slack > 0 ? copysign(slack / (1 - zeta * omega), r) : 0;
+        q = (r - resolvent) / zeta;
+    }
+    return q + omega * resolvent;
+}
+
+/* The iterates are those of the literature, whatever form they take in the code. */
+static void test_printed_forms(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *rule;
+        double (*printed)(const struct br_friction_state *s);
+    } rows[] = {{"uzawa", printed_uzawa}, {"penalty-duality", printed_penalty_duality}};
+    struct br_test_random r = {73};
+    for (size_t i = 0; i < 2 * 5000; i++) {
+        const struct br_friction_rule *rule = br_friction_rule_find(rows[i % 2].rule);
+        struct br_friction_state s = {
+            .compliance = br_test_log_uniform(&r, 1e-4, 1e4),
+            .bound = br_test_log_uniform(&r, 1e-3, 1e3),
+            .iteration = {any_parameter(rule, &r), 1e-2, 1000},
+        };
+        s.free_velocity = s.bound * s.compliance * br_test_uniform(&r, -1.2, 1.2);
+        s.last = s.bound * br_test_uniform(&r, -1.2, 1.2);
+        const double lambda = rule->force(&s);
+        CLOSE(lambda, rows[i % 2].printed(&s), 1e-12 * s.bound);
+    }
+}
+
 /* Parameter 1 is the solution at once, and so is a start at the solution. */
 static void test_one_iteration(void **state)
 {
@@ -276,10 +330,11 @@ static void test_failing_march(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_agreement),      cmocka_unit_test(test_one_iteration),
-        cmocka_unit_test(test_contraction),    cmocka_unit_test(test_nan_at_once),
-        cmocka_unit_test(test_no_convergence), cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_marches),        cmocka_unit_test(test_failing_march),
+        cmocka_unit_test(test_agreement),     cmocka_unit_test(test_printed_forms),
+        cmocka_unit_test(test_one_iteration), cmocka_unit_test(test_contraction),
+        cmocka_unit_test(test_nan_at_once),   cmocka_unit_test(test_no_convergence),
+        cmocka_unit_test(test_refusals),      cmocka_unit_test(test_marches),
+        cmocka_unit_test(test_failing_march),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
