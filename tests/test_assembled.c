@@ -229,7 +229,26 @@ static void test_step_lengths(void **state)
     }
 }
 
-/* Kept, spoiled and restored: a march goes on with the same bits. */
+static bool is_assembled(const struct br_linear_solver *solver)
+{
+    return solver == &br_umfpack || solver == &br_cholmod || solver == &br_banded;
+}
+
+static void same_to_round_off(const struct br_linear_solver *solver, const void *a, const void *b,
+                              const struct problem *p)
+{
+    double w[2][MOST_SIZE], difference[MOST_SIZE];
+    const size_t size = br_field_size(&p->field);
+    functions(solver, p)->get(a, w[0], NULL);
+    functions(solver, p)->get(b, w[1], NULL);
+    for (size_t i = 0; i < size; i++)
+        difference[i] = w[0][i] - w[1][i];
+    AT_MOST(largest(difference, size),
+            solver->round_off(&p->field, &br_linear_defaults) * largest(w[1], size));
+}
+
+/* Kept, spoiled and restored: a march goes on with the same bits where nodal values are the state,
+ * else to round-off. */
 static void check_keeping(const struct br_linear_solver *solver, const struct problem *p)
 {
     const struct br_field_solver *f = functions(solver, p);
@@ -246,7 +265,9 @@ static void check_keeping(const struct br_linear_solver *solver, const struct pr
     f->combine(self, 1, 3, (double[]){0, 0, 1}); /* state 0 is not finite */
     f->combine(self, 0, 2, (double[]){0, 1});
     march(f, self, p, 11, STEPS);
-    same_bits(f, self, other, p);
+    same_to_round_off(solver, self, other, p);
+    if (is_assembled(solver))
+        same_bits(f, self, other, p);
     f->free(self);
     f->free(other);
 }
