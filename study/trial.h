@@ -11,11 +11,11 @@
 #include "study/study.h"
 
 /* X(name, word): how a trial ended. */
-#define BR_TRIAL_LIST(X)                                                         \
-    X(BR_TRIAL_DONE, "done")                                                     \
+#define BR_TRIAL_LIST(X)                                                          \
+    X(BR_TRIAL_DONE, "done")                                                      \
     X(BR_TRIAL_DOUBTFUL, "doubtful") /* the judge's own error is not far below */ \
-    X(BR_TRIAL_UNSTABLE, "unstable") /* lagged contact beyond its limit */       \
-    X(BR_TRIAL_OVER, "over limit")   /* takes longer than the time limit */      \
+    X(BR_TRIAL_UNSTABLE, "unstable") /* lagged contact beyond its limit */        \
+    X(BR_TRIAL_OVER, "over limit")   /* takes longer than the time limit */       \
     X(BR_TRIAL_FAILED, "failed")
 
 enum br_trial_end {
@@ -38,7 +38,7 @@ struct br_trial {
     const struct br_contender *contender; /* borrowed */
     struct br_resolution at; /* of an adaptive contender, at.steps are the levels looked at */
     double tolerance;        /* of an adaptive contender; otherwise 0 */
-    bool printed;            /* a resolution of the paper's printed tables */
+    bool printed;            /* the paper's method at a resolution of its printed tables */
     /* out */
     enum br_trial_end end;
     struct br_trial_cost cost;
@@ -56,10 +56,10 @@ struct br_trial_request {
     struct br_resolution reference;    /* likewise */
     const struct br_norm *const *norm; /* norms, at least one */
     size_t norms;
-    size_t repeats;        /* timed marches of a trial, at least 1 */
-    double repeat_seconds; /* no more repeats once they have taken so long, s */
-    double time_limit;     /* of one march, s; 0: none */
-    int threads;           /* of the errors; 0: all cores */
+    size_t repeats;                     /* timed marches of a trial, at least 1 */
+    double repeat_seconds;              /* no more repeats once they have taken so long, s */
+    double time_limit;                  /* of one march, s; 0: none */
+    int threads;                        /* of the errors; 0: all cores */
     const struct br_observer *observer; /* NULL: nobody */
 };
 
@@ -73,8 +73,8 @@ struct br_trial_request br_trial_request_default(const struct br_scene *scene);
 enum br_status br_trials_hold(struct br_trial *trial, size_t count,
                               const struct br_trial_request *request, struct br_error *err);
 
-/* The halves of it. Timing sets `cost` and, where a trial did not come to its end, `end` and
- * `failure`; errors are then those of trials whose `end` is BR_TRIAL_DONE. */
+/* The halves of it. Timing clears what is out, and sets `cost` and, where a trial did not come to
+ * its end, `end` and `failure`; judging is of the trials whose `end` is BR_TRIAL_DONE. */
 enum br_status br_trials_time(struct br_trial *trial, size_t count,
                               const struct br_trial_request *request, struct br_error *err);
 enum br_status br_trials_judge(struct br_trial *trial, size_t count,
@@ -85,6 +85,9 @@ double br_trial_seconds(const struct br_trial *trial);
 
 /* The error of a part in norm m over the norm of the whole solution; NaN: none. */
 double br_trial_relative(const struct br_trial *trial, size_t m, enum br_part part);
+
+/* What the relative error is at most, the judge's own error added; NaN: no trial that counts. */
+double br_trial_bound(const struct br_trial *trial, size_t m);
 
 /* The method that a trial marches with: its contender's, with the trial's tolerance. */
 struct br_method br_trial_method(const struct br_trial *trial);
