@@ -21,7 +21,7 @@ struct br_trial_request br_trial_request_default(const struct br_scene *scene)
         .norm = br_norms,
         .norms = 1,
         .repeats = 5,
-        .repeat_seconds = 0.2,
+        .repeat_seconds = 0.1,
         .time_limit = 10,
     };
 }

@@ -52,6 +52,8 @@ void br_say_trade(const struct br_trade_page *page, const struct br_writer *w)
         "marches after a warm-up; longer ones than %g s are marched once. Digits/s: -log10 of the "
         "relative error, over these seconds. On %s.",
         t->request.repeats, t->request.repeat_seconds, page->provenance->machine);
+    say(w, "An error is the largest at a trial's own time levels: long steps are not asked about what "
+           "happens between them.");
     say(w, "A method is its time scheme and what is not the default with it; a tolerance (tol) "
            "stands for k where the scheme chooses its steps.");
 }
