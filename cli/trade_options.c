@@ -19,7 +19,7 @@ static const char usage[] =
     "a coarse grid, and what the paper's table\nprints.\n\nExamples:\n"
     "  beamrate trade example2 --methods euler+lagged,euler+implicit --n 25,100 "
     "--k 0.1,0.01 --out trade\n"
-    "  beamrate trade example1 example3 --methods bdf2,sdirk4+p2 --n 50 --k 0.05,0.01 "
+    "  beamrate trade example1 example3 --methods bdf2,adaptive --n 50 --k 0.05,0.01 "
     "--time-limit 2\n";
 
 enum { HELP = 1 };
@@ -84,7 +84,7 @@ enum br_status br_trade_options_parse(int argc, const char **argv, struct br_tra
         {"reference", 0, POPT_ARG_STRING, &s->reference, 0,
          "judge of the errors: exact, mms, or fine:N,K by the scheme of the highest order", "NAME"},
         {"repeats", 0, POPT_ARG_STRING, &o->repeats, 0,
-         "timed marches of a trial after a warm-up, at most (default 5)", "COUNT"},
+         "timed marches of a trial after a warm-up, at most (default 3)", "COUNT"},
         {"time-limit", 0, POPT_ARG_STRING, &o->time_limit, 0, "longest march, s (default 10)",
          "SECONDS"},
         {"threads", 0, POPT_ARG_STRING, &s->threads, 0,
