@@ -132,9 +132,11 @@ static enum br_status choose(struct br_split *split, const struct distances *d,
             (best == d->heads || distance(d, i, 0)->cell[0].error[BR_PART_TOTAL] <
                                      distance(d, best, 0)->cell[0].error[BR_PART_TOTAL]))
             best = i;
-    if (best == d->heads)
-        return br_fail(err, BR_NOT_FINITE, "no march without time error: %.900s",
-                       failure_of(distance(d, 0, 0))->message);
+    if (best == d->heads) {
+        const struct br_error *failure = failure_of(distance(d, 0, 0));
+        return br_fail(err, failure->status ? failure->status : BR_NOT_FINITE,
+                       "no march without time error: %.900s", failure->message);
+    }
     split->refined = refined[best];
     split->refined.stand = without_time_error(split, &refined[best]);
     take_errors(d, best, error);
@@ -299,6 +301,9 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
     if (!split->judge)
         return br_fail(err, BR_BAD_INPUT,
                        "the scene has a manufactured solution, which this build does not read");
+    if (split->at.n < 1 || split->at.steps < 1)
+        return br_fail(err, BR_BAD_INPUT, "%s is 0, expected at least one",
+                       split->at.n < 1 ? "n" : "the number of time steps");
     enum br_status status = refine(split, c.refinement, threads, observer, err);
     if (status)
         return status;
