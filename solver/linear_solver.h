@@ -82,7 +82,7 @@ struct br_field_solver {
 
     /* L2 norms (out) of a state's strain (u_x or w_xx) by displacement and by velocity, from the
      * elements: the size of an error estimate. */
-    void (*size)(const void *self, size_t state, double size[2]);
+    void (*size)(void *self, size_t state, double size[2]);
 };
 
 /* A row of the registry. */

@@ -16,6 +16,8 @@ static void pieces_free(void *self)
         return;
     free(s->arena);
     free(s->loads);
+    for (size_t i = 1; i < s->states; i++)
+        free(s->kept[i]);
     free(s);
 }
 
@@ -34,17 +36,30 @@ static void join(struct br_pieces *s, double *h, double *y)
     }
 }
 
-/* What a unit force at the tip does, while q and z are zero. */
+/* What a unit force at the tip does. */
 static void find_influence(struct br_pieces *s)
 {
     double unit[BR_LQ_MOST] = {1 / s->r, 0};
+    const size_t bytes = (size_t)s->d * BR_LANES * sizeof(double);
+    for (int i = 0; i < s->strands; i++) {
+        memset(s->strand[i].q, 0, bytes);
+        memset(s->strand[i].z, 0, bytes);
+    }
     join(s, unit, s->force_increment);
     s->compliance = -s->force_increment[0];
-    const size_t bytes = (size_t)s->d * BR_LANES * sizeof(double);
     for (int i = 0; i < s->strands; i++) {
         memcpy(s->strand[i].force_right, s->strand[i].ends.right, bytes);
         memcpy(s->strand[i].force_left, s->strand[i].ends.left, bytes);
     }
+}
+
+enum br_status br_pieces_prepare(struct br_pieces *s, struct br_error *err)
+{
+    s->k = s->field.k;
+    const enum br_status status = br_pieces_tables(s, err);
+    if (!status)
+        find_influence(s);
+    return status;
 }
 
 static enum br_status pieces_create(const struct br_field *field,
@@ -61,14 +76,9 @@ static enum br_status pieces_create(const struct br_field *field,
         return br_fail(err, BR_BAD_INPUT, "kernel %s is not available on this machine",
                        s->kernel->name);
     s->d = field->kind == BR_AXIAL ? 1 : 2;
-    s->k = field->k;
-    enum br_status status = br_pieces_lay_out(s, err);
-    if (!status)
-        status = br_pieces_tables(s, err);
-    if (status)
-        return status;
-    find_influence(s);
-    return BR_OK;
+    s->states = 1;
+    const enum br_status status = br_pieces_lay_out(s, err);
+    return status ? status : br_pieces_prepare(s, err);
 }
 
 static double pieces_compliance(const void *self)
@@ -81,9 +91,10 @@ static enum br_status pieces_predict(void *self, const struct br_drive *drive, d
 {
     struct br_pieces *s = self;
     const enum br_status status =
-        drive->changed ? br_pieces_set_load(s, drive->vector, err) : BR_OK;
+        drive->changed || s->stale_load ? br_pieces_set_load(s, drive->vector, err) : BR_OK;
     if (status)
         return status;
+    s->stale_load = false;
     s->drive.factor = drive->factor;
     for (int i = 0; i < s->strands; i++)
         s->kernel->gather(&s->strand[i].strip, drive->factor, s->strand[i].q, s->strand[i].z);
@@ -154,4 +165,8 @@ const struct br_field_solver br_pieces = {
     .predict = pieces_predict,
     .finish = pieces_finish,
     .tip_displacement = pieces_tip_displacement,
+    .set_step = br_pieces_set_step,
+    .keep = br_pieces_keep,
+    .combine = br_pieces_combine,
+    .size = br_pieces_size,
 };

@@ -129,36 +129,16 @@ static void set_element(const struct br_pieces *s, const struct br_strand *t, si
     }
 }
 
-/* q and z of a piece. */
-static void weigh(const struct br_pieces *s, const struct br_strand *t, size_t lane, size_t j)
-{
-    const size_t d = (size_t)s->d;
-    double sum[2 * BR_LQ_MOST] = {0}; /* z, q */
-    for (size_t e = 0; e < t->strip.length; e++) {
-        const double *weight = t->strip.weight + e * 2 * d * d;
-        const double *w = state_at(s, t, lane, j * t->strip.length + e), *v = w + d * BR_LANES;
-        for (size_t i = 0; i < 2 * d; i++)
-            for (size_t c = 0; c < d; c++)
-                sum[i] += weight[i * d + c] * (t->strip.alpha * w[c * BR_LANES] + v[c * BR_LANES]);
-    }
-    double *end = t->strip.end + j * BR_ENDS * d * BR_LANES + lane;
-    for (size_t c = 0; c < d; c++) {
-        end[(BR_END_Z * d + c) * BR_LANES] = sum[c];
-        end[(BR_END_Q * d + c) * BR_LANES] = sum[d + c];
-    }
-}
-
 void br_pieces_set(void *self, const double *displacement, const double *velocity)
 {
     struct br_pieces *s = self;
     for (int i = 0; i < s->strands; i++) {
         const struct br_strand *t = &s->strand[i];
-        for (size_t lane = 0; lane < t->strip.lanes; lane++) {
+        for (size_t lane = 0; lane < t->strip.lanes; lane++)
             for (size_t e = 0; e < br_span_length(t); e++)
                 set_element(s, t, lane, e, displacement, velocity);
-            for (size_t j = 0; j < t->strip.pieces; j++)
-                weigh(s, t, lane, j);
-        }
+        for (size_t j = 0; j < t->strip.pieces; j++)
+            s->kernel->weigh(&t->strip, j);
     }
     s->tip_bias = 0;
     s->advanced = false;

@@ -6,6 +6,7 @@
 
 #include "solver/lq.h"
 #include "solver/pieces.h"
+#include "solver/states.h"
 #include "solver/sweep_kernel.h"
 
 /* Spans side by side, and what a step hands them. */
@@ -32,8 +33,12 @@ struct br_pieces {
     double tip_load[BR_LQ_MOST]; /* of the last node over R, for a factor of 1 */
     double tip_increment[BR_LQ_MOST], force_increment[BR_LQ_MOST];
     double tip_velocity, tip_displacement, compliance;
-    bool advanced;   /* the strands' ends have the velocities across the spans */
-    double tip_bias; /* mean of what the joins' increment lacks of the field's, m/s */
+    bool stale_load;              /* loads are those of another step */
+    double *kept[BR_MOST_STATES]; /* states 1, 2, ...: the strands' states one after the other, and
+                                     tip_velocity and tip_displacement; owned */
+    size_t states;                /* state 0 counted */
+    bool advanced;                /* the strands' ends have the velocities across the spans */
+    double tip_bias;              /* mean of what the joins' increment lacks of the field's, m/s */
 };
 
 /* Elements of a span. */
@@ -50,6 +55,16 @@ enum br_status br_pieces_tables(struct br_pieces *s, struct br_error *err);
 
 /* Another load vector, N; NULL: none. Fails with BR_NO_MEMORY. */
 enum br_status br_pieces_set_load(struct br_pieces *s, const double *vector, struct br_error *err);
+
+/* What schemes of several stages need; see linear_solver.h. */
+enum br_status br_pieces_set_step(void *self, double k, struct br_error *err);
+enum br_status br_pieces_keep(void *self, size_t count, struct br_error *err);
+void br_pieces_combine(void *self, size_t into, size_t count, const double *weight);
+void br_pieces_size(void *self, size_t state, double size[2]);
+
+/* Tables for the field's step, and what a unit force at the tip does with them. Fails as
+ * br_pieces_tables. */
+enum br_status br_pieces_prepare(struct br_pieces *s, struct br_error *err);
 
 /* State from and to nodal values; see linear_solver.h. */
 void br_pieces_set(void *self, const double *displacement, const double *velocity);

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "solver/plain.h"
+#include "solver/states.h"
 #include "solver/sweep.h"
 
 struct gain {
@@ -21,6 +22,7 @@ struct element {
 };
 
 struct axial {
+    struct br_field field;
     size_t n;
     double k, alpha;
     double r;                /* R */
@@ -29,6 +31,7 @@ struct axial {
     double compliance;       /* z_tip */
     struct gain *gain;       /* n */
     struct element *element; /* n */
+    struct br_states states; /* see numbers_of; the first is that of the elements */
 };
 
 static void axial_free(void *self)
@@ -38,13 +41,14 @@ static void axial_free(void *self)
         return;
     free(a->gain);
     free(a->element);
+    br_states_clear(&a->states);
     free(a);
 }
 
 /* Q = 2m + P, S = R + Q, H = Q + m; P = 2m + 2mA + QA^2 + RK^2. */
-static enum br_status fill_gains(struct axial *a, const struct br_field *field,
-                                 struct br_error *err)
+static enum br_status fill_tables(struct axial *a, struct br_error *err)
 {
+    const struct br_field *field = &a->field;
     const long double m = (long double)field->density * field->h / field->k / 6;
     const long double r =
         ((long double)field->viscosity + (long double)field->k * field->stiffness) / field->h;
@@ -64,6 +68,8 @@ static enum br_status fill_gains(struct axial *a, const struct br_field *field,
         p = 2 * m + 2 * m * closed + q * closed * closed + r * feedback * feedback;
         a->gain[i] = (struct gain){(double)closed, (double)feedback, (double)(1 / s), (double)zeta};
     }
+    a->k = field->k;
+    a->alpha = field->stiffness / (field->viscosity + field->k * field->stiffness);
     a->r = (double)r;
     a->compliance = (double)compliance;
     return BR_OK;
@@ -78,14 +84,14 @@ static enum br_status axial_create(const struct br_field *field,
     *self = a;
     if (!a)
         return br_no_memory(err, "the axial solver");
+    a->field = *field;
     a->n = field->n;
-    a->k = field->k;
-    a->alpha = field->stiffness / (field->viscosity + field->k * field->stiffness);
     a->gain = br_allocate(field->n, sizeof *a->gain);
     a->element = br_allocate(field->n, sizeof *a->element);
     if (!a->gain || !a->element)
         return br_no_memory(err, "the axial solver");
-    return fill_gains(a, field, err);
+    const enum br_status status = br_states_add(&a->states, 2 * field->n + 2, 1, err);
+    return status ? status : fill_tables(a, err);
 }
 
 static double axial_compliance(const void *self)
@@ -186,6 +192,69 @@ static double axial_tip_displacement(const void *self)
     return ((const struct axial *)self)->tip_displacement;
 }
 
+/* A state as numbers: elongation and its rate element by element, and the tip's motion. */
+static double *numbers_of(struct axial *a)
+{
+    double *to = a->states.of[0];
+    for (size_t i = 0; i < a->n; i++) {
+        const struct element *e = &a->element[i];
+        *to++ = e->elongation;
+        *to++ = e->strain - a->alpha * e->elongation;
+    }
+    to[0] = a->tip_displacement;
+    to[1] = a->tip_velocity;
+    return a->states.of[0];
+}
+
+static void take_numbers(struct axial *a)
+{
+    const double *from = a->states.of[0];
+    for (size_t i = 0; i < a->n; i++, from += 2) {
+        a->element[i].elongation = from[0];
+        a->element[i].strain = a->alpha * from[0] + from[1];
+    }
+    a->tip_displacement = from[0];
+    a->tip_velocity = from[1];
+}
+
+static enum br_status axial_set_step(void *self, double k, struct br_error *err)
+{
+    struct axial *a = self;
+    numbers_of(a);
+    a->field.k = k;
+    const enum br_status status = fill_tables(a, err);
+    take_numbers(a);
+    return status;
+}
+
+static enum br_status axial_keep(void *self, size_t count, struct br_error *err)
+{
+    struct axial *a = self;
+    return br_states_add(&a->states, a->states.size, count, err);
+}
+
+static void axial_combine(void *self, size_t into, size_t count, const double *weight)
+{
+    struct axial *a = self;
+    if (weight[0] != 0)
+        numbers_of(a);
+    br_add_states(a->states.of[into], a->states.size, count, a->states.of, weight);
+    if (into == 0)
+        take_numbers(a);
+}
+
+/* u_x = elongation/h */
+static void axial_size(void *self, size_t state, double size[2])
+{
+    struct axial *a = self;
+    const double *from = state == 0 ? numbers_of(a) : a->states.of[state];
+    double sum[2] = {0};
+    for (size_t i = 0; i < 2 * a->n; i++)
+        sum[i % 2] += from[i] * from[i];
+    for (int rate = 0; rate < 2; rate++)
+        size[rate] = sqrt(sum[rate] / a->field.h);
+}
+
 const struct br_field_solver br_plain_axial = {
     .create = axial_create,
     .free = axial_free,
@@ -196,4 +265,8 @@ const struct br_field_solver br_plain_axial = {
     .predict = axial_predict,
     .finish = axial_finish,
     .tip_displacement = axial_tip_displacement,
+    .set_step = axial_set_step,
+    .keep = axial_keep,
+    .combine = axial_combine,
+    .size = axial_size,
 };

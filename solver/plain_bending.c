@@ -6,6 +6,7 @@
 
 #include "solver/pair.h"
 #include "solver/plain.h"
+#include "solver/states.h"
 #include "solver/sweep.h"
 
 typedef long double real; /* of the tables, which are computed once */
@@ -25,6 +26,7 @@ struct element {
 };
 
 struct bending {
+    struct br_field field;
     size_t n;
     double k, alpha;
     br_pair r;               /* R, diagonal */
@@ -32,6 +34,7 @@ struct bending {
     double compliance;       /* z_tip */
     struct gain *gain;       /* n */
     struct element *element; /* n */
+    struct br_states states; /* see numbers_of; the first is that of the elements */
 };
 
 struct block {
@@ -185,7 +188,26 @@ static void bending_free(void *self)
         return;
     free(b->gain);
     free(b->element);
+    br_states_clear(&b->states);
     free(b);
+}
+
+/* All that follows from the field and its step. */
+static enum br_status fill_tables(struct bending *b, struct br_error *err)
+{
+    const struct br_field *field = &b->field;
+    struct recursion rec;
+    recursion_start(&rec, field);
+    for (size_t i = field->n; i-- > 0;)
+        if (!recursion_step(&rec, &b->gain[i]))
+            return br_fail(err, BR_SINGULAR,
+                           "bending: the step is not positive definite at element %zu of %zu", i,
+                           field->n);
+    b->k = field->k;
+    b->alpha = field->stiffness / (field->viscosity + field->k * field->stiffness);
+    b->r = (br_pair){(double)rec.r[0], (double)rec.r[1]};
+    b->compliance = (double)rec.compliance;
+    return BR_OK;
 }
 
 static enum br_status bending_create(const struct br_field *field,
@@ -197,24 +219,14 @@ static enum br_status bending_create(const struct br_field *field,
     *self = b;
     if (!b)
         return br_no_memory(err, "the bending solver");
+    b->field = *field;
     b->n = field->n;
-    b->k = field->k;
     b->gain = br_allocate(field->n, sizeof *b->gain);
     b->element = br_allocate(field->n, sizeof *b->element);
     if (!b->gain || !b->element)
         return br_no_memory(err, "the bending solver");
-
-    struct recursion rec;
-    recursion_start(&rec, field);
-    for (size_t i = field->n; i-- > 0;)
-        if (!recursion_step(&rec, &b->gain[i]))
-            return br_fail(err, BR_SINGULAR,
-                           "bending: the step is not positive definite at element %zu of %zu", i,
-                           field->n);
-    b->alpha = field->stiffness / (field->viscosity + field->k * field->stiffness);
-    b->r = (br_pair){(double)rec.r[0], (double)rec.r[1]};
-    b->compliance = (double)rec.compliance;
-    return BR_OK;
+    const enum br_status status = br_states_add(&b->states, 4 * field->n + 1, 1, err);
+    return status ? status : fill_tables(b, err);
 }
 
 static double bending_compliance(const void *self)
@@ -346,6 +358,71 @@ static double bending_tip_displacement(const void *self)
     return w[0];
 }
 
+/* A state as numbers: the curvatures and their rates element by element, and the tip's velocity. */
+static double *numbers_of(struct bending *b)
+{
+    double *to = b->states.of[0];
+    for (size_t i = 0; i < b->n; i++, to += 4) {
+        const struct element *e = &b->element[i];
+        const br_pair rate = e->strain - b->alpha * e->curvature;
+        memcpy(to, &e->curvature, sizeof e->curvature);
+        memcpy(to + 2, &rate, sizeof rate);
+    }
+    *to = b->tip_velocity;
+    return b->states.of[0];
+}
+
+static void take_numbers(struct bending *b)
+{
+    const double *from = b->states.of[0];
+    for (size_t i = 0; i < b->n; i++, from += 4) {
+        struct element *e = &b->element[i];
+        e->curvature = (br_pair){from[0], from[1]};
+        e->strain = b->alpha * e->curvature + (br_pair){from[2], from[3]};
+    }
+    b->tip_velocity = *from;
+}
+
+static enum br_status bending_set_step(void *self, double k, struct br_error *err)
+{
+    struct bending *b = self;
+    numbers_of(b);
+    b->field.k = k;
+    const enum br_status status = fill_tables(b, err);
+    take_numbers(b);
+    return status;
+}
+
+static enum br_status bending_keep(void *self, size_t count, struct br_error *err)
+{
+    struct bending *b = self;
+    return br_states_add(&b->states, b->states.size, count, err);
+}
+
+static void bending_combine(void *self, size_t into, size_t count, const double *weight)
+{
+    struct bending *b = self;
+    if (weight[0] != 0)
+        numbers_of(b);
+    br_add_states(b->states.of[into], b->states.size, count, b->states.of, weight);
+    if (into == 0)
+        take_numbers(b);
+}
+
+/* The square of w_xx over an element is (kappa0^2 + kappa1^2 / 3) / h^3. */
+static void bending_size(void *self, size_t state, double size[2])
+{
+    struct bending *b = self;
+    const double *from = state == 0 ? numbers_of(b) : b->states.of[state];
+    double sum[2] = {0};
+    for (size_t i = 0; i < b->n; i++, from += 4)
+        for (int rate = 0; rate < 2; rate++)
+            sum[rate] +=
+                from[2 * rate] * from[2 * rate] + from[2 * rate + 1] * from[2 * rate + 1] / 3;
+    for (int rate = 0; rate < 2; rate++)
+        size[rate] = sqrt(sum[rate] / b->field.h) / b->field.h;
+}
+
 const struct br_field_solver br_plain_bending = {
     .create = bending_create,
     .free = bending_free,
@@ -356,4 +433,8 @@ const struct br_field_solver br_plain_bending = {
     .predict = bending_predict,
     .finish = bending_finish,
     .tip_displacement = bending_tip_displacement,
+    .set_step = bending_set_step,
+    .keep = bending_keep,
+    .combine = bending_combine,
+    .size = bending_size,
 };

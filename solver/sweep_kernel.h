@@ -91,6 +91,9 @@ struct br_kernel {
     /* What the load adds to the ends of the pieces. */
     void (*charge)(const struct br_strip *strip, const double uniform[2]);
 
+    /* What the state of piece j adds to its own ends, q and z; advance leaves it, too. */
+    void (*weigh)(const struct br_strip *strip, size_t j);
+
     /* The displacement or its rate at the right ends of spans whose left ends are fixed (out, d
      * each). */
     void (*carry)(const struct br_strip *strip, bool rate, double *across);

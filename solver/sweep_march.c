@@ -191,6 +191,26 @@ INLINE void advance_of(int d, bool loaded, const struct br_strip *strip,
     }
 }
 
+/* z and q of a state that no step has led to. */
+INLINE void weigh_of(int d, const struct br_strip *s, size_t j, size_t lane)
+{
+    const size_t entry = (size_t)d * BR_LANES;
+    const struct piece at = piece_at(d, s, j, lane);
+    vec z[2] = {{0}}, q[2] = {{0}};
+    for (size_t e = 0; e < s->length; e++) {
+        const double *weight = s->weight + e * (size_t)(2 * d * d);
+        const double *state = at.state + e * 2 * entry;
+        vec w[2], rate[2], g[2];
+        load_all(d, state, w);
+        load_all(d, state + entry, rate);
+        strain(d, s->alpha, w, rate, g);
+        add(d, weight, g, z);
+        add(d, weight + d * d, g, q);
+    }
+    store_all(d, z, at.end + BR_END_Z * entry);
+    store_all(d, q, at.end + BR_END_Q * entry);
+}
+
 /* The recursions with no state. */
 INLINE void charge_of(int d, const struct br_strip *s, const double *uniform, size_t j, size_t lane)
 {
@@ -241,6 +261,15 @@ static void charge(const struct br_strip *s, const double uniform[2])
                 charge_of(2, s, uniform, j, lane);
 }
 
+static void weigh(const struct br_strip *s, size_t j)
+{
+    for (size_t lane = 0; lane < BR_LANES; lane += WIDTH)
+        if (s->d == 1)
+            weigh_of(1, s, j, lane);
+        else
+            weigh_of(2, s, j, lane);
+}
+
 const struct br_kernel BR_JOIN(br_kernel_, BR_SET) = {
     .name = BR_QUOTE(BR_SET),
     .available = BR_JOIN(br_has_, BR_SET),
@@ -249,6 +278,7 @@ const struct br_kernel BR_JOIN(br_kernel_, BR_SET) = {
     .join_right = SWEEP(join_right),
     .advance = advance,
     .charge = charge,
+    .weigh = weigh,
     .carry = SWEEP(carry),
     .expand = SWEEP(expand),
 };

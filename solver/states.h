@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* States of a field as rows of numbers, for schemes that keep several (scheme.h). */
+#ifndef BR_STATES_H
+#define BR_STATES_H
+
+#include "solver/status.h"
+
+enum { BR_MOST_STATES = 16 };
+
+struct br_states {
+    size_t size, count;         /* numbers of a state; states */
+    double *of[BR_MOST_STATES]; /* owned, aligned; the first is the one that marches */
+};
+
+/* `count` more states of `size` numbers, all zero. Fails with BR_NO_MEMORY; clear it even then. */
+enum br_status br_states_add(struct br_states *states, size_t size, size_t count,
+                             struct br_error *err);
+void br_states_clear(struct br_states *states);
+
+/* to[i] = sum over j of weight[j] from[j][i], i < size; from[j] may be `to`. Weights of 0 are
+ * skipped. */
+void br_add_states(double *to, size_t size, size_t count, double *const *from,
+                   const double *weight);
+
+/* The sum of the squares of count numbers. */
+double br_sum_of_squares(const double *number, size_t count);
+
+#endif
