@@ -120,12 +120,33 @@ static enum br_status lay_out(struct work *w, struct br_error *err)
 
 /* ---- computing and writing ---- */
 
+/* Progress over all runs. */
+struct overall {
+    const struct br_observer *inner;
+    size_t done, all;
+};
+
+static void progress(void *self, double fraction)
+{
+    const struct overall *o = self;
+    if (o->inner->progress)
+        o->inner->progress(o->inner->self, ((double)o->done + fraction) / (double)o->all);
+}
+
+static bool stop(void *self)
+{
+    const struct overall *o = self;
+    return o->inner->stop && o->inner->stop(o->inner->self);
+}
+
 static enum br_status split_all(struct work *w, struct br_error *err)
 {
-    const struct br_observer *observer = br_progress_start("splitting", w->options->quiet);
+    struct overall o = {.inner = br_progress_start("splitting", w->options->quiet),
+                        .all = w->splits};
+    const struct br_observer observer = {progress, stop, &o};
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < w->splits && !status; i++)
-        status = br_split_run(&w->split[i], w->request.threads, observer, err);
+    for (; o.done < o.all && !status; o.done++)
+        status = br_split_run(&w->split[o.done], w->request.threads, &observer, err);
     br_progress_end();
     return !status && br_signals_caught() ? br_fail(err, BR_INTERRUPTED, "interrupted") : status;
 }

@@ -86,7 +86,7 @@ static void write_pen(FILE *out, const struct br_panel *p, size_t curve)
         series += p->curve[j].stroke == BR_STROKE_SERIES;
         before += j < curve && p->curve[j].stroke == BR_STROKE_SERIES;
     }
-    const struct br_pen pen = br_pen_of(before, series);
+    const struct br_pen pen = c->pen ? br_pen_of(c->pen - 1, c->pens) : br_pen_of(before, series);
     switch (c->stroke) {
     case BR_STROKE_SERIES:
         fprintf(out, "with lines lw 3 lc rgb '%s' dt %s", pen.colour, pen.dash);

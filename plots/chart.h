@@ -21,6 +21,7 @@ enum br_stroke {
 struct br_curve {
     char title[80]; /* enhanced; "": not in the key */
     enum br_stroke stroke;
+    size_t pen, pens; /* of a series: pen 1, 2, ... of so many; 0: by its place in the panel */
     size_t count;
     double (*point)[2]; /* count; owned; NaN: a gap */
 };

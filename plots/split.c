@@ -65,6 +65,10 @@ static bool draw_part(const struct line *line, size_t share, enum br_stroke stro
         return true;
     double(*point)[2] = br_chart_curve(panel, stroke, line->count, "%s",
                                        whole ? "whole" : line->run[0]->share[share].source->name);
+    if (point) { /* a source looks the same in both panels */
+        panel->curve[panel->curves - 1].pen = share + 1;
+        panel->curve[panel->curves - 1].pens = line->run[0]->shares;
+    }
     for (size_t i = 0; point && i < line->count; i++) {
         const struct br_split *s = line->run[i];
         const struct br_share *part = whole ? &s->whole : &s->share[share];
@@ -93,6 +97,8 @@ static bool draw_panel(const struct line *line, struct br_panel *panel)
              line->over_k ? "time step k (s)" : "element length h (m)");
     snprintf(panel->y_label, sizeof panel->y_label, "%s (%s)", s->norm[0]->symbol,
              s->norm[0]->unit_markup);
+    panel->x_low = abscissa(s, line->over_k) / 1.3;
+    panel->x_high = abscissa(line->run[line->count - 1], line->over_k) * 1.3;
     bool drawn = draw_part(line, s->shares, BR_STROKE_DOTS, panel);
     for (size_t i = 0; i < s->shares && drawn; i++)
         drawn = draw_part(line, i, BR_STROKE_SERIES, panel);

@@ -304,7 +304,9 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
     if (split->at.n < 1 || split->at.steps < 1)
         return br_fail(err, BR_BAD_INPUT, "%s is 0, expected at least one",
                        split->at.n < 1 ? "n" : "the number of time steps");
-    enum br_status status = refine(split, c.refinement, threads, observer, err);
+    struct br_observer quiet = observer ? *observer : (struct br_observer){0};
+    quiet.progress = NULL; /* the chain takes longer */
+    enum br_status status = refine(split, c.refinement, threads, &quiet, err);
     if (status)
         return status;
     status = distances_create(&c.d, split, BR_MOST_SOURCES + 2, err);

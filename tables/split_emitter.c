@@ -72,7 +72,9 @@ const char *br_split_error_text(const struct br_split_line *line, enum br_part p
 
 const char *br_split_share_text(const struct br_split_line *line, char *buffer)
 {
-    if (!isfinite(line->share))
+    const bool told = !(line->floor[BR_PART_TOTAL] > 0) ||
+                      line->error[BR_PART_TOTAL] > line->floor[BR_PART_TOTAL];
+    if (!isfinite(line->share) || !told)
         snprintf(buffer, TEXT, "-");
     else if (line->share > 0 && line->share < 1e-3)
         snprintf(buffer, TEXT, "%.1e %%", 100 * line->share);
@@ -117,51 +119,48 @@ static void say(const struct br_writer *w, const char *text)
     w->paragraph(w->self, text);
 }
 
-static void say_reference(const struct br_split *s, const struct br_writer *w)
+void br_split_say_chain(const struct br_split *s, const struct br_writer *w)
 {
     char text[512];
+    for (size_t m = 0; m < s->norms; m++)
+        say(w, s->norm[m]->title);
     snprintf(
         text, sizeof text,
-        "Each part is the distance of two marches, or of a march from the solution (%s), of "
-        "which the second has one source of error less, from the top down; so the parts add up "
-        "to the whole, as functions. What is below its floor is shown as < floor: it cannot be "
-        "told from round-off and the errors of what it is measured by.",
+        "A part is the distance of two marches, or of a march from the solution (%s), of which "
+        "the second has one source of error less, from the top down; so the parts add up to the "
+        "whole, as functions, and at the tip (x = L, t = T, with signs, m) as numbers.",
         s->judge->name);
     say(w, text);
-    snprintf(text, sizeof text, "Without time error: %s.%s", s->refined.name,
-             s->method.scheme->adaptive
-                 ? " The part called time is what the run's tolerance leaves."
-                 : "");
-    say(w, text);
-}
-
-static void say_sum(const struct br_split *s, const struct br_writer *w)
-{
-    char text[512];
-    for (size_t m = 0; m < s->norms; m++) {
-        const double whole = s->whole.error[m][BR_PART_TOTAL], sum = s->sum[m][BR_PART_TOTAL];
-        snprintf(text, sizeof text,
-                 "%s: the whole is %.3e %s, %.3g of the sum of its parts%s; relative to the "
-                 "solution's norm %.1e.",
-                 s->norm[m]->name, whole, s->norm[m]->unit, whole / sum,
-                 whole < 0.9 * sum ? ", which point against each other" : "", whole / s->scale[m]);
-        say(w, text);
-    }
-    snprintf(
-        text, sizeof text,
-        "At the tip, x = L and t = T, the parts have signs, and add up but for %.1e m (axial) and "
-        "%.1e m (bending).",
-        fabs(s->tip_sum[BR_AXIAL] - s->whole.tip[BR_AXIAL]),
-        fabs(s->tip_sum[BR_BENDING] - s->whole.tip[BR_BENDING]));
-    say(w, text);
-}
-
-void br_split_say(const struct br_split *s, const struct br_writer *w)
-{
-    say_reference(s, w);
-    say_sum(s, w);
-    if (s->unstable)
-        say(w, "The lagged contact is beyond its stability limit: its part is bounded chatter.");
+    say(w, "< is below the floor: cannot be told from round-off and from the errors of what it is "
+           "measured by.");
     if (s->scene->remark)
         say(w, s->scene->remark);
+}
+
+static void say_sum(const struct br_split *s, size_t m, const struct br_writer *w)
+{
+    char text[256];
+    const double whole = s->whole.error[m][BR_PART_TOTAL], sum = s->sum[m][BR_PART_TOTAL];
+    snprintf(text, sizeof text,
+             "The whole is %.3g of the sum of its parts%s (%s), and %.1e of the "
+             "solution.",
+             whole / sum, whole < 0.9 * sum ? ", which point against each other" : "",
+             s->norm[m]->name, whole / s->scale[m]);
+    say(w, text);
+}
+
+void br_split_say_run(const struct br_split *s, const struct br_writer *w)
+{
+    char text[256];
+    for (size_t m = 0; m < s->norms; m++)
+        say_sum(s, m, w);
+    snprintf(
+        text, sizeof text, "Without time error: %s. At the tip the parts add up but for %.1e m.%s",
+        s->refined.name,
+        fmax(fabs(s->tip_sum[BR_AXIAL] - s->whole.tip[BR_AXIAL]),
+             fabs(s->tip_sum[BR_BENDING] - s->whole.tip[BR_BENDING])),
+        s->method.scheme->adaptive ? " The part called time is what the tolerance leaves." : "");
+    say(w, text);
+    if (s->unstable)
+        say(w, "The lagged contact is beyond its stability limit: its part is bounded chatter.");
 }

@@ -45,7 +45,8 @@ const char *br_split_tip_text(const struct br_split_line *line, enum br_field_ki
 /* "n = 100, k = 0.01 s: euler, contact lagged, friction exact, solver riccati" */
 const char *br_split_run_text(const struct br_split *split, char *buffer, size_t size);
 
-/* How the parts were measured and what they add up to. */
-void br_split_say(const struct br_split *split, const struct br_writer *w);
+/* How parts are measured, once for all runs; what those of a run add up to. */
+void br_split_say_chain(const struct br_split *split, const struct br_writer *w);
+void br_split_say_run(const struct br_split *split, const struct br_writer *w);
 
 #endif

@@ -65,7 +65,7 @@ static json_t *run(const struct br_split *s)
     char text[256];
     for (size_t i = 0; i < s->shares; i++)
         json_array_append_new(parts, line_object(s, i));
-    br_split_say(s, &w);
+    br_split_say_run(s, &w);
     put(o, "run", br_json_string(br_split_run_text(s, text, sizeof text)));
     put(o, "n", json_integer((json_int_t)s->at.n));
     put(o, "steps", json_integer((json_int_t)s->at.steps));
@@ -97,17 +97,20 @@ static json_t *norm_list(const struct br_split *s)
 static enum br_status emit(FILE *out, const struct br_split_page *page, struct br_error *err)
 {
     const struct br_provenance *p = page->provenance;
-    json_t *o = json_object(), *runs = json_array();
+    json_t *o = json_object(), *runs = json_array(), *said = json_array();
+    const struct br_writer w = {add_sentence, said};
     for (size_t i = 0; i < page->count; i++)
         json_array_append_new(runs, run(&page->split[i]));
-    if (!o || !runs)
+    if (!o || !runs || !said)
         return br_no_memory(err, "the JSON document");
     put(o, "provenance", br_json_provenance(p));
     put(o, "scene",
         json_pack("{s:o, s:o, s:o}", "name", br_json_string(page->split->scene->name), "path",
                   br_json_string(p->scene_path), "text", br_json_string(p->scene_text)));
     put(o, "norms", norm_list(page->split));
+    br_split_say_chain(page->split, &w);
     put(o, "runs", runs);
+    put(o, "findings", said);
     json_dumpf(o, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
     fputc('\n', out);
     json_decref(o);

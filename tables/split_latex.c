@@ -61,10 +61,11 @@ static enum br_status emit(FILE *out, const struct br_split_page *page, struct b
     const struct br_writer w = {paragraph, out};
     fprintf(out, "%% beamrate %s (%s), %s; needs \\usepackage{booktabs}\n", p->version, p->commit,
             p->date);
+    br_split_say_chain(page->split, &w);
     for (size_t i = 0; i < page->count; i++) {
         for (size_t m = 0; m < page->split[i].norms; m++)
             print_table(out, &page->split[i], m);
-        br_split_say(&page->split[i], &w);
+        br_split_say_run(&page->split[i], &w);
     }
     return BR_OK;
 }

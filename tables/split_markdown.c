@@ -48,18 +48,18 @@ static void print_run(FILE *out, const struct br_split *s)
             print_line(out, s, m, i);
     }
     fputc('\n', out);
-    br_split_say(s, &w);
+    br_split_say_run(s, &w);
 }
 
 static enum br_status emit(FILE *out, const struct br_split_page *page, struct br_error *err)
 {
     (void)err;
     const struct br_split *first = page->split;
+    const struct br_writer w = {item, out};
     fputs("# Where the error comes from: ", out);
     br_print_markdown(out, first->scene->title);
     fputs("\n\n", out);
-    for (size_t m = 0; m < first->norms; m++)
-        item(out, first->norm[m]->title);
+    br_split_say_chain(first, &w);
     for (size_t i = 0; i < page->count; i++)
         print_run(out, &page->split[i]);
     fprintf(out, "\nbeamrate %s (%s), %s\n", page->provenance->version, page->provenance->commit,

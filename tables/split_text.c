@@ -44,7 +44,7 @@ static void print_run(FILE *out, const struct br_split *s)
             print_line(out, s, m, i);
     }
     fputc('\n', out);
-    br_split_say(s, &w);
+    br_split_say_run(s, &w);
 }
 
 static enum br_status emit(FILE *out, const struct br_split_page *page, struct br_error *err)
@@ -55,8 +55,7 @@ static enum br_status emit(FILE *out, const struct br_split_page *page, struct b
     fputs("Where the error comes from: ", out);
     br_print_plain(out, first->scene->title);
     fputc('\n', out);
-    for (size_t m = 0; m < first->norms; m++)
-        w.paragraph(out, first->norm[m]->title);
+    br_split_say_chain(first, &w);
     for (size_t i = 0; i < page->count; i++) {
         fputc('\n', out);
         print_run(out, &page->split[i]);
