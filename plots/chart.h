@@ -13,6 +13,7 @@ enum { BR_CHART_PANELS = 3, BR_CHART_CURVES = 8, BR_CHART_MARKS = 3 };
 /* How a curve is drawn. */
 enum br_stroke {
     BR_STROKE_SERIES, /* one of several of a kind: the pens of plots/page.h */
+    BR_STROKE_MARKED, /* the same, with marks */
     BR_STROKE_SOLID,  /* dark, thick */
     BR_STROKE_DASHED, /* red, dashed */
     BR_STROKE_DOTS,   /* circles */

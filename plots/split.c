@@ -78,31 +78,42 @@ static bool draw_part(const struct line *line, size_t share, enum br_stroke stro
     return point;
 }
 
-static bool draw_panel(const struct line *line, struct br_panel *panel)
+/* The method, as far as it is not the default, and what all runs of the line share. */
+static void name_panel(const struct line *line, char *title, size_t size)
 {
     const struct br_split *s = line->run[0];
     const struct br_method *m = &s->method;
+    size_t used = (size_t)snprintf(title, size, "%s", m->scheme->name);
+    if (s->scene->contact.modelled)
+        used += (size_t)snprintf(title + used, size - used, ", %s", m->contact->name);
+    if (m->friction != br_friction_rules[0])
+        used += (size_t)snprintf(title + used, size - used, ", %s", m->friction->name);
+    if (m->solver != br_linear_solvers[0])
+        used += (size_t)snprintf(title + used, size - used, ", %s", m->solver->name);
+    if (m->axial_degree != 1)
+        used += (size_t)snprintf(title + used, size - used, ", P%d", m->axial_degree);
+    if (line->over_k)
+        snprintf(title + used, size - used, ", n = %zu", s->at.n);
+    else
+        snprintf(title + used, size - used, ", k = %.3g s", br_time_step(s->scene, s->at.steps));
+}
+
+static bool draw_panel(const struct line *line, struct br_panel *panel)
+{
+    const struct br_split *s = line->run[0];
     panel->log_x = panel->log_y = true;
     panel->columns = 4;
-    const size_t used = (size_t)snprintf(panel->title, sizeof panel->title, "%s", m->scheme->name);
-    if (s->scene->contact.modelled)
-        snprintf(panel->title + used, sizeof panel->title - used, ", contact %s", m->contact->name);
-    const size_t named = strlen(panel->title);
-    if (line->over_k)
-        snprintf(panel->title + named, sizeof panel->title - named, ", n = %zu", s->at.n);
-    else
-        snprintf(panel->title + named, sizeof panel->title - named, ", k = %.3g s",
-                 br_time_step(s->scene, s->at.steps));
+    name_panel(line, panel->title, sizeof panel->title);
     snprintf(panel->x_label, sizeof panel->x_label, "%s",
              line->over_k ? "time step k (s)" : "element length h (m)");
     snprintf(panel->y_label, sizeof panel->y_label, "%s (%s)", s->norm[0]->symbol,
              s->norm[0]->unit_markup);
     panel->x_low = abscissa(s, line->over_k) / 1.3;
     panel->x_high = abscissa(line->run[line->count - 1], line->over_k) * 1.3;
-    bool drawn = draw_part(line, s->shares, BR_STROKE_DOTS, panel);
+    bool drawn = true;
     for (size_t i = 0; i < s->shares && drawn; i++)
-        drawn = draw_part(line, i, BR_STROKE_SERIES, panel);
-    return drawn;
+        drawn = draw_part(line, i, BR_STROKE_MARKED, panel);
+    return drawn && draw_part(line, s->shares, BR_STROKE_DOTS, panel); /* above all */
 }
 
 /* One range for all panels: their heights can be compared. */
@@ -117,7 +128,7 @@ static void share_range(struct br_chart *chart)
                 high = y > high ? y : high;
             }
     for (size_t i = 0; i < chart->panels && low <= high; i++) {
-        chart->panel[i].y_low = pow(10, floor(log10(low)));
+        chart->panel[i].y_low = pow(10, floor(log10(low / 1.5)));
         chart->panel[i].y_high = pow(10, ceil(log10(1.5 * high)));
     }
 }
