@@ -14,6 +14,7 @@
 #include "plots/split.h"
 #include "study/contender.h"
 #include "study/number_list.h"
+#include "study/ranks.h"
 #include "study/scene_file.h"
 #include "tables/split_emitter.h"
 
@@ -141,7 +142,8 @@ static bool stop(void *self)
 
 static enum br_status split_all(struct work *w, struct br_error *err)
 {
-    struct overall o = {.inner = br_progress_start("splitting", w->options->quiet),
+    struct overall o = {.inner =
+                            br_progress_start("splitting", w->options->quiet || !br_ranks_first()),
                         .all = w->splits};
     const struct br_observer observer = {progress, stop, &o};
     enum br_status status = BR_OK;
@@ -228,16 +230,17 @@ static enum br_status write_all(struct work *w, const struct br_split_page *page
 
 static enum br_status run(struct work *w, struct br_error *err)
 {
+    const bool writes = br_ranks_first();
     enum br_status status = read_lists(w, err);
     if (!status)
         status = read_scene(w, err);
     if (!status)
         status = lay_out(w, err);
-    if (!status && w->options->out)
+    if (!status && w->options->out && writes)
         status = br_output_open(&w->output, w->options->out, err);
     if (!status)
         status = split_all(w, err);
-    if (status)
+    if (status || !writes)
         return status;
     br_provenance_fill(&w->provenance, w->request.threads);
     w->provenance.scene_path = w->path;

@@ -167,31 +167,41 @@ static enum br_status refine(struct br_split *split, by_norm error, int threads,
 
 struct chain {
     struct distances d;
-    size_t whole, audit;          /* heads: run and solution; riccati and plain */
+    size_t whole;                 /* head: the run and the solution */
+    size_t audit[2];              /* heads: riccati and plain, as given and before `in_time` */
     size_t link[BR_MOST_SOURCES]; /* heads, by share */
     by_norm refinement;           /* error of the refined march, at most */
 };
 
+/* Two forms of the same step: what they differ by is round-off, and what the march makes of it. */
+static size_t add_audit(struct chain *c, const struct br_stand *stand)
+{
+    struct br_stand plain = *stand, riccati = *stand;
+    plain.method.solver = &br_plain;
+    riccati.method.solver = &br_riccati;
+    return add_distance(&c->d, &plain, &riccati);
+}
+
 static void add_links(struct br_split *split, struct chain *c)
 {
-    struct br_stand stand = start(split), plain = stand;
+    struct br_stand stand = start(split);
     const struct br_stand solution = {.method = split->method, .continuous = true};
+    bool audited = false;
     c->whole = add_distance(&c->d, &stand, &solution);
+    c->audit[0] = add_audit(c, &stand);
     for (const struct br_source *const *s = br_sources; *s; s++) {
-        struct br_share *share = &split->share[split->shares];
+        struct br_share *share = &split->share[split->shares++];
         struct br_stand next = stand;
         *share = (struct br_share){.source = *s};
         share->none = (*s)->remove(split->scene, &split->refined, &next);
-        if (!share->none)
-            c->link[split->shares] = add_distance(&c->d, &stand, &next);
-        if (!share->none)
-            stand = next;
-        split->shares++;
+        if (share->none)
+            continue;
+        if ((*s)->in_time && !audited)
+            c->audit[1] = add_audit(c, &stand);
+        audited |= (*s)->in_time;
+        c->link[split->shares - 1] = add_distance(&c->d, &stand, &next);
+        stand = next;
     }
-    plain.method.solver = &br_plain;
-    struct br_stand riccati = plain;
-    riccati.method.solver = &br_riccati;
-    c->audit = add_distance(&c->d, &plain, &riccati);
 }
 
 /* Any link that fails breaks the chain. */
@@ -212,13 +222,13 @@ static enum br_status check_links(const struct br_split *split, const struct cha
     return BR_OK;
 }
 
-/* What the laws leave open: the linear solver's last digits, measured by two forms of the same
- * step or, where one of them fails, predicted. */
-static double floor_of_march(const struct br_split *split, const struct chain *c, size_t norm,
-                             int part)
+/* What a march's linear solver leaves open: measured or, where the audit fails, predicted. */
+static double floor_of_march(const struct br_split *split, const struct chain *c, bool in_time,
+                             size_t norm, int part)
 {
-    return failed(&c->d, c->audit) ? split->predicted_round_off * split->scale[norm]
-                                   : 2 * distance(&c->d, c->audit, norm)->cell[0].error[part];
+    const size_t audit = c->audit[in_time];
+    return failed(&c->d, audit) ? split->predicted_round_off * split->scale[norm]
+                                : 2 * distance(&c->d, audit, norm)->cell[0].error[part];
 }
 
 static void set_floor(const struct br_split *split, const struct chain *c, size_t head,
@@ -227,7 +237,7 @@ static void set_floor(const struct br_split *split, const struct chain *c, size_
     for (size_t m = 0; m < split->norms; m++)
         for (int part = 0; part < BR_PARTS; part++) {
             const struct br_study *s = distance(&c->d, head, m);
-            share->floor[m][part] = floor_of_march(split, c, m, part);
+            share->floor[m][part] = floor_of_march(split, c, in_time, m, part);
             if (in_time)
                 share->floor[m][part] += c->refinement[m][part];
             if (s->judge == split->judge)
@@ -309,7 +319,7 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
     enum br_status status = refine(split, c.refinement, threads, &quiet, err);
     if (status)
         return status;
-    status = distances_create(&c.d, split, BR_MOST_SOURCES + 2, err);
+    status = distances_create(&c.d, split, BR_MOST_SOURCES + 3, err);
     if (!status) {
         add_links(split, &c);
         status = march(&c.d, threads, observer, err);

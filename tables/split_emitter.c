@@ -40,7 +40,9 @@ static struct br_split_line share_line(const struct br_split *split, const struc
     }
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         line.tip[kind] = share->tip[kind];
-    line.share = br_share_of_sum(split, share, norm, BR_PART_TOTAL);
+    line.share = share->none || br_share_told(share, norm, BR_PART_TOTAL)
+                     ? br_share_of_sum(split, share, norm, BR_PART_TOTAL)
+                     : NAN;
     return line;
 }
 
@@ -72,9 +74,7 @@ const char *br_split_error_text(const struct br_split_line *line, enum br_part p
 
 const char *br_split_share_text(const struct br_split_line *line, char *buffer)
 {
-    const bool told = !(line->floor[BR_PART_TOTAL] > 0) ||
-                      line->error[BR_PART_TOTAL] > line->floor[BR_PART_TOTAL];
-    if (!isfinite(line->share) || !told)
+    if (!isfinite(line->share))
         snprintf(buffer, TEXT, "-");
     else if (line->share > 0 && line->share < 1e-3)
         snprintf(buffer, TEXT, "%.1e %%", 100 * line->share);

@@ -29,7 +29,7 @@ struct br_split_line {
     const char *name;
     const char *none;                        /* why there is no such part; NULL: there is */
     double error[BR_PARTS], floor[BR_PARTS]; /* NaN: not modelled; no floor */
-    double share;                            /* of the sum, total; NaN: there is none */
+    double share;                            /* of the sum, total; NaN: cannot be told */
     double tip[2];                           /* by br_field_kind, m; NaN: not modelled */
 };
 size_t br_split_lines(const struct br_split *split);
