@@ -17,3 +17,18 @@ enum br_status br_read_count_option(const char *option, const char *text, int mo
         *value = (int)number;
     return BR_OK;
 }
+
+enum br_status br_read_number_option(const char *option, const char *text, double low, double high,
+                                     double *value, struct br_error *err)
+{
+    double number;
+    if (!text)
+        return BR_OK;
+    const char *end = br_read_number(text, &number);
+    if (!end || *end || !(number > low && number < high))
+        return br_fail(err, BR_BAD_INPUT,
+                       "--%s: found '%s', expected a number above %g and below %g", option, text,
+                       low, high);
+    *value = number;
+    return BR_OK;
+}

@@ -10,6 +10,8 @@ const struct br_linear_solver *const br_linear_solvers[] = {
     &br_riccati,
     &br_plain,
     &br_umfpack,
+    &br_cholmod,
+    &br_banded,
     NULL,
 };
 

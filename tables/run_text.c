@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "tables/method_text.h"
 #include "tables/plain_text.h"
 #include "tables/run_page.h"
 
@@ -16,15 +17,12 @@ static const char *direction(int sign)
 static void head(FILE *out, const struct br_run_page *page)
 {
     const struct br_run_report *p = page->report;
-    const struct br_kernel *kernel = br_linear_solver_kernel(p->method.solver, &p->method.linear);
+    char method[BR_METHOD_TEXT];
     br_print_plain(out, p->scene->title);
     fprintf(out, "\n");
     br_print_plain(out, page->provenance->scene_path);
-    fprintf(out,
-            "\n%zu elements, h = %g m; %zu steps of k = %g s\nsolver %s%s%s, contact %s, friction "
-            "%s\n",
-            p->n, p->h, p->steps, p->k, p->method.solver->name, kernel ? ", kernel " : "",
-            kernel ? kernel->name : "", p->method.contact->name, p->method.friction->name);
+    fprintf(out, "\n%zu elements, h = %g m; %zu steps of k = %g s\n%s\n", p->n, p->h, p->steps,
+            p->k, br_method_text(&p->marched, &p->method, method));
     if (p->failure.status) {
         fprintf(out, "\nSTOPPED: ");
         br_print_plain(out, p->failure.message);

@@ -5,19 +5,8 @@
 #include <stdio.h>
 
 #include "tests/bench/bench.h"
-#include "tests/bench/peers.h"
 
 enum { STEPS = 200 };
-
-static const struct br_linear_solver *const peers[] = {
-    &br_riccati,
-    &br_umfpack,
-#ifdef BENCH_CHOLMOD
-    &peer_cholmod_simplicial,
-    &peer_cholmod_supernodal,
-#endif
-    &peer_banded,
-};
 
 /* Largest relative difference of the tips after some steps of 1e-3 s. */
 static double deviation_of(const struct br_scene *scene, size_t n, const struct br_method *method,
@@ -92,11 +81,8 @@ void bench_peers(void **state)
         const struct bench_time t = bench_march(&march).step;
         printf("  %-20s %7zu %9.2f %9.2f %9.2f\n", method.solver->name, sizes[i], t.median, t.least,
                t.most);
-        for (size_t p = 0; p < sizeof peers / sizeof *peers; p++)
-            run_peer(*state, &scene, sizes[i], peers[p], t.least);
+        for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
+            run_peer(*state, &scene, sizes[i], *s, t.least);
     }
-#ifndef BENCH_CHOLMOD
-    printf("  CHOLMOD was not found: skipped\n");
-#endif
     br_scene_clear(&scene);
 }
