@@ -79,7 +79,7 @@ static enum br_status march(struct distances *d, int threads, const struct br_ob
     return br_study_run_each(d->study, d->heads, threads, observer, err);
 }
 
-/* ---- the best refinement in time: that which agrees best with a coarser one of its kind ---- */
+/* ---- the refinement in time ---- */
 
 static struct br_stand start(const struct br_split *split)
 {
@@ -110,10 +110,19 @@ static struct br_stand coarser(const struct br_stand *stand)
     return c;
 }
 
-enum { MOST_REFINEMENTS = 4 };
-
-/* How far the refined march is from its coarser one, by norm and part. */
+/* By norm and part. */
 typedef double by_norm[BR_MOST_NORMS][BR_PARTS];
+
+enum { MOST_REFINEMENTS = 4 };
+static const double good_enough = 1e-8; /* relative to the solution */
+
+struct refining {
+    int threads;
+    const struct br_observer *observer;
+    by_norm error;           /* of the best refinement, at most */
+    double least;            /* the same, relative, in the first norm */
+    struct br_error failure; /* the first */
+};
 
 static void take_errors(const struct distances *d, size_t head, by_norm error)
 {
@@ -122,45 +131,48 @@ static void take_errors(const struct distances *d, size_t head, by_norm error)
             error[m][part] = distance(d, head, m)->cell[0].error[part];
 }
 
-static enum br_status choose(struct br_split *split, const struct distances *d,
-                             const struct br_refinement *refined, by_norm error,
-                             struct br_error *err)
+/* How far a refined march is from a coarser one of its kind, in the first norm and relative to the
+ * solution; infinite where one of them fails. Such errors are kept where they are the least yet. */
+static enum br_status try_refinement(struct br_split *split, const struct br_refinement *refined,
+                                     struct refining *r, struct br_error *err)
 {
-    size_t best = d->heads;
-    for (size_t i = 0; i < d->heads; i++)
-        if (!failed(d, i) &&
-            (best == d->heads || distance(d, i, 0)->cell[0].error[BR_PART_TOTAL] <
-                                     distance(d, best, 0)->cell[0].error[BR_PART_TOTAL]))
-            best = i;
-    if (best == d->heads) {
-        const struct br_error *failure = failure_of(distance(d, 0, 0));
-        return br_fail(err, failure->status ? failure->status : BR_NOT_FINITE,
-                       "no march without time error: %.900s", failure->message);
+    struct distances d;
+    enum br_status status = distances_create(&d, split, 1, err);
+    if (!status) {
+        const struct br_stand fine = without_time_error(split, refined);
+        const struct br_stand coarse = coarser(&fine);
+        add_distance(&d, &coarse, &fine);
+        status = march(&d, r->threads, r->observer, err);
     }
-    split->refined = refined[best];
-    split->refined.stand = without_time_error(split, &refined[best]);
-    take_errors(d, best, error);
-    return BR_OK;
+    if (!status && failed(&d, 0) && !r->failure.status)
+        r->failure = *failure_of(distance(&d, 0, 0));
+    if (!status && !failed(&d, 0)) {
+        const struct br_study *s = distance(&d, 0, 0);
+        const double relative = s->cell[0].error[BR_PART_TOTAL] / s->reference_scale;
+        if (relative < r->least) {
+            r->least = relative;
+            split->refined = *refined;
+            split->refined.stand = without_time_error(split, refined);
+            take_errors(&d, 0, r->error);
+        }
+    }
+    distances_clear(&d);
+    return status;
 }
 
-static enum br_status refine(struct br_split *split, by_norm error, int threads,
-                             const struct br_observer *observer, struct br_error *err)
+/* The first refinement that is good enough, or the best. */
+static enum br_status refine(struct br_split *split, struct refining *r, struct br_error *err)
 {
     struct br_refinement refined[MOST_REFINEMENTS];
     const size_t count = br_refinements(split, MOST_REFINEMENTS, refined);
-    struct distances d;
-    enum br_status status = distances_create(&d, split, count, err);
-    for (size_t i = 0; i < count && !status; i++) {
-        const struct br_stand fine = without_time_error(split, &refined[i]);
-        const struct br_stand coarse = coarser(&fine);
-        add_distance(&d, &coarse, &fine);
-    }
-    if (!status)
-        status = march(&d, threads, observer, err);
-    if (!status)
-        status = choose(split, &d, refined, error, err);
-    distances_clear(&d);
-    return status;
+    enum br_status status = BR_OK;
+    r->least = INFINITY;
+    for (size_t i = 0; i < count && !status && !(r->least <= good_enough); i++)
+        status = try_refinement(split, &refined[i], r, err);
+    if (status || isfinite(r->least))
+        return status;
+    return br_fail(err, r->failure.status ? r->failure.status : BR_NOT_FINITE,
+                   "no march without time error: %.900s", r->failure.message);
 }
 
 /* ---- the chain ---- */
@@ -170,7 +182,7 @@ struct chain {
     size_t whole;                 /* head: the run and the solution */
     size_t audit[2];              /* heads: riccati and plain, as given and before `in_time` */
     size_t link[BR_MOST_SOURCES]; /* heads, by share */
-    by_norm refinement;           /* error of the refined march, at most */
+    struct refining refining;
 };
 
 /* Two forms of the same step: what they differ by is round-off, and what the march makes of it. */
@@ -239,7 +251,7 @@ static void set_floor(const struct br_split *split, const struct chain *c, size_
             const struct br_study *s = distance(&c->d, head, m);
             share->floor[m][part] = floor_of_march(split, c, in_time, m, part);
             if (in_time)
-                share->floor[m][part] += c->refinement[m][part];
+                share->floor[m][part] += c->refining.error[m][part];
             if (s->judge == split->judge)
                 share->floor[m][part] += br_norm_of_constant(
                     s->norm, s->scene, s->judged_by.own_error, (enum br_part)part);
@@ -316,7 +328,9 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
                        split->at.n < 1 ? "n" : "the number of time steps");
     struct br_observer quiet = observer ? *observer : (struct br_observer){0};
     quiet.progress = NULL; /* the chain takes longer */
-    enum br_status status = refine(split, c.refinement, threads, &quiet, err);
+    c.refining.threads = threads;
+    c.refining.observer = &quiet;
+    enum br_status status = refine(split, &c.refining, err);
     if (status)
         return status;
     status = distances_create(&c.d, split, BR_MOST_SOURCES + 3, err);

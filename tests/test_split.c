@@ -172,7 +172,7 @@ static void test_orders(void **state)
         lag[i] = share_of(&sooner, "lag")->error[0][BR_PART_TOTAL];
     }
     check_order("space", BR_PART_AXIAL, space[BR_PART_AXIAL], SIZES, 2, 0.02);
-    check_order("space", BR_PART_BENDING, space[BR_PART_BENDING], SIZES, 2, 0.1);
+    check_order("space", BR_PART_BENDING, space[BR_PART_BENDING], SIZES, 4, 0.1);
     check_order("time", BR_PART_AXIAL, time[BR_PART_AXIAL], SIZES, 1, 0.05);
     check_order("time", BR_PART_BENDING, time[BR_PART_BENDING], SIZES, 1, 0.05);
     check_order("lag", BR_PART_TOTAL, lag, SIZES, 1, 0.05);
