@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/method.h"
+
 enum { WORD = 32 };
 
 /* ---- the words of a name ---- */
@@ -134,15 +136,6 @@ const char *br_contender_kind(size_t kind, char *words, size_t size)
 
 /* ---- names ---- */
 
-/* The first rule that takes the contact at the new step. */
-static const struct br_contact_rule *implicit_rule(void)
-{
-    const struct br_contact_rule *const *rule = br_contact_rules;
-    while (*rule && !(*rule)->at_new_step)
-        rule++;
-    return *rule;
-}
-
 static enum br_status take_word(const char *word, struct br_method *m, bool taken[KINDS],
                                 struct br_error *err)
 {
@@ -165,14 +158,11 @@ static enum br_status take_word(const char *word, struct br_method *m, bool take
 static enum br_status check(const struct br_method *m, const bool taken[KINDS],
                             struct br_error *err)
 {
-    if (!m->scheme->may_lag && !m->contact->at_new_step)
-        return br_fail(err, BR_BAD_INPUT, "%s takes the contact at the new step, but found '%s'",
-                       m->scheme->name, m->contact->name);
     if (taken[SCALING] && !br_linear_solver_heeds(m->solver, "--scaling"))
         return br_fail(err, BR_BAD_INPUT, "solver %s does not heed 'scaled'", m->solver->name);
     if (taken[REFINEMENT] && !br_linear_solver_heeds(m->solver, "--refinement"))
         return br_fail(err, BR_BAD_INPUT, "solver %s does not heed 'refined'", m->solver->name);
-    return BR_OK;
+    return br_method_check(m, err);
 }
 
 bool br_contender_adaptive(const struct br_contender *contender)
@@ -198,8 +188,8 @@ enum br_status br_contender_read(const char *name, struct br_contender *c, struc
         if (!*rest)
             break;
     }
-    if (!taken[CONTACT] && !c->method.scheme->may_lag)
-        c->method.contact = implicit_rule();
+    if (!taken[CONTACT])
+        c->method.contact = br_contact_rule_of(c->method.scheme);
     return status ? status : check(&c->method, taken, err);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Methods that are held against each other: a contender is a method with a name. The name is made
- * of rows of the registries, "euler+lagged", "bdf2+uzawa", "trbdf2+p2": a time scheme, and what is
+ * of rows of the registries, "euler+lagged", "bdf2+uzawa", "bdf3+p2": a time scheme, and what is
  * not the default for it. */
 #ifndef BR_CONTENDER_H
 #define BR_CONTENDER_H

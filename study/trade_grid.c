@@ -7,14 +7,14 @@
 /* Roots of ten apart in time and factors of four in space, which nest. */
 static const size_t default_n[] = {25, 100, 400, 1600, 6400};
 static const size_t default_steps[] = {10, 30, 100, 300, 1000, 3000, 10000};
-static const double default_tolerance[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+static const double default_tolerance[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10};
 
-/* An adaptive scheme is looked at so many times. */
-enum { LEVELS = 100 };
+/* An adaptive scheme is looked at so many times: each of these is the end of a step. */
+enum { LEVELS = 20 };
 
 /* Element-stages of a trial in a default grid at most, by the default solver, and by the others,
  * which are some 20 times slower; steps of an adaptive scheme where they are not known yet. */
-static const double most_work = 1.6e7, most_slow_work = 2e6, guessed_steps = 1000;
+static const double most_work = 4e6, most_slow_work = 4e5, guessed_steps = 100;
 
 struct lists {
     const size_t *n, *steps;

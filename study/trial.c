@@ -20,8 +20,8 @@ struct br_trial_request br_trial_request_default(const struct br_scene *scene)
         .reference_method = br_method_default(),
         .norm = br_norms,
         .norms = 1,
-        .repeats = 5,
-        .repeat_seconds = 0.2,
+        .repeats = 3,
+        .repeat_seconds = 0.1,
         .time_limit = 10,
     };
 }

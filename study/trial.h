@@ -63,7 +63,7 @@ struct br_trial_request {
     const struct br_observer *observer; /* NULL: nobody */
 };
 
-/* What is asked for where nobody says otherwise: l2, 5 repeats within 0.2 s, 10 s a march. */
+/* What is asked for where nobody says otherwise: l2, 3 repeats within 0.1 s, 10 s a march. */
 struct br_trial_request br_trial_request_default(const struct br_scene *scene);
 
 /* Holds trials: the seconds of all, one after the other, then the errors of those that came to
