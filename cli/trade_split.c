@@ -9,7 +9,6 @@
 #include "cli/provenance.h"
 #include "cli/read_text.h"
 #include "cli/signals.h"
-#include "cli/study_options.h"
 #include "plots/plots.h"
 #include "plots/split.h"
 #include "study/contender.h"
@@ -19,7 +18,7 @@
 #include "tables/split_emitter.h"
 
 struct work {
-    const struct br_trade_split_options *options;
+    const struct br_trade_options *options;
     struct br_study_request request; /* n, k, norms, threads */
     struct br_contenders methods;
     double *tolerance; /* tolerances; owned */
@@ -37,29 +36,33 @@ struct work {
 
 static enum br_status read_scene(struct work *w, struct br_error *err)
 {
-    enum br_status status = br_scene_find(w->options->scene, w->path, sizeof w->path, err);
+    enum br_status status = br_scene_find(w->options->scene[0], w->path, sizeof w->path, err);
     if (!status)
         status = br_scene_read(w->path, &w->scene, err);
     return status ? status : br_read_text(w->path, &w->text, err);
 }
 
+/* Tolerances that no method heeds are refused. */
+static enum br_status check_heeded(const struct work *w, struct br_error *err)
+{
+    for (size_t i = 0; i < w->methods.count; i++)
+        if (br_contender_adaptive(&w->methods.list[i]))
+            return BR_OK;
+    return w->tolerances
+               ? br_fail(err, BR_BAD_INPUT, "--tolerances: no method of --methods heeds it")
+               : BR_OK;
+}
+
 static enum br_status read_lists(struct work *w, struct br_error *err)
 {
-    const struct br_trade_split_options *o = w->options;
-    const struct br_study_options lists = {
-        .n = (char *)o->n,
-        .k = (char *)o->k,
-        .norm = (char *)o->norm,
-        .threads = (char *)o->threads,
-        .format = (char *)o->format,
-    };
-    enum br_status status = br_study_request_read(&lists, &w->request, err);
+    const struct br_trade_options *o = w->options;
+    enum br_status status = br_study_request_read(&o->study, &w->request, err);
     if (!status)
         status = br_contenders_read("--methods", o->methods ? o->methods : br_time_schemes[0]->name,
                                     &w->methods, err);
     if (!status && o->tolerances)
         status = br_read_numbers("--tolerances", o->tolerances, &w->tolerance, &w->tolerances, err);
-    return status;
+    return status ? status : check_heeded(w, err);
 }
 
 /* ---- the runs: methods, then meshes, then time steps, or tolerances ---- */
@@ -142,9 +145,9 @@ static bool stop(void *self)
 
 static enum br_status split_all(struct work *w, struct br_error *err)
 {
-    struct overall o = {.inner =
-                            br_progress_start("splitting", w->options->quiet || !br_ranks_first()),
-                        .all = w->splits};
+    struct overall o = {
+        .inner = br_progress_start("splitting", w->options->study.quiet || !br_ranks_first()),
+        .all = w->splits};
     const struct br_observer observer = {progress, stop, &o};
     enum br_status status = BR_OK;
     for (; o.done < o.all && !status; o.done++)
@@ -221,9 +224,9 @@ static enum br_status write_all(struct work *w, const struct br_split_page *page
 {
     enum br_status status = BR_OK;
     for (const struct br_split_emitter *const *e = br_split_emitters; *e && !status; e++)
-        if (wanted(w->options->format, (*e)->name))
+        if (wanted(w->options->study.format, (*e)->name))
             status = write_table(w, *e, page, err);
-    if (!status && !w->options->no_plots)
+    if (!status && !w->options->study.no_plots)
         status = plot(w, page, err);
     return status ? status : br_output_commit(&w->output, err);
 }
@@ -231,13 +234,14 @@ static enum br_status write_all(struct work *w, const struct br_split_page *page
 static enum br_status run(struct work *w, struct br_error *err)
 {
     const bool writes = br_ranks_first();
+    const char *out = w->options->study.out;
     enum br_status status = read_lists(w, err);
     if (!status)
         status = read_scene(w, err);
     if (!status)
         status = lay_out(w, err);
-    if (!status && w->options->out && writes)
-        status = br_output_open(&w->output, w->options->out, err);
+    if (!status && writes)
+        status = br_output_open(&w->output, out ? out : "trade", err);
     if (!status)
         status = split_all(w, err);
     if (status || !writes)
@@ -246,16 +250,16 @@ static enum br_status run(struct work *w, struct br_error *err)
     w->provenance.scene_path = w->path;
     w->provenance.scene_text = w->text;
     const struct br_split_page page = {w->split, w->splits, &w->provenance};
-    if (!w->options->quiet)
+    if (!w->options->study.quiet)
         status = br_split_emitters[0]->emit(stdout, &page, err);
-    if (!status && w->options->out)
+    if (!status)
         status = write_all(w, &page, err);
-    if (!status && w->options->out && !w->options->quiet)
+    if (!status && !w->options->study.quiet)
         printf("\nWritten to %s/\n", w->output.folder);
     return status;
 }
 
-enum br_status br_trade_split(const struct br_trade_split_options *options, struct br_error *err)
+enum br_status br_trade_split(const struct br_trade_options *options, struct br_error *err)
 {
     struct work w = {.options = options};
     const enum br_status status = run(&w, err);
