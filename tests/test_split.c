@@ -111,6 +111,33 @@ static void test_links(void **state)
     br_scene_clear(&scene);
 }
 
+/* The whole is what a study says of the run. */
+static void test_whole(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    const struct br_split split = split_of(&scene, 30, 40, br_method_default());
+    for (size_t m = 0; m < split.norms; m++) {
+        struct br_study study = {
+            .scene = &scene,
+            .norm = split.norm[m],
+            .method = split.method,
+            .judge = &br_judge_exact,
+            .n_count = 1,
+            .k_count = 1,
+            .n = &split.at.n,
+            .steps = &split.at.steps,
+        };
+        MUST(br_study_run(&study, 1, 1, NULL, &err));
+        for (int part = 0; part < BR_PARTS; part++)
+            assert_true(split.whole.error[m][part] == study.cell[0].error[part]);
+        assert_true(split.scale[m] == study.reference_scale);
+        br_study_clear(&study);
+    }
+    br_scene_clear(&scene);
+}
+
 static void check_none(const struct br_split *split, const char *name, const char *why)
 {
     const struct br_share *share = share_of(split, name);
@@ -292,11 +319,12 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sums),       cmocka_unit_test(test_links),
-        cmocka_unit_test(test_none),       cmocka_unit_test(test_space_order),
-        cmocka_unit_test(test_time_order), cmocka_unit_test(test_lag_order),
-        cmocka_unit_test(test_mu),         cmocka_unit_test(test_independence),
-        cmocka_unit_test(test_floors),     cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_sums),         cmocka_unit_test(test_links),
+        cmocka_unit_test(test_none),         cmocka_unit_test(test_whole),
+        cmocka_unit_test(test_space_order),  cmocka_unit_test(test_time_order),
+        cmocka_unit_test(test_lag_order),    cmocka_unit_test(test_mu),
+        cmocka_unit_test(test_independence), cmocka_unit_test(test_floors),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
