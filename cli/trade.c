@@ -25,9 +25,13 @@ static enum br_status fill_steps(const struct br_study_request *r, struct br_tra
     item->steps = br_allocate(r->k_count + 1, sizeof *item->steps);
     if (!item->steps)
         return br_no_memory(err, "the grid");
-    for (size_t i = 0; i < r->k_count; i++)
+    for (size_t i = 0; i < r->k_count; i++) {
         if (br_steps_of(&item->scene, r->k[i], &item->steps[i], &inner))
             return br_fail(err, BR_BAD_INPUT, "--k: %s: %s", item->scene.name, inner.message);
+        for (size_t j = 0; j < i; j++)
+            if (item->steps[j] == item->steps[i])
+                return br_fail(err, BR_BAD_INPUT, "--k: %g is given twice", r->k[i]);
+    }
     return BR_OK;
 }
 

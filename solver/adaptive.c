@@ -174,8 +174,8 @@ static double margin_after(double k, void *params)
     return s->status ? 0 : margin(s->march, s->kind);
 }
 
-/* Shortens a step whose end is beyond the switch of one field to that switch; the state is then the
- * result of the shorter one. */
+/* Shortens a step whose end is beyond the switch of one field to just before that switch, where a
+ * load that jumps then has not jumped yet; the state is then the result of the shorter one. */
 static enum br_status find_switch(struct search *s, double longest)
 {
     gsl_function f = {.function = margin_after, .params = s};
@@ -185,12 +185,11 @@ static enum br_status find_switch(struct search *s, double longest)
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     const double least = least_step * s->march->scene->duration;
     int code = gsl_root_fsolver_set(solver, &f, least, longest);
-    double k = code ? least : gsl_root_fsolver_root(solver);
+    double k = least;
     for (int i = 0; i < 60 && !code && !s->status; i++) {
         code = gsl_root_fsolver_iterate(solver);
-        k = gsl_root_fsolver_root(solver);
-        if (!(gsl_root_fsolver_x_upper(solver) - gsl_root_fsolver_x_lower(solver) >
-              fmax(switch_accuracy * longest, least)))
+        k = fmax(gsl_root_fsolver_x_lower(solver), least);
+        if (!(gsl_root_fsolver_x_upper(solver) - k > fmax(switch_accuracy * longest, least)))
             break;
     }
     gsl_set_error_handler(handler);

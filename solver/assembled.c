@@ -287,7 +287,7 @@ void br_assembled_combine(void *self, size_t into, size_t count, const double *w
     }
 }
 
-void br_assembled_size(const void *self, size_t which, double size[2])
+void br_assembled_size(void *self, size_t which, double size[2])
 {
     const struct assembled *s = self;
     struct br_view view;

@@ -70,7 +70,7 @@ double br_assembled_tip_displacement(const void *self);
 enum br_status br_assembled_set_step(void *self, double k, struct br_error *err);
 enum br_status br_assembled_keep(void *self, size_t count, struct br_error *err);
 void br_assembled_combine(void *self, size_t into, size_t count, const double *weight);
-void br_assembled_size(const void *self, size_t state, double size[2]);
+void br_assembled_size(void *self, size_t state, double size[2]);
 
 /* A br_field_solver of all but `create`. */
 #define BR_ASSEMBLED(create_it)                                                                    \

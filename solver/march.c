@@ -53,7 +53,7 @@ static enum br_status refuse_rules(const struct br_scene *scene, const struct br
         return br_fail(err, BR_BAD_INPUT,
                        "the tolerance of scheme %s is %g, expected more than 0 and less than 1",
                        scheme->name, method->tolerance);
-    return BR_OK;
+    return friction ? br_friction_check(method->friction, &method->iteration, err) : BR_OK;
 }
 
 static enum br_status check_method(const struct br_scene *scene, size_t n, size_t steps,
