@@ -277,6 +277,28 @@ static void test_mu(void **state)
     br_scene_clear(&scene);
 }
 
+/* A tip that sticks creeps by what an iteration leaves: the less, the smaller its tolerance. */
+static void test_iteration(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example1");
+    for (const struct br_friction_rule *const *r = br_friction_rules; *r; r++) {
+        double last = INFINITY;
+        for (double tolerance = 1e-6; (*r)->iterates && tolerance > 1e-11; tolerance /= 100) {
+            struct br_method method = br_test_method(NULL, NULL, (*r)->name);
+            method.iteration.tolerance = tolerance;
+            const struct br_split split = split_of(&scene, 20, 50, method);
+            const struct br_share *share = share_of(&split, "iteration");
+            assert_null(share->none);
+            AT_MOST(share->error[0][BR_PART_BENDING], last / 5);
+            assert_true(br_share_told(share, 0, BR_PART_BENDING));
+            check_sums(&split);
+            last = share->error[0][BR_PART_BENDING];
+        }
+    }
+    br_scene_clear(&scene);
+}
+
 /* What is at the round-off is below the floor, and what is not is above it. */
 static void test_floors(void **state)
 {
@@ -319,12 +341,12 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sums),         cmocka_unit_test(test_links),
-        cmocka_unit_test(test_none),         cmocka_unit_test(test_whole),
-        cmocka_unit_test(test_space_order),  cmocka_unit_test(test_time_order),
-        cmocka_unit_test(test_lag_order),    cmocka_unit_test(test_mu),
-        cmocka_unit_test(test_independence), cmocka_unit_test(test_floors),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_sums),        cmocka_unit_test(test_links),
+        cmocka_unit_test(test_none),        cmocka_unit_test(test_whole),
+        cmocka_unit_test(test_space_order), cmocka_unit_test(test_time_order),
+        cmocka_unit_test(test_lag_order),   cmocka_unit_test(test_mu),
+        cmocka_unit_test(test_iteration),   cmocka_unit_test(test_independence),
+        cmocka_unit_test(test_floors),      cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
