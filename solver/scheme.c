@@ -193,7 +193,11 @@ static const struct br_time_scheme adaptive = {
 };
 
 const struct br_time_scheme *const br_time_schemes[] = {&euler,  &bdf2,   &trbdf2,   &sdirk2,
-                                                        &sdirk3, &sdirk4, &adaptive, NULL};
+                                                        &sdirk3, &sdirk4, &adaptive,
+#ifdef BR_IDA
+                                                        &br_ida,
+#endif
+                                                        NULL};
 
 const struct br_time_scheme *br_time_scheme_find(const char *name)
 {
