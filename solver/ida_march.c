@@ -9,8 +9,11 @@
 
 enum { MOST_STEPS = 2000000 };
 
-/* A margin that is below zero by less than these is zero: of the terms of lambda, of the scales. */
-static const double reaction_noise = 1e-7, motion_noise = 1e-13;
+/* A margin that is below zero by less than a tenth of the tolerance, or than round-off, of the
+ * scales and of the terms of lambda, tells nothing: after a switch the error of the state, which is
+ * of the size of the tolerance, dies out within nanoseconds and may have moved the tip the wrong
+ * way. A branch that is really wrong leaves these limits. */
+static const double part_of_tolerance = 0.1, reaction_noise = 1e-8, motion_noise = 1e-13;
 
 /* ---- failures ---- */
 
@@ -54,19 +57,25 @@ void br_ida_add_counts(const struct br_ida_march *m, struct br_counts *counts)
     counts->set_ups += (size_t)set_ups;
 }
 
-void br_ida_violated(const struct br_ida_march *m, bool violated[BR_IDA_LAWS])
+double br_ida_slack(const struct br_ida_march *m)
+{
+    return part_of_tolerance * m->tolerance;
+}
+
+void br_ida_violated(const struct br_ida_march *m, double error, bool violated[BR_IDA_LAWS])
 {
     const struct br_ida_system *s = &m->system;
     double margin[BR_IDA_LAWS], noise[BR_IDA_LAWS] = {0};
     const double *y = N_VGetArrayPointer(m->y), *rate = N_VGetArrayPointer(m->rate);
     br_ida_margins(s, y, rate, margin);
+    const double motion = fmax(error, motion_noise);
     if (s->modelled[BR_AXIAL])
-        noise[BR_IDA_CONTACT] = motion_noise * br_ida_scale_of_tip(&m->scale, BR_AXIAL, 0);
+        noise[BR_IDA_CONTACT] = motion * br_ida_scale_of_tip(&m->scale, BR_AXIAL, 0);
     if (s->modelled[BR_BENDING])
-        noise[BR_IDA_FRICTION] = motion_noise * br_ida_scale_of_tip(&m->scale, BR_BENDING, 1);
+        noise[BR_IDA_FRICTION] = motion * br_ida_scale_of_tip(&m->scale, BR_BENDING, 1);
     if (s->regime.friction == BR_IDA_STICK && !(s->mu > 0)) {
         br_ida_reaction(s, y, rate, &noise[BR_IDA_FRICTION]);
-        noise[BR_IDA_FRICTION] *= reaction_noise;
+        noise[BR_IDA_FRICTION] *= fmax(error, reaction_noise);
     }
     for (int law = 0; law < BR_IDA_LAWS; law++)
         violated[law] = !(margin[law] >= -noise[law]);
@@ -82,7 +91,7 @@ static enum br_status look(struct br_ida_march *m, int flag, struct br_error *er
     const enum br_status status = br_ida_load(&m->system, m->reached, err);
     if (status)
         return status;
-    br_ida_violated(m, m->switched);
+    br_ida_violated(m, br_ida_slack(m), m->switched);
     int roots[BR_IDA_LAWS] = {0};
     if (flag == IDA_ROOT_RETURN)
         IDAGetRootInfo(m->ida, roots);

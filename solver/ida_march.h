@@ -53,7 +53,11 @@ enum br_status br_ida_begin(struct br_ida_march *m, double t, double h, struct b
 /* IDA's own counts are added to those of the march; it then may begin again. */
 void br_ida_add_counts(const struct br_ida_march *m, struct br_counts *counts);
 
-/* Which margins are negative beyond round-off. */
-void br_ida_violated(const struct br_ida_march *m, bool violated[BR_IDA_LAWS]);
+/* Which margins are below zero by more than round-off and than an error, relative to the scales and
+ * to the terms of lambda. */
+void br_ida_violated(const struct br_ida_march *m, double error, bool violated[BR_IDA_LAWS]);
+
+/* The error of margins that a branch is allowed which holds already, or is the likely one. */
+double br_ida_slack(const struct br_ida_march *m);
 
 #endif

@@ -52,6 +52,27 @@ static bool make_matrix(struct br_ida_march *m, SUNMatrix *matrix, SUNLinearSolv
     return *solver && !SUNLinSolInitialize(*solver);
 }
 
+/* Velocities are left out of the error test. Where inertia is small they follow from displacements
+ * and loads at once, and after a change of the step length an implicit method of low order then
+ * jumps to another error: IDA would never take a longer step again (Example 4 after it sticks:
+ * 9000 steps instead of 300). The error of the displacements, which are their integrals, bounds
+ * theirs.
+ */
+static bool leave_out_velocities(struct br_ida_march *m)
+{
+    const struct br_ida_system *s = &m->system;
+    N_VConst(1, m->work);
+    double *tested = N_VGetArrayPointer(m->work);
+    for (int i = BR_AXIAL; i <= BR_BENDING; i++) {
+        const enum br_field_kind kind = (enum br_field_kind)i;
+        const size_t unknowns = br_field_unknowns(kind);
+        for (size_t node = 1; node <= s->field[kind].n && s->modelled[kind]; node++)
+            for (size_t c = 0; c < unknowns; c++)
+                tested[br_ida_at(s, kind, node) + unknowns + c] = 0;
+    }
+    return !IDASetId(m->ida, m->work) && !IDASetSuppressAlg(m->ida, SUNTRUE);
+}
+
 static bool attach(struct br_ida_march *m)
 {
     int falls[BR_IDA_LAWS];
@@ -61,7 +82,7 @@ static bool attach(struct br_ida_march *m)
            !IDAInit(m->ida, br_ida_residual, 0, m->y, m->rate) && !IDASetUserData(m->ida, m) &&
            !IDAWFtolerances(m->ida, give_weights) &&
            !IDASetLinearSolver(m->ida, m->solver, m->jacobian) &&
-           !IDASetJacFn(m->ida, br_ida_jacobian) &&
+           !IDASetJacFn(m->ida, br_ida_jacobian) && leave_out_velocities(m) &&
            !IDASetMaxStep(m->ida, longest_step * m->system.scene->duration) &&
            !IDARootInit(m->ida, BR_IDA_LAWS, br_ida_roots) && !IDASetRootDirection(m->ida, falls) &&
            !IDASetNoInactiveRootWarn(m->ida);

@@ -4,8 +4,10 @@
  * At a switch, or at t = 0, the state itself does not always tell: from rest with the gap just
  * closed both lambda and its bound are zero, and a tip that would stick slips first, since the
  * bound then grows slower than the reaction. So branches are tried, the likely ones first: those
- * hold whose margins are not negative after a first step, which is tiny. Where none are, because of
- * round-off, a longer first step is tried. */
+ * hold whose margins are not negative after a first step, which is tiny. The likeliest is
+ * allowed an error of the size of the tolerance, the others are not: a tip that begins to slip has
+ * no velocity yet by which to tell the directions. Where none holds a longer first step is tried.
+ */
 #include <math.h>
 
 #include "solver/ida_march.h"
@@ -113,25 +115,21 @@ static enum br_ida_friction next_friction(struct br_ida_march *m)
     return pull > 0 ? BR_IDA_SLIP_UP : BR_IDA_SLIP_DOWN;
 }
 
-/* The first of the candidates that hold with a first step of h; *found tells. */
-static enum br_status try_candidates(struct br_ida_march *m, const struct br_ida_regime *list,
-                                     size_t count, double t, double h, bool *found,
-                                     struct br_error *err)
+/* Whether a branch holds with a first step of h. */
+static enum br_status try_regime(struct br_ida_march *m, struct br_ida_regime regime, double t,
+                                 double h, double error, bool *holds, struct br_error *err)
 {
-    *found = false;
-    for (size_t i = 0; i < count && !*found; i++) {
-        bool violated[BR_IDA_LAWS];
-        m->system.regime = list[i];
-        const enum br_status status = br_ida_begin(m, t, h, err);
-        if (status)
-            return status;
-        br_ida_violated(m, violated);
-        *found = !violated[BR_IDA_CONTACT] && !violated[BR_IDA_FRICTION];
-        if (!*found) {
-            m->counts.rejected++;
-            br_ida_add_counts(m, &m->counts);
-            m->counts.steps--;
-        }
+    bool violated[BR_IDA_LAWS];
+    m->system.regime = regime;
+    const enum br_status status = br_ida_begin(m, t, h, err);
+    if (status)
+        return status;
+    br_ida_violated(m, error, violated);
+    *holds = !violated[BR_IDA_CONTACT] && !violated[BR_IDA_FRICTION];
+    if (!*holds) {
+        br_ida_add_counts(m, &m->counts);
+        m->counts.rejected++;
+        m->counts.steps--;
     }
     return BR_OK;
 }
@@ -152,9 +150,11 @@ enum br_status br_ida_switch(struct br_ida_march *m, struct br_error *err)
         likely.closed = !likely.closed;
     const size_t count = candidates(m, likely, list);
     bool found = false;
-    for (size_t i = 0; i < TRIES && !found && !status; i++)
-        status = try_candidates(m, list, count, t, first_steps[i] * m->system.scene->duration,
-                                &found, err);
+    for (size_t i = 0; i < TRIES * count && !found && !status; i++) {
+        const double h = first_steps[i / count] * m->system.scene->duration;
+        const double error = i % count == 0 ? br_ida_slack(m) : 0;
+        status = try_regime(m, list[i % count], t, h, error, &found, err);
+    }
     if (status || found)
         return status;
     return br_fail(err, BR_NOT_FINITE,

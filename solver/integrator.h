@@ -14,8 +14,11 @@ struct br_integrator {
     /* On to time level `level` = 1, 2, ... Fails as br_march_step does. */
     enum br_status (*advance)(void *self, size_t level, struct br_error *err);
 
-    /* Nodal values as in br_march_get, of modelled fields. */
+    /* As br_march_get, br_march_strain_rate and br_march_tip_displacement, of modelled fields. */
     void (*get)(const void *self, enum br_field_kind kind, double *displacement, double *velocity);
+
+    void (*strain_rate)(const void *self, enum br_field_kind kind, double *rate);
+    double (*tip_displacement)(const void *self, enum br_field_kind kind);
 
     void (*tip)(const void *self, struct br_tip *tip);
     void (*counts)(const void *self, struct br_counts *counts);
