@@ -9,11 +9,8 @@
 
 enum { MOST_STEPS = 2000000 };
 
-/* A margin that is below zero by less than a tenth of the tolerance, or than round-off, of the
- * scales and of the terms of lambda, tells nothing: after a switch the error of the state, which is
- * of the size of the tolerance, dies out within nanoseconds and may have moved the tip the wrong
- * way. A branch that is really wrong leaves these limits. */
-static const double part_of_tolerance = 0.1, reaction_noise = 1e-8, motion_noise = 1e-13;
+/* Of the terms of lambda, of the scales. */
+static const double reaction_noise = 1e-8, motion_noise = 1e-13;
 
 /* ---- failures ---- */
 
@@ -57,11 +54,6 @@ void br_ida_add_counts(const struct br_ida_march *m, struct br_counts *counts)
     counts->set_ups += (size_t)set_ups;
 }
 
-double br_ida_slack(const struct br_ida_march *m)
-{
-    return part_of_tolerance * m->tolerance;
-}
-
 void br_ida_violated(const struct br_ida_march *m, double error, bool violated[BR_IDA_LAWS])
 {
     const struct br_ida_system *s = &m->system;
@@ -91,7 +83,7 @@ static enum br_status look(struct br_ida_march *m, int flag, struct br_error *er
     const enum br_status status = br_ida_load(&m->system, m->reached, err);
     if (status)
         return status;
-    br_ida_violated(m, br_ida_slack(m), m->switched);
+    br_ida_violated(m, m->tolerance, m->switched);
     int roots[BR_IDA_LAWS] = {0};
     if (flag == IDA_ROOT_RETURN)
         IDAGetRootInfo(m->ida, roots);

@@ -54,10 +54,9 @@ enum br_status br_ida_begin(struct br_ida_march *m, double t, double h, struct b
 void br_ida_add_counts(const struct br_ida_march *m, struct br_counts *counts);
 
 /* Which margins are below zero by more than round-off and than an error, relative to the scales and
- * to the terms of lambda. */
+ * to the terms of lambda. Within the tolerance a margin tells nothing: when a tip begins to slip,
+ * the errors that the state then has relax within nanoseconds and may move it the wrong way. A
+ * branch that is really wrong soon leaves that limit. */
 void br_ida_violated(const struct br_ida_march *m, double error, bool violated[BR_IDA_LAWS]);
-
-/* The error of margins that a branch is allowed which holds already, or is the likely one. */
-double br_ida_slack(const struct br_ida_march *m);
 
 #endif

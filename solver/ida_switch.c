@@ -99,20 +99,29 @@ static size_t candidates(const struct br_ida_march *m, struct br_ida_regime like
 
 /* ---- a switch ---- */
 
-/* What follows a friction branch that has ended; also puts a tip that stops at rest. */
-static enum br_ida_friction next_friction(struct br_ida_march *m)
+/* What likely follows a friction branch that has ended. */
+static enum br_ida_friction next_friction(const struct br_ida_march *m)
 {
     const struct br_ida_system *s = &m->system;
-    double *y = N_VGetArrayPointer(m->start);
-    const bool exact = !(s->mu > 0);
-    if (s->regime.friction != BR_IDA_STICK) {
-        if (exact && s->regime.friction != BR_IDA_FREE)
-            y[br_ida_at(s, BR_BENDING, s->field[BR_BENDING].n) + 2] = 0;
+    const double *y = N_VGetArrayPointer(m->y);
+    if (s->regime.friction != BR_IDA_STICK)
         return BR_IDA_STICK;
-    }
-    const double pull = exact ? br_ida_reaction(s, y, N_VGetArrayPointer(m->rate), NULL)
-                              : br_ida_tip_velocity(s, BR_BENDING, y);
+    const double pull = s->mu > 0 ? br_ida_tip_velocity(s, BR_BENDING, y)
+                                  : br_ida_reaction(s, y, N_VGetArrayPointer(m->rate), NULL);
     return pull > 0 ? BR_IDA_SLIP_UP : BR_IDA_SLIP_DOWN;
+}
+
+/* A tip that sticks, or whose slip has come to its end, rests to the last digit. */
+static void rest(struct br_ida_march *m)
+{
+    const struct br_ida_system *s = &m->system;
+    const bool slips =
+        s->regime.friction == BR_IDA_SLIP_UP || s->regime.friction == BR_IDA_SLIP_DOWN;
+    const bool rests =
+        m->begun && s->modelled[BR_BENDING] && !(s->mu > 0) &&
+        (s->regime.friction == BR_IDA_STICK || (slips && m->switched[BR_IDA_FRICTION]));
+    if (rests)
+        N_VGetArrayPointer(m->start)[br_ida_at(s, BR_BENDING, s->field[BR_BENDING].n) + 2] = 0;
 }
 
 /* Whether a branch holds with a first step of h. */
@@ -143,6 +152,7 @@ enum br_status br_ida_switch(struct br_ida_march *m, struct br_error *err)
         return status;
     br_ida_add_counts(m, &m->counts);
     N_VScale(1, m->y, m->start);
+    rest(m);
     m->begun = true;
     if (m->switched[BR_IDA_FRICTION])
         likely.friction = next_friction(m);
@@ -150,9 +160,9 @@ enum br_status br_ida_switch(struct br_ida_march *m, struct br_error *err)
         likely.closed = !likely.closed;
     const size_t count = candidates(m, likely, list);
     bool found = false;
-    for (size_t i = 0; i < TRIES * count && !found && !status; i++) {
-        const double h = first_steps[i / count] * m->system.scene->duration;
-        const double error = i % count == 0 ? br_ida_slack(m) : 0;
+    for (size_t i = 0; i < 2 * TRIES * count && !found && !status; i++) {
+        const double h = first_steps[i / count % TRIES] * m->system.scene->duration;
+        const double error = i % count == 0 || i >= TRIES * count ? m->tolerance : 0;
         status = try_regime(m, list[i % count], t, h, error, &found, err);
     }
     if (status || found)
