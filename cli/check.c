@@ -37,6 +37,20 @@ struct run {
 
 /* ---- scenes ---- */
 
+/* The options' method instead of the scene's own. */
+static enum br_status choose_method(const struct run *r, struct item *item, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (int kind = 0; kind < BR_VERIFY_KINDS && !status; kind++) {
+        struct br_verify_study *v = &item->verify.study[kind];
+        struct br_error inner = {0};
+        if (v->count && br_method_options_read(&r->options.method, &v->method, &inner))
+            status = br_fail(err, inner.status, "%s: verify: %s: %s", item->path,
+                             br_verify_names[kind], inner.message);
+    }
+    return status;
+}
+
 static enum br_status read_scene(struct run *r, size_t i, const char *name, struct br_error *err)
 {
     struct item *item = &r->item[i];
@@ -49,7 +63,9 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
     }
     if (status)
         return status;
-    br_check_override(&item->verify, &r->options.method);
+    status = choose_method(r, item, err);
+    if (status)
+        return status;
     r->check[r->count++] =
         (struct br_check){.path = item->path, .scene = &item->scene, .verify = &item->verify};
     return BR_OK;
@@ -76,20 +92,20 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
     return status;
 }
 
-/* An option that no solver would heed is refused, not ignored. */
+/* An option that no study would heed is refused, not ignored. */
 static enum br_status check_heeded(const struct run *r, struct br_error *err)
 {
-    if (!r->options.kernel)
-        return BR_OK;
+    const struct br_method **method = br_allocate(r->count * BR_VERIFY_KINDS + 1, sizeof *method);
+    size_t count = 0;
+    if (!method)
+        return br_no_memory(err, "the options");
     for (size_t i = 0; i < r->count; i++)
-        for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
-            const struct br_verify_study *v = &r->check[i].verify->study[kind];
-            if (v->count && br_linear_solver_heeds(v->method.solver, "--kernel"))
-                return BR_OK;
-        }
-    return br_fail(err, BR_BAD_INPUT,
-                   "--kernel: no study here has a solver that heeds it, as --solver %s does",
-                   br_riccati.name);
+        for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+            if (r->check[i].verify->study[kind].count)
+                method[count++] = &r->check[i].verify->study[kind].method;
+    const enum br_status status = br_method_options_check(&r->options.method, method, count, err);
+    free(method);
+    return status;
 }
 
 /* ---- computing ---- */

@@ -5,8 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/kernel_option.h"
-#include "cli/names.h"
 #include "cli/number_option.h"
 #include "cli/suggest.h"
 #include "tables/check_emitter.h"
@@ -23,6 +21,7 @@ enum { HELP = 1, FIRST_FILE }; /* FIRST_FILE + i: a file of format i */
 
 /* One row an option: those of the formats, then the fixed ones. */
 struct option_table {
+    struct poptOption method[BR_METHOD_OPTIONS];
     struct poptOption row[BR_MOST_CHECK_FORMATS + 12];
     size_t rows;
 };
@@ -40,17 +39,13 @@ static void fill_table(struct option_table *t, struct br_check_options *o)
          "an earlier check's JSON: what has moved since, and how serious that is", "FILE"},
         {"fail-fast", 0, POPT_ARG_NONE, &o->fail_fast, 0,
          "one scene after the other, the cheapest first, until one fails", NULL},
-        {"solver", 0, POPT_ARG_STRING, &o->solver, 0,
-         "linear solver, instead of what the scenes say", "NAME"},
-        {"kernel", 0, POPT_ARG_STRING, &o->kernel, 0,
-         "instruction set of the solver riccati (default: the best)", "NAME"},
-        {"contact", 0, POPT_ARG_STRING, &o->contact, 0, "contact rule, likewise", "NAME"},
-        {"friction", 0, POPT_ARG_STRING, &o->friction, 0, "friction rule, likewise", "NAME"},
         {"threads", 0, POPT_ARG_STRING, &o->threads, 0, "threads; 0, the default: all cores",
          "COUNT"},
         {"quiet", 0, POPT_ARG_NONE, &o->quiet, 0, "no progress, no table on the terminal", NULL},
         {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        BR_INCLUDE_METHOD(t->method),
     };
+    br_method_options_table(&o->method, t->method);
     for (size_t i = 1; br_check_emitters[i]; i++)
         add(t, &(struct poptOption){br_check_emitters[i]->name, 0, POPT_ARG_STRING, NULL,
                                     FIRST_FILE + (int)i, br_check_emitters[i]->title, "FILE"});
@@ -79,25 +74,13 @@ static enum br_status read_scenes(poptContext context, struct br_check_options *
     return BR_OK;
 }
 
-static enum br_status unknown(const char *option, const char *found, const char *names,
-                              struct br_error *err)
+/* Whatever the scenes say: names and numbers must be some. */
+static enum br_status read_values(struct br_check_options *o, struct br_error *err)
 {
-    return br_fail(err, BR_BAD_INPUT, "--%s: found '%s', expected one of: %s", option, found,
-                   names);
-}
-
-static enum br_status read_method(struct br_check_options *o, struct br_error *err)
-{
-    if (o->solver && !(o->method.solver = br_linear_solver_find(o->solver)))
-        return unknown("solver", o->solver, br_solver_names(), err);
-    if (o->contact && !(o->method.contact = br_contact_rule_find(o->contact)))
-        return unknown("contact", o->contact, br_contact_names(), err);
-    if (o->friction && !(o->method.friction = br_friction_rule_find(o->friction)))
-        return unknown("friction", o->friction, br_friction_names(), err);
-    const enum br_status status = br_read_kernel_option(o->kernel, &o->method.kernel, err);
-    if (status)
-        return status;
-    return br_read_count_option("threads", o->threads, 4096, &o->thread_count, err);
+    struct br_method method = br_method_default();
+    const enum br_status status = br_method_options_read(&o->method, &method, err);
+    return status ? status
+                  : br_read_count_option("threads", o->threads, 4096, &o->thread_count, err);
 }
 
 /* The file of a format, which would be lost if another one followed. */
@@ -129,8 +112,7 @@ enum br_status br_check_options_parse(int argc, const char **argv, struct br_che
         if (code == HELP) {
             o->help = 1;
             poptPrintHelp(context, stdout, 0);
-            printf("\n");
-            br_print_kernels(stdout);
+            br_print_method_registries(stdout);
         } else
             status = keep_file(context, o, (size_t)(code - FIRST_FILE), err);
     if (!status && code < -1)
@@ -139,7 +121,7 @@ enum br_status br_check_options_parse(int argc, const char **argv, struct br_che
         status = read_scenes(context, o, err);
     poptFreeContext(context);
     if (!status && !o->help)
-        status = read_method(o, err);
+        status = read_values(o, err);
     return status;
 }
 
@@ -151,10 +133,7 @@ void br_check_options_clear(struct br_check_options *o)
         free(o->scene[i]);
     free(o->scene);
     free(o->compare);
-    free(o->solver);
-    free(o->kernel);
-    free(o->contact);
-    free(o->friction);
+    br_method_options_clear(&o->method);
     free(o->threads);
     *o = (struct br_check_options){0};
 }

@@ -3,19 +3,19 @@
 #ifndef BR_CHECK_OPTIONS_H
 #define BR_CHECK_OPTIONS_H
 
-#include "study/check.h"
+#include "cli/method_options.h"
 
 enum { BR_MOST_CHECK_FORMATS = 8 };
 
 struct br_check_options {
     char *file[BR_MOST_CHECK_FORMATS]; /* by the registry of emitters; NULL: not given */
-    char *compare, *solver, *kernel, *contact, *friction, *threads;
+    struct br_method_options method;   /* instead of what the scenes say */
+    char *compare, *threads;
     int all, fail_fast, quiet, help;
     char **scene; /* scenes; owned */
     size_t scenes;
 
-    struct br_check_method method; /* what solver, kernel, contact and friction name */
-    int thread_count;              /* 0: all cores */
+    int thread_count; /* 0: all cores */
 };
 
 /* Parses and checks argv (argv[0] is "beamrate check"). With --help it prints the help and sets

@@ -23,6 +23,7 @@ static void join(char text[MOST_WORDS], const char *name)
             join(text, (*r)->name);                           \
         return text;                                          \
     }
+NAMES(schemes, br_time_scheme, br_time_schemes)
 NAMES(solvers, br_linear_solver, br_linear_solvers)
 NAMES(kernels, br_kernel, br_kernels)
 NAMES(contacts, br_contact_rule, br_contact_rules)
@@ -48,6 +49,11 @@ static const char *scalings(void)
     return "none sum max";
 }
 
+static const char *degrees(void)
+{
+    return "1 2";
+}
+
 /* Options by name, the same in all commands. */
 static const struct {
     const char *option;
@@ -56,6 +62,7 @@ static const struct {
     {"solver", solvers},   {"reference-solver", solvers}, {"kernel", kernels},
     {"contact", contacts}, {"friction", frictions},       {"norm", norms},
     {"format", formats},   {"reference", references},     {"scaling", scalings},
+    {"scheme", schemes},   {"axial-degree", degrees},
 };
 
 enum br_value_kind br_option_values(const struct br_help_option *option, const char **words)

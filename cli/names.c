@@ -23,6 +23,15 @@ const char *br_solver_names(void)
     return text;
 }
 
+const char *br_scheme_names(void)
+{
+    static char text[256];
+    text[0] = '\0';
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
+        join(text, sizeof text, (*s)->name);
+    return text;
+}
+
 const char *br_kernel_names(void)
 {
     static char text[256];

@@ -3,6 +3,7 @@
 #ifndef BR_NAMES_H
 #define BR_NAMES_H
 
+const char *br_scheme_names(void);
 const char *br_solver_names(void);
 const char *br_kernel_names(void); /* those that are available here */
 const char *br_contact_names(void);

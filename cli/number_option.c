@@ -2,6 +2,7 @@
 #include "cli/number_option.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "study/number_list.h"
 
@@ -15,5 +16,22 @@ enum br_status br_read_count_option(const char *option, const char *text, int mo
                        option, text, most);
     if (text)
         *value = (int)number;
+    return BR_OK;
+}
+
+enum br_status br_read_number_option(const char *option, const char *text, double low, double high,
+                                     double *value, struct br_error *err)
+{
+    double number;
+    if (!text)
+        return BR_OK;
+    const char *end = br_read_number(text, &number);
+    char below[32] = "";
+    if (isfinite(high))
+        snprintf(below, sizeof below, " and below %g", high);
+    if (!end || *end || !(number > low && number < high))
+        return br_fail(err, BR_BAD_INPUT, "--%s: found '%s', expected a number above %g%s", option,
+                       text, low, below);
+    *value = number;
     return BR_OK;
 }

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/kernel_option.h"
 #include "cli/number_option.h"
 #include "cli/suggest.h"
 #include "study/history.h"
@@ -38,6 +37,8 @@ enum br_status br_run_options_parse(int argc, const char **argv, struct br_run_o
                                     struct br_error *err)
 {
     struct br_study_options *m = &o->method;
+    struct poptOption method[BR_METHOD_OPTIONS];
+    br_method_options_table(&m->method, method);
     const struct poptOption table[] = {
         {"n", 0, POPT_ARG_STRING, &m->n, 0, "elements (default 100)", "COUNT"},
         {"k", 0, POPT_ARG_STRING, &m->k, 0, "time step (default: a thousandth of the duration)",
@@ -68,17 +69,9 @@ enum br_status br_run_options_parse(int argc, const char **argv, struct br_run_o
          "with a /) of PNG frames",
          "FILE"},
         {"plot", 0, POPT_ARG_NONE, &o->plot, 0, "the tip's history in the terminal", NULL},
-        {"solver", 0, POPT_ARG_STRING, &m->solver, 0, "linear solver", "NAME"},
-        {"kernel", 0, POPT_ARG_STRING, &m->kernel, 0,
-         "instruction set of the solver riccati (default: the best)", "NAME"},
-        {"contact", 0, POPT_ARG_STRING, &m->contact, 0, "where contact takes its force", "NAME"},
-        {"friction", 0, POPT_ARG_STRING, &m->friction, 0, "friction law", "NAME"},
-        {"scaling", 0, POPT_ARG_STRING, &m->scaling, 0,
-         "umfpack's row scaling: none (default), sum or max", "NAME"},
-        {"refinement", 0, POPT_ARG_STRING, &m->refinement, 0,
-         "umfpack's refinement steps a solve, at most (default 0)", "COUNT"},
         {"quiet", 0, POPT_ARG_NONE, &o->quiet, 0, "no progress, no summary on the terminal", NULL},
         {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        BR_INCLUDE_METHOD(method),
         POPT_TABLEEND,
     };
     poptContext context = poptGetContext("beamrate", argc, argv, table, 0);

@@ -5,27 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/kernel_option.h"
 #include "cli/names.h"
 #include "cli/number_option.h"
 #include "cli/suggest.h"
 #include "study/number_list.h"
 #include "tables/emitter.h"
-
-void br_print_method_registries(FILE *out)
-{
-    fprintf(out, "\nLinear solvers (--solver), the first is the default:\n");
-    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
-        fprintf(out, "  %-12s %s%s%s\n", (*s)->name, (*s)->title, *(*s)->options ? "; heeds " : "",
-                (*s)->options);
-    br_print_kernels(out);
-    fprintf(out, "Contact (--contact):\n");
-    for (const struct br_contact_rule *const *c = br_contact_rules; *c; c++)
-        fprintf(out, "  %-12s %s\n", (*c)->name, (*c)->title);
-    fprintf(out, "Friction (--friction):\n");
-    for (const struct br_friction_rule *const *f = br_friction_rules; *f; f++)
-        fprintf(out, "  %-12s %s\n", (*f)->name, (*f)->title);
-}
 
 /* One line a row of each registry, below the options. */
 static void print_registries(FILE *out)
@@ -79,24 +63,17 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
                                       struct br_study_options *o, char **argument,
                                       struct br_error *err)
 {
-    struct poptOption table[] = {
+    struct poptOption method[BR_METHOD_OPTIONS];
+    br_method_options_table(&o->method, method);
+    const struct poptOption table[] = {
         {"n", 0, POPT_ARG_STRING, &o->n, 0, "elements of the meshes", "LIST"},
         {"k", 0, POPT_ARG_STRING, &o->k, 0, "time steps, s", "LIST"},
         {"reference", 0, POPT_ARG_STRING, &o->reference, 0,
          "what the cells are judged by: exact, fine:N,K, mms or none", "NAME"},
         {"norm", 0, POPT_ARG_STRING, &o->norm, 0,
          "norms of the error (default l2), one table each: any of those below", "LIST"},
-        {"solver", 0, POPT_ARG_STRING, &o->solver, 0, "linear solver", "NAME"},
         {"reference-solver", 0, POPT_ARG_STRING, &o->reference_solver, 0,
          "that of the reference, where it differs", "NAME"},
-        {"kernel", 0, POPT_ARG_STRING, &o->kernel, 0,
-         "instruction set of the solver riccati (default: the best)", "NAME"},
-        {"contact", 0, POPT_ARG_STRING, &o->contact, 0, "where contact takes its force", "NAME"},
-        {"friction", 0, POPT_ARG_STRING, &o->friction, 0, "friction law", "NAME"},
-        {"scaling", 0, POPT_ARG_STRING, &o->scaling, 0,
-         "umfpack's row scaling: none (default), sum or max", "NAME"},
-        {"refinement", 0, POPT_ARG_STRING, &o->refinement, 0,
-         "umfpack's refinement steps a solve, at most (default 0)", "COUNT"},
         {"threads", 0, POPT_ARG_STRING, &o->threads, 0, "threads; 0, the default: all cores",
          "COUNT"},
         {"out", 0, POPT_ARG_STRING, &o->out, 0, "folder of the results (default results)", "DIR"},
@@ -105,6 +82,7 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
         {"no-plots", 0, POPT_ARG_NONE, &o->no_plots, 0, "write no plots", NULL},
         {"quiet", 0, POPT_ARG_NONE, &o->quiet, 0, "no progress, no table on the terminal", NULL},
         {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        BR_INCLUDE_METHOD(method),
         POPT_TABLEEND,
     };
     poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
@@ -123,9 +101,9 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
 
 void br_study_options_clear(struct br_study_options *o)
 {
-    char **texts[] = {&o->n,       &o->k,          &o->reference, &o->solver, &o->reference_solver,
-                      &o->contact, &o->friction,   &o->scaling,   &o->out,    &o->format,
-                      &o->norm,    &o->refinement, &o->threads,   &o->kernel};
+    char **texts[] = {&o->n,   &o->k,      &o->reference, &o->reference_solver,
+                      &o->out, &o->format, &o->norm,      &o->threads};
+    br_method_options_clear(&o->method);
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         free(*texts[i]);
         *texts[i] = NULL;
@@ -175,50 +153,16 @@ static enum br_status read_reference(const char *text, struct br_study_request *
 static enum br_status read_method(const struct br_study_options *o, struct br_study_request *r,
                                   struct br_error *err)
 {
-    struct br_method m = br_method_default();
-    if (o->contact && !(m.contact = br_contact_rule_find(o->contact)))
-        return unknown("contact", o->contact, br_contact_names(), err);
-    if (o->friction && !(m.friction = br_friction_rule_find(o->friction)))
-        return unknown("friction", o->friction, br_friction_names(), err);
-    if (o->solver && !(m.solver = br_linear_solver_find(o->solver)))
-        return unknown("solver", o->solver, br_solver_names(), err);
-    if (o->scaling)
-        m.linear.scaling = o->scaling;
-    enum br_status status =
-        br_read_count_option("refinement", o->refinement, 100, &m.linear.refinement, err);
-    if (!status)
-        status = br_read_kernel_option(o->kernel, &m.linear.kernel, err);
+    r->method = br_method_default();
+    const enum br_status status = br_method_options_read(&o->method, &r->method, err);
     if (status)
         return status;
-    r->method = r->reference_method = m;
+    r->reference_method = r->method;
     if (o->reference_solver &&
         !(r->reference_method.solver = br_linear_solver_find(o->reference_solver)))
         return unknown("reference-solver", o->reference_solver, br_solver_names(), err);
-    return BR_OK;
-}
-
-/* Options that a solver would not heed are refused, not ignored. */
-static enum br_status check_heeded(const struct br_study_options *o,
-                                   const struct br_study_request *r, struct br_error *err)
-{
-    const struct {
-        const char *option, *value; /* NULL: not given */
-    } given[] = {
-        {"--scaling", o->scaling}, {"--refinement", o->refinement}, {"--kernel", o->kernel}};
-    for (size_t i = 0; i < sizeof given / sizeof *given; i++)
-        if (given[i].value && !br_linear_solver_heeds(r->method.solver, given[i].option) &&
-            !br_linear_solver_heeds(r->reference_method.solver, given[i].option))
-            return br_fail(err, BR_BAD_INPUT, "%s: solver %s does not heed it", given[i].option,
-                           r->method.solver->name);
-    return BR_OK;
-}
-
-static enum br_status check_scaling(const struct br_study_options *o, struct br_error *err)
-{
-    if (o->scaling && strcmp(o->scaling, "none") != 0 && strcmp(o->scaling, "sum") != 0 &&
-        strcmp(o->scaling, "max") != 0)
-        return unknown("scaling", o->scaling, "none, sum, max", err);
-    return BR_OK;
+    const struct br_method *const methods[] = {&r->method, &r->reference_method};
+    return br_method_options_check(&o->method, methods, o->reference_solver ? 2 : 1, err);
 }
 
 /* "l2,energy"; NULL: the first of the registry */
@@ -264,15 +208,11 @@ enum br_status br_study_request_read(const struct br_study_options *o, struct br
     *r = (struct br_study_request){0};
     enum br_status status = br_read_count_option("threads", o->threads, 4096, &r->threads, err);
     if (!status)
-        status = check_scaling(o, err);
-    if (!status)
         status = check_formats(o, err);
     if (!status)
         status = read_norms(o->norm, r, err);
     if (!status)
         status = read_method(o, r, err);
-    if (!status)
-        status = check_heeded(o, r, err);
     if (!status && o->n)
         status = br_read_counts("--n", o->n, &r->n, &r->n_count, err);
     if (!status && o->k)

@@ -6,13 +6,14 @@
 #include <popt.h>
 #include <stdio.h>
 
+#include "cli/method_options.h"
 #include "study/study.h"
 
 /* As given, before they are checked; NULL: not given. */
 struct br_study_options {
     char *n, *k, *reference, *norm;
-    char *solver, *reference_solver, *kernel, *contact, *friction, *scaling;
-    char *refinement, *threads;
+    struct br_method_options method;
+    char *reference_solver, *threads;
     char *out, *format;
     int quiet, no_plots, help;
 };
@@ -44,8 +45,5 @@ void br_study_options_clear(struct br_study_options *options);
 enum br_status br_study_request_read(const struct br_study_options *options,
                                      struct br_study_request *request, struct br_error *err);
 void br_study_request_clear(struct br_study_request *request);
-
-/* One line a solver, kernel, contact rule and friction rule, below a command's options. */
-void br_print_method_registries(FILE *out);
 
 #endif

@@ -45,13 +45,23 @@ const char *br_nearest(const char *word, const char *const *names, size_t count)
     return nearest;
 }
 
+/* The long names of a table and of those that it includes. */
+static size_t collect(const struct poptOption *table, const char **names, size_t count)
+{
+    for (const struct poptOption *o = table; o->longName || o->shortName || o->arg; o++) {
+        if ((o->argInfo & POPT_ARG_MASK) == POPT_ARG_INCLUDE_TABLE)
+            count = collect(o->arg, names, count);
+        else if (o->longName && count < MOST_OPTIONS)
+            names[count++] = o->longName;
+    }
+    return count;
+}
+
 enum br_status br_bad_option(poptContext context, const struct poptOption *table, int code,
                              struct br_error *err)
 {
     const char *names[MOST_OPTIONS], *bad = poptBadOption(context, POPT_BADOPTION_NOALIAS);
-    size_t count = 0;
-    for (const struct poptOption *o = table; o->longName && count < MOST_OPTIONS; o++)
-        names[count++] = o->longName;
+    const size_t count = collect(table, names, 0);
     char word[64];
     const char *begin = bad + strspn(bad, "-");
     const size_t length = strcspn(begin, "=");

@@ -289,13 +289,20 @@ static double bound_scale(const struct br_step *s)
     return s->scene->friction.coefficient * (field_scale(s, BR_AXIAL) + s->scene->contact.gap);
 }
 
+/* What an iteration may leave: of lambda, and of v = v* - lambda z. */
+struct slack {
+    double force, speed;
+};
+
 /* Distance of (v, lambda), in their own units of size, from the graph of (12): the
  * nearest of stick (v = 0, |lambda| <= h) and slip either way (lambda = +-h). */
-static double exact_law(double v, double lambda, double bound)
+static double exact_law(double v, double lambda, double bound, struct slack left)
 {
-    const double stick = larger(fabs(v), positive(fabs(lambda) - bound));
-    const double up = larger(fabs(lambda - bound), positive(-v));
-    const double down = larger(fabs(lambda + bound), positive(v));
+    const double stick = larger(positive(fabs(v) - left.speed), positive(fabs(lambda) - bound));
+    const double up =
+        larger(positive(fabs(lambda - bound) - left.force), positive(-v - left.speed));
+    const double down =
+        larger(positive(fabs(lambda + bound) - left.force), positive(v - left.speed));
     return smaller(stick, smaller(up, down));
 }
 
@@ -321,8 +328,10 @@ static double friction_error(const struct br_step *s)
     const double told = ratio(fabs(s->tip.friction_bound - bound), force);
     const double v = ratio(at_tip(s, BR_BENDING, nodal), speed);
     const double l = ratio(lambda, force), b = ratio(bound, force);
+    const double tolerance = s->method->friction->iterates ? s->method->iteration.tolerance : 0;
+    const struct slack left = {tolerance * b, ratio(tolerance * bound * s->compliance, speed)};
     if (!s->method->friction->needs_regularisation)
-        return larger(told, exact_law(v, l, b));
+        return larger(told, exact_law(v, l, b, left));
     if (speed == 0)
         return larger(told, fabs(l));
     return larger(told, regularised_law(v, l, b, s->scene->friction.regularisation / speed));
@@ -444,7 +453,13 @@ enum br_status br_witness_create(struct br_witness **out, const struct br_march 
     }
     w->march = march;
     w->memory = memory;
-    w->step = (struct br_step){.scene = scene, .method = method, .n = field->n, .k = field->k};
+    w->step = (struct br_step){
+        .scene = scene,
+        .method = method,
+        .n = field->n,
+        .k = field->k,
+        .compliance = br_march_compliance(march, BR_BENDING),
+    };
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         double **const arrays[] = {&w->before[kind][0], &w->before[kind][1], &w->after[kind][0],
                                    &w->after[kind][1], &w->load[kind]};

@@ -6,8 +6,8 @@
  * bound then grows slower than the reaction. So branches are tried, the likely ones first: those
  * hold whose margins are not negative after a first step, which is tiny. The likeliest is
  * allowed an error of the size of the tolerance, the others are not: a tip that begins to slip has
- * no velocity yet by which to tell the directions. Where none holds a longer first step is tried.
- */
+ * no velocity yet by which to tell the directions. Where none holds, a longer first step is
+ * tried, and at last that error is allowed to all. */
 #include <math.h>
 
 #include "solver/ida_march.h"

@@ -19,7 +19,7 @@
 /* Options that solvers may heed; each says which in its `options` text. */
 struct br_linear_options {
     const char *scaling;            /* umfpack: "none", "sum" or "max" */
-    int refinement;                 /* umfpack: largest number of refinement steps a solve */
+    int refinement;                 /* assembled: largest number of refinement steps a solve */
     const struct br_kernel *kernel; /* riccati; NULL: the best that is available */
 };
 
@@ -98,7 +98,7 @@ struct br_linear_solver {
     double (*round_off)(const struct br_field *field, const struct br_linear_options *options);
 };
 
-extern const struct br_linear_solver br_riccati, br_plain, br_umfpack;
+extern const struct br_linear_solver br_riccati, br_plain, br_umfpack, br_cholmod, br_banded;
 
 /* The registry, in the order of help texts; NULL-terminated. The first is the default. */
 extern const struct br_linear_solver *const br_linear_solvers[];

@@ -4,26 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solver/load.h"
-
-struct part {
-    bool modelled;
-    struct br_field field;
-    const struct br_field_solver *solver;
-    void *state;
-    struct br_step_load load;
-    size_t done; /* steps */
-};
-
-struct br_march {
-    const struct br_scene *scene;
-    struct br_method method;
-    size_t steps;
-    struct part part[2]; /* by br_field_kind */
-    struct br_tip tip;
-    double *penetration; /* (u_n - g)_+ of the last `lead` steps, m */
-    size_t lead;
-};
+#include "solver/march_state.h"
 
 struct br_method br_method_default(void)
 {
@@ -45,63 +26,34 @@ static double time_level(const struct br_march *m, size_t n)
     return m->scene->duration * (double)n / (double)m->steps;
 }
 
-/* Evaluated by clones: marches of one scene may be created in different threads. */
-static enum br_status interpolate(const struct part *part, const struct br_function *value,
-                                  const struct br_function *slope, double *nodal,
-                                  struct br_error *err)
-{
-    struct br_function own = {0}, own_slope = {0};
-    enum br_status status = br_function_clone(value, &own, err);
-    if (!status && slope)
-        status = br_function_clone(slope, &own_slope, err);
-    if (!status)
-        status = br_interpolate(&part->field, &own, slope ? &own_slope : NULL, nodal, err);
-    br_function_free(&own);
-    br_function_free(&own_slope);
-    return status;
-}
+/* ---- setting up ---- */
 
-static enum br_status set_initial(struct part *part, const struct br_function *displacement,
-                                  const struct br_function *displacement_slope,
-                                  const struct br_function *velocity,
-                                  const struct br_function *velocity_slope, struct br_error *err)
+static enum br_status refuse_rules(const struct br_scene *scene, const struct br_method *method,
+                                   struct br_error *err)
 {
-    if (br_function_is_zero(displacement) && br_function_is_zero(velocity))
-        return BR_OK; /* a solver starts at rest */
-    const size_t size = br_field_size(&part->field);
-    double *nodal = br_allocate(2 * size, sizeof *nodal);
-    if (!nodal)
-        return br_no_memory(err, "the initial data");
-    enum br_status status = interpolate(part, displacement, displacement_slope, nodal, err);
-    if (!status)
-        status = interpolate(part, velocity, velocity_slope, nodal + size, err);
-    if (!status)
-        part->solver->set(part->state, nodal, nodal + size);
-    free(nodal);
-    return status;
-}
-
-static enum br_status create_part(struct br_march *m, enum br_field_kind kind, size_t n,
-                                  struct br_error *err)
-{
-    struct part *part = &m->part[kind];
-    const struct br_scene *s = m->scene;
-    part->modelled = kind == BR_AXIAL ? s->axial.modelled : s->bending.modelled;
-    part->field = br_field_of_scene(s, kind, n, s->duration / (double)m->steps);
-    if (!part->modelled)
-        return BR_OK;
-    part->solver = kind == BR_AXIAL ? m->method.solver->axial : m->method.solver->bending;
-    enum br_status status =
-        part->solver->create(&part->field, &m->method.linear, &part->state, err);
-    const struct br_forces forces = br_forces_of_scene(s, kind);
-    if (!status)
-        status = br_step_load_init(&part->load, &forces, &part->field, err);
-    if (status)
-        return status;
-    if (kind == BR_AXIAL)
-        return set_initial(part, &s->axial.displacement, NULL, &s->axial.velocity, NULL, err);
-    return set_initial(part, &s->bending.displacement, &s->bending.displacement_slope,
-                       &s->bending.velocity, &s->bending.velocity_slope, err);
+    const struct br_time_scheme *scheme = method->scheme;
+    const bool friction = scene->friction.law != BR_FRICTIONLESS;
+    if (scene->contact.modelled && !scheme->may_lag && !method->contact->at_new_step)
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "contact rule '%s' with scheme %s, expected implicit: only scheme euler takes "
+            "the force of the step before",
+            method->contact->name, scheme->name);
+    if (friction && scheme->adaptive && method->friction->iterates)
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "friction rule '%s' with scheme %s, expected exact or regularised: stick and "
+            "slip are held between switches, so that nothing is iterated",
+            method->friction->name, scheme->name);
+    if (friction && method->friction->needs_regularisation && !(scene->friction.regularisation > 0))
+        return br_fail(err, BR_BAD_INPUT,
+                       "friction rule '%s' needs the scene's regularisation, mu > 0",
+                       method->friction->name);
+    if (scheme->adaptive && !(method->tolerance > 0 && method->tolerance < 1))
+        return br_fail(err, BR_BAD_INPUT,
+                       "the tolerance of scheme %s is %g, expected more than 0 and less than 1",
+                       scheme->name, method->tolerance);
+    return friction ? br_friction_check(method->friction, &method->iteration, err) : BR_OK;
 }
 
 static enum br_status check_method(const struct br_scene *scene, size_t n, size_t steps,
@@ -111,12 +63,38 @@ static enum br_status check_method(const struct br_scene *scene, size_t n, size_
         return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
     if (steps < 1)
         return br_fail(err, BR_BAD_INPUT, "there are no time steps, expected at least one");
-    if (scene->friction.law != BR_FRICTIONLESS && method->friction->needs_regularisation &&
-        !(scene->friction.regularisation > 0))
-        return br_fail(err, BR_BAD_INPUT,
-                       "friction rule '%s' needs the scene's regularisation, mu > 0",
-                       method->friction->name);
+    const enum br_status status = refuse_rules(scene, method, err);
+    if (status)
+        return status;
     return br_scene_check(scene, err);
+}
+
+static enum br_status create_parts(struct br_march *m, size_t n, struct br_error *err)
+{
+    struct br_stages stages;
+    m->method.scheme->stages(0, &stages);
+    const double tau = stages.stage[0].gamma * (m->scene->duration / (double)m->steps);
+    enum br_status status = br_march_allow_lead(m, 1, err);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        const struct br_field field = br_field_of_scene(m->scene, (enum br_field_kind)kind, n, tau);
+        status = br_part_create(&m->part[kind], m->scene, &field, &m->method, err);
+    }
+    if (!status && m->method.scheme->adaptive)
+        status = br_adaptive_create(m, err);
+    return status;
+}
+
+/* Of a scheme that marches by itself: the fields are here only for their meshes. */
+static enum br_status create_foreign(struct br_march *m, size_t n, struct br_error *err)
+{
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_part *part = &m->part[kind];
+        part->field = br_field_of_scene(m->scene, (enum br_field_kind)kind, n,
+                                        m->scene->duration / (double)m->steps);
+        part->modelled = kind == BR_AXIAL ? m->scene->axial.modelled : m->scene->bending.modelled;
+    }
+    return m->method.scheme->integrator->create(&m->foreign, m->scene, n, m->steps, &m->method,
+                                                err);
 }
 
 enum br_status br_march_create(struct br_march **out, const struct br_scene *scene, size_t n,
@@ -132,9 +110,7 @@ enum br_status br_march_create(struct br_march **out, const struct br_scene *sce
     m->scene = scene;
     m->method = *method;
     m->steps = steps;
-    status = br_march_allow_lead(m, 1, err);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        status = create_part(m, (enum br_field_kind)kind, n, err);
+    status = method->scheme->integrator ? create_foreign(m, n, err) : create_parts(m, n, err);
     if (status) {
         br_march_free(m);
         return status;
@@ -148,120 +124,137 @@ void br_march_free(struct br_march *m)
 {
     if (!m)
         return;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct part *part = &m->part[kind];
-        if (part->solver)
-            part->solver->free(part->state);
-        br_step_load_clear(&part->load);
-    }
-    free(m->penetration);
+    if (m->method.scheme->integrator)
+        m->method.scheme->integrator->free(m->foreign);
+    br_adaptive_free(m->adaptive);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        br_part_clear(&m->part[kind]);
+    free(m->path);
     free(m);
+}
+
+/* Such schemes take both fields through their steps together. */
+static bool fields_go_together(const struct br_march *m)
+{
+    return m->method.scheme->adaptive || m->method.scheme->integrator;
 }
 
 enum br_status br_march_allow_lead(struct br_march *m, size_t steps, struct br_error *err)
 {
-    free(m->penetration);
+    if (steps > 1 && fields_go_together(m))
+        return br_fail(err, BR_BAD_INPUT,
+                       "scheme %s: its fields go together, expected a scheme of fixed steps",
+                       m->method.scheme->name);
+    free(m->path);
     m->lead = steps;
-    m->penetration = br_allocate(steps, sizeof *m->penetration);
-    return m->penetration ? BR_OK : br_no_memory(err, "a march");
+    m->path = br_allocate(steps, sizeof *m->path);
+    return m->path ? BR_OK : br_no_memory(err, "a march");
 }
 
-/* v*: the tip's velocity at t_n with no tip force. */
-static enum br_status predict(struct br_march *m, enum br_field_kind kind, double *velocity,
-                              struct br_error *err)
-{
-    struct part *part = &m->part[kind];
-    const enum br_status status =
-        br_step_load_update(&part->load, &part->field, time_level(m, part->done + 1), err);
-    if (status)
-        return status;
-    const enum br_status predicted =
-        part->solver->predict(part->state, &part->load.drive, velocity, err);
-    part->load.drive.changed = false;
-    return predicted;
-}
-
-/* (u_n - g)_+. A contact force at u_n knows it without the loss of a difference. */
-static double penetration(const struct br_march *m)
-{
-    const struct br_contact *contact = &m->scene->contact;
-    if (contact->modelled && m->method.contact->at_new_step && contact->stiffness > 0)
-        return m->tip.contact_force / contact->stiffness;
-    return br_penetration(contact, m->tip.displacement);
-}
-
-/* Equation (16), or (27): v_n with the contact force at u_{n-1} or at u_n. */
-static enum br_status step_axial(struct br_march *m, struct br_error *err)
-{
-    struct part *part = &m->part[BR_AXIAL];
-    struct br_contact_state contact = {
-        .displacement = m->tip.displacement,
-        .compliance = part->solver->tip_compliance(part->state),
-        .k = part->field.k,
-    };
-    const enum br_status status = predict(m, BR_AXIAL, &contact.free_velocity, err);
-    if (status)
-        return status;
-    m->tip.contact_force =
-        m->scene->contact.modelled ? m->method.contact->force(&m->scene->contact, &contact) : 0;
-    m->tip.velocity[BR_AXIAL] = part->solver->finish(part->state, m->tip.contact_force);
-    m->tip.displacement = part->solver->tip_displacement(part->state);
-    m->penetration[part->done % m->lead] = penetration(m);
-    return BR_OK;
-}
-
-/* Inequality (17), or (28) and (30): A v + lambda e_tip = rhs with lambda from
- * the friction law, whose bound takes u_n. */
-static enum br_status step_bending(struct br_march *m, struct br_error *err)
-{
-    struct part *part = &m->part[BR_BENDING];
-    struct br_friction_state friction = {
-        .compliance = part->solver->tip_compliance(part->state),
-        .bound = br_friction_bound(m->scene, m->penetration[part->done % m->lead]),
-        .regularisation = m->scene->friction.regularisation,
-    };
-    const enum br_status status = predict(m, BR_BENDING, &friction.free_velocity, err);
-    if (status)
-        return status;
-    m->tip.friction_bound = friction.bound;
-    m->tip.friction_force =
-        m->scene->friction.law == BR_FRICTIONLESS ? 0 : m->method.friction->force(&friction);
-    m->tip.velocity[BR_BENDING] = part->solver->finish(part->state, m->tip.friction_force);
-    return BR_OK;
-}
+/* ---- stepping ---- */
 
 /* A march that has left the numbers says so at once. */
-static enum br_status check_finite(const struct br_march *m, enum br_field_kind kind,
-                                   struct br_error *err)
+enum br_status br_march_check_finite(const struct br_march *m, enum br_field_kind kind, double t,
+                                     struct br_error *err)
 {
     static const char *const names[] = {"axial", "bending"};
-    const struct part *part = &m->part[kind];
+    const struct br_part *part = &m->part[kind];
     if (isfinite(m->tip.velocity[kind]))
         return BR_OK;
     return br_fail(err, BR_NOT_FINITE,
                    "the march blew up at t = %g s (step %zu of %zu, k = %g s): the %s velocity of "
                    "the tip is %g m/s",
-                   time_level(m, part->done), part->done, m->steps, part->field.k, names[kind],
+                   t, part->done, m->steps, m->scene->duration / (double)m->steps, names[kind],
                    m->tip.velocity[kind]);
+}
+
+static enum br_status fixed_step(struct br_march *m, enum br_field_kind kind, struct br_error *err)
+{
+    struct br_part *part = &m->part[kind];
+    const struct br_step step = {time_level(m, part->done), time_level(m, part->done + 1),
+                                 m->scene->duration / (double)m->steps};
+    struct br_stages stages;
+    m->method.scheme->stages(part->since, &stages);
+    const enum br_status status =
+        br_march_stages(m, kind, &stages, &step, &m->path[part->done % m->lead], err);
+    if (status)
+        return status;
+    const enum br_regime before = m->regime[kind];
+    m->regime[kind] = br_march_regime(m, kind);
+    br_part_accept(part, &stages, part->counts.steps > 0 && m->regime[kind] != before);
+    return BR_OK;
+}
+
+/* Both fields, whichever of them is asked for first. */
+static enum br_status common_step(struct br_march *m, enum br_field_kind kind, struct br_error *err)
+{
+    if (kind == BR_BENDING)
+        return BR_OK;
+    if (!m->foreign)
+        return br_adaptive_advance(m, err);
+    const struct br_integrator *integrator = m->method.scheme->integrator;
+    const enum br_status status = integrator->advance(m->foreign, m->part[BR_AXIAL].done + 1, err);
+    if (!status)
+        integrator->tip(m->foreign, &m->tip);
+    return status;
 }
 
 enum br_status br_march_step_field(struct br_march *m, enum br_field_kind kind,
                                    struct br_error *err)
 {
-    struct part *part = &m->part[kind];
-    if (part->modelled) {
-        const enum br_status status = kind == BR_AXIAL ? step_axial(m, err) : step_bending(m, err);
-        if (status)
-            return status;
-    }
+    struct br_part *part = &m->part[kind];
+    enum br_status status = BR_OK;
+    if (fields_go_together(m))
+        status = common_step(m, kind, err);
+    else if (part->modelled)
+        status = fixed_step(m, kind, err);
+    if (status)
+        return status;
     part->done++;
-    return check_finite(m, kind, err);
+    return br_march_check_finite(m, kind, time_level(m, part->done), err);
 }
 
 enum br_status br_march_step(struct br_march *m, struct br_error *err)
 {
     const enum br_status status = br_march_step_field(m, BR_AXIAL, err);
     return status ? status : br_march_step_field(m, BR_BENDING, err);
+}
+
+struct br_counts br_march_counts(const struct br_march *m)
+{
+    struct br_counts counts = m->counts;
+    if (m->foreign)
+        m->method.scheme->integrator->counts(m->foreign, &counts);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !m->foreign; kind++) {
+        const struct br_counts *own = &m->part[kind].counts;
+        counts.steps = own->steps > counts.steps ? own->steps : counts.steps;
+        counts.stages = own->stages > counts.stages ? own->stages : counts.stages;
+        counts.set_ups = own->set_ups > counts.set_ups ? own->set_ups : counts.set_ups;
+    }
+    return counts;
+}
+
+/* ---- looking ---- */
+
+const char *br_regime_name(enum br_regime regime)
+{
+    static const char *const names[] = {
+        [BR_REGIME_NONE] = "",
+        [BR_REGIME_OPEN] = "open",
+        [BR_REGIME_CLOSED] = "closed",
+        [BR_REGIME_STICK] = "stick",
+        [BR_REGIME_FORWARD] = "slip towards +w",
+        [BR_REGIME_BACKWARD] = "slip towards -w",
+    };
+    return names[regime];
+}
+
+size_t br_march_switches(const struct br_march *m, const struct br_switch **first)
+{
+    if (m->adaptive)
+        return br_adaptive_switches(m->adaptive, first);
+    *first = NULL;
+    return 0;
 }
 
 size_t br_march_steps_done(const struct br_march *m)
@@ -287,14 +280,20 @@ const struct br_tip *br_march_tip(const struct br_march *m)
 
 double br_march_tip_displacement(const struct br_march *m, enum br_field_kind kind)
 {
-    const struct part *part = &m->part[kind];
+    const struct br_part *part = &m->part[kind];
+    if (m->foreign && part->modelled)
+        return m->method.scheme->integrator->tip_displacement(m->foreign, kind);
     return part->modelled ? part->solver->tip_displacement(part->state) : 0;
 }
 
 void br_march_get(const struct br_march *m, enum br_field_kind kind, double *displacement,
                   double *velocity)
 {
-    const struct part *part = &m->part[kind];
+    const struct br_part *part = &m->part[kind];
+    if (part->modelled && m->foreign) {
+        m->method.scheme->integrator->get(m->foreign, kind, displacement, velocity);
+        return;
+    }
     if (part->modelled) {
         part->solver->get(part->state, displacement, velocity);
         return;
@@ -308,8 +307,10 @@ void br_march_get(const struct br_march *m, enum br_field_kind kind, double *dis
 
 void br_march_strain_rate(const struct br_march *m, enum br_field_kind kind, double *rate)
 {
-    const struct part *part = &m->part[kind];
-    if (part->modelled)
+    const struct br_part *part = &m->part[kind];
+    if (part->modelled && m->foreign)
+        m->method.scheme->integrator->strain_rate(m->foreign, kind, rate);
+    else if (part->modelled)
         part->solver->strain_rate(part->state, rate);
     else
         memset(rate, 0, part->field.n * br_field_unknowns(kind) * sizeof *rate);
@@ -327,7 +328,7 @@ bool br_march_models(const struct br_march *m, enum br_field_kind kind)
 
 void br_march_load(const struct br_march *m, enum br_field_kind kind, double *load)
 {
-    const struct part *part = &m->part[kind];
+    const struct br_part *part = &m->part[kind];
     const struct br_drive *drive = &part->load.drive;
     const size_t size = br_field_size(&part->field), unknowns = br_field_unknowns(kind);
     for (size_t i = 0; i < size; i++)
@@ -338,13 +339,13 @@ void br_march_load(const struct br_march *m, enum br_field_kind kind, double *lo
 
 double br_march_compliance(const struct br_march *m, enum br_field_kind kind)
 {
-    const struct part *part = &m->part[kind];
-    return part->modelled ? part->solver->tip_compliance(part->state) : 0;
+    const struct br_part *part = &m->part[kind];
+    return part->solver ? part->solver->tip_compliance(part->state) : 0;
 }
 
 bool br_march_contact_unstable(const struct br_march *m)
 {
-    if (!m->scene->contact.modelled || m->method.contact->at_new_step)
+    if (!m->scene->contact.modelled || m->method.contact->at_new_step || m->foreign)
         return false;
     const struct br_field *f = &m->part[BR_AXIAL].field;
     const double gain = m->scene->contact.stiffness * f->k * br_march_compliance(m, BR_AXIAL);
@@ -356,7 +357,7 @@ double br_march_round_off(const struct br_march *m)
 {
     double largest = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (m->part[kind].modelled)
+        if (m->part[kind].solver)
             largest =
                 fmax(largest, m->method.solver->round_off(&m->part[kind].field, &m->method.linear));
     return largest;

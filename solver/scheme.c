@@ -5,42 +5,49 @@
 
 /* ---- Runge-Kutta methods with one gamma on the diagonal, the last stage being the end ---- */
 
-/* As they are tabulated: Y_i = Y_0 + k sum_j a_ij Y'_j, at t_{n-1} + c_i k. */
+/* As they are tabulated: Y_i = Y_{n-1} + k sum_j a_ij Y'_j at t_{n-1} + c_i k. With c_0 = 0 the
+ * first of them is no stage, but Y_{n-1} itself. */
 struct tableau {
-    int count;
-    double a[BR_MOST_STAGES][BR_MOST_STAGES], c[BR_MOST_STAGES];
-    double embedded[BR_MOST_STAGES]; /* weights of a second end; all 0: none */
+    int rows;
+    double gamma;
+    double a[BR_MOST_STAGES + 1][BR_MOST_STAGES + 1], c[BR_MOST_STAGES + 1];
+    double embedded[BR_MOST_STAGES + 1]; /* weights of a second end; all 0: none */
 };
 
-/* sum += factor tau Y'_j = factor (Y_j - Z_j) */
-static void add_rate(double factor, const struct br_stages *s, int j, double *sum)
+/* sum += factor tau Y' of a row: of a stage, tau Y' = Y - Z. */
+static void add_rate(double factor, const struct br_stages *s, int stage, double *sum)
 {
-    sum[BR_STAGE + j] += factor;
+    if (stage < 0) {
+        sum[BR_RATE] += factor;
+        return;
+    }
+    sum[BR_STAGE + stage] += factor;
     for (int i = 0; i < BR_KNOWN; i++)
-        sum[i] -= factor * s->stage[j].weight[i];
+        sum[i] -= factor * s->stage[stage].weight[i];
 }
 
 static void of_tableau(const struct tableau *t, struct br_stages *s)
 {
-    const double gamma = t->a[0][0];
+    const int skipped = t->c[0] == 0;
     bool estimates = false;
-    *s = (struct br_stages){.count = t->count};
-    for (int i = 0; i < t->count; i++) {
-        struct br_stage *stage = &s->stage[i];
-        *stage = (struct br_stage){.time = t->c[i], .gamma = gamma, .weight = {[BR_NOW] = 1}};
+    *s = (struct br_stages){.count = t->rows - skipped};
+    for (int i = skipped; i < t->rows; i++) {
+        struct br_stage *stage = &s->stage[i - skipped];
+        *stage = (struct br_stage){.time = t->c[i], .gamma = t->gamma, .weight = {[BR_NOW] = 1}};
         for (int j = 0; j < i; j++)
-            add_rate(t->a[i][j] / gamma, s, j, stage->weight);
+            add_rate(t->a[i][j] / t->gamma, s, j - skipped, stage->weight);
         estimates |= t->embedded[i] != 0;
     }
-    for (int j = 0; j < t->count && estimates; j++)
-        add_rate((t->a[t->count - 1][j] - t->embedded[j]) / gamma, s, j, s->error);
+    for (int j = 0; j < t->rows && estimates; j++)
+        add_rate((t->a[t->rows - 1][j] - t->embedded[j]) / t->gamma, s, j - skipped, s->error);
 }
 
 /* 1 - 1/sqrt(2) */
 #define GAMMA2 0.29289321881345247560
 
 static const struct tableau sdirk2_tableau = {
-    .count = 2,
+    .rows = 2,
+    .gamma = GAMMA2,
     .a = {{GAMMA2}, {1 - GAMMA2, GAMMA2}},
     .c = {GAMMA2, 1},
 };
@@ -49,7 +56,8 @@ static const struct tableau sdirk2_tableau = {
 #define GAMMA3 0.43586652150845899942
 
 static const struct tableau sdirk3_tableau = {
-    .count = 3,
+    .rows = 3,
+    .gamma = GAMMA3,
     .a = {{GAMMA3},
           {(1 - GAMMA3) / 2, GAMMA3},
           {(-6 * GAMMA3 * GAMMA3 + 16 * GAMMA3 - 1) / 4,
@@ -58,7 +66,8 @@ static const struct tableau sdirk3_tableau = {
 };
 
 static const struct tableau sdirk4_tableau = {
-    .count = 5,
+    .rows = 5,
+    .gamma = 0.25,
     .a = {{1.0 / 4},
           {1.0 / 2, 1.0 / 4},
           {17.0 / 50, -1.0 / 25, 1.0 / 4},
@@ -67,6 +76,44 @@ static const struct tableau sdirk4_tableau = {
     .c = {1.0 / 4, 3.0 / 4, 11.0 / 20, 1.0 / 2, 1},
     .embedded = {59.0 / 48, -17.0 / 96, 225.0 / 32, -85.0 / 12, 0},
 };
+
+/* A third-order and a fourth-order one whose stages are of second order each: what is stiff does
+ * not lower their order as it does that of the ones above, which start them. */
+#define C1 (2 * GAMMA3)
+#define C2 (3.0 / 5)
+/* What is left of 1/2 and 1/3 when the last stage has its share of sum b c and of sum b c^2. */
+#define HALF (1.0 / 2 - GAMMA3)
+#define THIRD (1.0 / 3 - GAMMA3)
+#define A21 (C2 * (C2 - C1) / (2 * C1)) /* sum a_2j c_j = c_2^2 / 2 */
+#define B1 ((THIRD - C2 * HALF) / (C1 * (C1 - C2)))
+#define B2 ((THIRD - C1 * HALF) / (C2 * (C2 - C1)))
+
+static const struct tableau esdirk3_tableau = {
+    .rows = 4,
+    .gamma = GAMMA3,
+    .a = {{0},
+          {GAMMA3, GAMMA3},
+          {C2 - A21 - GAMMA3, A21, GAMMA3},
+          {1 - B1 - B2 - GAMMA3, B1, B2, GAMMA3}},
+    .c = {0, C1, C2, 1},
+};
+
+static const struct tableau esdirk4_tableau = {
+    .rows = 6,
+    .gamma = 0.25,
+    .a = {{0},
+          {1.0 / 4, 1.0 / 4},
+          {8611.0 / 62500, -1743.0 / 31250, 1.0 / 4},
+          {5012029.0 / 34652500, -654441.0 / 2922500, 174375.0 / 388108, 1.0 / 4},
+          {15267082809.0 / 155376265600, -71443401.0 / 120774400, 730878875.0 / 902184768,
+           2285395.0 / 8070912, 1.0 / 4},
+          {82889.0 / 524892, 0, 15625.0 / 83664, 69875.0 / 102672, -2260.0 / 8211, 1.0 / 4}},
+    .c = {0, 1.0 / 2, 83.0 / 250, 31.0 / 50, 17.0 / 20, 1},
+    .embedded = {4586570599.0 / 29645900160, 0, 178811875.0 / 945068544, 814220225.0 / 1159782912,
+                 -3700637.0 / 11593932, 61727.0 / 225920},
+};
+
+/* ---- one step of each scheme ---- */
 
 static void euler_stages(size_t since, struct br_stages *s)
 {
@@ -80,19 +127,15 @@ static void sdirk2_stages(size_t since, struct br_stages *s)
     of_tableau(&sdirk2_tableau, s);
 }
 
-static void sdirk3_stages(size_t since, struct br_stages *s)
+static void esdirk3_stages(size_t since, struct br_stages *s)
 {
-    (void)since;
-    of_tableau(&sdirk3_tableau, s);
+    of_tableau(since == 0 ? &sdirk3_tableau : &esdirk3_tableau, s);
 }
 
-static void sdirk4_stages(size_t since, struct br_stages *s)
+static void esdirk4_stages(size_t since, struct br_stages *s)
 {
-    (void)since;
-    of_tableau(&sdirk4_tableau, s);
+    of_tableau(since == 0 ? &sdirk4_tableau : &esdirk4_tableau, s);
 }
-
-/* ---- methods that look back; SDIRK2 starts them ---- */
 
 /* Y_n = 4/3 Y_{n-1} - 1/3 Y_{n-2} + 2/3 k Y'_n */
 static void bdf2_stages(size_t since, struct br_stages *s)
@@ -107,29 +150,37 @@ static void bdf2_stages(size_t since, struct br_stages *s)
         *s = bdf2;
 }
 
-/* The trapezoidal rule over 2 gamma k, then a BDF2 of unequal steps. What the first of them needs
- * at t_{n-1}, gamma k Y'_{n-1} = Y_{n-1} - Z, is known from the last stage of the step before. */
+/* Y_n = 18/11 Y_{n-1} - 9/11 Y_{n-2} + 2/11 Y_{n-3} + 6/11 k Y'_n */
+static void bdf3_stages(size_t since, struct br_stages *s)
+{
+    static const struct br_stages bdf3 = {
+        .count = 1,
+        .stage = {{1,
+                   6.0 / 11,
+                   {[BR_NOW] = 18.0 / 11, [BR_BEFORE] = -9.0 / 11, [BR_BEFORE_THAT] = 2.0 / 11}}},
+    };
+    if (since < 2)
+        bdf2_stages(since, s);
+    else
+        *s = bdf3;
+}
+
+/* The trapezoidal rule over 2 gamma k, Y_1 = Y_{n-1} + gamma k (Y'_{n-1} + Y'_1), then a BDF2 of
+ * unequal steps, Y_2 = Y_{n-1} + w k (Y'_{n-1} + Y'_1) + gamma k Y'_2 with w = (1 - gamma)/2. */
 static void trbdf2_stages(size_t since, struct br_stages *s)
 {
-    const double gamma = GAMMA2, half = (1 - gamma) / (2 * gamma); /* w / gamma, w = sqrt(2)/4 */
-    const double slope = since == 1 ? (1 - gamma) / gamma : half;
-    if (since == 0) {
+    const double gamma = GAMMA2, ratio = (1 - gamma) / (2 * gamma);
+    if (since == 0)
         of_tableau(&sdirk2_tableau, s);
-        return;
-    }
-    *s = (struct br_stages){
-        .count = 2,
-        .stage =
-            {
-                /* Y_{n-1} + gamma k Y'_{n-1} */
-                {2 * gamma,
-                 gamma,
-                 {[BR_NOW] = 2, [BR_BEFORE] = slope - 1, [BR_STAGE_BEFORE] = -slope}},
-                /* Y_{n-1} + w k (Y'_{n-1} + Y'_1) = Y_{n-1} + half (Y_1 - Y_{n-1}) */
-                {1, gamma, {[BR_NOW] = 1 - half, [BR_STAGE] = half}},
-            },
-    };
+    else
+        *s = (struct br_stages){
+            .count = 2,
+            .stage = {{2 * gamma, gamma, {[BR_NOW] = 1, [BR_RATE] = 1}},
+                      {1, gamma, {[BR_NOW] = 1 - ratio, [BR_STAGE] = ratio}}},
+        };
 }
+
+/* ---- the registry ---- */
 
 static const struct br_time_scheme euler = {
     .name = "euler",
@@ -149,9 +200,18 @@ static const struct br_time_scheme bdf2 = {
     .stages = bdf2_stages,
 };
 
+static const struct br_time_scheme bdf3 = {
+    .name = "bdf3",
+    .title = "three-step backward differences; one solve a step; not for undamped vibration",
+    .citation = "Hairer and Wanner, Solving Ordinary Differential Equations II, V.1; started by "
+                "sdirk2 and bdf2",
+    .order = 3,
+    .stages = bdf3_stages,
+};
+
 static const struct br_time_scheme trbdf2 = {
     .name = "trbdf2",
-    .title = "trapezoidal rule and backward differences; two solves a step",
+    .title = "trapezoidal rule and backward differences, L-stable; two solves a step",
     .citation = "Bank et al., IEEE Trans. Electron Devices 32 (1985) 1992-2007; Hosea and "
                 "Shampine, Appl. Numer. Math. 20 (1996) 21-37; started by sdirk2",
     .order = 2,
@@ -160,40 +220,43 @@ static const struct br_time_scheme trbdf2 = {
 
 static const struct br_time_scheme sdirk2 = {
     .name = "sdirk2",
-    .title = "singly diagonally implicit Runge-Kutta, L-stable; two solves a step",
+    .title = "diagonally implicit Runge-Kutta, L-stable, looks back at nothing; two solves a step",
     .citation = "Alexander, SIAM J. Numer. Anal. 14 (1977) 1006-1021, Theorem 5",
     .order = 2,
     .stages = sdirk2_stages,
 };
 
-static const struct br_time_scheme sdirk3 = {
-    .name = "sdirk3",
-    .title = "the same, third order; three solves a step",
-    .citation = "Alexander, SIAM J. Numer. Anal. 14 (1977) 1006-1021, Theorem 5",
+static const struct br_time_scheme esdirk3 = {
+    .name = "esdirk3",
+    .title = "diagonally implicit Runge-Kutta, L-stable; three solves a step",
+    .citation = "Kennedy and Carpenter, Appl. Numer. Math. 44 (2003) 139-181, ARK3(2)4L[2]SA; "
+                "started by Alexander's method of that order",
     .order = 3,
-    .stages = sdirk3_stages,
+    .stages = esdirk3_stages,
 };
 
-static const struct br_time_scheme sdirk4 = {
-    .name = "sdirk4",
-    .title = "the same, fourth order; five solves a step",
-    .citation = "Hairer and Wanner, Solving Ordinary Differential Equations II, Table IV.6.5",
+static const struct br_time_scheme esdirk4 = {
+    .name = "esdirk4",
+    .title = "diagonally implicit Runge-Kutta, L-stable; five solves a step",
+    .citation = "Kennedy and Carpenter, Appl. Numer. Math. 44 (2003) 139-181, ARK4(3)6L[2]SA; "
+                "started by Hairer and Wanner, Solving Ordinary Differential Equations II, Table "
+                "IV.6.5",
     .order = 4,
-    .stages = sdirk4_stages,
+    .stages = esdirk4_stages,
 };
 
 static const struct br_time_scheme adaptive = {
     .name = "adaptive",
-    .title = "sdirk4 with steps chosen by --tolerance, which finds the times of switching",
-    .citation = "Hairer and Wanner, Solving Ordinary Differential Equations II, IV.6 and IV.8",
+    .title = "esdirk4 with steps chosen by --tolerance, which finds the times of switching",
+    .citation = "Kennedy and Carpenter, Appl. Numer. Math. 44 (2003) 139-181; solver/adaptive.c",
     .order = 4,
     .estimate_order = 4,
     .adaptive = true,
-    .stages = sdirk4_stages,
+    .stages = esdirk4_stages,
 };
 
-const struct br_time_scheme *const br_time_schemes[] = {&euler,  &bdf2,   &trbdf2,   &sdirk2,
-                                                        &sdirk3, &sdirk4, &adaptive,
+const struct br_time_scheme *const br_time_schemes[] = {&euler,  &bdf2,    &bdf3,    &trbdf2,
+                                                        &sdirk2, &esdirk3, &esdirk4, &adaptive,
 #ifdef BR_IDA
                                                         &br_ida,
 #endif

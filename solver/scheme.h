@@ -16,13 +16,13 @@
 
 enum {
     BR_MOST_STAGES = 5,
-    /* What weights refer to: the state at t_{n-1}, the stages of this step, the state at t_{n-2}
-     * and the stages of the step before. */
-    BR_NOW = 0,
-    BR_STAGE = 1,
-    BR_BEFORE = BR_STAGE + BR_MOST_STAGES,
-    BR_STAGE_BEFORE = BR_BEFORE + 1,
-    BR_KNOWN = BR_STAGE_BEFORE + BR_MOST_STAGES
+    /* What weights refer to: */
+    BR_NOW = 0,                            /* Y_{n-1} */
+    BR_STAGE = 1,                          /* the stages of this step */
+    BR_BEFORE = BR_STAGE + BR_MOST_STAGES, /* Y_{n-2} */
+    BR_BEFORE_THAT,                        /* Y_{n-3} */
+    BR_RATE,                               /* tau Y'_{n-1} */
+    BR_KNOWN
 };
 
 struct br_stage {
@@ -50,8 +50,8 @@ struct br_time_scheme {
     bool adaptive;      /* chooses its steps by a tolerance, and finds the times of switching; the
                            march's steps are then where it is looked at */
     /* Fills the stages of a step; since: how many steps there were since t = 0 or since the
-     * solution switched (stick, slip, contact opens or closes). With 0, only BR_NOW and BR_STAGE
-     * have weights; with 1, the step before was one that began with 0. */
+     * solution switched (stick, slip, contact opens or closes), 2 or more being alike. Nothing
+     * before that is given a weight, nor is Y' of 0. */
     void (*stages)(size_t since, struct br_stages *stages);
     const struct br_integrator *integrator; /* of its own, instead of stages; NULL: none */
 };

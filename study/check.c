@@ -288,17 +288,6 @@ void br_check_clear(struct br_check *check)
     check->count = 0;
 }
 
-void br_check_override(struct br_verify *verify, const struct br_check_method *method)
-{
-    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
-        struct br_method *m = &verify->study[kind].method;
-        m->solver = method->solver ? method->solver : m->solver;
-        m->linear.kernel = method->kernel ? method->kernel : m->linear.kernel;
-        m->contact = method->contact ? method->contact : m->contact;
-        m->friction = method->friction ? method->friction : m->friction;
-    }
-}
-
 double br_check_work(const struct br_check *check)
 {
     const double fields = check->scene->axial.modelled + check->scene->bending.modelled;

@@ -5,14 +5,6 @@
 
 #include "study/verdict.h"
 
-/* Methods for all studies of a check, instead of what the scene says; NULL: as it says. */
-struct br_check_method {
-    const struct br_linear_solver *solver;
-    const struct br_kernel *kernel; /* for studies whose solver heeds it */
-    const struct br_contact_rule *contact;
-    const struct br_friction_rule *friction;
-};
-
 struct br_check {
     /* in; borrowed */
     const char *path; /* of the scene, for messages */
@@ -33,9 +25,6 @@ struct br_check {
 enum br_status br_check_run(struct br_check *checks, size_t count, int threads,
                             const struct br_observer *observer, struct br_error *err);
 void br_check_clear(struct br_check *check);
-
-/* Puts the method into all studies of `verify` (in, out). */
-void br_check_override(struct br_verify *verify, const struct br_check_method *method);
 
 /* What a check will cost: element-steps of all its marches, a field. */
 double br_check_work(const struct br_check *check);

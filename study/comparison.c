@@ -7,6 +7,8 @@
 
 const char *const br_severity_names[] = {"same", "note", "warning", "serious"};
 
+enum { METHOD_PARTS = 6 }; /* differences that a method may have */
+
 /* Where each severity begins: a shift of the order in tolerances, factors otherwise. */
 static const double order_steps[] = {0.01, 0.25, 1};
 static const double constant_steps[] = {1.001, 1.05, 2};
@@ -185,6 +187,46 @@ static void report_lost(struct br_comparison *out, const struct br_check *checks
         add(out, &d);
 }
 
+/* ---- methods ---- */
+
+/* Another method is no fault, but may be why other things have moved. */
+static void compare_method(struct br_comparison *out, const struct br_check *check,
+                           enum br_verify_kind kind, const struct br_old_method *old)
+{
+    const struct br_method *m = &check->verify->study[kind].method;
+    const double tolerance = m->scheme->adaptive ? m->tolerance : NAN;
+    struct br_difference d = {.before = NAN, .now = NAN, .severity = BR_NOTE};
+    snprintf(d.subject, sizeof d.subject, "%.100s %s: method", check->scene->name,
+             br_verify_names[kind]);
+    const char *const words[][3] = {
+        {"scheme", old->scheme, m->scheme->name},
+        {"solver", old->solver, m->solver->name},
+        {"contact", old->contact, m->contact->name},
+        {"friction", old->friction, m->friction->name},
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        snprintf(d.remark, sizeof d.remark, "%s %s before, %s now", words[i][0], words[i][1],
+                 words[i][2]);
+        if (strcmp(words[i][1], words[i][2]) != 0)
+            add(out, &d);
+    }
+    snprintf(d.remark, sizeof d.remark, "tolerance %g before, %g now", old->tolerance, tolerance);
+    if (factor(old->tolerance, tolerance) != 1)
+        add(out, &d);
+    snprintf(d.remark, sizeof d.remark, "axial degree %g before, %d now", old->axial_degree,
+             m->axial_degree);
+    if (old->axial_degree != m->axial_degree)
+        add(out, &d);
+}
+
+static void compare_methods(struct br_comparison *out, const struct br_check *check,
+                            const struct br_old_cost *old)
+{
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+        if (old->method[kind].known && check->verify->study[kind].count)
+            compare_method(out, check, (enum br_verify_kind)kind, &old->method[kind]);
+}
+
 /* ---- cost ---- */
 
 static void compare_cost(struct br_comparison *out, const struct br_check *check,
@@ -237,7 +279,7 @@ enum br_status br_compare(const struct br_check *checks, size_t count, bool whol
     *out = (struct br_comparison){0};
     size_t most = old->count;
     for (size_t i = 0; i < count; i++)
-        most += 4 * checks[i].count + 2 * old->scenes;
+        most += 4 * checks[i].count + (2 + BR_VERIFY_KINDS * METHOD_PARTS) * old->scenes;
     out->difference = br_allocate(most + 1, sizeof *out->difference);
     if (!out->difference)
         return br_no_memory(err, "the comparison");
@@ -245,8 +287,10 @@ enum br_status br_compare(const struct br_check *checks, size_t count, bool whol
         for (size_t c = 0; c < checks[i].count; c++)
             compare_case(out, &checks[i], &checks[i].cases[c], old);
         for (size_t s = 0; s < old->scenes; s++)
-            if (same_name(old->costs[s].scene, checks[i].scene->name))
+            if (same_name(old->costs[s].scene, checks[i].scene->name)) {
+                compare_methods(out, &checks[i], &old->costs[s]);
                 compare_cost(out, &checks[i], &old->costs[s]);
+            }
     }
     for (size_t i = 0; i < old->count; i++)
         report_lost(out, checks, count, whole, &old->cases[i]);

@@ -22,10 +22,19 @@ struct br_old_case {
     enum br_verdict verdict;
 };
 
+/* The method of a study; what a report from before it had a choice does not say is the default. */
+struct br_old_method {
+    bool known; /* the study was made */
+    char scheme[32], solver[32], contact[32], friction[32];
+    double tolerance; /* of an adaptive scheme; NaN: it is none */
+    double axial_degree;
+};
+
 /* And what one of its scenes cost. */
 struct br_old_cost {
     char scene[256];
     double seconds, element_steps;
+    struct br_old_method method[BR_VERIFY_KINDS];
 };
 
 struct br_old_check {

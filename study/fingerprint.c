@@ -80,11 +80,21 @@ static void add_scene(unsigned long long *hash, const struct br_scene *s)
 
 static void add_method(unsigned long long *hash, const struct br_method *m)
 {
+    const double number[] = {
+        m->scheme->adaptive ? m->tolerance : 0,
+        m->friction->iterates ? m->iteration.parameter : 0,
+        m->friction->iterates ? m->iteration.tolerance : 0,
+        m->friction->iterates ? (double)m->iteration.most : 0,
+        m->linear.refinement,
+        m->axial_degree,
+    };
+    add(hash, m->scheme->name);
     add(hash, m->solver->name);
     add(hash, m->contact->name);
     add(hash, m->friction->name);
     add(hash, m->linear.scaling ? m->linear.scaling : "");
-    add_number(hash, m->linear.refinement);
+    for (size_t i = 0; i < sizeof number / sizeof *number; i++)
+        add_number(hash, number[i]);
 }
 
 static void add_study(unsigned long long *hash, const struct br_study *s)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "study/number_list.h"
+#include "study/verify_method.h"
 
 /* One study on its way: its lists are put together when both are known. */
 struct block {
@@ -15,12 +16,12 @@ struct block {
     size_t *n, n_count, n_line; /* as given; line 0: not yet */
     double *k;
     size_t k_count, k_line;
-    bool method_given[3]; /* solver, contact, friction */
+    struct br_verify_method method;
 };
 
 static const char expected_study[] =
-    "n, k, solver, contact, friction, or a norm (l2, energy, tip) and a part (axial, bending; "
-    "without one: the total)";
+    "n, k, scheme, tolerance, solver, contact, friction, axial_degree, or a norm (l2, energy, tip) "
+    "and a part (axial, bending; without one: the total)";
 
 /* `inner` as a refusal at a line. */
 static enum br_status pass_on(const struct br_scene_reader *r, size_t line, const char *key,
@@ -188,32 +189,6 @@ static enum br_status read_expectation(struct block *b, const char *what, const 
 
 /* ---- a study ---- */
 
-/* One of the method's names; *known: whether the key is one. */
-static enum br_status read_method(struct block *b, const char *key, const yaml_node_t *node,
-                                  bool *known)
-{
-    struct br_method *m = &b->study->method;
-    const char *name = br_yaml_text(node);
-    static const char *const names[] = {"solver", "contact", "friction"};
-    size_t which = 0;
-    while (which < 3 && strcmp(key, names[which]) != 0)
-        which++;
-    *known = which < 3;
-    if (!*known)
-        return BR_OK;
-    if (b->method_given[which])
-        return br_scene_refuse(b->r, br_yaml_line(node), key, "given twice");
-    b->method_given[which] = true;
-    const bool found = which == 0   ? (m->solver = br_linear_solver_find(name)) != NULL
-                       : which == 1 ? (m->contact = br_contact_rule_find(name)) != NULL
-                                    : (m->friction = br_friction_rule_find(name)) != NULL;
-    if (!found)
-        return br_scene_refuse(b->r, br_yaml_line(node), key,
-                               "found '%s', expected a name that 'beamrate study --help' lists",
-                               name);
-    return BR_OK;
-}
-
 static enum br_status read_key(struct block *b, const yaml_node_t *name, const yaml_node_t *value)
 {
     if (name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE)
@@ -228,8 +203,17 @@ static enum br_status read_key(struct block *b, const yaml_node_t *name, const y
         return is_n ? read_meshes(b, value) : read_steps(b, value);
     }
     bool is_method;
-    const enum br_status status = read_method(b, key, value, &is_method);
+    const enum br_status status = br_verify_method_read(b->r, key, value, &b->method, &is_method);
     return is_method ? status : read_expectation(b, key, value);
+}
+
+static enum br_status end_method(struct block *b)
+{
+    struct br_error inner = {0};
+    if (br_verify_method_end(&b->method, &inner))
+        return pass_on(b->r, b->study->line, br_verify_names[b->kind], &inner);
+    b->study->method = b->method.method;
+    return BR_OK;
 }
 
 static enum br_status read_block(struct block *b, const yaml_node_t *node)
@@ -239,7 +223,7 @@ static enum br_status read_block(struct block *b, const yaml_node_t *node)
     if (b->study->line)
         return br_scene_refuse(r, br_yaml_line(node), name, "given twice");
     b->study->line = br_yaml_line(node);
-    b->study->method = br_method_default();
+    b->method.method = br_method_default();
     if (node->type != YAML_MAPPING_NODE)
         return br_scene_refuse(r, br_yaml_line(node), name, "expected a mapping with %s",
                                expected_study);
@@ -251,6 +235,8 @@ static enum br_status read_block(struct block *b, const yaml_node_t *node)
     if (!status && (!b->n_line || !b->k_line))
         status =
             br_scene_refuse(r, b->study->line, b->n_line ? "k" : "n", "missing in verify %s", name);
+    if (!status)
+        status = end_method(b);
     if (!status)
         status = check_counts(b);
     return status ? status : make_cells(b);

@@ -190,6 +190,32 @@ static bool read_case(const json_t *o, const char *scene_name, struct br_old_cas
            read_verdict(json_object_get(o, "verdict"), &c->verdict);
 }
 
+/* A key that is not there means what there was before it: the default. */
+static bool read_method(const json_t *o, struct br_old_method *m)
+{
+    const struct br_method method = br_method_default();
+    const json_t *scheme = json_object_get(o, "scheme"),
+                 *degree = json_object_get(o, "axial_degree"),
+                 *tolerance = json_object_get(o, "tolerance");
+    *m = (struct br_old_method){.known = o != NULL, .tolerance = NAN, .axial_degree = 1};
+    strcpy(m->scheme, method.scheme->name);
+    return !m->known ||
+           ((!scheme || read_word(scheme, m->scheme, sizeof m->scheme)) &&
+            (!tolerance || read_number(tolerance, 0, &m->tolerance)) &&
+            (!degree || read_number(degree, 1, &m->axial_degree)) &&
+            read_word(json_object_get(o, "solver"), m->solver, sizeof m->solver) &&
+            read_word(json_object_get(o, "contact"), m->contact, sizeof m->contact) &&
+            read_word(json_object_get(o, "friction"), m->friction, sizeof m->friction));
+}
+
+static bool read_methods(const json_t *o, struct br_old_cost *cost)
+{
+    bool good = true;
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+        good &= read_method(json_object_get(o, br_verify_names[kind]), &cost->method[kind]);
+    return good;
+}
+
 static enum br_status read_scene(const char *path, const json_t *o, struct br_old_check *old,
                                  struct br_error *err)
 {
@@ -198,8 +224,8 @@ static enum br_status read_scene(const char *path, const json_t *o, struct br_ol
     if (!read_word(json_object_get(o, "scene"), cost->scene, sizeof cost->scene) ||
         !read_number(json_object_get(o, "seconds"), 0, &cost->seconds) ||
         !read_number(json_object_get(o, "element_steps"), 0, &cost->element_steps) ||
-        !json_is_array(list))
-        return refuse(path, "scenes", "scenes with a name, a cost and cases", err);
+        !read_methods(json_object_get(o, "methods"), cost) || !json_is_array(list))
+        return refuse(path, "scenes", "scenes with a name, methods, a cost and cases", err);
     for (size_t i = 0; i + 1 < old->scenes; i++)
         if (strcmp(old->costs[i].scene, cost->scene) == 0)
             return refuse(path, cost->scene, "each scene once", err);

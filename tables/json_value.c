@@ -35,13 +35,26 @@ json_t *br_json_estimate(const struct br_estimate *e)
                      br_json_number(e->low), "high", br_json_number(e->high));
 }
 
+/* null: the friction rule does not iterate */
+static json_t *iteration(const struct br_method *m)
+{
+    const struct br_iteration *i = &m->iteration;
+    if (!m->friction->iterates)
+        return json_null();
+    return json_pack("{s:o, s:o, s:I}", "parameter", br_json_number(i->parameter), "tolerance",
+                     br_json_number(i->tolerance), "most", (json_int_t)i->most);
+}
+
 json_t *br_json_method(const struct br_method *m)
 {
     const struct br_kernel *kernel = br_linear_solver_kernel(m->solver, &m->linear);
-    return json_pack("{s:s, s:o, s:s, s:i, s:s, s:s}", "solver", m->solver->name, "kernel",
+    return json_pack("{s:s, s:o, s:i, s:s, s:o, s:s, s:i, s:s, s:s, s:o}", "scheme",
+                     m->scheme->name, "tolerance",
+                     m->scheme->adaptive ? br_json_number(m->tolerance) : json_null(),
+                     "axial_degree", m->axial_degree, "solver", m->solver->name, "kernel",
                      br_json_string(kernel ? kernel->name : NULL), "scaling", m->linear.scaling,
                      "refinement", m->linear.refinement, "contact", m->contact->name, "friction",
-                     m->friction->name);
+                     m->friction->name, "iteration", iteration(m));
 }
 
 json_t *br_json_provenance(const struct br_provenance *p)

@@ -74,10 +74,19 @@ static json_t *law(void)
 
 static void add_methods(json_t *properties)
 {
-    json_t *solver = json_array(), *contact = json_array(), *friction = json_array();
+    json_t *scheme = json_array(), *solver = json_array(), *contact = json_array(),
+           *friction = json_array();
+    ADD_NAMES(scheme, br_time_scheme, br_time_schemes);
     ADD_NAMES(solver, br_linear_solver, br_linear_solvers);
     ADD_NAMES(contact, br_contact_rule, br_contact_rules);
     ADD_NAMES(friction, br_friction_rule, br_friction_rules);
+    json_object_set_new(properties, "scheme", json_pack("{s:o}", "enum", scheme));
+    json_object_set_new(properties, "tolerance",
+                        json_pack("{s:[s, s], s:f, s:i, s:s, s:s}", "type", "number", "string",
+                                  "exclusiveMinimum", 1e-14, "exclusiveMaximum", 1, "pattern",
+                                  "^ *" NUMBER "$", "description", "of an adaptive scheme"));
+    json_object_set_new(properties, "axial_degree",
+                        json_pack("{s:[i, i, s, s]}", "enum", 1, 2, "1", "2"));
     json_object_set_new(properties, "solver", json_pack("{s:o}", "enum", solver));
     json_object_set_new(properties, "contact", json_pack("{s:o}", "enum", contact));
     json_object_set_new(properties, "friction", json_pack("{s:o}", "enum", friction));

@@ -69,11 +69,13 @@ static void write_verify(FILE *out, const struct br_scene_key *key)
         [BR_VERIFY_TIME] = {"10", "1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5 s"},
         [BR_VERIFY_JOINT] = {"10, 20, 40, 80", "4e-3, 1e-3, 2.5e-4, 6.25e-5 s"},
     };
-    fprintf(out,
-            "\n# %s: %s; without it 'beamrate check' says what it expects.\n"
-            "# A line is a norm, a part (none: the total), its order, and perhaps its constant.\n"
-            "# solver, contact and friction choose the method of a study.\n# %s:\n",
-            key->name, key->help, key->name);
+    fprintf(
+        out,
+        "\n# %s: %s; without it 'beamrate check' says what it expects.\n"
+        "# A line is a norm, a part (none: the total), its order, and perhaps its constant.\n"
+        "# scheme, tolerance, solver, contact, friction and axial_degree choose the method of a study.\n"
+        "# %s:\n",
+        key->name, key->help, key->name);
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
         fprintf(out, "#   %s:\n#     n: %s\n#     k: %s\n", br_verify_names[kind], lists[kind][0],
                 lists[kind][1]);

@@ -5,6 +5,8 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "tables/method_text.h"
+
 __attribute__((format(printf, 2, 3))) static void say(const struct br_writer *w, const char *format,
                                                       ...)
 {
@@ -22,34 +24,23 @@ bool br_part_shown(const struct br_report *r, enum br_part part)
     return part == BR_PART_TOTAL || (s->axial.modelled && s->bending.modelled);
 }
 
-static void describe_method(const struct br_study *s, const struct br_method *m, char *text,
-                            size_t size)
-{
-    const char *contact = s->scene->contact.modelled ? m->contact->name : "none";
-    const char *friction = s->scene->friction.law == BR_FRICTIONLESS ? "none" : m->friction->name;
-    const struct br_kernel *kernel = br_linear_solver_kernel(m->solver, &m->linear);
-    snprintf(text, size, "solver %s%s%s, contact %s, friction %s", m->solver->name,
-             kernel ? " on " : "", kernel ? kernel->name : "", contact, friction);
-}
-
 /* "a fine run of the same scheme, n = 12800, ..." */
 static void describe_reference(const struct br_study *s, char *text, size_t size)
 {
-    char method[128];
+    char method[BR_METHOD_TEXT];
     if (!s->judge->nests) {
         snprintf(text, size, "%s", s->judge->title);
         return;
     }
-    describe_method(s, &s->reference_method, method, sizeof method);
     snprintf(text, size, "%s: N = %zu, K = %g s; %s", s->judge->title, s->reference.n,
-             br_reference_step(s), method);
+             br_reference_step(s), br_method_text(s->scene, &s->reference_method, method));
 }
 
 void br_say_method(const struct br_report *r, const struct br_writer *w)
 {
-    char cells[128], reference[512];
-    describe_method(r->study, &r->study->method, cells, sizeof cells);
-    say(w, "%s Cells: %s.", r->study->norm->title, cells);
+    char cells[BR_METHOD_TEXT], reference[512];
+    say(w, "%s Cells: %s.", r->study->norm->title,
+        br_method_text(r->study->scene, &r->study->method, cells));
     describe_reference(br_report_fitted(r), reference, sizeof reference);
     say(w, "Reference: %s.", reference);
     if (!r->exact)

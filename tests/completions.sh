@@ -51,8 +51,8 @@ for command in $commands; do
         esac
     done <arguments
 done
-names() { "$BEAMRATE" study --help | sed -n "/($1)/,/^[A-Z]/s/^  \([a-z0-9]*\)[: ].*/\1/p"; }
-for option in --contact --friction --norm --format --kernel; do
+names() { "$BEAMRATE" study --help | sed -n "/($1)/,/^[A-Z]/s/^  \([-a-z0-9]*\)[: ].*/\1/p"; }
+for option in --scheme --contact --friction --norm --format --kernel; do
     for name in $(names "$option"); do
         offers "$name" beamrate study example1 "$option" ''
         offers "$name" beamrate study example1 "$option" = ''

@@ -197,21 +197,6 @@ static void test_threads(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_override(void **state)
-{
-    (void)state;
-    struct made_check m;
-    made_create(&m);
-    br_check_override(&m.verify, &(struct br_check_method){.contact = br_contact_rules[1],
-                                                           .kernel = br_kernels[0]});
-    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
-        assert_ptr_equal(m.verify.study[kind].method.contact, br_contact_rules[1]);
-        assert_ptr_equal(m.verify.study[kind].method.solver, br_linear_solvers[0]);
-        assert_ptr_equal(m.verify.study[kind].method.linear.kernel, br_kernels[0]);
-    }
-    made_clear(&m);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -222,7 +207,6 @@ int main(void)
         cmocka_unit_test(test_nothing_moves),
         cmocka_unit_test(test_one_mesh),
         cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_override),
         cmocka_unit_test(test_unstable_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

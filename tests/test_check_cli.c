@@ -52,6 +52,8 @@ static void test_refusals(void **state)
 {
     (void)state;
     cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n");
+    cli_write_file("plain.yaml", SCENE);
+    cli_write_file("bdf2.yaml", SCENE SPACE "    scheme: bdf2\n    l2: 2 +- 0.1\n");
     cli_write_file("contradiction.yaml", SCENE SPACE "    l2: 2 +- 2\n");
     cli_write_file("beyond.yaml",
                    "title: T\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
@@ -68,7 +70,12 @@ static void test_refusals(void **state)
         {"check good.yaml --solver riccati --kernel sse2",
          "--kernel: found 'sse2', expected one of: "},
         {"check good.yaml --solver umfpack --kernel portable",
-         "--kernel: no study here has a solver that heeds it, as --solver riccati does"},
+         "--kernel: solver umfpack does not heed it, as --solver riccati does"},
+        {"check good.yaml plain.yaml --tolerance 1e-4",
+         "--tolerance: no study here has a time scheme that heeds it, as --scheme adaptive does"},
+        {"check bdf2.yaml --contact lagged",
+         "bdf2.yaml: verify: space: contact rule 'lagged' does not go with time scheme 'bdf2'"},
+        {"check good.yaml --scheme magic", "--scheme: found 'magic', expected one of: euler, "},
         {"check good.yaml --solver magic", "--solver: found 'magic', expected one of: riccati"},
         {"check good.yaml --contact magic", "--contact: found 'magic'"},
         {"check good.yaml --friction magic", "--friction: found 'magic'"},

@@ -16,7 +16,14 @@ static struct br_old_check as_old(const struct made_check *m)
     old.costs = br_allocate(1, sizeof *old.costs);
     assert_non_null(old.cases);
     assert_non_null(old.costs);
-    old.costs[0] = (struct br_old_cost){"made", m->check.seconds, m->check.element_steps};
+    old.costs[0] = (struct br_old_cost){
+        .scene = "made",
+        .seconds = m->check.seconds,
+        .element_steps = m->check.element_steps,
+    };
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+        old.costs[0].method[kind] =
+            (struct br_old_method){true, "euler", "riccati", "lagged", "exact", NAN, 1};
     for (size_t i = 0; i < old.count; i++) {
         const struct br_case *c = &m->check.cases[i];
         struct br_old_case *o = &old.cases[i];
@@ -120,6 +127,43 @@ static void test_comparison(void **state)
     made_clear(&m);
 }
 
+/* Another method is told, whatever has changed of it. */
+static void test_methods(void **state)
+{
+    (void)state;
+    struct made_check m;
+    made_create(&m);
+    m.scene.name = (char[]){"made"};
+    made_run(&m, 1);
+    struct br_old_check old = as_old(&m);
+    struct br_old_method *method = &old.costs[0].method[BR_VERIFY_TIME];
+    const struct br_old_method same = *method,
+                               others[] = {
+                                   {true, "bdf2", "riccati", "lagged", "exact", NAN, 1},
+                                   {true, "euler", "plain", "lagged", "exact", NAN, 1},
+                                   {true, "euler", "riccati", "implicit", "exact", NAN, 1},
+                                   {true, "euler", "riccati", "lagged", "regularised", NAN, 1},
+                                   {true, "euler", "riccati", "lagged", "exact", 1e-6, 1},
+                                   {true, "euler", "riccati", "lagged", "exact", NAN, 2},
+                               };
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        *method = others[i];
+        compare(&m, &old, BR_NOTE, "made time: method");
+    }
+    *method = (struct br_old_method){0}; /* not made then */
+    compare(&m, &old, BR_SAME, "");
+    *method = same;
+    struct br_verify_study *time = &m.verify.study[BR_VERIFY_TIME];
+    time->method.scheme = br_time_scheme_find("adaptive");
+    strcpy(method->scheme, "adaptive");
+    method->tolerance = time->method.tolerance;
+    compare(&m, &old, BR_SAME, "");
+    method->tolerance *= 2;
+    compare(&m, &old, BR_NOTE, "made time: method");
+    br_old_check_clear(&old);
+    made_clear(&m);
+}
+
 /* What a comparison needs of the names. */
 static void test_names(void **state)
 {
@@ -162,6 +206,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_comparison),
+        cmocka_unit_test(test_methods),
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_worse_verdict),
     };

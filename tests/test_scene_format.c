@@ -101,6 +101,9 @@ static void test_schema_has_every_method(void **state)
         for (size_t i = 0; br_linear_solvers[i]; i++)
             names[i] = br_linear_solvers[i]->name;
         check_names(study, "solver", names);
+        for (size_t i = 0; br_time_schemes[i]; i++)
+            names[i] = br_time_schemes[i]->name;
+        check_names(study, "scheme", names);
         for (const struct br_norm *const *n = br_norms; *n; n++)
             for (int part = 0; part < BR_PARTS; part++) {
                 char key[64];

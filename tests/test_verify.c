@@ -72,6 +72,8 @@ static void test_whole(void **state)
     assert_string_equal(time->method.solver->name, "umfpack");
     assert_string_equal(time->method.contact->name, "implicit");
     assert_string_equal(time->method.friction->name, "regularised");
+    assert_ptr_equal(time->method.scheme, br_time_schemes[0]);
+    assert_int_equal(time->method.axial_degree, 1);
     assert_int_equal(time->expectations, 2);
     const struct br_expectation *l2 = &time->expectation[0], *tip = &time->expectation[1];
     assert_ptr_equal(l2->norm, &br_norm_l2);
@@ -85,6 +87,30 @@ static void test_whole(void **state)
     assert_int_equal(tip->part, BR_PART_AXIAL);
     CLOSE(tip->floor, 1e-5, 0);
     CLOSE(tip->ceiling, 2e-5, 0);
+    br_verify_clear(&v);
+    br_scene_clear(&scene);
+}
+
+static void test_method(void **state)
+{
+    (void)state;
+    struct br_scene scene;
+    struct br_verify v;
+    struct br_error err = {0};
+    MUST(read_part("verify:\n"
+                   "  time:\n"
+                   "    n: 7\n"
+                   "    k: 0.25, 0.5, 0.03125, 0.125, 0.0625 s\n"
+                   "    tolerance: 1e-7\n"
+                   "    scheme: adaptive\n"
+                   "    axial_degree: 2\n"
+                   "    l2: 1 +- 0.05\n",
+                   &scene, &v, &err));
+    const struct br_method *m = &v.study[BR_VERIFY_TIME].method;
+    assert_string_equal(m->scheme->name, "adaptive");
+    assert_true(m->contact->at_new_step); /* as the scheme wants it */
+    CLOSE(m->tolerance, 1e-7, 0);
+    assert_int_equal(m->axial_degree, 2);
     br_verify_clear(&v);
     br_scene_clear(&scene);
 }
@@ -162,6 +188,17 @@ static void test_refusals(void **state)
         {"verify:\n  time:\n" TIMES "    solver: magic\n", ":18: solver: found 'magic'"},
         {"verify:\n  time:\n" TIMES "    solver: riccati\n    solver: umfpack\n",
          ":19: solver: given twice"},
+        {"verify:\n  time:\n" TIMES "    scheme: magic\n", ":18: scheme: found 'magic'"},
+        {"verify:\n  time:\n" TIMES "    axial_degree: 3\n",
+         ":18: axial_degree: found '3', expected 1 or 2"},
+        {"verify:\n  time:\n" TIMES "    scheme: adaptive\n    tolerance: a\n",
+         ":19: tolerance: found 'a', expected a number above 1e-14 and below 1"},
+        {"verify:\n  time:\n" TIMES "    scheme: adaptive\n    tolerance: 2\n    l2: 1 +- .1\n",
+         ":16: time: the tolerance of time scheme 'adaptive' is 2, expected"},
+        {"verify:\n  time:\n" TIMES "    tolerance: 1e-3\n    l2: 1 +- .1\n",
+         ":16: time: tolerance: time scheme 'euler' does not heed it"},
+        {"verify:\n  time:\n" TIMES "    scheme: bdf2\n    contact: lagged\n    l2: 1 +- .1\n",
+         ":16: time: contact rule 'lagged' does not go with time scheme 'bdf2', expected 'implicit'"},
         {"verify:\n  time:\n" TIMES "    l2: \"1 +- .1\\0, at most 1 m\"\n",
          ":18: scene: found '1 +- .1' followed by a zero byte"},
         {"verify:\n  time:\n" TIMES "    l2: 1 +- .1\n---\nverify: 3\n",
@@ -246,11 +283,9 @@ static int remove_file(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_whole),
-        cmocka_unit_test(test_default),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_missing_part),
-        cmocka_unit_test(test_ignored_by_others),
+        cmocka_unit_test(test_whole),        cmocka_unit_test(test_method),
+        cmocka_unit_test(test_default),      cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_missing_part), cmocka_unit_test(test_ignored_by_others),
     };
     return cmocka_run_group_tests(tests, make_file, remove_file);
 }

@@ -1,0 +1,392 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Steps by a tolerance, and the times of switching.
+ *
+ * Between switches the laws at the tip are smooth: open or closed, stick, slip up or down. So a
+ * step holds the branch on which it began, through all its stages, and keeps its order. At its end
+ * each branch has a margin that is not negative while it is the right one: the gap or the
+ * penetration, h - |lambda| of a tip that sticks, the velocity of one that slips. Where one is
+ * negative, the step is taken back and its length found at which the margin is zero; the next step
+ * then finds its branches by the laws themselves, in its first stage, with a length that is small.
+ *
+ * The error of a step is estimated in the strains (u_x, w_xx) of displacement, relative to the
+ * largest seen so far. */
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
+#include <math.h>
+#include <string.h>
+
+#include "solver/march_state.h"
+
+static const double first_step = 1e-7;   /* of the duration */
+static const double after_switch = 0.01; /* of the step before it */
+static const double least_step = 1e-13;  /* of the duration */
+static const double safety = 0.85, most_growth = 5, most_shrinking = 0.1;
+static const double idle_growth = 1.4;       /* less is not worth new tables */
+static const double switch_accuracy = 1e-12; /* of the step in which it lies */
+
+struct br_adaptive {
+    double now, next;      /* time reached and length of the next step, s */
+    double largest[2];     /* strain of each field so far */
+    size_t since;          /* steps since the start or the last switch */
+    bool known;            /* the branches of the laws */
+    enum br_regime old[2]; /* those in front of the last switch */
+    struct br_switch found[BR_MOST_SWITCHES];
+    size_t found_count; /* also of those that are not kept */
+};
+
+void br_adaptive_free(struct br_adaptive *a)
+{
+    free(a);
+}
+
+static void keep_all(struct br_march *m, int known)
+{
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (m->part[kind].modelled)
+            br_part_keep(&m->part[kind], known);
+}
+
+static void recall_all(struct br_march *m, int known)
+{
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (m->part[kind].modelled)
+            br_part_recall(&m->part[kind], known);
+}
+
+/* ---- a trial ---- */
+
+struct trial {
+    double k, error; /* s; relative to the tolerance */
+    struct br_stages stages;
+    double strain[2];
+};
+
+/* Whether a field's law has branches that a step can hold. */
+static bool has_branches(const struct br_march *m, enum br_field_kind kind)
+{
+    if (kind == BR_AXIAL)
+        return m->scene->contact.modelled && m->scene->contact.stiffness > 0;
+    return m->scene->friction.law != BR_FRICTIONLESS && !m->method.friction->needs_regularisation;
+}
+
+/* The first stage by the laws themselves tells the branches. */
+static enum br_status find_branches(struct br_march *m, const struct br_stages *stages,
+                                    const struct br_step *step, struct br_error *err)
+{
+    struct br_adaptive *a = m->adaptive;
+    struct br_stages first = *stages;
+    first.count = 1;
+    const struct br_tip tip = m->tip;
+    enum br_status status = BR_OK;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        m->held[kind] = false;
+        if (!m->part[kind].modelled)
+            continue;
+        status = br_march_stages(m, (enum br_field_kind)kind, &first, step, m->path, err);
+        m->regime[kind] = br_march_regime(m, (enum br_field_kind)kind);
+    }
+    recall_all(m, BR_NOW);
+    m->tip = tip;
+    a->known = true;
+    return status;
+}
+
+static enum br_status try_fields(struct br_march *m, const struct br_step *step,
+                                 struct trial *trial, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        struct br_part *part = &m->part[kind];
+        if (!part->modelled)
+            continue;
+        m->held[kind] = has_branches(m, (enum br_field_kind)kind);
+        status = br_march_stages(m, (enum br_field_kind)kind, &trial->stages, step, m->path, err);
+        if (status)
+            break;
+        double error, strain;
+        br_part_estimate(part, &trial->stages, &error, &strain);
+        const double scale = m->method.tolerance * fmax(strain, m->adaptive->largest[kind]);
+        trial->strain[kind] = strain;
+        if (error > 0 || !isfinite(error))
+            trial->error = fmax(trial->error, scale > 0 ? error / scale : INFINITY);
+        if (!isfinite(error))
+            trial->error = INFINITY;
+    }
+    return status;
+}
+
+/* A step of length k from where the march is; the state is then its result. */
+static enum br_status try_step(struct br_march *m, double k, struct trial *trial,
+                               struct br_error *err)
+{
+    const double now = m->adaptive->now;
+    const struct br_step step = {now, now + k, k};
+    *trial = (struct trial){.k = k};
+    m->method.scheme->stages(m->adaptive->since, &trial->stages);
+    enum br_status status = BR_OK;
+    if (!m->adaptive->known)
+        status = find_branches(m, &trial->stages, &step, err);
+    return status ? status : try_fields(m, &step, trial, err);
+}
+
+static void take_back(struct br_march *m, const struct br_tip *tip)
+{
+    recall_all(m, BR_NOW);
+    m->tip = *tip;
+}
+
+/* ---- switches ---- */
+
+/* Not negative while a field's tip is on the branch that is held. */
+static double margin(const struct br_march *m, enum br_field_kind kind)
+{
+    const struct br_tip *tip = &m->tip;
+    switch (m->held[kind] ? m->regime[kind] : BR_REGIME_NONE) {
+    case BR_REGIME_OPEN:
+        return m->scene->contact.gap - tip->displacement;
+    case BR_REGIME_CLOSED:
+        return tip->displacement - m->scene->contact.gap;
+    case BR_REGIME_STICK:
+        return tip->friction_bound - fabs(tip->friction_force);
+    case BR_REGIME_FORWARD:
+        return tip->velocity[BR_BENDING];
+    case BR_REGIME_BACKWARD:
+        return -tip->velocity[BR_BENDING];
+    case BR_REGIME_NONE:
+        break;
+    }
+    return 0;
+}
+
+struct search {
+    struct br_march *march;
+    const struct br_tip *tip; /* where the step begins */
+    enum br_field_kind kind;
+    struct trial trial;
+    enum br_status status;
+    struct br_error *err;
+};
+
+/* The margin at the end of a step of length k, for GSL. */
+static double margin_after(double k, void *params)
+{
+    struct search *s = params;
+    if (s->status)
+        return 0;
+    take_back(s->march, s->tip);
+    s->status = try_step(s->march, k, &s->trial, s->err);
+    return s->status ? 0 : margin(s->march, s->kind);
+}
+
+/* Shortens a step whose end is beyond the switch of one field to just before that switch, where a
+ * load that jumps then has not jumped yet; the state is then the result of the shorter one. */
+static enum br_status find_switch(struct search *s, double longest)
+{
+    gsl_function f = {.function = margin_after, .params = s};
+    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+    if (!solver)
+        return br_no_memory(s->err, "a search for a switch");
+    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    const double least = least_step * s->march->scene->duration;
+    int code = gsl_root_fsolver_set(solver, &f, least, longest);
+    double k = least;
+    for (int i = 0; i < 60 && !code && !s->status; i++) {
+        code = gsl_root_fsolver_iterate(solver);
+        k = fmax(gsl_root_fsolver_x_lower(solver), least);
+        if (!(gsl_root_fsolver_x_upper(solver) - k > fmax(switch_accuracy * longest, least)))
+            break;
+    }
+    gsl_set_error_handler(handler);
+    gsl_root_fsolver_free(solver);
+    if (!s->status)
+        margin_after(k, s);
+    return s->status;
+}
+
+/* ---- steps ---- */
+
+/* The first step after a switch tells to which branch it was; both fields may have had theirs. */
+static void tell_switches(struct br_march *m)
+{
+    struct br_adaptive *a = m->adaptive;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        if (!m->part[kind].modelled || m->regime[kind] == a->old[kind])
+            continue;
+        if (a->found_count < BR_MOST_SWITCHES)
+            a->found[a->found_count] =
+                (struct br_switch){a->now, (enum br_field_kind)kind, a->old[kind], m->regime[kind]};
+        a->found_count++;
+    }
+}
+
+size_t br_adaptive_switches(const struct br_adaptive *a, const struct br_switch **first)
+{
+    *first = a->found;
+    return a->found_count;
+}
+
+static void accept(struct br_march *m, const struct trial *trial, bool switched)
+{
+    struct br_adaptive *a = m->adaptive;
+    if (a->since == 0 && a->now > 0)
+        tell_switches(m);
+    memcpy(a->old, m->regime, sizeof a->old);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        a->largest[kind] = fmax(a->largest[kind], trial->strain[kind]);
+        if (m->part[kind].modelled)
+            br_part_accept(&m->part[kind], &trial->stages, switched);
+    }
+    a->known = !switched;
+    a->since = switched ? 0 : a->since + 1;
+}
+
+/* What the estimate says of the next step's length. */
+static double next_length(const struct br_march *m, const struct trial *trial)
+{
+    const double order = m->method.scheme->estimate_order;
+    const double factor = trial->error > 0 ? safety * pow(trial->error, -1 / order) : most_growth;
+    if (!(factor > most_shrinking))
+        return most_shrinking * trial->k;
+    if (factor > 1 && factor < idle_growth)
+        return trial->k;
+    return fmin(factor, most_growth) * trial->k;
+}
+
+static enum br_status too_small(const struct br_march *m, const struct trial *trial,
+                                struct br_error *err)
+{
+    return br_fail(
+        err, BR_NOT_FINITE,
+        "scheme %s: at t = %.17g s no step is small enough: with %g s the estimated error "
+        "is %g times the tolerance of %g",
+        m->method.scheme->name, m->adaptive->now, trial->k, trial->error, m->method.tolerance);
+}
+
+/* A step of at most k, s, that the estimate passes. */
+static enum br_status estimated_step(struct br_march *m, double k, struct trial *trial,
+                                     struct br_error *err)
+{
+    struct br_adaptive *a = m->adaptive;
+    const double least = least_step * m->scene->duration;
+    const struct br_tip tip = m->tip;
+    const bool fresh = !a->known;
+    for (;;) {
+        const enum br_status status = try_step(m, k, trial, err);
+        if (status)
+            return status;
+        if (trial->error <= 1)
+            return BR_OK;
+        m->counts.rejected++;
+        take_back(m, &tip);
+        a->known = !fresh;
+        if (!(k > least))
+            return too_small(m, trial, err);
+        k = a->next = fmax(next_length(m, trial), least);
+    }
+}
+
+/* Where the step has gone beyond a switch, it ends there. */
+static enum br_status stop_at_switches(struct br_march *m, const struct br_tip *tip,
+                                       struct trial *trial, bool *switched, struct br_error *err)
+{
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        if (!(margin(m, (enum br_field_kind)kind) < 0))
+            continue;
+        struct search search = {m, tip, (enum br_field_kind)kind, *trial, BR_OK, err};
+        const enum br_status status = find_switch(&search, trial->k);
+        if (status)
+            return status;
+        *trial = search.trial;
+        *switched = true;
+    }
+    return BR_OK;
+}
+
+/* Goes on by at most `longest`, s. */
+static enum br_status adaptive_step(struct br_march *m, double longest, struct br_error *err)
+{
+    struct br_adaptive *a = m->adaptive;
+    const struct br_tip tip = m->tip;
+    const double wanted = a->next;
+    const double k = wanted >= longest ? longest : fmin(wanted, longest / 2);
+    struct trial trial;
+    bool switched = false;
+    enum br_status status = estimated_step(m, k, &trial, err);
+    const double whole = trial.k;
+    if (!status)
+        status = stop_at_switches(m, &tip, &trial, &switched, err);
+    if (status)
+        return status;
+    if (switched)
+        a->next = fmax(after_switch * whole, first_step * m->scene->duration);
+    else if (k < wanted && whole == k) /* cut short by a time level, which says little */
+        a->next = fmax(fmin(wanted, most_growth * k), next_length(m, &trial));
+    else
+        a->next = next_length(m, &trial);
+    accept(m, &trial, switched);
+    a->now += trial.k;
+    return BR_OK;
+}
+
+/* ---- the size of the solution ---- */
+
+static enum br_status rough_step(struct br_march *m, const struct br_step *step,
+                                 struct br_error *err)
+{
+    static const struct br_stages euler = {.count = 1, .stage = {{1, 1, {[BR_NOW] = 1}}}};
+    enum br_status status = BR_OK;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        struct br_part *part = &m->part[kind];
+        double size[2];
+        if (!part->modelled)
+            continue;
+        status = br_march_stages(m, (enum br_field_kind)kind, &euler, step, m->path, err);
+        part->solver->size(part->state, 0, size);
+        m->adaptive->largest[kind] = fmax(m->adaptive->largest[kind], size[0]);
+    }
+    return status;
+}
+
+/* The largest strains of a few Euler steps to the end: a solution that starts at rest has no size
+ * of its own that its first errors could be compared with. */
+static enum br_status find_size(struct br_march *m, struct br_error *err)
+{
+    enum { STEPS = 16 };
+    const double T = m->scene->duration;
+    const struct br_tip tip = m->tip;
+    enum br_status status = BR_OK;
+    keep_all(m, BR_STAGE);
+    for (int n = 0; n < STEPS && !status; n++) {
+        const struct br_step step = {T * n / STEPS, T * (n + 1) / STEPS, T / STEPS};
+        status = rough_step(m, &step, err);
+    }
+    recall_all(m, BR_STAGE);
+    m->tip = tip;
+    return status;
+}
+
+enum br_status br_adaptive_create(struct br_march *m, struct br_error *err)
+{
+    m->adaptive = br_allocate(1, sizeof *m->adaptive);
+    if (!m->adaptive)
+        return br_no_memory(err, "a march");
+    m->adaptive->next = first_step * m->scene->duration;
+    return find_size(m, err);
+}
+
+enum br_status br_adaptive_advance(struct br_march *m, struct br_error *err)
+{
+    struct br_adaptive *a = m->adaptive;
+    const size_t level = m->part[BR_AXIAL].done + 1;
+    const double end = m->scene->duration * (double)level / (double)m->steps;
+    const double least = least_step * m->scene->duration;
+    while (end - a->now > least) {
+        enum br_status status = adaptive_step(m, end - a->now, err);
+        for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+            status = br_march_check_finite(m, (enum br_field_kind)kind, a->now, err);
+        if (status)
+            return status;
+    }
+    a->now = end;
+    return BR_OK;
+}

@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/assembled.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "solver/modes.h"
+
+struct assembled {
+    struct br_system system;
+    double *displacement;  /* state 0, nodal, and behind it */
+    double *velocity;      /* ... its velocity */
+    double *kept;          /* states 1, 2, ..., each as state 0 */
+    double *free_velocity; /* v* */
+    double *tip_response;  /* z = A^-1 e_tip, nodal */
+    double *rhs;           /* workspace, nodal */
+};
+
+/* Index of the tip's displacement in a nodal array. */
+static size_t tip_index(const struct assembled *s)
+{
+    return s->system.field.n * s->system.unknowns;
+}
+
+static enum br_status find_tip_response(struct assembled *s, struct br_error *err)
+{
+    memset(s->rhs, 0, s->system.nodal * sizeof *s->rhs);
+    s->rhs[tip_index(s)] = 1;
+    const enum br_status status = br_system_solve(&s->system, s->rhs, s->tip_response, err);
+    const double compliance = s->tip_response[tip_index(s)];
+    if (status || (compliance > 0 && isfinite(compliance)))
+        return status;
+    return br_fail(err, BR_SINGULAR, "%s: the tip's compliance is %g, expected > 0",
+                   s->system.factoriser->name, compliance);
+}
+
+/* All that depends on the step's length. */
+static enum br_status factorise(struct assembled *s, struct br_error *err)
+{
+    const enum br_status status = br_system_factorise(&s->system, err);
+    return status ? status : find_tip_response(s, err);
+}
+
+static enum br_status allocate(struct assembled *s, struct br_error *err)
+{
+    const size_t nodal = s->system.nodal;
+    s->displacement = br_allocate(5 * nodal, sizeof *s->displacement);
+    if (!s->displacement)
+        return br_no_memory(err, "the stiffness form");
+    s->velocity = s->displacement + nodal;
+    s->free_velocity = s->velocity + nodal;
+    s->tip_response = s->free_velocity + nodal;
+    s->rhs = s->tip_response + nodal;
+    return BR_OK;
+}
+
+enum br_status br_assembled_create(const struct br_field *field,
+                                   const struct br_linear_options *options,
+                                   const struct br_factoriser *factoriser, void **self,
+                                   struct br_error *err)
+{
+    struct assembled *s = br_allocate(1, sizeof *s);
+    *self = s;
+    if (!s)
+        return br_no_memory(err, "the stiffness form");
+    enum br_status status = br_system_init(&s->system, field, options, factoriser, err);
+    if (!status)
+        status = allocate(s, err);
+    return status ? status : factorise(s, err);
+}
+
+void br_assembled_free(void *self)
+{
+    struct assembled *s = self;
+    if (!s)
+        return;
+    br_system_clear(&s->system);
+    free(s->displacement);
+    free(s->kept);
+    free(s);
+}
+
+enum br_status br_assembled_set_step(void *self, double k, struct br_error *err)
+{
+    struct assembled *s = self;
+    s->system.field.k = k;
+    return factorise(s, err);
+}
+
+double br_assembled_compliance(const void *self)
+{
+    const struct assembled *s = self;
+    return s->tip_response[tip_index(s)];
+}
+
+void br_assembled_set(void *self, const double *displacement, const double *velocity)
+{
+    struct assembled *s = self;
+    memcpy(s->displacement, displacement, s->system.nodal * sizeof *displacement);
+    memcpy(s->velocity, velocity, s->system.nodal * sizeof *velocity);
+}
+
+void br_assembled_get(const void *self, double *displacement, double *velocity)
+{
+    const struct assembled *s = self;
+    const size_t bytes = s->system.nodal * sizeof *displacement;
+    if (displacement)
+        memcpy(displacement, s->displacement, bytes);
+    if (velocity)
+        memcpy(velocity, s->velocity, bytes);
+}
+
+/* What deforms element i, from nodal values: its elongation or its two curvatures. */
+static void strain(const struct assembled *s, const double *nodal, size_t i, double *out)
+{
+    if (s->system.field.kind == BR_AXIAL)
+        out[0] = nodal[i + 1] - nodal[i];
+    else
+        br_curvature(nodal + 2 * i, out);
+}
+
+void br_assembled_strain_rate(const void *self, double *rate)
+{
+    const struct assembled *s = self;
+    for (size_t i = 0; i < s->system.field.n; i++)
+        strain(s, s->velocity, i, rate + i * s->system.unknowns);
+}
+
+/* rhs = factor F + tip + M v/k - K w */
+static void form_rhs(struct assembled *s, const struct br_drive *drive)
+{
+    const struct br_field *f = &s->system.field;
+    for (size_t i = 0; i < s->system.nodal; i++)
+        s->rhs[i] = drive->vector ? drive->factor * drive->vector[i] : 0;
+    for (size_t c = 0; c < s->system.unknowns; c++)
+        s->rhs[tip_index(s) + c] += drive->tip[c];
+    br_add_elements(f, f->density / f->k, s->velocity, f->stiffness, s->displacement, s->rhs);
+}
+
+enum br_status br_assembled_predict(void *self, const struct br_drive *drive, double *velocity,
+                                    struct br_error *err)
+{
+    struct assembled *s = self;
+    form_rhs(s, drive);
+    const enum br_status status = br_system_solve(&s->system, s->rhs, s->free_velocity, err);
+    *velocity = s->free_velocity[tip_index(s)];
+    return status;
+}
+
+/* v = v* - r z,  w += k v */
+double br_assembled_finish(void *self, double force)
+{
+    struct assembled *s = self;
+    for (size_t i = 0; i < s->system.nodal; i++) {
+        s->velocity[i] = s->free_velocity[i] - force * s->tip_response[i];
+        s->displacement[i] += s->system.field.k * s->velocity[i];
+    }
+    return s->velocity[tip_index(s)];
+}
+
+double br_assembled_tip_displacement(const void *self)
+{
+    const struct assembled *s = self;
+    return s->displacement[tip_index(s)];
+}
+
+/* ---- more states ---- */
+
+static double *state(const struct assembled *s, size_t j)
+{
+    return j == 0 ? s->displacement : s->kept + (j - 1) * 2 * s->system.nodal;
+}
+
+enum br_status br_assembled_keep(void *self, size_t count, struct br_error *err)
+{
+    struct assembled *s = self;
+    s->kept = br_allocate(count * 2 * s->system.nodal, sizeof *s->kept);
+    return s->kept ? BR_OK : br_no_memory(err, "the states that are kept");
+}
+
+void br_assembled_combine(void *self, size_t into, size_t count, const double *weight)
+{
+    struct assembled *s = self;
+    const size_t size = 2 * s->system.nodal; /* displacement and velocity */
+    double *sum = state(s, into);
+    const double own = into < count ? weight[into] : 0;
+    for (size_t i = 0; i < size; i++)
+        sum[i] = own == 0 ? 0 : own * sum[i];
+    for (size_t j = 0; j < count; j++) {
+        if (weight[j] == 0 || j == into)
+            continue;
+        const double *term = state(s, j);
+        for (size_t i = 0; i < size; i++)
+            sum[i] += weight[j] * term[i];
+    }
+}
+
+void br_assembled_size(void *self, size_t which, double size[2])
+{
+    const struct assembled *s = self;
+    struct br_view view;
+    br_view_field(&view, &s->system.field,
+                  BR_STRAIN_RATE); /* the modes of a strain: the same scales */
+    for (int part = 0; part < 2; part++) {
+        const double *nodal = state(s, which) + (part ? s->system.nodal : 0);
+        double squares = 0, modes[2];
+        for (size_t i = 0; i < s->system.field.n; i++) {
+            strain(s, nodal, i, modes);
+            for (size_t c = 0; c < s->system.unknowns; c++)
+                squares += view.scale[c] * modes[c] * (view.scale[c] * modes[c]);
+        }
+        size[part] = sqrt(squares);
+    }
+}

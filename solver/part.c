@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/part.h"
+
+#include <string.h>
+
+/* ---- initial data ---- */
+
+/* Evaluated by clones: marches of one scene may be created in different threads. */
+static enum br_status interpolate(const struct br_part *part, const struct br_function *value,
+                                  const struct br_function *slope, double *nodal,
+                                  struct br_error *err)
+{
+    struct br_function own = {0}, own_slope = {0};
+    enum br_status status = br_function_clone(value, &own, err);
+    if (!status && slope)
+        status = br_function_clone(slope, &own_slope, err);
+    if (!status)
+        status = br_interpolate(&part->field, &own, slope ? &own_slope : NULL, nodal, err);
+    br_function_free(&own);
+    br_function_free(&own_slope);
+    return status;
+}
+
+static enum br_status set_initial(struct br_part *part, const struct br_function *displacement,
+                                  const struct br_function *displacement_slope,
+                                  const struct br_function *velocity,
+                                  const struct br_function *velocity_slope, struct br_error *err)
+{
+    if (br_function_is_zero(displacement) && br_function_is_zero(velocity))
+        return BR_OK; /* a solver starts at rest */
+    const size_t size = br_field_size(&part->field);
+    double *nodal = br_allocate(2 * size, sizeof *nodal);
+    if (!nodal)
+        return br_no_memory(err, "the initial data");
+    enum br_status status = interpolate(part, displacement, displacement_slope, nodal, err);
+    if (!status)
+        status = interpolate(part, velocity, velocity_slope, nodal + size, err);
+    if (!status)
+        part->solver->set(part->state, nodal, nodal + size);
+    free(nodal);
+    return status;
+}
+
+/* ---- what a scheme keeps ---- */
+
+/* Whether Z is the state that the step begins with. */
+static bool starts_now(const struct br_stage *stage)
+{
+    for (int i = 0; i < BR_KNOWN; i++)
+        if (stage->weight[i] != (i == BR_NOW))
+            return false;
+    return true;
+}
+
+static void mark(const double weight[BR_KNOWN], bool needed[BR_KNOWN])
+{
+    for (int i = 0; i < BR_KNOWN; i++)
+        needed[i] |= weight[i] != 0;
+}
+
+/* Which states the steps of a scheme ever look at. */
+static void find_needed(const struct br_time_scheme *scheme, bool needed[BR_KNOWN])
+{
+    for (size_t since = 0; since < 3; since++) {
+        struct br_stages s;
+        scheme->stages(since, &s);
+        for (int i = 0; i < s.count; i++)
+            if (i > 0 || !starts_now(&s.stage[i]))
+                mark(s.stage[i].weight, needed);
+        mark(s.error, needed);
+    }
+    needed[BR_NOW] |= scheme->adaptive; /* to go back to */
+    needed[BR_NOW] |= needed[BR_BEFORE];
+}
+
+static enum br_status make_room(struct br_part *part, const struct br_time_scheme *scheme,
+                                struct br_error *err)
+{
+    bool needed[BR_KNOWN] = {false};
+    find_needed(scheme, needed);
+    for (int i = 0; i < BR_KNOWN; i++)
+        if (needed[i])
+            part->slot[i] = ++part->kept;
+    return part->kept ? part->solver->keep(part->state, part->kept, err) : BR_OK;
+}
+
+enum br_status br_part_create(struct br_part *part, const struct br_scene *s,
+                              const struct br_field *field, const struct br_method *method,
+                              struct br_error *err)
+{
+    const bool axial = field->kind == BR_AXIAL;
+    part->modelled = axial ? s->axial.modelled : s->bending.modelled;
+    part->field = *field;
+    if (!part->modelled)
+        return BR_OK;
+    part->solver = axial ? method->solver->axial : method->solver->bending;
+    enum br_status status = part->solver->create(field, &method->linear, &part->state, err);
+    const struct br_forces forces = br_forces_of_scene(s, field->kind);
+    if (!status)
+        status = br_step_load_init(&part->load, &forces, field, err);
+    if (!status)
+        status = make_room(part, method->scheme, err);
+    if (status)
+        return status;
+    if (axial)
+        return set_initial(part, &s->axial.displacement, NULL, &s->axial.velocity, NULL, err);
+    return set_initial(part, &s->bending.displacement, &s->bending.displacement_slope,
+                       &s->bending.velocity, &s->bending.velocity_slope, err);
+}
+
+void br_part_clear(struct br_part *part)
+{
+    if (part->solver)
+        part->solver->free(part->state);
+    br_step_load_clear(&part->load);
+}
+
+/* ---- a step ---- */
+
+/* The solver's state becomes that of a slot, or the other way round. */
+static void copy(struct br_part *part, size_t from, size_t into)
+{
+    double weight[BR_MOST_STATES] = {0};
+    weight[from] = 1;
+    part->solver->combine(part->state, into, (from > into ? from : into) + 1, weight);
+}
+
+void br_part_keep(struct br_part *part, int known)
+{
+    if (part->slot[known])
+        copy(part, 0, part->slot[known]);
+}
+
+void br_part_recall(struct br_part *part, int known)
+{
+    copy(part, part->slot[known], 0);
+}
+
+/* Adds `factor` times the weights to those by slot. */
+static void add_weights(const struct br_part *part, double factor, const double weight[BR_KNOWN],
+                        double by_slot[BR_MOST_STATES])
+{
+    for (int i = 0; i < BR_KNOWN; i++)
+        if (weight[i] != 0)
+            by_slot[part->slot[i]] +=
+                factor * weight[i] * (i == BR_RATE ? part->field.k / part->rate_tau : 1);
+}
+
+static void combine(struct br_part *part, const double weight[BR_KNOWN])
+{
+    double by_slot[BR_MOST_STATES] = {0};
+    add_weights(part, 1, weight, by_slot);
+    part->solver->combine(part->state, 0, part->kept + 1, by_slot);
+}
+
+enum br_status br_part_start_stage(struct br_part *part, const struct br_stages *stages, int i,
+                                   double k, struct br_error *err)
+{
+    const struct br_stage *stage = &stages->stage[i];
+    const double tau = stage->gamma * k, before = part->field.k;
+    part->field.k = tau;
+    if (i > 0 || !starts_now(stage)) /* the first finds the solver where the step begins */
+        combine(part, stage->weight);
+    if (tau == before)
+        return BR_OK;
+    part->counts.set_ups++;
+    return part->solver->set_step(part->state, tau, err);
+}
+
+enum br_status br_part_predict(struct br_part *part, double t, double *velocity,
+                               struct br_error *err)
+{
+    const enum br_status status = br_step_load_update(&part->load, &part->field, t, err);
+    if (status)
+        return status;
+    part->counts.stages++;
+    const enum br_status predicted =
+        part->solver->predict(part->state, &part->load.drive, velocity, err);
+    part->load.drive.changed = false;
+    return predicted;
+}
+
+/* tau Y' at the end of the step: what its last stage has added to where it started. */
+static void keep_rate(struct br_part *part, const struct br_stages *stages)
+{
+    double by_slot[BR_MOST_STATES] = {1};
+    add_weights(part, -1, stages->stage[stages->count - 1].weight, by_slot);
+    part->solver->combine(part->state, part->slot[BR_RATE], part->kept + 1, by_slot);
+    part->rate_tau = part->field.k;
+}
+
+void br_part_accept(struct br_part *part, const struct br_stages *stages, bool switched)
+{
+    static const int history[] = {BR_NOW, BR_BEFORE, BR_BEFORE_THAT};
+    if (part->slot[BR_RATE] && !switched)
+        keep_rate(part, stages);
+    for (int i = 2; i > 0; i--) { /* the oldest makes room for what begins the next step */
+        size_t *newer = &part->slot[history[i - 1]], *older = &part->slot[history[i]], old = *older;
+        if (old) {
+            *older = *newer;
+            *newer = old;
+        }
+    }
+    part->since = switched ? 0 : part->since + 1;
+    part->counts.steps++;
+}
+
+void br_part_estimate(struct br_part *part, const struct br_stages *stages, double *error,
+                      double *state)
+{
+    double size[2];
+    part->solver->size(part->state, 0, size);
+    *state = size[0];
+    const int last = BR_STAGE + stages->count - 1;
+    br_part_keep(part, last);
+    combine(part, stages->error);
+    part->solver->size(part->state, 0, size);
+    *error = size[0];
+    br_part_recall(part, last);
+}

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One step of one field, stage by stage, each with its law at the tip. */
+#include <math.h>
+
+#include "solver/march_state.h"
+
+/* ---- contact ---- */
+
+/* c_H (u - g)_+, or the branch that is held. */
+static double contact_force(const struct br_march *m, const struct br_contact_state *state)
+{
+    const struct br_contact *contact = &m->scene->contact;
+    if (!contact->modelled || (m->held[BR_AXIAL] && m->regime[BR_AXIAL] == BR_REGIME_OPEN))
+        return 0;
+    if (!m->held[BR_AXIAL])
+        return m->method.contact->force(contact, state);
+    const double depth = state->displacement + state->k * state->free_velocity - contact->gap;
+    return contact->stiffness * depth / (1 + contact->stiffness * state->k * state->compliance);
+}
+
+/* (u - g)_+ at the stage's time. A contact force at u_n knows it without the loss of a difference.
+ */
+static double penetration(const struct br_march *m)
+{
+    const struct br_contact *contact = &m->scene->contact;
+    if (contact->modelled && m->method.contact->at_new_step && contact->stiffness > 0)
+        return m->tip.contact_force / contact->stiffness;
+    return br_penetration(contact, m->tip.displacement);
+}
+
+/* Equation (16), or (27), as a stage: v_n with the contact force at u_{n-1} or at u_n. */
+static enum br_status axial_stage(struct br_march *m, double t, struct br_error *err)
+{
+    struct br_part *part = &m->part[BR_AXIAL];
+    struct br_contact_state contact = {
+        .displacement = part->solver->tip_displacement(part->state),
+        .compliance = part->solver->tip_compliance(part->state),
+        .k = part->field.k,
+    };
+    const enum br_status status = br_part_predict(part, t, &contact.free_velocity, err);
+    if (status)
+        return status;
+    m->tip.contact_force = contact_force(m, &contact);
+    m->tip.velocity[BR_AXIAL] = part->solver->finish(part->state, m->tip.contact_force);
+    m->tip.displacement = part->solver->tip_displacement(part->state);
+    return BR_OK;
+}
+
+/* ---- friction ---- */
+
+/* (u - g)_+ at `part` of the step. The axial field may have had its stages at other times, where
+ * one field starts anew and the other does not: then by the cubic that its ends determine. */
+static double penetration_at(const struct br_march *m, const struct br_tip_path *path, double part)
+{
+    for (int i = 0; i < path->count; i++)
+        if (path->time[i] == part)
+            return path->penetration[i];
+    const double s = part, r = 1 - part;
+    const double u = (1 + 2 * s) * r * r * path->start[0] + s * r * r * path->start[1] +
+                     s * s * (3 - 2 * s) * path->end[0] - s * s * r * path->end[1];
+    return br_penetration(&m->scene->contact, u);
+}
+
+/* lambda by the law, or on the branch that is held. */
+static double friction_force(struct br_march *m, struct br_friction_state *state)
+{
+    if (m->scene->friction.law == BR_FRICTIONLESS)
+        return 0;
+    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_STICK)
+        return state->free_velocity / state->compliance;
+    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_FORWARD)
+        return state->bound;
+    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_BACKWARD)
+        return -state->bound;
+    return m->method.friction->force(state);
+}
+
+static enum br_status not_converged(const struct br_march *m, double t, struct br_error *err)
+{
+    const struct br_iteration *iteration = &m->method.iteration;
+    return br_fail(err, BR_NOT_FINITE,
+                   "friction rule %s did not reach its tolerance of %g in %zu iterations at t = %g "
+                   "s, with the parameter %g; --friction exact needs none",
+                   m->method.friction->name, iteration->tolerance, iteration->most, t,
+                   iteration->parameter);
+}
+
+/* Inequality (17), or (28) and (30), as a stage: A v + lambda e_tip = rhs with lambda from the
+ * friction law, whose bound takes u_n. */
+static enum br_status bending_stage(struct br_march *m, double depth, double t,
+                                    struct br_error *err)
+{
+    struct br_part *part = &m->part[BR_BENDING];
+    struct br_friction_state friction = {
+        .compliance = part->solver->tip_compliance(part->state),
+        .bound = br_friction_bound(m->scene, depth),
+        .regularisation = m->scene->friction.regularisation,
+        .last = m->tip.friction_force,
+        .iteration = m->method.iteration,
+    };
+    const enum br_status status = br_part_predict(part, t, &friction.free_velocity, err);
+    if (status)
+        return status;
+    m->tip.friction_bound = friction.bound;
+    m->tip.friction_force = friction_force(m, &friction);
+    m->counts.iterations += friction.iterations;
+    if (m->method.friction->iterates && isnan(m->tip.friction_force) &&
+        isfinite(friction.free_velocity) && isfinite(friction.bound))
+        return not_converged(m, t, err);
+    m->tip.velocity[BR_BENDING] = part->solver->finish(part->state, m->tip.friction_force);
+    return BR_OK;
+}
+
+/* ---- a step ---- */
+
+static enum br_status stage(struct br_march *m, enum br_field_kind kind,
+                            const struct br_stage *stage, const struct br_step *step, int i,
+                            struct br_tip_path *path, struct br_error *err)
+{
+    const double t = br_step_time(step, stage->time);
+    if (kind == BR_BENDING)
+        return bending_stage(m, penetration_at(m, path, stage->time), t, err);
+    const enum br_status status = axial_stage(m, t, err);
+    path->time[i] = stage->time;
+    path->penetration[i] = penetration(m);
+    return status;
+}
+
+enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
+                               const struct br_stages *stages, const struct br_step *step,
+                               struct br_tip_path *path, struct br_error *err)
+{
+    struct br_part *part = &m->part[kind];
+    if (kind == BR_AXIAL) {
+        path->count = stages->count;
+        path->start[0] = m->tip.displacement;
+        path->start[1] = step->k * m->tip.velocity[BR_AXIAL];
+    }
+    br_part_keep(part, BR_NOW);
+    for (int i = 0; i < stages->count; i++) {
+        enum br_status status = br_part_start_stage(part, stages, i, step->k, err);
+        if (!status)
+            status = stage(m, kind, &stages->stage[i], step, i, path, err);
+        if (status)
+            return status;
+        if (i + 1 < stages->count)
+            br_part_keep(part, BR_STAGE + i);
+    }
+    if (kind == BR_AXIAL) {
+        path->end[0] = m->tip.displacement;
+        path->end[1] = step->k * m->tip.velocity[BR_AXIAL];
+    }
+    return BR_OK;
+}
+
+enum br_regime br_march_regime(const struct br_march *m, enum br_field_kind kind)
+{
+    const struct br_tip *tip = &m->tip;
+    if (kind == BR_AXIAL && m->scene->contact.modelled)
+        return tip->contact_force > 0 ? BR_REGIME_CLOSED : BR_REGIME_OPEN;
+    if (kind == BR_AXIAL || m->scene->friction.law == BR_FRICTIONLESS || !(tip->friction_bound > 0))
+        return BR_REGIME_NONE;
+    if (fabs(tip->friction_force) < tip->friction_bound)
+        return BR_REGIME_STICK;
+    return tip->friction_force > 0 ? BR_REGIME_FORWARD : BR_REGIME_BACKWARD;
+}
