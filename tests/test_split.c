@@ -71,7 +71,7 @@ static void check_sums(const struct br_split *split)
 static void test_sums(void **state)
 {
     (void)state;
-    static const char *const scenes[] = {"example1", "example2", "release", "reversal"};
+    static const char *const scenes[] = {"example1", "example2", "reversal"};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         struct br_scene scene = br_test_bundled(scenes[i]);
         const char *friction = scene.friction.regularisation > 0 ? "regularised" : NULL;
@@ -284,7 +284,7 @@ static void test_iteration(void **state)
     struct br_scene scene = br_test_bundled("example1");
     for (const struct br_friction_rule *const *r = br_friction_rules; *r; r++) {
         double last = INFINITY;
-        for (double tolerance = 1e-6; (*r)->iterates && tolerance > 1e-11; tolerance /= 100) {
+        for (double tolerance = 1e-6; (*r)->iterates && tolerance > 1e-9; tolerance /= 100) {
             struct br_method method = br_test_method(NULL, NULL, (*r)->name);
             method.iteration.tolerance = tolerance;
             const struct br_split split = split_of(&scene, 20, 50, method);
