@@ -77,6 +77,9 @@ struct br_field_solver {
      * Called once, if at all. Fails with BR_NO_MEMORY. */
     enum br_status (*keep)(void *self, size_t count, struct br_error *err);
 
+    /* Two states change places. */
+    void (*exchange)(void *self, size_t a, size_t b);
+
     /* State `into` = sum of weight[j] times state j, j < count, itself among them or not. Weights
      * of 0 are skipped: what they belong to need not be finite. */
     void (*combine)(void *self, size_t into, size_t count, const double *weight);

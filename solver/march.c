@@ -268,6 +268,27 @@ struct br_counts br_march_counts(const struct br_march *m)
 
 /* ---- looking ---- */
 
+const char *br_regime_name(enum br_regime regime)
+{
+    static const char *const names[] = {
+        [BR_REGIME_NONE] = "",
+        [BR_REGIME_OPEN] = "open",
+        [BR_REGIME_CLOSED] = "closed",
+        [BR_REGIME_STICK] = "stick",
+        [BR_REGIME_FORWARD] = "slip towards +w",
+        [BR_REGIME_BACKWARD] = "slip towards -w",
+    };
+    return names[regime];
+}
+
+size_t br_march_switches(const struct br_march *m, const struct br_switch **first)
+{
+    if (m->adaptive)
+        return br_adaptive_switches(m->adaptive, first);
+    *first = NULL;
+    return 0;
+}
+
 size_t br_march_steps_done(const struct br_march *m)
 {
     const size_t axial = m->part[BR_AXIAL].done, bending = m->part[BR_BENDING].done;

@@ -146,6 +146,12 @@ static enum br_status rod_keep(void *self, size_t count, struct br_error *err)
     return br_states_add(&a->states, a->states.size, count, err);
 }
 
+static void rod_exchange(void *self, size_t a, size_t b)
+{
+    struct rod *of = self;
+    br_states_exchange(&of->states, a, b);
+}
+
 static void rod_combine(void *self, size_t into, size_t count, const double *weight)
 {
     struct rod *a = self;
@@ -283,6 +289,7 @@ const struct br_field_solver br_plain_axial_quadratic = {
     .tip_displacement = rod_tip_displacement,
     .set_step = rod_set_step,
     .keep = rod_keep,
+    .exchange = rod_exchange,
     .combine = rod_combine,
     .size = rod_size,
 };

@@ -99,6 +99,12 @@ static enum br_status keep(void *self, size_t count, struct br_error *err)
     return w->solver->keep(w->state, count, err);
 }
 
+static void exchange(void *self, size_t a, size_t b)
+{
+    struct wrapped *w = self;
+    w->solver->exchange(w->state, a, b);
+}
+
 static void combine(void *self, size_t into, size_t count, const double *weight)
 {
     struct wrapped *w = self;
@@ -144,6 +150,7 @@ static const struct br_field_solver measuring = {
     .tip_displacement = tip_displacement,
     .set_step = set_step,
     .keep = keep,
+    .exchange = exchange,
     .combine = combine,
     .size = size,
 };
