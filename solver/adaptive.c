@@ -13,6 +13,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
 #include <math.h>
+#include <string.h>
 
 #include "solver/march_state.h"
 
@@ -24,10 +25,13 @@ static const double idle_growth = 1.4;       /* less is not worth new tables */
 static const double switch_accuracy = 1e-12; /* of the step in which it lies */
 
 struct br_adaptive {
-    double now, next;  /* time reached and length of the next step, s */
-    double largest[2]; /* strain of each field so far */
-    size_t since;      /* steps since the start or the last switch */
-    bool known;        /* the branches of the laws */
+    double now, next;      /* time reached and length of the next step, s */
+    double largest[2];     /* strain of each field so far */
+    size_t since;          /* steps since the start or the last switch */
+    bool known;            /* the branches of the laws */
+    enum br_regime old[2]; /* those in front of the last switch */
+    struct br_switch found[BR_MOST_SWITCHES];
+    size_t found_count; /* also of those that are not kept */
 };
 
 void br_adaptive_free(struct br_adaptive *a)
@@ -138,15 +142,15 @@ static double margin(const struct br_march *m, enum br_field_kind kind)
 {
     const struct br_tip *tip = &m->tip;
     switch (m->held[kind] ? m->regime[kind] : BR_REGIME_NONE) {
-    case BR_OPEN:
+    case BR_REGIME_OPEN:
         return m->scene->contact.gap - tip->displacement;
-    case BR_CLOSED:
+    case BR_REGIME_CLOSED:
         return tip->displacement - m->scene->contact.gap;
-    case BR_STICK:
+    case BR_REGIME_STICK:
         return tip->friction_bound - fabs(tip->friction_force);
-    case BR_SLIP_FORWARD:
+    case BR_REGIME_FORWARD:
         return tip->velocity[BR_BENDING];
-    case BR_SLIP_BACKWARD:
+    case BR_REGIME_BACKWARD:
         return -tip->velocity[BR_BENDING];
     case BR_REGIME_NONE:
         break;
@@ -201,9 +205,32 @@ static enum br_status find_switch(struct search *s, double longest)
 
 /* ---- steps ---- */
 
+/* The first step after a switch tells to which branch it was; both fields may have had theirs. */
+static void tell_switches(struct br_march *m)
+{
+    struct br_adaptive *a = m->adaptive;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        if (!m->part[kind].modelled || m->regime[kind] == a->old[kind])
+            continue;
+        if (a->found_count < BR_MOST_SWITCHES)
+            a->found[a->found_count] =
+                (struct br_switch){a->now, (enum br_field_kind)kind, a->old[kind], m->regime[kind]};
+        a->found_count++;
+    }
+}
+
+size_t br_adaptive_switches(const struct br_adaptive *a, const struct br_switch **first)
+{
+    *first = a->found;
+    return a->found_count;
+}
+
 static void accept(struct br_march *m, const struct trial *trial, bool switched)
 {
     struct br_adaptive *a = m->adaptive;
+    if (a->since == 0 && a->now > 0)
+        tell_switches(m);
+    memcpy(a->old, m->regime, sizeof a->old);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         a->largest[kind] = fmax(a->largest[kind], trial->strain[kind]);
         if (m->part[kind].modelled)
