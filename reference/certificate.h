@@ -48,9 +48,10 @@ struct br_step {
     const struct br_method *method; /* which laws were to be used */
     size_t n;                       /* elements */
     double k;                       /* s; of a stage tau */
-    struct br_step_field field[2];  /* by br_field_kind; of modelled fields */
-    const double *axial_tip;        /* u(L), m, at the time of a stage of the bending field where
-                                       field[BR_AXIAL] is not of that time; else NULL */
+    double compliance; /* z_tip of bending, m/s per N; for friction rules that iterate */
+    struct br_step_field field[2]; /* by br_field_kind; of modelled fields */
+    const double *axial_tip;       /* u(L), m, at the time of a stage of the bending field where
+                                      field[BR_AXIAL] is not of that time; else NULL */
     struct br_tip tip;
 };
 

@@ -130,13 +130,21 @@ static double bound_scale(const struct br_step *s)
     return s->scene->friction.coefficient * (field_scale(s, BR_AXIAL) + s->scene->contact.gap);
 }
 
+/* What an iteration may leave: of lambda, and of v = v* - lambda z. */
+struct slack {
+    double force, speed;
+};
+
 /* Distance of (v, lambda), in their own units of size, from the graph of (12): the
  * nearest of stick (v = 0, |lambda| <= h) and slip either way (lambda = +-h). */
-static double exact_law(double v, double lambda, double bound)
+static double exact_law(double v, double lambda, double bound, struct slack left)
 {
-    const double stick = br_worse_of(fabs(v), positive(fabs(lambda) - bound));
-    const double up = br_worse_of(fabs(lambda - bound), positive(-v));
-    const double down = br_worse_of(fabs(lambda + bound), positive(v));
+    const double stick =
+        br_worse_of(positive(fabs(v) - left.speed), positive(fabs(lambda) - bound));
+    const double up =
+        br_worse_of(positive(fabs(lambda - bound) - left.force), positive(-v - left.speed));
+    const double down =
+        br_worse_of(positive(fabs(lambda + bound) - left.force), positive(v - left.speed));
     return smaller(stick, smaller(up, down));
 }
 
@@ -162,8 +170,10 @@ static double friction_error(const struct br_step *s)
     const double told = ratio(fabs(s->tip.friction_bound - bound), force);
     const double v = ratio(at_tip(s, BR_BENDING, nodal), speed);
     const double l = ratio(lambda, force), b = ratio(bound, force);
+    const double tolerance = s->method->friction->iterates ? s->method->iteration.tolerance : 0;
+    const struct slack left = {tolerance * b, ratio(tolerance * bound * s->compliance, speed)};
     if (!s->method->friction->needs_regularisation)
-        return br_worse_of(told, exact_law(v, l, b));
+        return br_worse_of(told, exact_law(v, l, b, left));
     if (speed == 0)
         return br_worse_of(told, fabs(l));
     return br_worse_of(told, regularised_law(v, l, b, s->scene->friction.regularisation / speed));

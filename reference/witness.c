@@ -180,6 +180,7 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
                            .method = w->method,
                            .n = w->n,
                            .k = told->tau,
+                           .compliance = br_march_compliance(w->march, BR_BENDING),
                            .axial_tip = axial_tip,
                            .tip = *br_march_tip(w->march)};
     step.field[told->kind] = (struct br_step_field){f->start.displacement, now->displacement,

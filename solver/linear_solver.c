@@ -7,12 +7,7 @@ const struct br_linear_options br_linear_defaults = {
     .scaling = "none", .refinement = 0, .kernel = NULL};
 
 const struct br_linear_solver *const br_linear_solvers[] = {
-    &br_riccati,
-    &br_plain,
-    &br_umfpack,
-    &br_cholmod,
-    &br_banded,
-    NULL,
+    &br_riccati, &br_plain, &br_umfpack, &br_cholmod, &br_banded, NULL,
 };
 
 const struct br_linear_solver *br_linear_solver_find(const char *name)

@@ -53,7 +53,7 @@ static enum br_status refuse_rules(const struct br_scene *scene, const struct br
         return br_fail(err, BR_BAD_INPUT,
                        "the tolerance of scheme %s is %g, expected more than 0 and less than 1",
                        scheme->name, method->tolerance);
-    return BR_OK;
+    return friction ? br_friction_check(method->friction, &method->iteration, err) : BR_OK;
 }
 
 static enum br_status check_method(const struct br_scene *scene, size_t n, size_t steps,
@@ -239,6 +239,27 @@ struct br_counts br_march_counts(const struct br_march *m)
 void br_march_watch(struct br_march *m, const struct br_march_watcher *watcher)
 {
     m->watcher = watcher ? *watcher : (struct br_march_watcher){0};
+}
+
+const char *br_regime_name(enum br_regime regime)
+{
+    static const char *const names[] = {
+        [BR_REGIME_NONE] = "",
+        [BR_REGIME_OPEN] = "open",
+        [BR_REGIME_CLOSED] = "closed",
+        [BR_REGIME_STICK] = "stick",
+        [BR_REGIME_FORWARD] = "slip towards +w",
+        [BR_REGIME_BACKWARD] = "slip towards -w",
+    };
+    return names[regime];
+}
+
+size_t br_march_switches(const struct br_march *m, const struct br_switch **first)
+{
+    if (m->adaptive)
+        return br_adaptive_switches(m->adaptive, first);
+    *first = NULL;
+    return 0;
 }
 
 size_t br_march_steps_done(const struct br_march *m)
