@@ -24,7 +24,8 @@ static enum br_status start_checks(void *self, struct br_march *march, struct br
     report->round_off = br_march_round_off(march);
     report->contact_unstable = br_march_contact_unstable(march);
     report->limits = br_certificate_limits(report->method.scheme, report->n, report->round_off);
-    enum br_status status = br_energy_meter_create(&r->meter, march, &report->marched, err);
+    enum br_status status = br_energy_meter_create(&r->meter, march, &report->marched,
+                                                   report->method.scheme, report->k, err);
     if (!status && report->checked)
         status = br_witness_create(&r->witness, march, &report->marched, &r->report->method, err);
     return status;
@@ -81,6 +82,7 @@ static size_t list_observers(struct run *r, struct br_history_observer list[MOST
     const struct br_run_request *q = r->request;
     size_t count = 0;
     list[count++] = br_tip_watch_start(&r->report->watch, &r->report->marched, q->steps);
+    r->report->watch.trapezoidal = q->method.scheme != br_time_schemes[0];
     if (q->explain)
         list[count++] = br_cost_mark_step(&r->record);
     list[count++] =
