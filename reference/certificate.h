@@ -75,9 +75,8 @@ void br_certificate_merge(struct br_certificate *worst, const struct br_certific
 struct br_witness;
 
 /* Watches a march (br_march_watch) that has taken no step yet. The march, its scene and the method
- * must outlive the witness. Fails with BR_BAD_INPUT where the scheme is not known to the
- * literature's tables or the elements are not those of (27), with BR_NO_MEMORY; *witness is then
- * NULL. */
+ * must outlive the witness. Fails with BR_BAD_INPUT where the scheme is not in the tables of
+ * textbook.h, with BR_NO_MEMORY; *witness is then NULL. */
 enum br_status br_witness_create(struct br_witness **witness, struct br_march *march,
                                  const struct br_scene *scene, const struct br_method *method,
                                  struct br_error *err);

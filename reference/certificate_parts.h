@@ -8,6 +8,12 @@
 /* Branches of a law: contact has two, open and closed; friction three, stick, slip up and down. */
 enum { BR_CONTACT_BRANCHES = 2, BR_FRICTION_BRANCHES = 3, BR_MOST_BRANCHES = 3 };
 
+/* Nodal unknowns of a field's elements. */
+static inline size_t br_step_unknowns(const struct br_method *method, enum br_field_kind kind)
+{
+    return kind == BR_AXIAL && method->axial_degree != 2 ? 1 : 2;
+}
+
 /* The larger of two numbers; NaN where one is. */
 double br_worse_of(double a, double b);
 

@@ -23,6 +23,13 @@ struct br_energy_meter {
     } work;
 };
 
+/* Where the tip's u is. */
+static size_t axial_tip(const struct br_energy_meter *m)
+{
+    const struct br_field *field = br_march_field(m->march, BR_AXIAL);
+    return field->n * br_field_unknowns(field);
+}
+
 static void look(struct br_energy_meter *m)
 {
     m->now = (struct br_energy){0};
@@ -37,14 +44,14 @@ static void look(struct br_energy_meter *m)
     const struct br_contact *c = &m->scene->contact;
     if (!c->modelled)
         return;
-    const double depth = m->after[BR_AXIAL][0][br_march_field(m->march, BR_AXIAL)->n] - c->gap;
+    const double depth = m->after[BR_AXIAL][0][axial_tip(m)] - c->gap;
     m->now.contact = depth <= 0 ? 0 : c->stiffness * depth * depth / 2;
 }
 
 /* Loads of one's own at the time levels, of the march's meshes. */
 static enum br_status start_powers(struct br_energy_meter *m, struct br_error *err);
 
-static void place(struct br_energy_meter *m, size_t nodes)
+static void place(struct br_energy_meter *m, const size_t sizes[2])
 {
     double *memory = m->memory;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
@@ -52,7 +59,7 @@ static void place(struct br_energy_meter *m, size_t nodes)
                                    &m->after[kind][1], &m->load[kind]};
         for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++) {
             *arrays[a] = memory;
-            memory += (kind == BR_AXIAL ? 1 : 2) * nodes;
+            memory += sizes[kind];
         }
     }
 }
@@ -63,9 +70,10 @@ enum br_status br_energy_meter_create(struct br_energy_meter **out, const struct
                                       struct br_error *err)
 {
     *out = NULL;
-    const size_t nodes = br_march_field(march, BR_AXIAL)->n + 1;
+    const size_t sizes[2] = {br_field_size(br_march_field(march, BR_AXIAL)),
+                             br_field_size(br_march_field(march, BR_BENDING))};
     struct br_energy_meter *m = br_allocate(1, sizeof *m);
-    double *memory = br_allocate(5 * 3 * nodes, sizeof *memory);
+    double *memory = br_allocate(5 * (sizes[0] + sizes[1]), sizeof *memory);
     if (!m || !memory) {
         free(m);
         free(memory);
@@ -76,7 +84,7 @@ enum br_status br_energy_meter_create(struct br_energy_meter **out, const struct
                                   .memory = memory,
                                   .k = k,
                                   .euler = scheme == br_time_schemes[0]};
-    place(m, nodes);
+    place(m, sizes);
     look(m);
     m->start = m->now;
     const enum br_status status = m->euler ? BR_OK : start_powers(m, err);
@@ -112,7 +120,7 @@ static real load_power(struct br_energy_meter *m, enum br_field_kind kind)
     const struct br_field *f = br_march_field(m->march, kind);
     const struct br_drive *drive = &m->own[kind].drive;
     const double *velocity = m->after[kind][1];
-    const size_t size = br_field_size(f), unknowns = br_field_unknowns(kind);
+    const size_t size = br_field_size(f), unknowns = br_field_unknowns(f);
     real power = drive->vector ? drive->factor * dot(drive->vector, velocity, size) : 0;
     for (size_t c = 0; c < unknowns; c++)
         power += (real)drive->tip[c] * velocity[size - unknowns + c];
@@ -192,7 +200,8 @@ static void add_euler(struct br_energy_meter *m, double potential)
     const struct br_tip *tip = br_march_tip(m->march);
     const size_t n = br_march_field(m->march, BR_AXIAL)->n;
     m->work.friction += m->k * (real)tip->friction_force * (real)m->after[BR_BENDING][1][2 * n];
-    const real way = (real)m->after[BR_AXIAL][0][n] - m->before[BR_AXIAL][0][n];
+    const size_t rod = axial_tip(m);
+    const real way = (real)m->after[BR_AXIAL][0][rod] - m->before[BR_AXIAL][0][rod];
     m->work.scheme_contact +=
         (real)tip->contact_force * way - ((real)m->now.contact - (real)potential);
 }

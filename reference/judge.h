@@ -13,6 +13,7 @@ struct br_judge_request {
     const struct br_scene *scene;  /* must outlive the judge */
     struct br_method method;       /* fine only */
     size_t n;                      /* fine only: its elements */
+    int axial_degree;              /* of the elements whose modes it will be looked at in */
     size_t levels;                 /* time levels after t = 0; for fine, its steps */
     size_t lead;                   /* time levels that the axial field may be ahead by */
     bool modest;                   /* exact only: give up where it takes more than moderate work */
@@ -76,5 +77,9 @@ extern const struct br_judge br_judge_none;
 /* NULL-terminated. */
 extern const struct br_judge *const br_judges[];
 const struct br_judge *br_judge_find(const char *name);
+
+/* Who knows the solution of a scene best: the one it was manufactured from, if any. NULL: it was,
+ * but this build has no libmatheval. */
+const struct br_judge *br_judge_best(const struct br_scene *scene);
 
 #endif

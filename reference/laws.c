@@ -43,16 +43,21 @@ static bool modelled(const struct br_step *s, enum br_field_kind kind)
     return kind == BR_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled;
 }
 
+static size_t size_of(const struct br_step *s, enum br_field_kind kind)
+{
+    return br_step_unknowns(s->method, kind) * (s->n + 1);
+}
+
 static double at_tip(const struct br_step *s, enum br_field_kind kind, const double *nodal)
 {
-    return nodal[s->n * (kind == BR_AXIAL ? 1 : 2)];
+    return nodal[s->n * br_step_unknowns(s->method, kind)];
 }
 
 /* What a field's displacements are rounded to; over k, what its velocities are: a solver
  * finds them from differences of displacements. */
 static double field_scale(const struct br_step *s, enum br_field_kind kind)
 {
-    const size_t size = (kind == BR_AXIAL ? 1 : 2) * (s->n + 1);
+    const size_t size = size_of(s, kind);
     const struct br_step_field *f = &s->field[kind];
     return magnitude(f->displacement, size) + magnitude(f->displacement_before, size) +
            s->k * (magnitude(f->velocity, size) + magnitude(f->velocity_before, size));
@@ -63,7 +68,7 @@ static double update_error(const struct br_step *s, enum br_field_kind kind)
 {
     if (!modelled(s, kind))
         return 0;
-    const size_t size = (kind == BR_AXIAL ? 1 : 2) * (s->n + 1);
+    const size_t size = size_of(s, kind);
     const struct br_step_field *f = &s->field[kind];
     double most = 0;
     for (size_t i = 0; i < size; i++) {
@@ -80,7 +85,8 @@ static double tip_displacement_error(const struct br_step *s)
     if (!s->scene->axial.modelled)
         return s->tip.displacement == 0 ? 0 : NAN;
     const double *u = s->field[BR_AXIAL].displacement;
-    return ratio(fabs(s->tip.displacement - at_tip(s, BR_AXIAL, u)), magnitude(u, s->n + 1));
+    return ratio(fabs(s->tip.displacement - at_tip(s, BR_AXIAL, u)),
+                 magnitude(u, size_of(s, BR_AXIAL)));
 }
 
 /* (10): at u_{n-1} or u_n, as the method's contact rule has it. */
@@ -235,7 +241,7 @@ static bool finite_field(const struct br_step *s, enum br_field_kind kind)
     const double *arrays[] = {f->displacement_before, f->displacement, f->velocity_before,
                               f->velocity, f->load};
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
-        good = good && isfinite(magnitude(arrays[a], (kind == BR_AXIAL ? 1 : 2) * (s->n + 1)));
+        good = good && isfinite(magnitude(arrays[a], size_of(s, kind)));
     return good;
 }
 

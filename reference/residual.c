@@ -21,9 +21,10 @@ enum term {
     TERMS
 };
 
-/* The forces beyond a point: their sum, and for bending their moment about it over h. */
+/* The forces beyond a point: their sum; for bending their moment about it over h, for a quadratic
+ * rod the force on the bubble of the element that ends there. */
 struct resultant {
-    real force, moment; /* N, N */
+    real force, second; /* N, N */
     real square;        /* of the norm so far: N^2 m, or N^2 m^3 */
 };
 
@@ -31,6 +32,7 @@ struct balance {
     const struct br_step *step;
     const struct br_step_field *field;
     enum br_field_kind kind;
+    bool quadratic;
     size_t unknowns;
     real h, density, stiffness, viscosity, k;
     struct resultant term[TERMS];
@@ -38,13 +40,38 @@ struct balance {
 
 /* ---- element matrices ---- */
 
-/* Rod: rho h/6 [2 1; 1 2].  Beam, for (w, h w_x): rho h/420 [...]. */
+/* A quadratic rod is taken by its nodes here: begin, middle, end, less a rigid motion. The unknowns
+ * of the march are (u, b) a node, with u = chord - b/4 in the middle. */
+static void quadratic_times(const int matrix[3][3], real factor, const double *v, real base,
+                            real out[4])
+{
+    const real begin = v[0] - base, end = v[2] - base;
+    const real node[3] = {begin, (begin + end) / 2 - (real)v[3] / 4, end};
+    real force[3];
+    for (int i = 0; i < 3; i++) {
+        force[i] = 0;
+        for (int j = 0; j < 3; j++)
+            force[i] += factor * matrix[i][j] * node[j];
+    }
+    out[0] = force[0] + force[1] / 2;
+    out[1] = 0; /* the bubble before */
+    out[2] = force[2] + force[1] / 2;
+    out[3] = -force[1] / 4;
+}
+
+/* Rod: rho h/6 [2 1; 1 2], of three nodes rho h/30 [4 2 -1; ...].  Beam, for (w, h w_x): rho h/420
+ * [...]. */
 static void mass_times(const struct balance *b, const double *v, real out[4])
 {
     static const int rod[2][2] = {{2, 1}, {1, 2}};
     static const int beam[4][4] = {
         {156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}};
+    static const int three[3][3] = {{4, 2, -1}, {2, 16, 2}, {-1, 2, 4}};
     const bool axial = b->kind == BR_AXIAL;
+    if (b->quadratic) {
+        quadratic_times(three, b->density * b->h / 30, v, 0, out);
+        return;
+    }
     const real factor = b->density * b->h / (axial ? 6 : 420);
     for (size_t i = 0; i < 2 * b->unknowns; i++) {
         out[i] = 0;
@@ -53,11 +80,16 @@ static void mass_times(const struct balance *b, const double *v, real out[4])
     }
 }
 
-/* Rod: 1/h [1 -1; -1 1].  Beam: 1/h^3 [12 6 -12 6; 6 4 -6 2; ...]. A rigid motion has no
- * forces, so that of the element's first node is taken off beforehand, exactly but for
- * the last bits: the last two columns remain. */
+/* Rod: 1/h [1 -1; -1 1], of three nodes 1/(3h) [7 -8 1; ...].  Beam: 1/h^3 [12 6 -12 6; 6 4 -6 2;
+ * ...]. A rigid motion has no forces, so that of the element's first node is taken off beforehand,
+ * exactly but for the last bits: the last two columns remain. */
 static void stiffness_times(const struct balance *b, const double *w, real out[4])
 {
+    static const int three[3][3] = {{7, -8, 1}, {-8, 16, -8}, {1, -8, 7}};
+    if (b->quadratic) {
+        quadratic_times(three, 1 / (3 * b->h), w, w[0], out);
+        return;
+    }
     if (b->kind == BR_AXIAL) {
         const real stretch = ((real)w[1] - w[0]) / b->h;
         out[0] = -stretch;
@@ -76,20 +108,22 @@ static void add_node(struct balance *b, enum term term, const real *force, real 
 {
     struct resultant *r = &b->term[term];
     r->force += factor * force[0];
-    if (b->kind == BR_BENDING)
-        r->moment += factor * force[1];
+    if (b->unknowns == 2)
+        r->second += factor * force[1];
 }
 
-/* Across an element: m(x) = h (moment + force (1 - xi)), int m^2 dx = h^3 (...). */
+/* Across an element: m(x) = h (second + force (1 - xi)), int m^2 dx = h^3 (...). The normal force
+ * that balances a force r on a bubble is 3 r (2 xi - 1). */
 static void cross_element(const struct balance *b, struct resultant *r)
 {
     if (b->kind == BR_AXIAL) {
-        r->square += b->h * r->force * r->force;
+        r->square += b->h * (r->force * r->force + 3 * r->second * r->second);
+        r->second = 0;
         return;
     }
-    const real mean = r->moment + r->force / 2;
+    const real mean = r->second + r->force / 2;
     r->square += b->h * b->h * b->h * (mean * mean + r->force * r->force / 12);
-    r->moment += r->force;
+    r->second += r->force;
 }
 
 /* Forces that the terms of element e put on its nodes. */
@@ -126,7 +160,7 @@ static void add_element_node(struct balance *b, real forces[TERMS][4], size_t no
 static void add_load(struct balance *b, size_t node)
 {
     const double *load = b->field->load + node * b->unknowns;
-    const real force[2] = {load[0], b->kind == BR_BENDING ? load[1] : 0};
+    const real force[2] = {load[0], b->unknowns == 2 ? load[1] : 0};
     add_node(b, LOAD, force, -1);
     add_node(b, RESIDUAL, force, -1);
 }
@@ -162,7 +196,8 @@ double br_step_residual(const struct br_step *s, enum br_field_kind kind)
         .step = s,
         .field = &s->field[kind],
         .kind = kind,
-        .unknowns = axial ? 1 : 2,
+        .quadratic = axial && s->method->axial_degree == 2,
+        .unknowns = br_step_unknowns(s->method, kind),
         .h = (real)s->scene->length / (real)s->n,
         .density = s->scene->density,
         .stiffness = axial ? s->scene->axial.stiffness : s->scene->bending.stiffness,

@@ -113,7 +113,7 @@ static double time_error(const struct br_witness *w, const struct br_march_stage
 
 static size_t tip_index(const struct br_witness *w, enum br_field_kind kind)
 {
-    return w->n * br_field_unknowns(kind);
+    return w->n * br_step_unknowns(w->method, kind);
 }
 
 static void path_stage(struct br_witness *w, const struct br_march_stage *told)
@@ -306,7 +306,7 @@ static double *place(struct nodal *y, size_t size, double *memory)
 static double *place_field(struct br_witness *w, enum br_field_kind kind, double *memory)
 {
     struct watched *f = &w->field[kind];
-    f->size = br_field_unknowns(kind) * (w->n + 1);
+    f->size = br_step_unknowns(w->method, kind) * (w->n + 1);
     for (int i = 0; i < w->back; i++)
         memory = place(&f->past[i], f->size, memory);
     for (int i = 0; i < w->rows; i++)
@@ -316,17 +316,12 @@ static double *place_field(struct br_witness *w, enum br_field_kind kind, double
     return memory + 3 * f->size;
 }
 
-static enum br_status refuse(const struct br_method *method, const struct br_scene *scene,
-                             struct br_error *err)
+static enum br_status refuse(const struct br_method *method, struct br_error *err)
 {
     if (!br_textbook_step(method->scheme->name, 0))
         return br_fail(err, BR_BAD_INPUT,
                        "scheme %s has no certificate, expected a scheme made of Euler steps",
                        method->scheme->name);
-    if (scene->axial.modelled && method->axial_degree != 1)
-        return br_fail(err, BR_BAD_INPUT,
-                       "axial elements of degree %d have no certificate, expected degree 1",
-                       method->axial_degree);
     return BR_OK;
 }
 
@@ -335,7 +330,7 @@ enum br_status br_witness_create(struct br_witness **out, struct br_march *march
                                  struct br_error *err)
 {
     *out = NULL;
-    const enum br_status status = refuse(method, scene, err);
+    const enum br_status status = refuse(method, err);
     if (status)
         return status;
     struct br_witness *w = br_allocate(1, sizeof *w);
@@ -345,7 +340,9 @@ enum br_status br_witness_create(struct br_witness **out, struct br_march *march
     w->n = br_march_field(march, BR_AXIAL)->n;
     find_needs(w);
     const size_t arrays = 3 * (size_t)(w->back + w->rows + 1);
-    w->memory = br_allocate(3 * arrays * (w->n + 1), sizeof *w->memory);
+    const size_t unknowns =
+        br_step_unknowns(method, BR_AXIAL) + br_step_unknowns(method, BR_BENDING);
+    w->memory = br_allocate(arrays * unknowns * (w->n + 1), sizeof *w->memory);
     if (!w->memory) {
         free(w);
         return br_no_memory(err, "a certificate");

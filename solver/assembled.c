@@ -5,12 +5,13 @@
 #include <string.h>
 
 #include "solver/modes.h"
+#include "solver/states.h"
 
 struct assembled {
     struct br_system system;
-    double *displacement;  /* state 0, nodal, and behind it */
-    double *velocity;      /* ... its velocity */
-    double *kept;          /* states 1, 2, ..., each as state 0 */
+    struct br_states states; /* nodal: displacement, and behind it velocity */
+    double *displacement;    /* of the first of them */
+    double *velocity;
     double *free_velocity; /* v* */
     double *tip_response;  /* z = A^-1 e_tip, nodal */
     double *rhs;           /* workspace, nodal */
@@ -41,14 +42,22 @@ static enum br_status factorise(struct assembled *s, struct br_error *err)
     return status ? status : find_tip_response(s, err);
 }
 
+static void point_at_first(struct assembled *s)
+{
+    s->displacement = s->states.of[0];
+    s->velocity = s->displacement + s->system.nodal;
+}
+
 static enum br_status allocate(struct assembled *s, struct br_error *err)
 {
     const size_t nodal = s->system.nodal;
-    s->displacement = br_allocate(5 * nodal, sizeof *s->displacement);
-    if (!s->displacement)
+    const enum br_status status = br_states_add(&s->states, 2 * nodal, 1, err);
+    if (status)
+        return status;
+    point_at_first(s);
+    s->free_velocity = br_allocate(3 * nodal, sizeof *s->free_velocity);
+    if (!s->free_velocity)
         return br_no_memory(err, "the stiffness form");
-    s->velocity = s->displacement + nodal;
-    s->free_velocity = s->velocity + nodal;
     s->tip_response = s->free_velocity + nodal;
     s->rhs = s->tip_response + nodal;
     return BR_OK;
@@ -75,8 +84,8 @@ void br_assembled_free(void *self)
     if (!s)
         return;
     br_system_clear(&s->system);
-    free(s->displacement);
-    free(s->kept);
+    br_states_clear(&s->states);
+    free(s->free_velocity);
     free(s);
 }
 
@@ -166,33 +175,23 @@ double br_assembled_tip_displacement(const void *self)
 
 /* ---- more states ---- */
 
-static double *state(const struct assembled *s, size_t j)
-{
-    return j == 0 ? s->displacement : s->kept + (j - 1) * 2 * s->system.nodal;
-}
-
 enum br_status br_assembled_keep(void *self, size_t count, struct br_error *err)
 {
     struct assembled *s = self;
-    s->kept = br_allocate(count * 2 * s->system.nodal, sizeof *s->kept);
-    return s->kept ? BR_OK : br_no_memory(err, "the states that are kept");
+    return br_states_add(&s->states, s->states.size, count, err);
+}
+
+void br_assembled_exchange(void *self, size_t a, size_t b)
+{
+    struct assembled *s = self;
+    br_states_exchange(&s->states, a, b);
+    point_at_first(s);
 }
 
 void br_assembled_combine(void *self, size_t into, size_t count, const double *weight)
 {
     struct assembled *s = self;
-    const size_t size = 2 * s->system.nodal; /* displacement and velocity */
-    double *sum = state(s, into);
-    const double own = into < count ? weight[into] : 0;
-    for (size_t i = 0; i < size; i++)
-        sum[i] = own == 0 ? 0 : own * sum[i];
-    for (size_t j = 0; j < count; j++) {
-        if (weight[j] == 0 || j == into)
-            continue;
-        const double *term = state(s, j);
-        for (size_t i = 0; i < size; i++)
-            sum[i] += weight[j] * term[i];
-    }
+    br_add_states(s->states.of[into], s->states.size, count, s->states.of, weight);
 }
 
 void br_assembled_size(void *self, size_t which, double size[2])
@@ -202,7 +201,7 @@ void br_assembled_size(void *self, size_t which, double size[2])
     br_view_field(&view, &s->system.field,
                   BR_STRAIN_RATE); /* the modes of a strain: the same scales */
     for (int part = 0; part < 2; part++) {
-        const double *nodal = state(s, which) + (part ? s->system.nodal : 0);
+        const double *nodal = s->states.of[which] + (part ? s->system.nodal : 0);
         double squares = 0, modes[2];
         for (size_t i = 0; i < s->system.field.n; i++) {
             strain(s, nodal, i, modes);

@@ -97,6 +97,7 @@ double br_assembled_finish(void *self, double force);
 double br_assembled_tip_displacement(const void *self);
 enum br_status br_assembled_set_step(void *self, double k, struct br_error *err);
 enum br_status br_assembled_keep(void *self, size_t count, struct br_error *err);
+void br_assembled_exchange(void *self, size_t a, size_t b);
 void br_assembled_combine(void *self, size_t into, size_t count, const double *weight);
 void br_assembled_size(void *self, size_t state, double size[2]);
 
@@ -107,7 +108,8 @@ void br_assembled_size(void *self, size_t state, double size[2]);
         .set = br_assembled_set, .get = br_assembled_get, .strain_rate = br_assembled_strain_rate, \
         .predict = br_assembled_predict, .finish = br_assembled_finish,                            \
         .tip_displacement = br_assembled_tip_displacement, .set_step = br_assembled_set_step,      \
-        .keep = br_assembled_keep, .combine = br_assembled_combine, .size = br_assembled_size,     \
+        .keep = br_assembled_keep, .exchange = br_assembled_exchange,                              \
+        .combine = br_assembled_combine, .size = br_assembled_size,                                \
     }
 
 #endif

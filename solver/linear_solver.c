@@ -18,6 +18,14 @@ const struct br_linear_solver *br_linear_solver_find(const char *name)
     return NULL;
 }
 
+const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver *solver,
+                                                   const struct br_field *field)
+{
+    if (field->kind == BR_BENDING)
+        return solver->bending;
+    return br_field_is_quadratic(field) ? solver->axial_quadratic : solver->axial;
+}
+
 bool br_linear_solver_heeds(const struct br_linear_solver *solver, const char *option)
 {
     return strstr(solver->options, option) != NULL;

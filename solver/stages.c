@@ -153,7 +153,6 @@ enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
         path->start[0] = m->tip.displacement;
         path->start[1] = step->k * m->tip.velocity[BR_AXIAL];
     }
-    br_part_keep(part, BR_NOW);
     for (int i = 0; i < stages->count; i++) {
         enum br_status status = br_part_start_stage(part, stages, i, step->k, err);
         if (!status)
@@ -161,8 +160,6 @@ enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
         if (status)
             return status;
         tell(m, kind, stages, step, i);
-        if (i + 1 < stages->count)
-            br_part_keep(part, BR_STAGE + i);
     }
     if (kind == BR_AXIAL) {
         path->end[0] = m->tip.displacement;

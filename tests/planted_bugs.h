@@ -204,6 +204,20 @@ static const struct planted_bug planted_bugs[] = {
     {"axial_tip_starts_at_rest", "solver/plain_axial.c", "    a->tip_velocity = velocity[a->n];\n",
      ""},
 
+    /* ---- the flexibility form, quadratic elements ---- */
+    {"quadratic_coupling_mass_sign", "solver/plain_axial_quadratic.c", "s01 = -m / 12,",
+     "s01 = m / 12,"},
+    {"quadratic_load_of_the_element_before", "solver/plain_axial_quadratic.c",
+     "factor * load[stride * (i + 1) + 1];", "factor * load[stride * i + 1];"},
+    {"quadratic_bubble_stays", "solver/plain_axial_quadratic.c",
+     "e[STRETCH + 1] += k * e[RATE + 1];\n", ""},
+    {"quadratic_bubble_too_soft", "solver/plain_axial_quadratic.c",
+     "{stiff / f->h, stiff / f->h / 3};", "{stiff / f->h, stiff / f->h / 4};"},
+    {"quadratic_bubble_load_mean", "solver/field.c", "shape[3] = -xi * eta;\n        return 4;",
+     "shape[3] = -1.02 * xi * eta;\n        return 4;"},
+    {"quadratic_middle_off", "solver/field.c", "field->h * ((double)e + 0.5)",
+     "field->h * ((double)e + 0.51)"},
+
     /* ---- the stiffness form ---- */
     {"stiffness_entry_sign", "solver/assembled_elements.c", "second[MOST] = {6, 3, -6, 3};",
      "second[MOST] = {6, 3, -6, -3};"},
