@@ -15,7 +15,7 @@ struct element {
 
 static struct element element_of(const struct br_ida_system *s, enum br_field_kind kind, size_t e)
 {
-    const size_t unknowns = br_field_unknowns(kind);
+    const size_t unknowns = br_field_unknowns(&s->field[kind]);
     struct element element = {kind, unknowns, e == 0 ? unknowns : 0, 2 * unknowns, {0}};
     for (size_t i = element.first; i < element.last; i++)
         element.place[i] = br_ida_at(s, kind, e + i / unknowns) + i % unknowns;
@@ -25,7 +25,7 @@ static struct element element_of(const struct br_ida_system *s, enum br_field_ki
 /* Where the velocity of the tip's displacement stands. */
 static size_t tip_row(const struct br_ida_system *s, enum br_field_kind kind)
 {
-    return br_ida_at(s, kind, s->field[kind].n) + br_field_unknowns(kind);
+    return br_ida_at(s, kind, s->field[kind].n) + br_field_unknowns(&s->field[kind]);
 }
 
 static bool sticks(const struct br_ida_system *s)
@@ -39,7 +39,7 @@ static bool sticks(const struct br_ida_system *s)
 static void take_loads(const struct br_ida_system *s, enum br_field_kind kind, double *residual)
 {
     const struct br_drive *drive = &s->load[kind].drive;
-    const size_t n = s->field[kind].n, unknowns = br_field_unknowns(kind);
+    const size_t n = s->field[kind].n, unknowns = br_field_unknowns(&s->field[kind]);
     for (size_t node = 1; node <= n && drive->vector; node++)
         for (size_t c = 0; c < unknowns; c++)
             residual[br_ida_at(s, kind, node) + unknowns + c] -=

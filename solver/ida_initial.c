@@ -24,7 +24,7 @@ static enum br_status set_field(const struct br_ida_system *s, enum br_field_kin
                                 const struct br_function *const function[2][2], double *y,
                                 struct br_error *err)
 {
-    const size_t unknowns = br_field_unknowns(kind);
+    const size_t unknowns = br_field_unknowns(&s->field[kind]);
     double *nodal = br_allocate(br_field_size(&s->field[kind]), sizeof *nodal);
     enum br_status status = nodal ? BR_OK : br_no_memory(err, "the initial data");
     for (size_t part = 0; part < 2 && !status; part++) { /* displacements, velocities */

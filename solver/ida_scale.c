@@ -13,7 +13,7 @@ static double static_estimate(const struct br_ida_system *s, enum br_field_kind 
 {
     const struct br_field *f = &s->field[kind];
     const struct br_drive *drive = &s->load[kind].drive;
-    const size_t unknowns = br_field_unknowns(kind);
+    const size_t unknowns = br_field_unknowns(&s->field[kind]);
     const double length = s->scene->length;
     double force = fabs(drive->tip[0]);
     if (kind == BR_BENDING)
@@ -27,7 +27,7 @@ static double static_estimate(const struct br_ida_system *s, enum br_field_kind 
 static void set_field(struct br_ida_scale *scale, enum br_field_kind kind, double displacement)
 {
     const struct br_ida_system *s = scale->system;
-    const size_t unknowns = br_field_unknowns(kind);
+    const size_t unknowns = br_field_unknowns(&s->field[kind]);
     double *const at = scale->largest + s->at[kind];
     for (size_t c = 0; c < unknowns; c++) {
         const double slope = c == 1 ? 1 / (double)s->field[kind].n : 1; /* h w_x, h = L/n */
@@ -80,6 +80,6 @@ void br_ida_scale_weights(const struct br_ida_scale *scale, double *weight)
 double br_ida_scale_of_tip(const struct br_ida_scale *scale, enum br_field_kind kind,
                            int derivative)
 {
-    const size_t unknowns = br_field_unknowns(kind);
+    const size_t unknowns = br_field_unknowns(&scale->system->field[kind]);
     return scale->largest[scale->system->at[kind] + (derivative ? unknowns : 0)];
 }

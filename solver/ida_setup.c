@@ -68,7 +68,7 @@ static bool leave_out_velocities(struct br_ida_march *m)
     double *tested = N_VGetArrayPointer(m->work);
     for (int i = BR_AXIAL; i <= BR_BENDING; i++) {
         const enum br_field_kind kind = (enum br_field_kind)i;
-        const size_t unknowns = br_field_unknowns(kind);
+        const size_t unknowns = br_field_unknowns(&s->field[kind]);
         for (size_t node = 1; node <= s->field[kind].n && s->modelled[kind]; node++)
             for (size_t c = 0; c < unknowns; c++)
                 tested[br_ida_at(s, kind, node) + unknowns + c] = 0;

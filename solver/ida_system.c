@@ -25,7 +25,7 @@ void br_ida_elastic_force(const struct br_field *f, const double node[4], double
 
 static void fill_element(struct br_ida_system *s, enum br_field_kind kind)
 {
-    const size_t values = 2 * br_field_unknowns(kind);
+    const size_t values = 2 * br_field_unknowns(&s->field[kind]);
     for (size_t j = 0; j < values; j++) {
         double node[4] = {0}, force[4];
         node[j] = 1;
@@ -71,7 +71,7 @@ static void lay_out(struct br_ida_system *s)
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         s->at[kind] = node;
         if (s->modelled[kind])
-            node += 2 * br_field_unknowns((enum br_field_kind)kind);
+            node += 2 * br_field_unknowns(&s->field[kind]);
     }
     s->node = node;
     s->count = node * s->field[BR_AXIAL].n;
@@ -119,14 +119,14 @@ double br_ida_tip_displacement(const struct br_ida_system *s, enum br_field_kind
 
 double br_ida_tip_velocity(const struct br_ida_system *s, enum br_field_kind kind, const double *y)
 {
-    const size_t at = br_ida_at(s, kind, s->field[kind].n) + br_field_unknowns(kind);
+    const size_t at = br_ida_at(s, kind, s->field[kind].n) + br_field_unknowns(&s->field[kind]);
     return s->modelled[kind] ? y[at] : 0;
 }
 
 void br_ida_nodal(const struct br_ida_system *s, enum br_field_kind kind, const double *y,
                   double *displacement, double *velocity)
 {
-    const size_t unknowns = br_field_unknowns(kind);
+    const size_t unknowns = br_field_unknowns(&s->field[kind]);
     const size_t bytes = unknowns * sizeof(double);
     double *const into[2] = {displacement, velocity};
     for (size_t part = 0; part < 2; part++) {
@@ -142,7 +142,7 @@ void br_ida_nodal(const struct br_ida_system *s, enum br_field_kind kind, const 
 void br_ida_strain_rate(const struct br_ida_system *s, enum br_field_kind kind, const double *y,
                         double *rate)
 {
-    const size_t unknowns = br_field_unknowns(kind);
+    const size_t unknowns = br_field_unknowns(&s->field[kind]);
     for (size_t e = 0; e < s->field[kind].n; e++) {
         double node[4] = {0};
         for (size_t i = e == 0 ? unknowns : 0; i < 2 * unknowns; i++)

@@ -31,7 +31,7 @@ static struct problem random_problem(struct br_test_random *r)
         .force = br_test_uniform(r, -1, 1),
     };
     /* 1 + x^2, lumped */
-    for (size_t i = 1, u = br_field_unknowns(p.field.kind); i <= p.field.n; i++)
+    for (size_t i = 1, u = br_field_unknowns(&p.field); i <= p.field.n; i++)
         p.vector[i * u] = p.field.h * (1 + pow((double)i * p.field.h, 2));
     return p;
 }
