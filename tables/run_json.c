@@ -120,7 +120,8 @@ static json_t *events(const struct br_run_report *p)
     put(o, "counts", counts);
     put(o, "steps", steps);
     put(o, "list", event_list(w));
-    put(o, "switches_found", p->method.scheme->adaptive ? switches(p) : json_null());
+    put(o, "switches_found",
+        p->method.scheme->adaptive && !p->method.scheme->integrator ? switches(p) : json_null());
     put(o, "largest_contact_force", extreme(w->contact, &w->contact_force));
     put(o, "largest_friction_force", extreme(w->friction, &w->friction_force));
     return o;
@@ -150,9 +151,12 @@ static json_t *energies(const struct br_run_report *p)
     put(o, "work_of_loads", two(p, p->work.loads));
     put(o, "lost_to_viscosity", two(p, p->work.viscous));
     put_number(o, "lost_to_scheme", p->work.scheme);
+    put(o, "lost_to_scheme_is_the_remainder", json_boolean(p->work.remainder));
     put(o, "lost_to_scheme_by_contact",
-        if_marched(p->marched.contact.modelled, p->work.scheme_contact));
-    put_number(o, "imbalance", br_energy_imbalance(&p->energy_start, &p->energy_now, &p->work));
+        if_marched(p->marched.contact.modelled && !p->work.remainder, p->work.scheme_contact));
+    put(o, "imbalance",
+        if_marched(!p->work.remainder,
+                   br_energy_imbalance(&p->energy_start, &p->energy_now, &p->work)));
     return o;
 }
 
