@@ -290,6 +290,8 @@ size_t br_march_switches(const struct br_march *m, const struct br_switch **firs
 {
     if (m->adaptive)
         return br_adaptive_switches(m->adaptive, first);
+    if (m->foreign)
+        return m->method.scheme->integrator->switches(m->foreign, first);
     *first = NULL;
     return 0;
 }
