@@ -72,10 +72,13 @@ static struct br_estimate order_of(const double *difference, size_t count)
     return order;
 }
 
-/* Of errors that come and go: from the first to the last. */
+/* Of errors that come and go: from the largest of the first half to the last. */
 static double mean_order(const double difference[LADDER])
 {
-    return log2(difference[0] / difference[LADDER - 1]) / (LADDER - 1);
+    size_t from = 0;
+    for (size_t i = 1; i < LADDER / 2; i++)
+        from = difference[i] > difference[from] ? i : from;
+    return log2(difference[from] / difference[LADDER - 1]) / (double)(LADDER - 1 - from);
 }
 
 /* Both fields under a load that begins smoothly, without laws at the tip. */
