@@ -120,8 +120,7 @@ static json_t *events(const struct br_run_report *p)
     put(o, "counts", counts);
     put(o, "steps", steps);
     put(o, "list", event_list(w));
-    put(o, "switches_found",
-        p->method.scheme->adaptive && !p->method.scheme->integrator ? switches(p) : json_null());
+    put(o, "switches_found", p->method.scheme->adaptive ? switches(p) : json_null());
     put(o, "largest_contact_force", extreme(w->contact, &w->contact_force));
     put(o, "largest_friction_force", extreme(w->friction, &w->friction_force));
     return o;

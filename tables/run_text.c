@@ -120,7 +120,7 @@ static const char *regime(enum br_regime r)
 /* What the scheme has found within its steps. */
 static void switches(FILE *out, const struct br_run_report *p)
 {
-    if (!p->method.scheme->adaptive || p->method.scheme->integrator) /* they tell them not */
+    if (!p->method.scheme->adaptive)
         return;
     fprintf(out, "\nSwitches, as scheme %s has found them: %zu\n", p->method.scheme->name,
             p->switches);
