@@ -57,13 +57,6 @@ static enum br_status make_steps(const struct br_scene *scene, const struct br_s
     return status;
 }
 
-/* Who knows the solution of a scene best: the one it was manufactured from, if any. */
-static const struct br_judge *best_judge(const struct br_scene *scene)
-{
-    return scene->axial.solution || scene->bending.solution ? br_judge_find("mms")
-                                                            : &br_judge_exact;
-}
-
 /* The fine run's resolution, and who measures its own error. */
 static enum br_status set_fine(const struct br_session *s, struct br_study *study,
                                struct br_error *err)
@@ -72,7 +65,7 @@ static enum br_status set_fine(const struct br_session *s, struct br_study *stud
     study->reference.n = s->request.reference_n;
     if (br_steps_of(study->scene, s->request.reference_k, &study->reference.steps, &inner))
         return br_fail(err, BR_BAD_INPUT, "--reference: %s", inner.message);
-    study->auditor = best_judge(study->scene);
+    study->auditor = br_judge_best(study->scene);
     return BR_OK;
 }
 
@@ -94,7 +87,7 @@ static enum br_status make_grid(struct br_session *s, size_t i, struct br_error 
     study->reference_method = r->reference_method;
     study->n = w->n;
     study->steps = w->steps;
-    study->judge = r->judge ? r->judge : best_judge(&w->scene);
+    study->judge = r->judge ? r->judge : br_judge_best(&w->scene);
     return study->judge->nests ? set_fine(s, study, err) : BR_OK;
 }
 

@@ -26,3 +26,9 @@ const struct br_judge *br_judge_find(const char *name)
             return *j;
     return NULL;
 }
+
+const struct br_judge *br_judge_best(const struct br_scene *scene)
+{
+    return scene->axial.solution || scene->bending.solution ? br_judge_find("mms")
+                                                            : &br_judge_exact;
+}

@@ -77,4 +77,8 @@ extern const struct br_judge br_judge_none;
 extern const struct br_judge *const br_judges[];
 const struct br_judge *br_judge_find(const char *name);
 
+/* Who knows the solution of a scene best: the one it was manufactured from, if any. NULL: it was,
+ * but this build has no libmatheval. */
+const struct br_judge *br_judge_best(const struct br_scene *scene);
+
 #endif

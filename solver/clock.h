@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Time on the wall, for reports of cost. */
+/* Time on the wall, and of one thread, for reports of cost. */
 #ifndef BR_CLOCK_H
 #define BR_CLOCK_H
 
@@ -10,6 +10,14 @@ static inline double br_seconds(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* The same of the processor in this thread alone. */
+static inline double br_thread_seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 

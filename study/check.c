@@ -53,12 +53,6 @@ static void add_section(struct plan *plan, const struct br_check *check, enum br
     plan->sections++;
 }
 
-static const struct br_judge *judge_of(const struct br_scene *scene)
-{
-    return scene->axial.solution || scene->bending.solution ? br_judge_find("mms")
-                                                            : &br_judge_exact;
-}
-
 /* The study of a section's head h, in its first norm. */
 static struct br_study study_at(const struct section *s, size_t h)
 {
@@ -68,7 +62,7 @@ static struct br_study study_at(const struct section *s, size_t h)
         .scene = s->check->scene,
         .norm = s->norm[0],
         .method = v->method,
-        .judge = joint ? judge_of(s->check->scene) : &br_judge_fine,
+        .judge = joint ? br_judge_best(s->check->scene) : &br_judge_fine,
         .reference_method = v->method,
         .reference = joint ? (struct br_resolution){0, 0}
                            : (struct br_resolution){v->n[h + 1], v->steps[h + 1]},

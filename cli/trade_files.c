@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/trade_files.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/provenance.h"
+#include "cli/read_text.h"
+#include "cli/signals.h"
+#include "plots/trade.h"
+#include "study/scene_file.h"
+
+/* ---- scenes ---- */
+
+/* Only the bundled scene itself is what the paper printed a table of. */
+static enum br_status read_printed(struct br_trade_item *item, struct br_error *err)
+{
+    static const struct {
+        const char *scene, *table;
+    } tables[] = {{"study/scenes/example1.yaml", "reference/printed/table1.csv"},
+                  {"study/scenes/example2.yaml", "reference/printed/table2.csv"}};
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < sizeof tables / sizeof *tables && !status; i++) {
+        char path[1024];
+        br_data_path(tables[i].scene, path, sizeof path);
+        if (strcmp(path, item->path) != 0)
+            continue;
+        br_data_path(tables[i].table, path, sizeof path);
+        status = br_printed_read(path, &item->printed, err);
+    }
+    return status;
+}
+
+enum br_status br_trade_item_read(struct br_trade_item *item, const char *scene,
+                                  struct br_error *err)
+{
+    enum br_status status = br_scene_find(scene, item->path, sizeof item->path, err);
+    if (!status)
+        status = br_scene_read(item->path, &item->scene, err);
+    if (!status)
+        status = br_read_text(item->path, &item->text, err);
+    if (!status)
+        status = read_printed(item, err);
+    if (!status)
+        snprintf(item->caption, sizeof item->caption, "What a digit costs: %.400s",
+                 item->scene.title);
+    return status;
+}
+
+void br_trade_item_clear(struct br_trade_item *item)
+{
+    br_trade_clear(&item->trade);
+    br_printed_clear(&item->printed);
+    br_scene_clear(&item->scene);
+    free(item->steps);
+    free(item->text);
+}
+
+/* ---- files ---- */
+
+enum br_status br_trade_files_open(struct br_trade_files *f, int threads, struct br_error *err)
+{
+    f->page = br_allocate(f->items, sizeof *f->page);
+    if (!f->page)
+        return br_no_memory(err, "the pages");
+    for (size_t i = 0; i < f->items; i++) {
+        struct br_trade_item *item = &f->item[i];
+        br_provenance_fill(&item->provenance, threads);
+        item->provenance.scene_path = item->path;
+        item->provenance.scene_text = item->text;
+        f->page[i] = (struct br_trade_page){
+            .name = item->scene.name,
+            .caption = item->caption,
+            .trade = &item->trade,
+            .provenance = &item->provenance,
+        };
+    }
+    return br_output_open(&f->output, f->options->out ? f->options->out : "trade", err);
+}
+
+static bool is_wanted(const char *list, const char *name)
+{
+    const size_t length = strlen(name);
+    for (const char *rest = list; rest && *rest; rest += strcspn(rest, ","), rest += *rest == ',')
+        if (strcspn(rest, ",") == length && strncmp(rest, name, length) == 0)
+            return true;
+    return !list;
+}
+
+/* One table: of a page, or with pages > 1 their summary. */
+static enum br_status write_table(struct br_trade_files *f, const struct br_trade_emitter *e,
+                                  const struct br_trade_page *page, size_t pages,
+                                  struct br_error *err)
+{
+    char name[512];
+    FILE *file;
+    struct br_error closing = {0};
+    snprintf(name, sizeof name, "%s%s", pages > 1 ? "summary" : page->name, e->extension);
+    enum br_status status = br_output_file(&f->output, name, &file, err);
+    if (status)
+        return status;
+    status = pages > 1 ? e->summarise(file, page, pages, err) : e->emit(file, page, err);
+    if (br_output_close(file, name, &closing) && !status)
+        status = br_fail(err, closing.status, "%s", closing.message);
+    return status;
+}
+
+static enum br_status write_tables(struct br_trade_files *f, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (const struct br_trade_emitter *const *e = br_trade_emitters; *e && !status; e++) {
+        if (!is_wanted(f->options->format, (*e)->name))
+            continue;
+        for (size_t i = 0; i < f->items && !status; i++)
+            status = write_table(f, *e, &f->page[i], 1, err);
+        if (!status && f->items > 1)
+            status = write_table(f, *e, f->page, f->items, err);
+    }
+    return status;
+}
+
+static enum br_status write_part(struct br_trade_files *f, const char *extension,
+                                 void (*write)(FILE *, const struct br_trade_picture *,
+                                               const struct br_trade_view *),
+                                 const struct br_trade_picture *picture,
+                                 const struct br_trade_view *view, struct br_error *err)
+{
+    char name[BR_SCRIPT_NAME];
+    FILE *file;
+    snprintf(name, sizeof name, "%s.%s", view->stem, extension);
+    const enum br_status status = br_output_file(&f->output, name, &file, err);
+    if (status)
+        return status;
+    write(file, picture, view);
+    return br_output_close(file, name, err);
+}
+
+static enum br_status draw(struct br_trade_files *f, const struct br_trade_picture *picture,
+                           const struct br_trade_page *page, struct br_error *err)
+{
+    char stem[BR_SCRIPT_NAME - 8], script[BR_SCRIPT_NAME];
+    const struct br_trade_view view = {page->caption, stem, page->trade};
+    snprintf(stem, sizeof stem, "%.400s-%s", page->name, picture->name);
+    snprintf(script, sizeof script, "%s.gp", stem);
+    enum br_status status = write_part(f, "dat", br_trade_picture_data, picture, &view, err);
+    if (!status)
+        status = write_part(f, "gp", br_trade_picture_script, picture, &view, err);
+    if (!status && !f->missing) {
+        status = br_renderer_add(&f->renderer, f->output.staging, script, &f->missing, err);
+        if (f->missing)
+            status = BR_OK;
+    }
+    return status;
+}
+
+static enum br_status draw_all(struct br_trade_files *f, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < f->items && !status && !f->options->no_plots; i++)
+        for (const struct br_trade_picture *const *p = br_trade_pictures; *p && !status; p++)
+            if (br_trade_picture_applies(*p, f->page[i].trade))
+                status = draw(f, *p, &f->page[i], err);
+    return status;
+}
+
+static void show(const struct br_trade_files *f)
+{
+    for (size_t i = 0; i < f->items; i++) {
+        br_trade_show(stdout, &f->page[i]);
+        putchar('\n');
+    }
+    if (f->items > 1)
+        br_trade_emitters[0]->summarise(stdout, f->page, f->items, NULL);
+}
+
+/* The pictures first: they are rendered while the tables are written. */
+enum br_status br_trade_files_write(struct br_trade_files *f, struct br_error *err)
+{
+    struct br_error rendering = {0};
+    enum br_status status = draw_all(f, err);
+    if (!status)
+        status = write_tables(f, err);
+    if (br_renderer_finish(&f->renderer, &rendering) && !status)
+        status = br_fail(err, rendering.status, "%s", rendering.message);
+    if (br_signals_caught()) /* Ctrl-C ends gnuplot, too: that is no failure of its own */
+        status = br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (status)
+        return status;
+    if (f->missing)
+        fprintf(stderr, "beamrate: gnuplot is not installed: the plots are written as scripts "
+                        "(*.gp) and data, but not rendered\n");
+    if (!f->options->quiet)
+        show(f);
+    status = br_output_commit(&f->output, err);
+    if (!status && !f->options->quiet)
+        printf("Written to %s/\n", f->output.folder);
+    return status;
+}
+
+void br_trade_files_discard(struct br_trade_files *f)
+{
+    br_output_discard(&f->output);
+    free(f->page);
+    f->page = NULL;
+}

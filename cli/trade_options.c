@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/trade_options.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/number_option.h"
+#include "cli/suggest.h"
+#include "study/number_list.h"
+#include "tables/trade_emitter.h"
+
+static const char usage[] =
+    "SCENE... [OPTION...]\n\nWhat a digit costs: the relative error of many methods at many "
+    "resolutions against the CPU\nseconds of their marches, one thread, alone. Out come "
+    "work-precision diagrams with the Pareto\nfront, the cheapest way to an error of 1e-2, 1e-3, "
+    "... 1e-10, and all trials, those that\nfailed among them. Without --methods all time schemes "
+    "are tried, and other friction rules and\nlinear solvers with one of them; without --n and --k "
+    "a coarse grid, and what the paper's table\nprints.\n\nExamples:\n"
+    "  beamrate trade example2 --methods euler+lagged,euler+implicit --n 25,100 "
+    "--k 0.1,0.01 --out trade\n"
+    "  beamrate trade example1 example3 --methods bdf2,adaptive --n 50 --k 0.05,0.01 "
+    "--time-limit 2\n";
+
+enum { HELP = 1 };
+
+static void print_names(FILE *out)
+{
+    char words[256];
+    fprintf(out, "\nA method's name: these words, joined by '+', at most one of a kind:\n");
+    for (size_t i = 0; i < br_contender_kinds(); i++) {
+        const char *title = br_contender_kind(i, words, sizeof words);
+        fprintf(out, "  %-30s %s\n", title, words);
+    }
+    fprintf(out, "Norms (--norm):\n");
+    for (const struct br_norm *const *n = br_norms; *n; n++)
+        fprintf(out, "  %-12s %s\n", (*n)->name, (*n)->title);
+    fprintf(out, "Formats (--format):\n ");
+    for (const struct br_trade_emitter *const *e = br_trade_emitters; *e; e++)
+        fprintf(out, " %s", (*e)->name);
+    fputc('\n', out);
+}
+
+static int read_all(poptContext context, struct br_trade_options *o)
+{
+    int code;
+    while ((code = poptGetNextOpt(context)) > 0)
+        if (code == HELP) {
+            o->study.help = 1;
+            poptPrintHelp(context, stdout, 0);
+            print_names(stdout);
+        }
+    return code;
+}
+
+static enum br_status read_scenes(poptContext context, int most, struct br_trade_options *o,
+                                  struct br_error *err)
+{
+    o->scene = br_allocate((size_t)most + 1, sizeof *o->scene);
+    if (!o->scene)
+        return br_no_memory(err, "the options");
+    for (const char *word; (word = poptGetArg(context));) {
+        o->scene[o->scenes] = strdup(word);
+        if (!o->scene[o->scenes++])
+            return br_no_memory(err, "the options");
+    }
+    if (o->scenes == 0)
+        return br_fail(err, BR_BAD_INPUT,
+                       "no scene is given, expected files or names of bundled scenes");
+    return BR_OK;
+}
+
+enum br_status br_trade_options_parse(int argc, const char **argv, struct br_trade_options *o,
+                                      struct br_error *err)
+{
+    struct br_study_options *s = &o->study;
+    struct poptOption table[] = {
+        {"n", 0, POPT_ARG_STRING, &s->n, 0, "elements of the meshes", "LIST"},
+        {"k", 0, POPT_ARG_STRING, &s->k, 0, "time steps, s", "LIST"},
+        {"tolerances", 0, POPT_ARG_STRING, &o->tolerances, 0,
+         "tolerances of schemes that choose their steps", "LIST"},
+        {"methods", 0, POPT_ARG_STRING, &o->methods, 0, "methods, by the names below", "LIST"},
+        {"norm", 0, POPT_ARG_STRING, &s->norm, 0, "norm of the error (default l2)", "NAME"},
+        {"reference", 0, POPT_ARG_STRING, &s->reference, 0,
+         "judge of the errors: exact, mms, or fine:N,K by the scheme of the highest order", "NAME"},
+        {"repeats", 0, POPT_ARG_STRING, &o->repeats, 0,
+         "timed marches of a trial after a warm-up, at most (default 3)", "COUNT"},
+        {"time-limit", 0, POPT_ARG_STRING, &o->time_limit, 0, "longest march, s (default 10)",
+         "SECONDS"},
+        {"threads", 0, POPT_ARG_STRING, &s->threads, 0,
+         "threads of the errors; 0, the default: all cores", "COUNT"},
+        {"out", 0, POPT_ARG_STRING, &s->out, 0, "folder of the results (default trade)", "DIR"},
+        {"format", 0, POPT_ARG_STRING, &s->format, 0,
+         "formats to write (default all): any of those below", "LIST"},
+        {"no-plots", 0, POPT_ARG_NONE, &s->no_plots, 0, "write no plots", NULL},
+        {"quiet", 0, POPT_ARG_NONE, &s->quiet, 0, "no progress, no table on the terminal", NULL},
+        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        POPT_TABLEEND,
+    };
+    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
+    if (!context)
+        return br_no_memory(err, "the options");
+    poptSetOtherOptionHelp(context, usage);
+    const int code = read_all(context, o);
+    enum br_status status = BR_OK;
+    if (code < -1)
+        status = br_bad_option(context, table, code, err);
+    else if (!s->help)
+        status = read_scenes(context, argc, o, err);
+    poptFreeContext(context);
+    return status;
+}
+
+void br_trade_options_clear(struct br_trade_options *o)
+{
+    char **texts[] = {&o->methods, &o->tolerances, &o->repeats, &o->time_limit};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        free(*texts[i]);
+        *texts[i] = NULL;
+    }
+    for (size_t i = 0; i < o->scenes; i++)
+        free(o->scene[i]);
+    free(o->scene);
+    o->scene = NULL;
+    o->scenes = 0;
+    br_study_options_clear(&o->study);
+}
+
+static enum br_status read_limit(const char *text, double *limit, struct br_error *err)
+{
+    double value = NAN;
+    const char *end = text ? br_read_number(text, &value) : "";
+    if (!end || *end || (text && !(value > 0)))
+        return br_fail(err, BR_BAD_INPUT, "--time-limit: found '%s', expected seconds > 0", text);
+    *limit = value;
+    return BR_OK;
+}
+
+static enum br_status read_repeats(const char *text, size_t *repeats, struct br_error *err)
+{
+    int value = 0;
+    const enum br_status status = br_read_count_option("repeats", text, 1000, &value, err);
+    if (!status && text && value == 0)
+        return br_fail(err, BR_BAD_INPUT,
+                       "--repeats: found '%s', expected a whole number from 1 to 1000", text);
+    *repeats = (size_t)value;
+    return status;
+}
+
+/* A list that no method heeds is refused. */
+static enum br_status check_heeded(const struct br_trade_options *o, const struct br_trade_wish *w,
+                                   struct br_error *err)
+{
+    size_t adaptive = 0;
+    for (size_t i = 0; i < w->contenders.count; i++)
+        adaptive += br_contender_adaptive(&w->contenders.list[i]);
+    if (w->contenders.count && adaptive == 0 && o->tolerances)
+        return br_fail(err, BR_BAD_INPUT, "--tolerances: no method of --methods heeds it");
+    if (w->contenders.count && adaptive == w->contenders.count && o->study.k)
+        return br_fail(err, BR_BAD_INPUT, "--k: no method of --methods heeds it");
+    return BR_OK;
+}
+
+static enum br_status check_study(const struct br_study_request *r, struct br_error *err)
+{
+    if (r->norms > 1)
+        return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->norms);
+    if (r->judge && !r->judge->create)
+        return br_fail(err, BR_BAD_INPUT,
+                       "--reference: found '%s', expected a judge that gives errors: exact, mms or "
+                       "fine:N,K",
+                       r->judge->name);
+    return BR_OK;
+}
+
+enum br_status br_trade_wish_read(const struct br_trade_options *o, struct br_trade_wish *w,
+                                  struct br_error *err)
+{
+    *w = (struct br_trade_wish){.time_limit = NAN};
+    enum br_status status = br_study_request_read(&o->study, &w->study, err);
+    if (!status)
+        status = check_study(&w->study, err);
+    if (!status && o->methods)
+        status = br_contenders_read("--methods", o->methods, &w->contenders, err);
+    if (!status && o->tolerances)
+        status = br_read_numbers("--tolerances", o->tolerances, &w->tolerance, &w->tolerances, err);
+    if (!status)
+        status = read_repeats(o->repeats, &w->repeats, err);
+    if (!status)
+        status = read_limit(o->time_limit, &w->time_limit, err);
+    return status ? status : check_heeded(o, w, err);
+}
+
+void br_trade_wish_clear(struct br_trade_wish *w)
+{
+    free(w->tolerance);
+    br_study_request_clear(&w->study);
+    *w = (struct br_trade_wish){0};
+}

@@ -1,0 +1,334 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Contenders, trials and trades: choosing on made-up trials, and errors that are a study's. */
+#include <math.h>
+#include <string.h>
+
+#include "study/trade.h"
+#include "support.h"
+
+/* ---- choosing, on made-up trials ---- */
+
+static struct br_contender contenders[2];
+
+/* A trial of that relative error and cost; nothing of it was marched. */
+static struct br_trial made(int contender, double error, double seconds, size_t solves)
+{
+    return (struct br_trial){
+        .contender = &contenders[contender],
+        .at = {10, 10},
+        .cost = {.march = seconds, .counts = {.stages = solves}},
+        .error = {{2 * error, error, error}},
+        .scale = {2},
+        .own = {NAN},
+    };
+}
+
+static void test_cheapest(void **state)
+{
+    (void)state;
+    struct br_trial t[] = {
+        made(0, 1e-3, 5, 9),   made(1, 1e-3, 3, 9), made(0, 1e-2, 1, 9),     made(0, NAN, 0.1, 9),
+        made(1, 1e-9, NAN, 9), made(1, 1e-3, 3, 7), made(0, 1e-12, 0.01, 9),
+    };
+    const size_t count = sizeof t / sizeof *t;
+    t[6].end = BR_TRIAL_FAILED;
+    assert_int_equal(br_trials_cheapest(t, count, 2e-2, NULL), 2);
+    assert_int_equal(br_trials_cheapest(t, count, 1e-3, NULL), 5); /* fewer solves */
+    assert_int_equal(br_trials_cheapest(t, count, 1e-3, &contenders[0]), 0);
+    assert_int_equal(br_trials_cheapest(t, count, 9e-4, NULL), count);
+    assert_int_equal(br_trials_cheapest(t, 0, 1, NULL), 0);
+    t[5].cost.counts.stages = 9;
+    assert_int_equal(br_trials_cheapest(t, count, 1e-3, NULL), 1); /* of equals the first */
+}
+
+/* The judge's own error is added: what it cannot tell is no success. */
+static void test_own_error(void **state)
+{
+    (void)state;
+    struct br_trial t = made(0, 0.9e-3, 1, 1);
+    assert_int_equal(br_trials_cheapest(&t, 1, 1e-3, NULL), 0);
+    t.own[0] = 2 * 0.2e-3;
+    t.end = BR_TRIAL_DOUBTFUL;
+    assert_int_equal(br_trials_cheapest(&t, 1, 1e-3, NULL), 1);
+    assert_int_equal(br_trials_cheapest(&t, 1, 1.2e-3, NULL), 0);
+    t.end = BR_TRIAL_UNSTABLE;
+    assert_int_equal(br_trials_cheapest(&t, 1, 1, NULL), 1);
+    t = made(0, 1e-3, 1, 1);
+    t.scale[0] = 0; /* no relative error of a solution that is zero */
+    assert_int_equal(br_trials_cheapest(&t, 1, 1, NULL), 1);
+}
+
+static void test_front(void **state)
+{
+    (void)state;
+    struct br_trial t[] = {
+        made(0, 1e-2, 1, 1),  made(0, 1e-3, 2, 1),   made(0, 1e-3, 3, 1), /* slower */
+        made(1, 1e-2, 1, 1),                                              /* equal to the first */
+        made(1, 2e-3, 2, 1),                                              /* worse */
+        made(1, NAN, 0.1, 1), made(1, 1e-9, NAN, 1), made(1, 1e-4, 9, 1), made(0, 1e-20, 1e-9, 1),
+    };
+    const bool expected[] = {true, true, false, false, false, false, false, true, false};
+    enum { COUNT = sizeof t / sizeof *t };
+    bool front[COUNT];
+    t[8].end = BR_TRIAL_OVER;
+    br_trials_front(t, COUNT, front);
+    for (size_t i = 0; i < COUNT; i++)
+        if (front[i] != expected[i])
+            fail_msg("trial %zu: found %d, expected %d", i, front[i], expected[i]);
+}
+
+static void test_digits(void **state)
+{
+    (void)state;
+    struct br_trial t = made(0, 1e-4, 0.5, 1);
+    CLOSE(br_trade_digits_per_second(&t), 8, 1e-9);
+    t.end = BR_TRIAL_FAILED;
+    assert_true(isnan(br_trade_digits_per_second(&t)));
+    CLOSE(br_trade_target(0), 1e-2, 1e-14);
+    CLOSE(br_trade_target(BR_TRADE_DIGITS - 1), 1e-10, 1e-22);
+}
+
+/* ---- names ---- */
+
+static void test_names(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_contender c;
+    MUST(br_contender_read("euler", &c, &err));
+    assert_false(c.method.contact->at_new_step);
+    assert_true(br_trade_is_printed_method(&c));
+    MUST(br_contender_read("regularised+bdf2+umfpack+scaled+p2", &c, &err));
+    assert_true(c.method.contact->at_new_step);
+    assert_string_equal(c.method.scheme->name, "bdf2");
+    assert_string_equal(c.method.friction->name, "regularised");
+    assert_string_equal(c.method.solver->name, "umfpack");
+    assert_string_equal(c.method.linear.scaling, "sum");
+    assert_int_equal(c.method.linear.refinement, 0);
+    assert_int_equal(c.method.axial_degree, 2);
+    assert_false(br_trade_is_printed_method(&c));
+    REFUSED(br_contender_read("bdf9", &c, &err), BR_BAD_INPUT, "found 'bdf9'");
+    REFUSED(br_contender_read("bdf2+", &c, &err), BR_BAD_INPUT, "found ''");
+    REFUSED(br_contender_read("bdf2+euler", &c, &err), BR_BAD_INPUT, "given already");
+    REFUSED(br_contender_read("bdf2+lagged", &c, &err), BR_BAD_INPUT, "lagged");
+    REFUSED(br_contender_read("bdf2+scaled", &c, &err), BR_BAD_INPUT, "does not heed");
+}
+
+static void test_lists(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_contenders all;
+    MUST(br_contenders_read("--methods", "euler+implicit,bdf2", &all, &err));
+    assert_int_equal(all.count, 2);
+    REFUSED(br_contenders_read("--methods", "bdf2,bdf2+implicit", &all, &err), BR_BAD_INPUT,
+            "--methods: bdf2+implicit is given twice");
+    REFUSED(br_contenders_read("--methods", "bdf2,", &all, &err), BR_BAD_INPUT, "found ''");
+}
+
+/* All schemes are there, and none twice that is the same in this scene. */
+static void test_default_contenders(void **state)
+{
+    (void)state;
+    const char *const scenes[] = {"example2", "example3"};
+    for (size_t s = 0; s < 2; s++) {
+        struct br_scene scene = br_test_bundled(scenes[s]);
+        struct br_contenders all;
+        size_t schemes[32] = {0};
+        br_contenders_default(&scene, &all);
+        for (size_t i = 0; i < all.count; i++)
+            for (size_t j = 0; br_time_schemes[j]; j++)
+                schemes[j] += all.list[i].method.scheme == br_time_schemes[j];
+        for (size_t j = 0; br_time_schemes[j]; j++)
+            assert_true(schemes[j] > 0);
+        assert_int_equal(schemes[0], s == 0 ? 2 : 1); /* lagged and implicit, where it matters */
+        br_scene_clear(&scene);
+    }
+}
+
+/* ---- trials ---- */
+
+/* Errors are those of a study's cells, in each norm; counts are the march's. */
+static void test_errors_are_a_study_s(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_contenders all;
+    MUST(br_contenders_read("--methods", "euler+lagged,bdf2", &all, &err));
+    struct br_trial trial[] = {
+        {.contender = &all.list[0], .at = {8, 20}},
+        {.contender = &all.list[1], .at = {8, 20}},
+        {.contender = &all.list[0], .at = {16, 10}},
+    };
+    const struct br_norm *const norm[] = {&br_norm_l2, &br_norm_tip};
+    struct br_trial_request request = br_trial_request_default(&scene);
+    request.norm = norm;
+    request.norms = 2;
+    request.repeats = 1;
+    MUST(br_trials_hold(trial, 3, &request, &err));
+    for (size_t i = 0; i < 3; i++)
+        for (size_t m = 0; m < 2; m++) {
+            struct br_study study = {
+                .scene = &scene,
+                .norm = norm[m],
+                .method = br_trial_method(&trial[i]),
+                .judge = &br_judge_exact,
+                .n_count = 1,
+                .k_count = 1,
+                .n = &trial[i].at.n,
+                .steps = &trial[i].at.steps,
+            };
+            MUST(br_study_run(&study, 1, 1, NULL, &err));
+            for (int part = 0; part < BR_PARTS; part++)
+                CLOSE(trial[i].error[m][part], study.cell[0].error[part],
+                      1e-13 * study.cell[0].error[BR_PART_TOTAL]);
+            CLOSE(trial[i].scale[m], study.reference_scale, 1e-12 * study.reference_scale);
+            br_study_clear(&study);
+        }
+    for (size_t i = 0; i < 3; i++) {
+        assert_int_equal(trial[i].end, BR_TRIAL_DONE);
+        assert_int_equal(trial[i].cost.counts.steps, trial[i].at.steps);
+        assert_true(br_trial_seconds(&trial[i]) > 0);
+        assert_int_equal(trial[i].cost.repeats, 1);
+        AT_MOST(trial[i].own[0], 1e-9 * trial[i].scale[0]);
+    }
+    br_scene_clear(&scene);
+}
+
+/* What fails, or takes too long, stays in the list with its reason. */
+static void test_ends(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_contenders all;
+    MUST(br_contenders_read("--methods", "euler+regularised,euler,euler+implicit", &all, &err));
+    scene.friction.regularisation = 0; /* so that the first has no mu */
+    struct br_trial trial[] = {
+        {.contender = &all.list[0], .at = {8, 10}},
+        {.contender = &all.list[1], .at = {100, 100000000}},
+        {.contender = &all.list[2], .at = {8, 10}},
+    };
+    struct br_trial_request request = br_trial_request_default(&scene);
+    request.time_limit = 1e-3;
+    MUST(br_trials_hold(trial, 3, &request, &err));
+    assert_int_equal(trial[0].end, BR_TRIAL_FAILED);
+    assert_non_null(strstr(trial[0].failure.message, "mu > 0"));
+    assert_int_equal(trial[1].end, BR_TRIAL_OVER);
+    assert_non_null(strstr(trial[1].failure.message, "time limit"));
+    assert_int_equal(trial[2].end, BR_TRIAL_DONE);
+    for (size_t i = 0; i < 2; i++) {
+        assert_true(isnan(br_trial_seconds(&trial[i])));
+        assert_true(isnan(br_trial_bound(&trial[i], 0)));
+    }
+    assert_true(br_trial_bound(&trial[2], 0) > 0);
+    br_scene_clear(&scene);
+}
+
+static bool stop_at_once(void *self)
+{
+    (void)self;
+    return true;
+}
+
+static void test_stops(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_contender c;
+    MUST(br_contender_read("euler", &c, &err));
+    struct br_trial trial = {.contender = &c, .at = {100, 100000000}};
+    struct br_trial_request request = br_trial_request_default(&scene);
+    const struct br_observer observer = {.stop = stop_at_once};
+    request.observer = &observer;
+    REFUSED(br_trials_hold(&trial, 1, &request, &err), BR_INTERRUPTED, "interrupted");
+    br_scene_clear(&scene);
+}
+
+/* ---- grids ---- */
+
+static struct br_trade *laid_out(const struct br_scene *scene, const char *methods,
+                                 const struct br_trade_grid *grid)
+{
+    struct br_error err = {0};
+    struct br_trade *t = calloc(1, sizeof *t);
+    assert_non_null(t);
+    MUST(br_contenders_read("--methods", methods, &t->contenders, &err));
+    t->request = br_trial_request_default(scene);
+    MUST(br_trade_lay_out(t, grid, &err));
+    return t;
+}
+
+static void drop(struct br_trade *t)
+{
+    br_trade_clear(t);
+    free(t);
+}
+
+/* The printed cells are the paper's method's, each once. */
+static void test_printed(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_printed_cell cells[] = {{100, 0.01, 1}, {200, 0.0005, 1}, {3200, 1e-4, 1}};
+    const struct br_printed printed = {cells, 3};
+    struct br_trade *t = laid_out(&scene, "euler+lagged,euler+implicit",
+                                  &(struct br_trade_grid){.printed = &printed});
+    size_t marked = 0;
+    for (size_t i = 0; i < t->count; i++) {
+        marked += t->trial[i].printed;
+        assert_true(!t->trial[i].printed || t->trial[i].contender == &t->contenders.list[0]);
+        for (size_t j = 0; j < i; j++)
+            assert_false(t->trial[i].contender == t->trial[j].contender &&
+                         t->trial[i].at.n == t->trial[j].at.n &&
+                         t->trial[i].at.steps == t->trial[j].at.steps);
+    }
+    assert_int_equal(marked, 3);
+    drop(t);
+    br_scene_clear(&scene);
+}
+
+/* Lists that are given are tried whole. */
+static void test_lists_are_tried(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    const size_t n[] = {100000}, steps[] = {10, 1000000};
+    const double tolerance[] = {1e-3, 1e-5, 1e-7};
+    struct br_trade *t = laid_out(&scene, "bdf2,adaptive",
+                                  &(struct br_trade_grid){.n = n,
+                                                          .steps = steps,
+                                                          .tolerance = tolerance,
+                                                          .n_count = 1,
+                                                          .step_count = 2,
+                                                          .tolerances = 3});
+    assert_int_equal(t->count, 5);
+    assert_int_equal(t->trial[1].at.steps, 1000000);
+    CLOSE(br_trial_method(&t->trial[4]).tolerance, 1e-7, 1e-20);
+    CLOSE(br_trade_step(t, &t->trial[0]), 0.1, 1e-15);
+    drop(t);
+    br_scene_clear(&scene);
+}
+
+int main(void)
+{
+    for (int i = 0; i < 2; i++)
+        contenders[i] = (struct br_contender){.method = br_method_default()};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cheapest),
+        cmocka_unit_test(test_own_error),
+        cmocka_unit_test(test_front),
+        cmocka_unit_test(test_digits),
+        cmocka_unit_test(test_names),
+        cmocka_unit_test(test_lists),
+        cmocka_unit_test(test_default_contenders),
+        cmocka_unit_test(test_errors_are_a_study_s),
+        cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_stops),
+        cmocka_unit_test(test_printed),
+        cmocka_unit_test(test_lists_are_tried),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
