@@ -5,8 +5,9 @@
 
 #include "study/plan_steps.h"
 
-/* What a candidate for an error E is aimed at, relative to E: it may be missed a little. */
-static const double aim = 0.9;
+/* Predictions err: a candidate is safe so many deviations below E, and within this part of the
+ * seconds. What was tried has no deviation. */
+static const double safe_deviations = 1.5, safe_seconds = 0.9;
 
 /* Neighbouring candidates: n, steps and tolerances are so far apart, as factors. */
 static const double n_factor = 1.06, step_factor = 1.08, tolerance_factor = 1.6;
@@ -38,11 +39,6 @@ struct search {
 
 static const double nobody = INFINITY;
 
-static double log_goal(const struct br_plan *plan)
-{
-    return log(aim * plan->goal.error);
-}
-
 /* Whether the nearest trial did not come to a good end. */
 static bool is_near_failure(const struct search *s, double x, double y)
 {
@@ -63,12 +59,12 @@ static bool is_near_failure(const struct search *s, double x, double y)
 
 static void consider_error(const struct search *s, const struct br_plan_candidate *c)
 {
-    const double distance = log_goal(s->plan) - c->log_error;
-    if (distance >= c->deviation && c->seconds < s->safe->seconds)
+    const double distance = log(s->plan->goal.error) - c->log_error;
+    if (distance >= safe_deviations * c->deviation && c->seconds < s->safe->seconds)
         *s->safe = *c;
     const double gain = log(fmin(s->best_seconds, 1e3 * c->seconds) / c->seconds);
     struct br_plan_candidate gamble = *c;
-    gamble.score = gsl_cdf_ugaussian_P(distance / c->deviation) * gain;
+    gamble.score = gsl_cdf_ugaussian_P(distance / fmax(c->deviation, 1e-6)) * gain;
     if (gamble.score > s->gamble->score)
         *s->gamble = gamble;
     if (c->log_error + c->deviation < s->explorer->log_error + s->explorer->deviation)
@@ -77,7 +73,7 @@ static void consider_error(const struct search *s, const struct br_plan_candidat
 
 static void consider_seconds(const struct search *s, const struct br_plan_candidate *c)
 {
-    if (c->seconds <= aim * s->plan->goal.seconds &&
+    if (c->seconds <= safe_seconds * s->plan->goal.seconds &&
         c->log_error + c->deviation < s->safe->log_error + s->safe->deviation)
         *s->safe = *c;
 }
