@@ -62,7 +62,7 @@ static const struct {
     {"solver", solvers},   {"reference-solver", solvers}, {"kernel", kernels},
     {"contact", contacts}, {"friction", frictions},       {"norm", norms},
     {"format", formats},   {"reference", references},     {"scaling", scalings},
-    {"scheme", schemes},   {"axial-degree", degrees},
+    {"scheme", schemes},   {"axial-degree", degrees},     {"methods", schemes},
 };
 
 enum br_value_kind br_option_values(const struct br_help_option *option, const char **words)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/method_options.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,12 +25,13 @@ void br_method_options_table(struct br_method_options *o,
         {"scaling", 0, POPT_ARG_STRING, &o->scaling, 0,
          "umfpack's row scaling: none (default), sum or max", "NAME"},
         {"refinement", 0, POPT_ARG_STRING, &o->refinement, 0,
-         "umfpack's refinement steps a solve, at most (default 0)", "COUNT"},
+         "refinement steps a solve of assembled solvers, at most (default 0)", "COUNT"},
         {"contact", 0, POPT_ARG_STRING, &o->contact, 0,
          "where contact takes its force (default: the first that goes with the scheme)", "NAME"},
         {"friction", 0, POPT_ARG_STRING, &o->friction, 0, "friction law, or its iteration", "NAME"},
         {"friction-parameter", 0, POPT_ARG_STRING, &o->friction_parameter, 0,
-         "of a friction rule that iterates, over the one that converges fastest", "X"},
+         "of a friction rule that iterates, over the one that converges fastest (default 0.5)",
+         "X"},
         {"friction-tolerance", 0, POPT_ARG_STRING, &o->friction_tolerance, 0,
          "of such a rule, relative to the friction bound (default 1e-10)", "X"},
         {"friction-iterations", 0, POPT_ARG_STRING, &o->friction_iterations, 0,
@@ -100,14 +102,16 @@ static enum br_status read_linear(const struct br_method_options *o, struct br_l
     return status ? status : br_read_kernel_option(o->kernel, &l->kernel, err);
 }
 
-static enum br_status read_iteration(const struct br_method_options *o, struct br_iteration *i,
+static enum br_status read_iteration(const struct br_method_options *o, struct br_method *m,
                                      struct br_error *err)
 {
+    struct br_iteration *i = &m->iteration;
     int most = (int)i->most;
+    const double below = m->friction->iterates ? m->friction->parameter_below : INFINITY;
     enum br_status status = br_read_number_option("friction-parameter", o->friction_parameter, 0,
-                                                  1e6, &i->parameter, err);
+                                                  below, &i->parameter, err);
     if (!status)
-        status = br_read_number_option("friction-tolerance", o->friction_tolerance, 0, 1,
+        status = br_read_number_option("friction-tolerance", o->friction_tolerance, 1e-14, 1,
                                        &i->tolerance, err);
     if (!status)
         status = br_read_count_option("friction-iterations", o->friction_iterations, 1000000000,
@@ -126,7 +130,7 @@ enum br_status br_method_options_read(const struct br_method_options *o, struct 
     if (!status)
         status = read_linear(o, &m->linear, err);
     if (!status)
-        status = read_iteration(o, &m->iteration, err);
+        status = read_iteration(o, m, err);
     if (!status)
         status = br_read_number_option("tolerance", o->tolerance, 1e-14, 1, &m->tolerance, err);
     if (!status && o->axial_degree && strcmp(o->axial_degree, "1") != 0 &&

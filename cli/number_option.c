@@ -2,6 +2,7 @@
 #include "cli/number_option.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "study/number_list.h"
 
@@ -25,10 +26,12 @@ enum br_status br_read_number_option(const char *option, const char *text, doubl
     if (!text)
         return BR_OK;
     const char *end = br_read_number(text, &number);
+    char below[32] = "";
+    if (isfinite(high))
+        snprintf(below, sizeof below, " and below %g", high);
     if (!end || *end || !(number > low && number < high))
-        return br_fail(err, BR_BAD_INPUT,
-                       "--%s: found '%s', expected a number above %g and below %g", option, text,
-                       low, high);
+        return br_fail(err, BR_BAD_INPUT, "--%s: found '%s', expected a number above %g%s", option,
+                       text, low, below);
     *value = number;
     return BR_OK;
 }

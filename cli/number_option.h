@@ -9,7 +9,7 @@
 enum br_status br_read_count_option(const char *option, const char *text, int most, int *value,
                                     struct br_error *err);
 
-/* Reads a number above `low` and below `high`, likewise. */
+/* Reads a number above `low` and below `high`, which may be infinite, likewise. */
 enum br_status br_read_number_option(const char *option, const char *text, double low, double high,
                                      double *value, struct br_error *err);
 

@@ -93,6 +93,7 @@ static enum br_status open_files(struct run *r, struct br_error *err)
         .n = r->plan.n,
         .steps = r->plan.steps,
         .looks = r->plan.levels,
+        .axial_degree = r->plan.method.axial_degree,
         .provenance = &r->provenance,
     };
     return br_run_files_open(&r->files, r->options.out, &fields, err);

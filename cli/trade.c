@@ -9,6 +9,7 @@
 #include "cli/signals.h"
 #include "cli/trade_files.h"
 #include "cli/trade_options.h"
+#include "cli/trade_split.h"
 #include "study/ranks.h"
 
 struct run {
@@ -24,9 +25,13 @@ static enum br_status fill_steps(const struct br_study_request *r, struct br_tra
     item->steps = br_allocate(r->k_count + 1, sizeof *item->steps);
     if (!item->steps)
         return br_no_memory(err, "the grid");
-    for (size_t i = 0; i < r->k_count; i++)
+    for (size_t i = 0; i < r->k_count; i++) {
         if (br_steps_of(&item->scene, r->k[i], &item->steps[i], &inner))
             return br_fail(err, BR_BAD_INPUT, "--k: %s: %s", item->scene.name, inner.message);
+        for (size_t j = 0; j < i; j++)
+            if (item->steps[j] == item->steps[i])
+                return br_fail(err, BR_BAD_INPUT, "--k: %g is given twice", r->k[i]);
+    }
     return BR_OK;
 }
 
@@ -158,11 +163,29 @@ static void clear(struct run *r)
     br_trade_options_clear(&r->options);
 }
 
+/* Clocks do not matter to where errors come from, nor does who judges. */
+static enum br_status split(const struct br_trade_options *o, struct br_error *err)
+{
+    const struct {
+        const char *option, *value;
+    } others[] = {{"--repeats", o->repeats},
+                  {"--time-limit", o->time_limit},
+                  {"--reference", o->study.reference}};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (others[i].value)
+            return br_fail(err, BR_BAD_INPUT, "%s: --split does not heed it", others[i].option);
+    if (o->scenes != 1)
+        return br_fail(err, BR_BAD_INPUT, "--split: found %zu scenes, expected one", o->scenes);
+    return br_trade_split(o, err);
+}
+
 static enum br_status run(int argc, const char **argv, struct br_error *err)
 {
     struct run r = {.item = NULL};
     enum br_status status = br_trade_options_parse(argc, argv, &r.options, err);
-    const bool works = !status && !r.options.study.help;
+    const bool asked = !status && !r.options.study.help, works = asked && !r.options.split;
+    if (asked && r.options.split)
+        status = split(&r.options, err);
     if (works && br_ranks_size() > 1)
         status =
             br_fail(err, BR_BAD_INPUT, "%d ranks would disturb one another's clocks, expected one",

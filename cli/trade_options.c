@@ -20,7 +20,8 @@ static const char usage[] =
     "  beamrate trade example2 --methods euler+lagged,euler+implicit --n 25,100 "
     "--k 0.1,0.01 --out trade\n"
     "  beamrate trade example1 example3 --methods bdf2,adaptive --n 50 --k 0.05,0.01 "
-    "--time-limit 2\n";
+    "--time-limit 2\n"
+    "  beamrate trade example2 --split --methods euler+lagged,euler+implicit --k 0.1,0.01\n";
 
 enum { HELP = 1 };
 
@@ -75,12 +76,17 @@ enum br_status br_trade_options_parse(int argc, const char **argv, struct br_tra
 {
     struct br_study_options *s = &o->study;
     struct poptOption table[] = {
+        {"split", 0, POPT_ARG_NONE, &o->split, 0,
+         "where the error of each run comes from, instead (by default one run: n = 100, a "
+         "thousandth of the duration, the first time scheme)",
+         NULL},
         {"n", 0, POPT_ARG_STRING, &s->n, 0, "elements of the meshes", "LIST"},
         {"k", 0, POPT_ARG_STRING, &s->k, 0, "time steps, s", "LIST"},
         {"tolerances", 0, POPT_ARG_STRING, &o->tolerances, 0,
          "tolerances of schemes that choose their steps", "LIST"},
         {"methods", 0, POPT_ARG_STRING, &o->methods, 0, "methods, by the names below", "LIST"},
-        {"norm", 0, POPT_ARG_STRING, &s->norm, 0, "norm of the error (default l2)", "NAME"},
+        {"norm", 0, POPT_ARG_STRING, &s->norm, 0,
+         "norm of the error (default l2); with --split a list", "LIST"},
         {"reference", 0, POPT_ARG_STRING, &s->reference, 0,
          "judge of the errors: exact, mms, or fine:N,K by the scheme of the highest order", "NAME"},
         {"repeats", 0, POPT_ARG_STRING, &o->repeats, 0,

@@ -9,7 +9,8 @@
 struct br_trade_options {
     struct br_study_options study; /* n, k, reference, norm, format, threads, out and the like */
     char *methods, *tolerances, *repeats, *time_limit; /* as given; NULL: not given */
-    char **scene;                                      /* scenes; owned */
+    int split;
+    char **scene; /* scenes; owned */
     size_t scenes;
 };
 

@@ -83,13 +83,17 @@ static void write_pen(FILE *out, const struct br_panel *p, size_t curve)
     const struct br_curve *c = &p->curve[curve];
     size_t series = 0, before = 0;
     for (size_t j = 0; j < p->curves; j++) {
-        series += p->curve[j].stroke == BR_STROKE_SERIES;
-        before += j < curve && p->curve[j].stroke == BR_STROKE_SERIES;
+        series += p->curve[j].stroke <= BR_STROKE_MARKED;
+        before += j < curve && p->curve[j].stroke <= BR_STROKE_MARKED;
     }
-    const struct br_pen pen = br_pen_of(before, series);
+    const struct br_pen pen = c->pen ? br_pen_of(c->pen - 1, c->pens) : br_pen_of(before, series);
     switch (c->stroke) {
     case BR_STROKE_SERIES:
         fprintf(out, "with lines lw 3 lc rgb '%s' dt %s", pen.colour, pen.dash);
+        break;
+    case BR_STROKE_MARKED:
+        fprintf(out, "with linespoints lw 3 lc rgb '%s' dt %s pt %d ps %.2f*size", pen.colour,
+                pen.dash, pen.mark, 0.65 * pen.size);
         break;
     case BR_STROKE_SOLID:
         fprintf(out, "with lines lw %d lc rgb '#0d0887'", p->inset ? 2 : 3);

@@ -13,6 +13,7 @@ enum { BR_CHART_PANELS = 3, BR_CHART_CURVES = 8, BR_CHART_MARKS = 3 };
 /* How a curve is drawn. */
 enum br_stroke {
     BR_STROKE_SERIES, /* one of several of a kind: the pens of plots/page.h */
+    BR_STROKE_MARKED, /* the same, with marks */
     BR_STROKE_SOLID,  /* dark, thick */
     BR_STROKE_DASHED, /* red, dashed */
     BR_STROKE_DOTS,   /* circles */
@@ -21,6 +22,7 @@ enum br_stroke {
 struct br_curve {
     char title[80]; /* enhanced; "": not in the key */
     enum br_stroke stroke;
+    size_t pen, pens; /* of a series: pen 1, 2, ... of so many; 0: by its place in the panel */
     size_t count;
     double (*point)[2]; /* count; owned; NaN: a gap */
 };

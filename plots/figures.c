@@ -98,7 +98,7 @@ enum br_status br_figure_draw(const struct br_figure *figure, const struct br_pa
 bool br_draw_field(const struct br_example *e, enum br_field_kind kind, struct br_panel *panel)
 {
     const struct br_history_record *r = &e->record;
-    const size_t unknowns = br_field_unknowns(kind), every = r->n > 200 ? r->n / 200 : 1;
+    const size_t unknowns = r->unknowns[kind], every = r->n > 200 ? r->n / 200 : 1;
     for (size_t look = 0; look < r->looks; look++) {
         const double *nodal = br_history_field(r, look, kind, false);
         const size_t count = r->n / every + 1;

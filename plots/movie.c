@@ -55,7 +55,7 @@ static double scale_to(double most, double wanted)
 
 static double most_of_field(const struct br_history_record *r, enum br_field_kind kind)
 {
-    const size_t unknowns = br_field_unknowns(kind);
+    const size_t unknowns = r->unknowns[kind];
     double most = 0;
     for (size_t look = 0; look < r->looks; look++) {
         const double *nodal = br_history_field(r, look, kind, false);
@@ -100,8 +100,8 @@ void br_movie_write_data(FILE *out, const struct br_movie *m)
         const double *w = br_history_field(r, look, BR_BENDING, false);
         fprintf(out, "# frame %zu: t = %.9g s\n", look + 1, r->at[look].time);
         for (size_t i = 0;; i = i + every < r->n ? i + every : r->n) {
-            fprintf(out, "%.9g %.9g %.9g\n", (double)i / (double)r->n * m->scene->length, u[i],
-                    w[2 * i]);
+            fprintf(out, "%.9g %.9g %.9g\n", (double)i / (double)r->n * m->scene->length,
+                    u[i * r->unknowns[BR_AXIAL]], w[2 * i]);
             if (i == r->n)
                 break;
         }

@@ -22,9 +22,10 @@ enum term {
     TERMS
 };
 
-/* The forces beyond a point: their sum, and for bending their moment about it over h. */
+/* The forces beyond a point: their sum; for bending their moment about it over h, for a quadratic
+ * rod the force on the bubble of the element that ends there. */
 struct resultant {
-    real force, moment; /* N, N */
+    real force, second; /* N, N */
     real square;        /* of the norm so far: N^2 m, or N^2 m^3 */
 };
 
@@ -32,20 +33,57 @@ struct balance {
     const struct br_step *step;
     const struct br_step_field *field;
     enum br_field_kind kind;
+    bool quadratic;
     size_t unknowns;
     real h, density, stiffness, viscosity, k;
     struct resultant term[TERMS];
 };
 
+/* Values of a node. */
+static size_t unknowns_of(const struct br_method *method, enum br_field_kind kind)
+{
+    return kind == BR_AXIAL && method->axial_degree != 2 ? 1 : 2;
+}
+
+static size_t size_of(const struct br_step *s, enum br_field_kind kind)
+{
+    return unknowns_of(s->method, kind) * (s->n + 1);
+}
+
 /* ---- element matrices ---- */
 
-/* Rod: rho h/6 [2 1; 1 2].  Beam, for (w, h w_x): rho h/420 [...]. */
+/* A quadratic rod is taken by its nodes here: begin, middle, end, less a rigid motion. The unknowns
+ * of the march are (u, b) a node, with u = chord - b/4 in the middle. */
+static void quadratic_times(const int matrix[3][3], real factor, const double *v, real base,
+                            real out[4])
+{
+    const real begin = v[0] - base, end = v[2] - base;
+    const real node[3] = {begin, (begin + end) / 2 - (real)v[3] / 4, end};
+    real force[3];
+    for (int i = 0; i < 3; i++) {
+        force[i] = 0;
+        for (int j = 0; j < 3; j++)
+            force[i] += factor * matrix[i][j] * node[j];
+    }
+    out[0] = force[0] + force[1] / 2;
+    out[1] = 0; /* the bubble before */
+    out[2] = force[2] + force[1] / 2;
+    out[3] = -force[1] / 4;
+}
+
+/* Rod: rho h/6 [2 1; 1 2], of three nodes rho h/30 [4 2 -1; ...].  Beam, for (w, h w_x): rho h/420
+ * [...]. */
 static void mass_times(const struct balance *b, const double *v, real out[4])
 {
     static const int rod[2][2] = {{2, 1}, {1, 2}};
     static const int beam[4][4] = {
         {156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}};
+    static const int three[3][3] = {{4, 2, -1}, {2, 16, 2}, {-1, 2, 4}};
     const bool axial = b->kind == BR_AXIAL;
+    if (b->quadratic) {
+        quadratic_times(three, b->density * b->h / 30, v, 0, out);
+        return;
+    }
     const real factor = b->density * b->h / (axial ? 6 : 420);
     for (size_t i = 0; i < 2 * b->unknowns; i++) {
         out[i] = 0;
@@ -54,11 +92,16 @@ static void mass_times(const struct balance *b, const double *v, real out[4])
     }
 }
 
-/* Rod: 1/h [1 -1; -1 1].  Beam: 1/h^3 [12 6 -12 6; 6 4 -6 2; ...]. A rigid motion has no
- * forces, so that of the element's first node is taken off beforehand, exactly but for
- * the last bits: the last two columns remain. */
+/* Rod: 1/h [1 -1; -1 1], of three nodes 1/(3h) [7 -8 1; ...].  Beam: 1/h^3 [12 6 -12 6; 6 4 -6 2;
+ * ...]. A rigid motion has no forces, so that of the element's first node is taken off beforehand,
+ * exactly but for the last bits: the last two columns remain. */
 static void stiffness_times(const struct balance *b, const double *w, real out[4])
 {
+    static const int three[3][3] = {{7, -8, 1}, {-8, 16, -8}, {1, -8, 7}};
+    if (b->quadratic) {
+        quadratic_times(three, 1 / (3 * b->h), w, w[0], out);
+        return;
+    }
     if (b->kind == BR_AXIAL) {
         const real stretch = ((real)w[1] - w[0]) / b->h;
         out[0] = -stretch;
@@ -77,20 +120,22 @@ static void add_node(struct balance *b, enum term term, const real *force, real 
 {
     struct resultant *r = &b->term[term];
     r->force += factor * force[0];
-    if (b->kind == BR_BENDING)
-        r->moment += factor * force[1];
+    if (b->unknowns == 2)
+        r->second += factor * force[1];
 }
 
-/* Across an element: m(x) = h (moment + force (1 - xi)), int m^2 dx = h^3 (...). */
+/* Across an element: m(x) = h (second + force (1 - xi)), int m^2 dx = h^3 (...). The normal force
+ * that balances a force r on a bubble is 3 r (2 xi - 1). */
 static void cross_element(const struct balance *b, struct resultant *r)
 {
     if (b->kind == BR_AXIAL) {
-        r->square += b->h * r->force * r->force;
+        r->square += b->h * (r->force * r->force + 3 * r->second * r->second);
+        r->second = 0;
         return;
     }
-    const real mean = r->moment + r->force / 2;
+    const real mean = r->second + r->force / 2;
     r->square += b->h * b->h * b->h * (mean * mean + r->force * r->force / 12);
-    r->moment += r->force;
+    r->second += r->force;
 }
 
 /* Forces that the terms of element e put on its nodes. */
@@ -127,7 +172,7 @@ static void add_element_node(struct balance *b, real forces[TERMS][4], size_t no
 static void add_load(struct balance *b, size_t node)
 {
     const double *load = b->field->load + node * b->unknowns;
-    const real force[2] = {load[0], b->kind == BR_BENDING ? load[1] : 0};
+    const real force[2] = {load[0], b->unknowns == 2 ? load[1] : 0};
     add_node(b, LOAD, force, -1);
     add_node(b, RESIDUAL, force, -1);
 }
@@ -163,7 +208,8 @@ static double field_residual(const struct br_step *s, enum br_field_kind kind)
         .step = s,
         .field = &s->field[kind],
         .kind = kind,
-        .unknowns = axial ? 1 : 2,
+        .quadratic = axial && s->method->axial_degree == 2,
+        .unknowns = unknowns_of(s->method, kind),
         .h = (real)s->scene->length / (real)s->n,
         .density = s->scene->density,
         .stiffness = axial ? s->scene->axial.stiffness : s->scene->bending.stiffness,
@@ -211,14 +257,14 @@ static bool modelled(const struct br_step *s, enum br_field_kind kind)
 
 static double at_tip(const struct br_step *s, enum br_field_kind kind, const double *nodal)
 {
-    return nodal[s->n * (kind == BR_AXIAL ? 1 : 2)];
+    return nodal[s->n * unknowns_of(s->method, kind)];
 }
 
 /* What a field's displacements are rounded to; over k, what its velocities are: a solver
  * finds them from differences of displacements. */
 static double field_scale(const struct br_step *s, enum br_field_kind kind)
 {
-    const size_t size = (kind == BR_AXIAL ? 1 : 2) * (s->n + 1);
+    const size_t size = size_of(s, kind);
     const struct br_step_field *f = &s->field[kind];
     return magnitude(f->displacement, size) + magnitude(f->displacement_before, size) +
            s->k * (magnitude(f->velocity, size) + magnitude(f->velocity_before, size));
@@ -229,7 +275,7 @@ static double update_error(const struct br_step *s, enum br_field_kind kind)
 {
     if (!modelled(s, kind))
         return 0;
-    const size_t size = (kind == BR_AXIAL ? 1 : 2) * (s->n + 1);
+    const size_t size = size_of(s, kind);
     const struct br_step_field *f = &s->field[kind];
     double most = 0;
     for (size_t i = 0; i < size; i++) {
@@ -246,7 +292,8 @@ static double tip_displacement_error(const struct br_step *s)
     if (!s->scene->axial.modelled)
         return s->tip.displacement == 0 ? 0 : NAN;
     const double *u = s->field[BR_AXIAL].displacement;
-    return ratio(fabs(s->tip.displacement - at_tip(s, BR_AXIAL, u)), magnitude(u, s->n + 1));
+    return ratio(fabs(s->tip.displacement - at_tip(s, BR_AXIAL, u)),
+                 magnitude(u, size_of(s, BR_AXIAL)));
 }
 
 /* (10): at u_{n-1} or u_n, as the method's contact rule has it. */
@@ -289,13 +336,20 @@ static double bound_scale(const struct br_step *s)
     return s->scene->friction.coefficient * (field_scale(s, BR_AXIAL) + s->scene->contact.gap);
 }
 
+/* What an iteration may leave: of lambda, and of v = v* - lambda z. */
+struct slack {
+    double force, speed;
+};
+
 /* Distance of (v, lambda), in their own units of size, from the graph of (12): the
  * nearest of stick (v = 0, |lambda| <= h) and slip either way (lambda = +-h). */
-static double exact_law(double v, double lambda, double bound)
+static double exact_law(double v, double lambda, double bound, struct slack left)
 {
-    const double stick = larger(fabs(v), positive(fabs(lambda) - bound));
-    const double up = larger(fabs(lambda - bound), positive(-v));
-    const double down = larger(fabs(lambda + bound), positive(v));
+    const double stick = larger(positive(fabs(v) - left.speed), positive(fabs(lambda) - bound));
+    const double up =
+        larger(positive(fabs(lambda - bound) - left.force), positive(-v - left.speed));
+    const double down =
+        larger(positive(fabs(lambda + bound) - left.force), positive(v - left.speed));
     return smaller(stick, smaller(up, down));
 }
 
@@ -321,8 +375,10 @@ static double friction_error(const struct br_step *s)
     const double told = ratio(fabs(s->tip.friction_bound - bound), force);
     const double v = ratio(at_tip(s, BR_BENDING, nodal), speed);
     const double l = ratio(lambda, force), b = ratio(bound, force);
+    const double tolerance = s->method->friction->iterates ? s->method->iteration.tolerance : 0;
+    const struct slack left = {tolerance * b, ratio(tolerance * bound * s->compliance, speed)};
     if (!s->method->friction->needs_regularisation)
-        return larger(told, exact_law(v, l, b));
+        return larger(told, exact_law(v, l, b, left));
     if (speed == 0)
         return larger(told, fabs(l));
     return larger(told, regularised_law(v, l, b, s->scene->friction.regularisation / speed));
@@ -340,7 +396,7 @@ static bool all_finite(const struct br_step *s)
         const double *arrays[] = {f->displacement_before, f->displacement, f->velocity_before,
                                   f->velocity, f->load};
         for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
-            good = good && isfinite(magnitude(arrays[a], (kind == BR_AXIAL ? 1 : 2) * (s->n + 1)));
+            good = good && isfinite(magnitude(arrays[a], size_of(s, (enum br_field_kind)kind)));
     }
     return good;
 }
@@ -436,7 +492,8 @@ enum br_status br_witness_create(struct br_witness **out, const struct br_march 
     *out = NULL;
     const struct br_field *field = br_march_field(march, BR_AXIAL);
     struct br_witness *w = br_allocate(1, sizeof *w);
-    double *memory = br_allocate(5 * 3 * (field->n + 1), sizeof *memory);
+    const size_t unknowns[2] = {unknowns_of(method, BR_AXIAL), unknowns_of(method, BR_BENDING)};
+    double *memory = br_allocate(5 * (unknowns[0] + unknowns[1]) * (field->n + 1), sizeof *memory);
     if (!w || !memory) {
         free(w);
         free(memory);
@@ -444,13 +501,19 @@ enum br_status br_witness_create(struct br_witness **out, const struct br_march 
     }
     w->march = march;
     w->memory = memory;
-    w->step = (struct br_step){.scene = scene, .method = method, .n = field->n, .k = field->k};
+    w->step = (struct br_step){
+        .scene = scene,
+        .method = method,
+        .n = field->n,
+        .k = field->k,
+        .compliance = br_march_compliance(march, BR_BENDING),
+    };
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         double **const arrays[] = {&w->before[kind][0], &w->before[kind][1], &w->after[kind][0],
                                    &w->after[kind][1], &w->load[kind]};
         for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++) {
             *arrays[a] = memory;
-            memory += (kind == BR_AXIAL ? 1 : 2) * (field->n + 1);
+            memory += unknowns[kind] * (field->n + 1);
         }
     }
     look(w);

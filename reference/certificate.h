@@ -41,7 +41,8 @@ struct br_step {
     const struct br_method *method; /* which laws were to be used */
     size_t n;                       /* elements */
     double k;                       /* s */
-    struct br_step_field field[2];  /* by br_field_kind; of modelled fields */
+    double compliance; /* z_tip of bending, m/s per N; for friction rules that iterate */
+    struct br_step_field field[2]; /* by br_field_kind; of modelled fields */
     struct br_tip tip;
 };
 

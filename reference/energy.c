@@ -8,10 +8,22 @@ typedef long double real;
 
 /* ---- quadratic forms of one element ---- */
 
-/* v'Mv over rho h. Rod: 1/6 [2 1; 1 2]. Beam, for (w, h w_x): 1/420 [...]. */
-static real mass_form(enum br_field_kind kind, const real *v)
+/* The middle of a quadratic element, for (u, b) of its nodes. */
+static real middle(const real *v)
 {
-    if (kind == BR_AXIAL)
+    return (v[0] + v[2]) / 2 - v[3] / 4;
+}
+
+/* v'Mv over rho h. Rod: 1/6 [2 1; 1 2]; quadratic, for its ends and its middle: Simpson's rule is
+ * short of it by the square of its P_2 alone. Beam, for (w, h w_x): 1/420 [...]. */
+static real mass_form(const struct br_field *field, const real *v)
+{
+    if (br_field_is_quadratic(field)) {
+        const real m = middle(v), mean = (v[0] + 4 * m + v[2]) / 6, slope = (v[2] - v[0]) / 2,
+                   curve = (v[0] - 2 * m + v[2]) / 3;
+        return mean * mean + slope * slope / 3 + curve * curve / 5;
+    }
+    if (field->kind == BR_AXIAL)
         return (v[0] * v[0] + v[0] * v[1] + v[1] * v[1]) / 3;
     static const int beam[4][4] = {
         {156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}};
@@ -23,27 +35,33 @@ static real mass_form(enum br_field_kind kind, const real *v)
 }
 
 /* h int u_x^2, or h^3 int w_xx^2: the rigid motion of the first node is taken off first. With the
- * deflection d and the rotation r that remain, the latter is 12 d^2 - 12 d r + 4 r^2. */
-static real stiffness_form(enum br_field_kind kind, const real *w)
+ * deflection d and the rotation r that remain, the latter is 12 d^2 - 12 d r + 4 r^2. Of a
+ * quadratic rod Simpson's rule has the former, from h u_x = -3 u0 + 4 um - u1 and so on. */
+static real stiffness_form(const struct br_field *field, const real *w)
 {
-    if (kind == BR_AXIAL)
+    if (br_field_is_quadratic(field)) {
+        const real m = 4 * (middle(w) - w[0]), chord = w[2] - w[0];
+        const real begin = m - chord, end = 3 * chord - m;
+        return (begin * begin + 4 * chord * chord + end * end) / 6;
+    }
+    if (field->kind == BR_AXIAL)
         return (w[1] - w[0]) * (w[1] - w[0]);
     const real d = w[2] - w[0] - w[1], r = w[3] - w[1];
     return 12 * d * d - 12 * d * r + 4 * r * r;
 }
 
-typedef real (*form)(enum br_field_kind kind, const real *values);
+typedef real (*form)(const struct br_field *field, const real *values);
 
 /* The sum over the elements of the form of a - b; b NULL: of a. */
 static real sum_form(form f, const struct br_field *field, const double *a, const double *b)
 {
-    const size_t d = br_field_unknowns(field->kind);
+    const size_t d = br_field_unknowns(field);
     real sum = 0;
     for (size_t e = 0; e < field->n; e++) {
         real v[4];
         for (size_t i = 0; i < 2 * d; i++)
             v[i] = (real)a[e * d + i] - (b ? (real)b[e * d + i] : 0);
-        sum += f(field->kind, v);
+        sum += f(field, v);
     }
     return sum;
 }
@@ -109,6 +127,13 @@ struct br_energy_meter {
     } work;
 };
 
+/* Where the tip's u is. */
+static size_t axial_tip(const struct br_energy_meter *m)
+{
+    const struct br_field *field = br_march_field(m->march, BR_AXIAL);
+    return field->n * br_field_unknowns(field);
+}
+
 static void look(struct br_energy_meter *m)
 {
     m->now = (struct br_energy){0};
@@ -123,7 +148,7 @@ static void look(struct br_energy_meter *m)
     const struct br_contact *c = &m->scene->contact;
     if (!c->modelled)
         return;
-    const double depth = m->after[BR_AXIAL][0][br_march_field(m->march, BR_AXIAL)->n] - c->gap;
+    const double depth = m->after[BR_AXIAL][0][axial_tip(m)] - c->gap;
     m->now.contact = depth <= 0 ? 0 : c->stiffness * depth * depth / 2;
 }
 
@@ -131,9 +156,10 @@ enum br_status br_energy_meter_create(struct br_energy_meter **out, const struct
                                       const struct br_scene *scene, struct br_error *err)
 {
     *out = NULL;
-    const size_t nodes = br_march_field(march, BR_AXIAL)->n + 1;
+    const size_t sizes[2] = {br_field_size(br_march_field(march, BR_AXIAL)),
+                             br_field_size(br_march_field(march, BR_BENDING))};
     struct br_energy_meter *m = br_allocate(1, sizeof *m);
-    double *memory = br_allocate(5 * 3 * nodes, sizeof *memory);
+    double *memory = br_allocate(5 * (sizes[0] + sizes[1]), sizeof *memory);
     if (!m || !memory) {
         free(m);
         free(memory);
@@ -147,7 +173,7 @@ enum br_status br_energy_meter_create(struct br_energy_meter **out, const struct
                                    &m->after[kind][1], &m->load[kind]};
         for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++) {
             *arrays[a] = memory;
-            memory += (kind == BR_AXIAL ? 1 : 2) * nodes;
+            memory += sizes[kind];
         }
     }
     look(m);
@@ -196,7 +222,8 @@ void br_energy_meter_step(struct br_energy_meter *m)
     const size_t n = br_march_field(m->march, BR_AXIAL)->n;
     const real k = (real)br_march_field(m->march, BR_AXIAL)->k;
     m->work.friction += k * (real)tip->friction_force * (real)m->after[BR_BENDING][1][2 * n];
-    const real way = (real)m->after[BR_AXIAL][0][n] - m->before[BR_AXIAL][0][n];
+    const size_t tip_of_rod = axial_tip(m);
+    const real way = (real)m->after[BR_AXIAL][0][tip_of_rod] - m->before[BR_AXIAL][0][tip_of_rod];
     m->work.scheme_contact +=
         (real)tip->contact_force * way - ((real)m->now.contact - (real)potential);
 }

@@ -6,9 +6,11 @@
 #include "reference/judge.h"
 #include "solver/clock.h"
 
+/* Fields that go together are marched twice, each time for one of them. */
 struct fine {
-    struct br_march *march;
-    double seconds[2]; /* by br_field_kind */
+    struct br_march *march[2]; /* by br_field_kind; the same where fields go apart */
+    bool together;             /* a step is one of both fields */
+    double seconds[2];
 };
 
 static void fine_free(void *self)
@@ -16,8 +18,16 @@ static void fine_free(void *self)
     struct fine *f = self;
     if (!f)
         return;
-    br_march_free(f->march);
+    if (f->march[BR_BENDING] != f->march[BR_AXIAL])
+        br_march_free(f->march[BR_BENDING]);
+    br_march_free(f->march[BR_AXIAL]);
     free(f);
+}
+
+static enum br_status create_march(struct fine *f, enum br_field_kind kind,
+                                   const struct br_judge_request *r, struct br_error *err)
+{
+    return br_march_create(&f->march[kind], r->scene, r->n, r->levels, &r->method, err);
 }
 
 static enum br_status fine_create(void **self, const struct br_judge_request *r,
@@ -28,9 +38,14 @@ static enum br_status fine_create(void **self, const struct br_judge_request *r,
     if (!f)
         return br_no_memory(err, "the reference");
     const double start = br_seconds();
-    enum br_status status = br_march_create(&f->march, r->scene, r->n, r->levels, &r->method, err);
-    if (!status && r->lead > 0)
-        status = br_march_allow_lead(f->march, r->lead, err);
+    f->together = r->method.scheme->adaptive || r->method.scheme->integrator;
+    enum br_status status = create_march(f, BR_AXIAL, r, err);
+    if (!status && f->together)
+        status = create_march(f, BR_BENDING, r, err);
+    else
+        f->march[BR_BENDING] = f->march[BR_AXIAL];
+    if (!status && !f->together && r->lead > 0)
+        status = br_march_allow_lead(f->march[BR_AXIAL], r->lead, err);
     f->seconds[BR_AXIAL] = br_seconds() - start;
     return status;
 }
@@ -41,8 +56,9 @@ static enum br_status fine_advance(void *self, enum br_field_kind kind, size_t i
     struct fine *f = self;
     const double start = br_seconds();
     enum br_status status = BR_OK;
-    while (!status && br_march_field_steps(f->march, kind) < i)
-        status = br_march_step_field(f->march, kind, err);
+    while (!status && br_march_field_steps(f->march[kind], kind) < i)
+        status = f->together ? br_march_step(f->march[kind], err)
+                             : br_march_step_field(f->march[kind], kind, err);
     f->seconds[kind] += br_seconds() - start;
     return status;
 }
@@ -51,16 +67,16 @@ static enum br_status fine_advance(void *self, enum br_field_kind kind, size_t i
 static void fine_look(void *self, const struct br_look_at *at, struct br_view *view)
 {
     const struct fine *f = self;
-    br_look(f->march, at->kind, at->measure, view);
+    br_look(f->march[at->kind], at->kind, at->measure, view);
 }
 
 static struct br_judge_report fine_report(const void *self)
 {
     const struct fine *f = self;
     struct br_judge_report report = {
-        .round_off = br_march_round_off(f->march),
+        .round_off = br_march_round_off(f->march[BR_AXIAL]),
         .seconds = f->seconds[BR_AXIAL] + f->seconds[BR_BENDING],
-        .unstable = br_march_contact_unstable(f->march),
+        .unstable = br_march_contact_unstable(f->march[BR_AXIAL]),
     };
     for (int measure = 0; measure < BR_MEASURES; measure++)
         report.own_error[BR_AXIAL][measure] = report.own_error[BR_BENDING][measure] = NAN;

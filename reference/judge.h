@@ -13,6 +13,7 @@ struct br_judge_request {
     const struct br_scene *scene;  /* must outlive the judge */
     struct br_method method;       /* fine only */
     size_t n;                      /* fine only: its elements */
+    int axial_degree;              /* of the elements whose modes it will be looked at in */
     size_t levels;                 /* time levels after t = 0; for fine, its steps */
     size_t lead;                   /* time levels that the axial field may be ahead by */
     bool modest;                   /* exact only: give up where it takes more than moderate work */

@@ -13,6 +13,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
 #include <math.h>
+#include <string.h>
 
 #include "solver/march_state.h"
 
@@ -24,10 +25,13 @@ static const double idle_growth = 1.4;       /* less is not worth new tables */
 static const double switch_accuracy = 1e-12; /* of the step in which it lies */
 
 struct br_adaptive {
-    double now, next;  /* time reached and length of the next step, s */
-    double largest[2]; /* strain of each field so far */
-    size_t since;      /* steps since the start or the last switch */
-    bool known;        /* the branches of the laws */
+    double now, next;      /* time reached and length of the next step, s */
+    double largest[2];     /* strain of each field so far */
+    size_t since;          /* steps since the start or the last switch */
+    bool known;            /* the branches of the laws */
+    enum br_regime old[2]; /* those in front of the last switch */
+    struct br_switch found[BR_MOST_SWITCHES];
+    size_t found_count; /* also of those that are not kept */
 };
 
 void br_adaptive_free(struct br_adaptive *a)
@@ -138,15 +142,15 @@ static double margin(const struct br_march *m, enum br_field_kind kind)
 {
     const struct br_tip *tip = &m->tip;
     switch (m->held[kind] ? m->regime[kind] : BR_REGIME_NONE) {
-    case BR_OPEN:
+    case BR_REGIME_OPEN:
         return m->scene->contact.gap - tip->displacement;
-    case BR_CLOSED:
+    case BR_REGIME_CLOSED:
         return tip->displacement - m->scene->contact.gap;
-    case BR_STICK:
+    case BR_REGIME_STICK:
         return tip->friction_bound - fabs(tip->friction_force);
-    case BR_SLIP_FORWARD:
+    case BR_REGIME_FORWARD:
         return tip->velocity[BR_BENDING];
-    case BR_SLIP_BACKWARD:
+    case BR_REGIME_BACKWARD:
         return -tip->velocity[BR_BENDING];
     case BR_REGIME_NONE:
         break;
@@ -174,8 +178,8 @@ static double margin_after(double k, void *params)
     return s->status ? 0 : margin(s->march, s->kind);
 }
 
-/* Shortens a step whose end is beyond the switch of one field to that switch; the state is then the
- * result of the shorter one. */
+/* Shortens a step whose end is beyond the switch of one field to just before that switch, where a
+ * load that jumps then has not jumped yet; the state is then the result of the shorter one. */
 static enum br_status find_switch(struct search *s, double longest)
 {
     gsl_function f = {.function = margin_after, .params = s};
@@ -185,12 +189,11 @@ static enum br_status find_switch(struct search *s, double longest)
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     const double least = least_step * s->march->scene->duration;
     int code = gsl_root_fsolver_set(solver, &f, least, longest);
-    double k = code ? least : gsl_root_fsolver_root(solver);
+    double k = least;
     for (int i = 0; i < 60 && !code && !s->status; i++) {
         code = gsl_root_fsolver_iterate(solver);
-        k = gsl_root_fsolver_root(solver);
-        if (!(gsl_root_fsolver_x_upper(solver) - gsl_root_fsolver_x_lower(solver) >
-              fmax(switch_accuracy * longest, least)))
+        k = fmax(gsl_root_fsolver_x_lower(solver), least);
+        if (!(gsl_root_fsolver_x_upper(solver) - k > fmax(switch_accuracy * longest, least)))
             break;
     }
     gsl_set_error_handler(handler);
@@ -202,9 +205,32 @@ static enum br_status find_switch(struct search *s, double longest)
 
 /* ---- steps ---- */
 
+/* The first step after a switch tells to which branch it was; both fields may have had theirs. */
+static void tell_switches(struct br_march *m)
+{
+    struct br_adaptive *a = m->adaptive;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        if (!m->part[kind].modelled || m->regime[kind] == a->old[kind])
+            continue;
+        if (a->found_count < BR_MOST_SWITCHES)
+            a->found[a->found_count] =
+                (struct br_switch){a->now, (enum br_field_kind)kind, a->old[kind], m->regime[kind]};
+        a->found_count++;
+    }
+}
+
+size_t br_adaptive_switches(const struct br_adaptive *a, const struct br_switch **first)
+{
+    *first = a->found;
+    return a->found_count;
+}
+
 static void accept(struct br_march *m, const struct trial *trial, bool switched)
 {
     struct br_adaptive *a = m->adaptive;
+    if (a->since == 0 && a->now > 0)
+        tell_switches(m);
+    memcpy(a->old, m->regime, sizeof a->old);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         a->largest[kind] = fmax(a->largest[kind], trial->strain[kind]);
         if (m->part[kind].modelled)

@@ -47,9 +47,37 @@ void br_band_assemble(const struct br_field *field, struct br_band *a);
 void br_add_elements(const struct br_field *field, double mass, const double *v, double stiffness,
                      const double *w, double *out);
 
-/* Round-off of a march's displacement, as br_linear_solver has it, and what is left of it after
- * `refinement` steps by the assembled form. */
-double br_assembled_round_off(const struct br_field *field, int refinement);
+/* ---- the system A x = b ---- */
+
+struct br_system {
+    struct br_field field;
+    size_t unknowns; /* a node */
+    size_t nodal;    /* length of a nodal array, clamped node included */
+    const struct br_factoriser *factoriser;
+    void *factor;
+    int refinement; /* steps a solve, at most, where the factoriser does not do it */
+    struct br_band matrix;
+    double *residual, *correction; /* workspace, nodal */
+};
+
+/* Prepares what does not depend on the values. Fails with BR_BAD_INPUT, BR_NO_MEMORY, BR_SINGULAR;
+ * clear it even then. */
+enum br_status br_system_init(struct br_system *s, const struct br_field *field,
+                              const struct br_linear_options *options,
+                              const struct br_factoriser *factoriser, struct br_error *err);
+void br_system_clear(struct br_system *s);
+
+/* Assembles and factorises A for s->field. Fails with BR_SINGULAR, BR_NO_MEMORY. */
+enum br_status br_system_factorise(struct br_system *s, struct br_error *err);
+
+/* x = A^-1 rhs; both nodal (in, out), and the clamped node of x stays as it is, zero. Fails with
+ * BR_SINGULAR, BR_NO_MEMORY. */
+enum br_status br_system_solve(struct br_system *s, const double *rhs, double *x,
+                               struct br_error *err);
+
+/* Round-off of a march's displacement, as br_linear_solver has it, after `refinement` steps by
+ * br_system_solve. */
+double br_system_round_off(const struct br_field *field, int refinement);
 
 /* ---- the functions of a br_field_solver: see there ---- */
 
@@ -69,6 +97,7 @@ double br_assembled_finish(void *self, double force);
 double br_assembled_tip_displacement(const void *self);
 enum br_status br_assembled_set_step(void *self, double k, struct br_error *err);
 enum br_status br_assembled_keep(void *self, size_t count, struct br_error *err);
+void br_assembled_exchange(void *self, size_t a, size_t b);
 void br_assembled_combine(void *self, size_t into, size_t count, const double *weight);
 void br_assembled_size(void *self, size_t state, double size[2]);
 
@@ -79,7 +108,8 @@ void br_assembled_size(void *self, size_t state, double size[2]);
         .set = br_assembled_set, .get = br_assembled_get, .strain_rate = br_assembled_strain_rate, \
         .predict = br_assembled_predict, .finish = br_assembled_finish,                            \
         .tip_displacement = br_assembled_tip_displacement, .set_step = br_assembled_set_step,      \
-        .keep = br_assembled_keep, .combine = br_assembled_combine, .size = br_assembled_size,     \
+        .keep = br_assembled_keep, .exchange = br_assembled_exchange,                              \
+        .combine = br_assembled_combine, .size = br_assembled_size,                                \
     }
 
 #endif

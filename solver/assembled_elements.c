@@ -22,7 +22,7 @@ static double entry(const struct br_field *f, size_t a, size_t b)
 
 void br_band_assemble(const struct br_field *f, struct br_band *m)
 {
-    const size_t u = br_field_unknowns(f->kind), rows = m->band + 1;
+    const size_t u = br_field_unknowns(f), rows = m->band + 1;
     for (size_t e = 0; e < f->n; e++)
         for (size_t a = 0; a < 2 * u; a++)
             for (size_t b = 0; b <= a; b++) {

@@ -16,6 +16,8 @@ const double br_bending_mass[4][4] = {
 /* Integrals over one element of the shape functions, over h. */
 static const double axial_mean[2] = {1.0 / 2, 1.0 / 2};
 static const double bending_mean[4] = {1.0 / 2, 1.0 / 12, 1.0 / 2, -1.0 / 12};
+/* The bubble of the element before has nothing here. */
+static const double quadratic_mean[4] = {1.0 / 2, 0, 1.0 / 2, -1.0 / 6};
 
 enum { GAUSS = 5 };
 
@@ -41,24 +43,32 @@ struct br_field br_field_of_scene(const struct br_scene *s, enum br_field_kind k
         .stiffness = axial ? s->axial.stiffness : s->bending.stiffness,
         .viscosity = axial ? s->axial.viscosity : s->bending.viscosity,
         .k = k,
+        .degree = 1,
     };
 }
 
-size_t br_field_unknowns(enum br_field_kind kind)
+size_t br_field_unknowns(const struct br_field *field)
 {
-    return kind == BR_AXIAL ? 1 : 2;
+    return field->kind == BR_AXIAL && !br_field_is_quadratic(field) ? 1 : 2;
 }
 
 size_t br_field_size(const struct br_field *field)
 {
-    return br_field_unknowns(field->kind) * (field->n + 1);
+    return br_field_unknowns(field) * (field->n + 1);
 }
 
 /* Values of the element's shape functions at xi in [0, 1]; returns their number. */
-static size_t shape_values(enum br_field_kind kind, double xi, double shape[4])
+static size_t shape_values(const struct br_field *field, double xi, double shape[4])
 {
     const double eta = 1 - xi;
-    if (kind == BR_AXIAL) {
+    if (br_field_is_quadratic(field)) {
+        shape[0] = eta;
+        shape[1] = 0;
+        shape[2] = xi;
+        shape[3] = -xi * eta;
+        return 4;
+    }
+    if (field->kind == BR_AXIAL) {
         shape[0] = eta;
         shape[1] = xi;
         return 2;
@@ -73,8 +83,10 @@ static size_t shape_values(enum br_field_kind kind, double xi, double shape[4])
 /* vector += h * f * mean on every element, for a load without x. */
 static void assemble_uniform(const struct br_field *field, double f, double *vector)
 {
-    const size_t unknowns = br_field_unknowns(field->kind);
+    const size_t unknowns = br_field_unknowns(field);
     const double *mean = field->kind == BR_AXIAL ? axial_mean : bending_mean;
+    if (br_field_is_quadratic(field))
+        mean = quadratic_mean;
     for (size_t i = 0; i < field->n; i++)
         for (size_t a = 0; a < 2 * unknowns; a++)
             vector[i * unknowns + a] += field->h * f * mean[a];
@@ -83,10 +95,10 @@ static void assemble_uniform(const struct br_field *field, double f, double *vec
 /* vector += sum over Gauss points of h * weight * f(x) * shape(x). */
 static void assemble_quadrature(const struct br_field *field, const double *f, double *vector)
 {
-    const size_t unknowns = br_field_unknowns(field->kind);
+    const size_t unknowns = br_field_unknowns(field);
     for (int q = 0; q < GAUSS; q++) {
         double shape[4];
-        const size_t count = shape_values(field->kind, gauss_x[q], shape);
+        const size_t count = shape_values(field, gauss_x[q], shape);
         for (size_t i = 0; i < field->n; i++)
             for (size_t a = 0; a < count; a++)
                 vector[i * unknowns + a] +=
@@ -127,10 +139,29 @@ enum br_status br_assemble_load(const struct br_field *field, const struct br_fu
     return status;
 }
 
+/* What the middle of each element lacks of its chord, four times. nodal: in/out, nodes are there.
+ */
+static enum br_status interpolate_middles(const struct br_field *field,
+                                          const struct br_function *value, double *nodal,
+                                          struct br_error *err)
+{
+    double *x = br_allocate(2 * field->n, sizeof *x);
+    if (!x)
+        return br_no_memory(err, "the initial data");
+    double *f = x + field->n;
+    for (size_t e = 0; e < field->n; e++)
+        x[e] = field->h * ((double)e + 0.5);
+    const enum br_status status = evaluate_finite(value, field->n, x, 0, f, err);
+    for (size_t e = 0; e < field->n && !status; e++)
+        nodal[2 * e + 3] = 2 * ((nodal[2 * e] - f[e]) + (nodal[2 * e + 2] - f[e]));
+    free(x);
+    return status;
+}
+
 enum br_status br_interpolate(const struct br_field *field, const struct br_function *value,
                               const struct br_function *slope, double *nodal, struct br_error *err)
 {
-    const size_t unknowns = br_field_unknowns(field->kind);
+    const size_t unknowns = br_field_unknowns(field);
     const size_t nodes = field->n + 1;
     double *x = br_allocate(2 * nodes, sizeof *x);
     if (!x)
@@ -149,5 +180,7 @@ enum br_status br_interpolate(const struct br_field *field, const struct br_func
     for (size_t a = 0; a < unknowns; a++)
         nodal[a] = 0;
     free(x);
+    if (!status && br_field_is_quadratic(field))
+        status = interpolate_middles(field, value, nodal, err);
     return status;
 }

@@ -2,7 +2,12 @@
 /* One discretised field (axial or bending) on n equal elements, and the
  * element's exact integrals. Nodal arrays hold, node by node from the clamped
  * end, u for axial and the pair (w, s) with the scaled slope s = h w_x for
- * bending, all in metres; the clamped node 0 is stored and stays zero. */
+ * bending, all in metres; the clamped node 0 is stored and stays zero.
+ * A rod of quadratic elements has the pair (u, b), where b is the bubble of the element that ends
+ * at the node, the one to its left: with xi in [0, 1] along it,
+ *     u = (1 - xi) u0 + xi u1 - xi (1 - xi) b,    h u_x = (u1 - u0) + (2 xi - 1) b,
+ * so that u is the nodes' chord, less b/4 in the middle. (Szabo and Babuska 1991: the bubble is an
+ * integrated Legendre polynomial, orthogonal to the chord in energy.) */
 #ifndef BR_FIELD_H
 #define BR_FIELD_H
 
@@ -19,14 +24,21 @@ struct br_field {
     double stiffness; /* a, N or N m^2 */
     double viscosity; /* c, N s or N m^2 s */
     double k;         /* time step, s */
+    int degree;       /* of axial elements: 2, or 1 (0 is the same); bending has its own */
 };
 
-/* The field of the given kind of a scene, on n elements with the time step k. */
+/* The field of the given kind of a scene, on n elements with the time step k; degree 1. */
 struct br_field br_field_of_scene(const struct br_scene *scene, enum br_field_kind kind, size_t n,
                                   double k);
 
-/* Unknowns a node: 1 axial, 2 bending. */
-size_t br_field_unknowns(enum br_field_kind kind);
+/* A rod of quadratic elements. */
+static inline bool br_field_is_quadratic(const struct br_field *field)
+{
+    return field->kind == BR_AXIAL && field->degree == 2;
+}
+
+/* Unknowns a node, or what deforms an element: 1 axial, 2 bending; 2 axial if quadratic. */
+size_t br_field_unknowns(const struct br_field *field);
 
 /* Length of a nodal array, clamped node included: unknowns * (n + 1). */
 size_t br_field_size(const struct br_field *field);
@@ -52,10 +64,9 @@ static inline void br_curvature(const double node[4], double curvature[2])
 enum br_status br_assemble_load(const struct br_field *field, const struct br_function *space,
                                 double t, double *vector, struct br_error *err);
 
-/* Nodal interpolant (Lagrange or Hermite) of a function of x, m or m/s, into
- * `nodal` (out, br_field_size values). slope: the function's derivative, for
- * bending only. The clamped node is set to zero.
- * Fails with BR_NOT_FINITE; BR_NO_MEMORY. */
+/* Interpolant (Lagrange, with the midpoints if quadratic, or Hermite) of a function of x, m or m/s,
+ * into `nodal` (out, br_field_size values). slope: the function's derivative, for bending only. The
+ * clamped node is set to zero. Fails with BR_NOT_FINITE; BR_NO_MEMORY. */
 enum br_status br_interpolate(const struct br_field *field, const struct br_function *value,
                               const struct br_function *slope, double *nodal, struct br_error *err);
 

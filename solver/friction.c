@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/friction.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "solver/friction_iteration.h"
+
 const struct br_iteration br_iteration_defaults = {
-    .parameter = 1, .tolerance = 1e-10, .most = 10000};
+    .parameter = 0.5, .tolerance = 1e-10, .most = 10000};
 
 double br_friction_bound(const struct br_scene *scene, double penetration)
 {
@@ -55,7 +59,8 @@ static const struct br_friction_rule regularised = {
     .force = regularised_force,
 };
 
-const struct br_friction_rule *const br_friction_rules[] = {&exact, &regularised, NULL};
+const struct br_friction_rule *const br_friction_rules[] = {&exact, &regularised,
+                                                            &br_penalty_duality, &br_uzawa, NULL};
 
 const struct br_friction_rule *br_friction_rule_find(const char *name)
 {
@@ -63,4 +68,26 @@ const struct br_friction_rule *br_friction_rule_find(const char *name)
         if (strcmp((*rule)->name, name) == 0)
             return *rule;
     return NULL;
+}
+
+enum br_status br_friction_check(const struct br_friction_rule *rule, const struct br_iteration *i,
+                                 struct br_error *err)
+{
+    if (!rule->iterates)
+        return BR_OK;
+    char below[32] = "";
+    if (isfinite(rule->parameter_below))
+        snprintf(below, sizeof below, " and below %g", rule->parameter_below);
+    if (!(i->parameter > 0 && i->parameter < rule->parameter_below))
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "the parameter of friction rule '%s' is %g, expected a number above 0%s, where "
+            "it converges",
+            rule->name, i->parameter, below);
+    if (!(i->tolerance > 1e-14 && i->tolerance < 1) || i->most < 1)
+        return br_fail(err, BR_BAD_INPUT,
+                       "friction rule '%s' is to iterate to %g, at most %zu times, expected a "
+                       "tolerance above 1e-14 and below 1, and at least once",
+                       rule->name, i->tolerance, i->most);
+    return BR_OK;
 }

@@ -49,8 +49,9 @@ struct br_field_solver {
     void (*set)(void *self, const double *displacement, const double *velocity);
     void (*get)(const void *self, double *displacement, double *velocity);
 
-    /* What deforms the elements, by time: the rate of their elongation h u_x, or of the
-     * two curvature coefficients of br_curvature; n * br_field_unknowns values (out), m/s. */
+    /* What deforms the elements, by time: the rate of their elongation h u_x (if quadratic, of the
+     * pair elongation and bubble), or of the two curvature coefficients of br_curvature; n *
+     * br_field_unknowns values (out), m/s. */
     void (*strain_rate)(const void *self, double *rate);
 
     /* First half of a step: solves with what drives the field and no contact or friction;
@@ -76,6 +77,9 @@ struct br_field_solver {
      * Called once, if at all. Fails with BR_NO_MEMORY. */
     enum br_status (*keep)(void *self, size_t count, struct br_error *err);
 
+    /* Two states change places. */
+    void (*exchange)(void *self, size_t a, size_t b);
+
     /* State `into` = sum of weight[j] times state j, j < count, itself among them or not. Weights
      * of 0 are skipped: what they belong to need not be finite. */
     void (*combine)(void *self, size_t into, size_t count, const double *weight);
@@ -92,6 +96,7 @@ struct br_linear_solver {
     const char *citation; /* where the method comes from */
     const char *options;  /* which br_linear_options it heeds; "" for none */
     const struct br_field_solver *axial, *bending;
+    const struct br_field_solver *axial_quadratic; /* for elements of degree 2; NULL: it has none */
 
     /* Predicted round-off of a march's displacement relative to the exact discrete
      * solution, from measurements (the benchmark prints both). */
@@ -105,6 +110,10 @@ extern const struct br_linear_solver *const br_linear_solvers[];
 
 /* The solver of that name, or NULL. */
 const struct br_linear_solver *br_linear_solver_find(const char *name);
+
+/* Its solver for a field; NULL: it has none for elements of that degree. */
+const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver *solver,
+                                                   const struct br_field *field);
 
 /* Whether the solver heeds an option, "--scaling" say. */
 bool br_linear_solver_heeds(const struct br_linear_solver *solver, const char *option);

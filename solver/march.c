@@ -2,6 +2,7 @@
 #include "solver/march.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "solver/march_state.h"
@@ -53,7 +54,37 @@ static enum br_status refuse_rules(const struct br_scene *scene, const struct br
         return br_fail(err, BR_BAD_INPUT,
                        "the tolerance of scheme %s is %g, expected more than 0 and less than 1",
                        scheme->name, method->tolerance);
-    return BR_OK;
+    return friction ? br_friction_check(method->friction, &method->iteration, err) : BR_OK;
+}
+
+/* Names the solvers that have what this one lacks. */
+static enum br_status refuse_degree(const struct br_linear_solver *solver, struct br_error *err)
+{
+    char names[256] = "";
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
+        if ((*s)->axial_quadratic) {
+            const size_t used = strlen(names);
+            snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", (*s)->name);
+        }
+    return br_fail(err, BR_BAD_INPUT,
+                   "solver '%s' has no quadratic axial elements, expected one of %s", solver->name,
+                   names);
+}
+
+static enum br_status check_degree(const struct br_scene *scene, const struct br_method *method,
+                                   struct br_error *err)
+{
+    if (method->axial_degree != 1 && method->axial_degree != 2)
+        return br_fail(err, BR_BAD_INPUT, "the axial degree is %d, expected 1 or 2",
+                       method->axial_degree);
+    if (method->axial_degree == 1 || !scene->axial.modelled)
+        return BR_OK;
+    if (method->scheme->integrator)
+        return br_fail(err, BR_BAD_INPUT,
+                       "scheme %s has no quadratic axial elements, expected another scheme or an "
+                       "axial degree of 1",
+                       method->scheme->name);
+    return method->solver->axial_quadratic ? BR_OK : refuse_degree(method->solver, err);
 }
 
 static enum br_status check_method(const struct br_scene *scene, size_t n, size_t steps,
@@ -63,10 +94,10 @@ static enum br_status check_method(const struct br_scene *scene, size_t n, size_
         return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
     if (steps < 1)
         return br_fail(err, BR_BAD_INPUT, "there are no time steps, expected at least one");
-    const enum br_status status = refuse_rules(scene, method, err);
-    if (status)
-        return status;
-    return br_scene_check(scene, err);
+    enum br_status status = check_degree(scene, method, err);
+    if (!status)
+        status = refuse_rules(scene, method, err);
+    return status ? status : br_scene_check(scene, err);
 }
 
 static enum br_status create_parts(struct br_march *m, size_t n, struct br_error *err)
@@ -76,7 +107,8 @@ static enum br_status create_parts(struct br_march *m, size_t n, struct br_error
     const double tau = stages.stage[0].gamma * (m->scene->duration / (double)m->steps);
     enum br_status status = br_march_allow_lead(m, 1, err);
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        const struct br_field field = br_field_of_scene(m->scene, (enum br_field_kind)kind, n, tau);
+        struct br_field field = br_field_of_scene(m->scene, (enum br_field_kind)kind, n, tau);
+        field.degree = m->method.axial_degree;
         status = br_part_create(&m->part[kind], m->scene, &field, &m->method, err);
     }
     if (!status && m->method.scheme->adaptive)
@@ -236,6 +268,27 @@ struct br_counts br_march_counts(const struct br_march *m)
 
 /* ---- looking ---- */
 
+const char *br_regime_name(enum br_regime regime)
+{
+    static const char *const names[] = {
+        [BR_REGIME_NONE] = "",
+        [BR_REGIME_OPEN] = "open",
+        [BR_REGIME_CLOSED] = "closed",
+        [BR_REGIME_STICK] = "stick",
+        [BR_REGIME_FORWARD] = "slip towards +w",
+        [BR_REGIME_BACKWARD] = "slip towards -w",
+    };
+    return names[regime];
+}
+
+size_t br_march_switches(const struct br_march *m, const struct br_switch **first)
+{
+    if (m->adaptive)
+        return br_adaptive_switches(m->adaptive, first);
+    *first = NULL;
+    return 0;
+}
+
 size_t br_march_steps_done(const struct br_march *m)
 {
     const size_t axial = m->part[BR_AXIAL].done, bending = m->part[BR_BENDING].done;
@@ -292,7 +345,7 @@ void br_march_strain_rate(const struct br_march *m, enum br_field_kind kind, dou
     else if (part->modelled)
         part->solver->strain_rate(part->state, rate);
     else
-        memset(rate, 0, part->field.n * br_field_unknowns(kind) * sizeof *rate);
+        memset(rate, 0, part->field.n * br_field_unknowns(&part->field) * sizeof *rate);
 }
 
 const struct br_field *br_march_field(const struct br_march *m, enum br_field_kind kind)
@@ -309,7 +362,7 @@ void br_march_load(const struct br_march *m, enum br_field_kind kind, double *lo
 {
     const struct br_part *part = &m->part[kind];
     const struct br_drive *drive = &part->load.drive;
-    const size_t size = br_field_size(&part->field), unknowns = br_field_unknowns(kind);
+    const size_t size = br_field_size(&part->field), unknowns = br_field_unknowns(&part->field);
     for (size_t i = 0; i < size; i++)
         load[i] = drive->vector ? drive->factor * drive->vector[i] : 0;
     for (size_t c = 0; c < unknowns; c++)

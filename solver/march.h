@@ -35,6 +35,24 @@ struct br_counts {
 
 struct br_march;
 
+/* Which branch of its law a field's tip is on: contact (axial) or friction (bending). */
+enum br_regime {
+    BR_REGIME_NONE, /* no law, or a friction bound of 0 */
+    BR_REGIME_OPEN,
+    BR_REGIME_CLOSED,
+    BR_REGIME_STICK,
+    BR_REGIME_FORWARD,  /* lambda = h: towards +w */
+    BR_REGIME_BACKWARD, /* lambda = -h: towards -w */
+};
+const char *br_regime_name(enum br_regime regime); /* "", "open", ... "slip towards +w" */
+
+/* A switch that an adaptive scheme has found. */
+struct br_switch {
+    double time; /* s */
+    enum br_field_kind kind;
+    enum br_regime from, to;
+};
+
 /* The tip after a step; what is not modelled is zero. */
 struct br_tip {
     double displacement;   /* axial, u_n(L), m */
@@ -71,6 +89,12 @@ double br_march_time(const struct br_march *march);
 
 const struct br_tip *br_march_tip(const struct br_march *march);
 struct br_counts br_march_counts(const struct br_march *march);
+
+enum { BR_MOST_SWITCHES = 1000 }; /* kept; all are counted */
+
+/* How many switches the scheme has found, and in *first (out, borrowed until the next step) the
+ * first BR_MOST_SWITCHES of them; 0: the scheme looks for none, or there was none. */
+size_t br_march_switches(const struct br_march *march, const struct br_switch **first);
 
 /* The tip's displacement in one field, m. */
 double br_march_tip_displacement(const struct br_march *march, enum br_field_kind kind);

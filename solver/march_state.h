@@ -14,16 +14,6 @@ struct br_tip_path {
     double start[2], end[2];            /* u and k u_t at t_{n-1} and t_n, m */
 };
 
-/* Which branch of its law each field's tip is on, for schemes that hold them over a step. */
-enum br_regime {
-    BR_REGIME_NONE,
-    BR_OPEN,
-    BR_CLOSED,
-    BR_STICK,
-    BR_SLIP_FORWARD,  /* lambda = h, the tip moves up */
-    BR_SLIP_BACKWARD, /* lambda = -h */
-};
-
 /* A step of a march: from and to, s, and its length, which is the same in all equal steps. */
 struct br_step {
     double from, to, k;
@@ -68,6 +58,8 @@ enum br_status br_march_check_finite(const struct br_march *march, enum br_field
 /* What an adaptive scheme adds to a march. Fails with BR_NO_MEMORY. */
 enum br_status br_adaptive_create(struct br_march *march, struct br_error *err);
 void br_adaptive_free(struct br_adaptive *adaptive); /* accepts NULL */
+
+size_t br_adaptive_switches(const struct br_adaptive *adaptive, const struct br_switch **first);
 
 /* On to the next of the march's time levels, with steps of its own. Fails as br_march_step, and
  * with BR_NOT_FINITE where no step is small enough. */

@@ -29,5 +29,6 @@ enum br_status br_method_check(const struct br_method *m, struct br_error *err)
     if (m->axial_degree != 1 && m->axial_degree != 2)
         return br_fail(err, BR_BAD_INPUT, "the axial degree is %d, expected 1 or 2",
                        m->axial_degree);
-    return check_scheme(m, err);
+    const enum br_status status = check_scheme(m, err);
+    return status ? status : br_friction_check(m->friction, &m->iteration, err);
 }

@@ -3,15 +3,20 @@
 
 #include <math.h>
 
-size_t br_mode_count(enum br_field_kind kind, enum br_measure measure)
+size_t br_mode_count(struct br_elements elements, enum br_measure measure)
 {
     const size_t derived = measure == BR_STRAIN_RATE;
-    return kind == BR_AXIAL ? 2 - derived : 4 - 2 * derived;
+    const size_t rod = elements.degree == 2 ? 3 : 2;
+    return elements.kind == BR_AXIAL ? rod - derived : 4 - 2 * derived;
 }
 
-size_t br_measure_size(enum br_field_kind kind, enum br_measure measure, size_t n)
+size_t br_measure_size(struct br_elements elements, enum br_measure measure, size_t n)
 {
-    return measure == BR_TIP ? 1 : n * br_mode_count(kind, measure);
+    const struct br_field field = {.kind = elements.kind, .n = n, .degree = elements.degree};
+    const size_t modes = n * br_mode_count(elements, measure), nodal = br_field_size(&field);
+    if (measure == BR_TIP)
+        return 1;
+    return measure == BR_STRAIN_RATE || modes > nodal ? modes : nodal;
 }
 
 void br_view_modes(struct br_view *view, size_t modes)
@@ -32,6 +37,7 @@ static void scale_nodes(struct br_view *view, const struct br_field *field)
     view->scale[0] = root / 2;
     if (field->kind == BR_AXIAL) {
         view->scale[1] = root / (2 * sqrt(3));
+        view->scale[2] = root / (6 * sqrt(5)); /* of a bubble, b (P_2/6 - 1/6) */
         return;
     }
     view->scale[1] = root * sqrt(3) / 5;
@@ -39,17 +45,19 @@ static void scale_nodes(struct br_view *view, const struct br_field *field)
     view->scale[3] = root / (20 * sqrt(7));
 }
 
-/* u_x = elongation/h;  w_xx = (kappa0 + kappa1 (2 xi - 1))/h^2, P_1 = sqrt(3) (2 xi - 1). */
+/* u_x = (elongation + b (2 xi - 1))/h;  w_xx = (kappa0 + kappa1 (2 xi - 1))/h^2,
+ * P_1 = sqrt(3) (2 xi - 1). */
 static void scale_strain(struct br_view *view, const struct br_field *field)
 {
     const double root = sqrt(field->h), h = field->h;
     view->scale[0] = field->kind == BR_AXIAL ? root / h : root / (h * h);
-    view->scale[1] = root / (h * h) / sqrt(3);
+    view->scale[1] = view->scale[0] / sqrt(3);
 }
 
 void br_view_field(struct br_view *view, const struct br_field *field, enum br_measure measure)
 {
-    br_view_modes(view, measure == BR_TIP ? 0 : br_mode_count(field->kind, measure));
+    const struct br_elements elements = {field->kind, field->degree};
+    br_view_modes(view, measure == BR_TIP ? 0 : br_mode_count(elements, measure));
     if (measure == BR_STRAIN_RATE)
         scale_strain(view, field);
     else if (measure != BR_TIP)

@@ -15,12 +15,17 @@ enum br_measure {
     BR_MEASURES
 };
 
-/* Modes an element: of a polynomial of degree 1 (axial) or 3 (bending), or of its
- * derivative. */
-size_t br_mode_count(enum br_field_kind kind, enum br_measure measure);
+/* A field's elements. */
+struct br_elements {
+    enum br_field_kind kind;
+    int degree; /* of axial ones, as in struct br_field */
+};
 
-/* Values that make up a measure on a mesh of n elements: all modes, or 1 for the tip. */
-size_t br_measure_size(enum br_field_kind kind, enum br_measure measure, size_t n);
+/* Modes an element: of a polynomial of its degree (3 for bending), or of its derivative. */
+size_t br_mode_count(struct br_elements elements, enum br_measure measure);
+
+/* Room for a measure on a mesh of n elements: all modes or the nodal values, or 1 for the tip. */
+size_t br_measure_size(struct br_elements elements, enum br_measure measure, size_t n);
 
 enum { BR_MOST_MODES = 4, BR_MOST_LANES = 8 };
 
@@ -28,9 +33,9 @@ enum { BR_MOST_MODES = 4, BR_MOST_LANES = 8 };
 enum br_layout {
     /* value[e * modes + i] * scale[i] is mode i of element e */
     BR_BY_ELEMENT,
-    /* Nodal values as in solver/field.h. Two modes, u: scale times (u0 + u1, u1 - u0). Four modes,
-     * (w, s): scale times (W - C/6, D - S/12, C, S - 2 D) with
-     * W = w0 + w1, D = w1 - w0, S = s0 + s1, C = s1 - s0. */
+    /* Nodal values as in solver/field.h. Two modes, u: scale times (u0 + u1, u1 - u0). Three,
+     * (u, b): scale times (u0 + u1 - b/3, u1 - u0, b). Four modes, (w, s): scale times (W - C/6, D
+     * - S/12, C, S - 2 D) with W = w0 + w1, D = w1 - w0, S = s0 + s1, C = s1 - s0. */
     BR_BY_NODE,
     /* Some elements side by side, for vectors: mode i of element e is
      * value[(e / lanes * modes + i) * lanes + e % lanes]; after the last element come zeros. */
@@ -40,10 +45,10 @@ enum br_layout {
 /* A function on a mesh as somebody happens to have it. */
 struct br_view {
     enum br_layout layout;
-    size_t modes;                /* an element: 1, 2 or 4; 0 for the tip's one value */
+    size_t modes;                /* an element: 1 to 4; 0 for the tip's one value */
     double scale[BR_MOST_MODES]; /* 1 in lanes */
     double rest;                 /* the square of the L2 norm of what the modes leave out */
-    double *values;              /* room for br_measure_size of them, which is enough for nodes */
+    double *values;              /* room for br_measure_size of them */
 };
 
 /* The view (out, but its values) of a measure of a field by its march: displacements and velocities

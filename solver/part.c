@@ -93,7 +93,7 @@ enum br_status br_part_create(struct br_part *part, const struct br_scene *s,
     part->field = *field;
     if (!part->modelled)
         return BR_OK;
-    part->solver = axial ? method->solver->axial : method->solver->bending;
+    part->solver = br_linear_solver_for(method->solver, field);
     enum br_status status = part->solver->create(field, &method->linear, &part->state, err);
     const struct br_forces forces = br_forces_of_scene(s, field->kind);
     if (!status)
@@ -157,14 +157,22 @@ enum br_status br_part_start_stage(struct br_part *part, const struct br_stages 
                                    double k, struct br_error *err)
 {
     const struct br_stage *stage = &stages->stage[i];
-    const double tau = stage->gamma * k, before = part->field.k;
-    part->field.k = tau;
-    if (i > 0 || !starts_now(stage)) /* the first finds the solver where the step begins */
-        combine(part, stage->weight);
-    if (tau == before)
+    const double tau = stage->gamma * k;
+    if (tau != part->field.k) {
+        part->counts.set_ups++;
+        part->field.k = tau;
+        const enum br_status status = part->solver->set_step(part->state, tau, err);
+        if (status)
+            return status;
+    }
+    if (i == 0 && starts_now(stage)) {
+        br_part_keep(part, BR_NOW);
         return BR_OK;
-    part->counts.set_ups++;
-    return part->solver->set_step(part->state, tau, err);
+    }
+    /* What the solver has becomes a state that is kept, without a copy. */
+    part->solver->exchange(part->state, 0, part->slot[i == 0 ? BR_NOW : BR_STAGE + i - 1]);
+    combine(part, stage->weight);
+    return BR_OK;
 }
 
 enum br_status br_part_predict(struct br_part *part, double t, double *velocity,
@@ -208,13 +216,15 @@ void br_part_accept(struct br_part *part, const struct br_stages *stages, bool s
 void br_part_estimate(struct br_part *part, const struct br_stages *stages, double *error,
                       double *state)
 {
-    double size[2];
+    const int last = BR_STAGE + stages->count - 1; /* which the solver still has */
+    double size[2], by_slot[BR_MOST_STATES] = {0}, weight[BR_KNOWN];
+    memcpy(weight, stages->error, sizeof weight);
+    by_slot[0] = weight[last];
+    weight[last] = 0;
+    add_weights(part, 1, weight, by_slot);
+    part->solver->combine(part->state, part->slot[last], part->kept + 1, by_slot);
+    part->solver->size(part->state, part->slot[last], size);
+    *error = size[0];
     part->solver->size(part->state, 0, size);
     *state = size[0];
-    const int last = BR_STAGE + stages->count - 1;
-    br_part_keep(part, last);
-    combine(part, stages->error);
-    part->solver->size(part->state, 0, size);
-    *error = size[0];
-    br_part_recall(part, last);
 }

@@ -34,8 +34,9 @@ void br_part_clear(struct br_part *part);
 void br_part_keep(struct br_part *part, int known);
 void br_part_recall(struct br_part *part, int known);
 
-/* The state goes to where stage i starts, and the solver's step to its tau, for a step of k, s.
- * Fails with BR_SINGULAR or BR_NO_MEMORY. */
+/* The state that the solver has is kept, where later stages or steps look back to it, and goes to
+ * where stage i starts; the solver's step becomes its tau, for a step of k, s. Fails with
+ * BR_SINGULAR or BR_NO_MEMORY. */
 enum br_status br_part_start_stage(struct br_part *part, const struct br_stages *stages, int i,
                                    double k, struct br_error *err);
 

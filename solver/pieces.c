@@ -16,8 +16,7 @@ static void pieces_free(void *self)
         return;
     free(s->arena);
     free(s->loads);
-    for (size_t i = 1; i < s->states; i++)
-        free(s->kept[i]);
+    br_states_clear(&s->states);
     free(s);
 }
 
@@ -76,7 +75,6 @@ static enum br_status pieces_create(const struct br_field *field,
         return br_fail(err, BR_BAD_INPUT, "kernel %s is not available on this machine",
                        s->kernel->name);
     s->d = field->kind == BR_AXIAL ? 1 : 2;
-    s->states = 1;
     const enum br_status status = br_pieces_lay_out(s, err);
     return status ? status : br_pieces_prepare(s, err);
 }
@@ -95,6 +93,9 @@ static enum br_status pieces_predict(void *self, const struct br_drive *drive, d
     if (status)
         return status;
     s->stale_load = false;
+    for (int i = 0; i < s->strands && s->stale_ends; i++)
+        s->kernel->weigh(&s->strand[i].strip);
+    s->stale_ends = false;
     s->drive.factor = drive->factor;
     for (int i = 0; i < s->strands; i++)
         s->kernel->gather(&s->strand[i].strip, drive->factor, s->strand[i].q, s->strand[i].z);
@@ -167,6 +168,7 @@ const struct br_field_solver br_pieces = {
     .tip_displacement = pieces_tip_displacement,
     .set_step = br_pieces_set_step,
     .keep = br_pieces_keep,
+    .exchange = br_pieces_exchange,
     .combine = br_pieces_combine,
     .size = br_pieces_size,
 };

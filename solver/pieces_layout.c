@@ -51,7 +51,6 @@ static size_t lay_out(struct br_pieces *s, double *arena)
         struct br_strand *t = &s->strand[i];
         struct br_strip *strip = &t->strip;
         longest = strip->length > longest ? strip->length : longest;
-        strip->state = take(arena, &used, br_span_length(t) * 2 * entry);
         strip->end = take(arena, &used, strip->pieces * BR_ENDS * entry);
         strip->join = take(arena, &used, strip->pieces * BR_JOINS * d * d);
         strip->span_join = take(arena, &used, BR_SPAN_JOINS * d * entry);
@@ -93,7 +92,10 @@ enum br_status br_pieces_lay_out(struct br_pieces *s, struct br_error *err)
     if (!s->arena)
         return br_no_memory(err, "a solver");
     lay_out(s, s->arena);
-    return BR_OK;
+    const enum br_status status = br_pieces_keep(s, 1, err);
+    if (!status)
+        br_pieces_point_at_first(s);
+    return status;
 }
 
 /* kappa_w of an element, kappa_v after it. */
@@ -137,11 +139,10 @@ void br_pieces_set(void *self, const double *displacement, const double *velocit
         for (size_t lane = 0; lane < t->strip.lanes; lane++)
             for (size_t e = 0; e < br_span_length(t); e++)
                 set_element(s, t, lane, e, displacement, velocity);
-        for (size_t j = 0; j < t->strip.pieces; j++)
-            s->kernel->weigh(&t->strip, j);
+        s->kernel->weigh(&t->strip);
     }
     s->tip_bias = 0;
-    s->advanced = false;
+    s->stale_ends = s->advanced = false;
     s->tip_displacement = br_pieces_tip_displacement(s);
     s->tip_velocity = velocity[s->field.n * (size_t)s->d];
 }

@@ -33,12 +33,11 @@ struct br_pieces {
     double tip_load[BR_LQ_MOST]; /* of the last node over R, for a factor of 1 */
     double tip_increment[BR_LQ_MOST], force_increment[BR_LQ_MOST];
     double tip_velocity, tip_displacement, compliance;
-    bool stale_load;              /* loads are those of another step */
-    double *kept[BR_MOST_STATES]; /* states 1, 2, ...: the strands' states one after the other, and
-                                     tip_velocity and tip_displacement; owned */
-    size_t states;                /* state 0 counted */
-    bool advanced;                /* the strands' ends have the velocities across the spans */
-    double tip_bias;              /* mean of what the joins' increment lacks of the field's, m/s */
+    bool stale_load;         /* loads are those of another step */
+    bool stale_ends;         /* the ends' q and z are those of another step or state */
+    struct br_states states; /* see pieces_kept.c; the strips have the first */
+    bool advanced;           /* the strands' ends have the velocities across the spans */
+    double tip_bias;         /* mean of what the joins' increment lacks of the field's, m/s */
 };
 
 /* Elements of a span. */
@@ -59,8 +58,12 @@ enum br_status br_pieces_set_load(struct br_pieces *s, const double *vector, str
 /* What schemes of several stages need; see linear_solver.h. */
 enum br_status br_pieces_set_step(void *self, double k, struct br_error *err);
 enum br_status br_pieces_keep(void *self, size_t count, struct br_error *err);
+void br_pieces_exchange(void *self, size_t a, size_t b);
 void br_pieces_combine(void *self, size_t into, size_t count, const double *weight);
 void br_pieces_size(void *self, size_t state, double size[2]);
+
+/* The strips' states are in the first of the states. */
+void br_pieces_point_at_first(struct br_pieces *s);
 
 /* Tables for the field's step, and what a unit force at the tip does with them. Fails as
  * br_pieces_tables. */

@@ -32,6 +32,6 @@
 
 #include "solver/linear_solver.h"
 
-extern const struct br_field_solver br_plain_axial, br_plain_bending;
+extern const struct br_field_solver br_plain_axial, br_plain_bending, br_plain_axial_quadratic;
 
 #endif

@@ -17,7 +17,7 @@ struct gain {
 
 struct element {
     double elongation; /* h u_x, m */
-    double strain;     /* g = alpha * elongation + its rate, m/s */
+    double rate;       /* of it, m/s */
     double drive;      /* workspace: S^-1 s, m/s */
 };
 
@@ -105,7 +105,7 @@ static void axial_set(void *self, const double *displacement, const double *velo
     for (size_t i = 0; i < a->n; i++) {
         struct element *e = &a->element[i];
         e->elongation = displacement[i + 1] - displacement[i];
-        e->strain = a->alpha * e->elongation + (velocity[i + 1] - velocity[i]);
+        e->rate = velocity[i + 1] - velocity[i];
     }
     a->tip_displacement = displacement[a->n];
     a->tip_velocity = velocity[a->n];
@@ -124,7 +124,7 @@ static void axial_get(const void *self, double *displacement, double *velocity)
             break;
         const struct element *e = &a->element[i];
         u += e->elongation;
-        v += e->strain - a->alpha * e->elongation;
+        v += e->rate;
     }
 }
 
@@ -132,7 +132,7 @@ static void axial_strain_rate(const void *self, double *rate)
 {
     const struct axial *a = self;
     for (size_t i = 0; i < a->n; i++)
-        rate[i] = a->element[i].strain - a->alpha * a->element[i].elongation;
+        rate[i] = a->element[i].rate;
 }
 
 BR_SWEEP
@@ -142,7 +142,7 @@ static enum br_status axial_predict(void *self, const struct br_drive *drive, do
     (void)err;
     struct axial *a = self;
     const double *load = drive->vector, factor = drive->factor;
-    const double r = a->r;
+    const double r = a->r, alpha = a->alpha;
     const double zero = 0;
     const size_t stride = load ? 1 : 0;
     if (!load)
@@ -152,8 +152,8 @@ static enum br_status axial_predict(void *self, const struct br_drive *drive, do
     for (size_t i = a->n; i-- > 0;) {
         const struct gain *gain = &a->gain[i];
         struct element *e = &a->element[i];
-        const double rg = r * e->strain;
-        const double s = rg + p; /* s = R g + G'p */
+        const double rg = r * (alpha * e->elongation + e->rate); /* R g */
+        const double s = rg + p;                                 /* s = R g + G'p */
         e->drive = gain->inverse * s;
         tip -= gain->tip * s;
         p = gain->closed * p - (gain->feedback * rg + factor * load[stride * i]);
@@ -167,7 +167,7 @@ BR_SWEEP
 static double axial_finish(void *self, double force)
 {
     struct axial *a = self;
-    const double alpha = a->alpha, k = a->k;
+    const double k = a->k;
     double y = 0, u = 0, v = 0;
     for (size_t i = 0; i < a->n; i++) {
         const struct gain *gain = &a->gain[i];
@@ -176,11 +176,10 @@ static double axial_finish(void *self, double force)
         const double kappa = -(gain->feedback * y + drive);
         y = gain->closed * y - drive;
 
-        const double rate = e->strain - alpha * e->elongation + kappa;
-        e->elongation += k * rate;
-        e->strain = alpha * e->elongation + rate;
+        e->rate += kappa;
+        e->elongation += k * e->rate;
         u += e->elongation;
-        v += rate;
+        v += e->rate;
     }
     a->tip_velocity = v;
     a->tip_displacement = u;
@@ -199,7 +198,7 @@ static double *numbers_of(struct axial *a)
     for (size_t i = 0; i < a->n; i++) {
         const struct element *e = &a->element[i];
         *to++ = e->elongation;
-        *to++ = e->strain - a->alpha * e->elongation;
+        *to++ = e->rate;
     }
     to[0] = a->tip_displacement;
     to[1] = a->tip_velocity;
@@ -211,7 +210,7 @@ static void take_numbers(struct axial *a)
     const double *from = a->states.of[0];
     for (size_t i = 0; i < a->n; i++, from += 2) {
         a->element[i].elongation = from[0];
-        a->element[i].strain = a->alpha * from[0] + from[1];
+        a->element[i].rate = from[1];
     }
     a->tip_displacement = from[0];
     a->tip_velocity = from[1];
@@ -231,6 +230,14 @@ static enum br_status axial_keep(void *self, size_t count, struct br_error *err)
 {
     struct axial *a = self;
     return br_states_add(&a->states, a->states.size, count, err);
+}
+
+static void axial_exchange(void *self, size_t a, size_t b)
+{
+    struct axial *of = self;
+    numbers_of(of);
+    br_states_exchange(&of->states, a, b);
+    take_numbers(of);
 }
 
 static void axial_combine(void *self, size_t into, size_t count, const double *weight)
@@ -267,6 +274,7 @@ const struct br_field_solver br_plain_axial = {
     .tip_displacement = axial_tip_displacement,
     .set_step = axial_set_step,
     .keep = axial_keep,
+    .exchange = axial_exchange,
     .combine = axial_combine,
     .size = axial_size,
 };

@@ -21,7 +21,7 @@ struct gain {
 
 struct element {
     br_pair curvature; /* kappa_w, displacement, m */
-    br_pair strain;    /* g = alpha kappa_w + kappa_v, m/s */
+    br_pair rate;      /* kappa_v, velocity, m/s */
     br_pair drive;     /* workspace: S^-1 s, m/s */
 };
 
@@ -243,7 +243,7 @@ static void bending_set(void *self, const double *displacement, const double *ve
         br_curvature(displacement + 2 * i, curvature);
         br_curvature(velocity + 2 * i, rate);
         e->curvature = (br_pair){curvature[0], curvature[1]};
-        e->strain = b->alpha * e->curvature + (br_pair){rate[0], rate[1]};
+        e->rate = (br_pair){rate[0], rate[1]};
     }
     b->tip_velocity = velocity[2 * b->n];
 }
@@ -279,7 +279,7 @@ static void bending_get(const void *self, double *displacement, double *velocity
             break;
         const struct element *e = &b->element[i];
         w = carry(w, e->curvature);
-        v = carry(v, e->strain - b->alpha * e->curvature);
+        v = carry(v, e->rate);
     }
 }
 
@@ -287,8 +287,7 @@ static void bending_strain_rate(const void *self, double *rate)
 {
     const struct bending *b = self;
     for (size_t i = 0; i < b->n; i++) {
-        const br_pair kappa = b->element[i].strain - b->alpha * b->element[i].curvature;
-        memcpy(rate + 2 * i, &kappa, sizeof kappa);
+        memcpy(rate + 2 * i, &b->element[i].rate, 2 * sizeof *rate);
     }
 }
 
@@ -306,13 +305,14 @@ static enum br_status bending_predict(void *self, const struct br_drive *drive, 
     (void)err;
     struct bending *b = self;
     const br_pair r = b->r;
+    const double alpha = b->alpha;
     const double *load = drive->vector, factor = drive->factor;
     br_pair p = -scaled_load(load, b->n, factor) - (br_pair){drive->tip[0], drive->tip[1]};
     br_pair tip = {0, 0};
     for (size_t i = b->n; i-- > 0;) {
         const struct gain *gain = &b->gain[i];
         struct element *e = &b->element[i];
-        const br_pair rg = r * e->strain;
+        const br_pair rg = r * (alpha * e->curvature + e->rate);
         const br_pair s = rg + control_transposed_times(p); /* s = R g + G'p */
         e->drive = br_transposed_times(&gain->inverse, s);  /* S^-1 s */
         tip -= gain->tip * s;                               /* - zeta's */
@@ -330,7 +330,7 @@ BR_SWEEP
 static double bending_finish(void *self, double force)
 {
     struct bending *b = self;
-    const double alpha = b->alpha, k = b->k;
+    const double k = b->k;
     br_pair y = {0, 0}; /* the increment's nodal state */
     br_pair v = {0, 0}; /* the velocity's */
     for (size_t i = 0; i < b->n; i++) {
@@ -340,10 +340,9 @@ static double bending_finish(void *self, double force)
         const br_pair kappa = -br_add_times(drive, &gain->feedback, y); /* -(K y + S^-1 s) */
         y = br_add_times(-control_times(drive), &gain->closed, y);      /* A y - G S^-1 s */
 
-        const br_pair rate = e->strain - alpha * e->curvature + kappa;
-        e->curvature += k * rate;
-        e->strain = alpha * e->curvature + rate;
-        v = carry(v, rate);
+        e->rate += kappa;
+        e->curvature += k * e->rate;
+        v = carry(v, e->rate);
     }
     b->tip_velocity = v[0];
     return v[0];
@@ -364,9 +363,8 @@ static double *numbers_of(struct bending *b)
     double *to = b->states.of[0];
     for (size_t i = 0; i < b->n; i++, to += 4) {
         const struct element *e = &b->element[i];
-        const br_pair rate = e->strain - b->alpha * e->curvature;
         memcpy(to, &e->curvature, sizeof e->curvature);
-        memcpy(to + 2, &rate, sizeof rate);
+        memcpy(to + 2, &e->rate, sizeof e->rate);
     }
     *to = b->tip_velocity;
     return b->states.of[0];
@@ -378,7 +376,7 @@ static void take_numbers(struct bending *b)
     for (size_t i = 0; i < b->n; i++, from += 4) {
         struct element *e = &b->element[i];
         e->curvature = (br_pair){from[0], from[1]};
-        e->strain = b->alpha * e->curvature + (br_pair){from[2], from[3]};
+        e->rate = (br_pair){from[2], from[3]};
     }
     b->tip_velocity = *from;
 }
@@ -397,6 +395,14 @@ static enum br_status bending_keep(void *self, size_t count, struct br_error *er
 {
     struct bending *b = self;
     return br_states_add(&b->states, b->states.size, count, err);
+}
+
+static void bending_exchange(void *self, size_t a, size_t b)
+{
+    struct bending *of = self;
+    numbers_of(of);
+    br_states_exchange(&of->states, a, b);
+    take_numbers(of);
 }
 
 static void bending_combine(void *self, size_t into, size_t count, const double *weight)
@@ -435,6 +441,7 @@ const struct br_field_solver br_plain_bending = {
     .tip_displacement = bending_tip_displacement,
     .set_step = bending_set_step,
     .keep = bending_keep,
+    .exchange = bending_exchange,
     .combine = bending_combine,
     .size = bending_size,
 };

@@ -27,6 +27,7 @@ const struct br_linear_solver br_riccati = {
     .citation = "discrete linear-quadratic problem in substructures, see solver/pieces.h",
     .options = "--kernel",
     .axial = &br_pieces,
+    .axial_quadratic = &br_plain_axial_quadratic,
     .bending = &br_pieces,
     .round_off = riccati_round_off,
 };
@@ -37,6 +38,7 @@ const struct br_linear_solver br_plain = {
     .citation = "discrete linear-quadratic problem; Riccati recursion, see solver/plain.h",
     .options = "",
     .axial = &br_plain_axial,
+    .axial_quadratic = &br_plain_axial_quadratic,
     .bending = &br_plain_bending,
     .round_off = plain_round_off,
 };

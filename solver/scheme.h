@@ -56,6 +56,8 @@ struct br_time_scheme {
     const struct br_integrator *integrator; /* of its own, instead of stages; NULL: none */
 };
 
+extern const struct br_time_scheme br_ida; /* where SUNDIALS IDA is built in */
+
 /* NULL-terminated; the first is the default, the paper's. */
 extern const struct br_time_scheme *const br_time_schemes[];
 const struct br_time_scheme *br_time_scheme_find(const char *name);

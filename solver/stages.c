@@ -10,7 +10,7 @@
 static double contact_force(const struct br_march *m, const struct br_contact_state *state)
 {
     const struct br_contact *contact = &m->scene->contact;
-    if (!contact->modelled || (m->held[BR_AXIAL] && m->regime[BR_AXIAL] == BR_OPEN))
+    if (!contact->modelled || (m->held[BR_AXIAL] && m->regime[BR_AXIAL] == BR_REGIME_OPEN))
         return 0;
     if (!m->held[BR_AXIAL])
         return m->method.contact->force(contact, state);
@@ -66,11 +66,11 @@ static double friction_force(struct br_march *m, struct br_friction_state *state
 {
     if (m->scene->friction.law == BR_FRICTIONLESS)
         return 0;
-    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_STICK)
+    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_STICK)
         return state->free_velocity / state->compliance;
-    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_SLIP_FORWARD)
+    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_FORWARD)
         return state->bound;
-    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_SLIP_BACKWARD)
+    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_BACKWARD)
         return -state->bound;
     return m->method.friction->force(state);
 }
@@ -136,15 +136,12 @@ enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
         path->start[0] = m->tip.displacement;
         path->start[1] = step->k * m->tip.velocity[BR_AXIAL];
     }
-    br_part_keep(part, BR_NOW);
     for (int i = 0; i < stages->count; i++) {
         enum br_status status = br_part_start_stage(part, stages, i, step->k, err);
         if (!status)
             status = stage(m, kind, &stages->stage[i], step, i, path, err);
         if (status)
             return status;
-        if (i + 1 < stages->count)
-            br_part_keep(part, BR_STAGE + i);
     }
     if (kind == BR_AXIAL) {
         path->end[0] = m->tip.displacement;
@@ -157,10 +154,10 @@ enum br_regime br_march_regime(const struct br_march *m, enum br_field_kind kind
 {
     const struct br_tip *tip = &m->tip;
     if (kind == BR_AXIAL && m->scene->contact.modelled)
-        return tip->contact_force > 0 ? BR_CLOSED : BR_OPEN;
+        return tip->contact_force > 0 ? BR_REGIME_CLOSED : BR_REGIME_OPEN;
     if (kind == BR_AXIAL || m->scene->friction.law == BR_FRICTIONLESS || !(tip->friction_bound > 0))
         return BR_REGIME_NONE;
     if (fabs(tip->friction_force) < tip->friction_bound)
-        return BR_STICK;
-    return tip->friction_force > 0 ? BR_SLIP_FORWARD : BR_SLIP_BACKWARD;
+        return BR_REGIME_STICK;
+    return tip->friction_force > 0 ? BR_REGIME_FORWARD : BR_REGIME_BACKWARD;
 }

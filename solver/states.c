@@ -25,6 +25,13 @@ void br_states_clear(struct br_states *states)
     *states = (struct br_states){0};
 }
 
+void br_states_exchange(struct br_states *states, size_t a, size_t b)
+{
+    double *of_a = states->of[a];
+    states->of[a] = states->of[b];
+    states->of[b] = of_a;
+}
+
 BR_SWEEP
 static void add_block(double *restrict sum, size_t size, double weight, const double *from)
 {
@@ -43,12 +50,4 @@ void br_add_states(double *to, size_t size, size_t count, double *const *from, c
         for (size_t i = 0; i < width; i++)
             to[first + i] = sum[i];
     }
-}
-
-double br_sum_of_squares(const double *number, size_t count)
-{
-    double sum = 0;
-    for (size_t i = 0; i < count; i++)
-        sum += number[i] * number[i];
-    return sum;
 }

@@ -17,12 +17,11 @@ enum br_status br_states_add(struct br_states *states, size_t size, size_t count
                              struct br_error *err);
 void br_states_clear(struct br_states *states);
 
+void br_states_exchange(struct br_states *states, size_t a, size_t b);
+
 /* to[i] = sum over j of weight[j] from[j][i], i < size; from[j] may be `to`. Weights of 0 are
  * skipped. */
 void br_add_states(double *to, size_t size, size_t count, double *const *from,
                    const double *weight);
-
-/* The sum of the squares of count numbers. */
-double br_sum_of_squares(const double *number, size_t count);
 
 #endif

@@ -91,8 +91,16 @@ struct br_kernel {
     /* What the load adds to the ends of the pieces. */
     void (*charge)(const struct br_strip *strip, const double uniform[2]);
 
-    /* What the state of piece j adds to its own ends, q and z; advance leaves it, too. */
-    void (*weigh)(const struct br_strip *strip, size_t j);
+    /* What the state adds to the ends of the pieces, q and z; advance leaves it, too. */
+    void (*weigh)(const struct br_strip *strip);
+
+    /* The state becomes the sum over j < count of weight[j] times the states from[j], itself among
+     * them or not, and what it adds to the ends is found. */
+    void (*blend)(const struct br_strip *strip, size_t count, const double *const *from,
+                  const double *weight);
+
+    /* Sums (out) of the squares of a state's kappa_w and kappa_v, in the lanes that are in use. */
+    void (*square)(const struct br_strip *strip, const double *state, double sum[2]);
 
     /* The displacement or its rate at the right ends of spans whose left ends are fixed (out, d
      * each). */

@@ -191,24 +191,68 @@ INLINE void advance_of(int d, bool loaded, const struct br_strip *strip,
     }
 }
 
-/* z and q of a state that no step has led to. */
-INLINE void weigh_of(int d, const struct br_strip *s, size_t j, size_t lane)
+/* z and q of a state that no step has led to: the sum of others, or with none its own. */
+INLINE void blend_piece(int d, const struct br_strip *s, const struct piece *at, size_t count,
+                        const double *const *from, const double *weight)
 {
     const size_t entry = (size_t)d * BR_LANES;
-    const struct piece at = piece_at(d, s, j, lane);
+    const ptrdiff_t offset = at->state - s->state;
     vec z[2] = {{0}}, q[2] = {{0}};
     for (size_t e = 0; e < s->length; e++) {
-        const double *weight = s->weight + e * (size_t)(2 * d * d);
-        const double *state = at.state + e * 2 * entry;
-        vec w[2], rate[2], g[2];
-        load_all(d, state, w);
-        load_all(d, state + entry, rate);
+        const double *weights = s->weight + e * (size_t)(2 * d * d);
+        double *state = at->state + e * 2 * entry;
+        const size_t place = (size_t)offset + e * 2 * entry;
+        vec w[2] = {{0}}, rate[2] = {{0}}, g[2];
+        for (size_t j = 0; j < count; j++)
+            for (int i = 0; i < d; i++) {
+                w[i] += weight[j] * load(from[j] + place + i * BR_LANES);
+                rate[i] += weight[j] * load(from[j] + place + entry + i * BR_LANES);
+            }
+        if (count > 0) {
+            store_all(d, w, state);
+            store_all(d, rate, state + entry);
+        } else {
+            load_all(d, state, w);
+            load_all(d, state + entry, rate);
+        }
         strain(d, s->alpha, w, rate, g);
-        add(d, weight, g, z);
-        add(d, weight + d * d, g, q);
+        add(d, weights, g, z);
+        add(d, weights + d * d, g, q);
     }
-    store_all(d, z, at.end + BR_END_Z * entry);
-    store_all(d, q, at.end + BR_END_Q * entry);
+    store_all(d, z, at->end + BR_END_Z * entry);
+    store_all(d, q, at->end + BR_END_Q * entry);
+}
+
+INLINE void blend_of(int d, const struct br_strip *strip, size_t count, const double *const *from,
+                     const double *weight)
+{
+    const struct br_strip s = *strip; /* nothing aliases it */
+    for (size_t j = 0; j < s.pieces; j++)
+        for (size_t lane = 0; lane < BR_LANES; lane += WIDTH) {
+            const struct piece at = piece_at(d, &s, j, lane);
+            blend_piece(d, &s, &at, count, from, weight);
+        }
+}
+
+INLINE void square_of(int d, const struct br_strip *s, const double *state, double total[2])
+{
+    const size_t entry = (size_t)d * BR_LANES, length = s->pieces * s->length;
+    _Alignas(64) double sum[2][BR_LANES] = {{0}};
+    for (size_t lane = 0; lane < BR_LANES; lane += WIDTH) {
+        vec of[2] = {{0}};
+        for (size_t e = 0; e < length; e++)
+            for (int part = 0; part < 2; part++)
+                for (int i = 0; i < d; i++) {
+                    const vec x =
+                        load(state + (2 * e + (size_t)part) * entry + i * BR_LANES + lane);
+                    of[part] += x * x;
+                }
+        store(of[0], sum[0] + lane);
+        store(of[1], sum[1] + lane);
+    }
+    for (size_t lane = 0; lane < s->lanes; lane++)
+        for (int part = 0; part < 2; part++)
+            total[part] += sum[part][lane];
 }
 
 /* The recursions with no state. */
@@ -261,13 +305,26 @@ static void charge(const struct br_strip *s, const double uniform[2])
                 charge_of(2, s, uniform, j, lane);
 }
 
-static void weigh(const struct br_strip *s, size_t j)
+static void blend(const struct br_strip *s, size_t count, const double *const *from,
+                  const double *weight)
 {
-    for (size_t lane = 0; lane < BR_LANES; lane += WIDTH)
-        if (s->d == 1)
-            weigh_of(1, s, j, lane);
-        else
-            weigh_of(2, s, j, lane);
+    if (s->d == 1)
+        blend_of(1, s, count, from, weight);
+    else
+        blend_of(2, s, count, from, weight);
+}
+
+static void weigh(const struct br_strip *s)
+{
+    blend(s, 0, NULL, NULL);
+}
+
+static void square(const struct br_strip *s, const double *state, double sum[2])
+{
+    if (s->d == 1)
+        square_of(1, s, state, sum);
+    else
+        square_of(2, s, state, sum);
 }
 
 const struct br_kernel BR_JOIN(br_kernel_, BR_SET) = {
@@ -279,6 +336,8 @@ const struct br_kernel BR_JOIN(br_kernel_, BR_SET) = {
     .advance = advance,
     .charge = charge,
     .weigh = weigh,
+    .blend = blend,
+    .square = square,
     .carry = SWEEP(carry),
     .expand = SWEEP(expand),
 };

@@ -12,7 +12,9 @@ static const double careful = 3;   /* without */
 enum br_status br_tips_create(struct br_tips *tips, const struct br_study *grid,
                               struct br_error *err)
 {
-    *tips = (struct br_tips){grid->n_count, grid->k_count, grid->n, grid->steps, {NULL, NULL}};
+    *tips = (struct br_tips){
+        grid->n_count, grid->k_count, grid->n, grid->steps, grid->method.axial_degree,
+        {NULL, NULL}};
     const size_t cells = grid->n_count * grid->k_count;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         tips->value[kind] = br_allocate(cells, sizeof(double));
@@ -180,7 +182,11 @@ struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind
         half = (e.high - e.low) / 2;
     }
     const struct line line = {
-        .count = tips->n_count, .x = x, .value = value, .formal = kind == BR_AXIAL ? 2 : 4};
+        .count = tips->n_count,
+        .x = x,
+        .value = value,
+        .formal = kind == BR_AXIAL && tips->axial_degree != 2 ? 2 : 4,
+    };
     struct br_estimate e = extrapolate_line(&line);
     gsl_set_error_handler(handler);
     free(x);

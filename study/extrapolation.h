@@ -10,6 +10,7 @@
 struct br_tips {
     size_t n_count, k_count;
     const size_t *n, *steps; /* ascending; borrowed */
+    int axial_degree;        /* of the elements */
     double *value[2];        /* by br_field_kind: n_count * k_count by rows of equal n, m; NaN
                                 where a cell failed or is unstable; owned */
 };

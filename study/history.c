@@ -33,7 +33,9 @@ static enum br_status first_row(struct run *r, struct br_error *err)
     r->row = (struct br_history_row){.friction_force = NAN};
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         br_march_get(r->march, (enum br_field_kind)kind, NULL, velocity);
-        r->row.velocity[kind] = velocity[axial->n * br_field_unknowns((enum br_field_kind)kind)];
+        r->row.velocity[kind] =
+            velocity[axial->n *
+                     br_field_unknowns(br_march_field(r->march, (enum br_field_kind)kind))];
     }
     free(velocity);
     r->row.displacement[BR_AXIAL] = br_march_tip_displacement(r->march, BR_AXIAL);
@@ -175,7 +177,11 @@ enum br_status br_history_run(const struct br_history_request *q, struct br_marc
 
 /* ---- the recorder ---- */
 
-enum { VALUES = 6 }; /* a node: u, (w, s), and their velocities */
+/* Of a node: u, (w, s), and their velocities. */
+static size_t values_of(const struct br_history_record *h)
+{
+    return 2 * (h->unknowns[BR_AXIAL] + h->unknowns[BR_BENDING]);
+}
 
 /* Room for one more of `size` bytes. */
 static bool grow(void **memory, size_t count, size_t *most, size_t size)
@@ -206,14 +212,17 @@ static enum br_status keep_row(void *self, const struct br_history_row *row, str
 static size_t field_offset(const struct br_history_record *h, enum br_field_kind kind,
                            bool velocity)
 {
-    return (h->n + 1) * (kind == BR_AXIAL ? (velocity ? 1U : 0U) : (velocity ? 4U : 2U));
+    const size_t before = kind == BR_AXIAL ? 0 : 2 * h->unknowns[BR_AXIAL];
+    return (h->n + 1) * (before + (velocity ? h->unknowns[kind] : 0));
 }
 
 static enum br_status keep_look(void *self, const struct br_march *march,
                                 const struct br_history_row *row, struct br_error *err)
 {
     struct br_history_record *h = self;
-    const size_t size = VALUES * (h->n + 1);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        h->unknowns[kind] = br_field_unknowns(br_march_field(march, (enum br_field_kind)kind));
+    const size_t size = values_of(h) * (h->n + 1);
     size_t most = h->most_looks;
     if (!grow((void **)&h->at, h->looks, &most, sizeof *h->at))
         return br_no_memory(err, "the fields");
@@ -247,5 +256,5 @@ void br_history_record_clear(struct br_history_record *h)
 const double *br_history_field(const struct br_history_record *h, size_t look,
                                enum br_field_kind kind, bool velocity)
 {
-    return h->field + look * VALUES * (h->n + 1) + field_offset(h, kind, velocity);
+    return h->field + look * values_of(h) * (h->n + 1) + field_offset(h, kind, velocity);
 }

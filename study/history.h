@@ -66,10 +66,11 @@ size_t br_history_stride(size_t steps, size_t most_rows);
 /* Rows, and the nodal fields at the looks; clear it. */
 struct br_history_record {
     size_t n;
+    size_t unknowns[2];         /* of a node, by br_field_kind, where there is a look */
     struct br_history_row *row; /* rows */
     size_t rows, most_rows;
     struct br_history_row *at; /* looks: the tip there */
-    double *field;             /* looks times 6 (n + 1) values, see br_history_field */
+    double *field;             /* looks times n + 1 nodes' values, see br_history_field */
     size_t looks, most_looks;
 };
 

@@ -26,7 +26,7 @@ struct br_mesh_list {
     const size_t *n;
 };
 
-/* A ladder for functions with 1, 2 or 4 modes an element, from one or more
+/* A ladder for functions with 1 to 4 modes an element, from one or more
  * root meshes down to the rungs, every one of which divides a root (it may be one).
  * Fails with BR_BAD_INPUT (not nested) or BR_NO_MEMORY. */
 enum br_status br_ladder_create(struct br_ladder **ladder, size_t modes,

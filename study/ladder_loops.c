@@ -202,6 +202,8 @@ static double project(const struct br_projecting *p)
         return project_modes(p, 1);
     case 2:
         return project_modes(p, 2);
+    case 3:
+        return project_modes(p, 3);
     default:
         return project_modes(p, 4);
     }
@@ -254,6 +256,8 @@ static double distance(const struct br_view *a, size_t n, const double *b)
         return distance_modes(a, n, b, 1);
     case 2:
         return distance_modes(a, n, b, 2);
+    case 3:
+        return distance_modes(a, n, b, 3);
     default:
         return distance_modes(a, n, b, 4);
     }

@@ -49,10 +49,23 @@ INLINE void load_sorted(int count, const double *from, int apart, vec *x)
     }
 }
 
+/* Unknowns a node of elements of so many modes. */
+INLINE int unknowns_of(int modes)
+{
+    return (modes + 1) / 2;
+}
+
+/* Which of the values of its two nodes has value i of an element: all, but of three modes not the
+ * second one, the bubble of the element before. */
+INLINE int place_of(int modes, int i)
+{
+    return modes == 3 && i > 0 ? i + 1 : i;
+}
+
 /* The nodes of all children of a vector of elements: value[j][i] of child j's two nodes. */
 INLINE void fetch_nodes(int modes, int ratio, const double *from, vec value[][MOST])
 {
-    const int unknowns = modes / 2, count = ratio * unknowns;
+    const int unknowns = unknowns_of(modes), count = ratio * unknowns;
     vec node[MOST / 2 * (MOST_RATIO + 1)];
     load_sorted(count, from, LANES, node);
     for (int i = 0; i < unknowns; i++) {
@@ -61,7 +74,20 @@ INLINE void fetch_nodes(int modes, int ratio, const double *from, vec value[][MO
     }
     for (int j = 0; j < ratio; j++)
         for (int i = 0; i < modes; i++)
-            value[j][i] = node[j * unknowns + i];
+            value[j][i] = node[j * unknowns + place_of(modes, i)];
+}
+
+/* As load_sorted of vectors side by side, for any count. */
+INLINE void load_elements(int count, const double *from, vec *x)
+{
+    if (count != 3) {
+        load_sorted(count, from, LANES, x);
+        return;
+    }
+#define AT(l) from[(l)*3 + i]
+    for (int i = 0; i < count; i++)
+        x[i] = (vec){EACH(AT)};
+#undef AT
 }
 
 /* The values of all children of a vector of elements from `first` on, value[j] those of child j. */
@@ -72,10 +98,10 @@ INLINE void fetch(const struct br_view *v, enum br_layout layout, int modes, int
     const double *from = v->values + first * (size_t)(modes * ratio);
     switch (layout) {
     case BR_BY_NODE:
-        fetch_nodes(modes, ratio, v->values + first * (size_t)(modes / 2 * ratio), value);
+        fetch_nodes(modes, ratio, v->values + first * (size_t)(unknowns_of(modes) * ratio), value);
         return;
     case BR_BY_ELEMENT:
-        load_sorted(ratio * modes, from, LANES, row);
+        load_elements(ratio * modes, from, row);
         for (int j = 0; j < ratio; j++)
             for (int i = 0; i < modes; i++)
                 value[j][i] = row[j * modes + i];
@@ -99,7 +125,7 @@ INLINE void collect(const struct br_view *v, enum br_layout layout, int modes,
                     const struct few *few, vec *value)
 {
     static const double zeros[MOST * LANES];
-    const size_t width = (size_t)(layout == BR_BY_NODE ? modes / 2 : modes);
+    const size_t width = (size_t)(layout == BR_BY_NODE ? unknowns_of(modes) : modes);
     const int step = layout == BR_IN_LANES ? LANES : 1;
     const double *from[LANES];
     for (size_t l = 0; l < LANES; l++) {
@@ -109,7 +135,7 @@ INLINE void collect(const struct br_view *v, enum br_layout layout, int modes,
         if (l >= few->live)
             from[l] = zeros;
     }
-#define AT(l) from[l][i * step]
+#define AT(l) from[l][(layout == BR_BY_NODE ? place_of(modes, i) : i) * step]
     for (int i = 0; i < modes; i++)
         value[i] = (vec){EACH(AT)};
 #undef AT
@@ -120,6 +146,10 @@ INLINE void combine(enum br_layout layout, int modes, vec *x)
 {
     if (layout == BR_BY_NODE && modes == 2) {
         const vec sum = x[0] + x[1], difference = x[1] - x[0];
+        x[0] = sum;
+        x[1] = difference;
+    } else if (layout == BR_BY_NODE && modes == 3) {
+        const vec sum = x[0] + x[1] - ALL(1.0 / 3) * x[2], difference = x[1] - x[0];
         x[0] = sum;
         x[1] = difference;
     } else if (layout == BR_BY_NODE) {

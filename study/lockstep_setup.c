@@ -79,8 +79,9 @@ static enum br_status create_roots(struct br_lockstep *l, struct br_channel *c,
     if (!c->root)
         return br_no_memory(err, "the reference's values");
     for (size_t i = 0; i < l->roots; i++) {
-        c->root[i].values =
-            br_allocate_aligned(br_measure_size(at->kind, at->measure, l->root[i]), sizeof(double));
+        c->root[i].values = br_allocate_aligned(
+            br_measure_size(br_lockstep_elements(l, at->kind), at->measure, l->root[i]),
+            sizeof(double));
         if (!c->root[i].values)
             return br_no_memory(err, "the reference's values");
     }
@@ -95,8 +96,8 @@ static enum br_status create_ladder(const struct br_lockstep *l, const struct br
                                     struct br_error *err)
 {
     const struct br_kernel *kernel = l->study->method.linear.kernel;
-    const enum br_status status =
-        br_ladder_create(ladder, br_mode_count(at->kind, at->measure), roots, rungs, err);
+    const size_t modes = br_mode_count(br_lockstep_elements(l, at->kind), at->measure);
+    const enum br_status status = br_ladder_create(ladder, modes, roots, rungs, err);
     if (!status && kernel)
         br_ladder_use(*ladder, br_ladder_kernel_find(kernel->name));
     return status;
@@ -108,7 +109,8 @@ static enum br_status create_audit(struct br_lockstep *l, struct br_channel *c,
 {
     const struct br_mesh_list root = {1, l->root};
     c->audit.values =
-        br_allocate(br_measure_size(at->kind, at->measure, l->root[0]), sizeof(double));
+        br_allocate(br_measure_size(br_lockstep_elements(l, at->kind), at->measure, l->root[0]),
+                    sizeof(double));
     if (!c->audit.values)
         return br_no_memory(err, "the auditor's values");
     if (at->measure == BR_TIP)
@@ -206,6 +208,7 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
         .scene = s->scene,
         .method = s->reference_method,
         .n = s->reference.n,
+        .axial_degree = s->method.axial_degree,
         .levels = s->reference.steps,
         .lead = longest_lead(l),
         .mesh_count = l->roots,

@@ -69,6 +69,13 @@ static inline struct br_channel *br_channel_of(struct br_lockstep *l, enum br_fi
     return &l->channel[kind * BR_MEASURES + measure];
 }
 
+/* The elements of a field, of the cells and of the reference. */
+static inline struct br_elements br_lockstep_elements(const struct br_lockstep *l,
+                                                      enum br_field_kind kind)
+{
+    return (struct br_elements){kind, l->study->method.axial_degree};
+}
+
 /* Sets up all that a prepared study needs; clear it even after a failure. */
 enum br_status br_lockstep_create(struct br_lockstep *lockstep, struct br_study *study,
                                   const struct br_observer *observer, struct br_error *err);

@@ -50,7 +50,8 @@ __attribute__((format(printf, 5, 6))) static void add(struct rows *r, const char
 static void add_axial(struct rows *r)
 {
     if (r->q->marched->axial.modelled)
-        add(r, "axial", "axial field", true, "%zu unknowns, P1 elements", r->q->n);
+        add(r, "axial", "axial field", true, "%zu unknowns, P%d elements",
+            r->q->n * (size_t)r->q->method->axial_degree, r->q->method->axial_degree);
     else if (!r->q->scene->axial.modelled)
         add(r, "axial", "axial field", false, "the scene has no axial part");
     else if (r->q->scene->friction.law == BR_TRESCA && r->q->marched->bending.modelled)
@@ -151,7 +152,8 @@ static void add_initial(struct rows *r)
     const bool bending = s->bending.modelled && !(br_function_is_zero(&s->bending.displacement) &&
                                                   br_function_is_zero(&s->bending.velocity));
     if (axial || bending)
-        add(r, "initial_data", "initial data", true, "interpolated once, at the nodes: %s",
+        add(r, "initial_data", "initial data", true, "interpolated once, at the nodes%s: %s",
+            axial && r->q->method->axial_degree == 2 ? " and midpoints" : "",
             axial && bending ? "both fields"
             : axial          ? "axial"
                              : "bending");

@@ -42,7 +42,7 @@ struct size {
 /* The square of the L2 norm of nodal values, by the element's mass. */
 static double square(const struct br_field *field, const double *nodal)
 {
-    const size_t unknowns = br_field_unknowns(field->kind), size = 2 * unknowns;
+    const size_t unknowns = br_field_unknowns(field), size = 2 * unknowns;
     double sum = 0;
     for (size_t e = 0; e < field->n; e++)
         for (size_t i = 0; i < size; i++)

@@ -123,6 +123,17 @@ static void read_energies(struct run *r)
     br_energy_meter_read(r->meter, &p->energy_start, &p->energy_now, &p->work);
 }
 
+/* What only the march itself knows. */
+static void ask_march(struct br_run_report *p, const struct br_march *march)
+{
+    const struct br_switch *first;
+    p->counts = br_march_counts(march);
+    p->switches = br_march_switches(march, &first);
+    const size_t kept = p->switches < BR_MOST_SWITCHES ? p->switches : BR_MOST_SWITCHES;
+    if (kept)
+        memcpy(p->switched, first, kept * sizeof *first);
+}
+
 /* What a march does by itself is a result; what its observers fail with is not. */
 static bool is_result(enum br_status status)
 {
@@ -155,6 +166,7 @@ static enum br_status march(struct run *r, struct br_error *err)
     if (status && (!made || !is_result(status))) {
         br_fail(err, status, "%.1000s", p->failure.message);
     } else {
+        ask_march(p, made);
         read_energies(r);
         status = BR_OK;
     }

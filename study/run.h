@@ -39,6 +39,9 @@ struct br_run_report {
     struct br_history_end end;
     struct br_error failure; /* BR_OK: it reached T; else why it stopped after end.last */
     struct br_tip_watch watch;
+    struct br_counts counts;
+    struct br_switch switched[BR_MOST_SWITCHES]; /* those that the scheme itself has found */
+    size_t switches;                             /* also of those that are not kept */
     struct br_model_row model[BR_MOST_MODEL_ROWS];
     size_t model_rows;
 

@@ -44,7 +44,7 @@ static enum br_status create(const struct br_field *field, const struct br_linea
     if (!w)
         return br_no_memory(err, "a solver");
     w->kind = field->kind;
-    w->solver = field->kind == BR_AXIAL ? inner->axial : inner->bending;
+    w->solver = br_linear_solver_for(inner, field);
     return w->solver->create(field, options, &w->state, err);
 }
 
@@ -87,6 +87,36 @@ static double tip_displacement(const void *self)
     return w->solver->tip_displacement(w->state);
 }
 
+static enum br_status set_step(void *self, double k, struct br_error *err)
+{
+    struct wrapped *w = self;
+    return w->solver->set_step(w->state, k, err);
+}
+
+static enum br_status keep(void *self, size_t count, struct br_error *err)
+{
+    struct wrapped *w = self;
+    return w->solver->keep(w->state, count, err);
+}
+
+static void exchange(void *self, size_t a, size_t b)
+{
+    struct wrapped *w = self;
+    w->solver->exchange(w->state, a, b);
+}
+
+static void combine(void *self, size_t into, size_t count, const double *weight)
+{
+    struct wrapped *w = self;
+    w->solver->combine(w->state, into, count, weight);
+}
+
+static void size(void *self, size_t state, double sizes[2])
+{
+    struct wrapped *w = self;
+    w->solver->size(w->state, state, sizes);
+}
+
 static enum br_status predict(void *self, const struct br_drive *drive, double *velocity,
                               struct br_error *err)
 {
@@ -118,6 +148,11 @@ static const struct br_field_solver measuring = {
     .predict = predict,
     .finish = finish,
     .tip_displacement = tip_displacement,
+    .set_step = set_step,
+    .keep = keep,
+    .exchange = exchange,
+    .combine = combine,
+    .size = size,
 };
 
 /* What one lap adds to itself: the least of some trials, so that a pause does not count. */
@@ -137,6 +172,7 @@ void br_step_cost_begin(struct br_step_cost *cost, struct br_method *method)
 {
     *cost = (struct br_step_cost){.lap_seconds = measure_lap(), .wrapped = *method->solver};
     cost->wrapped.axial = cost->wrapped.bending = &measuring;
+    cost->wrapped.axial_quadratic = method->solver->axial_quadratic ? &measuring : NULL;
     inner = method->solver;
     current = cost;
     method->solver = &cost->wrapped;

@@ -159,6 +159,11 @@ static enum br_status prepare(struct br_study *s, struct br_error *err)
     if (s->path && s->n_count != s->k_count)
         return br_fail(err, BR_BAD_INPUT, "a path has %zu n and %zu k, expected as many",
                        s->n_count, s->k_count);
+    if (s->judge->nests && s->reference_method.axial_degree != s->method.axial_degree)
+        return br_fail(err, BR_BAD_INPUT,
+                       "the cells have axial elements of degree %d and the reference of degree %d, "
+                       "expected the same",
+                       s->method.axial_degree, s->reference_method.axial_degree);
     const enum br_status status = s->judge->nests ? check_nesting(s, err) : common_levels(s, err);
     if (status)
         return status;

@@ -10,7 +10,7 @@
 struct br_fields_file {
     FILE *out;
     char path[2048];
-    size_t nodes;
+    size_t nodes, variables;
     double h;     /* m */
     double *work; /* values, then workspace */
 };
@@ -23,6 +23,7 @@ static enum br_status open_csv(struct br_fields_file **out, const struct br_fiel
         return br_no_memory(err, "the fields' file");
     snprintf(f->path, sizeof f->path, "%s", q->path);
     f->nodes = q->n + 1;
+    f->variables = br_field_variable_count(q->axial_degree);
     f->h = q->scene->length / (double)q->n;
     f->work = br_allocate((BR_FIELD_VARIABLES + 4) * f->nodes, sizeof *f->work);
     if (!f->work)
@@ -31,7 +32,7 @@ static enum br_status open_csv(struct br_fields_file **out, const struct br_fiel
     if (!f->out)
         return br_fail(err, BR_IO, "%s: %s", q->path, strerror(errno));
     fprintf(f->out, "t,x");
-    for (int v = 0; v < BR_FIELD_VARIABLES; v++)
+    for (size_t v = 0; v < f->variables; v++)
         fprintf(f->out, ",%s", br_field_variables[v].name);
     fputc('\n', f->out);
     return BR_OK;
@@ -43,7 +44,7 @@ static enum br_status look_csv(struct br_fields_file *f, const struct br_march *
     br_field_values(march, f->work, f->work + BR_FIELD_VARIABLES * f->nodes);
     for (size_t i = 0; i < f->nodes; i++) {
         fprintf(f->out, "%.17g,%.17g", row->time, f->h * (double)i);
-        for (size_t v = 0; v < BR_FIELD_VARIABLES; v++)
+        for (size_t v = 0; v < f->variables; v++)
             fprintf(f->out, ",%.17g", f->work[v * f->nodes + i]);
         fputc('\n', f->out);
     }

@@ -15,17 +15,47 @@ const struct br_fields_format *const br_fields_formats[] = {
     &br_fields_csv, NULL};
 
 const struct br_field_variable br_field_variables[BR_FIELD_VARIABLES] = {
-    {"u", "m", "axial displacement"},   {"u_t", "m/s", "axial velocity"},
-    {"w", "m", "bending displacement"}, {"w_slope", "1", "slope w_x of the bending displacement"},
-    {"w_t", "m/s", "bending velocity"}, {"w_t_slope", "1/s", "slope of the bending velocity"},
+    {"u", "m", "axial displacement"},
+    {"u_t", "m/s", "axial velocity"},
+    {"w", "m", "bending displacement"},
+    {"w_slope", "1", "slope w_x of the bending displacement"},
+    {"w_t", "m/s", "bending velocity"},
+    {"w_t_slope", "1/s", "slope of the bending velocity"},
+    {"u_middle", "m", "axial displacement in the middle of the element to the left of the node"},
+    {"u_t_middle", "m/s", "axial velocity there"},
 };
+
+size_t br_field_variable_count(int axial_degree)
+{
+    return axial_degree == 2 ? BR_FIELD_VARIABLES : BR_FIELD_VARIABLES - 2;
+}
+
+/* The nodes' values and, of quadratic elements, those in their middles (else NULL). */
+static void axial_values(const double *nodal, size_t nodes, double *at_node, double *middle)
+{
+    const size_t unknowns = middle ? 2 : 1;
+    for (size_t i = 0; i < nodes; i++)
+        at_node[i] = nodal[i * unknowns];
+    for (size_t i = 0; i < nodes && middle; i++)
+        middle[i] = i == 0 ? NAN : (at_node[i - 1] + at_node[i]) / 2 - nodal[2 * i + 1] / 4;
+}
+
+/* No number, for `count` variables. */
+static void blank(size_t first, size_t count, size_t nodes, double *values)
+{
+    for (size_t i = 0; i < count * nodes; i++)
+        values[first * nodes + i] = NAN;
+}
 
 void br_field_values(const struct br_march *march, double *values, double *work)
 {
     const struct br_field *field = br_march_field(march, BR_BENDING);
     const size_t nodes = field->n + 1;
     double *const displacement = work, *const velocity = work + 2 * nodes;
-    br_march_get(march, BR_AXIAL, values, values + nodes);
+    br_march_get(march, BR_AXIAL, displacement, velocity);
+    const bool quadratic = br_field_is_quadratic(br_march_field(march, BR_AXIAL));
+    axial_values(displacement, nodes, values, quadratic ? values + 6 * nodes : NULL);
+    axial_values(velocity, nodes, values + nodes, quadratic ? values + 7 * nodes : NULL);
     br_march_get(march, BR_BENDING, displacement, velocity);
     for (size_t i = 0; i < nodes; i++) {
         values[2 * nodes + i] = displacement[2 * i];
@@ -33,8 +63,10 @@ void br_field_values(const struct br_march *march, double *values, double *work)
         values[4 * nodes + i] = velocity[2 * i];
         values[5 * nodes + i] = velocity[2 * i + 1] / field->h;
     }
-    const bool marched[2] = {br_march_models(march, BR_AXIAL), br_march_models(march, BR_BENDING)};
-    for (size_t i = 0; i < BR_FIELD_VARIABLES * nodes; i++)
-        if (!marched[i < 2 * nodes ? BR_AXIAL : BR_BENDING])
-            values[i] = NAN;
+    if (!br_march_models(march, BR_AXIAL))
+        blank(0, 2, nodes, values);
+    if (!br_march_models(march, BR_AXIAL) && quadratic)
+        blank(6, 2, nodes, values);
+    if (!br_march_models(march, BR_BENDING))
+        blank(2, 4, nodes, values);
 }

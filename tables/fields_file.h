@@ -12,6 +12,7 @@ struct br_fields_request {
     const char *path;                       /* of the file */
     const struct br_scene *scene;           /* as it is marched */
     size_t n, steps, looks;                 /* elements; steps; output times */
+    int axial_degree;                       /* of the axial elements */
     const struct br_provenance *provenance; /* with its scene */
 };
 
@@ -33,16 +34,21 @@ struct br_fields_format {
 /* NULL-terminated, the best first. */
 extern const struct br_fields_format *const br_fields_formats[];
 
-/* The variables, in the order of the file; x and t aside. */
-enum { BR_FIELD_VARIABLES = 6 };
+/* The variables, in the order of the file; x and t aside. The last two are there with quadratic
+ * elements of the rod only. */
+enum { BR_FIELD_VARIABLES = 8 };
 struct br_field_variable {
     const char *name, *unit, *meaning;
 };
 extern const struct br_field_variable br_field_variables[BR_FIELD_VARIABLES];
 
-/* All nodal values of a march as it is: (out) BR_FIELD_VARIABLES times n + 1 values in the units
- * of the variables, those of one variable behind each other. Slopes are physical, w_x, not the h
- * w_x of solver/field.h. work: workspace, 4 (n + 1) values. */
+/* How many of them a march with axial elements of that degree has. */
+size_t br_field_variable_count(int axial_degree);
+
+/* All nodal values of a march as it is: (out) br_field_variable_count times n + 1 values in the
+ * units of the variables, those of one variable behind each other. Slopes are physical, w_x, not
+ * the h w_x of solver/field.h; what is in the middle of an element stands at its right node, and is
+ * NaN at the clamped one. work: workspace, 4 (n + 1) values. */
 void br_field_values(const struct br_march *march, double *values, double *work);
 
 #endif

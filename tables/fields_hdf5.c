@@ -11,6 +11,7 @@ struct br_fields_file {
     char path[2048];
     hid_t file, t, variable[BR_FIELD_VARIABLES]; /* H5I_INVALID_HID: not open */
     hsize_t nodes, looks;
+    size_t variables;
     double *work; /* values, then workspace */
 };
 
@@ -116,7 +117,7 @@ static bool create_sets(struct br_fields_file *f)
     f->t = create_set(f->file, "t", 0);
     bool good = f->t >= 0 && text_attribute(f->t, "unit", "s") &&
                 text_attribute(f->t, "meaning", "output times");
-    for (int v = 0; v < BR_FIELD_VARIABLES && good; v++) {
+    for (size_t v = 0; v < f->variables && good; v++) {
         const struct br_field_variable *variable = &br_field_variables[v];
         f->variable[v] = create_set(f->file, variable->name, f->nodes);
         good = f->variable[v] >= 0 && text_attribute(f->variable[v], "unit", variable->unit) &&
@@ -153,6 +154,7 @@ static enum br_status open_hdf5(struct br_fields_file **out, const struct br_fie
     for (int v = 0; v < BR_FIELD_VARIABLES; v++)
         f->variable[v] = H5I_INVALID_HID;
     f->nodes = q->n + 1;
+    f->variables = br_field_variable_count(q->axial_degree);
     f->work = br_allocate((size_t)(BR_FIELD_VARIABLES + 4) * f->nodes, sizeof *f->work);
     if (!f->work)
         return br_no_memory(err, "the fields' file");
@@ -172,7 +174,7 @@ static enum br_status look_hdf5(struct br_fields_file *f, const struct br_march 
     br_field_values(march, f->work, f->work + BR_FIELD_VARIABLES * f->nodes);
     if (!append(f, f->t, 0, &row->time))
         return fail(f, "t", err);
-    for (size_t v = 0; v < BR_FIELD_VARIABLES; v++)
+    for (size_t v = 0; v < f->variables; v++)
         if (!append(f, f->variable[v], f->nodes, f->work + v * f->nodes))
             return fail(f, br_field_variables[v].name, err);
     f->looks++;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tables/plain_text.h"
 
+#include <string.h>
+
 #include <stdbool.h>
 
 size_t br_utf8_length(const unsigned char *text)
@@ -36,4 +38,27 @@ void br_print_plain(FILE *out, const char *text)
             fwrite(rest, 1, length, out);
         rest += length ? length : 1;
     }
+}
+
+enum { WIDTH = 100 };
+
+void br_print_wrapped(void *self, const char *text)
+{
+    FILE *out = self;
+    size_t column = 0;
+    while (*text) {
+        const size_t word = strcspn(text, " ");
+        if (column && column + 1 + word > WIDTH) {
+            fprintf(out, "\n  ");
+            column = 2;
+        } else if (column) {
+            fputc(' ', out);
+            column++;
+        }
+        fprintf(out, "%.*s", (int)word, text);
+        column += word;
+        text += word;
+        text += strspn(text, " ");
+    }
+    fputc('\n', out);
 }

@@ -76,6 +76,33 @@ static json_t *event_list(const struct br_tip_watch *w)
     return list;
 }
 
+static json_t *switches(const struct br_run_report *p)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < p->switches && i < BR_MOST_SWITCHES; i++) {
+        const struct br_switch *s = &p->switched[i];
+        json_t *o = json_object();
+        put_number(o, "t", s->time);
+        put(o, "law", json_string(s->kind == BR_AXIAL ? "contact" : "friction"));
+        put(o, "from", json_string(br_regime_name(s->from)));
+        put(o, "to", json_string(br_regime_name(s->to)));
+        json_array_append_new(list, o);
+    }
+    return list;
+}
+
+/* What the march has cost beside time. */
+static json_t *work(const struct br_run_report *p)
+{
+    json_t *o = json_object();
+    put(o, "steps", count(p->counts.steps));
+    put(o, "steps_taken_back", count(p->counts.rejected));
+    put(o, "solves_a_field", count(p->counts.stages));
+    put(o, "changes_of_the_step", count(p->counts.set_ups));
+    put(o, "friction_iterations", count(p->counts.iterations));
+    return o;
+}
+
 static json_t *events(const struct br_run_report *p)
 {
     const struct br_tip_watch *w = &p->watch;
@@ -93,6 +120,7 @@ static json_t *events(const struct br_run_report *p)
     put(o, "counts", counts);
     put(o, "steps", steps);
     put(o, "list", event_list(w));
+    put(o, "switches_found", p->method.scheme->adaptive ? switches(p) : json_null());
     put(o, "largest_contact_force", extreme(w->contact, &w->contact_force));
     put(o, "largest_friction_force", extreme(w->friction, &w->friction_force));
     return o;
@@ -226,6 +254,7 @@ enum br_status br_run_json(FILE *out, const struct br_run_page *page, struct br_
     put(root, "contact_beyond_stability_limit", json_boolean(p->contact_unstable));
     put(root, "tip", tip(p));
     put(root, "events", events(p));
+    put(root, "work", work(p));
     put(root, "energies", energies(p));
     put(root, "certificate", certificate(p));
     put(root, "model", model(p));

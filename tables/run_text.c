@@ -112,11 +112,33 @@ static void shares(FILE *out, const struct br_tip_watch *w)
     fprintf(out, "\n");
 }
 
+static const char *regime(enum br_regime r)
+{
+    return r == BR_REGIME_NONE ? "no bound" : br_regime_name(r);
+}
+
+/* What the scheme has found within its steps. */
+static void switches(FILE *out, const struct br_run_report *p)
+{
+    if (!p->method.scheme->adaptive)
+        return;
+    fprintf(out, "\nSwitches, as scheme %s has found them: %zu\n", p->method.scheme->name,
+            p->switches);
+    for (size_t i = 0; i < p->switches && i < SHOWN_EVENTS; i++) {
+        const struct br_switch *s = &p->switched[i];
+        fprintf(out, "  t = %-16.12g  %s: %s -> %s\n", s->time,
+                s->kind == BR_AXIAL ? "contact " : "friction", regime(s->from), regime(s->to));
+    }
+    if (p->switches > SHOWN_EVENTS)
+        fprintf(out, "  ... and %zu more\n", p->switches - SHOWN_EVENTS);
+}
+
 static void events(FILE *out, const struct br_run_report *p)
 {
     const struct br_tip_watch *w = &p->watch;
     if (!w->contact && !w->friction)
         return;
+    switches(out, p);
     fprintf(out,
             "\nEvents at the tip (told at the first time level of the new regime: each happened in "
             "the step\nbefore it, up to k = %g s earlier)\n",
@@ -268,6 +290,14 @@ static void time_used(FILE *out, const struct br_run_page *page)
                 p->checked  ? ", the check included"
                 : p->summed ? ", the energies included"
                             : "");
+    fprintf(out, "\nWork: %zu steps", p->counts.steps);
+    if (p->method.scheme->adaptive)
+        fprintf(out, " of the scheme's own and %zu taken back", p->counts.rejected);
+    fprintf(out, ", %zu solves a field", p->counts.stages);
+    if (p->counts.set_ups)
+        fprintf(out, ", %zu changes of the step", p->counts.set_ups);
+    if (p->method.friction->iterates && p->marched.friction.law != BR_FRICTIONLESS)
+        fprintf(out, ", %zu friction iterations", p->counts.iterations);
     fprintf(out, "\n");
 }
 

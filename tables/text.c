@@ -4,31 +4,8 @@
 #include <string.h>
 
 #include "tables/emitter.h"
+#include "tables/plain_text.h"
 #include "tables/sentences.h"
-
-enum { WIDTH = 100 };
-
-/* A paragraph wrapped at WIDTH, continued lines indented by two. */
-static void wrap(void *self, const char *text)
-{
-    FILE *out = self;
-    size_t column = 0;
-    while (*text) {
-        const size_t word = strcspn(text, " ");
-        if (column && column + 1 + word > WIDTH) {
-            fprintf(out, "\n  ");
-            column = 2;
-        } else if (column) {
-            fputc(' ', out);
-            column++;
-        }
-        fprintf(out, "%.*s", (int)word, text);
-        column += word;
-        text += word;
-        text += strspn(text, " ");
-    }
-    fputc('\n', out);
-}
 
 static char flag_letter(enum br_flag flag)
 {
@@ -122,7 +99,7 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
                            struct br_error *err)
 {
     (void)p, (void)err;
-    const struct br_writer w = {wrap, out};
+    const struct br_writer w = {br_print_wrapped, out};
     fprintf(out, "%s\n", r->caption);
     for (size_t i = 0; i < strlen(r->caption); i++)
         fputc('=', out);

@@ -28,7 +28,8 @@ static struct br_view random_view(enum br_field_kind kind, size_t n)
     struct br_test_random random = {n};
     struct br_view view;
     br_view_field(&view, &field, BR_VELOCITY);
-    view.values = br_allocate_aligned(br_measure_size(kind, BR_VELOCITY, n), sizeof(double));
+    view.values = br_allocate_aligned(
+        br_measure_size((struct br_elements){kind, 1}, BR_VELOCITY, n), sizeof(double));
     assert_non_null(view.values);
     for (size_t i = 0; i < br_field_size(&field); i++)
         view.values[i] = br_test_uniform(&random, -1, 1);
@@ -39,7 +40,7 @@ static void set_up(struct bench *b, enum br_field_kind kind)
 {
     struct br_error err = {0};
     const size_t root = ROOT;
-    MUST(br_ladder_create(&b->ladder, br_mode_count(kind, BR_VELOCITY),
+    MUST(br_ladder_create(&b->ladder, br_mode_count((struct br_elements){kind, 1}, BR_VELOCITY),
                           &(struct br_mesh_list){1, &root}, &(struct br_mesh_list){RUNGS, rungs},
                           &err));
     b->projection = br_allocate_aligned(br_ladder_size(b->ladder), sizeof(double));

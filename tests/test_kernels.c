@@ -65,7 +65,7 @@ static void finish(struct pair *p)
 /* Smooth nodal values that respect the clamp; bending: with the scaled slope. */
 static void fill_smooth(const struct pair *p, double *nodal, double size, double waves)
 {
-    const size_t d = br_field_unknowns(p->field.kind);
+    const size_t d = br_field_unknowns(&p->field);
     for (size_t i = 0; i <= p->field.n; i++) {
         const double x = (double)i / (double)p->field.n;
         nodal[i * d] = size * x * x * cos(waves * x);
@@ -89,7 +89,7 @@ static void set(struct pair *p, struct br_test_random *r)
 /* None, one that is the same at every node, or one that is not. */
 static struct br_drive random_load(struct pair *p, struct br_test_random *r)
 {
-    const size_t kind = br_test_index(r, 3), d = br_field_unknowns(p->field.kind);
+    const size_t kind = br_test_index(r, 3), d = br_field_unknowns(&p->field);
     const double even = br_test_uniform(r, -1, 1);
     for (size_t i = 0; i < p->size; i++)
         p->load[i] = p->field.h * (kind == 1 ? (i % d ? 0 : even) : br_test_uniform(r, -1, 1));
@@ -140,8 +140,9 @@ static void step(struct pair *p, struct br_drive *drive, double force, const cha
 
 static void check_strain_rate(struct pair *p)
 {
-    const double scale = 4 * magnitude(p, 1); /* a strain is a difference of four nodal values or two */
-    const size_t count = p->field.n * br_field_unknowns(p->field.kind);
+    const double scale =
+        4 * magnitude(p, 1); /* a strain is a difference of four nodal values or two */
+    const size_t count = p->field.n * br_field_unknowns(&p->field);
     for (int i = 0; i < 2; i++)
         p->solver[i]->strain_rate(p->state[i], p->value[i]);
     for (size_t j = 0; j < count; j++)

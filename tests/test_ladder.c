@@ -22,7 +22,7 @@ static double *random_function(struct br_test_random *r, const struct br_field *
     const size_t size = br_field_size(f);
     double *nodal = calloc(size, sizeof *nodal);
     assert_non_null(nodal);
-    for (size_t i = br_field_unknowns(f->kind); i < size; i++)
+    for (size_t i = br_field_unknowns(f); i < size; i++)
         nodal[i] = br_test_uniform(r, -1, 1);
     return nodal;
 }
@@ -72,7 +72,7 @@ static struct br_ladder *create(enum br_field_kind kind, size_t finest, size_t c
 {
     struct br_error err = {0};
     struct br_ladder *ladder;
-    MUST(br_ladder_create(&ladder, br_mode_count(kind, BR_DISPLACEMENT),
+    MUST(br_ladder_create(&ladder, br_mode_count((struct br_elements){kind, 1}, BR_DISPLACEMENT),
                           &(struct br_mesh_list){1, &finest}, &(struct br_mesh_list){count, n},
                           &err));
     return ladder;
@@ -140,7 +140,7 @@ static void test_random_functions(void **state)
 static double *prolonged(const struct br_field *coarse, const double *v,
                          const struct br_field *fine, const double *small, double factor)
 {
-    const size_t ratio = fine->n / coarse->n, unknowns = br_field_unknowns(fine->kind);
+    const size_t ratio = fine->n / coarse->n, unknowns = br_field_unknowns(fine);
     double *nodal = calloc(br_field_size(fine), sizeof *nodal);
     assert_non_null(nodal);
     for (size_t j = 0; j <= fine->n; j++) {

@@ -33,7 +33,7 @@ static void test_contact(void **state)
 }
 
 /* The exact law: stick, or slip at the bound in the direction of v. */
-static void check_exact(const struct br_friction_state *s)
+static void check_exact(struct br_friction_state *s)
 {
     const double lambda = br_friction_rule_find("exact")->force(s);
     const double v = s->free_velocity - lambda * s->compliance;
@@ -46,7 +46,7 @@ static void check_exact(const struct br_friction_state *s)
 }
 
 /* (29), corrected: lambda = h v / mu within mu, h sign(v) beyond. */
-static void check_regularised(const struct br_friction_state *s)
+static void check_regularised(struct br_friction_state *s)
 {
     const double lambda = br_friction_rule_find("regularised")->force(s);
     const double v = s->free_velocity - lambda * s->compliance;
@@ -63,10 +63,12 @@ static void test_friction(void **state)
     struct br_test_random r = {8};
     size_t stuck = 0;
     for (int i = 0; i < 10000; i++) {
-        const struct br_friction_state s = {
-            br_test_uniform(&r, -1, 1), br_test_log_uniform(&r, 1e-3, 1),
-            br_test_index(&r, 10) ? br_test_log_uniform(&r, 1e-3, 100) : 0,
-            br_test_log_uniform(&r, 1e-10, 1)};
+        struct br_friction_state s = {
+            .free_velocity = br_test_uniform(&r, -1, 1),
+            .compliance = br_test_log_uniform(&r, 1e-3, 1),
+            .bound = br_test_index(&r, 10) ? br_test_log_uniform(&r, 1e-3, 100) : 0,
+            .regularisation = br_test_log_uniform(&r, 1e-10, 1),
+        };
         check_exact(&s);
         check_regularised(&s);
         stuck += fabs(s.free_velocity) < s.bound * s.compliance;
@@ -80,8 +82,11 @@ static void test_regularisation_vanishes(void **state)
     (void)state;
     struct br_test_random r = {9};
     for (int i = 0; i < 1000; i++) {
-        struct br_friction_state s = {br_test_uniform(&r, -1, 1), br_test_log_uniform(&r, 1e-3, 1),
-                                      br_test_log_uniform(&r, 1e-3, 100), 0};
+        struct br_friction_state s = {
+            .free_velocity = br_test_uniform(&r, -1, 1),
+            .compliance = br_test_log_uniform(&r, 1e-3, 1),
+            .bound = br_test_log_uniform(&r, 1e-3, 100),
+        };
         const double exact = br_friction_rule_find("exact")->force(&s);
         for (s.regularisation = 1; s.regularisation > 1e-12; s.regularisation /= 10) {
             const double mu = s.regularisation;
@@ -117,7 +122,7 @@ static void test_nan_stays(void **state)
         assert_true(isnan(br_contact_rules[i]->force(&contact, &s)));
     }
     for (size_t i = 0; br_friction_rules[i]; i++) {
-        const struct br_friction_state s = {NAN, 1, 1, 1};
+        struct br_friction_state s = {NAN, 1, 1, 1, 0, br_iteration_defaults, 0};
         assert_true(isnan(br_friction_rules[i]->force(&s)));
     }
 }

@@ -334,7 +334,8 @@ static void odd_free(void *self)
     (void)self;
 }
 
-static enum br_status odd_advance(void *self, enum br_field_kind kind, size_t i, struct br_error *err)
+static enum br_status odd_advance(void *self, enum br_field_kind kind, size_t i,
+                                  struct br_error *err)
 {
     (void)self, (void)kind, (void)err;
     audited_level = i;
@@ -344,7 +345,9 @@ static enum br_status odd_advance(void *self, enum br_field_kind kind, size_t i,
 static void odd_look(void *self, const struct br_look_at *at, struct br_view *view)
 {
     (void)self;
-    br_view_modes(view, at->measure == BR_TIP ? 0 : br_mode_count(at->kind, at->measure));
+    br_view_modes(view, at->measure == BR_TIP
+                            ? 0
+                            : br_mode_count((struct br_elements){at->kind, 1}, at->measure));
     view->values[0] = audited_level == 4 ? NAN : 1;
 }
 

@@ -14,7 +14,7 @@
 static void fill(const struct br_field *f, double (*value)(double), double (*slope)(double),
                  double *nodal)
 {
-    const size_t d = br_field_unknowns(f->kind);
+    const size_t d = br_field_unknowns(f);
     for (size_t i = 0; i <= f->n; i++) {
         nodal[d * i] = value(f->h * (double)i);
         if (d == 2)
@@ -305,6 +305,32 @@ static void test_cost(void **state)
     br_scene_clear(&scene);
 }
 
+/* Nor where a scheme has several stages, or the rod quadratic elements. */
+static void test_cost_of_methods(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
+        for (int degree = 1; degree <= 2 && !(*s)->integrator; degree++) {
+            struct br_run_request request = {
+                .scene = &scene, .method = br_method_default(), .n = 7, .steps = 20};
+            request.method.scheme = *s;
+            request.method.contact = br_contact_rule_find("implicit");
+            request.method.axial_degree = degree;
+            struct br_run_report plain, explained;
+            MUST(br_run(&request, &plain, &err));
+            request.explain = true;
+            MUST(br_run(&request, &explained, &err));
+            assert_memory_equal(plain.end.last.displacement, explained.end.last.displacement,
+                                sizeof plain.end.last.displacement);
+            assert_int_equal(plain.model[0].modelled, true);
+            assert_non_null(strstr(plain.model[0].why, degree == 2 ? "14 unknowns, P2 elements"
+                                                                   : "7 unknowns, P1 elements"));
+        }
+    br_scene_clear(&scene);
+}
+
 struct stop_at {
     size_t step, told;
 };
@@ -416,6 +442,7 @@ int main(void)
         cmocka_unit_test(test_rows_and_looks),
         cmocka_unit_test(test_stride),
         cmocka_unit_test(test_cost),
+        cmocka_unit_test(test_cost_of_methods),
         cmocka_unit_test(test_failures),
         cmocka_unit_test(test_model),
     };

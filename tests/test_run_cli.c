@@ -197,6 +197,42 @@ static void test_files(void **state)
     assert_false(cli_is_there("g"));
 }
 
+/* Of quadratic elements the fields have the middles, of others not. */
+static void test_middles(void **state)
+{
+    (void)state;
+    enum { N = 3, NODES = N + 1 };
+    struct br_scene scene = br_test_bare();
+    struct br_method method = br_method_default();
+    scene.axial.displacement = br_test_function("x*(2 - x)");
+    scene.axial.velocity = br_test_function("x^2");
+    assert_int_equal(br_field_variable_count(1), 6);
+    assert_int_equal(br_field_variable_count(2), 8);
+    for (int degree = 1; degree <= 2; degree++) {
+        double values[BR_FIELD_VARIABLES * NODES], work[4 * NODES];
+        method.axial_degree = degree;
+        struct br_march *march = br_test_march(&scene, N, 1, &method);
+        br_field_values(march, values, work);
+        for (size_t i = 1; i < NODES; i++) {
+            const double x = (double)i / N, middle = x - 0.5 / N;
+            CLOSE(values[i], x * (2 - x), 1e-15);
+            CLOSE(values[NODES + i], x * x, 1e-15);
+            if (degree == 2) {
+                CLOSE(values[6 * NODES + i], middle * (2 - middle), 1e-15);
+                CLOSE(values[7 * NODES + i], middle * middle, 1e-15);
+            }
+        }
+        assert_true(degree == 1 || isnan(values[6 * NODES]));
+        br_march_free(march);
+    }
+    br_scene_clear(&scene);
+    cli_expect("run initial_data --n 4 --k 0.1 --axial-degree 2 --out q --check --quiet", NULL, 0,
+               "");
+    assert_true(cli_file_contains("q/summary.txt", "8 unknowns, P2 elements"));
+    cli_expect("run initial_data --axial-degree 2 --solver banded", NULL, 2,
+               "solver 'banded' has no quadratic axial elements, expected one of riccati, plain");
+}
+
 /* The rows that were made are kept, and the last line says why there are no more. */
 static void test_blow_up(void **state)
 {
@@ -235,7 +271,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bad_input), cmocka_unit_test(test_summary),
         cmocka_unit_test(test_json),      cmocka_unit_test(test_files),
-        cmocka_unit_test(test_blow_up),   cmocka_unit_test(test_interrupt),
+        cmocka_unit_test(test_middles),   cmocka_unit_test(test_blow_up),
+        cmocka_unit_test(test_interrupt),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

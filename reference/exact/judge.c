@@ -13,6 +13,7 @@ struct exact_judge {
     struct br_exact_projection **projection[2][BR_MEASURES]; /* by br_field_kind, then by mesh */
     bool modelled[2];
     size_t meshes, levels;
+    int axial_degree;
     double length, duration; /* m, s */
     double seconds[2];       /* by br_field_kind */
 };
@@ -56,7 +57,8 @@ static enum br_status create_projections(struct exact_judge *e, enum br_field_ki
     const struct br_exact_part part = part_of(kind, measure);
     enum br_status status = BR_OK;
     for (size_t i = 0; i < r->mesh_count && !status; i++) {
-        const struct br_exact_mesh mesh = {r->mesh[i], br_mode_count(kind, measure) - 1};
+        const struct br_exact_mesh mesh = {
+            r->mesh[i], br_mode_count((struct br_elements){kind, r->axial_degree}, measure) - 1};
         status = br_exact_projection_create(&projection[i], e->exact, &part, &mesh, err);
     }
     return status;
@@ -86,6 +88,7 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
     e->modelled[BR_BENDING] = r->scene->bending.modelled;
     e->meshes = r->mesh_count;
     e->levels = r->levels;
+    e->axial_degree = r->axial_degree;
     e->length = r->scene->length;
     e->duration = r->scene->duration;
     struct br_exact_options options = {.acceptable = 1e-8};
@@ -122,7 +125,8 @@ static void exact_look(void *self, const struct br_look_at *at, struct br_view *
         *view->values = e->state->tip[part_of(at->kind, BR_TIP).field].displacement;
         return;
     }
-    br_view_modes(view, br_mode_count(at->kind, at->measure));
+    br_view_modes(view,
+                  br_mode_count((struct br_elements){at->kind, e->axial_degree}, at->measure));
     br_exact_projection_apply(e->projection[at->kind][at->measure][at->mesh], e->exact, e->state,
                               view->values, &view->rest);
 }

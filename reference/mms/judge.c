@@ -13,6 +13,7 @@ struct mms_judge {
     struct br_derivative *tip[2];                      /* the solution itself */
     char *solution[2];                                 /* NULL: not modelled */
     size_t meshes, levels;
+    int axial_degree;
     double length, duration;     /* m, s */
     double time[2];              /* by br_field_kind, s */
     double tail[2][BR_MEASURES]; /* the largest of br_projection_rest, squared */
@@ -50,7 +51,7 @@ static enum br_status create_projections(struct mms_judge *j, enum br_field_kind
                        : kind == BR_AXIAL        ? 1
                                                  : 2,
                   .t = measure != BR_DISPLACEMENT},
-        .kept = br_mode_count(kind, measure),
+        .kept = br_mode_count((struct br_elements){kind, r->axial_degree}, measure),
     };
     enum br_status status = BR_OK;
     for (size_t i = 0; i < r->mesh_count && !status; i++) {
@@ -93,6 +94,7 @@ static enum br_status mms_create(void **self, const struct br_judge_request *r,
         return br_no_memory(err, "the manufactured solution");
     j->meshes = r->mesh_count;
     j->levels = r->levels;
+    j->axial_degree = r->axial_degree;
     j->length = scene->length;
     j->duration = scene->duration;
     const enum br_status status = create_part(j, BR_AXIAL, r, err);
@@ -117,7 +119,8 @@ static void mms_look(void *self, const struct br_look_at *at, struct br_view *vi
         br_view_modes(view, 0);
         *view->values = br_derivative_at(j->tip[at->kind], j->length, j->time[at->kind]);
     } else {
-        br_view_modes(view, br_mode_count(at->kind, at->measure));
+        br_view_modes(view,
+                      br_mode_count((struct br_elements){at->kind, j->axial_degree}, at->measure));
         sums = br_projection_apply(j->projection[at->kind][at->measure][at->mesh],
                                    j->time[at->kind], view->values);
     }

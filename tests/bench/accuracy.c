@@ -5,6 +5,8 @@
 
 #include "tests/bench/bench.h"
 
+enum { REFINEMENT = 4 };
+
 static double predicted(const struct br_scene *scene, const struct br_test_golden *row,
                         const struct br_method *method)
 {
@@ -21,14 +23,30 @@ static void run_row(struct bench *b, const struct br_test_golden *row,
     const struct br_test_end end = br_test_run(&scene, row->n, row->steps, method);
     const double deviation = br_test_deviation(&end, &row->end);
     const double limit = predicted(&scene, row, method);
+    const char *name = method->solver->name;
+    const int refinement = method->linear.refinement;
     br_scene_clear(&scene);
-    printf("%-8s %8zu %12.1e %12.1e\n", method->solver->name, row->n, deviation, limit);
+    printf("%-8s %10d %8zu %12.1e %12.1e\n", name, refinement, row->n, deviation, limit);
     fflush(stdout);
-    bench_record_value(b, "relative", deviation, "%s round-off n=%zu", method->solver->name,
-                       row->n);
+    if (refinement)
+        bench_record_value(b, "relative", deviation, "%s refinement=%d round-off n=%zu", name,
+                           refinement, row->n);
+    else
+        bench_record_value(b, "relative", deviation, "%s round-off n=%zu", name, row->n);
     if (!(deviation <= limit))
-        fail_msg("%s, n = %zu: the round-off is %g, predicted were at most %g",
-                 method->solver->name, row->n, deviation, limit);
+        fail_msg("%s, n = %zu: the round-off is %g, predicted were at most %g", name, row->n,
+                 deviation, limit);
+}
+
+/* Without refinement, and with some where the solver knows it. */
+static void run_solver(struct bench *b, const struct br_test_golden *row,
+                       const struct br_linear_solver *solver)
+{
+    struct br_method method = br_test_method(solver->name, "lagged", "exact");
+    run_row(b, row, &method);
+    method.linear.refinement = REFINEMENT;
+    if (br_linear_solver_heeds(solver, "--refinement"))
+        run_row(b, row, &method);
 }
 
 void bench_accuracy(void **state)
@@ -36,11 +54,9 @@ void bench_accuracy(void **state)
     struct br_test_golden rows[BR_TEST_MOST_GOLDEN];
     const size_t count = br_test_golden(rows);
     printf("\nRound-off of Example 2 with k = 1e-3 s, relative to quadruple precision\n");
-    printf("%-8s %8s %12s %12s\n", "solver", "n", "measured", "predicted");
+    printf("%-8s %10s %8s %12s %12s\n", "solver", "refinement", "n", "measured", "predicted");
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
-        for (size_t i = 0; i < count; i++) {
-            const struct br_method method = br_test_method((*s)->name, "lagged", "exact");
+        for (size_t i = 0; i < count; i++)
             if (strcmp(rows[i].scene, "example2") == 0)
-                run_row(*state, &rows[i], &method);
-        }
+                run_solver(*state, &rows[i], *s);
 }

@@ -59,6 +59,10 @@ struct bench_march {
     double guess; /* ns an element-step; 0: unknown */
 };
 
+/* Whether it can be set up with k = 1e-3 s; else err says why not: a library that cannot factorise
+ * so fine a mesh. Coarse ones must not fail. */
+bool bench_can_march(const struct bench_march *march, struct br_error *err);
+
 /* What it took. */
 struct bench_march_time {
     struct bench_time step; /* ns an element-step, both fields being one */

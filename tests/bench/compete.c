@@ -26,32 +26,19 @@ static double allowed(size_t n)
     return DBL_EPSILON * pow((double)n, 4);
 }
 
-/* Whether the library can factorise at all; else says why not. */
-static bool can_march(struct bench *b, const struct br_scene *scene, size_t n,
-                      const struct br_method *method)
-{
-    struct br_error err = {0};
-    struct br_march *march;
-    if (br_march_create(&march, scene, n, STEPS, method, &err) == BR_OK) {
-        br_march_free(march);
-        return true;
-    }
-    printf("  %-20s %7zu   failed: %s\n", method->solver->name, n, err.message);
-    bench_record_skipped(b, err.message, "peer %s n=%zu", method->solver->name, n);
-    if (n <= 400)
-        fail_msg("%s failed at n = %zu", method->solver->name, n);
-    return false;
-}
-
 static void run_peer(struct bench *b, const struct br_scene *scene, size_t n,
                      const struct br_linear_solver *peer, double fast)
 {
     const struct br_method usual = bench_fast_method();
     struct br_method method = usual;
     method.solver = peer;
-    if (!can_march(b, scene, n, &method))
-        return;
     const struct bench_march march = {scene, &method, n, 60};
+    struct br_error err = {0};
+    if (!bench_can_march(&march, &err)) {
+        printf("  %-20s %7zu   failed: %s\n", peer->name, n, err.message);
+        bench_record_skipped(b, err.message, "peer %s n=%zu", peer->name, n);
+        return;
+    }
     const struct bench_time t = bench_march(&march).step;
     const double deviation = deviation_of(scene, n, &usual, &method), limit = allowed(n);
     printf("  %-20s %7zu %9.2f %9.2f %9.2f %9.1f %12.1e\n", peer->name, n, t.median, t.least,
@@ -82,7 +69,8 @@ void bench_peers(void **state)
         printf("  %-20s %7zu %9.2f %9.2f %9.2f\n", method.solver->name, sizes[i], t.median, t.least,
                t.most);
         for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
-            run_peer(*state, &scene, sizes[i], *s, t.least);
+            if (*s != method.solver)
+                run_peer(*state, &scene, sizes[i], *s, t.least);
     }
     br_scene_clear(&scene);
 }

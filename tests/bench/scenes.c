@@ -23,3 +23,16 @@ struct br_method bench_fast_method(void)
     method.solver = *s;
     return method;
 }
+
+bool bench_can_march(const struct bench_march *m, struct br_error *err)
+{
+    struct br_march *march;
+    const size_t steps = (size_t)(m->scene->duration / 1e-3 + 0.5);
+    if (br_march_create(&march, m->scene, m->n, steps, m->method, err) == BR_OK) {
+        br_march_free(march);
+        return true;
+    }
+    if (m->n <= 400)
+        fail_msg("%s failed at n = %zu: %s", m->method->solver->name, m->n, err->message);
+    return false;
+}

@@ -46,14 +46,29 @@ static struct bench_march_time run_row(const struct series *s, size_t n, double 
     return t;
 }
 
-static void skip_row(const struct series *s, size_t n, double seconds)
+static void skip_row(const struct series *s, size_t n, const char *reason)
 {
-    char reason[64];
-    snprintf(reason, sizeof reason, "would take about %.0f s", seconds);
     printf("%-8s %-9s %-8s %8zu   skipped: %s\n", s->method.solver->name, s->kernel,
            bench_field_names[s->fields], n, reason);
     bench_record_skipped(s->bench, reason, "%s %s %s n=%zu", s->method.solver->name, s->kernel,
                          bench_field_names[s->fields], n);
+}
+
+static void skip_long_row(const struct series *s, size_t n, double seconds)
+{
+    char reason[64];
+    snprintf(reason, sizeof reason, "would take about %.0f s", seconds);
+    skip_row(s, n, reason);
+}
+
+static bool can_run_row(const struct series *s, size_t n)
+{
+    const struct bench_march march = {&s->scene, &s->method, n, 0};
+    struct br_error err = {0};
+    const bool can = bench_can_march(&march, &err);
+    if (!can)
+        skip_row(s, n, err.message);
+    return can;
 }
 
 /* What a row will take, s, by the one before. */
@@ -73,10 +88,12 @@ static void run_series(const struct series *s)
     for (size_t i = 0; i < SIZES; i++) {
         const double cost = cost_of(s, i, &t);
         if (!(cost <= most_seconds)) {
-            skip_row(s, sizes[i], cost);
+            skip_long_row(s, sizes[i], cost);
             t.set_up = cost; /* the next would not take less */
             continue;
         }
+        if (!can_run_row(s, sizes[i]))
+            continue;
         t = run_row(s, sizes[i], t.step.least);
         const double ns = t.step.least;
         if (ns < least)

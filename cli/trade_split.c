@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/trade_split.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/provenance.h"
+#include "cli/read_text.h"
+#include "cli/signals.h"
+#include "plots/plots.h"
+#include "plots/split.h"
+#include "study/contender.h"
+#include "study/number_list.h"
+#include "study/ranks.h"
+#include "study/scene_file.h"
+#include "tables/split_emitter.h"
+
+struct work {
+    const struct br_trade_options *options;
+    struct br_study_request request; /* n, k, norms, threads */
+    struct br_contenders methods;
+    double *tolerance; /* tolerances; owned */
+    size_t tolerances;
+    char path[1024]; /* of the scene */
+    char *text;
+    struct br_scene scene;
+    struct br_split *split; /* splits; owned */
+    size_t splits;
+    struct br_provenance provenance;
+    struct br_output output;
+};
+
+/* ---- options ---- */
+
+static enum br_status read_scene(struct work *w, struct br_error *err)
+{
+    enum br_status status = br_scene_find(w->options->scene[0], w->path, sizeof w->path, err);
+    if (!status)
+        status = br_scene_read(w->path, &w->scene, err);
+    return status ? status : br_read_text(w->path, &w->text, err);
+}
+
+/* Tolerances that no method heeds are refused. */
+static enum br_status check_heeded(const struct work *w, struct br_error *err)
+{
+    for (size_t i = 0; i < w->methods.count; i++)
+        if (br_contender_adaptive(&w->methods.list[i]))
+            return BR_OK;
+    return w->tolerances
+               ? br_fail(err, BR_BAD_INPUT, "--tolerances: no method of --methods heeds it")
+               : BR_OK;
+}
+
+static enum br_status read_lists(struct work *w, struct br_error *err)
+{
+    const struct br_trade_options *o = w->options;
+    enum br_status status = br_study_request_read(&o->study, &w->request, err);
+    if (!status)
+        status = br_contenders_read("--methods", o->methods ? o->methods : br_time_schemes[0]->name,
+                                    &w->methods, err);
+    if (!status && o->tolerances)
+        status = br_read_numbers("--tolerances", o->tolerances, &w->tolerance, &w->tolerances, err);
+    return status ? status : check_heeded(w, err);
+}
+
+/* ---- the runs: methods, then meshes, then time steps, or tolerances ---- */
+
+/* How many tolerances a method is run with. */
+static size_t tolerances_of(const struct work *w, const struct br_contender *c)
+{
+    return br_contender_adaptive(c) && w->tolerances ? w->tolerances : 1;
+}
+
+static void set_run(const struct work *w, const struct br_contender *c, size_t n, size_t steps,
+                    struct br_split *split)
+{
+    *split = (struct br_split){
+        .scene = &w->scene,
+        .method = c->method,
+        .at = {n, steps},
+        .norms = w->request.norms,
+    };
+    memcpy(split->norm, w->request.norm, sizeof split->norm);
+}
+
+enum { DEFAULT_N = 100, DEFAULT_STEPS = 1000 };
+
+static enum br_status add_runs(struct work *w, const struct br_contender *c, size_t n,
+                               struct br_error *err)
+{
+    const size_t count = w->request.k_count ? w->request.k_count : 1;
+    for (size_t j = 0; j < count; j++) {
+        size_t steps = DEFAULT_STEPS;
+        struct br_error inner = {0};
+        if (w->request.k_count && br_steps_of(&w->scene, w->request.k[j], &steps, &inner))
+            return br_fail(err, BR_BAD_INPUT, "--k: %.1000s", inner.message);
+        for (size_t t = 0; t < tolerances_of(w, c); t++) {
+            struct br_split *split = &w->split[w->splits++];
+            set_run(w, c, n, steps, split);
+            if (br_contender_adaptive(c) && w->tolerances)
+                split->method.tolerance = w->tolerance[t];
+        }
+    }
+    return BR_OK;
+}
+
+static enum br_status lay_out(struct work *w, struct br_error *err)
+{
+    const size_t meshes = w->request.n_count ? w->request.n_count : 1;
+    const size_t steps = w->request.k_count ? w->request.k_count : 1;
+    const size_t most = w->tolerances ? w->tolerances : 1;
+    w->split = br_allocate(w->methods.count * meshes * steps * most, sizeof *w->split);
+    if (!w->split)
+        return br_no_memory(err, "the parts of the errors");
+    enum br_status status = BR_OK;
+    for (size_t c = 0; c < w->methods.count; c++)
+        for (size_t i = 0; i < meshes && !status; i++)
+            status = add_runs(w, &w->methods.list[c],
+                              w->request.n_count ? w->request.n[i] : DEFAULT_N, err);
+    return status;
+}
+
+/* ---- computing and writing ---- */
+
+/* Progress over all runs. */
+struct overall {
+    const struct br_observer *inner;
+    size_t done, all;
+};
+
+static void progress(void *self, double fraction)
+{
+    const struct overall *o = self;
+    if (o->inner->progress)
+        o->inner->progress(o->inner->self, ((double)o->done + fraction) / (double)o->all);
+}
+
+static bool stop(void *self)
+{
+    const struct overall *o = self;
+    return o->inner->stop && o->inner->stop(o->inner->self);
+}
+
+static enum br_status split_all(struct work *w, struct br_error *err)
+{
+    struct overall o = {
+        .inner = br_progress_start("splitting", w->options->study.quiet || !br_ranks_first()),
+        .all = w->splits};
+    const struct br_observer observer = {progress, stop, &o};
+    enum br_status status = BR_OK;
+    for (; o.done < o.all && !status; o.done++)
+        status = br_split_run(&w->split[o.done], w->request.threads, &observer, err);
+    br_progress_end();
+    return !status && br_signals_caught() ? br_fail(err, BR_INTERRUPTED, "interrupted") : status;
+}
+
+static bool wanted(const char *list, const char *name)
+{
+    const size_t length = strlen(name);
+    for (const char *rest = list; rest && *rest; rest += strcspn(rest, ","), rest += *rest == ',')
+        if (strcspn(rest, ",") == length && strncmp(rest, name, length) == 0)
+            return true;
+    return !list;
+}
+
+static enum br_status write_table(struct work *w, const struct br_split_emitter *emitter,
+                                  const struct br_split_page *page, struct br_error *err)
+{
+    char name[600];
+    FILE *file;
+    snprintf(name, sizeof name, "%.500s-split%s", w->scene.name, emitter->extension);
+    enum br_status status = br_output_file(&w->output, name, &file, err);
+    if (status)
+        return status;
+    status = emitter->emit(file, page, err);
+    const enum br_status closed = br_output_close(file, name, status ? NULL : err);
+    return status ? status : closed;
+}
+
+static enum br_status write_part(struct work *w, const struct br_chart *chart, const char *name,
+                                 void (*write)(FILE *, const struct br_chart *),
+                                 struct br_error *err)
+{
+    FILE *file;
+    const enum br_status status = br_output_file(&w->output, name, &file, err);
+    if (status)
+        return status;
+    write(file, chart);
+    return br_output_close(file, name, err);
+}
+
+static enum br_status write_plot(struct work *w, const struct br_chart *chart, struct br_error *err)
+{
+    char data[80], script[80];
+    bool missing = false;
+    snprintf(data, sizeof data, "%s.dat", chart->stem);
+    snprintf(script, sizeof script, "%s.gp", chart->stem);
+    enum br_status status = write_part(w, chart, data, br_chart_write_data, err);
+    if (!status)
+        status = write_part(w, chart, script, br_chart_write_script, err);
+    if (!status)
+        status = br_plot_render(w->output.staging, script, &missing, err);
+    if (missing)
+        fprintf(stderr, "beamrate: gnuplot is not installed: the plot is written as a script "
+                        "(*.gp) and data, but not rendered\n");
+    return missing ? BR_OK : status;
+}
+
+/* Over k or h, where the runs differ by one of them. */
+static enum br_status plot(struct work *w, const struct br_split_page *page, struct br_error *err)
+{
+    struct br_chart chart;
+    enum br_status status = br_split_chart(page->split, page->count, &chart, err);
+    if (!status && chart.panels)
+        status = write_plot(w, &chart, err);
+    br_chart_clear(&chart);
+    return status;
+}
+
+static enum br_status write_all(struct work *w, const struct br_split_page *page,
+                                struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (const struct br_split_emitter *const *e = br_split_emitters; *e && !status; e++)
+        if (wanted(w->options->study.format, (*e)->name))
+            status = write_table(w, *e, page, err);
+    if (!status && !w->options->study.no_plots)
+        status = plot(w, page, err);
+    return status ? status : br_output_commit(&w->output, err);
+}
+
+static enum br_status run(struct work *w, struct br_error *err)
+{
+    const bool writes = br_ranks_first();
+    const char *out = w->options->study.out;
+    enum br_status status = read_lists(w, err);
+    if (!status)
+        status = read_scene(w, err);
+    if (!status)
+        status = lay_out(w, err);
+    if (!status && writes)
+        status = br_output_open(&w->output, out ? out : "trade", err);
+    if (!status)
+        status = split_all(w, err);
+    if (status || !writes)
+        return status;
+    br_provenance_fill(&w->provenance, w->request.threads);
+    w->provenance.scene_path = w->path;
+    w->provenance.scene_text = w->text;
+    const struct br_split_page page = {w->split, w->splits, &w->provenance};
+    if (!w->options->study.quiet)
+        status = br_split_emitters[0]->emit(stdout, &page, err);
+    if (!status)
+        status = write_all(w, &page, err);
+    if (!status && !w->options->study.quiet)
+        printf("\nWritten to %s/\n", w->output.folder);
+    return status;
+}
+
+enum br_status br_trade_split(const struct br_trade_options *options, struct br_error *err)
+{
+    struct work w = {.options = options};
+    const enum br_status status = run(&w, err);
+    br_output_discard(&w.output);
+    br_study_request_clear(&w.request);
+    br_scene_clear(&w.scene);
+    free(w.tolerance);
+    free(w.split);
+    free(w.text);
+    return status;
+}

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "solver/assembled.h"
+
+enum br_status br_system_init(struct br_system *s, const struct br_field *field,
+                              const struct br_linear_options *options,
+                              const struct br_factoriser *factoriser, struct br_error *err)
+{
+    s->field = *field;
+    s->unknowns = br_field_unknowns(field);
+    s->nodal = br_field_size(field);
+    s->factoriser = factoriser;
+    s->refinement = factoriser->refines ? 0 : options->refinement;
+    s->matrix = (struct br_band){.order = s->unknowns * field->n, .band = 2 * s->unknowns - 1};
+    if (field->n > 100 * 1000 * 1000) /* the libraries count entries in int */
+        return br_fail(err, BR_BAD_INPUT, "%s: n is %zu, expected at most 1e8", factoriser->name,
+                       field->n);
+    s->matrix.value = br_allocate(s->matrix.order * (s->matrix.band + 1), sizeof(double));
+    s->residual = br_allocate(2 * s->nodal, sizeof *s->residual);
+    if (!s->matrix.value || !s->residual)
+        return br_no_memory(err, "the stiffness form");
+    s->correction = s->residual + s->nodal;
+    return factoriser->create(&s->matrix, options, &s->factor, err);
+}
+
+void br_system_clear(struct br_system *s)
+{
+    if (s->factoriser)
+        s->factoriser->free(s->factor);
+    free(s->matrix.value);
+    free(s->residual);
+}
+
+enum br_status br_system_factorise(struct br_system *s, struct br_error *err)
+{
+    const size_t count = s->matrix.order * (s->matrix.band + 1);
+    memset(s->matrix.value, 0, count * sizeof *s->matrix.value);
+    br_band_assemble(&s->field, &s->matrix);
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(s->matrix.value[i]))
+            return br_fail(err, BR_SINGULAR, "%s: the matrix has an entry %g, expected numbers",
+                           s->factoriser->name, s->matrix.value[i]);
+    return s->factoriser->factorise(s->factor, &s->matrix, err);
+}
+
+static double largest(const double *x, size_t count)
+{
+    double most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = fmax(most, fabs(x[i]));
+    return most;
+}
+
+static enum br_status solve_once(struct br_system *s, const double *rhs, double *x,
+                                 struct br_error *err)
+{
+    return s->factoriser->solve(s->factor, rhs + s->unknowns, x + s->unknowns, err);
+}
+
+/* residual = rhs - A x */
+static void form_residual(struct br_system *s, const double *rhs, const double *x)
+{
+    const struct br_field *f = &s->field;
+    memcpy(s->residual, rhs, s->nodal * sizeof *rhs);
+    br_add_elements(f, -f->density / f->k, x, f->viscosity + f->k * f->stiffness, x, s->residual);
+}
+
+static enum br_status no_digits(const struct br_system *s, struct br_error *err)
+{
+    return br_fail(err, BR_SINGULAR,
+                   "%s: the refinement does not converge, since the matrix of n = %zu elements is "
+                   "too ill-conditioned for a solution with any right digit",
+                   s->factoriser->name, s->field.n);
+}
+
+/* x += A^-1 (rhs - A x), in double, until a correction is no longer half of the one before, or the
+ * next one would be round-off. The residual is formed element by element from what deforms them, so
+ * that it is as exact as one of more digits, and the error itself shrinks, not just the residual
+ * (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., SIAM 2002, section 12.1).
+ * What is not finite is left to the march, which tells it. */
+static enum br_status refine(struct br_system *s, const double *rhs, double *x,
+                             struct br_error *err)
+{
+    double last = largest(x, s->nodal);
+    const double enough = DBL_EPSILON * last;
+    for (int step = 0; step < s->refinement; step++) {
+        form_residual(s, rhs, x);
+        const enum br_status status = solve_once(s, s->residual, s->correction, err);
+        if (status)
+            return status;
+        const double size = largest(s->correction, s->nodal);
+        if (!(size <= last / 2))
+            return step == 0 && isfinite(size) ? no_digits(s, err) : BR_OK;
+        for (size_t i = 0; i < s->nodal; i++)
+            x[i] += s->correction[i];
+        if (size * size <= enough * last)
+            break;
+        last = size;
+    }
+    return BR_OK;
+}
+
+enum br_status br_system_solve(struct br_system *s, const double *rhs, double *x,
+                               struct br_error *err)
+{
+    const enum br_status status = solve_once(s, rhs, x, err);
+    return status ? status : refine(s, rhs, x, err);
+}
+
+/* Upper estimates of what was measured for n = 100 to 12800 and k = 1e-2 to 1e-4, in the paper's
+ * examples and, which has most of it, a vibration of little damping. For bending first like the
+ * condition number, n^4, and from n = 2000 like n^3. */
+static double without_refinement(const struct br_field *f)
+{
+    const double n = (double)f->n;
+    if (f->kind == BR_AXIAL)
+        return DBL_EPSILON * 10 * (10 * n + n * n / 100);
+    return DBL_EPSILON * fmax(16, fmin(n / 4, 500)) * n * n * n;
+}
+
+/* What a refinement step leaves of an error, and what no step repairs: that of nodal values. */
+double br_system_round_off(const struct br_field *f, int refinement)
+{
+    const double n = (double)f->n, at_first = without_refinement(f);
+    if (refinement < 1)
+        return at_first;
+    const double left = fmin(0.5, f->kind == BR_AXIAL ? at_first : 4000 * DBL_EPSILON * n * n * n);
+    return at_first * pow(left, refinement) + 8 * DBL_EPSILON * (n + 1024);
+}

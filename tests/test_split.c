@@ -1,0 +1,352 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where an error comes from: the parts add up, each goes as its source does, and what is not there
+ * is none. */
+#include <math.h>
+#include <string.h>
+
+#include "study/split.h"
+#include "support.h"
+
+static struct br_split split_of(const struct br_scene *scene, size_t n, size_t steps,
+                                struct br_method method)
+{
+    struct br_error err = {0};
+    struct br_split split = {
+        .scene = scene,
+        .method = method,
+        .at = {n, steps},
+        .norm = {&br_norm_l2, &br_norm_energy, &br_norm_tip},
+        .norms = 3,
+    };
+    MUST(br_split_run(&split, 2, NULL, &err));
+    return split;
+}
+
+static const struct br_share *share_of(const struct br_split *split, const char *name)
+{
+    for (size_t i = 0; i < split->shares; i++)
+        if (strcmp(split->share[i].source->name, name) == 0)
+            return &split->share[i];
+    fail_msg("there is no part called %s", name);
+    return NULL;
+}
+
+/* No norm of one function of the chain is above the sum of all others': the whole's and the
+ * parts' alike. */
+static void check_triangle(const struct br_split *split, size_t m, enum br_part part)
+{
+    const double whole = split->whole.error[m][part];
+    double slack = split->whole.floor[m][part], sum = whole;
+    for (size_t i = 0; i < split->shares; i++) {
+        slack += split->share[i].floor[m][part];
+        sum += split->share[i].error[m][part];
+    }
+    AT_MOST(whole, sum - whole + slack);
+    for (size_t i = 0; i < split->shares; i++)
+        AT_MOST(split->share[i].error[m][part], sum - split->share[i].error[m][part] + slack);
+    CLOSE(split->sum[m][part], sum - whole, 1e-14 * sum);
+}
+
+/* Signed at the tip: exactly the whole, but for the rounding of the sums. */
+static void check_tip(const struct br_split *split, enum br_field_kind kind)
+{
+    double sum = 0;
+    for (size_t i = 0; i < split->shares; i++)
+        sum += split->share[i].tip[kind];
+    const double round_off = 1e-15 * (fabs(split->tip[kind]) + fabs(split->solution_tip[kind]));
+    CLOSE(sum, split->tip[kind] - split->solution_tip[kind], round_off);
+    CLOSE(split->whole.tip[kind], split->tip[kind] - split->solution_tip[kind], round_off);
+    CLOSE(split->tip_sum[kind], sum, round_off);
+}
+
+static void check_sums(const struct br_split *split)
+{
+    for (size_t m = 0; m < split->norms; m++)
+        for (int part = 0; part < BR_PARTS; part++)
+            check_triangle(split, m, (enum br_part)part);
+    check_tip(split, BR_AXIAL);
+    check_tip(split, BR_BENDING);
+}
+
+static void test_sums(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"example1", "example2", "reversal"};
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        struct br_scene scene = br_test_bundled(scenes[i]);
+        const char *friction = scene.friction.regularisation > 0 ? "regularised" : NULL;
+        struct br_split split = split_of(&scene, 20, 50, br_test_method("umfpack", NULL, friction));
+        check_sums(&split);
+        split = split_of(&scene, 20, 50, br_test_method(NULL, "implicit", NULL));
+        check_sums(&split);
+        br_scene_clear(&scene);
+    }
+}
+
+/* The parts against marches that this test makes itself. */
+static void test_links(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    scene.friction.regularisation = 1e-3;
+    const struct br_method given = br_test_method("umfpack", "lagged", "regularised");
+    const struct br_method riccati = br_test_method("riccati", "lagged", "regularised");
+    const struct br_method exact = br_test_method("riccati", "lagged", "exact");
+    const struct br_method implicit = br_test_method("riccati", "implicit", "exact");
+    const struct br_split split = split_of(&scene, 30, 40, given);
+    const struct br_test_end end[] = {
+        br_test_run(&scene, 30, 40, &given), br_test_run(&scene, 30, 40, &riccati),
+        br_test_run(&scene, 30, 40, &exact), br_test_run(&scene, 30, 40, &implicit)};
+    static const char *const names[] = {"round-off", "mu", "lag"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const struct br_share *share = share_of(&split, names[i]);
+        assert_null(share->none);
+        assert_true(share->tip[BR_AXIAL] == end[i].u_tip - end[i + 1].u_tip);
+        assert_true(share->tip[BR_BENDING] == end[i].w_tip - end[i + 1].w_tip);
+    }
+    const struct br_share *time = share_of(&split, "time"), *space = share_of(&split, "space");
+    CLOSE(time->tip[BR_BENDING] + space->tip[BR_BENDING],
+          end[3].w_tip - split.solution_tip[BR_BENDING], 1e-15);
+    assert_true(split.tip[BR_BENDING] == end[0].w_tip);
+    br_scene_clear(&scene);
+}
+
+/* The whole is what a study says of the run. */
+static void test_whole(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    const struct br_split split = split_of(&scene, 30, 40, br_method_default());
+    for (size_t m = 0; m < split.norms; m++) {
+        struct br_study study = {
+            .scene = &scene,
+            .norm = split.norm[m],
+            .method = split.method,
+            .judge = &br_judge_exact,
+            .n_count = 1,
+            .k_count = 1,
+            .n = &split.at.n,
+            .steps = &split.at.steps,
+        };
+        MUST(br_study_run(&study, 1, 1, NULL, &err));
+        for (int part = 0; part < BR_PARTS; part++)
+            assert_true(split.whole.error[m][part] == study.cell[0].error[part]);
+        assert_true(split.scale[m] == study.reference_scale);
+        br_study_clear(&study);
+    }
+    br_scene_clear(&scene);
+}
+
+static void check_none(const struct br_split *split, const char *name, const char *why)
+{
+    const struct br_share *share = share_of(split, name);
+    assert_non_null(share->none);
+    assert_non_null(strstr(share->none, why));
+    for (size_t m = 0; m < split->norms; m++)
+        for (int part = 0; part < BR_PARTS; part++)
+            assert_true(share->error[m][part] == 0);
+    assert_true(share->tip[BR_AXIAL] == 0 && share->tip[BR_BENDING] == 0);
+}
+
+static void test_none(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_split split = split_of(&scene, 10, 20, br_test_method(NULL, "implicit", NULL));
+    check_none(&split, "round-off", "riccati");
+    check_none(&split, "iteration", "directly");
+    check_none(&split, "mu", "not smoothed");
+    check_none(&split, "lag", "implicit");
+    split = split_of(&scene, 10, 20, br_test_method(NULL, "lagged", NULL));
+    assert_null(share_of(&split, "lag")->none);
+    br_scene_clear(&scene);
+    scene = br_test_bundled("vibration"); /* no contact, no friction */
+    split = split_of(&scene, 10, 50, br_method_default());
+    check_none(&split, "lag", "no contact");
+    check_none(&split, "mu", "no friction");
+    check_none(&split, "iteration", "no friction");
+    check_sums(&split);
+    br_scene_clear(&scene);
+}
+
+/* The order of a part over a list of resolutions, each the double of the one before. */
+static void check_order(const char *name, enum br_part part, const double *error, size_t count,
+                        double order, double tolerance)
+{
+    for (size_t i = 1; i < count; i++) {
+        const double found = log2(error[i - 1] / error[i]);
+        if (!(fabs(found - order) <= tolerance))
+            fail_msg("%s, %s: order %g, expected %g +- %g", name, br_part_names[part], found, order,
+                     tolerance);
+    }
+}
+
+enum { SIZES = 3 };
+
+static void test_space_order(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    double error[BR_PARTS][SIZES];
+    for (size_t i = 0; i < SIZES; i++) {
+        const struct br_split split = split_of(&scene, (size_t)8 << i, 50, br_method_default());
+        for (int part = 0; part < BR_PARTS; part++)
+            error[part][i] = share_of(&split, "space")->error[0][part];
+    }
+    check_order("space", BR_PART_AXIAL, error[BR_PART_AXIAL], SIZES, 2, 0.02);
+    check_order("space", BR_PART_BENDING, error[BR_PART_BENDING], SIZES, 4, 0.1);
+    br_scene_clear(&scene);
+}
+
+static void check_time_order(const char *scheme, double order)
+{
+    struct br_scene scene = br_test_bundled("vibration");
+    struct br_method method = br_test_method(NULL, "implicit", NULL);
+    method.scheme = br_time_scheme_find(scheme);
+    assert_non_null(method.scheme);
+    double error[BR_PARTS][SIZES];
+    for (size_t i = 0; i < SIZES; i++) {
+        const struct br_split split = split_of(&scene, 8, (size_t)1000 << i, method);
+        for (int part = 0; part < BR_PARTS; part++)
+            error[part][i] = share_of(&split, "time")->error[0][part];
+    }
+    for (int part = 0; part < BR_PARTS; part++)
+        check_order("time", (enum br_part)part, error[part], SIZES, order, 0.06);
+    br_scene_clear(&scene);
+}
+
+static void test_time_order(void **state)
+{
+    (void)state;
+    check_time_order("euler", 1);
+    check_time_order("bdf2", 2);
+}
+
+/* In Example 2 the lag is of order k, and at the end, the start's transients gone, what the time
+ * steps leave beside it. */
+static void test_lag_order(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    double lag[SIZES], end[2][SIZES];
+    for (size_t i = 0; i < SIZES; i++) {
+        const struct br_split split = split_of(&scene, 16, (size_t)100 << i, br_method_default());
+        lag[i] = share_of(&split, "lag")->error[0][BR_PART_TOTAL];
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+            end[kind][i] = fabs(share_of(&split, "time")->tip[kind]);
+    }
+    check_order("lag", BR_PART_TOTAL, lag, SIZES, 1, 0.05);
+    check_order("time at the tip", BR_PART_AXIAL, end[BR_AXIAL], SIZES, 1, 0.05);
+    check_order("time at the tip", BR_PART_BENDING, end[BR_BENDING], SIZES, 1, 0.05);
+    br_scene_clear(&scene);
+}
+
+/* One source alone moves its part, and no other. */
+static void test_independence(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    const struct br_split lagged = split_of(&scene, 20, 50, br_method_default());
+    const struct br_split implicit =
+        split_of(&scene, 20, 50, br_test_method(NULL, "implicit", NULL));
+    for (int part = 0; part < BR_PARTS; part++) {
+        assert_true(share_of(&lagged, "time")->error[0][part] ==
+                    share_of(&implicit, "time")->error[0][part]);
+        assert_true(share_of(&lagged, "space")->error[0][part] ==
+                    share_of(&implicit, "space")->error[0][part]);
+    }
+    br_scene_clear(&scene);
+}
+
+/* A tip that sticks creeps where friction is smoothed, in proportion to mu. */
+static void test_mu(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example1");
+    double error[SIZES];
+    for (size_t i = 0; i < SIZES; i++) {
+        scene.friction.regularisation = 1e-4 / (double)(1 << i);
+        const struct br_split split =
+            split_of(&scene, 20, 50, br_test_method(NULL, NULL, "regularised"));
+        error[i] = share_of(&split, "mu")->error[0][BR_PART_BENDING];
+        assert_true(br_share_told(share_of(&split, "mu"), 0, BR_PART_BENDING));
+        check_sums(&split);
+    }
+    check_order("mu", BR_PART_BENDING, error, SIZES, 1, 0.02);
+    br_scene_clear(&scene);
+}
+
+/* A tip that sticks creeps by what an iteration leaves: the less, the smaller its tolerance. */
+static void test_iteration(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example1");
+    for (const struct br_friction_rule *const *r = br_friction_rules; *r; r++) {
+        double last = INFINITY;
+        for (double tolerance = 1e-6; (*r)->iterates && tolerance > 1e-9; tolerance /= 100) {
+            struct br_method method = br_test_method(NULL, NULL, (*r)->name);
+            method.iteration.tolerance = tolerance;
+            const struct br_split split = split_of(&scene, 20, 50, method);
+            const struct br_share *share = share_of(&split, "iteration");
+            assert_null(share->none);
+            AT_MOST(share->error[0][BR_PART_BENDING], last / 5);
+            assert_true(br_share_told(share, 0, BR_PART_BENDING));
+            check_sums(&split);
+            last = share->error[0][BR_PART_BENDING];
+        }
+    }
+    br_scene_clear(&scene);
+}
+
+/* What is at the round-off is below the floor, and what is not is above it. */
+static void test_floors(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    const struct br_split split = split_of(&scene, 50, 100, br_method_default());
+    assert_true(br_share_told(share_of(&split, "space"), 0, BR_PART_TOTAL));
+    assert_true(br_share_told(share_of(&split, "lag"), 0, BR_PART_TOTAL));
+    AT_MOST(share_of(&split, "lag")->floor[0][BR_PART_TOTAL], 1e-13);
+    AT_MOST(share_of(&split, "time")->floor[0][BR_PART_TOTAL], 1e-9);
+    AT_MOST(share_of(&split, "space")->floor[0][BR_PART_TOTAL], 1e-9);
+    struct br_share share = {.error = {{NAN}}, .floor = {{1e-15}}};
+    assert_false(br_share_told(&share, 0, BR_PART_TOTAL));
+    share.error[0][0] = 1e-15;
+    assert_false(br_share_told(&share, 0, BR_PART_TOTAL));
+    br_scene_clear(&scene);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example1");
+    struct br_split split = {
+        .scene = &scene,
+        .method = br_test_method(NULL, "lagged", NULL),
+        .at = {0, 50},
+        .norm = {&br_norm_l2},
+        .norms = 1,
+    };
+    REFUSED(br_split_run(&split, 1, NULL, &err), BR_BAD_INPUT, "n is 0");
+    split.at = (struct br_resolution){10, 50};
+    br_scene_clear(&scene);
+    scene = br_test_bare(); /* no modes are enough for this load */
+    scene.bending.load = br_test_load("1/sqrt(abs(x - 0.3123))");
+    REFUSED(br_split_run(&split, 1, NULL, &err), BR_NOT_FINITE, "no exact solution");
+    br_scene_clear(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sums),        cmocka_unit_test(test_links),
+        cmocka_unit_test(test_none),        cmocka_unit_test(test_whole),
+        cmocka_unit_test(test_space_order), cmocka_unit_test(test_time_order),
+        cmocka_unit_test(test_lag_order),   cmocka_unit_test(test_mu),
+        cmocka_unit_test(test_iteration),   cmocka_unit_test(test_independence),
+        cmocka_unit_test(test_floors),      cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
