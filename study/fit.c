@@ -139,6 +139,7 @@ static bool in_part(enum br_part part, enum br_field_kind kind)
  * has measured all of its error, m^(3/2). */
 static double round_off(const struct br_study *s, const struct br_cell *c, enum br_part part)
 {
+    const struct br_method *method = br_study_method(s, (size_t)(c - s->cell));
     double relative = s->auditor ? 0 : s->judged_by.round_off;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const bool modelled =
@@ -146,7 +147,7 @@ static double round_off(const struct br_study *s, const struct br_cell *c, enum 
         const struct br_field field =
             br_field_of_scene(s->scene, (enum br_field_kind)kind, c->at.n, step_of(s, c));
         if (modelled && in_part(part, (enum br_field_kind)kind))
-            relative = fmax(relative, s->method.solver->round_off(&field, &s->method.linear));
+            relative = fmax(relative, method->solver->round_off(&field, &method->linear));
     }
     return relative * s->reference_scale;
 }

@@ -16,6 +16,11 @@ size_t br_study_cells(const struct br_study *s)
     return s->path ? s->n_count : s->n_count * s->k_count;
 }
 
+const struct br_method *br_study_method(const struct br_study *s, size_t cell)
+{
+    return s->cell_method ? &s->cell_method[cell] : &s->method;
+}
+
 size_t br_study_row(const struct br_study *s, size_t cell)
 {
     return s->path ? cell : cell / s->k_count;

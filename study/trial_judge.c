@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The errors of trials, as cells of studies: one study for each method and tolerance, whose cells
- * are a path. */
+/* The errors of trials, as cells of studies: one study for each mesh, whose cells are marched by as
+ * many methods, so that the judge looks at that mesh once. */
 #include <math.h>
 #include <string.h>
 
 #include "study/fit.h"
 #include "study/trial.h"
 
-/* Trials of one method, as a chain of studies over the norms. */
+/* Trials on one mesh, as a chain of studies over the norms. */
 struct group {
-    struct br_trial **member; /* members, borrowed */
-    size_t *n, *steps;        /* of the members */
+    struct br_trial **member; /* members, borrowed; likewise the next two */
+    size_t *steps;
+    struct br_method *method;
     size_t members;
 };
 
@@ -19,23 +20,25 @@ struct groups {
     size_t count;
     struct group *group;      /* count; their lists lie in the next three, one after the other */
     struct br_trial **member; /* all owned */
-    size_t *n, *steps;
+    size_t *steps;
+    struct br_method *method;
     struct br_study *study; /* count in the first norm, then the next norms of each */
 };
 
-static bool same_group(const struct br_trial *a, const struct br_trial *b)
-{
-    const double x = br_trial_method(a).tolerance, y = br_trial_method(b).tolerance;
-    return a->contender == b->contender && !(x < y) && !(x > y);
-}
-
-/* Whether no trial before it is of the same group. */
+/* Whether a trial is to be judged, and no trial before it has its mesh. */
 static bool is_first(const struct br_trial *trial, size_t i)
 {
     for (size_t j = 0; j < i; j++)
-        if (trial[j].end == BR_TRIAL_DONE && same_group(&trial[j], &trial[i]))
+        if (trial[j].end == BR_TRIAL_DONE && trial[j].at.n == trial[i].at.n)
             return false;
     return trial[i].end == BR_TRIAL_DONE;
+}
+
+static void add_member(struct group *group, struct br_trial *trial)
+{
+    group->member[group->members] = trial;
+    group->steps[group->members] = trial->at.steps;
+    group->method[group->members++] = br_trial_method(trial);
 }
 
 static void collect(struct groups *g, struct br_trial *trial, size_t count)
@@ -45,13 +48,10 @@ static void collect(struct groups *g, struct br_trial *trial, size_t count)
         if (!is_first(trial, i))
             continue;
         struct group *group = &g->group[g->count++];
-        *group = (struct group){&g->member[used], &g->n[used], &g->steps[used], 0};
+        *group = (struct group){&g->member[used], &g->steps[used], &g->method[used], 0};
         for (size_t j = i; j < count; j++)
-            if (trial[j].end == BR_TRIAL_DONE && same_group(&trial[j], &trial[i])) {
-                group->member[group->members] = &trial[j];
-                group->n[group->members] = trial[j].at.n;
-                group->steps[group->members++] = trial[j].at.steps;
-            }
+            if (trial[j].end == BR_TRIAL_DONE && trial[j].at.n == trial[i].at.n)
+                add_member(group, &trial[j]);
         used += group->members;
     }
 }
@@ -69,14 +69,14 @@ static void fill_studies(const struct groups *g, const struct br_judge *judge)
             *study_of(g, i, m) = (struct br_study){
                 .scene = r->scene,
                 .norm = r->norm[m],
-                .method = br_trial_method(g->group[i].member[0]),
+                .method = g->group[i].method[0],
+                .cell_method = g->group[i].method,
                 .judge = judge,
                 .reference_method = r->reference_method,
                 .reference = r->reference,
-                .n_count = g->group[i].members,
+                .n_count = 1,
                 .k_count = g->group[i].members,
-                .path = true,
-                .n = g->group[i].n,
+                .n = &g->group[i].member[0]->at.n,
                 .steps = g->group[i].steps,
                 .next_norm = m + 1 < r->norms ? study_of(g, i, m + 1) : NULL,
             };
@@ -126,11 +126,12 @@ static enum br_status allocate(struct groups *g, size_t count, struct br_error *
 {
     g->group = br_allocate(count, sizeof *g->group);
     g->member = br_allocate(count, sizeof(struct br_trial *));
-    g->n = br_allocate(count, sizeof *g->n);
     g->steps = br_allocate(count, sizeof *g->steps);
+    g->method = br_allocate(count, sizeof *g->method);
     g->study = br_allocate(count * g->request->norms, sizeof *g->study);
-    return g->group && g->member && g->n && g->steps && g->study ? BR_OK
-                                                                 : br_no_memory(err, "the trials");
+    return g->group && g->member && g->steps && g->method && g->study
+               ? BR_OK
+               : br_no_memory(err, "the trials");
 }
 
 static void clear(struct groups *g)
@@ -139,8 +140,8 @@ static void clear(struct groups *g)
         br_study_clear(&g->study[i]);
     free(g->group);
     free(g->member);
-    free(g->n);
     free(g->steps);
+    free(g->method);
     free(g->study);
 }
 
