@@ -14,6 +14,12 @@ const double br_plan_band = 3;
 /* Between E/3 and E something may cost this much more than the cheapest that is at most E. */
 static const double worth_the_band = 1.25;
 
+/* A general-purpose solver that is there to be compared with: a thousand times as dear. */
+static const char peer[] = "ida";
+
+/* After so many rounds without anything better there is none more. */
+static const size_t most_idle_rounds = 3;
+
 const char *br_plan_end_name(enum br_plan_end end)
 {
     static const char *const words[] = {
@@ -38,7 +44,8 @@ void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
     br_contenders_default(scene, &all);
     for (size_t i = 0; i < all.count; i++)
         if (all.list[i].method.solver == usual.solver &&
-            all.list[i].method.friction == usual.friction)
+            all.list[i].method.friction == usual.friction &&
+            all.list[i].method.scheme != br_time_scheme_find(peer))
             plan->contenders.list[plan->contenders.count++] = all.list[i];
 }
 
@@ -86,8 +93,9 @@ enum br_status br_plan_add(struct br_plan *p, const struct br_trial *trial,
                            struct br_error *err)
 {
     *added = false;
-    for (size_t i = 0; i < p->count && forecast->round != 1; i++)
-        if (p->trial[i].contender == trial->contender && p->trial[i].at.n == trial->at.n &&
+    for (size_t i = 0; i < p->count; i++)
+        if ((p->forecast[i].round > 0 || forecast->round == 0) &&
+            p->trial[i].contender == trial->contender && p->trial[i].at.n == trial->at.n &&
             fabs(br_plan_y(&p->trial[i]) - br_plan_y(trial)) <= 1e-12)
             return BR_OK;
     if (p->count == p->capacity && grow(p, err))
@@ -271,6 +279,13 @@ static enum br_status hold_probes(struct br_plan *p, struct br_error *err)
     return status;
 }
 
+/* Whether the rounds have gone on for long without anything better than the best. */
+static bool is_idle(const struct br_plan *p)
+{
+    const size_t best = br_plan_best(p);
+    return best < p->count && p->rounds >= p->forecast[best].round + most_idle_rounds;
+}
+
 /* One round: whether anything was tried (*tried, out). */
 static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *err)
 {
@@ -349,7 +364,7 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
         status = hold_probes(p, err);
     if (!status)
         status = check_probes(p, err);
-    while (!status && tried && p->rounds < p->most_rounds)
+    while (!status && tried && p->rounds < p->most_rounds && !is_idle(p))
         status = go_round(p, &tried, err);
     if (!status)
         status = fit_all(p, err);

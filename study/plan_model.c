@@ -8,7 +8,13 @@
 
 /* Weights beside that of a trial's log error: of a change of slope at a knot, of a slope's distance
  * from theory's order, and of atanh r. */
-static const double smoothness = 0.03, theory = 0.003, uncorrelated = 0.01;
+static const double smoothness = 0.03, theory = 0.003, uncorrelated = 0.03;
+
+/* Fields of errors are never quite opposite; |r| = 1 would let the model vanish. */
+static const double most_r = 0.95;
+
+/* A fit that leaves more than this has gone astray, and is made again with r = 0. */
+static const double astray = 0.3;
 
 /* Knots nearer than this are one: factors of 1.5 in n, 1.15 in k. */
 static const double least_gap_x = 0.4, least_gap_y = 0.14;
@@ -17,7 +23,7 @@ static const double least_gap_x = 0.4, least_gap_y = 0.14;
 static const double reach_x = 0.7, reach_y = 0.25;
 
 /* What a prediction is unsure by at least, and more for each unit beyond the knots. */
-static const double least_deviation = 0.03, beyond_x = 0.15, beyond_y = 0.3;
+static const double least_deviation = 0.03, beyond_x = 0.5, beyond_y = 0.3;
 
 /* ---- curves ---- */
 
@@ -81,6 +87,7 @@ static void lay_knots(struct br_plan_curve *c, double *value, size_t count, doub
 struct problem {
     struct br_plan_model *model;
     double p, q;
+    bool no_r; /* r = 0 */
 };
 
 static size_t unknowns(const struct br_plan_model *m)
@@ -88,13 +95,14 @@ static size_t unknowns(const struct br_plan_model *m)
     return m->space.count + m->time.count + 1;
 }
 
-static void spread(struct br_plan_model *m, const gsl_vector *v)
+static void spread(const struct problem *problem, const gsl_vector *v)
 {
+    struct br_plan_model *m = problem->model;
     for (size_t i = 0; i < m->space.count; i++)
         m->space.value[i] = gsl_vector_get(v, i);
     for (size_t j = 0; j < m->time.count; j++)
         m->time.value[j] = gsl_vector_get(v, m->space.count + j);
-    m->r = tanh(gsl_vector_get(v, m->space.count + m->time.count));
+    m->r = problem->no_r ? 0 : most_r * tanh(gsl_vector_get(v, m->space.count + m->time.count));
 }
 
 double br_plan_model_value(const struct br_plan_model *m, double x, double y)
@@ -128,7 +136,7 @@ static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
 {
     const struct problem *problem = params;
     struct br_plan_model *m = problem->model;
-    spread(m, v);
+    spread(problem, v);
     size_t row = 0;
     for (; row < m->points; row++) {
         const struct br_plan_point *p = &m->point[row];
@@ -183,7 +191,7 @@ static enum br_status solve(struct problem *problem, struct br_error *err)
     gsl_multifit_nlinear_init(v, &fdf, w);
     /* A fit that has not come to rest is the best so far: its residuals tell what it is worth. */
     gsl_multifit_nlinear_driver(60, 1e-6, 1e-8, 1e-8, NULL, NULL, &info, w);
-    spread(m, gsl_multifit_nlinear_position(w));
+    spread(problem, gsl_multifit_nlinear_position(w));
     gsl_multifit_nlinear_free(w);
     gsl_vector_free(v);
     return BR_OK;
@@ -227,8 +235,14 @@ enum br_status br_plan_model_fit(struct br_plan_model *m, const struct br_plan_p
                        count);
     enum br_status status = lay_out(m, point, count, err);
     gsl_error_handler_t *const before = gsl_set_error_handler_off();
+    struct problem problem = {m, p, q, false};
     if (!status)
-        status = solve(&(struct problem){m, p, q}, err);
+        status = solve(&problem, err);
+    if (!status)
+        measure_residuals(m);
+    problem.no_r = true;
+    if (!status && !(m->scatter <= astray))
+        status = solve(&problem, err);
     gsl_set_error_handler(before);
     if (!status)
         measure_residuals(m);

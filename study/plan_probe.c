@@ -4,7 +4,7 @@
 
 #include "study/plan_steps.h"
 
-static const size_t meshes[] = {4, 12, 36, 108, 324, 972, 2916};
+static const size_t meshes[] = {2, 4, 12, 36, 108, 324, 972, 2916};
 
 /* All of them on one mesh, every other one on the rest: steps that happen to end where the solution
  * switches are better than their neighbours. Many time levels in common spare the judge work. */

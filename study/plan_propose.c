@@ -163,13 +163,15 @@ static void look_through(struct search *s)
 
 /* ---- a batch ---- */
 
+/* Whether it has not been proposed before; what was a cheap trial is tried anew, with all
+ * repeats. */
 static bool is_new(const struct br_plan *plan, const struct br_plan_candidate *c)
 {
     const struct br_trial wanted = br_plan_trial(c);
     for (size_t i = 0; i < plan->count; i++) {
         const struct br_trial *t = &plan->trial[i];
-        if (t->contender == wanted.contender && t->at.n == wanted.at.n &&
-            fabs(br_plan_y(t) - br_plan_y(&wanted)) <= 1e-12)
+        if (plan->forecast[i].round > 0 && t->contender == wanted.contender &&
+            t->at.n == wanted.at.n && fabs(br_plan_y(t) - br_plan_y(&wanted)) <= 1e-12)
             return false;
     }
     return true;
@@ -178,8 +180,7 @@ static bool is_new(const struct br_plan *plan, const struct br_plan_candidate *c
 static void take(const struct br_plan *plan, struct br_plan_batch *batch,
                  const struct br_plan_candidate *c)
 {
-    /* The first proposals are tried even where there was a cheap trial: with all repeats. */
-    if (batch->count < BR_PLAN_BATCH && (plan->rounds == 0 || is_new(plan, c)))
+    if (batch->count < BR_PLAN_BATCH && is_new(plan, c))
         batch->candidate[batch->count++] = *c;
 }
 

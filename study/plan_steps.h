@@ -25,8 +25,8 @@ struct br_plan_batch {
     size_t count;
 };
 
-/* Adds a trial without an outcome; one that is there already is not added (*added, out). Fails with
- * BR_NO_MEMORY. */
+/* Adds a trial without an outcome; a proposal that was made before is not added (*added, out).
+ * Fails with BR_NO_MEMORY. */
 enum br_status br_plan_add(struct br_plan *plan, const struct br_trial *trial,
                            const struct br_plan_forecast *forecast, bool *added,
                            struct br_error *err);
