@@ -48,6 +48,8 @@ static enum br_status choose_method(const struct run *r, struct item *item, stru
             status = br_fail(err, inner.status, "%s: verify: %s: %s", item->path,
                              br_verify_names[kind], inner.message);
     }
+    if (!status && item->verify.by_default)
+        br_verify_expect_default(&item->scene, &item->verify);
     return status;
 }
 

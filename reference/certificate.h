@@ -3,6 +3,12 @@
  * the nodal values before and after it, with element matrices of its own (the
  * textbook's 12, 6, 4, 2) in long double, and nothing of a solver's numerics.
  *
+ * Schemes other than Euler's are certified stage by stage. A stage is an Euler step of length
+ * tau that starts at a sum Z of what was before. The witness builds Z from the velocities and
+ * the rates of change of earlier stages with the coefficients that the literature prints
+ * (textbook.h), and decides by itself where a step starts anew. So a stage that passes obeys
+ * the equations of motion and the laws at its own time, and belongs to that scheme.
+ *
  * The norm of a residual. The residual of (28) is a set of nodal forces r. Its size as
  * a vector means nothing on a fine mesh: nodal values are rounded to one part in 1e16,
  * and K w magnifies that by h^-4. What it does to the beam is told by the bending
@@ -17,32 +23,35 @@
 
 #include "solver/march.h"
 
-/* How far a step is from each law; pure numbers, 0 for a perfect step, NaN where the
- * step has a value that is not finite or a law that is not known here. */
+/* How far a step, or the worst stage of one, is from each law; pure numbers, 0 for a perfect step,
+ * NaN where the step has a value that is not finite or a law that is not known here. */
 struct br_certificate {
     double axial_residual;   /* of (27) */
     double bending_residual; /* of (28) */
-    double update;           /* u_n - u_{n-1} - k v_n of both fields, and the tip's values told */
+    double update;           /* u_n - u_{n-1} - k v_n of both fields, or Y - Z - tau Y'; the tip's
+                                values told; the stage's time and tau */
     double friction;         /* distance of (v, lambda) from the graph of (12) or (29), lambda
                                 relative to the bound, k v to the largest nodal value */
     double contact;          /* force - c_H (u - g)_+ at u_{n-1} or u_n */
 };
 
-/* Nodal values of one field around a step, laid out as in solver/field.h. */
+/* Nodal values of one field around a step, or of Z and a stage, laid out as in solver/field.h. */
 struct br_step_field {
     const double *displacement_before, *displacement; /* m */
     const double *velocity_before, *velocity;         /* m/s */
     const double *load;                               /* F_n, N */
 };
 
-/* All that is known of one step. */
+/* All that is known of one step or stage. */
 struct br_step {
     const struct br_scene *scene;
     const struct br_method *method; /* which laws were to be used */
     size_t n;                       /* elements */
-    double k;                       /* s */
+    double k;                       /* s; of a stage tau */
     double compliance; /* z_tip of bending, m/s per N; for friction rules that iterate */
     struct br_step_field field[2]; /* by br_field_kind; of modelled fields */
+    const double *axial_tip;       /* u(L), m, at the time of a stage of the bending field where
+                                      field[BR_AXIAL] is not of that time; else NULL */
     struct br_tip tip;
 };
 
@@ -54,24 +63,27 @@ enum br_status br_certificate_check(const struct br_certificate *certificate,
                                     const struct br_certificate *limits, struct br_error *err);
 
 /* What a sound step on n elements stays below, given the predicted relative round-off
- * of the solver's displacements (br_march_round_off). */
-struct br_certificate br_certificate_limits(size_t n, double round_off);
+ * of the solver's displacements (br_march_round_off). Steps that end at a switch of the adaptive
+ * scheme obey the laws as well as the switch has been found. */
+struct br_certificate br_certificate_limits(const struct br_time_scheme *scheme, size_t n,
+                                            double round_off);
 
 /* Becomes the worse of the two, entry by entry; NaN is the worst. */
 void br_certificate_merge(struct br_certificate *worst, const struct br_certificate *other);
 
-/* Watches a march: keeps the state before a step. */
+/* Watches a march, stage by stage. */
 struct br_witness;
 
-/* Looks at the march as it is now. The march, its scene and the method must outlive
- * the witness. Fails with BR_NO_MEMORY; *witness is then NULL. */
-enum br_status br_witness_create(struct br_witness **witness, const struct br_march *march,
+/* Watches a march (br_march_watch) that has taken no step yet. The march, its scene and the method
+ * must outlive the witness. Fails with BR_BAD_INPUT where the scheme is not in the tables of
+ * textbook.h, with BR_NO_MEMORY; *witness is then NULL. */
+enum br_status br_witness_create(struct br_witness **witness, struct br_march *march,
                                  const struct br_scene *scene, const struct br_method *method,
                                  struct br_error *err);
 void br_witness_free(struct br_witness *witness); /* accepts NULL */
 
-/* To be called after every step: the certificate of the step from the state last
- * looked at, which it then replaces. */
+/* The certificate of the steps since the last call, the worst of all their stages; all NaN where
+ * there was none. */
 struct br_certificate br_witness_step(struct br_witness *witness);
 
 #endif

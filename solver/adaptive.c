@@ -234,7 +234,7 @@ static void accept(struct br_march *m, const struct trial *trial, bool switched)
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         a->largest[kind] = fmax(a->largest[kind], trial->strain[kind]);
         if (m->part[kind].modelled)
-            br_part_accept(&m->part[kind], &trial->stages, switched);
+            br_march_accept(m, (enum br_field_kind)kind, &trial->stages, switched);
     }
     a->known = !switched;
     a->since = switched ? 0 : a->since + 1;

@@ -16,15 +16,14 @@ static const double close_enough = 1e-13; /* of the duration */
 static enum br_status refuse(const struct br_scene *scene, const struct br_method *method,
                              struct br_error *err)
 {
-    if (method->axial_degree != 1)
-        return br_fail(err, BR_BAD_INPUT,
-                       "axial elements of degree %d with scheme ida, expected degree 1",
-                       method->axial_degree);
     if (method->solver != br_linear_solvers[0])
         return br_fail(err, BR_BAD_INPUT,
                        "linear solver %s with scheme ida, expected none to be given: IDA solves "
                        "its systems itself",
                        method->solver->name);
+    if (method->linear.kernel)
+        return br_fail(err, BR_BAD_INPUT, "kernel %s with scheme ida, expected none to be given",
+                       method->linear.kernel->name);
     if (method->friction->iterates)
         return br_fail(err, BR_BAD_INPUT,
                        "friction rule %s with scheme ida, expected exact or regularised",
@@ -100,6 +99,13 @@ static void counts(const void *self, struct br_counts *out)
     br_ida_add_counts(&f->march, out);
 }
 
+static size_t switches(const void *self, const struct br_switch **first)
+{
+    const struct foreign *f = self;
+    *first = f->march.found;
+    return f->march.found_count;
+}
+
 static const struct br_integrator integrator = {
     .create = create,
     .free = free_foreign,
@@ -109,6 +115,7 @@ static const struct br_integrator integrator = {
     .tip_displacement = tip_displacement,
     .tip = tip,
     .counts = counts,
+    .switches = switches,
 };
 
 const struct br_time_scheme br_ida = {

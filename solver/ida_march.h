@@ -25,10 +25,11 @@ struct br_ida_march {
     bool begun;
     bool switched[BR_IDA_LAWS]; /* whose branch ends there */
     struct br_counts counts;    /* until IDA last began */
-    size_t switches;            /* in all */
     size_t crowd;               /* of them, those soon after crowd_since */
     double crowd_since;         /* s */
-    char said[256];             /* by IDA, of a failure */
+    struct br_switch found[BR_MOST_SWITCHES];
+    size_t found_count;
+    char said[256]; /* by IDA, of a failure */
 };
 
 /* Fails with BR_BAD_INPUT, BR_NOT_FINITE or BR_NO_MEMORY; clear it even then. */

@@ -23,7 +23,6 @@ static const double crowded = 1e-6;
 
 static enum br_status watch_crowd(struct br_ida_march *m, struct br_error *err)
 {
-    m->switches++;
     if (!(m->reached - m->crowd_since <= crowded * m->system.scene->duration)) {
         m->crowd_since = m->reached;
         m->crowd = 0;
@@ -143,9 +142,41 @@ static enum br_status try_regime(struct br_ida_march *m, struct br_ida_regime re
     return BR_OK;
 }
 
+static enum br_regime name_of(const struct br_ida_system *s, enum br_field_kind kind,
+                              struct br_ida_regime regime)
+{
+    static const enum br_regime frictions[] = {
+        [BR_IDA_FREE] = BR_REGIME_NONE,
+        [BR_IDA_STICK] = BR_REGIME_STICK,
+        [BR_IDA_SLIP_UP] = BR_REGIME_FORWARD,
+        [BR_IDA_SLIP_DOWN] = BR_REGIME_BACKWARD,
+    };
+    if (kind == BR_BENDING)
+        return frictions[regime.friction];
+    if (!s->scene->contact.modelled)
+        return BR_REGIME_NONE;
+    return regime.closed ? BR_REGIME_CLOSED : BR_REGIME_OPEN;
+}
+
+static void tell(struct br_ida_march *m, struct br_ida_regime before, double t)
+{
+    for (int i = BR_AXIAL; i <= BR_BENDING; i++) {
+        const enum br_field_kind kind = (enum br_field_kind)i;
+        const enum br_regime from = name_of(&m->system, kind, before),
+                             to = name_of(&m->system, kind, m->system.regime);
+        if (from == to)
+            continue;
+        if (m->found_count < BR_MOST_SWITCHES)
+            m->found[m->found_count] = (struct br_switch){t, kind, from, to};
+        m->found_count++;
+    }
+}
+
 enum br_status br_ida_switch(struct br_ida_march *m, struct br_error *err)
 {
-    struct br_ida_regime list[MOST_CANDIDATES], likely = m->system.regime;
+    const struct br_ida_regime before = m->system.regime;
+    const bool begun = m->begun;
+    struct br_ida_regime list[MOST_CANDIDATES], likely = before;
     const double t = m->reached;
     enum br_status status = watch_crowd(m, err);
     if (status)
@@ -165,6 +196,8 @@ enum br_status br_ida_switch(struct br_ida_march *m, struct br_error *err)
         const double error = i % count == 0 || i >= TRIES * count ? m->tolerance : 0;
         status = try_regime(m, list[i % count], t, h, error, &found, err);
     }
+    if (found && begun)
+        tell(m, before, t);
     if (status || found)
         return status;
     return br_fail(err, BR_NOT_FINITE,

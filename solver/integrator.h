@@ -22,6 +22,9 @@ struct br_integrator {
 
     void (*tip)(const void *self, struct br_tip *tip);
     void (*counts)(const void *self, struct br_counts *counts);
+
+    /* As br_march_switches. */
+    size_t (*switches)(const void *self, const struct br_switch **first);
 };
 
 #endif

@@ -213,7 +213,7 @@ static enum br_status fixed_step(struct br_march *m, enum br_field_kind kind, st
         return status;
     const enum br_regime before = m->regime[kind];
     m->regime[kind] = br_march_regime(m, kind);
-    br_part_accept(part, &stages, part->counts.steps > 0 && m->regime[kind] != before);
+    br_march_accept(m, kind, &stages, part->counts.steps > 0 && m->regime[kind] != before);
     return BR_OK;
 }
 
@@ -268,6 +268,11 @@ struct br_counts br_march_counts(const struct br_march *m)
 
 /* ---- looking ---- */
 
+void br_march_watch(struct br_march *m, const struct br_march_watcher *watcher)
+{
+    m->watcher = watcher ? *watcher : (struct br_march_watcher){0};
+}
+
 const char *br_regime_name(enum br_regime regime)
 {
     static const char *const names[] = {
@@ -285,6 +290,8 @@ size_t br_march_switches(const struct br_march *m, const struct br_switch **firs
 {
     if (m->adaptive)
         return br_adaptive_switches(m->adaptive, first);
+    if (m->foreign)
+        return m->method.scheme->integrator->switches(m->foreign, first);
     *first = NULL;
     return 0;
 }

@@ -124,6 +124,30 @@ double br_march_compliance(const struct br_march *march, enum br_field_kind kind
  * contact opens. Exact for small inertia; with much of it the limit lies higher. */
 bool br_march_contact_unstable(const struct br_march *march);
 
+/* ---- watching ---- */
+
+/* A stage of a step of one field (scheme.h) that has ended. */
+struct br_march_stage {
+    enum br_field_kind kind;
+    int index, count; /* of the stages of this step */
+    double from, k;   /* t_{n-1} and the step's length, s */
+    double time, tau; /* of the stage, s */
+};
+
+/* Who looks at a march stage by stage. */
+struct br_march_watcher {
+    void *self;
+    /* br_march_get, br_march_load and br_march_tip are of the stage. An adaptive scheme may take
+     * its stages back, and begin again with index 0. */
+    void (*stage)(void *self, const struct br_march_stage *stage);
+    /* The field's step that consists of the stages told last is taken; switched: its next one
+     * starts anew. */
+    void (*step)(void *self, enum br_field_kind kind, bool switched);
+};
+
+/* From now on; NULL: nobody. Schemes with an integrator of their own tell nothing. */
+void br_march_watch(struct br_march *march, const struct br_march_watcher *watcher);
+
 /* Predicted round-off of the displacements relative to the exact discrete
  * solution: the larger of the modelled fields'. */
 double br_march_round_off(const struct br_march *march);

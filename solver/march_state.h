@@ -37,9 +37,10 @@ struct br_march {
     struct br_tip tip;
     struct br_tip_path *path; /* of the last `lead` steps */
     size_t lead;
-    struct br_counts counts;      /* what the parts do not count */
-    struct br_adaptive *adaptive; /* NULL: fixed steps */
-    void *foreign;                /* of a scheme's own integrator; NULL: none */
+    struct br_counts counts;         /* what the parts do not count */
+    struct br_adaptive *adaptive;    /* NULL: fixed steps */
+    void *foreign;                   /* of a scheme's own integrator; NULL: none */
+    struct br_march_watcher watcher; /* all NULL: nobody */
 };
 
 /* All stages of a step of one field, with the contact or the friction law in each; path: of the
@@ -50,6 +51,10 @@ enum br_status br_march_stages(struct br_march *march, enum br_field_kind kind,
 
 /* The branch of its law that the tip is on after a stage. */
 enum br_regime br_march_regime(const struct br_march *march, enum br_field_kind kind);
+
+/* A field's step is taken; switched: the next one starts anew. */
+void br_march_accept(struct br_march *march, enum br_field_kind kind,
+                     const struct br_stages *stages, bool switched);
 
 /* Refuses a tip that has left the numbers at time t, s. */
 enum br_status br_march_check_finite(const struct br_march *march, enum br_field_kind kind,

@@ -126,6 +126,23 @@ static enum br_status stage(struct br_march *m, enum br_field_kind kind,
     return status;
 }
 
+static void tell(const struct br_march *m, enum br_field_kind kind, const struct br_stages *stages,
+                 const struct br_step *step, int i)
+{
+    if (!m->watcher.stage)
+        return;
+    const struct br_march_stage told = {
+        .kind = kind,
+        .index = i,
+        .count = stages->count,
+        .from = step->from,
+        .k = step->k,
+        .time = br_step_time(step, stages->stage[i].time),
+        .tau = m->part[kind].field.k,
+    };
+    m->watcher.stage(m->watcher.self, &told);
+}
+
 enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
                                const struct br_stages *stages, const struct br_step *step,
                                struct br_tip_path *path, struct br_error *err)
@@ -142,12 +159,21 @@ enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
             status = stage(m, kind, &stages->stage[i], step, i, path, err);
         if (status)
             return status;
+        tell(m, kind, stages, step, i);
     }
     if (kind == BR_AXIAL) {
         path->end[0] = m->tip.displacement;
         path->end[1] = step->k * m->tip.velocity[BR_AXIAL];
     }
     return BR_OK;
+}
+
+void br_march_accept(struct br_march *m, enum br_field_kind kind, const struct br_stages *stages,
+                     bool switched)
+{
+    br_part_accept(&m->part[kind], stages, switched);
+    if (m->watcher.step)
+        m->watcher.step(m->watcher.self, kind, switched);
 }
 
 enum br_regime br_march_regime(const struct br_march *m, enum br_field_kind kind)

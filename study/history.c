@@ -133,9 +133,19 @@ static void tell_last(const struct run *r)
             q->observer[i].row(q->observer[i].self, &r->row, NULL);
 }
 
+static enum br_status begin(struct run *r, struct br_error *err)
+{
+    const struct br_history_request *q = r->request;
+    enum br_status status = first_row(r, err);
+    for (size_t i = 0; i < q->observers && !status; i++)
+        if (q->observer[i].begin)
+            status = q->observer[i].begin(q->observer[i].self, r->march, err);
+    return status;
+}
+
 static enum br_status march(struct run *r, struct br_error *err)
 {
-    enum br_status status = first_row(r, err);
+    enum br_status status = begin(r, err);
     if (!status)
         status = tell(r, err);
     while (!status && r->row.step < r->request->steps) {

@@ -21,6 +21,8 @@ struct br_history_row {
  * what br_history_run returns. The march is at the row's time level. */
 struct br_history_observer {
     void *self;
+    /* Once, at t = 0: who wants to may watch the march's stages. */
+    enum br_status (*begin)(void *self, struct br_march *march, struct br_error *err);
     /* Every time level, from 0 on. The bending displacement of the row is NAN: it costs a pass over
      * the elements, which br_march_tip_displacement makes. */
     enum br_status (*step)(void *self, const struct br_march *march,

@@ -17,14 +17,15 @@ struct run {
 
 /* ---- observers ---- */
 
-static enum br_status start_checks(struct run *r, const struct br_march *march,
-                                   struct br_error *err)
+static enum br_status start_checks(void *self, struct br_march *march, struct br_error *err)
 {
+    struct run *r = self;
     struct br_run_report *report = r->report;
     report->round_off = br_march_round_off(march);
     report->contact_unstable = br_march_contact_unstable(march);
-    report->limits = br_certificate_limits(report->n, report->round_off);
-    enum br_status status = br_energy_meter_create(&r->meter, march, &report->marched, err);
+    report->limits = br_certificate_limits(report->method.scheme, report->n, report->round_off);
+    enum br_status status = br_energy_meter_create(&r->meter, march, &report->marched,
+                                                   report->method.scheme, report->k, err);
     if (!status && report->checked)
         status = br_witness_create(&r->witness, march, &report->marched, &r->report->method, err);
     return status;
@@ -46,9 +47,11 @@ static void check_step(struct run *r, const struct br_history_row *row)
 static enum br_status watch_checks(void *self, const struct br_march *march,
                                    const struct br_history_row *row, struct br_error *err)
 {
+    (void)march;
+    (void)err;
     struct run *r = self;
     if (row->step == 0)
-        return start_checks(r, march, err);
+        return BR_OK;
     if (r->witness)
         check_step(r, row);
     if (r->report->summed)
@@ -79,9 +82,11 @@ static size_t list_observers(struct run *r, struct br_history_observer list[MOST
     const struct br_run_request *q = r->request;
     size_t count = 0;
     list[count++] = br_tip_watch_start(&r->report->watch, &r->report->marched, q->steps);
+    r->report->watch.trapezoidal = q->method.scheme != br_time_schemes[0];
     if (q->explain)
         list[count++] = br_cost_mark_step(&r->record);
-    list[count++] = (struct br_history_observer){.self = r, .step = watch_checks};
+    list[count++] =
+        (struct br_history_observer){.self = r, .begin = start_checks, .step = watch_checks};
     if (q->explain && r->report->summed)
         list[count++] = br_cost_mark_step(&r->check);
     for (size_t i = 0; i < q->outputs && i < BR_MOST_OUTPUTS; i++)

@@ -52,7 +52,9 @@ static void watch_friction(struct br_tip_watch *w, const struct br_history_row *
     const enum br_tip_regime regime = regime_of(row);
     const int direction = regime != BR_TIP_SLIP ? 0 : row->friction_force > 0 ? 1 : -1;
     w->regime_steps[regime]++;
-    w->friction_work += w->k * row->friction_force * row->velocity[BR_BENDING];
+    const double power = row->friction_force * row->velocity[BR_BENDING];
+    w->friction_work += w->k * (w->trapezoidal ? (w->power + power) / 2 : power);
+    w->power = power;
     const bool turned = direction && w->direction && direction != w->direction;
     if (row->step == 1) {
         w->regime_at_start = regime;

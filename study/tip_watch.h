@@ -56,7 +56,9 @@ struct br_tip_watch {
     size_t count[BR_TIP_EVENTS]; /* of each kind */
     size_t regime_steps[BR_TIP_REGIMES], closed_steps, steps;
     struct br_extreme contact_force, friction_force; /* largest in size, N */
-    double friction_work;                            /* sum of k lambda v, J */
+    bool trapezoidal;     /* the sum of friction_work, for schemes that are not Euler's */
+    double power;         /* lambda v of the step before, W */
+    double friction_work; /* sum of k lambda v, J */
 
     double k; /* private from here on: s */
     bool closed;

@@ -61,13 +61,24 @@ enum br_status br_verify_default(const struct br_scene *scene, struct br_verify 
     enum br_status status = BR_OK;
     for (int kind = 0; kind < BR_VERIFY_KINDS && !status; kind++)
         status = default_grid((enum br_verify_kind)kind, &verify->study[kind], err);
-    if (scene->axial.modelled)
-        expect(&verify->study[BR_VERIFY_SPACE], BR_PART_AXIAL, 2);
-    if (scene->bending.modelled)
-        expect(&verify->study[BR_VERIFY_SPACE], BR_PART_BENDING, 4);
-    expect(&verify->study[BR_VERIFY_TIME], BR_PART_TOTAL, 1);
-    expect(&verify->study[BR_VERIFY_JOINT], BR_PART_TOTAL, 1);
+    br_verify_expect_default(scene, verify);
     return status;
+}
+
+void br_verify_expect_default(const struct br_scene *scene, struct br_verify *verify)
+{
+    struct br_verify_study *space = &verify->study[BR_VERIFY_SPACE];
+    struct br_verify_study *time = &verify->study[BR_VERIFY_TIME];
+    struct br_verify_study *joint = &verify->study[BR_VERIFY_JOINT];
+    space->expectations = time->expectations = joint->expectations = 0;
+    if (scene->axial.modelled)
+        expect(space, BR_PART_AXIAL, space->method.axial_degree + 1);
+    if (scene->bending.modelled)
+        expect(space, BR_PART_BENDING, 4);
+    expect(time, BR_PART_TOTAL, time->method.scheme->order);
+    /* where k falls like h^2, an error of h^p is one of k^(p / 2) */
+    const double in_space = scene->axial.modelled ? joint->method.axial_degree + 1 : 4;
+    expect(joint, BR_PART_TOTAL, fmin(joint->method.scheme->order, in_space / 2));
 }
 
 /* ---- checks ---- */

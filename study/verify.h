@@ -50,10 +50,14 @@ struct br_verify {
 /* How many errors a study with so many cells gives: one less where neighbours are compared. */
 size_t br_verify_points(enum br_verify_kind kind, size_t cells);
 
-/* What is expected of a scene that does not say: the orders of the scheme, 2 for the axial and 4
- * for the bending part in space and 1 in time, in the norm of (31). Fails with BR_NO_MEMORY. */
+/* What is expected of a scene that does not say: the orders of the default method, 2 for the axial
+ * and 4 for the bending part in space and 1 in time, in the norm of (31). Fails with BR_NO_MEMORY.
+ */
 enum br_status br_verify_default(const struct br_scene *scene, struct br_verify *verify,
                                  struct br_error *err);
+
+/* What the methods of such studies let expect: the orders of their schemes and elements. */
+void br_verify_expect_default(const struct br_scene *scene, struct br_verify *verify);
 
 /* Refuses (BR_BAD_INPUT) what cannot be verified: too few cells, meshes or time levels that do not
  * nest, a part that is not modelled, a band that contains 0, expectations that are given twice or

@@ -26,8 +26,9 @@ const char *br_method_text(const struct br_scene *scene, const struct br_method 
         append(text, " to %g", m->tolerance);
     if (m->axial_degree != 1 && scene->axial.modelled)
         append(text, ", axial elements of degree %d", m->axial_degree);
-    append(text, ", solver %s%s%s", m->solver->name, kernel ? " on " : "",
-           kernel ? kernel->name : "");
+    if (!m->scheme->integrator) /* else it solves its systems itself */
+        append(text, ", solver %s%s%s", m->solver->name, kernel ? " on " : "",
+               kernel ? kernel->name : "");
     append(text, ", contact %s", scene->contact.modelled ? m->contact->name : "none");
     append(text, ", friction %s", frictionless ? "none" : m->friction->name);
     if (!frictionless && m->friction->iterates)

@@ -150,9 +150,12 @@ static json_t *energies(const struct br_run_report *p)
     put(o, "work_of_loads", two(p, p->work.loads));
     put(o, "lost_to_viscosity", two(p, p->work.viscous));
     put_number(o, "lost_to_scheme", p->work.scheme);
+    put(o, "lost_to_scheme_is_the_remainder", json_boolean(p->work.remainder));
     put(o, "lost_to_scheme_by_contact",
-        if_marched(p->marched.contact.modelled, p->work.scheme_contact));
-    put_number(o, "imbalance", br_energy_imbalance(&p->energy_start, &p->energy_now, &p->work));
+        if_marched(p->marched.contact.modelled && !p->work.remainder, p->work.scheme_contact));
+    put(o, "imbalance",
+        if_marched(!p->work.remainder,
+                   br_energy_imbalance(&p->energy_start, &p->energy_now, &p->work)));
     return o;
 }
 

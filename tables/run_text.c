@@ -183,6 +183,11 @@ static void works(FILE *out, const struct br_run_report *p)
     if (p->marched.friction.law != BR_FRICTIONLESS)
         one(out, "lost to friction", w->friction);
     one(out, "lost to the scheme", w->scheme);
+    if (w->remainder) {
+        fprintf(out, "  The works are sums by the trapezoidal rule; what is lost to the scheme is "
+                     "what they leave of the\n  balance, that rule's error included.\n");
+        return;
+    }
     if (p->marched.contact.modelled)
         one(out, "  by its contact", w->scheme_contact);
     fprintf(out,
@@ -227,13 +232,15 @@ static void certificate(FILE *out, const struct br_run_report *p)
          p->marched.axial.modelled},
         {"bending equation (28)", c->bending_residual, limit->bending_residual,
          p->marched.bending.modelled},
-        {"update u_n = u_{n-1} + k v_n", c->update, limit->update, true},
+        {"update of the state", c->update, limit->update, true},
         {"contact law (10)", c->contact, limit->contact, p->marched.contact.modelled},
         {"friction law (12)", c->friction, limit->friction,
          p->marched.friction.law != BR_FRICTIONLESS},
     };
-    fprintf(out, "\nCertificate of every step, by code that the solver does not share: the worst, "
-                 "and its limit\n");
+    fprintf(out,
+            "\nCertificate of every step%s, by code that the solver does not share: the worst, "
+            "and its limit\n",
+            p->method.scheme == br_time_schemes[0] ? "" : ", stage by stage");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         if (rows[i].modelled)
             fprintf(out, "  %-30s %10.3g  %10.3g  %s\n", rows[i].name, rows[i].worst, rows[i].limit,

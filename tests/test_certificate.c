@@ -46,7 +46,7 @@ static void record(struct recorded *r, const char *contact, const char *friction
 
 static struct br_certificate limits(void)
 {
-    return br_certificate_limits(N, 0);
+    return br_certificate_limits(br_time_schemes[0], N, 0);
 }
 
 /* The step is refused, by the entry whose description contains `what`. */
@@ -296,7 +296,7 @@ static void test_good_steps(void **state)
         struct br_witness *witness;
         MUST(br_witness_create(&witness, march, &scene, &method, &err));
         const struct br_certificate most =
-            br_certificate_limits(n, br_test_slack() * br_march_round_off(march));
+            br_certificate_limits(method.scheme, n, br_test_slack() * br_march_round_off(march));
         for (int step = 1; step <= 40; step++) {
             MUST(br_march_step(march, &err));
             const struct br_certificate certificate = br_witness_step(witness);

@@ -130,6 +130,7 @@ static const struct {
     const char *command, *unless, *words;
 } shorter[] = {
     {"beamrate tables", " --n", " --n 5,10 --k 0.1,0.05 --reference fine:20,0.05"},
+    {" --split", " --n", " --n 10"},
     {"beamrate trade", " --n", " --n 10 --k 0.1,0.05 --methods euler,bdf2 --repeats 1"},
 };
 

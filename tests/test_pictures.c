@@ -73,6 +73,10 @@ static void test_without_gnuplot(void **state)
                "gnuplot is not installed: the animation is written as a script");
     assert_true(cli_is_there("bare.gp") && cli_is_there("bare.dat"));
     assert_false(cli_is_there("bare.gif"));
+    cli_expect("run initial_data --n 2 --k 0.1 --axial-degree 2 --quiet --animate two.gif",
+               &nowhere, 0, "");
+    assert_true(cli_file_contains("two.dat", "\n1 0.0833333333 ") &&
+                cli_file_contains("two.dat", "\n2 0.133333333 "));
     cli_expect("run example2 --n 10 --k 0.1 --quiet --plot", &nowhere, 0,
                "gnuplot is not installed: --plot shows nothing");
 }

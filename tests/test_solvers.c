@@ -127,8 +127,8 @@ static void check_step(struct pair *p, double scale[2])
         MUST(br_march_step(p->march[i], &err));
         const struct br_field *f = br_march_field(p->march[i], BR_AXIAL);
         const struct br_certificate certificate = br_witness_step(p->witness[i]);
-        const struct br_certificate limits =
-            br_certificate_limits(f->n, br_test_slack() * br_march_round_off(p->march[i]));
+        const struct br_certificate limits = br_certificate_limits(
+            p->method[i].scheme, f->n, br_test_slack() * br_march_round_off(p->march[i]));
         if (br_certificate_check(&certificate, &limits, &err))
             fail_msg("seed %ju, %s, n = %zu, step %zu: %s", (uintmax_t)p->seed,
                      p->method[i].solver->name, f->n, br_march_steps_done(p->march[i]),

@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The laws at the tip and the update of the displacement, as pure numbers. */
+#include <math.h>
+#include <string.h>
+
+#include "reference/certificate_parts.h"
+
+typedef long double real;
+
+/* ---- scalars; each of these passes a NaN on ---- */
+
+double br_worse_of(double a, double b)
+{
+    return isnan(a) || a > b ? a : b;
+}
+
+static double smaller(double a, double b)
+{
+    return isnan(a) || a < b ? a : b;
+}
+
+static double positive(double a)
+{
+    return br_worse_of(a, 0);
+}
+
+static double ratio(double a, double size)
+{
+    return a == 0 ? 0 : a / size;
+}
+
+/* Largest magnitude of count values. */
+static double magnitude(const double *x, size_t count)
+{
+    double most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = br_worse_of(fabs(x[i]), most);
+    return most;
+}
+
+static bool modelled(const struct br_step *s, enum br_field_kind kind)
+{
+    return kind == BR_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled;
+}
+
+static size_t size_of(const struct br_step *s, enum br_field_kind kind)
+{
+    return br_step_unknowns(s->method, kind) * (s->n + 1);
+}
+
+static double at_tip(const struct br_step *s, enum br_field_kind kind, const double *nodal)
+{
+    return nodal[s->n * br_step_unknowns(s->method, kind)];
+}
+
+/* What a field's displacements are rounded to; over k, what its velocities are: a solver
+ * finds them from differences of displacements. */
+static double field_scale(const struct br_step *s, enum br_field_kind kind)
+{
+    const size_t size = size_of(s, kind);
+    const struct br_step_field *f = &s->field[kind];
+    return magnitude(f->displacement, size) + magnitude(f->displacement_before, size) +
+           s->k * (magnitude(f->velocity, size) + magnitude(f->velocity_before, size));
+}
+
+/* u_n = u_{n-1} + k v_n, and the tip's velocity as told. */
+static double update_error(const struct br_step *s, enum br_field_kind kind)
+{
+    if (!modelled(s, kind))
+        return 0;
+    const size_t size = size_of(s, kind);
+    const struct br_step_field *f = &s->field[kind];
+    double most = 0;
+    for (size_t i = 0; i < size; i++) {
+        const real error =
+            (real)f->displacement[i] - f->displacement_before[i] - (real)s->k * f->velocity[i];
+        most = br_worse_of((double)fabsl(error), most);
+    }
+    const double told = fabs(s->tip.velocity[kind] - at_tip(s, kind, f->velocity));
+    return ratio(br_worse_of(most, s->k * told), field_scale(s, kind));
+}
+
+static double tip_displacement_error(const struct br_step *s)
+{
+    if (!s->scene->axial.modelled)
+        return s->tip.displacement == 0 ? 0 : NAN;
+    const double *u = s->field[BR_AXIAL].displacement;
+    return ratio(fabs(s->tip.displacement - at_tip(s, BR_AXIAL, u)),
+                 magnitude(u, size_of(s, BR_AXIAL)));
+}
+
+/* (10): at u_{n-1} or u_n, as the method's contact rule has it. */
+static double contact_error(const struct br_step *s)
+{
+    const struct br_contact *c = &s->scene->contact;
+    const double force = s->tip.contact_force;
+    if (!c->modelled)
+        return force == 0 ? 0 : NAN;
+    const struct br_step_field *f = &s->field[BR_AXIAL];
+    const double *u = NULL;
+    if (strcmp(s->method->contact->name, "lagged") == 0)
+        u = f->displacement_before;
+    else if (strcmp(s->method->contact->name, "implicit") == 0)
+        u = f->displacement;
+    else
+        return NAN;
+    const double wanted = c->stiffness * positive(at_tip(s, BR_AXIAL, u) - c->gap);
+    const double scale = fabs(force) + c->stiffness * (field_scale(s, BR_AXIAL) + c->gap);
+    return ratio(fabs(force - wanted), scale);
+}
+
+/* u(L) - g at the time of a stage of the bending field. */
+static double depth_of(const struct br_step *s)
+{
+    const double u =
+        s->axial_tip ? *s->axial_tip : at_tip(s, BR_AXIAL, s->field[BR_AXIAL].displacement);
+    return u - s->scene->contact.gap;
+}
+
+/* h(t_n), from the nodal u_n. */
+static double bound_of(const struct br_step *s)
+{
+    const struct br_scene *scene = s->scene;
+    if (scene->friction.law == BR_TRESCA)
+        return scene->friction.coefficient;
+    if (scene->friction.law != BR_COULOMB)
+        return 0;
+    return scene->friction.coefficient * positive(depth_of(s));
+}
+
+/* What the bound is rounded to, where it is found from u_n - g. */
+static double bound_scale(const struct br_step *s)
+{
+    if (s->scene->friction.law != BR_COULOMB)
+        return 0;
+    return s->scene->friction.coefficient * (field_scale(s, BR_AXIAL) + s->scene->contact.gap);
+}
+
+/* What an iteration may leave: of lambda, and of v = v* - lambda z. */
+struct slack {
+    double force, speed;
+};
+
+/* Distance of (v, lambda), in their own units of size, from the graph of (12): the
+ * nearest of stick (v = 0, |lambda| <= h) and slip either way (lambda = +-h). */
+static double exact_law(double v, double lambda, double bound, struct slack left)
+{
+    const double stick =
+        br_worse_of(positive(fabs(v) - left.speed), positive(fabs(lambda) - bound));
+    const double up =
+        br_worse_of(positive(fabs(lambda - bound) - left.force), positive(-v - left.speed));
+    const double down =
+        br_worse_of(positive(fabs(lambda + bound) - left.force), positive(v - left.speed));
+    return smaller(stick, smaller(up, down));
+}
+
+/* The same for (29), corrected; mu in the unit of v. */
+static double regularised_law(double v, double lambda, double bound, double mu)
+{
+    const double law = br_worse_of(-bound, smaller(bound * v / mu, bound));
+    const double in_force = fabs(lambda - law);
+    if (!(fabs(lambda) <= bound) || bound == 0)
+        return in_force;
+    return smaller(in_force, fabs(v - mu * lambda / bound));
+}
+
+static double friction_error(const struct br_step *s)
+{
+    const double lambda = s->tip.friction_force;
+    if (s->scene->friction.law == BR_FRICTIONLESS)
+        return lambda == 0 ? 0 : NAN;
+    const double *nodal = s->field[BR_BENDING].velocity;
+    const double speed = field_scale(s, BR_BENDING) / s->k;
+    const double bound = bound_of(s);
+    const double force = br_worse_of(fabs(lambda), bound) + bound_scale(s);
+    const double told = ratio(fabs(s->tip.friction_bound - bound), force);
+    const double v = ratio(at_tip(s, BR_BENDING, nodal), speed);
+    const double l = ratio(lambda, force), b = ratio(bound, force);
+    const double tolerance = s->method->friction->iterates ? s->method->iteration.tolerance : 0;
+    const struct slack left = {tolerance * b, ratio(tolerance * bound * s->compliance, speed)};
+    if (!s->method->friction->needs_regularisation)
+        return br_worse_of(told, exact_law(v, l, b, left));
+    if (speed == 0)
+        return br_worse_of(told, fabs(l));
+    return br_worse_of(told, regularised_law(v, l, b, s->scene->friction.regularisation / speed));
+}
+
+/* ---- branches ---- */
+
+static int contact_branches(const struct br_step *s, double distance[BR_MOST_BRANCHES])
+{
+    const struct br_contact *c = &s->scene->contact;
+    if (!c->modelled || !(c->stiffness > 0))
+        return 0;
+    const double force = s->tip.contact_force;
+    const double depth = at_tip(s, BR_AXIAL, s->field[BR_AXIAL].displacement) - c->gap;
+    const double scale = fabs(force) + c->stiffness * (field_scale(s, BR_AXIAL) + c->gap);
+    distance[0] = ratio(fabs(force), scale);
+    distance[1] = ratio(fabs(force - c->stiffness * depth), scale);
+    return BR_CONTACT_BRANCHES;
+}
+
+/* The bound is that of a contact which may be prolonged, too. */
+static int friction_branches(const struct br_step *s, double distance[BR_MOST_BRANCHES])
+{
+    const struct br_scene *scene = s->scene;
+    if (scene->friction.law == BR_FRICTIONLESS || s->method->friction->needs_regularisation)
+        return 0;
+    const double lambda = s->tip.friction_force, bound = s->tip.friction_bound;
+    const double speed = field_scale(s, BR_BENDING) / s->k;
+    const double force = br_worse_of(fabs(lambda), fabs(bound)) + bound_scale(s);
+    double told = fabs(bound - bound_of(s));
+    if (scene->friction.law == BR_COULOMB)
+        told = smaller(told, fabs(bound - scene->friction.coefficient * depth_of(s)));
+    told = ratio(told, force);
+    distance[0] =
+        br_worse_of(told, ratio(fabs(at_tip(s, BR_BENDING, s->field[BR_BENDING].velocity)), speed));
+    distance[1] = br_worse_of(told, ratio(fabs(lambda - bound), force));
+    distance[2] = br_worse_of(told, ratio(fabs(lambda + bound), force));
+    return BR_FRICTION_BRANCHES;
+}
+
+int br_branch_distances(const struct br_step *s, enum br_field_kind kind,
+                        double distance[BR_MOST_BRANCHES])
+{
+    return kind == BR_AXIAL ? contact_branches(s, distance) : friction_branches(s, distance);
+}
+
+/* ---- a step ---- */
+
+static bool finite_field(const struct br_step *s, enum br_field_kind kind)
+{
+    const double *tip[] = {&s->tip.displacement, &s->tip.contact_force, &s->tip.friction_force,
+                           &s->tip.friction_bound};
+    bool good = isfinite(s->tip.velocity[kind]);
+    for (int i = 0; i < 2; i++)
+        good = good && isfinite(*tip[kind == BR_AXIAL ? i : 2 + i]);
+    if (!modelled(s, kind))
+        return good;
+    const struct br_step_field *f = &s->field[kind];
+    const double *arrays[] = {f->displacement_before, f->displacement, f->velocity_before,
+                              f->velocity, f->load};
+    for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
+        good = good && isfinite(magnitude(arrays[a], size_of(s, kind)));
+    return good;
+}
+
+static const struct br_certificate not_finite = {NAN, NAN, NAN, NAN, NAN};
+
+struct br_certificate br_certify_field(const struct br_step *s, enum br_field_kind kind)
+{
+    if (!finite_field(s, kind))
+        return not_finite;
+    if (kind == BR_AXIAL)
+        return (struct br_certificate){
+            .axial_residual = br_step_residual(s, BR_AXIAL),
+            .update = br_worse_of(tip_displacement_error(s), update_error(s, BR_AXIAL)),
+            .contact = contact_error(s),
+        };
+    return (struct br_certificate){
+        .bending_residual = br_step_residual(s, BR_BENDING),
+        .update = update_error(s, BR_BENDING),
+        .friction = friction_error(s),
+    };
+}
+
+struct br_certificate br_certify(const struct br_step *s)
+{
+    struct br_certificate certificate = br_certify_field(s, BR_AXIAL);
+    const struct br_certificate bending = br_certify_field(s, BR_BENDING);
+    br_certificate_merge(&certificate, &bending);
+    return finite_field(s, BR_AXIAL) && finite_field(s, BR_BENDING) ? certificate : not_finite;
+}

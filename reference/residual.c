@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The residual of (27) and (28), in the norm of certificate.h. */
+#include <math.h>
+
+#include "reference/certificate_parts.h"
+
+typedef long double real;
+
+/* The terms of (27) and (28), whose sum is the residual; and those of the state before,
+ * which a solver starts from, for the size of a motion that stops in this step. */
+enum term {
+    INERTIA_AFTER,  /*  M v_n / k */
+    INERTIA_BEFORE, /* -M v_{n-1} / k */
+    VISCOUS,        /*  C v_n */
+    ELASTIC,        /*  K w_n */
+    RATE_BEFORE,    /*  (C + kK) v_{n-1}, for the size alone */
+    ELASTIC_BEFORE, /*  K w_{n-1}, for the size alone */
+    LOAD,           /* -F_n */
+    TIP,            /*  the force that resists the tip */
+    RESIDUAL,
+    TERMS
+};
+
+/* The forces beyond a point: their sum; for bending their moment about it over h, for a quadratic
+ * rod the force on the bubble of the element that ends there. */
+struct resultant {
+    real force, second; /* N, N */
+    real square;        /* of the norm so far: N^2 m, or N^2 m^3 */
+};
+
+struct balance {
+    const struct br_step *step;
+    const struct br_step_field *field;
+    enum br_field_kind kind;
+    bool quadratic;
+    size_t unknowns;
+    real h, density, stiffness, viscosity, k;
+    struct resultant term[TERMS];
+};
+
+/* ---- element matrices ---- */
+
+/* A quadratic rod is taken by its nodes here: begin, middle, end, less a rigid motion. The unknowns
+ * of the march are (u, b) a node, with u = chord - b/4 in the middle. */
+static void quadratic_times(const int matrix[3][3], real factor, const double *v, real base,
+                            real out[4])
+{
+    const real begin = v[0] - base, end = v[2] - base;
+    const real node[3] = {begin, (begin + end) / 2 - (real)v[3] / 4, end};
+    real force[3];
+    for (int i = 0; i < 3; i++) {
+        force[i] = 0;
+        for (int j = 0; j < 3; j++)
+            force[i] += factor * matrix[i][j] * node[j];
+    }
+    out[0] = force[0] + force[1] / 2;
+    out[1] = 0; /* the bubble before */
+    out[2] = force[2] + force[1] / 2;
+    out[3] = -force[1] / 4;
+}
+
+/* Rod: rho h/6 [2 1; 1 2], of three nodes rho h/30 [4 2 -1; ...].  Beam, for (w, h w_x): rho h/420
+ * [...]. */
+static void mass_times(const struct balance *b, const double *v, real out[4])
+{
+    static const int rod[2][2] = {{2, 1}, {1, 2}};
+    static const int beam[4][4] = {
+        {156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}};
+    static const int three[3][3] = {{4, 2, -1}, {2, 16, 2}, {-1, 2, 4}};
+    const bool axial = b->kind == BR_AXIAL;
+    if (b->quadratic) {
+        quadratic_times(three, b->density * b->h / 30, v, 0, out);
+        return;
+    }
+    const real factor = b->density * b->h / (axial ? 6 : 420);
+    for (size_t i = 0; i < 2 * b->unknowns; i++) {
+        out[i] = 0;
+        for (size_t j = 0; j < 2 * b->unknowns; j++)
+            out[i] += factor * (real)(axial ? rod[i][j] : beam[i][j]) * (real)v[j];
+    }
+}
+
+/* Rod: 1/h [1 -1; -1 1], of three nodes 1/(3h) [7 -8 1; ...].  Beam: 1/h^3 [12 6 -12 6; 6 4 -6 2;
+ * ...]. A rigid motion has no forces, so that of the element's first node is taken off beforehand,
+ * exactly but for the last bits: the last two columns remain. */
+static void stiffness_times(const struct balance *b, const double *w, real out[4])
+{
+    static const int three[3][3] = {{7, -8, 1}, {-8, 16, -8}, {1, -8, 7}};
+    if (b->quadratic) {
+        quadratic_times(three, 1 / (3 * b->h), w, w[0], out);
+        return;
+    }
+    if (b->kind == BR_AXIAL) {
+        const real stretch = ((real)w[1] - w[0]) / b->h;
+        out[0] = -stretch;
+        out[1] = stretch;
+        return;
+    }
+    static const int beam[4][2] = {{-12, 6}, {-6, 2}, {12, -6}, {-6, 4}};
+    const real deflection = ((real)w[2] - w[0]) - w[1], rotation = (real)w[3] - w[1];
+    for (int i = 0; i < 4; i++)
+        out[i] = (beam[i][0] * deflection + beam[i][1] * rotation) / (b->h * b->h * b->h);
+}
+
+/* ---- resultants, from the free end to the clamped one ---- */
+
+static void add_node(struct balance *b, enum term term, const real *force, real factor)
+{
+    struct resultant *r = &b->term[term];
+    r->force += factor * force[0];
+    if (b->unknowns == 2)
+        r->second += factor * force[1];
+}
+
+/* Across an element: m(x) = h (second + force (1 - xi)), int m^2 dx = h^3 (...). The normal force
+ * that balances a force r on a bubble is 3 r (2 xi - 1). */
+static void cross_element(const struct balance *b, struct resultant *r)
+{
+    if (b->kind == BR_AXIAL) {
+        r->square += b->h * (r->force * r->force + 3 * r->second * r->second);
+        r->second = 0;
+        return;
+    }
+    const real mean = r->second + r->force / 2;
+    r->square += b->h * b->h * b->h * (mean * mean + r->force * r->force / 12);
+    r->second += r->force;
+}
+
+/* Forces that the terms of element e put on its nodes. */
+static void element_terms(const struct balance *b, size_t e, real out[TERMS][4])
+{
+    const size_t first = e * b->unknowns;
+    const struct br_step_field *f = b->field;
+    mass_times(b, f->velocity + first, out[INERTIA_AFTER]);
+    mass_times(b, f->velocity_before + first, out[INERTIA_BEFORE]);
+    stiffness_times(b, f->velocity + first, out[VISCOUS]);
+    stiffness_times(b, f->displacement + first, out[ELASTIC]);
+    stiffness_times(b, f->velocity_before + first, out[RATE_BEFORE]);
+    stiffness_times(b, f->displacement_before + first, out[ELASTIC_BEFORE]);
+    for (size_t i = 0; i < 2 * b->unknowns; i++) {
+        out[INERTIA_AFTER][i] /= b->k;
+        out[INERTIA_BEFORE][i] /= -b->k;
+        out[VISCOUS][i] *= b->viscosity;
+        out[ELASTIC][i] *= b->stiffness;
+        out[RATE_BEFORE][i] *= b->viscosity + b->k * b->stiffness;
+        out[ELASTIC_BEFORE][i] *= b->stiffness;
+        out[RESIDUAL][i] =
+            out[INERTIA_AFTER][i] + out[INERTIA_BEFORE][i] + out[VISCOUS][i] + out[ELASTIC][i];
+    }
+}
+
+static void add_element_node(struct balance *b, real forces[TERMS][4], size_t node)
+{
+    static const enum term of_elements[] = {INERTIA_AFTER, INERTIA_BEFORE, VISCOUS, ELASTIC,
+                                            RATE_BEFORE,   ELASTIC_BEFORE, RESIDUAL};
+    for (size_t i = 0; i < sizeof of_elements / sizeof *of_elements; i++)
+        add_node(b, of_elements[i], forces[of_elements[i]] + node * b->unknowns, 1);
+}
+
+static void add_load(struct balance *b, size_t node)
+{
+    const double *load = b->field->load + node * b->unknowns;
+    const real force[2] = {load[0], b->unknowns == 2 ? load[1] : 0};
+    add_node(b, LOAD, force, -1);
+    add_node(b, RESIDUAL, force, -1);
+}
+
+static double relative_residual(struct balance *b, double tip_force)
+{
+    const real tip[2] = {tip_force, 0};
+    add_node(b, TIP, tip, 1);
+    add_node(b, RESIDUAL, tip, 1);
+    add_load(b, b->step->n);
+    for (size_t e = b->step->n; e-- > 0;) {
+        real forces[TERMS][4];
+        element_terms(b, e, forces);
+        add_element_node(b, forces, 1);
+        for (int t = 0; t < TERMS; t++)
+            cross_element(b, &b->term[t]);
+        add_element_node(b, forces, 0);
+        add_load(b, e);
+    }
+    real size = 0;
+    for (int t = 0; t < RESIDUAL; t++)
+        size += sqrtl(b->term[t].square);
+    const real residual = sqrtl(b->term[RESIDUAL].square);
+    return residual == 0 && size == 0 ? 0 : (double)(residual / size);
+}
+
+double br_step_residual(const struct br_step *s, enum br_field_kind kind)
+{
+    const bool axial = kind == BR_AXIAL;
+    if (axial ? !s->scene->axial.modelled : !s->scene->bending.modelled)
+        return 0;
+    struct balance b = {
+        .step = s,
+        .field = &s->field[kind],
+        .kind = kind,
+        .quadratic = axial && s->method->axial_degree == 2,
+        .unknowns = br_step_unknowns(s->method, kind),
+        .h = (real)s->scene->length / (real)s->n,
+        .density = s->scene->density,
+        .stiffness = axial ? s->scene->axial.stiffness : s->scene->bending.stiffness,
+        .viscosity = axial ? s->scene->axial.viscosity : s->scene->bending.viscosity,
+        .k = s->k,
+    };
+    return relative_residual(&b, axial ? s->tip.contact_force : s->tip.friction_force);
+}

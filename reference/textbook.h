@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Time schemes as the literature prints them, written down apart from solver/scheme.c, for the
+ * certificate to judge it by. */
+#ifndef BR_TEXTBOOK_H
+#define BR_TEXTBOOK_H
+
+#include <stddef.h>
+
+enum { BR_TEXTBOOK_ROWS = 6 };
+
+/* One step. Runge-Kutta: Y_i = Y_{n-1} + k sum_j a_ij Y'_j at t_{n-1} + c_i k, the last row being
+ * the step's end; where c_0 = 0, row 0 is Y_{n-1} itself. Backward differences, rows = 0:
+ * Y_n = sum_j past_j Y_{n-1-j} + beta k Y'_n. */
+struct br_textbook {
+    int rows;
+    long double a[BR_TEXTBOOK_ROWS][BR_TEXTBOOK_ROWS], c[BR_TEXTBOOK_ROWS];
+    int back; /* of backward differences: how many steps */
+    long double past[3], beta;
+};
+
+/* The step of a scheme by its name, `since` steps after t = 0 or after the last switch. NULL: a
+ * scheme that is not known here. */
+const struct br_textbook *br_textbook_step(const char *scheme, size_t since);
+
+#endif
