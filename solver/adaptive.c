@@ -23,6 +23,7 @@ static const double least_step = 1e-13;  /* of the duration */
 static const double safety = 0.85, most_growth = 5, most_shrinking = 0.1;
 static const double idle_growth = 1.4;       /* less is not worth new tables */
 static const double switch_accuracy = 1e-12; /* of the step in which it lies */
+static const double met_switch = 1e-10;      /* of the margin at the step's beginning */
 
 struct br_adaptive {
     double now, next;      /* time reached and length of the next step, s */
@@ -138,9 +139,8 @@ static void take_back(struct br_march *m, const struct br_tip *tip)
 /* ---- switches ---- */
 
 /* Not negative while a field's tip is on the branch that is held. */
-static double margin(const struct br_march *m, enum br_field_kind kind)
+static double margin(const struct br_march *m, const struct br_tip *tip, enum br_field_kind kind)
 {
-    const struct br_tip *tip = &m->tip;
     switch (m->held[kind] ? m->regime[kind] : BR_REGIME_NONE) {
     case BR_REGIME_OPEN:
         return m->scene->contact.gap - tip->displacement;
@@ -175,7 +175,7 @@ static double margin_after(double k, void *params)
         return 0;
     take_back(s->march, s->tip);
     s->status = try_step(s->march, k, &s->trial, s->err);
-    return s->status ? 0 : margin(s->march, s->kind);
+    return s->status ? 0 : margin(s->march, &s->march->tip, s->kind);
 }
 
 /* Shortens a step whose end is beyond the switch of one field to just before that switch, where a
@@ -285,12 +285,22 @@ static enum br_status estimated_step(struct br_march *m, double k, struct trial 
     }
 }
 
+/* Whether a step ends on a switch, as where that is a time level: going on would be a step too
+ * short for the tip's force to be more than its round-off. */
+static bool meets_switch(const struct br_march *m, const struct br_tip *before,
+                         enum br_field_kind kind)
+{
+    const double began = margin(m, before, kind);
+    return began > 0 && margin(m, &m->tip, kind) <= met_switch * began;
+}
+
 /* Where the step has gone beyond a switch, it ends there. */
 static enum br_status stop_at_switches(struct br_march *m, const struct br_tip *tip,
                                        struct trial *trial, bool *switched, struct br_error *err)
 {
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        if (!(margin(m, (enum br_field_kind)kind) < 0))
+        *switched |= meets_switch(m, tip, (enum br_field_kind)kind);
+        if (!(margin(m, &m->tip, (enum br_field_kind)kind) < 0))
             continue;
         struct search search = {m, tip, (enum br_field_kind)kind, *trial, BR_OK, err};
         const enum br_status status = find_switch(&search, trial->k);
