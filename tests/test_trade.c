@@ -213,7 +213,7 @@ static void test_ends(void **state)
         {.contender = &all.list[2], .at = {8, 10}},
     };
     struct br_trial_request request = br_trial_request_default(&scene);
-    request.time_limit = 1e-3;
+    request.time_limit = 0.02;
     MUST(br_trials_hold(trial, 3, &request, &err));
     assert_int_equal(trial[0].end, BR_TRIAL_FAILED);
     assert_non_null(strstr(trial[0].failure.message, "mu > 0"));

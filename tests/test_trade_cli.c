@@ -32,6 +32,8 @@ static void test_bad_input(void **state)
         {"trade example1 --k 0.1,0.1000000000001", "--k: 0.1 is given twice"},
         {"trade example1 --k nan", "--k: found 'nan'"},
         {"trade example1 --tolerances 0", "--tolerances"},
+        {"trade example1 --tolerances 1e-3,1", "--tolerances: found 1, expected numbers above"},
+        {"trade example1 --tolerances 1e-20", "--tolerances: found 1e-20, expected numbers"},
         {"trade example1 --methods bdf2 --tolerances 1e-3", "--tolerances: no method"},
         {"trade example1 --methods adaptive --k 0.1", "--k: no method"},
         {"trade example1 --norm l3", "--norm: found 'l3'"},
@@ -164,6 +166,9 @@ static void test_over_the_limit(void **state)
                "--out m --no-plots --quiet",
                NULL, 3, "example2: no trial came to its end");
     assert_true(cli_is_there("m/example2.txt"));
+    /* even one that has ended before anybody looked at the clock */
+    cli_expect("trade example2 --methods euler --n 1 --k 0.5 --time-limit 1e-12 --out m --quiet",
+               NULL, 3, "over the time limit of 1e-12 s");
 }
 
 /* The paper's method beyond its limit is marked, and never the cheapest. */
