@@ -62,12 +62,18 @@ static void test_front(void **state)
 {
     (void)state;
     struct br_trial t[] = {
-        made(0, 1e-2, 1, 1),  made(0, 1e-3, 2, 1),   made(0, 1e-3, 3, 1), /* slower */
-        made(1, 1e-2, 1, 1),                                              /* equal to the first */
-        made(1, 2e-3, 2, 1),                                              /* worse */
-        made(1, NAN, 0.1, 1), made(1, 1e-9, NAN, 1), made(1, 1e-4, 9, 1), made(0, 1e-20, 1e-9, 1),
+        made(0, 1e-2, 1, 1),
+        made(0, 1e-3, 2, 1),
+        made(0, 1e-3, 3, 1), /* slower */
+        made(1, 1e-2, 1, 1), /* equal to the first */
+        made(1, 2e-3, 2, 1), /* worse */
+        made(1, NAN, 0.1, 1),
+        made(1, 1e-9, NAN, 1),
+        made(1, 1e-4, 9, 1),
+        made(0, 1e-20, 1e-9, 1),
+        made(1, 1e-4 * (1 - 1e-9), 20, 1), /* round-off */
     };
-    const bool expected[] = {true, true, false, false, false, false, false, true, false};
+    const bool expected[] = {true, true, false, false, false, false, false, true, false, false};
     enum { COUNT = sizeof t / sizeof *t };
     bool front[COUNT];
     t[8].end = BR_TRIAL_OVER;

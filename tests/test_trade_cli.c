@@ -185,6 +185,19 @@ static void test_unstable(void **state)
     assert_true(has_row(cli_read("u/stiff.txt"), "1e-02 - - -"));
 }
 
+/* At rest there is nothing that an error is a part of. */
+static void test_zero_solution(void **state)
+{
+    (void)state;
+    cli_write_file("rest.yaml", "title: rest\nlength: 1 m\nduration: 1 s\ndensity: 1e-3 kg/m\n"
+                                "axial:\n  stiffness: 1 N\n  viscosity: 1e-3 N s\n"
+                                "  load: 0 [N/m]\n");
+    cli_expect("trade rest.yaml --methods bdf2 --n 4 --k 0.1 --out z --no-plots", NULL, 3,
+               "the solution is zero");
+    cli_expect("trade rest.yaml --split --n 4 --k 0.1 --out z --no-plots", NULL, 3,
+               "the solution is zero");
+}
+
 static void test_several_scenes(void **state)
 {
     (void)state;
@@ -218,10 +231,10 @@ static void test_interrupt(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_input), cmocka_unit_test(test_formats_agree),
-        cmocka_unit_test(test_rules),     cmocka_unit_test(test_over_the_limit),
-        cmocka_unit_test(test_unstable),  cmocka_unit_test(test_several_scenes),
-        cmocka_unit_test(test_interrupt),
+        cmocka_unit_test(test_bad_input),      cmocka_unit_test(test_formats_agree),
+        cmocka_unit_test(test_rules),          cmocka_unit_test(test_over_the_limit),
+        cmocka_unit_test(test_unstable),       cmocka_unit_test(test_zero_solution),
+        cmocka_unit_test(test_several_scenes), cmocka_unit_test(test_interrupt),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }
