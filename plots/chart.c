@@ -86,7 +86,9 @@ static void write_pen(FILE *out, const struct br_panel *p, size_t curve)
         series += p->curve[j].stroke <= BR_STROKE_MARKED;
         before += j < curve && p->curve[j].stroke <= BR_STROKE_MARKED;
     }
-    const struct br_pen pen = c->pen ? br_pen_of(c->pen - 1, c->pens) : br_pen_of(before, series);
+    struct br_pen pen = {0}; /* none but a series' has a choice */
+    if (c->stroke <= BR_STROKE_MARKED)
+        pen = c->pen ? br_pen_of(c->pen - 1, c->pens) : br_pen_of(before, series);
     switch (c->stroke) {
     case BR_STROKE_SERIES:
         fprintf(out, "with lines lw 3 lc rgb '%s' dt %s", pen.colour, pen.dash);
