@@ -81,9 +81,8 @@ static enum br_status refuse_degree(const struct br_linear_solver *solver, struc
 
 static enum br_status check_elements(const struct br_method *m, struct br_error *err)
 {
-    const enum br_status status = check_degree(m, err);
-    if (status || m->axial_degree == 1)
-        return status;
+    if (m->axial_degree == 1)
+        return BR_OK;
     if (m->scheme->integrator)
         return br_fail(err, BR_BAD_INPUT,
                        "scheme %s has no quadratic axial elements, expected another scheme or an "
@@ -110,7 +109,9 @@ static enum br_status check_friction(const struct br_method *m, const struct br_
 enum br_status br_method_check_scene(const struct br_method *m, const struct br_scene *scene,
                                      struct br_error *err)
 {
-    enum br_status status = check_tolerance(m, err);
+    enum br_status status = check_degree(m, err);
+    if (!status)
+        status = check_tolerance(m, err);
     if (!status && scene->axial.modelled)
         status = check_elements(m, err);
     if (!status && scene->contact.modelled)
