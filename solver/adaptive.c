@@ -100,6 +100,9 @@ static enum br_status try_fields(struct br_march *m, const struct br_step *step,
         if (!part->modelled)
             continue;
         m->held[kind] = has_branches(m, (enum br_field_kind)kind);
+        m->margins[kind].count = 0;
+        if (m->held[kind] && m->adaptive->since > 0) /* else it is that of another branch */
+            br_margins_add(&m->margins[kind], 0, br_march_margin(m, (enum br_field_kind)kind));
         status = br_march_stages(m, (enum br_field_kind)kind, &trial->stages, step, m->path, err);
         if (status)
             break;
@@ -137,27 +140,6 @@ static void take_back(struct br_march *m, const struct br_tip *tip)
 
 /* ---- switches ---- */
 
-/* Not negative while a field's tip is on the branch that is held. */
-static double margin(const struct br_march *m, enum br_field_kind kind)
-{
-    const struct br_tip *tip = &m->tip;
-    switch (m->held[kind] ? m->regime[kind] : BR_REGIME_NONE) {
-    case BR_REGIME_OPEN:
-        return m->scene->contact.gap - tip->displacement;
-    case BR_REGIME_CLOSED:
-        return tip->displacement - m->scene->contact.gap;
-    case BR_REGIME_STICK:
-        return tip->friction_bound - fabs(tip->friction_force);
-    case BR_REGIME_FORWARD:
-        return tip->velocity[BR_BENDING];
-    case BR_REGIME_BACKWARD:
-        return -tip->velocity[BR_BENDING];
-    case BR_REGIME_NONE:
-        break;
-    }
-    return 0;
-}
-
 struct search {
     struct br_march *march;
     const struct br_tip *tip; /* where the step begins */
@@ -175,7 +157,7 @@ static double margin_after(double k, void *params)
         return 0;
     take_back(s->march, s->tip);
     s->status = try_step(s->march, k, &s->trial, s->err);
-    return s->status ? 0 : margin(s->march, s->kind);
+    return s->status ? 0 : br_march_margin(s->march, s->kind);
 }
 
 /* Shortens a step whose end is beyond the switch of one field to just before that switch, where a
@@ -285,21 +267,35 @@ static enum br_status estimated_step(struct br_march *m, double k, struct trial 
     }
 }
 
-/* Where the step has gone beyond a switch, it ends there. */
+/* Where the step has gone beyond a switch of a field's law, it ends there. Where only the stages or
+ * their polynomial say so, it ends where they do, which the margin there confirms or not. */
+static enum br_status stop_at_switch(struct br_march *m, const struct br_tip *tip,
+                                     enum br_field_kind kind, struct trial *trial, bool *switched,
+                                     struct br_error *err)
+{
+    const double dip = br_margins_dip(&m->margins[kind]), k = dip * trial->k;
+    struct search search = {m, tip, kind, *trial, BR_OK, err};
+    if (!(dip > 0))
+        return BR_OK;
+    bool beyond = true;
+    if (dip < 1)
+        beyond = margin_after(k, &search) < 0;
+    if (!search.status && beyond) {
+        search.status = find_switch(&search, k);
+        *switched = true;
+    }
+    *trial = search.trial;
+    return search.status;
+}
+
 static enum br_status stop_at_switches(struct br_march *m, const struct br_tip *tip,
                                        struct trial *trial, bool *switched, struct br_error *err)
 {
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        if (!(margin(m, (enum br_field_kind)kind) < 0))
-            continue;
-        struct search search = {m, tip, (enum br_field_kind)kind, *trial, BR_OK, err};
-        const enum br_status status = find_switch(&search, trial->k);
-        if (status)
-            return status;
-        *trial = search.trial;
-        *switched = true;
-    }
-    return BR_OK;
+    enum br_status status = BR_OK;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        if (m->held[kind])
+            status = stop_at_switch(m, tip, (enum br_field_kind)kind, trial, switched, err);
+    return status;
 }
 
 /* Goes on by at most `longest`, s. */

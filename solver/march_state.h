@@ -4,6 +4,7 @@
 #define BR_MARCH_STATE_H
 
 #include "solver/integrator.h"
+#include "solver/margins.h"
 #include "solver/part.h"
 
 /* The axial tip over one step, for the friction bound of the bending field. */
@@ -34,6 +35,7 @@ struct br_march {
     struct br_part part[2]; /* by br_field_kind */
     enum br_regime regime[2];
     bool held[2]; /* the regime holds, whatever the law says of the stage's result */
+    struct br_margins margins[2]; /* of the step so far, where a branch is held */
     struct br_tip tip;
     struct br_tip_path *path; /* of the last `lead` steps */
     size_t lead;
@@ -51,6 +53,9 @@ enum br_status br_march_stages(struct br_march *march, enum br_field_kind kind,
 
 /* The branch of its law that the tip is on after a stage. */
 enum br_regime br_march_regime(const struct br_march *march, enum br_field_kind kind);
+
+/* Not negative while a field's tip is on the branch that is held; 0 where none is. */
+double br_march_margin(const struct br_march *march, enum br_field_kind kind);
 
 /* A field's step is taken; switched: the next one starts anew. */
 void br_march_accept(struct br_march *march, enum br_field_kind kind,
