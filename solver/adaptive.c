@@ -144,15 +144,15 @@ struct search {
     struct br_march *march;
     const struct br_tip *tip; /* where the step begins */
     enum br_field_kind kind;
+    double beyond; /* the margin behind the switch */
     struct trial trial;
     enum br_status status;
     struct br_error *err;
 };
 
-/* The margin at the end of a step of length k, for GSL. */
-static double margin_after(double k, void *params)
+/* The margin at the end of a step of length k. */
+static double margin_after(double k, struct search *s)
 {
-    struct search *s = params;
     if (s->status)
         return 0;
     take_back(s->march, s->tip);
@@ -160,11 +160,20 @@ static double margin_after(double k, void *params)
     return s->status ? 0 : br_march_margin(s->march, s->kind);
 }
 
+/* The same for GSL. A margin of 0 is in front of the switch: a tip that rests at the gap has
+ * nothing else, and its switch is where it leaves. Then this halves. */
+static double margin_to_cross(double k, void *params)
+{
+    struct search *s = params;
+    const double margin = margin_after(k, s);
+    return margin == 0 ? -s->beyond : margin;
+}
+
 /* Shortens a step whose end is beyond the switch of one field to just before that switch, where a
  * load that jumps then has not jumped yet; the state is then the result of the shorter one. */
 static enum br_status find_switch(struct search *s, double longest)
 {
-    gsl_function f = {.function = margin_after, .params = s};
+    gsl_function f = {.function = margin_to_cross, .params = s};
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
     if (!solver)
         return br_no_memory(s->err, "a search for a switch");
@@ -274,13 +283,12 @@ static enum br_status stop_at_switch(struct br_march *m, const struct br_tip *ti
                                      struct br_error *err)
 {
     const double dip = br_margins_dip(&m->margins[kind]), k = dip * trial->k;
-    struct search search = {m, tip, kind, *trial, BR_OK, err};
+    struct search search = {m, tip, kind, br_march_margin(m, kind), *trial, BR_OK, err};
     if (!(dip > 0))
         return BR_OK;
-    bool beyond = true;
     if (dip < 1)
-        beyond = margin_after(k, &search) < 0;
-    if (!search.status && beyond) {
+        search.beyond = margin_after(k, &search);
+    if (!search.status && search.beyond < 0) {
         search.status = find_switch(&search, k);
         *switched = true;
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tips that leave their branch of a law for a part of a step of the adaptive scheme. */
+/* The adaptive scheme where its estimate and the ends of its steps do not tell: tips that leave
+ * their branch of a law for a part of a step, or rest at its end, and loads that jump. */
 #include <math.h>
 
 #include "solver/margins.h"
@@ -30,6 +31,14 @@ static void test_dip(void **state)
     CLOSE(br_margins_dip(&between), 0.375, 1.0 / 64); /* 2 (t - 3/8)^2 - 0.001 */
 }
 
+static struct br_method adaptive(double tolerance)
+{
+    struct br_method method = br_test_method(NULL, "implicit", NULL);
+    method.scheme = br_time_scheme_find("adaptive");
+    method.tolerance = tolerance;
+    return method;
+}
+
 /* The reaction of a propped tip, 3/8 q L = 37.5 sin t N at its largest, is above the bound by 3e-5
  * of itself, for 0.015 of 10 s: far less than a step. The tip must slip by 22 um. The value is that
  * of esdirk3 with 300,000 steps; a tolerance of 1e-11 differs from it by 1e-13 m. */
@@ -45,12 +54,58 @@ static void test_short_slip(void **state)
     scene.bending.load = br_test_load("100*sin(t)");
     scene.friction = (struct br_friction){.law = BR_TRESCA, .coefficient = 37.499};
     for (double tolerance = 1e-4; tolerance > 1e-9; tolerance /= 100) {
-        struct br_method method = br_test_method(NULL, "implicit", NULL);
-        method.scheme = br_time_scheme_find("adaptive");
-        method.tolerance = tolerance;
+        const struct br_method method = adaptive(tolerance);
         const struct br_test_end end = br_test_run(&scene, 4, 10, &method);
         CLOSE(end.w_tip, 2.2204315e-5, fmin(1e-6, 20 * tolerance));
     }
+    br_scene_clear(&scene);
+}
+
+/* Both laws; the rod's tip rests at the gap of 0 until its load begins. */
+static struct br_scene pressed(const char *axial, const char *bending)
+{
+    struct br_scene scene = br_test_bare();
+    scene.density = 0.01;
+    scene.axial.stiffness = 100;
+    scene.axial.viscosity = 0.5;
+    scene.axial.load = br_test_load(axial);
+    scene.bending.stiffness = 20;
+    scene.bending.viscosity = 0.02;
+    scene.bending.load = br_test_load(bending);
+    scene.contact = (struct br_contact){.modelled = true, .stiffness = 1000};
+    scene.friction = (struct br_friction){.law = BR_COULOMB, .coefficient = 1000};
+    return scene;
+}
+
+/* A margin of 0 for a while is not the switch, which comes when the load does. */
+static void test_rest_at_gap(void **state)
+{
+    (void)state;
+    struct br_scene scene = pressed("100*(abs(t-0.613)+t-0.613)", "-100*(abs(t-0.613)+t-0.613)");
+    for (double tolerance = 1e-3; tolerance > 1e-9; tolerance /= 3) {
+        const struct br_method method = adaptive(tolerance);
+        struct br_march *march = br_test_march(&scene, 4, 10, &method);
+        br_test_advance(march, 10);
+        AT_MOST((double)br_march_counts(march).steps, 1000);
+        br_march_free(march);
+    }
+    br_scene_clear(&scene);
+}
+
+/* A load that jumps within a step pushes first and foremost velocities. The tolerance is one of a
+ * step, of which many see the jump. */
+static void test_load_jump(void **state)
+{
+    (void)state;
+    struct br_scene scene = pressed("100*(tanh(1e8*(t-0.953))+1)", "100*(tanh(1e8*(t-0.971))+1)");
+    scene.density = 0.1;
+    scene.contact.gap = 0.1;
+    scene.friction.coefficient = 300;
+    const struct br_method method = adaptive(1e-8), finer = adaptive(1e-12);
+    const struct br_test_end end = br_test_run(&scene, 4, 10, &method);
+    const struct br_test_end best = br_test_run(&scene, 4, 10, &finer);
+    CLOSE(end.u_tip, best.u_tip, 2e-7);
+    CLOSE(end.w_tip, best.w_tip, 5e-7);
     br_scene_clear(&scene);
 }
 
@@ -59,6 +114,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_dip),
         cmocka_unit_test(test_short_slip),
+        cmocka_unit_test(test_rest_at_gap),
+        cmocka_unit_test(test_load_jump),
     };
     return cmocka_run_group_tests_name("margins", tests, NULL, NULL);
 }
