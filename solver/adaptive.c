@@ -39,13 +39,6 @@ void br_adaptive_free(struct br_adaptive *a)
     free(a);
 }
 
-static void keep_all(struct br_march *m, int known)
-{
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (m->part[kind].modelled)
-            br_part_keep(&m->part[kind], known);
-}
-
 static void recall_all(struct br_march *m, int known)
 {
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
@@ -332,50 +325,13 @@ static enum br_status adaptive_step(struct br_march *m, double longest, struct b
     return BR_OK;
 }
 
-/* ---- the size of the solution ---- */
-
-static enum br_status rough_step(struct br_march *m, const struct br_step *step,
-                                 struct br_error *err)
-{
-    static const struct br_stages euler = {.count = 1, .stage = {{1, 1, {[BR_NOW] = 1}}}};
-    enum br_status status = BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        struct br_part *part = &m->part[kind];
-        double size[2];
-        if (!part->modelled)
-            continue;
-        status = br_march_stages(m, (enum br_field_kind)kind, &euler, step, m->path, err);
-        part->solver->size(part->state, 0, size);
-        m->adaptive->largest[kind] = fmax(m->adaptive->largest[kind], size[0]);
-    }
-    return status;
-}
-
-/* The largest strains of a few Euler steps to the end: a solution that starts at rest has no size
- * of its own that its first errors could be compared with. */
-static enum br_status find_size(struct br_march *m, struct br_error *err)
-{
-    enum { STEPS = 16 };
-    const double T = m->scene->duration;
-    const struct br_tip tip = m->tip;
-    enum br_status status = BR_OK;
-    keep_all(m, BR_STAGE);
-    for (int n = 0; n < STEPS && !status; n++) {
-        const struct br_step step = {T * n / STEPS, T * (n + 1) / STEPS, T / STEPS};
-        status = rough_step(m, &step, err);
-    }
-    recall_all(m, BR_STAGE);
-    m->tip = tip;
-    return status;
-}
-
 enum br_status br_adaptive_create(struct br_march *m, struct br_error *err)
 {
     m->adaptive = br_allocate(1, sizeof *m->adaptive);
     if (!m->adaptive)
         return br_no_memory(err, "a march");
     m->adaptive->next = first_step * m->scene->duration;
-    return find_size(m, err);
+    return br_rough_size(m, m->adaptive->largest, err);
 }
 
 enum br_status br_adaptive_advance(struct br_march *m, struct br_error *err)

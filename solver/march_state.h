@@ -65,6 +65,10 @@ void br_march_accept(struct br_march *march, enum br_field_kind kind,
 enum br_status br_march_check_finite(const struct br_march *march, enum br_field_kind kind,
                                      double t, struct br_error *err);
 
+/* About the largest strains (out) until the end, by a few Euler steps; the march is then where it
+ * was. Fails as br_march_step. */
+enum br_status br_rough_size(struct br_march *march, double largest[2], struct br_error *err);
+
 /* What an adaptive scheme adds to a march. Fails with BR_NO_MEMORY. */
 enum br_status br_adaptive_create(struct br_march *march, struct br_error *err);
 void br_adaptive_free(struct br_adaptive *adaptive); /* accepts NULL */

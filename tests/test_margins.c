@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The adaptive scheme where its estimate and the ends of its steps do not tell: tips that leave
- * their branch of a law for a part of a step, or rest at its end, and loads that jump. */
+ * their branch of a law for a part of a step, or rest at its end, loads that jump, and blows. */
 #include <math.h>
 
 #include "solver/margins.h"
@@ -109,13 +109,31 @@ static void test_load_jump(void **state)
     br_scene_clear(&scene);
 }
 
+/* A blow of 10 us in the middle of a second, where a rough march would take it for one of a
+ * sixteenth, and its strain of thousands of the true one for what errors are relative to. */
+static void test_blow(void **state)
+{
+    (void)state;
+    struct br_scene scene = pressed("20*sin(8*t)", "10*sin(10*t)");
+    scene.density = 1;
+    scene.contact.gap = 0.1;
+    scene.friction.coefficient = 300;
+    scene.axial.tip_force = br_test_function("1e3*exp(-((t-0.5)/1e-5)^2)");
+    scene.bending.tip_force = br_test_function("1e3*exp(-((t-0.5)/1e-5)^2)");
+    const struct br_method method = adaptive(1e-4), finer = adaptive(1e-10);
+    const struct br_test_end end = br_test_run(&scene, 4, 10, &method);
+    const struct br_test_end best = br_test_run(&scene, 4, 10, &finer);
+    CLOSE(end.u_tip, best.u_tip, 5e-6);
+    CLOSE(end.w_tip, best.w_tip, 3e-5);
+    br_scene_clear(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_dip),
-        cmocka_unit_test(test_short_slip),
-        cmocka_unit_test(test_rest_at_gap),
-        cmocka_unit_test(test_load_jump),
+        cmocka_unit_test(test_dip),         cmocka_unit_test(test_short_slip),
+        cmocka_unit_test(test_rest_at_gap), cmocka_unit_test(test_load_jump),
+        cmocka_unit_test(test_blow),
     };
     return cmocka_run_group_tests_name("margins", tests, NULL, NULL);
 }
