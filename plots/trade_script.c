@@ -60,7 +60,7 @@ static void write_axes(FILE *out, const struct br_trade_picture *p, const struct
             "set label 2 'relative %s' noenhanced at screen 0.022,0.5 center rotate font ',%d'\n"
             "set key at screen %.3f,0.885 left top Left reverse samplen 2.2 spacing 1.12 "
             "noenhanced font ',%d'\n",
-            (0.1 + right) / 2, BR_PAGE_FONT, t->norm[0]->symbol, BR_PAGE_FONT, right + 0.008, 17);
+            (0.1 + right) / 2, BR_PAGE_FONT, t->norm[0]->symbol, BR_PAGE_FONT, right + 0.008, 19);
 }
 
 static void write_caption(FILE *out, const struct br_trade_view *v)

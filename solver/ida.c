@@ -16,10 +16,6 @@ static const double close_enough = 1e-13; /* of the duration */
 static enum br_status refuse(const struct br_scene *scene, const struct br_method *method,
                              struct br_error *err)
 {
-    if (method->axial_degree != 1)
-        return br_fail(err, BR_BAD_INPUT,
-                       "axial elements of degree %d with scheme ida, expected degree 1",
-                       method->axial_degree);
     if (method->solver != br_linear_solvers[0])
         return br_fail(err, BR_BAD_INPUT,
                        "linear solver %s with scheme ida, expected none to be given: IDA solves "

@@ -22,17 +22,6 @@ static struct element element_of(const struct br_ida_system *s, enum br_field_ki
     return element;
 }
 
-/* Where the velocity of the tip's displacement stands. */
-static size_t tip_row(const struct br_ida_system *s, enum br_field_kind kind)
-{
-    return br_ida_at(s, kind, s->field[kind].n) + br_field_unknowns(&s->field[kind]);
-}
-
-static bool sticks(const struct br_ida_system *s)
-{
-    return s->regime.friction == BR_IDA_STICK && !(s->mu > 0);
-}
-
 /* ---- the residual ---- */
 
 /* residual -= F(t) */
@@ -45,7 +34,7 @@ static void take_loads(const struct br_ida_system *s, enum br_field_kind kind, d
             residual[br_ida_at(s, kind, node) + unknowns + c] -=
                 drive->factor * drive->vector[node * unknowns + c];
     for (size_t c = 0; c < unknowns; c++)
-        residual[tip_row(s, kind) + c] -= drive->tip[c];
+        residual[br_ida_tip_row(s, kind) + c] -= drive->tip[c];
 }
 
 /* residual += rho M v' + C v + K w, and w' - v at the right node. */
@@ -71,12 +60,13 @@ static void add_element(const struct br_field *f, const struct element *e, const
 static void add_tip_forces(const struct br_ida_system *s, const double *y, double *residual)
 {
     if (s->modelled[BR_AXIAL])
-        residual[tip_row(s, BR_AXIAL)] += s->scene->contact.stiffness * br_ida_penetration(s, y);
+        residual[br_ida_tip_row(s, BR_AXIAL)] +=
+            s->scene->contact.stiffness * br_ida_penetration(s, y);
     if (!s->modelled[BR_BENDING])
         return;
-    double *const tip = residual + tip_row(s, BR_BENDING);
+    double *const tip = residual + br_ida_tip_row(s, BR_BENDING);
     *tip += br_ida_given_friction(s, y);
-    if (sticks(s))
+    if (br_ida_sticks(s))
         *tip = br_ida_tip_velocity(s, BR_BENDING, y);
 }
 
@@ -118,7 +108,8 @@ static void add_blocks(const struct br_ida_system *s, const struct element *e, s
                        SUNMatrix matrix)
 {
     const struct br_field *f = &s->field[e->kind];
-    const size_t tip = e->kind == BR_BENDING && sticks(s) ? tip_row(s, BR_BENDING) : SIZE_MAX;
+    const size_t tip =
+        e->kind == BR_BENDING && br_ida_sticks(s) ? br_ida_tip_row(s, BR_BENDING) : SIZE_MAX;
     for (size_t i = e->first; i < e->last; i++) {
         const size_t row = e->place[i] + e->unknowns;
         if (i >= e->unknowns) {
@@ -148,14 +139,14 @@ static void add_fields(const struct br_ida_system *s, struct part part, SUNMatri
 /* lambda = h(u) phi(v), h(u) being c_V (u - g) with Coulomb. */
 static void add_friction(const struct br_ida_system *s, const double *y, SUNMatrix matrix)
 {
-    const size_t row = tip_row(s, BR_BENDING);
+    const size_t row = br_ida_tip_row(s, BR_BENDING);
     const double v = br_ida_tip_velocity(s, BR_BENDING, y);
     const bool creeps = s->regime.friction == BR_IDA_STICK;
     const double slope = s->regime.friction == BR_IDA_SLIP_UP ? 1 : -1;
     if (creeps)
         add(matrix, row, row, br_ida_bound(s, y) / s->mu);
     if (s->scene->friction.law == BR_COULOMB && s->regime.closed)
-        add(matrix, row, tip_row(s, BR_AXIAL) - 1,
+        add(matrix, row, br_ida_tip_row(s, BR_AXIAL) - 1,
             s->scene->friction.coefficient * (creeps ? v / s->mu : slope));
 }
 
@@ -166,9 +157,10 @@ int br_ida_jacobian(double t, double cj, N_Vector y, N_Vector rate, N_Vector res
     const struct br_ida_system *s = system;
     add_fields(s, (struct part){1, 1, cj}, jacobian);
     if (s->modelled[BR_AXIAL] && s->regime.closed)
-        add(jacobian, tip_row(s, BR_AXIAL), tip_row(s, BR_AXIAL) - 1, s->scene->contact.stiffness);
-    if (sticks(s))
-        add(jacobian, tip_row(s, BR_BENDING), tip_row(s, BR_BENDING), 1);
+        add(jacobian, br_ida_tip_row(s, BR_AXIAL), br_ida_tip_row(s, BR_AXIAL) - 1,
+            s->scene->contact.stiffness);
+    if (br_ida_sticks(s))
+        add(jacobian, br_ida_tip_row(s, BR_BENDING), br_ida_tip_row(s, BR_BENDING), 1);
     else if (s->modelled[BR_BENDING] && s->regime.friction != BR_IDA_FREE)
         add_friction(s, N_VGetArrayPointer(y), jacobian);
     return 0;
@@ -177,6 +169,6 @@ int br_ida_jacobian(double t, double cj, N_Vector y, N_Vector rate, N_Vector res
 void br_ida_rate_matrix(const struct br_ida_system *s, SUNMatrix matrix)
 {
     add_fields(s, (struct part){0, 0, 1}, matrix);
-    if (sticks(s)) /* v = 0 goes on */
-        add(matrix, tip_row(s, BR_BENDING), tip_row(s, BR_BENDING), 1);
+    if (br_ida_sticks(s)) /* v = 0 goes on */
+        add(matrix, br_ida_tip_row(s, BR_BENDING), br_ida_tip_row(s, BR_BENDING), 1);
 }

@@ -98,8 +98,8 @@ int br_ida_roots(double t, N_Vector y, N_Vector rate, double *margin, void *syst
 static double friction_force(const struct br_ida_system *s, const double *y, const double *rate,
                              double bound)
 {
-    const bool sticks = s->regime.friction == BR_IDA_STICK && !(s->mu > 0);
-    const double force = sticks ? br_ida_reaction(s, y, rate, NULL) : br_ida_given_friction(s, y);
+    const double force =
+        br_ida_sticks(s) ? br_ida_reaction(s, y, rate, NULL) : br_ida_given_friction(s, y);
     if (force > bound)
         return bound;
     return force < -bound ? -bound : force;

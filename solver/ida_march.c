@@ -112,6 +112,8 @@ enum br_status br_ida_see(struct br_ida_march *m, double t, struct br_error *err
         flag = IDAGetDky(m->ida, t, 1, m->seen_rate);
     if (flag)
         return ida_failed(m, "IDAGetDky", flag, err);
+    if (br_ida_sticks(&m->system)) /* to the last digit */
+        N_VGetArrayPointer(m->seen)[br_ida_tip_row(&m->system, BR_BENDING)] = 0;
     const enum br_status status = br_ida_load(&m->system, t, err);
     if (!status)
         br_ida_tip(&m->system, N_VGetArrayPointer(m->seen), N_VGetArrayPointer(m->seen_rate),

@@ -3,13 +3,14 @@
 
 #include <math.h>
 
-static const double from_rest = 1e-3; /* of the static estimate */
+static const double from_rest = 1e-3; /* of the estimate */
 static const double nothing = 1e-9;   /* of the length, where there is no load either */
 enum { SAMPLES = 32 };
 
-/* The field's largest displacement, were all of its load at the tip: F L / a1, F L^3 / (3 a2). A
- * viscous one without stiffness creeps as if it had c / T. */
-static double static_estimate(const struct br_ida_system *s, enum br_field_kind kind)
+/* The field's displacement, were all of its load at the tip, F L / a1 or F L^3 / (3 a2), but not
+ * more than inertia allows by the end, F T^2 / (2 rho L). A viscous one without stiffness creeps as
+ * if it had c / T. */
+static double estimate(const struct br_ida_system *s, enum br_field_kind kind)
 {
     const struct br_field *f = &s->field[kind];
     const struct br_drive *drive = &s->load[kind].drive;
@@ -21,7 +22,9 @@ static double static_estimate(const struct br_ida_system *s, enum br_field_kind 
     for (size_t i = unknowns; i < br_field_size(f) && drive->vector; i += unknowns)
         force += fabs(drive->factor * drive->vector[i]);
     const double stiffness = f->stiffness + f->viscosity / s->scene->duration;
-    return kind == BR_AXIAL ? force * length / stiffness : force * pow(length, 3) / (3 * stiffness);
+    const double at_rest = kind == BR_AXIAL ? length / stiffness : pow(length, 3) / (3 * stiffness);
+    const double thrown = pow(s->scene->duration, 2) / (2 * f->density * length);
+    return force * fmin(at_rest, thrown);
 }
 
 static void set_field(struct br_ida_scale *scale, enum br_field_kind kind, double displacement)
@@ -48,9 +51,12 @@ enum br_status br_ida_scale_init(struct br_ida_scale *scale, struct br_ida_syste
             return status;
         for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
             if (system->modelled[kind])
-                largest[kind] = fmax(largest[kind],
-                                     from_rest * static_estimate(system, (enum br_field_kind)kind));
+                largest[kind] =
+                    fmax(largest[kind], from_rest * estimate(system, (enum br_field_kind)kind));
     }
+    if (!isfinite(largest[BR_AXIAL] + largest[BR_BENDING]))
+        return br_fail(err, BR_NOT_FINITE,
+                       "scheme ida: the loads are so large that displacements are no numbers");
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (system->modelled[kind])
             set_field(scale, (enum br_field_kind)kind,
@@ -73,7 +79,7 @@ void br_ida_scale_weights(const struct br_ida_scale *scale, double *weight)
         for (size_t c = 0; c < s->node; c++)
             weight[i + c] = 1 / (scale->tolerance * scale->largest[c]);
     if (s->mu > 0 && s->regime.friction == BR_IDA_STICK) /* creeps, by mu at most */
-        weight[br_ida_at(s, BR_BENDING, s->field[BR_BENDING].n) + 2] =
+        weight[br_ida_tip_row(s, BR_BENDING)] =
             1 / (scale->tolerance * fmin(s->mu, br_ida_scale_of_tip(scale, BR_BENDING, 1)));
 }
 

@@ -63,6 +63,18 @@ static inline size_t br_ida_at(const struct br_ida_system *s, enum br_field_kind
     return (node - 1) * s->node + s->at[kind];
 }
 
+/* Where the velocity of the tip stands, and so the row with the force on it. */
+static inline size_t br_ida_tip_row(const struct br_ida_system *s, enum br_field_kind kind)
+{
+    return br_ida_at(s, kind, s->field[kind].n) + br_field_unknowns(&s->field[kind]);
+}
+
+/* Whether that row says v = 0. */
+static inline bool br_ida_sticks(const struct br_ida_system *s)
+{
+    return s->modelled[BR_BENDING] && s->regime.friction == BR_IDA_STICK && !(s->mu > 0);
+}
+
 /* The tip's, 0 where the field is not modelled. */
 double br_ida_tip_displacement(const struct br_ida_system *s, enum br_field_kind kind,
                                const double *y);

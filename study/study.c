@@ -164,6 +164,9 @@ static enum br_status prepare(struct br_study *s, struct br_error *err)
     if (s->path && s->n_count != s->k_count)
         return br_fail(err, BR_BAD_INPUT, "a path has %zu n and %zu k, expected as many",
                        s->n_count, s->k_count);
+    for (size_t c = 0; c < br_study_cells(s); c++)
+        if (br_study_method(s, c)->axial_degree != s->method.axial_degree)
+            return br_fail(err, BR_BAD_INPUT, "the cells have axial elements of several degrees");
     if (s->judge->nests && s->reference_method.axial_degree != s->method.axial_degree)
         return br_fail(err, BR_BAD_INPUT,
                        "the cells have axial elements of degree %d and the reference of degree %d, "

@@ -39,15 +39,16 @@ struct br_study {
     /* in */
     const struct br_scene *scene;
     const struct br_norm *norm;
-    struct br_method method;             /* of the cells */
-    const struct br_method *cell_method; /* br_study_cells of them: of each cell instead; NULL: all
-                                            alike. Borrowed */
-    const struct br_judge *judge;        /* the reference */
-    struct br_method reference_method;   /* of a fine run */
-    struct br_resolution reference;      /* a fine run's; otherwise n = 0, and steps are set to the
-                                            least common multiple of the cells' */
-    const struct br_judge *auditor;      /* measures the reference's own error; NULL: nobody. Set
-                                            to NULL where it cannot promise a solution */
+    struct br_method method; /* of the cells */
+    const struct br_method
+        *cell_method;                  /* br_study_cells of them: of each cell instead, on elements
+                                          of method's degree; NULL: all alike. Borrowed */
+    const struct br_judge *judge;      /* the reference */
+    struct br_method reference_method; /* of a fine run */
+    struct br_resolution reference;    /* a fine run's; otherwise n = 0, and steps are set to the
+                                          least common multiple of the cells' */
+    const struct br_judge *auditor;    /* measures the reference's own error; NULL: nobody. Set
+                                          to NULL where it cannot promise a solution */
     size_t n_count, k_count;
     bool path;                  /* the cells are (n[i], steps[i]) alone, and n_count = k_count */
     const size_t *n;            /* n_count, borrowed */

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The errors of trials, as cells of studies: one study for each mesh, whose cells are marched by as
- * many methods, so that the judge looks at that mesh once. */
+/* The errors of trials, as cells of studies: one study for each mesh and degree, whose cells are
+ * marched by as many methods, so that the judge looks at that mesh once. */
 #include <math.h>
 #include <string.h>
 
 #include "study/fit.h"
 #include "study/trial.h"
 
-/* Trials on one mesh, as a chain of studies over the norms. */
+/* Trials on the same elements, as a chain of studies over the norms. */
 struct group {
     struct br_trial **member; /* members, borrowed; likewise the next two */
     size_t *steps;
@@ -25,11 +25,18 @@ struct groups {
     struct br_study *study; /* count in the first norm, then the next norms of each */
 };
 
-/* Whether a trial is to be judged, and no trial before it has its mesh. */
+/* Whether two trials are judged, on the same elements. */
+static bool same_group(const struct br_trial *a, const struct br_trial *b)
+{
+    return a->end == BR_TRIAL_DONE && b->end == BR_TRIAL_DONE && a->at.n == b->at.n &&
+           a->contender->method.axial_degree == b->contender->method.axial_degree;
+}
+
+/* Whether a trial is to be judged, and none before it on its elements. */
 static bool is_first(const struct br_trial *trial, size_t i)
 {
     for (size_t j = 0; j < i; j++)
-        if (trial[j].end == BR_TRIAL_DONE && trial[j].at.n == trial[i].at.n)
+        if (same_group(&trial[j], &trial[i]))
             return false;
     return trial[i].end == BR_TRIAL_DONE;
 }
@@ -50,7 +57,7 @@ static void collect(struct groups *g, struct br_trial *trial, size_t count)
         struct group *group = &g->group[g->count++];
         *group = (struct group){&g->member[used], &g->steps[used], &g->method[used], 0};
         for (size_t j = i; j < count; j++)
-            if (trial[j].end == BR_TRIAL_DONE && trial[j].at.n == trial[i].at.n)
+            if (same_group(&trial[j], &trial[i]))
                 add_member(group, &trial[j]);
         used += group->members;
     }
@@ -65,8 +72,9 @@ static void fill_studies(const struct groups *g, const struct br_judge *judge)
 {
     const struct br_trial_request *r = g->request;
     for (size_t i = 0; i < g->count; i++)
-        for (size_t m = 0; m < r->norms; m++)
-            *study_of(g, i, m) = (struct br_study){
+        for (size_t m = 0; m < r->norms; m++) {
+            struct br_study *s = study_of(g, i, m);
+            *s = (struct br_study){
                 .scene = r->scene,
                 .norm = r->norm[m],
                 .method = g->group[i].method[0],
@@ -80,6 +88,8 @@ static void fill_studies(const struct groups *g, const struct br_judge *judge)
                 .steps = g->group[i].steps,
                 .next_norm = m + 1 < r->norms ? study_of(g, i, m + 1) : NULL,
             };
+            s->reference_method.axial_degree = s->method.axial_degree;
+        }
 }
 
 /* The judge's own error and round-off, in a norm. */

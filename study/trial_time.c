@@ -47,7 +47,7 @@ static enum br_status look_at_clock(const struct clocked *c, struct br_error *er
         return BR_OK;
     c->trial->end = BR_TRIAL_OVER;
     return br_fail(&c->trial->failure, BR_VERDICT,
-                   "over the time limit of %g s: %.2g s for %zu of %zu steps", limit, spent,
+                   "over the time limit of %g s: %.2g s for %zu of %zu time levels", limit, spent,
                    br_march_steps_done(c->march), c->trial->at.steps);
 }
 

@@ -155,19 +155,21 @@ static void test_errors_are_a_study_s(void **state)
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_contenders all;
-    MUST(br_contenders_read("--methods", "euler+lagged,bdf2", &all, &err));
+    MUST(br_contenders_read("--methods", "euler+lagged,bdf2,bdf2+p2", &all, &err));
     struct br_trial trial[] = {
         {.contender = &all.list[0], .at = {8, 20}},
         {.contender = &all.list[1], .at = {8, 20}},
         {.contender = &all.list[0], .at = {16, 10}},
+        {.contender = &all.list[2], .at = {8, 20}},
     };
+    enum { COUNT = sizeof trial / sizeof *trial };
     const struct br_norm *const norm[] = {&br_norm_l2, &br_norm_tip};
     struct br_trial_request request = br_trial_request_default(&scene);
     request.norm = norm;
     request.norms = 2;
     request.repeats = 1;
-    MUST(br_trials_hold(trial, 3, &request, &err));
-    for (size_t i = 0; i < 3; i++)
+    MUST(br_trials_hold(trial, COUNT, &request, &err));
+    for (size_t i = 0; i < COUNT; i++)
         for (size_t m = 0; m < 2; m++) {
             struct br_study study = {
                 .scene = &scene,
@@ -186,7 +188,7 @@ static void test_errors_are_a_study_s(void **state)
             CLOSE(trial[i].scale[m], study.reference_scale, 1e-12 * study.reference_scale);
             br_study_clear(&study);
         }
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < COUNT; i++) {
         assert_int_equal(trial[i].end, BR_TRIAL_DONE);
         assert_int_equal(trial[i].cost.counts.steps, trial[i].at.steps);
         assert_true(br_trial_seconds(&trial[i]) > 0);
