@@ -87,6 +87,12 @@ static enum br_status check_degree(const struct br_scene *scene, const struct br
     return method->solver->axial_quadratic ? BR_OK : refuse_degree(method->solver, err);
 }
 
+static bool vibrates_undamped(const struct br_scene *s)
+{
+    return s->density > 0 && ((s->axial.modelled && s->axial.viscosity == 0) ||
+                              (s->bending.modelled && s->bending.viscosity == 0));
+}
+
 static enum br_status check_method(const struct br_scene *scene, size_t n, size_t steps,
                                    const struct br_method *method, struct br_error *err)
 {
@@ -95,6 +101,12 @@ static enum br_status check_method(const struct br_scene *scene, size_t n, size_
     if (steps < 1)
         return br_fail(err, BR_BAD_INPUT, "there are no time steps, expected at least one");
     enum br_status status = check_degree(scene, method, err);
+    if (!status && method->scheme->needs_damping && vibrates_undamped(scene))
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "scheme %s with a viscosity of 0, expected more than 0 or another scheme: it "
+            "lets undamped vibration grow",
+            method->scheme->name);
     if (!status)
         status = refuse_rules(scene, method, err);
     return status ? status : br_scene_check(scene, err);
