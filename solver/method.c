@@ -106,12 +106,31 @@ static enum br_status check_friction(const struct br_method *m, const struct br_
     return br_friction_check(m->friction, &m->iteration, err);
 }
 
+static bool vibrates_undamped(const struct br_scene *s)
+{
+    return s->density > 0 && ((s->axial.modelled && s->axial.viscosity == 0) ||
+                              (s->bending.modelled && s->bending.viscosity == 0));
+}
+
+static enum br_status check_damping(const struct br_method *m, const struct br_scene *scene,
+                                    struct br_error *err)
+{
+    if (!m->scheme->needs_damping || !vibrates_undamped(scene))
+        return BR_OK;
+    return br_fail(err, BR_BAD_INPUT,
+                   "scheme %s with a viscosity of 0, expected more than 0 or another scheme: it "
+                   "lets undamped vibration grow",
+                   m->scheme->name);
+}
+
 enum br_status br_method_check_scene(const struct br_method *m, const struct br_scene *scene,
                                      struct br_error *err)
 {
     enum br_status status = check_degree(m, err);
     if (!status)
         status = check_tolerance(m, err);
+    if (!status)
+        status = check_damping(m, scene, err);
     if (!status && scene->axial.modelled)
         status = check_elements(m, err);
     if (!status && scene->contact.modelled)
