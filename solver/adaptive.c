@@ -24,6 +24,7 @@ static const double safety = 0.85, most_growth = 5, most_shrinking = 0.1;
 static const double idle_growth = 1.4;       /* less is not worth new tables */
 static const double switch_accuracy = 1e-12; /* of the step in which it lies */
 static const size_t most_stalled = 200;
+static const double met_switch = 1e-10; /* of the margin at the step's beginning */
 
 struct br_adaptive {
     double now, next;      /* time reached and length of the next step, s */
@@ -291,13 +292,23 @@ static enum br_status stop_at_switch(struct br_march *m, const struct br_tip *ti
     return search.status;
 }
 
+/* Whether a step ends on a switch, as where that is a time level: going on would be a step too
+ * short for the tip's force to be more than its round-off. */
+static bool meets_switch(const struct br_margins *m)
+{
+    return m->count > 1 && m->time[0] == 0 && m->margin[0] > 0 &&
+           m->margin[m->count - 1] <= met_switch * m->margin[0];
+}
+
 static enum br_status stop_at_switches(struct br_march *m, const struct br_tip *tip,
                                        struct trial *trial, bool *switched, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        if (m->held[kind])
+        if (m->held[kind]) {
             status = stop_at_switch(m, tip, (enum br_field_kind)kind, trial, switched, err);
+            *switched |= meets_switch(&m->margins[kind]);
+        }
     return status;
 }
 
