@@ -1,44 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Watches a march stage by stage, and certifies each stage against the scheme's textbook. */
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "reference/certificate_parts.h"
-#include "reference/textbook.h"
+#include "reference/past_states.h"
 
 typedef long double real;
-
-enum { BACK = 3 };
-
-/* Y = (displacement, velocity), and the rate of change of the velocity. */
-struct nodal {
-    double *displacement, *velocity, *acceleration;
-};
 
 /* What decides where a step starts anew. */
 enum regime { NO_REGIME, OPEN, CLOSED, STICKS, SLIPS_UP, SLIPS_DOWN };
 
 struct watched {
-    size_t size;                        /* of nodal arrays */
-    size_t steps, since;                /* steps so far, and since the last start */
-    double began, now;                  /* this step, and its last stage so far, s */
-    enum regime regime;                 /* then */
-    struct nodal past[BACK];            /* Y_{n-1}, Y_{n-2}, Y_{n-3} */
-    struct nodal row[BR_TEXTBOOK_ROWS]; /* of the textbook, in this step */
-    int last;                           /* of these rows, the step's end */
-    struct nodal start;                 /* Z */
+    struct br_past_states y; /* what the step starts from, and its rows so far */
+    size_t steps, since;     /* steps so far, and since the last start */
+    double began, now;       /* this step, and its last stage so far, s */
+    enum regime regime;      /* then */
+    int last;                /* of the rows, the step's end */
     double *load;
     struct br_certificate trial;     /* the worst of this step's stages so far */
     double branch[BR_MOST_BRANCHES]; /* the worst so far of each branch that may be held */
-};
-
-/* The axial tip over one step, for the bound of friction. */
-struct tip_path {
-    int count;
-    double time[BR_TEXTBOOK_ROWS], u[BR_TEXTBOOK_ROWS]; /* of its stages, s and m */
-    double from, k;                                     /* s */
-    double u_from, v_from, u_to, v_to;                  /* at both ends, m and m/s */
 };
 
 struct br_witness {
@@ -48,54 +29,13 @@ struct br_witness {
     size_t n;
     int back, rows;          /* steps looked back at, and rows of the textbook, at most */
     struct watched field[2]; /* by br_field_kind */
-    struct tip_path path;
+    struct br_tip_path path;
     struct br_certificate worst; /* since the last call */
     bool any;
     double *memory;
 };
 
 static const struct br_certificate not_good = {NAN, NAN, NAN, NAN, NAN};
-
-/* ---- Z by the textbook ---- */
-
-static void add(double *to, real factor, const double *from, size_t size)
-{
-    for (size_t i = 0; i < size && factor != 0; i++)
-        to[i] = (double)((real)to[i] + factor * (real)from[i]);
-}
-
-/* Z = sum of past_j Y_{n-1-j} */
-static void start_differences(struct watched *f, const struct br_textbook *t)
-{
-    for (int j = 0; j < t->back; j++) {
-        add(f->start.displacement, t->past[j], f->past[j].displacement, f->size);
-        add(f->start.velocity, t->past[j], f->past[j].velocity, f->size);
-    }
-}
-
-/* Z = Y_{n-1} + k sum of a_ij Y'_j; the rate of a displacement is the velocity itself. */
-static void start_row(struct watched *f, const struct br_textbook *t, int row, real k)
-{
-    add(f->start.displacement, 1, f->past[0].displacement, f->size);
-    add(f->start.velocity, 1, f->past[0].velocity, f->size);
-    for (int j = 0; j < row; j++) {
-        const struct nodal *y = t->c[j] == 0 ? &f->past[0] : &f->row[j];
-        add(f->start.displacement, k * t->a[row][j], y->velocity, f->size);
-        add(f->start.velocity, k * t->a[row][j], y->acceleration, f->size);
-    }
-}
-
-/* Fills Z; returns tau. */
-static real start_of(struct watched *f, const struct br_textbook *t, int row, real k)
-{
-    memset(f->start.displacement, 0, f->size * sizeof(double));
-    memset(f->start.velocity, 0, f->size * sizeof(double));
-    if (t->rows == 0)
-        start_differences(f, t);
-    else
-        start_row(f, t, row, k);
-    return k * (t->rows == 0 ? t->beta : t->a[row][row]);
-}
 
 /* How far a stage's times are from the textbook's, over k; adaptive steps meet a time level to
  * 1e-13 of the duration. */
@@ -119,29 +59,17 @@ static size_t tip_index(const struct br_witness *w, enum br_field_kind kind)
 static void path_stage(struct br_witness *w, const struct br_march_stage *told)
 {
     const struct watched *f = &w->field[BR_AXIAL];
-    struct tip_path *p = &w->path;
+    struct br_tip_path *p = &w->path;
     const size_t tip = tip_index(w, BR_AXIAL);
-    const struct nodal *now = &f->row[f->last];
+    const struct br_nodal *now = &f->y.row[f->last];
     if (told->index == 0)
-        *p = (struct tip_path){.from = told->from,
-                               .k = told->k,
-                               .u_from = f->past[0].displacement[tip],
-                               .v_from = f->past[0].velocity[tip]};
+        *p = (struct br_tip_path){.from = told->from,
+                                  .k = told->k,
+                                  .u_from = f->y.past[0].displacement[tip],
+                                  .v_from = f->y.past[0].velocity[tip]};
     p->time[p->count] = told->time;
     p->u[p->count++] = p->u_to = now->displacement[tip];
     p->v_to = now->velocity[tip];
-}
-
-/* u(L) at a time of a stage; where the axial field had none then, by the cubic that the ends of its
- * step determine. */
-static double path_at(const struct tip_path *p, double time)
-{
-    for (int i = 0; i < p->count; i++)
-        if (p->time[i] == time)
-            return p->u[i];
-    const real s = ((real)time - p->from) / p->k, d = (real)p->u_to - p->u_from;
-    const real a = (real)p->k * p->v_from - d, b = d - (real)p->k * p->v_to;
-    return (double)(p->u_from + s * d + s * (1 - s) * ((1 - s) * a + s * b));
 }
 
 static enum regime regime_of(const struct br_witness *w, enum br_field_kind kind)
@@ -175,7 +103,7 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
                                      const double *axial_tip)
 {
     struct watched *f = &w->field[told->kind];
-    const struct nodal *now = &f->row[f->last];
+    const struct br_nodal *now = &f->y.row[f->last];
     struct br_step step = {.scene = w->scene,
                            .method = w->method,
                            .n = w->n,
@@ -183,14 +111,14 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
                            .compliance = br_march_compliance(w->march, BR_BENDING),
                            .axial_tip = axial_tip,
                            .tip = *br_march_tip(w->march)};
-    step.field[told->kind] = (struct br_step_field){f->start.displacement, now->displacement,
-                                                    f->start.velocity, now->velocity, f->load};
+    step.field[told->kind] = (struct br_step_field){f->y.start.displacement, now->displacement,
+                                                    f->y.start.velocity, now->velocity, f->load};
     /* The axial field lends its size to the bound's round-off. */
     const struct watched *axial = &w->field[BR_AXIAL];
     if (told->kind == BR_BENDING)
         step.field[BR_AXIAL] = (struct br_step_field){
-            axial->start.displacement, axial->row[axial->last].displacement, axial->start.velocity,
-            axial->row[axial->last].velocity, axial->load};
+            axial->y.start.displacement, axial->y.row[axial->last].displacement,
+            axial->y.start.velocity, axial->y.row[axial->last].velocity, axial->load};
     struct br_certificate c = br_certify_field(&step, told->kind);
     double distance[BR_MOST_BRANCHES];
     const int branches =
@@ -201,7 +129,7 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
     return c;
 }
 
-static void look(struct br_witness *w, enum br_field_kind kind, struct nodal *into)
+static void look(struct br_witness *w, enum br_field_kind kind, struct br_nodal *into)
 {
     br_march_get(w->march, kind, into->displacement, into->velocity);
 }
@@ -209,9 +137,9 @@ static void look(struct br_witness *w, enum br_field_kind kind, struct nodal *in
 /* The velocity's rate of change as the stage's own equation has it: (v - Z) / tau. */
 static void find_acceleration(struct watched *f, real tau)
 {
-    struct nodal *y = &f->row[f->last];
-    for (size_t i = 0; i < f->size; i++)
-        y->acceleration[i] = (double)(((real)y->velocity[i] - f->start.velocity[i]) / tau);
+    struct br_nodal *y = &f->y.row[f->last];
+    for (size_t i = 0; i < f->y.size; i++)
+        y->acceleration[i] = (double)(((real)y->velocity[i] - f->y.start.velocity[i]) / tau);
 }
 
 static void watch_stage(void *self, const struct br_march_stage *told)
@@ -230,15 +158,15 @@ static void watch_stage(void *self, const struct br_march_stage *told)
         f->trial = not_good;
         return;
     }
-    const real tau = start_of(f, t, f->last, told->k);
-    look(w, told->kind, &f->row[f->last]);
+    const real tau = br_start_of_row(&f->y, t, f->last, told->k);
+    look(w, told->kind, &f->y.row[f->last]);
     br_march_load(w->march, told->kind, f->load);
     find_acceleration(f, tau);
     double axial_tip = 0;
     if (told->kind == BR_AXIAL)
         path_stage(w, told);
     else if (w->scene->axial.modelled)
-        axial_tip = path_at(&w->path, told->time);
+        axial_tip = br_tip_path_at(&w->path, told->time);
     struct br_certificate c = certify(w, told, told->kind == BR_AXIAL ? NULL : &axial_tip);
     c.update = br_worse_of(time_error(w, told, tau, t->rows > 0 ? t->c[f->last] : 1), c.update);
     br_certificate_merge(&f->trial, &c);
@@ -249,9 +177,9 @@ static void watch_stage(void *self, const struct br_march_stage *told)
 
 /* ---- a step ---- */
 
-static void swap(struct nodal *a, struct nodal *b)
+static void swap(struct br_nodal *a, struct br_nodal *b)
 {
-    const struct nodal old = *a;
+    const struct br_nodal old = *a;
     *a = *b;
     *b = old;
 }
@@ -270,8 +198,8 @@ static void watch_step(void *self, enum br_field_kind kind, bool switched)
     f->steps++;
     f->began = f->now;
     for (int i = w->back - 1; i > 0; i--)
-        swap(&f->past[i], &f->past[i - 1]);
-    swap(&f->past[0], &f->row[f->last]);
+        swap(&f->y.past[i], &f->y.past[i - 1]);
+    swap(&f->y.past[0], &f->y.row[f->last]);
     br_certificate_merge(&w->worst, &f->trial);
     w->any = true;
 }
@@ -296,9 +224,9 @@ static void find_needs(struct br_witness *w)
     }
 }
 
-static double *place(struct nodal *y, size_t size, double *memory)
+static double *place(struct br_nodal *y, size_t size, double *memory)
 {
-    *y = (struct nodal){memory, memory + size, memory + 2 * size};
+    *y = (struct br_nodal){memory, memory + size, memory + 2 * size};
     return memory + 3 * size;
 }
 
@@ -306,14 +234,14 @@ static double *place(struct nodal *y, size_t size, double *memory)
 static double *place_field(struct br_witness *w, enum br_field_kind kind, double *memory)
 {
     struct watched *f = &w->field[kind];
-    f->size = br_step_unknowns(w->method, kind) * (w->n + 1);
+    f->y.size = br_step_unknowns(w->method, kind) * (w->n + 1);
     for (int i = 0; i < w->back; i++)
-        memory = place(&f->past[i], f->size, memory);
+        memory = place(&f->y.past[i], f->y.size, memory);
     for (int i = 0; i < w->rows; i++)
-        memory = place(&f->row[i], f->size, memory);
-    f->start = (struct nodal){.displacement = memory, .velocity = memory + f->size};
-    f->load = memory + 2 * f->size;
-    return memory + 3 * f->size;
+        memory = place(&f->y.row[i], f->y.size, memory);
+    f->y.start = (struct br_nodal){.displacement = memory, .velocity = memory + f->y.size};
+    f->load = memory + 2 * f->y.size;
+    return memory + 3 * f->y.size;
 }
 
 static enum br_status refuse(const struct br_method *method, struct br_error *err)
@@ -350,7 +278,7 @@ enum br_status br_witness_create(struct br_witness **out, struct br_march *march
     double *memory = w->memory;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         memory = place_field(w, (enum br_field_kind)kind, memory);
-        look(w, (enum br_field_kind)kind, &w->field[kind].past[0]);
+        look(w, (enum br_field_kind)kind, &w->field[kind].y.past[0]);
     }
     br_march_watch(march, &(struct br_march_watcher){w, watch_stage, watch_step});
     *out = w;

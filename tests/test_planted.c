@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The check that judges everybody else is judged here: the solver is built with one planted bug
- * after the other, and `beamrate check --all` has to end with exit code 1.
+ * after the other, and `beamrate check --all`, or the certificate of a march, has to end with exit
+ * code 1.
  * usage: test_planted [SHARD SHARDS], so that several can run side by side. */
 #include <stdarg.h>
 #include <stdio.h>
@@ -9,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/planted_bugs.h"
+#include "tests/planted_marches.h"
 #include "tests/support.h"
 
 static char folder[] = "/tmp/br_planted_XXXXXX";
@@ -129,24 +130,43 @@ static int check(const char *program)
                environment("BEAMRATE_SOURCE"), program, folder);
 }
 
+/* That of a march with its certificate. */
+static int certify(const char *program, const char *march)
+{
+    return run("BEAMRATE_DATA='%s' timeout 60 '%s' run %s --check --quiet >%s/log 2>&1",
+               environment("BEAMRATE_SOURCE"), program, march, folder);
+}
+
 static void sound_program_passes(void **state)
 {
     (void)state;
     assert_int_equal(check(environment("BEAMRATE")), 0);
+    for (size_t i = 0; i < PLANTED_MARCHES; i++)
+        assert_int_equal(certify(environment("BEAMRATE"), planted_marches[i].run), 0);
 }
 
-static void bug_is_caught(void **state)
+static void catch (const struct planted_bug *bug, const char *march)
 {
-    const struct planted_bug *bug = *state;
     if (br_test_quick())
         skip();
     plant(bug);
     build(bug);
     char program[64];
     snprintf(program, sizeof program, "%s/beamrate", folder);
-    const int code = check(program);
+    const int code = march ? certify(program, march) : check(program);
     if (code != 1)
         fail_msg("%s: exit code %d, expected 1: a verdict failed", bug->name, code);
+}
+
+static void bug_is_caught(void **state)
+{
+    catch (*state, NULL);
+}
+
+static void march_is_caught(void **state)
+{
+    const struct planted_march *march = *state;
+    catch (&march->bug, march->run);
 }
 
 static int read_commands(void **state)
@@ -174,7 +194,7 @@ int main(int argc, char **argv)
 {
     const size_t shard = argc == 3 ? strtoul(argv[1], NULL, 10) : 0;
     const size_t shards = argc == 3 ? strtoul(argv[2], NULL, 10) : 1;
-    static struct CMUnitTest tests[PLANTED_BUGS + 1];
+    static struct CMUnitTest tests[PLANTED_BUGS + PLANTED_MARCHES + 1];
     size_t count = 0;
     if (shard == 0)
         tests[count++] =
@@ -182,5 +202,8 @@ int main(int argc, char **argv)
     for (size_t i = shard; i < PLANTED_BUGS; i += shards)
         tests[count++] = (struct CMUnitTest){planted_bugs[i].name, bug_is_caught, NULL, NULL,
                                              (void *)&planted_bugs[i]};
+    for (size_t i = shard; i < PLANTED_MARCHES; i += shards)
+        tests[count++] = (struct CMUnitTest){planted_marches[i].bug.name, march_is_caught, NULL,
+                                             NULL, (void *)&planted_marches[i]};
     return _cmocka_run_group_tests("planted", tests, count, read_commands, clean_up);
 }
