@@ -25,12 +25,13 @@ static double excess(const struct br_field *f)
 }
 
 /* The joins add that of their sums: where inertia rules, pieces that are free at one end answer by
- * far more than what is left when they are joined. */
+ * far more than what is left when they are joined. Short beams are one piece. */
 static double riccati_round_off(const struct br_field *field,
                                 const struct br_linear_options *options)
 {
     (void)options;
-    return DBL_EPSILON * (8 * ((double)field->n + 1024) + 4 * excess(field));
+    const double joined = field->n <= 20 ? 0 : field->kind == BR_AXIAL ? 0.25 : 4;
+    return DBL_EPSILON * (8 * ((double)field->n + 1024) + joined * excess(field));
 }
 
 const struct br_linear_solver br_riccati = {

@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Plans: the models on made-up data, and the promise on bundled scenes. Costs are counted work, so
+ * that nothing depends on a clock. */
+#include <math.h>
+#include <string.h>
+
+#include "study/plan_steps.h"
+#include "support.h"
+
+/* ---- models, on made-up data ---- */
+
+enum { MESHES = 7, STEPS = 6 };
+static const double meshes[MESHES] = {4, 12, 36, 108, 324, 972, 2916};
+static const double steps[STEPS] = {10, 20, 40, 80, 160, 320};
+
+/* e^2 = a^2 + 2 r a b + b^2 with a = 200 n^-p and b = 5 steps^-q */
+struct made {
+    double p, q, r;
+};
+
+static double made_error(const struct made *m, double n, double k)
+{
+    const double a = 200 * pow(n, -m->p), b = 5 * pow(k, -m->q);
+    return sqrt(a * a + 2 * m->r * a * b + b * b);
+}
+
+static struct br_plan_model made_model(const struct made *m)
+{
+    struct br_plan_point point[MESHES * STEPS];
+    struct br_error err = {0};
+    struct br_plan_model model;
+    for (int i = 0; i < MESHES * STEPS; i++) {
+        const double n = meshes[i / STEPS], k = steps[i % STEPS];
+        point[i] = (struct br_plan_point){log(n), log(k), made_error(m, n, k)};
+    }
+    MUST(br_plan_model_fit(&model, point, MESHES * STEPS, 2, 1, &err));
+    return model;
+}
+
+/* The parts, their orders and r are found, between the trials and beyond. */
+static void test_error_model(void **state)
+{
+    (void)state;
+    static const struct made all[] = {{2, 1, 0}, {2, 2, 0.5}, {3, 1, -0.5}, {4, 2, 0.8}};
+    static const double at[][2] = {{50, 30}, {200, 100}, {15, 250}, {5000, 500}};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        struct br_plan_model model = made_model(&all[i]);
+        AT_MOST(model.scatter, 0.01);
+        CLOSE(model.r, all[i].r, 0.1);
+        for (size_t j = 0; j < sizeof at / sizeof *at; j++) {
+            const struct br_plan_prediction p =
+                br_plan_model_predict(&model, log(at[j][0]), log(at[j][1]));
+            CLOSE(p.log_error, log(made_error(&all[i], at[j][0], at[j][1])), 0.05);
+        }
+        const struct br_plan_parts parts = br_plan_model_parts(&model, log(8), log(100));
+        CLOSE(parts.p, all[i].p, 0.1);
+        CLOSE(parts.q, all[i].q, 0.1);
+        CLOSE(log(parts.space), log(200 * pow(8, -all[i].p)), 0.1);
+        CLOSE(log(parts.time), log(5 * pow(100, -all[i].q)), 0.1);
+        br_plan_model_clear(&model);
+    }
+}
+
+/* What was tried is known, though the model leaves it over; farther away it has no say. */
+static void test_residuals(void **state)
+{
+    (void)state;
+    const struct made smooth = {2, 2, 0};
+    struct br_plan_point point[MESHES * STEPS];
+    struct br_error err = {0};
+    struct br_plan_model model;
+    for (int i = 0; i < MESHES * STEPS; i++) {
+        const double n = meshes[i / STEPS], k = steps[i % STEPS];
+        point[i] = (struct br_plan_point){log(n), log(k), made_error(&smooth, n, k)};
+    }
+    point[20].error *= 3; /* one of them is off */
+    MUST(br_plan_model_fit(&model, point, MESHES * STEPS, 2, 2, &err));
+    const struct br_plan_prediction there = br_plan_model_predict(&model, point[20].x, point[20].y);
+    CLOSE(there.log_error, log(point[20].error), 1e-9);
+    AT_MOST(there.deviation, 1e-9);
+    assert_true(model.scatter > 0.05);
+    const struct br_plan_prediction between =
+        br_plan_model_predict(&model, point[20].x + 0.4, point[20].y + 0.3);
+    assert_true(between.deviation > 0.05);
+    br_plan_model_clear(&model);
+    REFUSED(br_plan_model_fit(&model, point, 3, 2, 2, &err), BR_BAD_INPUT, "at least 4");
+    br_plan_model_clear(&model);
+}
+
+static void test_cost_model(void **state)
+{
+    (void)state;
+    static const double c[BR_PLAN_COSTS] = {4e-5, 2e-8, 1.3e-6, 2e-9};
+    struct br_plan_work work[MESHES * STEPS];
+    struct br_plan_cost cost;
+    struct br_error err = {0};
+    for (int i = 0; i < MESHES * STEPS; i++) {
+        const double n = meshes[i / STEPS], solves = 3 * steps[i % STEPS] + 5;
+        work[i] = (struct br_plan_work){n, log(steps[i % STEPS]), solves,
+                                        c[0] + c[1] * n + (c[2] + c[3] * n) * solves};
+    }
+    MUST(br_plan_cost_fit(&cost, work, MESHES * STEPS, &err));
+    for (int i = 0; i < BR_PLAN_COSTS; i++)
+        CLOSE(cost.c[i] / c[i], 1, 1e-6);
+    AT_MOST(cost.scatter, 1e-9);
+    CLOSE(br_plan_cost_solves(&cost, log(160)), 485, 1e-6);
+    CLOSE(br_plan_cost_seconds(&cost, 5000, log(320)),
+          c[0] + c[1] * 5000 + (c[2] + c[3] * 5000) * 965, 1e-9);
+    /* No term is ever a saving. */
+    for (int i = 0; i < MESHES * STEPS; i++)
+        work[i].seconds = work[i].n * work[i].solves * 1e-9 / (1 + work[i].n / 1e3);
+    MUST(br_plan_cost_fit(&cost, work, MESHES * STEPS, &err));
+    for (int i = 0; i < BR_PLAN_COSTS; i++)
+        assert_true(cost.c[i] >= 0);
+    REFUSED(br_plan_cost_fit(&cost, work, 0, &err), BR_BAD_INPUT, "no trial");
+}
+
+/* ---- the promise ---- */
+
+/* As measured on a machine of today, once for all: set-up, and solves as if each had 700 elements
+ * more; a change of the step costs six of them. */
+static double counted(const struct br_trial *t)
+{
+    if (!(br_trial_seconds(t) > 0))
+        return NAN;
+    const struct br_counts *c = &t->cost.counts;
+    return 4e-5 + 1.8e-9 * ((double)t->at.n + 700) * (double)(c->stages + 6 * c->set_ups);
+}
+
+#define METHODS "euler+implicit,bdf2,esdirk3,adaptive"
+
+static struct br_plan *new_plan(const struct br_scene *scene, double error, double seconds)
+{
+    struct br_error err = {0};
+    struct br_plan *plan = calloc(1, sizeof *plan);
+    assert_non_null(plan);
+    br_plan_default(plan, scene);
+    MUST(br_contenders_read("--methods", METHODS, &plan->contenders, &err));
+    plan->goal = (struct br_plan_goal){error, seconds};
+    plan->seconds = counted;
+    plan->request.repeats = 1;
+    plan->request.time_limit = 0;
+    return plan;
+}
+
+static void drop(struct br_plan *plan)
+{
+    br_plan_clear(plan);
+    free(plan);
+}
+
+/* The cheapest way of a fine grid, in counted work; only what is cheaper than `most` is tried. */
+static double exhaustive(const struct br_plan *plan, double most)
+{
+    static const size_t n[] = {4, 8, 12, 16, 32, 64, 128, 192, 256, 512, 1024};
+    static const size_t k[] = {10, 12, 15, 20, 30, 40, 60, 80, 120, 240};
+    enum { N = sizeof n / sizeof *n, K = sizeof k / sizeof *k };
+    struct br_trial *trial = calloc(4 * N * K, sizeof *trial);
+    struct br_error err = {0};
+    size_t count = 0;
+    assert_non_null(trial);
+    for (size_t c = 0; c < plan->contenders.count; c++)
+        for (size_t i = 0; i < N; i++)
+            for (size_t j = 0; j < K; j++) {
+                const struct br_contender *one = &plan->contenders.list[c];
+                const bool adaptive = br_contender_adaptive(one);
+                const double solves =
+                    adaptive ? 150 : (double)k[j] * br_time_scheme_stages(one->method.scheme);
+                if (4e-5 + 1.8e-9 * ((double)n[i] + 700) * solves > most)
+                    continue;
+                trial[count++] = adaptive
+                                     ? (struct br_trial){.contender = one,
+                                                         .at = {n[i], BR_PLAN_LEVELS},
+                                                         .tolerance = pow(0.1, 0.5 + (double)j)}
+                                     : (struct br_trial){.contender = one, .at = {n[i], k[j]}};
+            }
+    struct br_trial_request request = plan->request;
+    request.norm = plan->norm;
+    request.norms = 1;
+    MUST(br_trials_hold(trial, count, &request, &err));
+    double least = INFINITY;
+    for (size_t i = 0; i < count; i++)
+        if (br_trial_bound(&trial[i], 0) <= plan->goal.error)
+            least = fmin(least, counted(&trial[i]));
+    free(trial);
+    return least;
+}
+
+/* At most E, not less than E/3, and at most twice the work of the best of a fine grid. */
+static void test_promise(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"example1", "example2", "example3", "example4"};
+    static const double errors[] = {1e-3, 1e-5};
+    for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++)
+        for (size_t e = 0; e < sizeof errors / sizeof *errors; e++) {
+            struct br_error err = {0};
+            struct br_scene scene = br_test_bundled(scenes[s]);
+            struct br_plan *plan = new_plan(&scene, errors[e], NAN);
+            MUST(br_plan_make(plan, &err));
+            assert_true(plan->chosen < plan->count);
+            const struct br_trial *t = &plan->trial[plan->chosen];
+            const double achieved = br_trial_bound(t, 0), cost = counted(t);
+            const double best = exhaustive(plan, cost);
+            if (!(achieved <= errors[e] && achieved >= errors[e] / br_plan_band) ||
+                plan->end != BR_PLAN_MET)
+                fail_msg("%s to %g: achieved %g, %s", scenes[s], errors[e], achieved,
+                         br_plan_end_name(plan->end));
+            if (!(cost <= 2 * best))
+                fail_msg("%s to %g: %s, n = %zu costs %g, the best %g", scenes[s], errors[e],
+                         t->contender->name, t->at.n, cost, best);
+            assert_true(plan->forecast[plan->chosen].round > 0);
+            drop(plan);
+            br_scene_clear(&scene);
+        }
+}
+
+/* The least error within some work: more work never is worse. */
+static void test_seconds(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    static const double seconds[] = {1e-4, 2e-3};
+    static const double least[] = {1e-4, 1e-6}; /* errors that are possible */
+    for (size_t i = 0; i < 2; i++) {
+        struct br_plan *plan = new_plan(&scene, NAN, seconds[i]);
+        MUST(br_plan_make(plan, &err));
+        assert_int_equal(plan->end, BR_PLAN_MET);
+        AT_MOST(counted(&plan->trial[plan->chosen]), seconds[i]);
+        AT_MOST(br_trial_bound(&plan->trial[plan->chosen], 0), least[i]);
+        drop(plan);
+    }
+    br_scene_clear(&scene);
+}
+
+/* The coarsest mesh does, and says so. */
+static void test_coarsest(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example3");
+    struct br_plan *plan = new_plan(&scene, 0.9, NAN);
+    MUST(br_plan_make(plan, &err));
+    assert_int_equal(plan->end, BR_PLAN_COARSEST);
+    assert_int_equal(plan->trial[plan->chosen].at.n, BR_PLAN_LEAST_N);
+    drop(plan);
+    br_scene_clear(&scene);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        double error, seconds;
+        const char *message;
+    } wrong[] = {
+        {NAN, NAN, "needs an error or seconds"},
+        {1e-3, 1, "and not both"},
+        {0, NAN, "between 0 and 1"},
+        {1, NAN, "between 0 and 1"},
+        {-1, NAN, "between 0 and 1"},
+        {NAN, 0, "seconds > 0"},
+        {NAN, INFINITY, "seconds > 0"},
+        {1e-16, NAN, "an error of"},
+    };
+    struct br_scene scene = br_test_bundled("example3");
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        struct br_error err = {0};
+        struct br_plan *plan = new_plan(&scene, wrong[i].error, wrong[i].seconds);
+        plan->contenders.count = 1;
+        REFUSED(br_plan_make(plan, &err), BR_BAD_INPUT, wrong[i].message);
+        drop(plan);
+    }
+    br_scene_clear(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_error_model), cmocka_unit_test(test_residuals),
+        cmocka_unit_test(test_cost_model),  cmocka_unit_test(test_promise),
+        cmocka_unit_test(test_seconds),     cmocka_unit_test(test_coarsest),
+        cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
