@@ -45,7 +45,7 @@ static void test_refusals(void **state)
     m = method("ida", 1e-6, "uzawa");
     refused(&scene, &m, "friction rule 'uzawa' with scheme ida");
     m = method("ida", 0, NULL);
-    refused(&scene, &m, "the tolerance of scheme ida is 0");
+    refused(&scene, &m, "the tolerance of time scheme 'ida' is 0");
     m = method("ida", 1e-6, NULL);
     m.contact = br_contact_rule_find("lagged");
     refused(&scene, &m, "contact rule 'lagged' with scheme ida");
