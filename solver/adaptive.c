@@ -23,11 +23,14 @@ static const double least_step = 1e-13;  /* of the duration */
 static const double safety = 0.85, most_growth = 5, most_shrinking = 0.1;
 static const double idle_growth = 1.4;       /* less is not worth new tables */
 static const double switch_accuracy = 1e-12; /* of the step in which it lies */
+static const size_t most_stalled = 200;
+static const double met_switch = 1e-10; /* of the margin at the step's beginning */
 
 struct br_adaptive {
     double now, next;      /* time reached and length of the next step, s */
     double largest[2];     /* strain of each field so far */
     size_t since;          /* steps since the start or the last switch */
+    size_t stalled;        /* steps in a row that a switch has cut to next to nothing */
     bool known;            /* the branches of the laws */
     enum br_regime old[2]; /* those in front of the last switch */
     struct br_switch found[BR_MOST_SWITCHES];
@@ -289,14 +292,40 @@ static enum br_status stop_at_switch(struct br_march *m, const struct br_tip *ti
     return search.status;
 }
 
+/* Whether a step ends on a switch, as where that is a time level: going on would be a step too
+ * short for the tip's force to be more than its round-off. */
+static bool meets_switch(const struct br_margins *m)
+{
+    return m->count > 1 && m->time[0] == 0 && m->margin[0] > 0 &&
+           m->margin[m->count - 1] <= met_switch * m->margin[0];
+}
+
 static enum br_status stop_at_switches(struct br_march *m, const struct br_tip *tip,
                                        struct trial *trial, bool *switched, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        if (m->held[kind])
+        if (m->held[kind]) {
             status = stop_at_switch(m, tip, (enum br_field_kind)kind, trial, switched, err);
+            *switched |= meets_switch(&m->margins[kind]);
+        }
     return status;
+}
+
+/* Laws that contradict themselves would have no branch that holds, and no end of switches. */
+static enum br_status check_progress(struct br_march *m, const struct trial *trial, bool switched,
+                                     struct br_error *err)
+{
+    struct br_adaptive *a = m->adaptive;
+    const bool moved = !switched || trial->k > 10 * least_step * m->scene->duration;
+    a->stalled = moved ? 0 : a->stalled + 1;
+    if (a->stalled < most_stalled)
+        return BR_OK;
+    return br_fail(err, BR_NOT_FINITE,
+                   "scheme %s: at t = %.17g s %zu switches in a row lie within %g s: no branch of "
+                   "the laws at the tip holds",
+                   m->method.scheme->name, a->now, a->stalled,
+                   (double)a->stalled * 10 * least_step * m->scene->duration);
 }
 
 /* Goes on by at most `longest`, s. */
@@ -322,7 +351,7 @@ static enum br_status adaptive_step(struct br_march *m, double longest, struct b
         a->next = next_length(m, &trial);
     accept(m, &trial, switched);
     a->now += trial.k;
-    return BR_OK;
+    return check_progress(m, &trial, switched, err);
 }
 
 enum br_status br_adaptive_create(struct br_march *m, struct br_error *err)

@@ -45,6 +45,12 @@ struct br_march {
     struct br_march_watcher watcher; /* all NULL: nobody */
 };
 
+/* Whether a scheme takes both fields through its steps together. */
+static inline bool br_fields_go_together(const struct br_march *march)
+{
+    return march->method.scheme->adaptive || march->method.scheme->integrator;
+}
+
 /* All stages of a step of one field, with the contact or the friction law in each; path: of the
  * axial field in that step. Fails as br_march_step. */
 enum br_status br_march_stages(struct br_march *march, enum br_field_kind kind,

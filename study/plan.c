@@ -210,7 +210,7 @@ static enum br_status check_probes(struct br_plan *p, struct br_error *err)
         if (isfinite(br_trial_bound(t, 0)))
             good++;
         if (t->scale[0] > 0 && isfinite(t->own[0]))
-            p->own = fmax(isfinite(p->own) ? p->own : 0, t->own[0] / t->scale[0]);
+            p->own = fmin(isfinite(p->own) ? p->own : INFINITY, t->own[0] / t->scale[0]);
     }
     if (good == 0)
         return br_fail(err, BR_NOT_FINITE,

@@ -62,7 +62,7 @@ struct br_plan {
     size_t chosen; /* count: none */
     enum br_plan_end end;
     struct br_plan_models model[BR_MOST_CONTENDERS];
-    double own;          /* the judge's own relative error; NaN: not known */
+    double own;          /* the judge's own relative error, where it is least; NaN: not known */
     double wall_seconds; /* of all of it */
 };
 

@@ -149,6 +149,25 @@ static void test_sound_marches(void **state)
         }
 }
 
+/* A switch on a time level, as at 0.8 s: no step is left that is so short that its force is noise.
+ */
+static void test_switch_on_a_level(void **state)
+{
+    (void)state;
+    for (size_t i = 0; br_time_schemes[i]; i++)
+        for (size_t n = 10; n <= 100 && !br_time_schemes[i]->integrator; n += 6) {
+            struct br_error err = {0};
+            struct watched_march w = {0};
+            start(&w, "example3", NULL, br_time_schemes[i], n, 100);
+            watch(&w, &w.scene, &w.method);
+            const size_t step = first_refused(&w, 100, &err);
+            if (step)
+                fail_msg("%s, n = %zu: step %zu: %s", br_time_schemes[i]->name, n, step,
+                         err.message);
+            finish(&w);
+        }
+}
+
 static bool same_tables(const struct br_time_scheme *a, const struct br_time_scheme *b)
 {
     for (size_t since = 0; since < 3; since++)
@@ -251,6 +270,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_tables),
         cmocka_unit_test(test_sound_marches),
+        cmocka_unit_test(test_switch_on_a_level),
         cmocka_unit_test(test_other_scheme),
         cmocka_unit_test(test_spoilt_scenes),
         cmocka_unit_test(test_watched_is_unwatched),
