@@ -25,6 +25,8 @@ static const char usage[] =
 
 enum { HELP = 1 };
 
+static const double least_tolerance = 1e-14;
+
 static void print_names(FILE *out)
 {
     char words[256];
@@ -153,6 +155,20 @@ static enum br_status read_repeats(const char *text, size_t *repeats, struct br_
     return status;
 }
 
+/* As of `run`. */
+static enum br_status read_tolerances(const char *text, struct br_trade_wish *w,
+                                      struct br_error *err)
+{
+    const enum br_status status =
+        br_read_numbers("--tolerances", text, &w->tolerance, &w->tolerances, err);
+    for (size_t i = 0; i < w->tolerances && !status; i++)
+        if (!(w->tolerance[i] > least_tolerance && w->tolerance[i] < 1))
+            return br_fail(err, BR_BAD_INPUT,
+                           "--tolerances: found %g, expected numbers above %g and below 1",
+                           w->tolerance[i], least_tolerance);
+    return status;
+}
+
 /* A list that no method heeds is refused. */
 static enum br_status check_heeded(const struct br_trade_options *o, const struct br_trade_wish *w,
                                    struct br_error *err)
@@ -189,7 +205,7 @@ enum br_status br_trade_wish_read(const struct br_trade_options *o, struct br_tr
     if (!status && o->methods)
         status = br_contenders_read("--methods", o->methods, &w->contenders, err);
     if (!status && o->tolerances)
-        status = br_read_numbers("--tolerances", o->tolerances, &w->tolerance, &w->tolerances, err);
+        status = read_tolerances(o->tolerances, w, err);
     if (!status)
         status = read_repeats(o->repeats, &w->repeats, err);
     if (!status)

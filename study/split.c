@@ -146,6 +146,8 @@ static enum br_status try_refinement(struct br_split *split, const struct br_ref
     }
     if (!status && failed(&d, 0) && !r->failure.status)
         r->failure = *failure_of(distance(&d, 0, 0));
+    else if (!status && !(distance(&d, 0, 0)->reference_scale > 0) && !r->failure.status)
+        br_fail(&r->failure, BR_NOT_FINITE, "the solution is zero: no error is relative to it");
     if (!status && !failed(&d, 0)) {
         const struct br_study *s = distance(&d, 0, 0);
         const double relative = s->cell[0].error[BR_PART_TOTAL] / s->reference_scale;

@@ -56,14 +56,17 @@ size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double tar
     return best;
 }
 
+/* Errors that differ by less are equal: two linear solvers' differ in their last bits. */
+static const double tie = 1e-6;
+
 /* Whether `a` loses to `b`; of equals the later one does. */
 static bool is_beaten(const struct br_trial *a, const struct br_trial *b)
 {
     const double error = br_trial_bound(a, 0), other_error = br_trial_bound(b, 0);
     const double seconds = br_trial_seconds(a), other_seconds = br_trial_seconds(b);
-    if (!(other_error <= error) || !(other_seconds <= seconds))
-        return false;
-    return other_error < error || other_seconds < seconds || b < a;
+    if (other_seconds < seconds)
+        return other_error <= (1 + tie) * error;
+    return other_seconds <= seconds && (other_error < error || (other_error <= error && b < a));
 }
 
 void br_trials_front(const struct br_trial *trial, size_t count, bool *front)

@@ -64,7 +64,7 @@ size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double tar
                           const struct br_contender *only);
 
 /* Marks (out, count) the trials that no other one beats in error or seconds without losing in the
- * other; of equals the first. */
+ * other; of equals the first. A slower one must be better by more than a millionth. */
 void br_trials_front(const struct br_trial *trial, size_t count, bool *front);
 
 #endif

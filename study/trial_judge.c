@@ -112,6 +112,9 @@ static void take_cell(struct br_trial *t, size_t m, const struct br_study *s,
         t->failure = cell->failure;
         if (!cell->failure.status)
             br_fail(&t->failure, BR_NOT_FINITE, "its error is not a number");
+    } else if (!(s->reference_scale > 0)) {
+        t->end = BR_TRIAL_FAILED;
+        br_fail(&t->failure, BR_NOT_FINITE, "the solution is zero: no error is relative to it");
     } else if (t->end == BR_TRIAL_DONE && cell->unstable) {
         t->end = BR_TRIAL_UNSTABLE;
         br_fail(&t->failure, BR_VERDICT,

@@ -59,7 +59,7 @@ static enum br_status make_steps(const struct clocked *c, struct br_error *err)
     enum br_status status = BR_OK;
     for (size_t i = 1; i <= steps && !status; i++) {
         status = br_march_step(c->march, &c->trial->failure);
-        if (!status && (i % every == 0 || adaptive))
+        if (!status && (i % every == 0 || i == steps || adaptive))
             status = look_at_clock(c, err);
     }
     return status;

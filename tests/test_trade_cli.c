@@ -32,6 +32,8 @@ static void test_bad_input(void **state)
         {"trade example1 --k 0.1,0.1000000000001", "--k: 0.1 is given twice"},
         {"trade example1 --k nan", "--k: found 'nan'"},
         {"trade example1 --tolerances 0", "--tolerances"},
+        {"trade example1 --tolerances 1e-3,1", "--tolerances: found 1, expected numbers above"},
+        {"trade example1 --tolerances 1e-20", "--tolerances: found 1e-20, expected numbers"},
         {"trade example1 --methods bdf2 --tolerances 1e-3", "--tolerances: no method"},
         {"trade example1 --methods adaptive --k 0.1", "--k: no method"},
         {"trade example1 --norm l3", "--norm: found 'l3'"},
@@ -164,6 +166,9 @@ static void test_over_the_limit(void **state)
                "--out m --no-plots --quiet",
                NULL, 3, "example2: no trial came to its end");
     assert_true(cli_is_there("m/example2.txt"));
+    /* even one that has ended before anybody looked at the clock */
+    cli_expect("trade example2 --methods euler --n 1 --k 0.5 --time-limit 1e-12 --out m --quiet",
+               NULL, 3, "over the time limit of 1e-12 s");
 }
 
 /* The paper's method beyond its limit is marked, and never the cheapest. */
@@ -178,6 +183,19 @@ static void test_unstable(void **state)
                "unstable: 1");
     assert_true(cli_file_contains("u/stiff.csv", "unstable,0,0,"));
     assert_true(has_row(cli_read("u/stiff.txt"), "1e-02 - - -"));
+}
+
+/* At rest there is nothing that an error is a part of. */
+static void test_zero_solution(void **state)
+{
+    (void)state;
+    cli_write_file("rest.yaml", "title: rest\nlength: 1 m\nduration: 1 s\ndensity: 1e-3 kg/m\n"
+                                "axial:\n  stiffness: 1 N\n  viscosity: 1e-3 N s\n"
+                                "  load: 0 [N/m]\n");
+    cli_expect("trade rest.yaml --methods bdf2 --n 4 --k 0.1 --out z --no-plots", NULL, 3,
+               "the solution is zero");
+    cli_expect("trade rest.yaml --split --n 4 --k 0.1 --out z --no-plots", NULL, 3,
+               "the solution is zero");
 }
 
 static void test_several_scenes(void **state)
@@ -213,10 +231,10 @@ static void test_interrupt(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_input), cmocka_unit_test(test_formats_agree),
-        cmocka_unit_test(test_rules),     cmocka_unit_test(test_over_the_limit),
-        cmocka_unit_test(test_unstable),  cmocka_unit_test(test_several_scenes),
-        cmocka_unit_test(test_interrupt),
+        cmocka_unit_test(test_bad_input),      cmocka_unit_test(test_formats_agree),
+        cmocka_unit_test(test_rules),          cmocka_unit_test(test_over_the_limit),
+        cmocka_unit_test(test_unstable),       cmocka_unit_test(test_zero_solution),
+        cmocka_unit_test(test_several_scenes), cmocka_unit_test(test_interrupt),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }
