@@ -23,12 +23,14 @@ static const double least_step = 1e-13;  /* of the duration */
 static const double safety = 0.85, most_growth = 5, most_shrinking = 0.1;
 static const double idle_growth = 1.4;       /* less is not worth new tables */
 static const double switch_accuracy = 1e-12; /* of the step in which it lies */
-static const double met_switch = 1e-10;      /* of the margin at the step's beginning */
+static const size_t most_stalled = 200;
+static const double met_switch = 1e-10; /* of the margin at the step's beginning */
 
 struct br_adaptive {
     double now, next;      /* time reached and length of the next step, s */
     double largest[2];     /* strain of each field so far */
     size_t since;          /* steps since the start or the last switch */
+    size_t stalled;        /* steps in a row that a switch has cut to next to nothing */
     bool known;            /* the branches of the laws */
     enum br_regime old[2]; /* those in front of the last switch */
     struct br_switch found[BR_MOST_SWITCHES];
@@ -38,13 +40,6 @@ struct br_adaptive {
 void br_adaptive_free(struct br_adaptive *a)
 {
     free(a);
-}
-
-static void keep_all(struct br_march *m, int known)
-{
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (m->part[kind].modelled)
-            br_part_keep(&m->part[kind], known);
 }
 
 static void recall_all(struct br_march *m, int known)
@@ -101,6 +96,9 @@ static enum br_status try_fields(struct br_march *m, const struct br_step *step,
         if (!part->modelled)
             continue;
         m->held[kind] = has_branches(m, (enum br_field_kind)kind);
+        m->margins[kind].count = 0;
+        if (m->held[kind] && m->adaptive->since > 0) /* else it is that of another branch */
+            br_margins_add(&m->margins[kind], 0, br_march_margin(m, (enum br_field_kind)kind));
         status = br_march_stages(m, (enum br_field_kind)kind, &trial->stages, step, m->path, err);
         if (status)
             break;
@@ -138,51 +136,40 @@ static void take_back(struct br_march *m, const struct br_tip *tip)
 
 /* ---- switches ---- */
 
-/* Not negative while a field's tip is on the branch that is held. */
-static double margin(const struct br_march *m, const struct br_tip *tip, enum br_field_kind kind)
-{
-    switch (m->held[kind] ? m->regime[kind] : BR_REGIME_NONE) {
-    case BR_REGIME_OPEN:
-        return m->scene->contact.gap - tip->displacement;
-    case BR_REGIME_CLOSED:
-        return tip->displacement - m->scene->contact.gap;
-    case BR_REGIME_STICK:
-        return tip->friction_bound - fabs(tip->friction_force);
-    case BR_REGIME_FORWARD:
-        return tip->velocity[BR_BENDING];
-    case BR_REGIME_BACKWARD:
-        return -tip->velocity[BR_BENDING];
-    case BR_REGIME_NONE:
-        break;
-    }
-    return 0;
-}
-
 struct search {
     struct br_march *march;
     const struct br_tip *tip; /* where the step begins */
     enum br_field_kind kind;
+    double beyond; /* the margin behind the switch */
     struct trial trial;
     enum br_status status;
     struct br_error *err;
 };
 
-/* The margin at the end of a step of length k, for GSL. */
-static double margin_after(double k, void *params)
+/* The margin at the end of a step of length k. */
+static double margin_after(double k, struct search *s)
 {
-    struct search *s = params;
     if (s->status)
         return 0;
     take_back(s->march, s->tip);
     s->status = try_step(s->march, k, &s->trial, s->err);
-    return s->status ? 0 : margin(s->march, &s->march->tip, s->kind);
+    return s->status ? 0 : br_march_margin(s->march, s->kind);
+}
+
+/* The same for GSL. A margin of 0 is in front of the switch: a tip that rests at the gap has
+ * nothing else, and its switch is where it leaves. Then this halves. */
+static double margin_to_cross(double k, void *params)
+{
+    struct search *s = params;
+    const double margin = margin_after(k, s);
+    return margin == 0 ? -s->beyond : margin;
 }
 
 /* Shortens a step whose end is beyond the switch of one field to just before that switch, where a
  * load that jumps then has not jumped yet; the state is then the result of the shorter one. */
 static enum br_status find_switch(struct search *s, double longest)
 {
-    gsl_function f = {.function = margin_after, .params = s};
+    gsl_function f = {.function = margin_to_cross, .params = s};
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
     if (!solver)
         return br_no_memory(s->err, "a search for a switch");
@@ -285,31 +272,60 @@ static enum br_status estimated_step(struct br_march *m, double k, struct trial 
     }
 }
 
-/* Whether a step ends on a switch, as where that is a time level: going on would be a step too
- * short for the tip's force to be more than its round-off. */
-static bool meets_switch(const struct br_march *m, const struct br_tip *before,
-                         enum br_field_kind kind)
+/* Where the step has gone beyond a switch of a field's law, it ends there. Where only the stages or
+ * their polynomial say so, it ends where they do, which the margin there confirms or not. */
+static enum br_status stop_at_switch(struct br_march *m, const struct br_tip *tip,
+                                     enum br_field_kind kind, struct trial *trial, bool *switched,
+                                     struct br_error *err)
 {
-    const double began = margin(m, before, kind);
-    return began > 0 && margin(m, &m->tip, kind) <= met_switch * began;
+    const double dip = br_margins_dip(&m->margins[kind]), k = dip * trial->k;
+    struct search search = {m, tip, kind, br_march_margin(m, kind), *trial, BR_OK, err};
+    if (!(dip > 0))
+        return BR_OK;
+    if (dip < 1)
+        search.beyond = margin_after(k, &search);
+    if (!search.status && search.beyond < 0) {
+        search.status = find_switch(&search, k);
+        *switched = true;
+    }
+    *trial = search.trial;
+    return search.status;
 }
 
-/* Where the step has gone beyond a switch, it ends there. */
+/* Whether a step ends on a switch, as where that is a time level: going on would be a step too
+ * short for the tip's force to be more than its round-off. */
+static bool meets_switch(const struct br_margins *m)
+{
+    return m->count > 1 && m->time[0] == 0 && m->margin[0] > 0 &&
+           m->margin[m->count - 1] <= met_switch * m->margin[0];
+}
+
 static enum br_status stop_at_switches(struct br_march *m, const struct br_tip *tip,
                                        struct trial *trial, bool *switched, struct br_error *err)
 {
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        *switched |= meets_switch(m, tip, (enum br_field_kind)kind);
-        if (!(margin(m, &m->tip, (enum br_field_kind)kind) < 0))
-            continue;
-        struct search search = {m, tip, (enum br_field_kind)kind, *trial, BR_OK, err};
-        const enum br_status status = find_switch(&search, trial->k);
-        if (status)
-            return status;
-        *trial = search.trial;
-        *switched = true;
-    }
-    return BR_OK;
+    enum br_status status = BR_OK;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        if (m->held[kind]) {
+            status = stop_at_switch(m, tip, (enum br_field_kind)kind, trial, switched, err);
+            *switched |= meets_switch(&m->margins[kind]);
+        }
+    return status;
+}
+
+/* Laws that contradict themselves would have no branch that holds, and no end of switches. */
+static enum br_status check_progress(struct br_march *m, const struct trial *trial, bool switched,
+                                     struct br_error *err)
+{
+    struct br_adaptive *a = m->adaptive;
+    const bool moved = !switched || trial->k > 10 * least_step * m->scene->duration;
+    a->stalled = moved ? 0 : a->stalled + 1;
+    if (a->stalled < most_stalled)
+        return BR_OK;
+    return br_fail(err, BR_NOT_FINITE,
+                   "scheme %s: at t = %.17g s %zu switches in a row lie within %g s: no branch of "
+                   "the laws at the tip holds",
+                   m->method.scheme->name, a->now, a->stalled,
+                   (double)a->stalled * 10 * least_step * m->scene->duration);
 }
 
 /* Goes on by at most `longest`, s. */
@@ -335,44 +351,7 @@ static enum br_status adaptive_step(struct br_march *m, double longest, struct b
         a->next = next_length(m, &trial);
     accept(m, &trial, switched);
     a->now += trial.k;
-    return BR_OK;
-}
-
-/* ---- the size of the solution ---- */
-
-static enum br_status rough_step(struct br_march *m, const struct br_step *step,
-                                 struct br_error *err)
-{
-    static const struct br_stages euler = {.count = 1, .stage = {{1, 1, {[BR_NOW] = 1}}}};
-    enum br_status status = BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        struct br_part *part = &m->part[kind];
-        double size[2];
-        if (!part->modelled)
-            continue;
-        status = br_march_stages(m, (enum br_field_kind)kind, &euler, step, m->path, err);
-        part->solver->size(part->state, 0, size);
-        m->adaptive->largest[kind] = fmax(m->adaptive->largest[kind], size[0]);
-    }
-    return status;
-}
-
-/* The largest strains of a few Euler steps to the end: a solution that starts at rest has no size
- * of its own that its first errors could be compared with. */
-static enum br_status find_size(struct br_march *m, struct br_error *err)
-{
-    enum { STEPS = 16 };
-    const double T = m->scene->duration;
-    const struct br_tip tip = m->tip;
-    enum br_status status = BR_OK;
-    keep_all(m, BR_STAGE);
-    for (int n = 0; n < STEPS && !status; n++) {
-        const struct br_step step = {T * n / STEPS, T * (n + 1) / STEPS, T / STEPS};
-        status = rough_step(m, &step, err);
-    }
-    recall_all(m, BR_STAGE);
-    m->tip = tip;
-    return status;
+    return check_progress(m, &trial, switched, err);
 }
 
 enum br_status br_adaptive_create(struct br_march *m, struct br_error *err)
@@ -381,7 +360,7 @@ enum br_status br_adaptive_create(struct br_march *m, struct br_error *err)
     if (!m->adaptive)
         return br_no_memory(err, "a march");
     m->adaptive->next = first_step * m->scene->duration;
-    return find_size(m, err);
+    return br_rough_size(m, m->adaptive->largest, err);
 }
 
 enum br_status br_adaptive_advance(struct br_march *m, struct br_error *err)

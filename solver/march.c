@@ -2,185 +2,14 @@
 #include "solver/march.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "solver/march_state.h"
-
-struct br_method br_method_default(void)
-{
-    return (struct br_method){
-        .scheme = br_time_schemes[0],
-        .tolerance = 1e-6,
-        .solver = br_linear_solvers[0],
-        .linear = br_linear_defaults,
-        .contact = br_contact_rules[0],
-        .friction = br_friction_rules[0],
-        .iteration = br_iteration_defaults,
-        .axial_degree = 1,
-    };
-}
 
 /* t_n = n T / N, never summed. */
 static double time_level(const struct br_march *m, size_t n)
 {
     return m->scene->duration * (double)n / (double)m->steps;
-}
-
-/* ---- setting up ---- */
-
-static enum br_status refuse_rules(const struct br_scene *scene, const struct br_method *method,
-                                   struct br_error *err)
-{
-    const struct br_time_scheme *scheme = method->scheme;
-    const bool friction = scene->friction.law != BR_FRICTIONLESS;
-    if (scene->contact.modelled && !scheme->may_lag && !method->contact->at_new_step)
-        return br_fail(
-            err, BR_BAD_INPUT,
-            "contact rule '%s' with scheme %s, expected implicit: only scheme euler takes "
-            "the force of the step before",
-            method->contact->name, scheme->name);
-    if (friction && scheme->adaptive && method->friction->iterates)
-        return br_fail(
-            err, BR_BAD_INPUT,
-            "friction rule '%s' with scheme %s, expected exact or regularised: stick and "
-            "slip are held between switches, so that nothing is iterated",
-            method->friction->name, scheme->name);
-    if (friction && method->friction->needs_regularisation && !(scene->friction.regularisation > 0))
-        return br_fail(err, BR_BAD_INPUT,
-                       "friction rule '%s' needs the scene's regularisation, mu > 0",
-                       method->friction->name);
-    if (scheme->adaptive && !(method->tolerance > 0 && method->tolerance < 1))
-        return br_fail(err, BR_BAD_INPUT,
-                       "the tolerance of scheme %s is %g, expected more than 0 and less than 1",
-                       scheme->name, method->tolerance);
-    return friction ? br_friction_check(method->friction, &method->iteration, err) : BR_OK;
-}
-
-/* Names the solvers that have what this one lacks. */
-static enum br_status refuse_degree(const struct br_linear_solver *solver, struct br_error *err)
-{
-    char names[256] = "";
-    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
-        if ((*s)->axial_quadratic) {
-            const size_t used = strlen(names);
-            snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", (*s)->name);
-        }
-    return br_fail(err, BR_BAD_INPUT,
-                   "solver '%s' has no quadratic axial elements, expected one of %s", solver->name,
-                   names);
-}
-
-static enum br_status check_degree(const struct br_scene *scene, const struct br_method *method,
-                                   struct br_error *err)
-{
-    if (method->axial_degree != 1 && method->axial_degree != 2)
-        return br_fail(err, BR_BAD_INPUT, "the axial degree is %d, expected 1 or 2",
-                       method->axial_degree);
-    if (method->axial_degree == 1 || !scene->axial.modelled)
-        return BR_OK;
-    if (method->scheme->integrator)
-        return br_fail(err, BR_BAD_INPUT,
-                       "scheme %s has no quadratic axial elements, expected another scheme or an "
-                       "axial degree of 1",
-                       method->scheme->name);
-    return method->solver->axial_quadratic ? BR_OK : refuse_degree(method->solver, err);
-}
-
-static enum br_status check_method(const struct br_scene *scene, size_t n, size_t steps,
-                                   const struct br_method *method, struct br_error *err)
-{
-    if (n < 1)
-        return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
-    if (steps < 1)
-        return br_fail(err, BR_BAD_INPUT, "there are no time steps, expected at least one");
-    enum br_status status = check_degree(scene, method, err);
-    if (!status)
-        status = refuse_rules(scene, method, err);
-    return status ? status : br_scene_check(scene, err);
-}
-
-static enum br_status create_parts(struct br_march *m, size_t n, struct br_error *err)
-{
-    struct br_stages stages;
-    m->method.scheme->stages(0, &stages);
-    const double tau = stages.stage[0].gamma * (m->scene->duration / (double)m->steps);
-    enum br_status status = br_march_allow_lead(m, 1, err);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        struct br_field field = br_field_of_scene(m->scene, (enum br_field_kind)kind, n, tau);
-        field.degree = m->method.axial_degree;
-        status = br_part_create(&m->part[kind], m->scene, &field, &m->method, err);
-    }
-    if (!status && m->method.scheme->adaptive)
-        status = br_adaptive_create(m, err);
-    return status;
-}
-
-/* Of a scheme that marches by itself: the fields are here only for their meshes. */
-static enum br_status create_foreign(struct br_march *m, size_t n, struct br_error *err)
-{
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_part *part = &m->part[kind];
-        part->field = br_field_of_scene(m->scene, (enum br_field_kind)kind, n,
-                                        m->scene->duration / (double)m->steps);
-        part->modelled = kind == BR_AXIAL ? m->scene->axial.modelled : m->scene->bending.modelled;
-    }
-    return m->method.scheme->integrator->create(&m->foreign, m->scene, n, m->steps, &m->method,
-                                                err);
-}
-
-enum br_status br_march_create(struct br_march **out, const struct br_scene *scene, size_t n,
-                               size_t steps, const struct br_method *method, struct br_error *err)
-{
-    *out = NULL;
-    enum br_status status = check_method(scene, n, steps, method, err);
-    if (status)
-        return status;
-    struct br_march *m = br_allocate(1, sizeof *m);
-    if (!m)
-        return br_no_memory(err, "a march");
-    m->scene = scene;
-    m->method = *method;
-    m->steps = steps;
-    status = method->scheme->integrator ? create_foreign(m, n, err) : create_parts(m, n, err);
-    if (status) {
-        br_march_free(m);
-        return status;
-    }
-    m->tip.displacement = br_march_tip_displacement(m, BR_AXIAL);
-    *out = m;
-    return BR_OK;
-}
-
-void br_march_free(struct br_march *m)
-{
-    if (!m)
-        return;
-    if (m->method.scheme->integrator)
-        m->method.scheme->integrator->free(m->foreign);
-    br_adaptive_free(m->adaptive);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        br_part_clear(&m->part[kind]);
-    free(m->path);
-    free(m);
-}
-
-/* Such schemes take both fields through their steps together. */
-static bool fields_go_together(const struct br_march *m)
-{
-    return m->method.scheme->adaptive || m->method.scheme->integrator;
-}
-
-enum br_status br_march_allow_lead(struct br_march *m, size_t steps, struct br_error *err)
-{
-    if (steps > 1 && fields_go_together(m))
-        return br_fail(err, BR_BAD_INPUT,
-                       "scheme %s: its fields go together, expected a scheme of fixed steps",
-                       m->method.scheme->name);
-    free(m->path);
-    m->lead = steps;
-    m->path = br_allocate(steps, sizeof *m->path);
-    return m->path ? BR_OK : br_no_memory(err, "a march");
 }
 
 /* ---- stepping ---- */
@@ -236,7 +65,7 @@ enum br_status br_march_step_field(struct br_march *m, enum br_field_kind kind,
 {
     struct br_part *part = &m->part[kind];
     enum br_status status = BR_OK;
-    if (fields_go_together(m))
+    if (br_fields_go_together(m))
         status = common_step(m, kind, err);
     else if (part->modelled)
         status = fixed_step(m, kind, err);

@@ -4,25 +4,7 @@
 #ifndef BR_MARCH_H
 #define BR_MARCH_H
 
-#include "solver/contact.h"
-#include "solver/friction.h"
-#include "solver/linear_solver.h"
-#include "solver/scheme.h"
-
-/* How a scene is marched. */
-struct br_method {
-    const struct br_time_scheme *scheme;
-    double tolerance; /* of an adaptive scheme: error a step, relative to the largest strain */
-    const struct br_linear_solver *solver;
-    struct br_linear_options linear;
-    const struct br_contact_rule *contact;
-    const struct br_friction_rule *friction;
-    struct br_iteration iteration; /* of friction rules that iterate */
-    int axial_degree;              /* of the axial elements: 1, the paper's, or 2 */
-};
-
-/* The defaults: the first row of each registry, elements of degree 1. */
-struct br_method br_method_default(void);
+#include "solver/method.h"
 
 /* What a march has cost so far. */
 struct br_counts {

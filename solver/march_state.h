@@ -4,6 +4,7 @@
 #define BR_MARCH_STATE_H
 
 #include "solver/integrator.h"
+#include "solver/margins.h"
 #include "solver/part.h"
 
 /* The axial tip over one step, for the friction bound of the bending field. */
@@ -34,6 +35,7 @@ struct br_march {
     struct br_part part[2]; /* by br_field_kind */
     enum br_regime regime[2];
     bool held[2]; /* the regime holds, whatever the law says of the stage's result */
+    struct br_margins margins[2]; /* of the step so far, where a branch is held */
     struct br_tip tip;
     struct br_tip_path *path; /* of the last `lead` steps */
     size_t lead;
@@ -42,6 +44,12 @@ struct br_march {
     void *foreign;                   /* of a scheme's own integrator; NULL: none */
     struct br_march_watcher watcher; /* all NULL: nobody */
 };
+
+/* Whether a scheme takes both fields through its steps together. */
+static inline bool br_fields_go_together(const struct br_march *march)
+{
+    return march->method.scheme->adaptive || march->method.scheme->integrator;
+}
 
 /* All stages of a step of one field, with the contact or the friction law in each; path: of the
  * axial field in that step. Fails as br_march_step. */
@@ -52,6 +60,9 @@ enum br_status br_march_stages(struct br_march *march, enum br_field_kind kind,
 /* The branch of its law that the tip is on after a stage. */
 enum br_regime br_march_regime(const struct br_march *march, enum br_field_kind kind);
 
+/* Not negative while a field's tip is on the branch that is held; 0 where none is. */
+double br_march_margin(const struct br_march *march, enum br_field_kind kind);
+
 /* A field's step is taken; switched: the next one starts anew. */
 void br_march_accept(struct br_march *march, enum br_field_kind kind,
                      const struct br_stages *stages, bool switched);
@@ -59,6 +70,10 @@ void br_march_accept(struct br_march *march, enum br_field_kind kind,
 /* Refuses a tip that has left the numbers at time t, s. */
 enum br_status br_march_check_finite(const struct br_march *march, enum br_field_kind kind,
                                      double t, struct br_error *err);
+
+/* About the largest strains (out) until the end, by a few Euler steps; the march is then where it
+ * was. Fails as br_march_step. */
+enum br_status br_rough_size(struct br_march *march, double largest[2], struct br_error *err);
 
 /* What an adaptive scheme adds to a march. Fails with BR_NO_MEMORY. */
 enum br_status br_adaptive_create(struct br_march *march, struct br_error *err);

@@ -1,6 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/method.h"
 
+#include <stdio.h>
+#include <string.h>
+
+struct br_method br_method_default(void)
+{
+    return (struct br_method){
+        .scheme = br_time_schemes[0],
+        .tolerance = 1e-6,
+        .solver = br_linear_solvers[0],
+        .linear = br_linear_defaults,
+        .contact = br_contact_rules[0],
+        .friction = br_friction_rules[0],
+        .iteration = br_iteration_defaults,
+        .axial_degree = 1,
+    };
+}
+
 const struct br_contact_rule *br_contact_rule_of(const struct br_time_scheme *scheme)
 {
     const struct br_contact_rule *const *rule = br_contact_rules;
@@ -9,26 +26,116 @@ const struct br_contact_rule *br_contact_rule_of(const struct br_time_scheme *sc
     return *rule;
 }
 
-/* Smaller tolerances are round-off's, larger ones are none. */
-static enum br_status check_scheme(const struct br_method *m, struct br_error *err)
+static enum br_status check_contact(const struct br_method *m, struct br_error *err)
 {
-    if (!m->scheme->may_lag && !m->contact->at_new_step)
-        return br_fail(err, BR_BAD_INPUT,
-                       "contact rule '%s' does not go with time scheme '%s', expected '%s'",
-                       m->contact->name, m->scheme->name, br_contact_rule_of(m->scheme)->name);
-    if (m->scheme->adaptive && !(m->tolerance > 1e-14 && m->tolerance < 1))
-        return br_fail(err, BR_BAD_INPUT,
-                       "the tolerance of time scheme '%s' is %g, expected a number above 1e-14 and "
-                       "below 1",
-                       m->scheme->name, m->tolerance);
-    return BR_OK;
+    if (m->scheme->may_lag || m->contact->at_new_step)
+        return BR_OK;
+    return br_fail(err, BR_BAD_INPUT,
+                   "contact rule '%s' does not go with time scheme '%s', expected '%s'",
+                   m->contact->name, m->scheme->name, br_contact_rule_of(m->scheme)->name);
+}
+
+/* Smaller tolerances are round-off's, larger ones are none. */
+static enum br_status check_tolerance(const struct br_method *m, struct br_error *err)
+{
+    if (!m->scheme->adaptive || (m->tolerance > 1e-14 && m->tolerance < 1))
+        return BR_OK;
+    return br_fail(err, BR_BAD_INPUT,
+                   "the tolerance of time scheme '%s' is %g, expected a number above 1e-14 and "
+                   "below 1",
+                   m->scheme->name, m->tolerance);
+}
+
+static enum br_status check_degree(const struct br_method *m, struct br_error *err)
+{
+    if (m->axial_degree == 1 || m->axial_degree == 2)
+        return BR_OK;
+    return br_fail(err, BR_BAD_INPUT, "the axial degree is %d, expected 1 or 2", m->axial_degree);
 }
 
 enum br_status br_method_check(const struct br_method *m, struct br_error *err)
 {
-    if (m->axial_degree != 1 && m->axial_degree != 2)
-        return br_fail(err, BR_BAD_INPUT, "the axial degree is %d, expected 1 or 2",
-                       m->axial_degree);
-    const enum br_status status = check_scheme(m, err);
+    enum br_status status = check_degree(m, err);
+    if (!status)
+        status = check_contact(m, err);
+    if (!status)
+        status = check_tolerance(m, err);
     return status ? status : br_friction_check(m->friction, &m->iteration, err);
+}
+
+/* ---- with a scene ---- */
+
+/* Names the solvers that have what this one lacks. */
+static enum br_status refuse_degree(const struct br_linear_solver *solver, struct br_error *err)
+{
+    char names[256] = "";
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
+        if ((*s)->axial_quadratic) {
+            const size_t used = strlen(names);
+            snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", (*s)->name);
+        }
+    return br_fail(err, BR_BAD_INPUT,
+                   "solver '%s' has no quadratic axial elements, expected one of %s", solver->name,
+                   names);
+}
+
+static enum br_status check_elements(const struct br_method *m, struct br_error *err)
+{
+    if (m->axial_degree == 1)
+        return BR_OK;
+    if (m->scheme->integrator)
+        return br_fail(err, BR_BAD_INPUT,
+                       "scheme %s has no quadratic axial elements, expected another scheme or an "
+                       "axial degree of 1",
+                       m->scheme->name);
+    return m->solver->axial_quadratic ? BR_OK : refuse_degree(m->solver, err);
+}
+
+static enum br_status check_friction(const struct br_method *m, const struct br_scene *scene,
+                                     struct br_error *err)
+{
+    if (m->scheme->adaptive && m->friction->iterates)
+        return br_fail(err, BR_BAD_INPUT,
+                       "friction rule '%s' with scheme %s, expected exact or regularised: stick "
+                       "and slip are held between switches, so that nothing is iterated",
+                       m->friction->name, m->scheme->name);
+    if (m->friction->needs_regularisation && !(scene->friction.regularisation > 0))
+        return br_fail(err, BR_BAD_INPUT,
+                       "friction rule '%s' needs the scene's regularisation, mu > 0",
+                       m->friction->name);
+    return br_friction_check(m->friction, &m->iteration, err);
+}
+
+static bool vibrates_undamped(const struct br_scene *s)
+{
+    return s->density > 0 && ((s->axial.modelled && s->axial.viscosity == 0) ||
+                              (s->bending.modelled && s->bending.viscosity == 0));
+}
+
+static enum br_status check_damping(const struct br_method *m, const struct br_scene *scene,
+                                    struct br_error *err)
+{
+    if (!m->scheme->needs_damping || !vibrates_undamped(scene))
+        return BR_OK;
+    return br_fail(err, BR_BAD_INPUT,
+                   "scheme %s with a viscosity of 0, expected more than 0 or another scheme: it "
+                   "lets undamped vibration grow",
+                   m->scheme->name);
+}
+
+enum br_status br_method_check_scene(const struct br_method *m, const struct br_scene *scene,
+                                     struct br_error *err)
+{
+    enum br_status status = check_degree(m, err);
+    if (!status)
+        status = check_tolerance(m, err);
+    if (!status)
+        status = check_damping(m, scene, err);
+    if (!status && scene->axial.modelled)
+        status = check_elements(m, err);
+    if (!status && scene->contact.modelled)
+        status = check_contact(m, err);
+    if (!status && scene->friction.law != BR_FRICTIONLESS)
+        status = check_friction(m, scene, err);
+    return status;
 }

@@ -1,15 +1,38 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What of a method goes together. */
+/* A method: a row of each registry, and what goes together. */
 #ifndef BR_METHOD_H
 #define BR_METHOD_H
 
-#include "solver/march.h"
+#include "solver/contact.h"
+#include "solver/friction.h"
+#include "solver/linear_solver.h"
+#include "solver/scheme.h"
+
+/* How a scene is marched. */
+struct br_method {
+    const struct br_time_scheme *scheme;
+    double tolerance; /* of an adaptive scheme: error a step, relative to the largest strain */
+    const struct br_linear_solver *solver;
+    struct br_linear_options linear;
+    const struct br_contact_rule *contact;
+    const struct br_friction_rule *friction;
+    struct br_iteration iteration; /* of friction rules that iterate */
+    int axial_degree;              /* of the axial elements: 1, the paper's, or 2 */
+};
+
+/* The defaults: the first row of each registry, elements of degree 1. */
+struct br_method br_method_default(void);
 
 /* The contact rule of a time scheme where none is chosen: the paper's where the scheme may lag,
  * else the first that takes its force at the new time level. */
 const struct br_contact_rule *br_contact_rule_of(const struct br_time_scheme *scheme);
 
-/* Refuses (BR_BAD_INPUT) what does not go together or is out of its range. */
+/* Refuses (BR_BAD_INPUT) what does not go together or is out of its range in any scene. */
 enum br_status br_method_check(const struct br_method *method, struct br_error *err);
+
+/* Refuses (BR_BAD_INPUT) what a march of this scene cannot do; what the scene does not model may
+ * be anything. */
+enum br_status br_method_check_scene(const struct br_method *method, const struct br_scene *scene,
+                                     struct br_error *err);
 
 #endif

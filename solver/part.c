@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/part.h"
 
+#include <math.h>
 #include <string.h>
 
 /* ---- initial data ---- */
@@ -213,10 +214,23 @@ void br_part_accept(struct br_part *part, const struct br_stages *stages, bool s
     part->counts.steps++;
 }
 
+/* How much strain a strain rate leads to where it is left to itself, s: that of the lowest mode,
+ * which swings or creeps to there. */
+static double reach_of_rate(const struct br_field *f)
+{
+    const double length = (double)f->n * f->h, square = length * length;
+    const double number =
+        f->kind == BR_AXIAL ? 2.467401100272340 / square : 12.36236336833 / (square * square);
+    return fmin(sqrt(f->density / (f->stiffness * number)), f->density / (f->viscosity * number));
+}
+
 void br_part_estimate(struct br_part *part, const struct br_stages *stages, double *error,
                       double *state)
 {
     const int last = BR_STAGE + stages->count - 1; /* which the solver still has */
+    /* A start may have a tip that moves and now sticks: that is no error, and no step is shorter.
+     */
+    const double reach = part->since > 0 ? reach_of_rate(&part->field) : 0;
     double size[2], by_slot[BR_MOST_STATES] = {0}, weight[BR_KNOWN];
     memcpy(weight, stages->error, sizeof weight);
     by_slot[0] = weight[last];
@@ -224,7 +238,7 @@ void br_part_estimate(struct br_part *part, const struct br_stages *stages, doub
     add_weights(part, 1, weight, by_slot);
     part->solver->combine(part->state, part->slot[last], part->kept + 1, by_slot);
     part->solver->size(part->state, part->slot[last], size);
-    *error = size[0];
+    *error = fmax(size[0], reach > 0 ? reach * size[1] : 0);
     part->solver->size(part->state, 0, size);
     *state = size[0];
 }

@@ -206,6 +206,7 @@ static const struct br_time_scheme bdf3 = {
     .citation = "Hairer and Wanner, Solving Ordinary Differential Equations II, V.1; started by "
                 "sdirk2 and bdf2",
     .order = 3,
+    .needs_damping = true, /* A(86 degrees)-stable */
     .stages = bdf3_stages,
 };
 

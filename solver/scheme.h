@@ -46,6 +46,7 @@ struct br_time_scheme {
     const char *citation;
     int order;          /* of the error where the solution is smooth */
     int estimate_order; /* of the step's error estimate, O(k^that); 0: none */
+    bool needs_damping; /* undamped vibration grows: refused */
     bool may_lag;       /* takes the lagged contact of (16), too */
     bool adaptive;      /* chooses its steps by a tolerance, and finds the times of switching; the
                            march's steps are then where it is looked at */

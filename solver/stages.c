@@ -159,6 +159,8 @@ enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
             status = stage(m, kind, &stages->stage[i], step, i, path, err);
         if (status)
             return status;
+        if (m->held[kind])
+            br_margins_add(&m->margins[kind], stages->stage[i].time, br_march_margin(m, kind));
         tell(m, kind, stages, step, i);
     }
     if (kind == BR_AXIAL) {
@@ -186,4 +188,24 @@ enum br_regime br_march_regime(const struct br_march *m, enum br_field_kind kind
     if (fabs(tip->friction_force) < tip->friction_bound)
         return BR_REGIME_STICK;
     return tip->friction_force > 0 ? BR_REGIME_FORWARD : BR_REGIME_BACKWARD;
+}
+
+double br_march_margin(const struct br_march *m, enum br_field_kind kind)
+{
+    const struct br_tip *tip = &m->tip;
+    switch (m->held[kind] ? m->regime[kind] : BR_REGIME_NONE) {
+    case BR_REGIME_OPEN:
+        return m->scene->contact.gap - tip->displacement;
+    case BR_REGIME_CLOSED:
+        return tip->displacement - m->scene->contact.gap;
+    case BR_REGIME_STICK:
+        return tip->friction_bound - fabs(tip->friction_force);
+    case BR_REGIME_FORWARD:
+        return tip->velocity[BR_BENDING];
+    case BR_REGIME_BACKWARD:
+        return -tip->velocity[BR_BENDING];
+    case BR_REGIME_NONE:
+        break;
+    }
+    return 0;
 }

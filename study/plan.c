@@ -49,63 +49,6 @@ void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
             plan->contenders.list[plan->contenders.count++] = all.list[i];
 }
 
-/* ---- trials ---- */
-
-double br_plan_y(const struct br_trial *t)
-{
-    return br_contender_adaptive(t->contender) ? -log(t->tolerance) : log((double)t->at.steps);
-}
-
-struct br_trial br_plan_trial(const struct br_plan_candidate *c)
-{
-    struct br_trial t = {.contender = c->contender, .at = {(size_t)(c->n + 0.5), BR_PLAN_LEVELS}};
-    if (br_contender_adaptive(c->contender))
-        t.tolerance = exp(-c->y);
-    else
-        t.at.steps = (size_t)(exp(c->y) + 0.5);
-    return t;
-}
-
-static enum br_status grow(struct br_plan *p, struct br_error *err)
-{
-    const size_t capacity = p->capacity ? 2 * p->capacity : 256;
-    struct br_trial *trial = br_allocate(capacity, sizeof *trial);
-    struct br_plan_forecast *forecast = br_allocate(capacity, sizeof *forecast);
-    if (!trial || !forecast) {
-        free(trial);
-        free(forecast);
-        return br_no_memory(err, "the trials");
-    }
-    if (p->count) {
-        memcpy(trial, p->trial, p->count * sizeof *trial);
-        memcpy(forecast, p->forecast, p->count * sizeof *forecast);
-    }
-    free(p->trial);
-    free(p->forecast);
-    p->trial = trial;
-    p->forecast = forecast;
-    p->capacity = capacity;
-    return BR_OK;
-}
-
-enum br_status br_plan_add(struct br_plan *p, const struct br_trial *trial,
-                           const struct br_plan_forecast *forecast, bool *added,
-                           struct br_error *err)
-{
-    *added = false;
-    for (size_t i = 0; i < p->count; i++)
-        if ((p->forecast[i].round > 0 || forecast->round == 0) &&
-            p->trial[i].contender == trial->contender && p->trial[i].at.n == trial->at.n &&
-            fabs(br_plan_y(&p->trial[i]) - br_plan_y(trial)) <= 1e-12)
-            return BR_OK;
-    if (p->count == p->capacity && grow(p, err))
-        return BR_NO_MEMORY;
-    p->trial[p->count] = *trial;
-    p->forecast[p->count++] = *forecast;
-    *added = true;
-    return BR_OK;
-}
-
 /* ---- what was found ---- */
 
 bool br_plan_meets(const struct br_plan *p, const struct br_trial *t)
@@ -176,71 +119,6 @@ double br_plan_spent(const struct br_plan *p)
     return sum;
 }
 
-/* ---- models ---- */
-
-static void forget(struct br_plan *p)
-{
-    for (size_t c = 0; c < p->contenders.count; c++) {
-        br_plan_model_clear(&p->model[c].error);
-        p->model[c].known = false;
-    }
-}
-
-/* What is seen of one contender's trials, in room for all. */
-struct seen {
-    struct br_plan_point *point;
-    struct br_plan_work *work;
-    size_t points, works;
-};
-
-static void see(const struct br_plan *p, const struct br_contender *c, struct seen *seen)
-{
-    seen->points = seen->works = 0;
-    for (size_t i = 0; i < p->count; i++) {
-        const struct br_trial *t = &p->trial[i];
-        const double error = br_trial_bound(t, 0), seconds = p->seconds(t);
-        if (t->contender != c)
-            continue;
-        if (error > 0 && isfinite(error))
-            seen->point[seen->points++] =
-                (struct br_plan_point){log((double)t->at.n), br_plan_y(t), error};
-        if (seconds > 0 && isfinite(seconds) && t->cost.counts.stages > 0)
-            seen->work[seen->works++] = (struct br_plan_work){
-                (double)t->at.n, br_plan_y(t), (double)t->cost.counts.stages, seconds};
-    }
-}
-
-/* The space error's order is 2 for elements of degree 1; of more it is measured. */
-static enum br_status fit_one(struct br_plan *p, size_t c, struct seen *seen, struct br_error *err)
-{
-    const struct br_contender *contender = &p->contenders.list[c];
-    struct br_plan_models *m = &p->model[c];
-    const double p_order = 1.0 + contender->method.axial_degree;
-    const double q = br_contender_adaptive(contender) ? 1 : contender->method.scheme->order;
-    see(p, contender, seen);
-    if (seen->points < 4 || seen->works == 0)
-        return BR_OK;
-    enum br_status status =
-        br_plan_model_fit(&m->error, seen->point, seen->points, p_order, q, err);
-    if (!status)
-        status = br_plan_cost_fit(&m->cost, seen->work, seen->works, err);
-    m->known = !status;
-    return status == BR_NO_MEMORY ? status : BR_OK;
-}
-
-static enum br_status fit_all(struct br_plan *p, struct br_error *err)
-{
-    struct seen seen = {.point = br_allocate(p->count + 1, sizeof *seen.point),
-                        .work = br_allocate(p->count + 1, sizeof *seen.work)};
-    enum br_status status = seen.point && seen.work ? BR_OK : br_no_memory(err, "the models");
-    forget(p);
-    for (size_t c = 0; c < p->contenders.count && !status; c++)
-        status = fit_one(p, c, &seen, err);
-    free(seen.point);
-    free(seen.work);
-    return status;
-}
-
 /* ---- rounds ---- */
 
 /* Holds on to what the judge knows, so that it is found out once and not in every round. */
@@ -292,7 +170,7 @@ static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *
     struct br_plan_batch batch;
     const size_t from = p->count;
     *tried = false;
-    enum br_status status = fit_all(p, err);
+    enum br_status status = br_plan_fit(p, err);
     if (status)
         return status;
     br_plan_propose(p, &batch);
@@ -332,7 +210,7 @@ static enum br_status check_probes(struct br_plan *p, struct br_error *err)
         if (isfinite(br_trial_bound(t, 0)))
             good++;
         if (t->scale[0] > 0 && isfinite(t->own[0]))
-            p->own = fmax(isfinite(p->own) ? p->own : 0, t->own[0] / t->scale[0]);
+            p->own = fmin(isfinite(p->own) ? p->own : INFINITY, t->own[0] / t->scale[0]);
     }
     if (good == 0)
         return br_fail(err, BR_NOT_FINITE,
@@ -367,7 +245,7 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
     while (!status && tried && p->rounds < p->most_rounds && !is_idle(p))
         status = go_round(p, &tried, err);
     if (!status)
-        status = fit_all(p, err);
+        status = br_plan_fit(p, err);
     if (p->first == SIZE_MAX)
         p->first = p->count;
     if (!status)
@@ -380,7 +258,7 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
 
 void br_plan_clear(struct br_plan *p)
 {
-    forget(p);
+    br_plan_forget(p);
     free(p->trial);
     free(p->forecast);
     p->trial = NULL;

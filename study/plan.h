@@ -62,12 +62,13 @@ struct br_plan {
     size_t chosen; /* count: none */
     enum br_plan_end end;
     struct br_plan_models model[BR_MOST_CONTENDERS];
-    double own;          /* the judge's own relative error; NaN: not known */
+    double own;          /* the judge's own relative error, where it is least; NaN: not known */
     double wall_seconds; /* of all of it */
 };
 
 /* A request with its defaults: l2, marches of at most 60 s, 8 rounds, seconds as measured. The
- * contenders of br_contenders_default that keep the default solver and friction rule. */
+ * contenders of br_contenders_default that keep the default solver and friction rule, without ida.
+ * Trials point to the contenders, so a plan that is made is not to be moved. */
 void br_plan_default(struct br_plan *plan, const struct br_scene *scene);
 
 /* Makes the plan. Fails with BR_BAD_INPUT (a goal that makes no sense, or below what the judge can

@@ -8,7 +8,7 @@
 
 /* Weights beside that of a trial's log error: of a change of slope at a knot, of a slope's distance
  * from theory's order, and of atanh r. */
-static const double smoothness = 0.03, theory = 0.003, uncorrelated = 0.03;
+static const double smoothness = 0.03, theory = 0.003, uncorrelated = 0.003;
 
 /* Fields of errors are never quite opposite; |r| = 1 would let the model vanish. */
 static const double most_r = 0.95;
@@ -18,12 +18,6 @@ static const double astray = 0.3;
 
 /* Knots nearer than this are one: factors of 1.5 in n, 1.15 in k. */
 static const double least_gap_x = 0.4, least_gap_y = 0.14;
-
-/* Distances, as logarithms, at which a residual has lost 1/e of its say. */
-static const double reach_x = 0.7, reach_y = 0.25;
-
-/* What a prediction is unsure by at least, and more for each unit beyond the knots. */
-static const double least_deviation = 0.03, beyond_x = 0.5, beyond_y = 0.3;
 
 /* ---- curves ---- */
 
@@ -87,8 +81,13 @@ static void lay_knots(struct br_plan_curve *c, double *value, size_t count, doub
 struct problem {
     struct br_plan_model *model;
     double p, q;
-    bool no_r; /* r = 0 */
+    bool no_r;         /* r = 0 */
+    double smoothness; /* of this fit */
 };
+
+/* A fit begins from one that is as good as straight, lest a knot gets caught on the wrong side of a
+ * cancellation. */
+static const double straight = 1;
 
 static size_t unknowns(const struct br_plan_model *m)
 {
@@ -114,14 +113,15 @@ double br_plan_model_value(const struct br_plan_model *m, double x, double y)
 }
 
 /* Rows of a curve's penalties; returns how many. */
-static size_t penalties(const struct br_plan_curve *c, double order, gsl_vector *out, size_t row)
+static size_t penalties(const struct br_plan_curve *c, double order, double stiffness,
+                        gsl_vector *out, size_t row)
 {
     for (size_t i = 0; i + 1 < c->count; i++) {
         const double slope = br_plan_curve_order(c, (c->at[i] + c->at[i + 1]) / 2);
         gsl_vector_set(out, row++, theory * (slope - order));
         if (i + 2 < c->count) {
             const double next = br_plan_curve_order(c, (c->at[i + 1] + c->at[i + 2]) / 2);
-            gsl_vector_set(out, row++, smoothness * (next - slope));
+            gsl_vector_set(out, row++, stiffness * (next - slope));
         }
     }
     return row;
@@ -145,8 +145,8 @@ static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
             return GSL_EDOM;
         gsl_vector_set(out, row, f);
     }
-    row = penalties(&m->space, problem->p, out, row);
-    row = penalties(&m->time, problem->q, out, row);
+    row = penalties(&m->space, problem->p, problem->smoothness, out, row);
+    row = penalties(&m->time, problem->q, problem->smoothness, out, row);
     gsl_vector_set(out, row, uncorrelated * gsl_vector_get(v, unknowns(m) - 1));
     return GSL_SUCCESS;
 }
@@ -163,16 +163,16 @@ static double least_error_near(const struct br_plan_model *m, double at, bool sp
     return log(least);
 }
 
-static void start(struct br_plan_model *m, gsl_vector *v)
+static void start(struct br_plan_model *m, double atanh_r, gsl_vector *v)
 {
     for (size_t i = 0; i < m->space.count; i++)
         gsl_vector_set(v, i, least_error_near(m, m->space.at[i], true) - 0.35);
     for (size_t j = 0; j < m->time.count; j++)
         gsl_vector_set(v, m->space.count + j, least_error_near(m, m->time.at[j], false) - 0.35);
-    gsl_vector_set(v, unknowns(m) - 1, 0);
+    gsl_vector_set(v, unknowns(m) - 1, atanh_r);
 }
 
-static enum br_status solve(struct problem *problem, struct br_error *err)
+static enum br_status solve(struct problem *problem, double atanh_r, struct br_error *err)
 {
     struct br_plan_model *m = problem->model;
     const size_t rows = m->points + penalty_rows(&m->space) + penalty_rows(&m->time) + 1;
@@ -187,11 +187,15 @@ static enum br_status solve(struct problem *problem, struct br_error *err)
         return br_no_memory(err, "the error model");
     }
     int info = 0;
-    start(m, v);
-    gsl_multifit_nlinear_init(v, &fdf, w);
-    /* A fit that has not come to rest is the best so far: its residuals tell what it is worth. */
-    gsl_multifit_nlinear_driver(60, 1e-6, 1e-8, 1e-8, NULL, NULL, &info, w);
-    spread(problem, gsl_multifit_nlinear_position(w));
+    start(m, atanh_r, v);
+    for (int pass = 0; pass < 2; pass++) {
+        problem->smoothness = pass == 0 ? straight : smoothness;
+        gsl_multifit_nlinear_init(v, &fdf, w);
+        /* One that has not come to rest is the best so far: its residuals tell what it is worth. */
+        gsl_multifit_nlinear_driver(60, 1e-8, 1e-8, 0, NULL, NULL, &info, w);
+        gsl_vector_memcpy(v, gsl_multifit_nlinear_position(w));
+    }
+    spread(problem, v);
     gsl_multifit_nlinear_free(w);
     gsl_vector_free(v);
     return BR_OK;
@@ -226,6 +230,28 @@ static enum br_status lay_out(struct br_plan_model *m, const struct br_plan_poin
     return BR_OK;
 }
 
+/* Where the parts are about to cancel there is more than one minimum: several starts, of which the
+ * best fit counts; r = 0 only where all went astray. */
+static enum br_status solve_from_all(struct problem *problem, struct br_error *err)
+{
+    static const double starts[] = {0, 0.7, -0.7, 0};
+    enum { STARTS = sizeof starts / sizeof *starts };
+    struct br_plan_model *m = problem->model, best = {.scatter = INFINITY};
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < STARTS && !status; i++) {
+        problem->no_r = i + 1 == STARTS;
+        if (problem->no_r && best.scatter <= astray)
+            break;
+        status = solve(problem, starts[i], err);
+        measure_residuals(m);
+        if (!status && !(m->scatter >= best.scatter))
+            best = *m;
+    }
+    *m = best.points ? best : *m;
+    measure_residuals(m);
+    return status;
+}
+
 enum br_status br_plan_model_fit(struct br_plan_model *m, const struct br_plan_point *point,
                                  size_t count, double p, double q, struct br_error *err)
 {
@@ -235,17 +261,9 @@ enum br_status br_plan_model_fit(struct br_plan_model *m, const struct br_plan_p
                        count);
     enum br_status status = lay_out(m, point, count, err);
     gsl_error_handler_t *const before = gsl_set_error_handler_off();
-    struct problem problem = {m, p, q, false};
     if (!status)
-        status = solve(&problem, err);
-    if (!status)
-        measure_residuals(m);
-    problem.no_r = true;
-    if (!status && !(m->scatter <= astray))
-        status = solve(&problem, err);
+        status = solve_from_all(&(struct problem){m, p, q, false, smoothness}, err);
     gsl_set_error_handler(before);
-    if (!status)
-        measure_residuals(m);
     return status;
 }
 
@@ -254,40 +272,4 @@ void br_plan_model_clear(struct br_plan_model *m)
     free(m->point);
     free(m->residual);
     *m = (struct br_plan_model){.r = 0};
-}
-
-/* ---- predictions ---- */
-
-static double excess(const struct br_plan_curve *c, double at)
-{
-    return fmax(0, fmax(c->at[0] - at, at - c->at[c->count - 1]));
-}
-
-struct br_plan_prediction br_plan_model_predict(const struct br_plan_model *m, double x, double y)
-{
-    double nearest = INFINITY, residual = 0;
-    for (size_t i = 0; i < m->points; i++) {
-        const double distance = hypot((m->point[i].x - x) / reach_x, (m->point[i].y - y) / reach_y);
-        if (distance <= nearest) {
-            nearest = distance;
-            residual = m->residual[i];
-        }
-    }
-    const double say = exp(-nearest);
-    const double unknown = m->scatter * sqrt(1 - say * say);
-    const double beyond = beyond_x * excess(&m->space, x) + beyond_y * excess(&m->time, y);
-    return (struct br_plan_prediction){
-        .log_error = br_plan_model_value(m, x, y) + say * residual,
-        .deviation = hypot(hypot(least_deviation * fmin(1, nearest), unknown), beyond),
-    };
-}
-
-struct br_plan_parts br_plan_model_parts(const struct br_plan_model *m, double x, double y)
-{
-    return (struct br_plan_parts){
-        .space = exp(br_plan_curve_value(&m->space, x)),
-        .time = exp(br_plan_curve_value(&m->time, y)),
-        .p = br_plan_curve_order(&m->space, x),
-        .q = br_plan_curve_order(&m->time, y),
-    };
 }

@@ -38,6 +38,21 @@ enum br_status br_plan_add_probes(struct br_plan *plan, struct br_error *err);
 double br_plan_y(const struct br_trial *trial);
 struct br_trial br_plan_trial(const struct br_plan_candidate *candidate);
 
+/* Fits the models of all contenders to their trials so far. Fails with BR_NO_MEMORY. */
+enum br_status br_plan_fit(struct br_plan *plan, struct br_error *err);
+void br_plan_forget(struct br_plan *plan); /* clears them */
+
+/* The best candidates of every contender, by its index: the cheapest (or, for seconds, the most
+ * accurate) safe one, and the most promising gamble; and the least error of all. A candidate
+ * without a contender: none. */
+struct br_plan_table {
+    struct br_plan_candidate safe[BR_MOST_CONTENDERS], gamble[BR_MOST_CONTENDERS], explorer;
+};
+void br_plan_search(const struct br_plan *plan, size_t best, struct br_plan_table *table);
+
+/* What the trial `best` costs: clocks err, so the model has a say, too. Infinite: count. */
+double br_plan_best_seconds(const struct br_plan *plan, size_t best);
+
 /* What to try next (out); nothing where no candidate promises anything. */
 void br_plan_propose(const struct br_plan *plan, struct br_plan_batch *batch);
 

@@ -299,8 +299,9 @@ static const struct planted_bug planted_bugs[] = {
      "-2261.0 / 8211, 1.0 / 4}"},
     {"stage_at_the_end_of_the_step", "solver/stages.c",
      "const double t = br_step_time(step, stage->time);", "const double t = step->to;"},
-    {"adaptive_takes_any_error", "solver/adaptive.c", "if (trial->error <= 1)",
-     "if (trial->error <= 1e9)"},
+    {"adaptive_by_another_tolerance", "solver/adaptive.c",
+     "const double scale = m->method.tolerance * fmax(",
+     "const double scale = 1e4 * m->method.tolerance * fmax("},
 
     /* ---- what is measured ---- */
     {"strain_rate_one_and_a_half_percent_off", "solver/modes.c",

@@ -132,7 +132,7 @@ static const struct {
     {"beamrate tables", " --n", " --n 5,10 --k 0.1,0.05 --reference fine:20,0.05"},
     {" --split", " --n", " --n 10"},
     {"beamrate trade", " --n", " --n 10 --k 0.1,0.05 --methods euler,bdf2 --repeats 1"},
-    {"beamrate plan", " --methods", " --methods euler+implicit,bdf2 --repeats 1"},
+    {"beamrate plan", " --methods", " --methods euler+implicit,adaptive+p2 --repeats 1"},
 };
 
 static const char *shorten(const char *line)

@@ -194,6 +194,31 @@ static void test_looking(void **state)
     assert_true(outcome_of("chatter", 7, &m).end.u_tip == u);
 }
 
+/* lambda of a tip that sticks, inertia and all, and what the derivatives of the equations are for:
+ * few iterations. */
+static void test_reaction(void **state)
+{
+    (void)state;
+    if (!is_there())
+        return;
+    const struct br_method ida = method("ida", 1e-8, NULL), judge = method("adaptive", 1e-11, NULL);
+    struct br_scene scene = br_test_bundled("chatter");
+    struct br_march *a = br_test_march(&scene, 20, 160, &ida);
+    struct br_march *b = br_test_march(&scene, 20, 160, &judge);
+    for (size_t step = 9; step <= 37; step++) { /* 0.2 s to 0.93 s */
+        br_test_advance(a, step);
+        br_test_advance(b, step);
+        const struct br_tip *tip = br_march_tip(b);
+        assert_true(fabs(tip->friction_force) < tip->friction_bound);
+        CLOSE(br_march_tip(a)->friction_force, tip->friction_force, 1e-4 * tip->friction_bound);
+    }
+    const struct br_counts counts = br_march_counts(a);
+    assert_in_range(counts.stages, 1, 2 * counts.steps); /* 1.91 */
+    br_march_free(a);
+    br_march_free(b);
+    br_scene_clear(&scene);
+}
+
 /* Nodal values and strain rates belong to one field. */
 static void test_fields(void **state)
 {
@@ -227,7 +252,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_exact_values), cmocka_unit_test(test_tolerance),
         cmocka_unit_test(test_switches),     cmocka_unit_test(test_regularised),
-        cmocka_unit_test(test_looking),      cmocka_unit_test(test_fields),
+        cmocka_unit_test(test_looking),      cmocka_unit_test(test_reaction),
+        cmocka_unit_test(test_fields),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

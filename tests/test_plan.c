@@ -248,6 +248,24 @@ static void test_coarsest(void **state)
     br_scene_clear(&scene);
 }
 
+/* A judge whose own error depends on the mesh is asked where it is best. */
+static void test_own_error(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("mms_slip");
+    if (!br_judge_best(&scene)) {
+        br_scene_clear(&scene);
+        skip(); /* no libmatheval */
+    }
+    struct br_plan *plan = new_plan(&scene, 1e-5, NAN);
+    MUST(br_plan_make(plan, &err));
+    assert_int_equal(plan->end, BR_PLAN_MET);
+    AT_MOST(br_trial_bound(&plan->trial[plan->chosen], 0), 1e-5);
+    drop(plan);
+    br_scene_clear(&scene);
+}
+
 static void test_refused(void **state)
 {
     (void)state;
@@ -281,7 +299,7 @@ int main(void)
         cmocka_unit_test(test_error_model), cmocka_unit_test(test_residuals),
         cmocka_unit_test(test_cost_model),  cmocka_unit_test(test_promise),
         cmocka_unit_test(test_seconds),     cmocka_unit_test(test_coarsest),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_own_error),   cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
