@@ -22,6 +22,7 @@ static const double after_switch = 0.01; /* of the step before it */
 static const double least_step = 1e-13;  /* of the duration */
 static const double safety = 0.85, most_growth = 5, most_shrinking = 0.1;
 static const double idle_growth = 1.4;       /* less is not worth new tables */
+static const double search_from = 1e-3;      /* of a step: less is too short for its force */
 static const double switch_accuracy = 1e-12; /* of the step in which it lies */
 static const size_t most_stalled = 200;
 static const double met_switch = 1e-10; /* of the margin at the step's beginning */
@@ -32,6 +33,7 @@ struct br_adaptive {
     size_t since;          /* steps since the start or the last switch */
     size_t stalled;        /* steps in a row that a switch has cut to next to nothing */
     bool known;            /* the branches of the laws */
+    bool free;             /* no branch is held */
     enum br_regime old[2]; /* those in front of the last switch */
     struct br_switch found[BR_MOST_SWITCHES];
     size_t found_count; /* also of those that are not kept */
@@ -95,7 +97,7 @@ static enum br_status try_fields(struct br_march *m, const struct br_step *step,
         struct br_part *part = &m->part[kind];
         if (!part->modelled)
             continue;
-        m->held[kind] = has_branches(m, (enum br_field_kind)kind);
+        m->held[kind] = !m->adaptive->free && has_branches(m, (enum br_field_kind)kind);
         m->margins[kind].count = 0;
         if (m->held[kind] && m->adaptive->since > 0) /* else it is that of another branch */
             br_margins_add(&m->margins[kind], 0, br_march_margin(m, (enum br_field_kind)kind));
@@ -140,7 +142,8 @@ struct search {
     struct br_march *march;
     const struct br_tip *tip; /* where the step begins */
     enum br_field_kind kind;
-    double beyond; /* the margin behind the switch */
+    double beyond;  /* the margin behind the switch */
+    bool bracketed; /* the margin was in front of the switch at first */
     struct trial trial;
     enum br_status status;
     struct br_error *err;
@@ -174,19 +177,23 @@ static enum br_status find_switch(struct search *s, double longest)
     if (!solver)
         return br_no_memory(s->err, "a search for a switch");
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
-    const double least = least_step * s->march->scene->duration;
+    const double least = fmax(least_step * s->march->scene->duration, search_from * longest);
     int code = gsl_root_fsolver_set(solver, &f, least, longest);
+    s->bracketed = code == 0;
     double k = least;
     for (int i = 0; i < 60 && !code && !s->status; i++) {
         code = gsl_root_fsolver_iterate(solver);
         k = fmax(gsl_root_fsolver_x_lower(solver), least);
-        if (!(gsl_root_fsolver_x_upper(solver) - k > fmax(switch_accuracy * longest, least)))
+        if (!(gsl_root_fsolver_x_upper(solver) - k > switch_accuracy * longest))
             break;
     }
     gsl_set_error_handler(handler);
     gsl_root_fsolver_free(solver);
+    s->march->adaptive->free =
+        !s->bracketed; /* off the branch at once: as the laws themselves say */
     if (!s->status)
         margin_after(k, s);
+    s->march->adaptive->free = false;
     return s->status;
 }
 
@@ -279,15 +286,20 @@ static enum br_status stop_at_switch(struct br_march *m, const struct br_tip *ti
                                      struct br_error *err)
 {
     const double dip = br_margins_dip(&m->margins[kind]), k = dip * trial->k;
-    struct search search = {m, tip, kind, br_march_margin(m, kind), *trial, BR_OK, err};
+    const double end = br_march_margin(m, kind), whole = trial->k;
+    struct search search = {
+        .march = m, .tip = tip, .kind = kind, .beyond = end, .trial = *trial, .err = err};
     if (!(dip > 0))
         return BR_OK;
     if (dip < 1)
         search.beyond = margin_after(k, &search);
     if (!search.status && search.beyond < 0) {
         search.status = find_switch(&search, k);
-        *switched = true;
+        *switched |= search.bracketed || end < 0;
     }
+    /* Off the branch from the first moment on, but on it at the end: such a beginning dies away. */
+    if (!search.status && search.beyond < 0 && !search.bracketed && !(end < 0))
+        margin_after(whole, &search);
     *trial = search.trial;
     return search.status;
 }
