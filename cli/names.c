@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/names.h"
 
+#include "study/contender.h"
+#include "study/norm.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -85,4 +88,17 @@ const char *br_format_names(void)
     for (const struct br_emitter *const *e = br_emitters; *e; e++)
         join(text, sizeof text, (*e)->name);
     return text;
+}
+
+void br_print_contender_words(FILE *out)
+{
+    char words[256];
+    fprintf(out, "\nA method's name: these words, joined by '+', at most one of a kind:\n");
+    for (size_t i = 0; i < br_contender_kinds(); i++) {
+        const char *title = br_contender_kind(i, words, sizeof words);
+        fprintf(out, "  %-30s %s\n", title, words);
+    }
+    fprintf(out, "Norms (--norm):\n");
+    for (const struct br_norm *const *n = br_norms; *n; n++)
+        fprintf(out, "  %-12s %s\n", (*n)->name, (*n)->title);
 }

@@ -3,6 +3,8 @@
 #ifndef BR_NAMES_H
 #define BR_NAMES_H
 
+#include <stdio.h>
+
 const char *br_scheme_names(void);
 const char *br_solver_names(void);
 const char *br_kernel_names(void); /* those that are available here */
@@ -11,5 +13,8 @@ const char *br_friction_names(void);
 const char *br_judge_names(void);
 const char *br_norm_names(void);
 const char *br_format_names(void);
+
+/* Below the help of commands that compare methods: the words of their names, and the norms. */
+void br_print_contender_words(FILE *out);
 
 #endif

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/names.h"
 #include "cli/number_option.h"
 #include "cli/suggest.h"
 #include "tables/plan_emitter.h"
@@ -23,15 +24,7 @@ enum { HELP = 1 };
 
 static void print_names(FILE *out)
 {
-    char words[256];
-    fprintf(out, "\nA method's name: these words, joined by '+', at most one of a kind:\n");
-    for (size_t i = 0; i < br_contender_kinds(); i++) {
-        const char *title = br_contender_kind(i, words, sizeof words);
-        fprintf(out, "  %-30s %s\n", title, words);
-    }
-    fprintf(out, "Norms (--norm):\n");
-    for (const struct br_norm *const *n = br_norms; *n; n++)
-        fprintf(out, "  %-12s %s\n", (*n)->name, (*n)->title);
+    br_print_contender_words(out);
     fprintf(out, "Formats (--format):\n ");
     for (const struct br_plan_emitter *const *e = br_plan_emitters; *e; e++)
         fprintf(out, " %s", (*e)->name);
