@@ -24,6 +24,7 @@ static const double safety = 0.85, most_growth = 5, most_shrinking = 0.1;
 static const double idle_growth = 1.4;       /* less is not worth new tables */
 static const double search_from = 1e-3;      /* of a step: less is too short for its force */
 static const double switch_accuracy = 1e-12; /* of the step in which it lies */
+static const double least_progress = 1e-9;   /* of the duration, between two switches */
 static const size_t most_stalled = 200;
 static const double met_switch = 1e-10; /* of the margin at the step's beginning */
 
@@ -329,7 +330,7 @@ static enum br_status check_progress(struct br_march *m, const struct trial *tri
                                      struct br_error *err)
 {
     struct br_adaptive *a = m->adaptive;
-    const bool moved = !switched || trial->k > 10 * least_step * m->scene->duration;
+    const bool moved = !switched || trial->k > least_progress * m->scene->duration;
     a->stalled = moved ? 0 : a->stalled + 1;
     if (a->stalled < most_stalled)
         return BR_OK;
@@ -337,7 +338,7 @@ static enum br_status check_progress(struct br_march *m, const struct trial *tri
                    "scheme %s: at t = %.17g s %zu switches in a row lie within %g s: no branch of "
                    "the laws at the tip holds",
                    m->method.scheme->name, a->now, a->stalled,
-                   (double)a->stalled * 10 * least_step * m->scene->duration);
+                   (double)a->stalled * least_progress * m->scene->duration);
 }
 
 /* Goes on by at most `longest`, s. */
