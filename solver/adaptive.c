@@ -2,14 +2,16 @@
 /* Steps by a tolerance, and the times of switching.
  *
  * Between switches the laws at the tip are smooth: open or closed, stick, slip up or down. So a
- * step holds the branch on which it began, through all its stages, and keeps its order. At its end
- * each branch has a margin that is not negative while it is the right one: the gap or the
- * penetration, h - |lambda| of a tip that sticks, the velocity of one that slips. Where one is
- * negative, the step is taken back and its length found at which the margin is zero; the next step
- * then finds its branches by the laws themselves, in its first stage, with a length that is small.
+ * step holds the branch on which it began, through all its stages, and keeps its order. Each branch
+ * has a margin that is not negative while it is the right one: the gap or the penetration, h -
+ * |lambda| of a tip that sticks, the velocity of one that slips. Where it is negative at the step's
+ * end, at a stage or between them (margins.h), the step is taken back and its length found at which
+ * the margin is zero; the next step then finds its branches by the laws themselves, in its first
+ * stage, with a length that is small. Where a branch is wrong at once, no search can begin: a small
+ * step is taken by the laws themselves.
  *
- * The error of a step is estimated in the strains (u_x, w_xx) of displacement, relative to the
- * largest seen so far. */
+ * The error of a step is estimated in strains (part.h), relative to the largest so far, or to that
+ * of a rough march (rough_size.c). */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
 #include <math.h>
@@ -30,7 +32,7 @@ static const double met_switch = 1e-10; /* of the margin at the step's beginning
 
 struct br_adaptive {
     double now, next;      /* time reached and length of the next step, s */
-    double largest[2];     /* strain of each field so far */
+    double largest[2];     /* strain of each field so far, or of a rough march */
     size_t since;          /* steps since the start or the last switch */
     size_t stalled;        /* steps in a row that a switch has cut to next to nothing */
     bool known;            /* the branches of the laws */
