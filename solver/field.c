@@ -52,6 +52,13 @@ size_t br_field_unknowns(const struct br_field *field)
     return field->kind == BR_AXIAL && !br_field_is_quadratic(field) ? 1 : 2;
 }
 
+double br_field_lowest_mode(const struct br_field *field)
+{
+    const double length = (double)field->n * field->h, square = length * length;
+    return field->kind == BR_AXIAL ? 2.467401100272340 / square
+                                   : 12.36236336833 / (square * square);
+}
+
 size_t br_field_size(const struct br_field *field)
 {
     return br_field_unknowns(field) * (field->n + 1);

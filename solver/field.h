@@ -40,6 +40,10 @@ static inline bool br_field_is_quadratic(const struct br_field *field)
 /* Unknowns a node, or what deforms an element: 1 axial, 2 bending; 2 axial if quadratic. */
 size_t br_field_unknowns(const struct br_field *field);
 
+/* mu^2 of the lowest mode with a free tip, so that its elastic frequency is the root of a mu^2 /
+ * rho: (pi/2)^2 / L^2 axial, 1.875^4 / L^4 bending; 1/m^2 or 1/m^4. */
+double br_field_lowest_mode(const struct br_field *field);
+
 /* Length of a nodal array, clamped node included: unknowns * (n + 1). */
 size_t br_field_size(const struct br_field *field);
 

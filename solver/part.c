@@ -218,9 +218,7 @@ void br_part_accept(struct br_part *part, const struct br_stages *stages, bool s
  * which swings or creeps to there. */
 static double reach_of_rate(const struct br_field *f)
 {
-    const double length = (double)f->n * f->h, square = length * length;
-    const double number =
-        f->kind == BR_AXIAL ? 2.467401100272340 / square : 12.36236336833 / (square * square);
+    const double number = br_field_lowest_mode(f);
     return fmin(sqrt(f->density / (f->stiffness * number)), f->density / (f->viscosity * number));
 }
 

@@ -48,8 +48,9 @@ enum br_status br_part_predict(struct br_part *part, double t, double *velocity,
  * anew. */
 void br_part_accept(struct br_part *part, const struct br_stages *stages, bool switched);
 
-/* Sizes (out) of the strain by displacement of the error's estimate, and of the state, as
- * br_field_solver's size has them. The last stage has not been followed by another. */
+/* Sizes (out), as br_field_solver's size has them, of the error's estimate, the larger of its
+ * strain by displacement and of what its strain rate leads to, and of the state's strain by
+ * displacement. The last stage has not been followed by another. */
 void br_part_estimate(struct br_part *part, const struct br_stages *stages, double *error,
                       double *state);
 

@@ -14,14 +14,10 @@ static double plain_round_off(const struct br_field *field, const struct br_line
 }
 
 /* How much larger the strain g is than the increment that it leads to, in the lowest mode of free
- * vibration: rho / (k (c + k a) mu^2), mu^2 being the mode's number, (pi/2)^2 / L^2 axial
- * and 1.875^4 / L^4 bending. */
+ * vibration: rho / (k (c + k a) mu^2). */
 static double excess(const struct br_field *f)
 {
-    const double length = (double)f->n * f->h, square = length * length;
-    const double number =
-        f->kind == BR_AXIAL ? 2.467401100272340 / square : 12.36236336833 / (square * square);
-    return f->density / (f->k * (f->viscosity + f->k * f->stiffness) * number);
+    return f->density / (f->k * (f->viscosity + f->k * f->stiffness) * br_field_lowest_mode(f));
 }
 
 /* The joins add that of their sums: where inertia rules, pieces that are free at one end answer by
