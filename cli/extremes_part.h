@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The parts of `beamrate extremes`: a registry. A part computes by a module of study/, says what it
+ * has found by one of tables/, and draws it by plots/. */
+#ifndef BR_EXTREMES_PART_H
+#define BR_EXTREMES_PART_H
+
+#include <stdint.h>
+
+#include "plots/chart.h"
+#include "plots/heat.h"
+#include "study/study.h"
+#include "tables/sheet.h"
+
+/* What is asked for. All borrowed; 0 or NULL: the part's own choice. */
+struct br_extremes_job {
+    size_t cases;  /* of the map */
+    uint64_t seed; /* of what is drawn at random */
+    int threads;   /* 0: all cores */
+    const size_t *n;
+    const double *k; /* s */
+    size_t n_count, k_count;
+    int rounding;       /* as fesetround takes it: of the marches, not of their judges */
+    const char *kept;   /* path of a file in which a part that takes long keeps what is done, so
+                           that it can be resumed; NULL: nothing is kept */
+    const char *folder; /* for other files of the part (reproducer scenes): the staging folder */
+    const struct br_observer *observer; /* NULL: nobody */
+};
+
+/* A picture: one of them is not NULL. Owned. */
+struct br_extremes_picture {
+    struct br_chart *chart;
+    struct br_heat *heat;
+};
+
+struct br_extremes_part {
+    const char *name;  /* one word, as on the command line, and of its files */
+    const char *title; /* one line for a person */
+    /* Computes; *result (out) is owned by the caller. What is found wrong is a result, no failure.
+     * Fails with BR_BAD_INPUT, BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */
+    enum br_status (*run)(const struct br_extremes_job *job, void **result, struct br_error *err);
+    void (*free)(void *result); /* accepts NULL */
+    /* Fills caption, tables and sentences, which borrow from the result. */
+    void (*page)(const void *result, struct br_page *page);
+    /* Picture i, 0, 1, ...; both NULL: there are no more. Fails with BR_NO_MEMORY. */
+    enum br_status (*draw)(const void *result, size_t i, struct br_extremes_picture *picture,
+                           struct br_error *err);
+    /* BR_OK, or BR_VERDICT with what has been found wrong. */
+    enum br_status (*verdict)(const void *result, struct br_error *err);
+};
+
+/* NULL-terminated, in the order in which they run. */
+extern const struct br_extremes_part *const br_extremes_parts[];
+const struct br_extremes_part *br_extremes_part_find(const char *name);
+
+#endif
