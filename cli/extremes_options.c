@@ -16,7 +16,7 @@ static const char usage[] =
     "[PART...] [OPTION...]\n\nWhere does it break, and does it say so? Each part goes to one kind "
     "of extremes, compares what\nthe theory predicts with what is measured, and writes tables and "
     "pictures. The verdict fails where\na result is wrong and nothing said so. Without a PART all "
-    "of those below are tried.\n";
+    "of those below are tried.\n\nExamples:\n  beamrate extremes\n";
 
 /* By the mode that fesetround takes; nearest is the usual one. */
 static const struct {
