@@ -187,13 +187,27 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
         snprintf(p->why, sizeof p->why, "cheap marches do not tell the order of convergence");
 }
 
+double br_predict_round_off(const struct br_outlook *o)
+{
+    double largest = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_field field = br_field_of_scene(o->scene, (enum br_field_kind)kind, o->n,
+                                                  br_time_step(o->scene, o->steps));
+        if (kind == BR_AXIAL)
+            field.degree = o->method->axial_degree;
+        if (kind == BR_AXIAL ? o->scene->axial.modelled : o->scene->bending.modelled)
+            largest = fmax(largest, o->method->solver->round_off(&field, &o->method->linear));
+    }
+    return largest;
+}
+
 enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction *p,
                           struct br_error *err)
 {
     const double begun = br_seconds();
     struct br_probe_set set;
     struct br_error failure = {0};
-    *p = (struct br_prediction){0};
+    *p = (struct br_prediction){.round_off = br_predict_round_off(outlook)};
     const enum br_status status = br_probes_hold(&set, outlook, &failure);
     if (!status)
         judge(p, &set);

@@ -27,12 +27,17 @@ struct br_prediction {
     char why[200]; /* not known: why */
     bool bounded;  /* low and high of `whole` mean something, also where it is not known */
     struct br_predicted space, time, whole;
-    double seconds; /* that the prediction took */
+    double round_off; /* relative to the exact discrete solution: br_predict_round_off */
+    double seconds;   /* that the prediction took */
 };
 
 /* Predicts (out). Takes some milliseconds, and less than the run itself where that takes longer;
  * what it cannot tell is no failure. Fails with BR_NO_MEMORY. */
 enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction *prediction,
                           struct br_error *err);
+
+/* Round-off of the displacements, relative to the exact discrete solution, as the linear solver
+ * predicts it: the larger of the modelled fields'. */
+double br_predict_round_off(const struct br_outlook *outlook);
 
 #endif
