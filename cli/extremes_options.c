@@ -66,6 +66,14 @@ static void print_parts(FILE *out)
 
 /* ---- parts ---- */
 
+const struct br_extremes_part *br_extremes_part_find(const char *name)
+{
+    for (const struct br_extremes_part *const *p = br_extremes_parts; *p; p++)
+        if (strcmp((*p)->name, name) == 0)
+            return *p;
+    return NULL;
+}
+
 static enum br_status unknown_part(const char *word, struct br_error *err)
 {
     const char *names[BR_EXTREMES_MOST];
@@ -134,7 +142,13 @@ enum br_status br_extremes_options_parse(int argc, const char **argv, struct br_
         POPT_TABLEEND,
     };
     return br_parse(argc, argv,
-                    &(struct br_parse){table, usage, print_parts, &o->help, read_parts, o}, err);
+                    &(struct br_parse){.table = table,
+                                       .usage = usage,
+                                       .print_below = print_parts,
+                                       .help = &o->help,
+                                       .read_words = read_parts,
+                                       .self = o},
+                    err);
 }
 
 void br_extremes_options_clear(struct br_extremes_options *o)
