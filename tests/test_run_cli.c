@@ -278,7 +278,7 @@ static void test_warnings(void **state)
     AT_MOST(0.05, json_real_value(json_object_get(whole, "error")));
     json_decref(root);
 
-    cli_run_line("run example2 --n 3200 --k 0.01 --solver banded", &apart, &out);
+    cli_run_line("run example2 --n 3200 --k 0.001 --solver banded", &apart, &out);
     assert_int_equal(out.exit_code, 0);
     assert_true(cli_file_contains("errors.txt", "round-off of --solver banded at n = 3200"));
     assert_true(cli_file_contains("errors.txt", "--solver riccati ("));
