@@ -219,7 +219,11 @@ void br_part_accept(struct br_part *part, const struct br_stages *stages, bool s
 static double reach_of_rate(const struct br_field *f)
 {
     const double number = br_field_lowest_mode(f);
-    return fmin(sqrt(f->density / (f->stiffness * number)), f->density / (f->viscosity * number));
+    if (f->density == 0)
+        return 0; /* a rate that inertia does not keep leads nowhere */
+    const double swing = f->stiffness > 0 ? sqrt(f->density / (f->stiffness * number)) : INFINITY;
+    const double creep = f->viscosity > 0 ? f->density / (f->viscosity * number) : INFINITY;
+    return fmin(swing, creep);
 }
 
 void br_part_estimate(struct br_part *part, const struct br_stages *stages, double *error,
