@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Other steps and sums of states, for schemes of several stages; see pieces.h. */
+#include <fenv.h>
 #include <math.h>
 
 #include "solver/pieces_state.h"
@@ -122,20 +123,30 @@ static void add_squares(const struct br_strip *strip, size_t numbers, const doub
         }
 }
 
+/* What overflows here is summed again, and no reason to stop. */
+static void sum_squares(const struct br_pieces *s, size_t state, double sum[2])
+{
+    const double *at = s->states.of[state];
+    fenv_t environment;
+    feholdexcept(&environment);
+    sum[0] = sum[1] = 0;
+    for (int i = 0; i < s->strands; i++) {
+        s->kernel->square(&s->strand[i].strip, at, sum);
+        at += strand_size(s, &s->strand[i]);
+    }
+    fesetenv(&environment);
+}
+
 /* The square of u_x over an element is kappa^2 / h, of w_xx in the units of lq.h (kappa_0^2 +
  * kappa_1^2) / h^3. */
 void br_pieces_size(void *self, size_t state, double size[2])
 {
     const struct br_pieces *s = self;
     const double least = 1e-280, most = 1e280; /* of squares that have lost nothing */
-    double sum[2] = {0};
+    double sum[2];
     long double wide[2] = {0};
+    sum_squares(s, state, sum);
     const double *at = s->states.of[state];
-    for (int i = 0; i < s->strands; i++) {
-        s->kernel->square(&s->strand[i].strip, at, sum);
-        at += strand_size(s, &s->strand[i]);
-    }
-    at = s->states.of[state];
     const bool told = isgreater(fmin(sum[0], sum[1]), least) && isless(fmax(sum[0], sum[1]), most);
     for (int i = 0; i < s->strands && !told; i++) {
         const size_t numbers = strand_size(s, &s->strand[i]);
