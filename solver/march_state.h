@@ -71,6 +71,12 @@ void br_march_accept(struct br_march *march, enum br_field_kind kind,
 enum br_status br_march_check_finite(const struct br_march *march, enum br_field_kind kind,
                                      double t, struct br_error *err);
 
+/* Refuses (BR_NOT_FINITE) a march that has come to its end in a field where numbers end, too: with
+ * a value that is not finite anywhere, or moved by so little that its digits are lost to underflow.
+ */
+enum br_status br_march_check_range(const struct br_march *march, enum br_field_kind kind,
+                                    struct br_error *err);
+
 /* About the largest strains (out) until the end, by a few Euler steps; the march is then where it
  * was. Fails as br_march_step. */
 enum br_status br_rough_size(struct br_march *march, double largest[2], struct br_error *err);
