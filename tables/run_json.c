@@ -149,7 +149,7 @@ static json_t *energies(const struct br_run_report *p)
         return o;
     put(o, "work_of_loads", two(p, p->work.loads));
     put(o, "lost_to_viscosity", two(p, p->work.viscous));
-    put_number(o, "lost_to_scheme", p->work.scheme);
+    put_number(o, "lost_to_scheme", p->work.scheme[0] + p->work.scheme[1]);
     put(o, "lost_to_scheme_is_the_remainder", json_boolean(p->work.remainder));
     put(o, "lost_to_scheme_by_contact",
         if_marched(p->marched.contact.modelled && !p->work.remainder, p->work.scheme_contact));

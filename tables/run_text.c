@@ -182,7 +182,7 @@ static void works(FILE *out, const struct br_run_report *p)
     two(out, p, "lost to viscosity", w->viscous);
     if (p->marched.friction.law != BR_FRICTIONLESS)
         one(out, "lost to friction", w->friction);
-    one(out, "lost to the scheme", w->scheme);
+    two(out, p, "lost to the scheme", w->scheme);
     if (w->remainder) {
         fprintf(out, "  The works are sums by the trapezoidal rule; what is lost to the scheme is "
                      "what they leave of the\n  balance, that rule's error included.\n");
