@@ -83,9 +83,21 @@ struct br_counts br_march_counts(const struct br_march *m)
 
 /* ---- looking ---- */
 
-void br_march_watch(struct br_march *m, const struct br_march_watcher *watcher)
+bool br_march_watch(struct br_march *m, const struct br_march_watcher *watcher)
 {
-    m->watcher = watcher ? *watcher : (struct br_march_watcher){0};
+    if (m->watchers == BR_MOST_WATCHERS)
+        return false;
+    m->watcher[m->watchers++] = *watcher;
+    return true;
+}
+
+void br_march_unwatch(struct br_march *m, const void *self)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < m->watchers; i++)
+        if (m->watcher[i].self != self)
+            m->watcher[left++] = m->watcher[i];
+    m->watchers = left;
 }
 
 const char *br_regime_name(enum br_regime regime)

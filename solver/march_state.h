@@ -42,7 +42,8 @@ struct br_march {
     struct br_counts counts;         /* what the parts do not count */
     struct br_adaptive *adaptive;    /* NULL: fixed steps */
     void *foreign;                   /* of a scheme's own integrator; NULL: none */
-    struct br_march_watcher watcher; /* all NULL: nobody */
+    struct br_march_watcher watcher[BR_MOST_WATCHERS];
+    size_t watchers;
 };
 
 /* Whether a scheme takes both fields through its steps together. */
