@@ -4,7 +4,10 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "study/warn_contact.h"
+
 const struct br_warning_source *const br_warning_sources[] = {
+    &br_warn_contact,
     NULL,
 };
 
