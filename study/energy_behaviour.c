@@ -2,6 +2,7 @@
 #include "study/energy_behaviour.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -4,9 +4,12 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "study/warn_contact.h"
+
 extern const struct br_warning_source br_warn_prediction;
 
 const struct br_warning_source *const br_warning_sources[] = {
+    &br_warn_contact,
     &br_warn_prediction,
     NULL,
 };
