@@ -55,12 +55,12 @@ struct br_extreme_part {
 /* What was done on purpose beside drawing numbers. */
 enum br_extreme_trick {
     BR_TRICK_NONE,
-    BR_TRICK_AT_LIMIT,     /* c_H at the lagged contact's stability limit times 1 +- little */
-    BR_TRICK_AT_REACTION,  /* Tresca's bound is the first step's reaction to the last bit */
-    BR_TRICK_REVERSAL,     /* forces oscillate within a step */
-    BR_TRICK_GRAZING,      /* the gap is the tip's largest static way to the last digits */
-    BR_TRICK_DENORMAL,     /* loads of about 1e-310 */
-    BR_TRICK_ZEROS,        /* some numbers that may be 0 are */
+    BR_TRICK_AT_LIMIT,    /* c_H at the lagged contact's stability limit times 1 +- little */
+    BR_TRICK_AT_REACTION, /* Tresca's bound is the first step's reaction to the last bit */
+    BR_TRICK_REVERSAL,    /* forces oscillate within a step */
+    BR_TRICK_GRAZING,     /* the gap is the tip's largest static way to the last digits */
+    BR_TRICK_DENORMAL,    /* loads of about 1e-310 */
+    BR_TRICK_ZEROS,       /* some numbers that may be 0 are */
     BR_TRICKS
 };
 const char *br_extreme_trick_name(enum br_extreme_trick trick);

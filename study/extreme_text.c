@@ -86,12 +86,14 @@ static void add_start(struct text *t, const struct br_extreme_case *c, enum br_f
     if (s->size == 0)
         return;
     if (kind == BR_AXIAL) {
-        add(t, s->waved ? "  %s: %.17g*sin(5*pi*x/(2*%.17g)) [%s]\n" : "  %s: %.17g*(x/%.17g) [%s]\n",
+        add(t,
+            s->waved ? "  %s: %.17g*sin(5*pi*x/(2*%.17g)) [%s]\n" : "  %s: %.17g*(x/%.17g) [%s]\n",
             key, s->size, c->length, rate ? "m/s" : "m");
         return;
     }
-    add(t, s->waved ? "  %s: %.17g*(1 - cos(5*pi*x/(2*%.17g))) [%s]\n"
-                    : "  %s: %.17g*(x/%.17g)^2 [%s]\n",
+    add(t,
+        s->waved ? "  %s: %.17g*(1 - cos(5*pi*x/(2*%.17g))) [%s]\n"
+                 : "  %s: %.17g*(x/%.17g)^2 [%s]\n",
         key, s->size, c->length, rate ? "m/s" : "m");
     if (s->waved)
         add(t, "  %s_slope: %.17g*5*pi/(2*%.17g)*sin(5*pi*x/(2*%.17g)) [%s]\n", key, s->size,
@@ -148,8 +150,9 @@ void br_extreme_command(const struct br_extreme_case *c, const char *name,
 {
     struct text t = {text, BR_EXTREME_COMMAND};
     const struct br_method *m = &c->method;
-    add(&t, "beamrate run %s --check --n %zu --k %.17g --scheme %s --solver %s --contact %s "
-            "--friction %s",
+    add(&t,
+        "beamrate run %s --check --n %zu --k %.17g --scheme %s --solver %s --contact %s "
+        "--friction %s",
         name, c->n, c->duration / (double)c->steps, m->scheme->name, m->solver->name,
         m->contact->name, m->friction->name);
     if (m->axial_degree != 1)

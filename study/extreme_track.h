@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What one march comes to, at a few times and places, so that marches can be compared: on finer
+ * meshes, by smaller steps, in other units, and with the exact solution. */
+#ifndef BR_EXTREME_TRACK_H
+#define BR_EXTREME_TRACK_H
+
+#include "reference/exact/exact.h"
+#include "study/run.h"
+
+enum { BR_TRACK_LEVELS = 8, BR_TRACK_POINTS = 16 };
+
+/* Where is looked: levels of `steps`, nodes of n elements, each ascending, the last being the end.
+ */
+struct br_track_places {
+    size_t n, steps;
+    size_t level[BR_TRACK_LEVELS], levels;
+    size_t node[BR_TRACK_POINTS], points;
+};
+struct br_track_places br_track_places(size_t n, size_t steps);
+
+struct br_track {
+    struct br_track_places places;
+    double value[2][BR_TRACK_LEVELS][BR_TRACK_POINTS]; /* displacements by br_field_kind, m */
+    size_t seen;                                       /* levels */
+    bool finite;                                       /* all nodal values there */
+    double largest[2];                                 /* of all nodal displacements there, m */
+    struct br_run_report report;                       /* its scenes are gone */
+    struct br_error failure;                           /* BR_OK; why it did not begin, or stopped */
+    bool begun;
+};
+
+/* What is marched. Borrowed. */
+struct br_track_request {
+    const struct br_scene *scene;
+    unsigned wanted;
+    const struct br_method *method;
+    const struct br_track_places *places;
+    size_t finer, shorter; /* elements and steps are so many times the places' */
+    bool check;            /* the certificate of every step */
+    int rounding;          /* as fesetround takes it */
+};
+
+/* Marches; *track (out, large: on the heap). A march that fails is a result: only BR_NO_MEMORY
+ * fails. */
+enum br_status br_track_march(const struct br_track_request *request, struct br_track *track,
+                              struct br_error *err);
+
+/* The same by the exact solution; its failures are in track->failure. steps: most steps and
+ * attempts of it. modelled: the scene's part that is marched. */
+enum br_status br_track_exact(const struct br_scene *modelled, const struct br_track_places *places,
+                              size_t steps, struct br_track *track, struct br_error *err);
+
+/* The largest difference of a field over the largest of its values in `reference` (in metres times
+ * `unit`, which `track` is in); 0 where both are zero, NAN where one is not finite or short. */
+double br_track_distance(const struct br_track *track, const struct br_track *reference,
+                         enum br_field_kind kind, double unit);
+
+#endif
