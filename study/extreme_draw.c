@@ -80,7 +80,8 @@ static void draw_natural_laws(struct br_random *r, struct br_extreme_case *c)
 {
     const struct br_extreme_part *u = &c->part[BR_AXIAL], *w = &c->part[BR_BENDING];
     const double push = fabs(u->load.size) * c->length / 2 + fabs(u->tip_force.size);
-    const double way = push * c->length / fmax(u->stiffness, DBL_MIN);
+    const double pushed = push * c->length / fmax(u->stiffness, DBL_MIN);
+    const double way = pushed > 0 ? pushed : 1e-3 * c->length;
     const double reaction = 0.375 * fabs(w->load.size) * c->length + fabs(w->tip_force.size);
     c->contact = u->modelled && !br_random_once_in(r, 5);
     c->gap = br_random_once_in(r, 3) ? 0 : way * br_random_decades(r, -6, 1);
@@ -94,7 +95,7 @@ static void draw_natural_laws(struct br_random *r, struct br_extreme_case *c)
         c->law = BR_TRESCA;
     c->friction = reaction * br_random_decades(r, -2, 1);
     if (c->law == BR_COULOMB)
-        c->friction /= fmax(way, DBL_MIN) * br_random_decades(r, -2, 0);
+        c->friction /= way * br_random_decades(r, -2, 0);
 }
 
 static void draw_natural(struct br_random *r, struct br_extreme_case *c)
@@ -208,7 +209,7 @@ double br_extreme_work(const struct br_extreme_case *c)
 }
 
 /* Most of the elements times linear solves of a case. */
-static const double most_work = 6e5;
+static const double most_work = 2e5;
 
 static void draw_resolution(struct br_random *r, struct br_extreme_case *c)
 {

@@ -17,8 +17,8 @@ static const double grown = 10;         /* relative error that is no inaccuracy 
 static const double no_digit = 0.05;    /* predicted round-off that leaves none */
 static const double noise = 1e-12;      /* of data, more than other units do to them */
 static const double magnified = 8;      /* between two such noises */
-static const double refined_work = 6e6; /* elements times linear solves */
-static const size_t patience = 3000;    /* steps of the exact solution, and of adaptive schemes */
+static const double refined_work = 2e6; /* elements times linear solves */
+static const size_t patience = 4000;    /* steps of the exact solution, and of adaptive schemes */
 
 const char *br_extreme_word(enum br_extreme_class which)
 {
