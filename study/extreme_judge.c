@@ -6,19 +6,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/extreme_random.h"
-#include "study/extreme_track.h"
+#include "study/extreme_trial.h"
 #include "study/model.h"
-#include "study/rescale.h"
 #include "study/scene_file.h"
 
-static const double accurate = 0.05;    /* relative, of displacements */
-static const double grown = 10;         /* relative error that is no inaccuracy any more */
-static const double no_digit = 0.05;    /* predicted round-off that leaves none */
-static const double noise = 1e-12;      /* of data, more than other units do to them */
-static const double magnified = 8;      /* between two such noises */
-static const double refined_work = 2e6; /* elements times linear solves */
-static const size_t patience = 4000;    /* steps of the exact solution, and of adaptive schemes */
+static const double no_digit = 0.05; /* predicted round-off that leaves none */
 
 const char *br_extreme_word(enum br_extreme_class which)
 {
@@ -46,21 +38,8 @@ const char *br_extreme_by_name(enum br_extreme_by by)
     return names[by];
 }
 
-struct trial {
-    const struct br_extreme_case *one;
-    const struct br_extreme_court *court;
-    struct br_extreme_verdict *verdict;
-    struct br_scene scene, marched; /* the latter borrows */
-    struct br_method method;
-    struct br_track_places places;
-    struct br_track *own, *other;
-    struct br_warnings warnings;
-    bool done;
-};
-
-__attribute__((format(printf, 3, 4))) static void decide(struct trial *t,
-                                                         enum br_extreme_class which,
-                                                         const char *format, ...)
+void br_extreme_decide(struct br_extreme_trial *t, enum br_extreme_class which, const char *format,
+                       ...)
 {
     va_list args;
     va_start(args, format);
@@ -73,25 +52,36 @@ __attribute__((format(printf, 3, 4))) static void decide(struct trial *t,
     t->done = true;
 }
 
-static bool warned_of(const struct trial *t, enum br_warning_kind kind)
+static bool warned_of(const struct br_extreme_trial *t, enum br_warning_kind kind)
 {
     return br_warnings_find(&t->warnings, kind) != NULL;
+}
+
+struct br_track_request br_extreme_request(const struct br_extreme_trial *t)
+{
+    return (struct br_track_request){.scene = &t->scene,
+                                     .wanted = t->one->wanted,
+                                     .method = &t->method,
+                                     .places = &t->places,
+                                     .finer = 1,
+                                     .shorter = 1,
+                                     .rounding = t->court->rounding};
 }
 
 /* ---- before the march ---- */
 
 /* What the program does with a failure of its own: it says so. */
-static enum br_status refuse(struct trial *t, enum br_status status, const struct br_error *said,
-                             struct br_error *err)
+static enum br_status refuse(struct br_extreme_trial *t, enum br_status status,
+                             const struct br_error *said, struct br_error *err)
 {
     if (status == BR_NO_MEMORY)
         return br_fail(err, status, "%s", said->message);
-    decide(t, status == BR_INTERRUPTED ? BR_EXTREME_UNJUDGED : BR_EXTREME_REFUSED, "%.180s",
-           said->message);
+    br_extreme_decide(t, status == BR_INTERRUPTED ? BR_EXTREME_UNJUDGED : BR_EXTREME_REFUSED,
+                      "%.180s", said->message);
     return BR_OK;
 }
 
-static enum br_status read_case(struct trial *t, struct br_error *err)
+static enum br_status read_case(struct br_extreme_trial *t, struct br_error *err)
 {
     char text[BR_EXTREME_TEXT];
     struct br_error said = {0};
@@ -111,21 +101,10 @@ static enum br_status read_case(struct trial *t, struct br_error *err)
 
 /* ---- the march ---- */
 
-static struct br_track_request request_of(const struct trial *t)
-{
-    return (struct br_track_request){.scene = &t->scene,
-                                     .wanted = t->one->wanted,
-                                     .method = &t->method,
-                                     .places = &t->places,
-                                     .finer = 1,
-                                     .shorter = 1,
-                                     .rounding = t->court->rounding};
-}
-
 /* The march with everything that checks it; none of the watchers knows an integrator's stages. */
-static enum br_status march(struct trial *t, struct br_error *err)
+static enum br_status march(struct br_extreme_trial *t, struct br_error *err)
 {
-    struct br_track_request request = request_of(t);
+    struct br_track_request request = br_extreme_request(t);
     const struct br_track *own = t->own;
     request.check = !t->method.scheme->integrator;
     enum br_status status = br_track_march(&request, t->own, err);
@@ -135,183 +114,30 @@ static enum br_status march(struct trial *t, struct br_error *err)
     if (own->report.contact_unstable)
         t->verdict->warned |= 1u << BR_WARN_UNSTABLE;
     if (own->begun && own->report.bad_steps)
-        decide(t, BR_EXTREME_WRONG, "certificate: %.160s", own->report.verdict.message);
+        br_extreme_decide(t, BR_EXTREME_WRONG, "certificate: %.160s", own->report.verdict.message);
     else if (own->failure.status)
         return refuse(t, own->failure.status, &own->failure, err);
     else if (!own->finite)
-        decide(t, BR_EXTREME_WRONG, "values that are not finite");
+        br_extreme_decide(t, BR_EXTREME_WRONG, "values that are not finite");
     else if (!(own->report.round_off < no_digit) && !warned_of(t, BR_WARN_ROUND_OFF))
-        decide(t, BR_EXTREME_WRONG, "no digit is left (round-off %.2g), and nothing is said",
-               own->report.round_off);
+        br_extreme_decide(t, BR_EXTREME_WRONG,
+                          "no digit is left (round-off %.2g), and nothing is said",
+                          own->report.round_off);
     return BR_OK;
-}
-
-/* ---- accuracy ---- */
-
-static double worst_distance(const struct trial *t)
-{
-    double most = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const double d = br_track_distance(t->own, t->other, (enum br_field_kind)kind, 1);
-        most = isnan(d) || d > most ? d : most;
-    }
-    return most;
-}
-
-/* The exact solution knows (12) alone. */
-static bool exact_knows(const struct trial *t)
-{
-    return !t->court->quick && !(t->marched.friction.law != BR_FRICTIONLESS &&
-                                 t->method.friction->needs_regularisation);
-}
-
-static enum br_status ask_exact(struct trial *t, struct br_error *err)
-{
-    if (!exact_knows(t))
-        return BR_OK;
-    const enum br_status status = br_track_exact(&t->marched, &t->places, patience, t->other, err);
-    if (status || t->other->failure.status)
-        return status;
-    t->verdict->by = BR_BY_EXACT;
-    t->verdict->error = worst_distance(t);
-    return BR_OK;
-}
-
-/* By riccati, whose round-off is least, with contact at the new level, which has no limit. */
-static enum br_status ask_refinement(struct trial *t, struct br_error *err)
-{
-    struct br_track_request request = request_of(t);
-    struct br_method fine = t->method;
-    fine.solver = br_linear_solvers[0];
-    for (const struct br_contact_rule *const *rule = br_contact_rules; *rule; rule++)
-        if ((*rule)->at_new_step)
-            fine.contact = *rule;
-    if (fine.scheme->integrator)
-        fine.scheme = br_time_scheme_find("adaptive");
-    fine.tolerance = fmax(1e-11, fine.tolerance / 100);
-    fine.most_steps = 4 * patience;
-    request.method = &fine;
-    request.finer = 2;
-    const double room = refined_work / (2 * br_extreme_work(t->one));
-    request.shorter = fine.scheme->adaptive ? 1 : (size_t)fmin(64, fmax(2, room));
-    const enum br_status status = br_track_march(&request, t->other, err);
-    if (status || t->other->failure.status)
-        return status;
-    t->verdict->by = BR_BY_REFINEMENT;
-    t->verdict->error = worst_distance(t);
-    return BR_OK;
-}
-
-static void decide_accuracy(struct trial *t)
-{
-    const struct br_extreme_verdict *v = t->verdict;
-    const unsigned helps = 1u << BR_WARN_ROUND_OFF | 1u << BR_WARN_INACCURATE |
-                           1u << BR_WARN_LOAD_TIME | 1u << BR_WARN_LOAD_SPACE;
-    if (v->by == BR_BY_NOBODY)
-        decide(t, BR_EXTREME_UNJUDGED, "nobody can judge it: %.150s", t->other->failure.message);
-    else if (v->error <= accurate)
-        t->verdict->which = BR_EXTREME_RIGHT;
-    else if (v->warned & 1u << BR_WARN_UNSTABLE)
-        decide(t, BR_EXTREME_UNSTABLE, "beyond the stability limit");
-    else if (v->warned & helps)
-        decide(t, BR_EXTREME_WARNED, "error %.2g, and says so", v->error);
-    else if (v->error <= grown)
-        decide(t, BR_EXTREME_UNWARNED, "error %.2g by %s", v->error, br_extreme_by_name(v->by));
-    else
-        decide(t, BR_EXTREME_WRONG, "error %.2g by %s", v->error, br_extreme_by_name(v->by));
-}
-
-static enum br_status judge_accuracy(struct trial *t, struct br_error *err)
-{
-    enum br_status status = ask_exact(t, err);
-    if (!status && t->verdict->by == BR_BY_NOBODY)
-        status = ask_refinement(t, err);
-    if (!status)
-        decide_accuracy(t);
-    return status;
-}
-
-/* ---- other units ---- */
-
-static enum br_status march_changed(struct trial *t, const struct br_scene *changed, double unit,
-                                    double *distance, struct br_error *err)
-{
-    struct br_track_request request = request_of(t);
-    request.scene = changed;
-    const enum br_status status = br_track_march(&request, t->other, err);
-    *distance = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        const double d = br_track_distance(t->other, t->own, (enum br_field_kind)kind, unit);
-        *distance = isnan(d) || d > *distance ? d : *distance;
-    }
-    return status;
-}
-
-static enum br_status march_in_other_units(struct trial *t, struct br_error *err)
-{
-    struct br_random r = br_random_of(t->one->seed ^ 0x5ca1e, t->one->index);
-    const struct br_units_change units = {
-        br_random_decades(&r, -3, 3), br_random_decades(&r, -3, 3), br_random_decades(&r, -3, 3)};
-    struct br_scene changed = {0};
-    enum br_status status = br_rescale(&t->scene, &units, &changed, err);
-    if (!status)
-        status = march_changed(t, &changed, units.metre, &t->verdict->units, err);
-    br_scene_clear(&changed);
-    return status == BR_BAD_INPUT ? BR_OK : status; /* there are no such units for it */
-}
-
-/* The most that little noise does to the answer. */
-static enum br_status march_with_noise(struct trial *t, double *most, struct br_error *err)
-{
-    *most = 0;
-    for (unsigned try = 0; try < 3; try++) {
-        struct br_scene changed = {0};
-        double distance = 0;
-        enum br_status status =
-            br_perturb(&t->scene, noise, t->one->seed + t->one->index + try, &changed, err);
-        if (!status)
-            status = march_changed(t, &changed, 1, &distance, err);
-        br_scene_clear(&changed);
-        if (status == BR_BAD_INPUT)
-            continue;
-        if (status)
-            return status;
-        *most = isnan(distance) ? INFINITY : fmax(*most, distance);
-    }
-    return BR_OK;
-}
-
-static enum br_status judge_units(struct trial *t, struct br_error *err)
-{
-    double by_noise;
-    const double iteration = t->method.friction->iterates ? t->method.iteration.tolerance : 0;
-    const double limit = 16 * t->verdict->round_off + 4 * iteration;
-    enum br_status status = march_in_other_units(t, err);
-    const double units = t->verdict->units;
-    if (status || units <= limit || (isnan(units) && !t->other->begun))
-        return status;
-    char why[120];
-    snprintf(why, sizeof why, "%.110s", t->other->failure.message);
-    status = march_with_noise(t, &by_noise, err);
-    if (!status && !(units <= magnified * by_noise))
-        decide(t, BR_EXTREME_WRONG,
-               "in other units it differs by %.2g; round-off explains %.2g, noise %.2g %s", units,
-               limit, by_noise, why);
-    return status;
 }
 
 /* ---- all of it ---- */
 
-static enum br_status judge(struct trial *t, struct br_error *err)
+static enum br_status judge(struct br_extreme_trial *t, struct br_error *err)
 {
     enum br_status status = read_case(t, err);
     if (!status && !t->done)
         status = march(t, err);
     if (!status && !t->done)
-        status = judge_accuracy(t, err);
+        status = br_extreme_judge_accuracy(t, err);
     if (!status && t->own->begun && !t->own->failure.status && !t->court->quick &&
         t->verdict->which != BR_EXTREME_WRONG)
-        status = judge_units(t, err);
+        status = br_extreme_judge_units(t, err);
     return status;
 }
 
@@ -320,8 +146,9 @@ enum br_status br_extreme_judge(const struct br_extreme_case *one,
                                 struct br_extreme_verdict *verdict, struct br_error *err)
 {
     *verdict = (struct br_extreme_verdict){.error = NAN, .units = NAN, .round_off = NAN};
-    struct trial t = {.one = one, .court = court, .verdict = verdict, .method = one->method};
-    t.method.most_steps = patience;
+    struct br_extreme_trial t = {
+        .one = one, .court = court, .verdict = verdict, .method = one->method};
+    t.method.most_steps = BR_EXTREME_PATIENCE;
     t.places = br_track_places(one->n, one->steps);
     t.own = br_allocate(1, sizeof *t.own);
     t.other = br_allocate(1, sizeof *t.other);

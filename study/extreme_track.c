@@ -22,7 +22,7 @@ struct br_track_places br_track_places(size_t n, size_t steps)
 struct looker {
     const struct br_track_request *request;
     struct br_track *track;
-    double *nodal;
+    double *nodal; /* displacements, then velocities */
 };
 
 /* slope: L w_x/4, m. */
@@ -37,9 +37,12 @@ static void look_at(struct looker *l, const struct br_march *march, enum br_fiel
     struct br_track *t = l->track;
     const struct br_field *f = br_march_field(march, kind);
     const size_t unknowns = br_field_unknowns(f), size = br_field_size(f);
-    br_march_get(march, kind, l->nodal, NULL);
-    for (size_t i = 0; i < size; i++)
+    const double *velocity = l->nodal + size;
+    br_march_get(march, kind, l->nodal, l->nodal + size);
+    for (size_t i = 0; i < 2 * size; i++)
         t->finite = t->finite && isfinite(l->nodal[i]);
+    for (size_t i = 0; i < size; i += unknowns)
+        t->speed[kind] = fmax(t->speed[kind], fabs(velocity[i]));
     for (size_t i = 0; i < size; i += unknowns)
         t->largest[kind] = fmax(t->largest[kind], fabs(l->nodal[i]));
     for (size_t p = 0; p < t->places.points; p++) {
@@ -57,7 +60,7 @@ static enum br_status look(void *self, const struct br_march *march,
     (void)row;
     if (!l->nodal)
         l->nodal =
-            br_allocate(2 * (l->request->places->n * l->request->finer + 1), sizeof *l->nodal);
+            br_allocate(4 * (l->request->places->n * l->request->finer + 1), sizeof *l->nodal);
     if (!l->nodal)
         return br_no_memory(err, "a march's values");
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
@@ -71,8 +74,9 @@ static enum br_status watch_size(void *self, const struct br_march *march,
                                  const struct br_history_row *row, struct br_error *err)
 {
     struct br_track *t = ((struct looker *)self)->track;
-    (void)row;
     (void)err;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        t->speed[kind] = fmax(t->speed[kind], fabs(row->velocity[kind]));
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         t->largest[kind] = fmax(t->largest[kind],
                                 fabs(br_march_tip_displacement(march, (enum br_field_kind)kind)));

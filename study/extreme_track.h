@@ -26,6 +26,7 @@ struct br_track {
     size_t seen;                 /* levels */
     bool finite;                 /* all nodal values there */
     double largest[2];           /* of all nodal displacements there, m */
+    double speed[2];             /* of the nodes there, and of the tip at every step, m/s */
     struct br_run_report report; /* its scenes are gone */
     struct br_error failure;     /* BR_OK; why it did not begin, or stopped */
     bool begun;
