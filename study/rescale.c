@@ -75,11 +75,16 @@ struct change {
     struct br_error *err;
 };
 
+/* 1, or nearly. */
+static double noisy(struct change *c)
+{
+    return 1 + c->noise * br_random_uniform(&c->random, -1, 1);
+}
+
 static double factor_of(struct change *c, struct unit u)
 {
-    const double noise = 1 + c->noise * br_random_uniform(&c->random, -1, 1);
     return pow(c->to.metre, u.metre) * pow(c->to.second, u.second) *
-           pow(c->to.kilogram, u.kilogram) * noise;
+           pow(c->to.kilogram, u.kilogram) * noisy(c);
 }
 
 static void scale(struct change *c, double *value, struct unit u)
@@ -105,7 +110,7 @@ static void scale_function(struct change *c, struct br_function *f, struct unit 
         c->status = br_no_memory(c->err, "a scene in other units");
         return;
     }
-    *s = (struct scaled){*f, factor_of(c, u), c->to.metre, c->to.second};
+    *s = (struct scaled){*f, factor_of(c, u), c->to.metre * noisy(c), c->to.second * noisy(c)};
     *f = (struct br_function){
         .ops = &scaled_ops, .self = s, .uses_x = s->of.uses_x, .uses_t = s->of.uses_t};
 }

@@ -16,8 +16,8 @@ struct br_units_change {
 enum br_status br_rescale(const struct br_scene *scene, const struct br_units_change *units,
                           struct br_scene *out, struct br_error *err);
 
-/* The same scene with each number and function changed by a relative `size` at most, at random
- * (seed), L and T excepted. */
+/* The same scene with each number and function, and the x and t that the function takes, changed by
+ * a relative `size` at most, at random (seed), L and T excepted. */
 enum br_status br_perturb(const struct br_scene *scene, double size, unsigned long long seed,
                           struct br_scene *out, struct br_error *err);
 
