@@ -66,6 +66,14 @@ static void print_parts(FILE *out)
 
 /* ---- parts ---- */
 
+const struct br_extremes_part *br_extremes_part_find(const char *name)
+{
+    for (const struct br_extremes_part *const *p = br_extremes_parts; *p; p++)
+        if (strcmp((*p)->name, name) == 0)
+            return *p;
+    return NULL;
+}
+
 static enum br_status unknown_part(const char *word, struct br_error *err)
 {
     const char *names[BR_EXTREMES_MOST];
