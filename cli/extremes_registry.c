@@ -2,8 +2,7 @@
 #include "cli/extremes_part.h"
 
 /* One row a part, in the order in which they run. */
-extern const struct br_extremes_part br_extremes_part_map;
-
 const struct br_extremes_part *const br_extremes_parts[] = {
+    &br_extremes_part_map,
     NULL,
 };
