@@ -42,6 +42,14 @@ struct br_step_field {
     const double *load;                               /* F_n, N */
 };
 
+/* What a certificate's numbers are relative to. */
+enum br_scale {
+    BR_SCALE_RESIDUAL, /* norms of an equation's terms */
+    BR_SCALE_FIELD,    /* displacements, and ways of the velocities */
+    BR_SCALE_LAW,      /* forces of the contact or friction law */
+    BR_SCALES
+};
+
 /* All that is known of one step or stage. */
 struct br_step {
     const struct br_scene *scene;
@@ -53,6 +61,10 @@ struct br_step {
     const double *axial_tip;       /* u(L), m, at the time of a stage of the bending field where
                                       field[BR_AXIAL] is not of that time; else NULL */
     struct br_tip tip;
+    /* In/out: the largest scales of the march so far, BR_SCALES by br_field_kind. What has decayed
+     * below their last bit counts as nothing: down there are numbers that underflow. NULL: the
+     * step counts alone. */
+    double (*largest)[BR_SCALES];
 };
 
 struct br_certificate br_certify(const struct br_step *step);

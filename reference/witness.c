@@ -30,7 +30,8 @@ struct br_witness {
     int back, rows;          /* steps looked back at, and rows of the textbook, at most */
     struct watched field[2]; /* by br_field_kind */
     struct br_tip_path path;
-    struct br_certificate worst; /* since the last call */
+    struct br_certificate worst;  /* since the last call */
+    double largest[2][BR_SCALES]; /* so far */
     bool any;
     double *memory;
 };
@@ -110,7 +111,8 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
                            .k = told->tau,
                            .compliance = br_march_compliance(w->march, BR_BENDING),
                            .axial_tip = axial_tip,
-                           .tip = *br_march_tip(w->march)};
+                           .tip = *br_march_tip(w->march),
+                           .largest = w->largest};
     step.field[told->kind] = (struct br_step_field){f->y.start.displacement, now->displacement,
                                                     f->y.start.velocity, now->velocity, f->load};
     /* The axial field lends its size to the bound's round-off. */
