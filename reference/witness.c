@@ -109,7 +109,8 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
                            .method = w->method,
                            .n = w->n,
                            .k = told->tau,
-                           .compliance = br_march_compliance(w->march, BR_BENDING),
+                           .compliance = {br_march_compliance(w->march, BR_AXIAL),
+                                          br_march_compliance(w->march, BR_BENDING)},
                            .axial_tip = axial_tip,
                            .tip = *br_march_tip(w->march),
                            .largest = w->largest};
