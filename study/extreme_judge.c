@@ -91,7 +91,8 @@ static enum br_status read_case(struct br_extreme_trial *t, struct br_error *err
         status = br_model_select(&t->scene, t->one->wanted, &t->marched, &said);
     if (!status)
         status = br_method_check(&t->method, &said);
-    const struct br_outlook outlook = {&t->marched, &t->method, t->one->n, t->one->steps};
+    const struct br_outlook outlook = {
+        .scene = &t->marched, .method = &t->method, .n = t->one->n, .steps = t->one->steps};
     if (!status)
         status = br_look_ahead(&outlook, &t->warnings, &said);
     for (size_t i = 0; i < t->warnings.count; i++)
