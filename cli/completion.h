@@ -21,7 +21,8 @@ struct br_completion {
     const struct br_command *command;
     struct br_command_help help;
     bool scenes;     /* its arguments are scenes: names, or files *.yaml */
-    char words[128]; /* its argument is one of these; "": not so */
+    char words[256]; /* its argument is one of these; "": not so */
+    bool many;       /* arguments, not one */
 };
 
 enum { BR_MOST_COMMANDS = 16 };
@@ -34,6 +35,9 @@ struct br_completions {
 
 /* What an option takes; words (out): separated by blanks, static. */
 enum br_value_kind br_option_values(const struct br_help_option *option, const char **words);
+
+/* The words that "bash|zsh|fish" offers, or [PART...]; others: none. */
+void br_argument_words(const char *arguments, char *words, size_t size);
 
 /* A shell. */
 struct br_shell {

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "cli/completion.h"
+#include "cli/extremes_part.h"
 #include "study/study.h"
 #include "tables/emitter.h"
 
@@ -54,15 +55,21 @@ static const char *degrees(void)
     return "1 2";
 }
 
+static const char *roundings(void)
+{
+    return "nearest up down zero";
+}
+
 /* Options by name, the same in all commands. */
 static const struct {
     const char *option;
     const char *(*words)(void);
 } values[] = {
-    {"solver", solvers},   {"reference-solver", solvers}, {"kernel", kernels},
-    {"contact", contacts}, {"friction", frictions},       {"norm", norms},
-    {"format", formats},   {"reference", references},     {"scaling", scalings},
-    {"scheme", schemes},   {"axial-degree", degrees},     {"methods", schemes},
+    {"solver", solvers},     {"reference-solver", solvers}, {"kernel", kernels},
+    {"contact", contacts},   {"friction", frictions},       {"norm", norms},
+    {"format", formats},     {"reference", references},     {"scaling", scalings},
+    {"scheme", schemes},     {"axial-degree", degrees},     {"methods", schemes},
+    {"rounding", roundings},
 };
 
 enum br_value_kind br_option_values(const struct br_help_option *option, const char **words)
@@ -78,6 +85,20 @@ enum br_value_kind br_option_values(const struct br_help_option *option, const c
             return strcmp(option->argument, "LIST") == 0 ? BR_VALUE_LIST : BR_VALUE_WORD;
         }
     return BR_VALUE_NONE;
+}
+
+NAMES(parts, br_extremes_part, br_extremes_parts)
+
+void br_argument_words(const char *arguments, char *words, size_t size)
+{
+    words[0] = '\0';
+    if (strstr(arguments, "PART"))
+        snprintf(words, size, "%s", parts());
+    else if (strspn(arguments, "abcdefghijklmnopqrstuvwxyz|") == strlen(arguments))
+        snprintf(words, size, "%s", arguments);
+    for (char *c = words; *c; c++)
+        if (*c == '|')
+            *c = ' ';
 }
 
 void br_write_shell_quoted(FILE *out, const char *text)

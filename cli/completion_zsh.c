@@ -42,7 +42,7 @@ static void write_command(FILE *out, const struct br_completion *one)
     if (one->scenes)
         fprintf(out, "            '*:scene:_beamrate_scenes'\n");
     else if (*one->words)
-        fprintf(out, "            ':argument:(%s)'\n", one->words);
+        fprintf(out, "            '%s:argument:(%s)'\n", one->many ? "*" : "", one->words);
     else
         fprintf(out, "            && return\n");
     fprintf(out, "            ;;\n");

@@ -55,18 +55,6 @@ static enum br_status read_options(int argc, const char **argv, const struct br_
     return status;
 }
 
-/* "bash|zsh|fish" as words. */
-static void read_words(const char *arguments, char words[128])
-{
-    words[0] = '\0';
-    if (strspn(arguments, "abcdefghijklmnopqrstuvwxyz|") != strlen(arguments))
-        return;
-    snprintf(words, 128, "%s", arguments);
-    for (char *c = words; *c; c++)
-        if (*c == '|')
-            *c = ' ';
-}
-
 static enum br_status collect_scenes(char *text, size_t size, struct br_error *err)
 {
     char **name;
@@ -87,7 +75,8 @@ static enum br_status collect(struct br_completions *all, struct br_error *err)
         struct br_completion *one = &all->command[all->count++];
         one->command = *c;
         one->scenes = strstr((*c)->arguments, "SCENE") != NULL;
-        read_words((*c)->arguments, one->words);
+        one->many = strstr((*c)->arguments, "...") != NULL;
+        br_argument_words((*c)->arguments, one->words, sizeof one->words);
         status = br_command_help_read(*c, &one->help, err);
     }
     return status;

@@ -21,25 +21,38 @@ struct br_extremes_job {
     size_t n_count, k_count;
     int rounding;       /* as fesetround takes it: of the marches, not of their judges */
     const char *kept;   /* path of a file in which a part that takes long keeps what is done, so
-                           that it can be resumed; NULL: nothing is kept */
+                           that it can be resumed: what it finds there it need not do again, and
+                           the file is removed when all is written. NULL: nothing is kept */
     const char *folder; /* for other files of the part (reproducer scenes): the staging folder */
     const struct br_observer *observer; /* NULL: nobody */
 };
 
-/* A picture: one of them is not NULL. Owned. */
+/* A picture: one of them is not NULL, and made by br_allocate. Owned. Its stem is the part's name,
+ * or begins with it and a dash. */
 struct br_extremes_picture {
     struct br_chart *chart;
     struct br_heat *heat;
 };
 
+/* The options that a part heeds: others are refused. --threads is for all. */
+enum {
+    BR_HEEDS_CASES = 1,
+    BR_HEEDS_SEED = 2,
+    BR_HEEDS_N = 4,
+    BR_HEEDS_K = 8,
+    BR_HEEDS_ROUNDING = 16,
+    BR_HEEDS_RESUME = 32, /* and job->kept, which others find NULL */
+};
+
 struct br_extremes_part {
     const char *name;  /* one word, as on the command line, and of its files */
     const char *title; /* one line for a person */
+    unsigned heeds;    /* of the options: BR_HEEDS_... */
     /* Computes; *result (out) is owned by the caller. What is found wrong is a result, no failure.
      * Fails with BR_BAD_INPUT, BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */
     enum br_status (*run)(const struct br_extremes_job *job, void **result, struct br_error *err);
     void (*free)(void *result); /* accepts NULL */
-    /* Fills caption, tables and sentences, which borrow from the result. */
+    /* Fills caption, tables and sentences, which borrow from the result; the rest is filled. */
     void (*page)(const void *result, struct br_page *page);
     /* Picture i, 0, 1, ...; both NULL: there are no more. Fails with BR_NO_MEMORY. */
     enum br_status (*draw)(const void *result, size_t i, struct br_extremes_picture *picture,

@@ -10,16 +10,22 @@
 #include "study/ranks.h"
 #include "study/spread.h"
 
-extern const struct br_command br_command_check, br_command_completions, br_command_figures,
-    br_command_plan, br_command_run, br_command_scenes, br_command_study, br_command_tables,
-    br_command_trade;
+extern const struct br_command br_command_check, br_command_completions, br_command_extremes,
+    br_command_figures, br_command_plan, br_command_run, br_command_scenes, br_command_study,
+    br_command_tables, br_command_trade;
 
 const struct br_command *const br_commands[] = {
-    &br_command_tables,      &br_command_study,
-    &br_command_check,       &br_command_run,
-    &br_command_trade,       &br_command_plan,
-    &br_command_figures,     &br_command_scenes,
-    &br_command_completions, NULL,
+    &br_command_tables,
+    &br_command_study,
+    &br_command_check,
+    &br_command_run,
+    &br_command_trade,
+    &br_command_plan,
+    &br_command_extremes,
+    &br_command_figures,
+    &br_command_scenes,
+    &br_command_completions,
+    NULL,
 };
 
 static void print_help(FILE *out)

@@ -225,7 +225,7 @@ void br_chart_write_script(FILE *out, const struct br_chart *chart)
             "set datafile missing 'NaN'\n"
             "set style line 102 lw 1 lc rgb '#d0d0d0' # grid\n",
             chart->stem, chart->stem, chart->stem, chart->stem, chart->stem);
-    br_write_loop(out, BR_PAGE_WIDE);
+    br_write_loop(out, BR_PAGE_WIDE, BR_PAGE_HEIGHT);
     fputs("set multiplot\n", out);
     size_t first = 0;
     for (size_t i = 0; i < chart->panels; i++) {

@@ -66,7 +66,7 @@ static void write_page(FILE *out, const struct br_report *report, const struct b
     frame->page = BR_PAGE_NARROW;
     br_include_blocks(&frame->y, report, frame->axis, &columns);
     br_write_head(out, report, plot, stem);
-    br_write_loop(out, BR_PAGE_NARROW);
+    br_write_loop(out, BR_PAGE_NARROW, BR_PAGE_HEIGHT);
     br_write_pens(out, curves);
     br_write_caption(out, report, BR_PAGE_NARROW);
     br_write_orders(out, report, BR_PART_TOTAL, 0.905);

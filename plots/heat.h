@@ -21,9 +21,9 @@ struct br_heat_line {
 struct br_heat_panel {
     char title[96], x_label[64], y_label[64]; /* enhanced */
     size_t columns, rows;
-    double *x, *y; /* edges of the cells, columns + 1 and rows + 1, ascending; owned */
-    bool log_x, log_y;
-    double *value; /* rows * columns, by rows; owned; NaN: an empty cell */
+    double *x, *y;     /* edges of the cells, columns + 1 and rows + 1, ascending; owned */
+    bool log_x, log_y; /* edges are positive */
+    double *value;     /* rows * columns, by rows; owned; NaN: an empty cell */
     struct br_heat_line line[BR_HEAT_LINES];
     size_t lines;
 };
@@ -50,6 +50,13 @@ enum br_status br_heat_panel_init(struct br_heat_panel *panel, size_t columns, s
 __attribute__((format(printf, 3, 4))) double (*br_heat_line(struct br_heat_panel *panel,
                                                             size_t count, const char *title,
                                                             ...))[2];
+
+/* The ends of the colours: as given, or of the data, without what has no place among them. */
+void br_heat_range(const struct br_heat *heat, double *low, double *high);
+
+/* Whether a cell has a colour: NaN has none, nor has what is no kind. Values beyond the ends, the
+ * infinite ones among them, have the colour of the nearer end. */
+bool br_heat_told(const struct br_heat *heat, double value);
 
 /* The data, and the script that draws stem.svg and stem.png from stem.dat. */
 void br_heat_write_data(FILE *out, const struct br_heat *heat);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { HEIGHT = BR_PAGE_HEIGHT, FONT = BR_PAGE_FONT };
+enum { FONT = BR_PAGE_FONT };
 
 /* Plasma's dark two thirds: readable for the colour-blind, and in grey, since the
  * lightness rises steadily. */
@@ -73,7 +73,7 @@ void br_write_pens(FILE *out, size_t pens)
     }
 }
 
-void br_write_loop(FILE *out, int width)
+void br_write_loop(FILE *out, int width, int height)
 {
     fprintf(out,
             "\n# The default font only scales marks; every text has its own size.\n"
@@ -90,7 +90,7 @@ void br_write_loop(FILE *out, int width)
             "set output stem.'.'.format\n"
             "unset label\n"
             "unset arrow\n",
-            width, HEIGHT, width, HEIGHT);
+            width, height, width, height);
 }
 
 void br_write_foot(FILE *out)

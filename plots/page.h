@@ -49,8 +49,8 @@ void br_write_quoted(FILE *out, const char *text);
 void br_write_head(FILE *out, const struct br_report *report, const struct br_plot *plot,
                    const char *stem);
 
-/* The beginning and the end of the loop over both formats; width: the page's, pixels. */
-void br_write_loop(FILE *out, int width);
+/* The beginning and the end of the loop over both formats; the page in pixels. */
+void br_write_loop(FILE *out, int width, int height);
 void br_write_foot(FILE *out);
 
 /* In the loop: line styles 1 to `pens`, one a curve. */

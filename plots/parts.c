@@ -77,7 +77,7 @@ static void write_script(FILE *out, const struct br_report *report, const char *
                      &columns);
     br_include_block(&frame.y, report, BR_OVER_K, br_largest(study->n, study->n_count), &columns);
     br_write_head(out, report, &br_plot_parts, stem);
-    br_write_loop(out, BR_PAGE_WIDE);
+    br_write_loop(out, BR_PAGE_WIDE, BR_PAGE_HEIGHT);
     br_write_pens(out, columns.parts);
     fputs("set multiplot\n", out);
     br_write_caption(out, report, BR_PAGE_WIDE);

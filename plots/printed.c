@@ -96,7 +96,7 @@ static void write_script(FILE *out, const struct br_report *report, const char *
                              .page = BR_PAGE_WIDE};
     br_include_blocks(&frame.y, report, BR_OVER_K, &columns);
     br_write_head(out, report, &br_plot_printed, stem);
-    br_write_loop(out, BR_PAGE_WIDE);
+    br_write_loop(out, BR_PAGE_WIDE, BR_PAGE_HEIGHT);
     write_styles(out);
     fputs("set multiplot\n", out);
     br_write_caption(out, report, BR_PAGE_WIDE);

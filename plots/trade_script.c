@@ -125,7 +125,7 @@ void br_trade_picture_script(FILE *out, const struct br_trade_picture *p,
     fputs("\ndata = stem.'.dat'\nset datafile missing 'NaN'\n"
           "set style line 102 lw 1 lc rgb '#d0d0d0' # grid\n",
           out);
-    br_write_loop(out, BR_PAGE_WIDE);
+    br_write_loop(out, BR_PAGE_WIDE, BR_PAGE_HEIGHT);
     write_axes(out, p, v->trade);
     write_caption(out, v);
     write_plot(out, p, v->trade);

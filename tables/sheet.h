@@ -14,10 +14,11 @@ struct br_table {
     const char *name; /* one word, as in JSON and in the names of CSV files */
     const char *title;
     size_t columns, rows;
-    const void *self; /* borrowed */
+    bool only_in_files; /* too long for a terminal */
+    const void *self;   /* borrowed */
     /* The heading of a column, and whether its cells are numbers. */
     const char *(*heading)(const void *self, size_t column, bool *number);
-    /* A cell's text (out); "-": nothing. */
+    /* A cell's text (out), plain; "-": nothing. */
     void (*cell)(const void *self, size_t row, size_t column, char text[BR_CELL]);
 };
 
@@ -33,6 +34,8 @@ struct br_page {
     /* Before the tables, the verdict first; and below them. Either may be NULL. */
     void (*say)(const void *self, const struct br_writer *writer);
     void (*say_notes)(const void *self, const struct br_writer *writer);
+    const char *notes_title; /* where a format has headings; NULL: none */
+    size_t notes_shown;      /* on a terminal; 0: all */
     const struct br_provenance *provenance;
 };
 
@@ -46,5 +49,9 @@ struct br_page_emitter {
 /* NULL-terminated; the first is the terminal's. */
 extern const struct br_page_emitter *const br_page_emitters[];
 const struct br_page_emitter *br_page_emitter_find(const char *name);
+
+/* For a terminal: as the first, without long tables and without notes beyond
+ * notes_shown. Fails with BR_NO_MEMORY. */
+enum br_status br_page_show(FILE *out, const struct br_page *page, struct br_error *err);
 
 #endif

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parts of `extremes` that compute nothing: what they were asked for is what they say. */
+#include <stdio.h>
+#include <unistd.h>
+
+#include "cli/extremes_part.h"
+
+struct heard {
+    char line[512];
+    size_t rows, kept; /* lines that were in the file */
+    bool wrong;
+};
+
+/* ---- what it says ---- */
+
+static const char *heading(const void *self, size_t column, bool *number)
+{
+    (void)self;
+    *number = column > 0;
+    return column ? "value" : "row";
+}
+
+static void cell(const void *self, size_t row, size_t column, char text[BR_CELL])
+{
+    (void)self;
+    snprintf(text, BR_CELL, column ? "%zu" : "row %zu", row);
+}
+
+static void say(const void *self, const struct br_writer *w)
+{
+    w->paragraph(w->self, ((const struct heard *)self)->line);
+}
+
+static void fill(const void *result, struct br_page *page)
+{
+    const struct heard *h = result;
+    page->caption = "A made part";
+    page->self = h;
+    page->say = say;
+    page->tables = 1;
+    page->table[0] = (struct br_table){.name = "rows",
+                                       .title = "Rows",
+                                       .columns = 2,
+                                       .rows = h->rows,
+                                       .self = h,
+                                       .heading = heading,
+                                       .cell = cell};
+}
+
+static enum br_status draw_chart(struct br_extremes_picture *p, struct br_error *err)
+{
+    p->chart = br_allocate(1, sizeof *p->chart);
+    if (!p->chart)
+        return br_no_memory(err, "a chart");
+    br_chart_lay_out(p->chart, 1);
+    snprintf(p->chart->stem, sizeof p->chart->stem, "fast-chart");
+    double(*point)[2] = br_chart_curve(&p->chart->panel[0], BR_STROKE_SOLID, 2, "line");
+    if (!point)
+        return br_no_memory(err, "a curve");
+    point[1][0] = point[1][1] = 1;
+    return BR_OK;
+}
+
+static enum br_status draw_heat(struct br_extremes_picture *p, struct br_error *err)
+{
+    p->heat = br_allocate(1, sizeof *p->heat);
+    if (!p->heat)
+        return br_no_memory(err, "a heat map");
+    snprintf(p->heat->stem, sizeof p->heat->stem, "fast-heat");
+    p->heat->panels = 1;
+    struct br_heat_panel *panel = &p->heat->panel[0];
+    const enum br_status status = br_heat_panel_init(panel, 2, 1, err);
+    if (status)
+        return status;
+    for (int i = 0; i < 3; i++)
+        panel->x[i] = i;
+    panel->y[1] = 1;
+    panel->value[0] = 1;
+    return BR_OK;
+}
+
+static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
+                           struct br_error *err)
+{
+    (void)result;
+    return i == 0 ? draw_chart(picture, err) : i == 1 ? draw_heat(picture, err) : BR_OK;
+}
+
+static enum br_status judge(const void *result, struct br_error *err)
+{
+    return ((const struct heard *)result)->wrong ? br_fail(err, BR_VERDICT, "13 is silently wrong")
+                                                 : BR_OK;
+}
+
+/* ---- fast: seed 13 is wrong, seed 14 refused, seed 15 a failure ---- */
+
+static enum br_status write_scene(const char *folder, struct br_error *err)
+{
+    char path[1200];
+    snprintf(path, sizeof path, "%s/fast-13.yaml", folder);
+    FILE *file = fopen(path, "w");
+    if (!file)
+        return br_fail(err, BR_IO, "%s", path);
+    fputs("a reproducer\n", file);
+    return fclose(file) == 0 ? BR_OK : br_fail(err, BR_IO, "%s", path);
+}
+
+static enum br_status run_fast(const struct br_extremes_job *j, void **result, struct br_error *err)
+{
+    if (j->seed == 14)
+        return br_fail(err, BR_BAD_INPUT, "14 is refused");
+    if (j->seed == 15)
+        return br_fail(err, BR_NOT_FINITE, "15 failed");
+    struct heard *h = br_allocate(1, sizeof *h);
+    if (!(*result = h))
+        return br_no_memory(err, "the made part");
+    snprintf(h->line, sizeof h->line,
+             "cases %zu, seed %llu, threads %d, rounding %d, %zu n up to %zu, %zu k, kept %s",
+             j->cases, (unsigned long long)j->seed, j->threads, j->rounding, j->n_count,
+             j->n_count ? j->n[j->n_count - 1] : 0, j->k_count, j->kept ? "somewhere" : "nowhere");
+    h->rows = 3;
+    h->wrong = j->seed == 13;
+    return h->wrong ? write_scene(j->folder, err) : BR_OK;
+}
+
+/* ---- slow: a line for each case, 10 ms long ---- */
+
+static size_t count_lines(FILE *file)
+{
+    size_t lines = 0;
+    rewind(file);
+    for (int c; (c = getc(file)) != EOF;)
+        lines += c == '\n';
+    return lines;
+}
+
+static enum br_status run_slow(const struct br_extremes_job *j, void **result, struct br_error *err)
+{
+    struct heard *h = br_allocate(1, sizeof *h);
+    if (!(*result = h))
+        return br_no_memory(err, "the made part");
+    FILE *file = fopen(j->kept, "a+");
+    if (!file)
+        return br_fail(err, BR_IO, "%s", j->kept);
+    h->kept = count_lines(file);
+    h->rows = h->kept;
+    enum br_status status = BR_OK;
+    for (; h->rows < j->cases && !status; h->rows++) {
+        usleep(10000);
+        fprintf(file, "case %zu\n", h->rows);
+        if (j->observer->stop(j->observer->self))
+            status = br_fail(err, BR_INTERRUPTED, "interrupted");
+    }
+    fclose(file);
+    snprintf(h->line, sizeof h->line, "%s was done before, and is %zu cases now",
+             h->kept ? "something" : "nothing", h->rows);
+    return status;
+}
+
+static const struct br_extremes_part fast = {
+    .name = "fast",
+    .title = "says what it was asked for",
+    .heeds = BR_HEEDS_CASES | BR_HEEDS_SEED | BR_HEEDS_N | BR_HEEDS_K | BR_HEEDS_ROUNDING,
+    .run = run_fast,
+    .free = free,
+    .page = fill,
+    .draw = draw,
+    .verdict = judge,
+};
+
+static const struct br_extremes_part slow = {
+    .name = "slow",
+    .title = "takes long",
+    .heeds = BR_HEEDS_CASES | BR_HEEDS_RESUME,
+    .run = run_slow,
+    .free = free,
+    .page = fill,
+    .verdict = judge,
+};
+
+const struct br_extremes_part *const br_extremes_parts[] = {&fast, &slow, NULL};

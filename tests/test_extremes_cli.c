@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* `beamrate extremes` as a user runs it, with made parts (made_parts.c): what is refused, what is
+ * written, and what an interruption leaves. $BEAMRATE is that program. */
+#include <jansson.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli_driver.h"
+#include "support.h"
+
+static void test_bad_input(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *words, *message;
+    } wrong[] = {
+        {"extremes fats", "'fats' is no part; did you mean 'fast'?"},
+        {"extremes nothing", "'nothing' is no part, expected any of: fast, slow"},
+        {"extremes fast fast", "part fast is given twice"},
+        {"extremes fast --cases 0", "--cases: found '0', expected a whole number from 1 to"},
+        {"extremes fast --cases 1.5", "--cases: found '1.5'"},
+        {"extremes fast --cases -1", "--cases: found '-1'"},
+        {"extremes fast --seed 0", "--seed: found '0', expected a whole number from 1"},
+        {"extremes fast --seed -3", "--seed: found '-3'"},
+        {"extremes fast --seed +3", "--seed: found '+3'"},
+        {"extremes fast --seed ''", "--seed: found ''"},
+        {"extremes fast --seed 0x", "--seed: found '0x'"},
+        {"extremes fast --seed 0x0x3", "--seed: found '0x0x3'"},
+        {"extremes fast --seed 12ab", "--seed: found '12ab'"},
+        {"extremes fast --seed 18446744073709551616", "--seed: found '18446744073709551616'"},
+        {"extremes fast --rounding nearly", "--rounding: found 'nearly', expected one of: nearest"},
+        {"extremes fast --threads x", "--threads: found 'x'"},
+        {"extremes fast --format xml", "--format: found 'xml'"},
+        {"extremes fast --n 10,x", "--n: found 'x'"},
+        {"extremes fast --k nan", "--k: found 'nan'"},
+        {"extremes fast --resume", "--resume: no chosen part heeds it; slow does"},
+        {"extremes slow --seed 3", "--seed: no chosen part heeds it; fast does"},
+        {"extremes slow --rounding up", "--rounding: no chosen part heeds it"},
+        {"extremes fast --sead 3", "did you mean --seed?"},
+        {"extremes fast --seed 14", "fast: 14 is refused"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        cli_expect(wrong[i].words, NULL, 2, wrong[i].message);
+    assert_false(cli_is_there("extremes"));
+    cli_expect("extremes fast --seed 15", NULL, 3, "fast: 15 failed");
+    assert_false(cli_is_there("extremes"));
+}
+
+static void test_asked(void **state)
+{
+    (void)state;
+    cli_expect("extremes fast --quiet", NULL, 0, "");
+    assert_true(cli_file_contains("extremes/fast.txt",
+                                  "cases 0, seed 0, threads 0, rounding 0, 0 n up to 0, 0 k, kept "
+                                  "nowhere"));
+    cli_expect("extremes fast --cases 7 --seed 0xFFFFFFFFFFFFFFFF --threads 2 --n 10,20 --k 0.1 "
+               "--no-plots --out o",
+               NULL, 0,
+               "cases 7, seed 18446744073709551615, threads 2, rounding 0, 2 n up to 20, "
+               "1 k");
+    cli_expect("extremes slow fast --cases 1 --no-plots --out both", NULL, 0, "A made part");
+    assert_true(cli_is_there("both/slow.md") && cli_is_there("both/fast.md"));
+    assert_false(cli_is_there("both/slow.cases"));
+    static const char *const modes[] = {"up", "down", "zero"};
+    for (size_t i = 0; i < 3; i++) {
+        char line[128];
+        snprintf(line, sizeof line, "extremes fast --rounding %s --no-plots --out o", modes[i]);
+        cli_expect(line, NULL, 0, "cases 0");
+        assert_false(cli_file_contains("o/fast.txt", "rounding 0"));
+    }
+}
+
+static void test_files(void **state)
+{
+    (void)state;
+    cli_expect("extremes fast --out files", NULL, 0, "Written to files/");
+    static const char *const all[] = {"fast.txt",       "fast.csv",     "fast.md",
+                                      "fast.tex",       "fast.json",    "fast-chart.gp",
+                                      "fast-chart.dat", "fast-heat.gp", "fast-heat.dat"};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "files/%s", all[i]);
+        if (!cli_is_there(name))
+            fail_msg("%s is not there", name);
+    }
+    char path[512];
+    cli_path("files/fast.json", path);
+    json_t *root = json_load_file(path, 0, NULL);
+    assert_non_null(root);
+    assert_string_equal(json_string_value(json_object_get(root, "name")), "fast");
+    const json_t *made = json_object_get(root, "provenance");
+    assert_non_null(strstr(json_string_value(json_object_get(made, "command_line")),
+                           "extremes fast --out files"));
+    json_decref(root);
+    const size_t pictures =
+        cli_is_there("files/fast-heat.svg") ? 4 : 0; /* gnuplot may be missing */
+    assert_int_equal(cli_count_files("files"), 9 + pictures);
+    cli_expect("extremes fast --out some --format csv,json --no-plots --quiet", NULL, 0, "");
+    assert_int_equal(cli_count_files("some"), 2);
+}
+
+/* All is written, and then the verdict told. */
+static void test_verdict(void **state)
+{
+    (void)state;
+    cli_expect("extremes fast slow --seed 13 --cases 2 --no-plots --out wrong", NULL, 1,
+               "fast: 13 is silently wrong");
+    assert_true(cli_file_contains("wrong/fast-13.yaml", "a reproducer"));
+    assert_true(cli_is_there("wrong/slow.json") && !cli_is_there("wrong/slow.cases"));
+}
+
+/* Whole or not at all, but what was done is kept, and neither thrown away nor done again. */
+static void test_interrupted(void **state)
+{
+    (void)state;
+    static const struct cli_circumstances soon = {.interrupt_after = 300};
+    static struct cli_outcome out;
+    cli_run_line("extremes fast slow --cases 1000 --quiet --out late", &soon, &out);
+    assert_int_equal(out.exit_code, -SIGINT);
+    assert_true(cli_file_contains("late/slow.cases", "case 0\n"));
+    assert_int_equal(cli_count_files("late"), 1);
+    cli_expect("extremes slow --cases 3 --out late", NULL, 2,
+               "late/slow.cases is what an interrupted run has left: --resume goes on with it");
+    assert_int_equal(cli_count_files("late"), 1);
+    cli_expect("extremes slow --cases 3 --resume --out late --format text", NULL, 0,
+               "something was done before");
+    assert_int_equal(cli_count_files("late"), 1);
+    assert_true(cli_is_there("late/slow.txt"));
+    cli_expect("extremes slow --cases 3 --resume --out late --format text", NULL, 0,
+               "nothing was done before, and is 3 cases now");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bad_input),   cmocka_unit_test(test_asked),
+        cmocka_unit_test(test_files),       cmocka_unit_test(test_verdict),
+        cmocka_unit_test(test_interrupted),
+    };
+    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
+}
