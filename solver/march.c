@@ -221,12 +221,18 @@ bool br_march_contact_unstable(const struct br_march *m)
     return !(gain <= (1 + 1e-12) * limit); /* at the limit, whatever the solver's last digits */
 }
 
+static double part_round_off(const struct br_march *m, const struct br_part *part)
+{
+    if (part->solver->round_off)
+        return part->solver->round_off(part->state);
+    return m->method.solver->round_off(&part->field, &m->method.linear);
+}
+
 double br_march_round_off(const struct br_march *m)
 {
     double largest = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (m->part[kind].solver)
-            largest =
-                fmax(largest, m->method.solver->round_off(&m->part[kind].field, &m->method.linear));
+            largest = fmax(largest, part_round_off(m, &m->part[kind]));
     return largest;
 }
