@@ -16,7 +16,8 @@ static const char usage[] =
     "[PART...] [OPTION...]\n\nWhere does it break, and does it say so? Each part goes to one kind "
     "of extremes, compares what\nthe theory predicts with what is measured, and writes tables and "
     "pictures. The verdict fails where\na result is wrong and nothing said so. Without a PART all "
-    "of those below are tried.\n\nExamples:\n  beamrate extremes\n";
+    "of those below are tried.\n\nExamples:\n  beamrate extremes\n  beamrate extremes map --cases 10 --seed 7\n"
+    "  beamrate extremes floors --n 100,1000 --k 0.01\n";
 
 /* By the mode that fesetround takes; nearest is the usual one. */
 static const struct {
@@ -170,7 +171,7 @@ static enum br_status check_heeded(const struct br_extremes_options *o, struct b
         all |= o->part[i]->heeds;
     for (size_t i = 0; i < HEEDED; i++)
         if (given[i] && !(all & heeded[i].bit))
-            return br_fail(err, BR_BAD_INPUT, "%s: no chosen part heeds it; %s does",
+            return br_fail(err, BR_BAD_INPUT, "%s: no chosen part heeds it; it is for %s",
                            heeded[i].option, heeders(heeded[i].bit));
     return BR_OK;
 }
