@@ -173,7 +173,7 @@ static void test_random_scenes(void **state)
     const size_t most = getenv("BR_EXTREMES") ? (size_t)atol(getenv("BR_EXTREMES")) : 600;
     for (uint64_t seed = 1; seed <= (br_test_quick() ? 60 : most); seed++)
         check_scene(seed, &compared);
-    print_message("%zu scenes\n", compared);
+    print_message("# %zu scenes\n", compared);
     if (br_test_slack() == 1)
         assert_true(compared >= 40);
 }
