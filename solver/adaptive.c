@@ -368,6 +368,16 @@ static enum br_status check_progress(struct br_march *m, const struct trial *tri
                    (double)a->stalled * least_progress * m->scene->duration);
 }
 
+static enum br_status check_count(const struct br_march *m, struct br_error *err)
+{
+    const size_t most = m->method.most_steps;
+    const struct br_counts counts = br_march_counts(m);
+    if (most == 0 || counts.steps + counts.rejected < most)
+        return BR_OK;
+    return br_fail(err, BR_INTERRUPTED, "scheme %s: at t = %g s %zu steps were made, and no more",
+                   m->method.scheme->name, m->adaptive->now, most);
+}
+
 /* Goes on by at most `longest`, s. */
 static enum br_status adaptive_step(struct br_march *m, double longest, struct br_error *err)
 {
@@ -377,7 +387,11 @@ static enum br_status adaptive_step(struct br_march *m, double longest, struct b
     const double k = wanted >= longest ? longest : fmin(wanted, longest / 2);
     struct trial trial;
     bool switched = false;
-    enum br_status status = estimated_step(m, k, &trial, err);
+    enum br_status status = check_count(m, err);
+    if (!status)
+        status = estimated_step(m, k, &trial, err);
+    if (status)
+        return status;
     const double whole = trial.k;
     if (!status && !(trial.error <= 1))
         switched = true; /* a jump */

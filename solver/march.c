@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/contact_limit.h"
 #include "solver/march_state.h"
 
 /* t_n = n T / N, never summed. */
@@ -83,9 +84,21 @@ struct br_counts br_march_counts(const struct br_march *m)
 
 /* ---- looking ---- */
 
-void br_march_watch(struct br_march *m, const struct br_march_watcher *watcher)
+bool br_march_watch(struct br_march *m, const struct br_march_watcher *watcher)
 {
-    m->watcher = watcher ? *watcher : (struct br_march_watcher){0};
+    if (m->watchers == BR_MOST_WATCHERS)
+        return false;
+    m->watcher[m->watchers++] = *watcher;
+    return true;
+}
+
+void br_march_unwatch(struct br_march *m, const void *self)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < m->watchers; i++)
+        if (m->watcher[i].self != self)
+            m->watcher[left++] = m->watcher[i];
+    m->watchers = left;
 }
 
 const char *br_regime_name(enum br_regime regime)
@@ -199,12 +212,9 @@ double br_march_compliance(const struct br_march *m, enum br_field_kind kind)
 
 bool br_march_contact_unstable(const struct br_march *m)
 {
-    if (!m->scene->contact.modelled || m->method.contact->at_new_step || m->foreign)
+    if (!m->was_closed || m->method.contact->at_new_step || m->foreign)
         return false;
-    const struct br_field *f = &m->part[BR_AXIAL].field;
-    const double gain = m->scene->contact.stiffness * f->k * br_march_compliance(m, BR_AXIAL);
-    const double limit = 1 + f->viscosity / (f->viscosity + f->k * f->stiffness);
-    return !(gain <= (1 + 1e-12) * limit); /* at the limit, whatever the solver's last digits */
+    return br_contact_grows(&m->part[BR_AXIAL].field, m->scene->contact.stiffness);
 }
 
 double br_march_round_off(const struct br_march *m)

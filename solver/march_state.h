@@ -34,7 +34,8 @@ struct br_march {
     size_t steps;
     struct br_part part[2]; /* by br_field_kind */
     enum br_regime regime[2];
-    bool held[2]; /* the regime holds, whatever the law says of the stage's result */
+    bool was_closed; /* the contact, in a step */
+    bool held[2];    /* the regime holds, whatever the law says of the stage's result */
     struct br_margins margins[2]; /* of the step so far, where a branch is held */
     struct br_tip tip;
     struct br_tip_path *path; /* of the last `lead` steps */
@@ -42,7 +43,8 @@ struct br_march {
     struct br_counts counts;         /* what the parts do not count */
     struct br_adaptive *adaptive;    /* NULL: fixed steps */
     void *foreign;                   /* of a scheme's own integrator; NULL: none */
-    struct br_march_watcher watcher; /* all NULL: nobody */
+    struct br_march_watcher watcher[BR_MOST_WATCHERS];
+    size_t watchers;
 };
 
 /* Whether a scheme takes both fields through its steps together. */
