@@ -56,9 +56,9 @@ static void print_parts(FILE *out)
     fprintf(out, "\nParts:\n");
     for (const struct br_extremes_part *const *p = br_extremes_parts; *p; p++)
         fprintf(out, "  %-12s %s\n", (*p)->name, (*p)->title);
-    fprintf(out, "Heeded by:\n");
+    fprintf(out, "Heeded by:\n"); /* without --: else they are options, for completions */
     for (size_t i = 0; i < HEEDED; i++)
-        fprintf(out, "  %-12s %s\n", heeded[i].option, heeders(heeded[i].bit));
+        fprintf(out, "  %-12s %s\n", heeded[i].option + 2, heeders(heeded[i].bit));
     fprintf(out, "Formats (--format):\n ");
     for (const struct br_page_emitter *const *e = br_page_emitters; *e; e++)
         fprintf(out, " %s", (*e)->name);
