@@ -17,6 +17,7 @@ struct assembled {
     double *tip_response;  /* z = A^-1 e_tip, nodal */
     double *rhs;           /* workspace, nodal */
     double loss;           /* of a solve, relative, as br_system_loss has it */
+    double safety;         /* how much more a march may lose, see round_off */
 };
 
 /* Index of the tip's displacement in a nodal array. */
@@ -107,6 +108,7 @@ enum br_status br_assembled_create(const struct br_field *field,
     *self = s;
     if (!s)
         return br_no_memory(err, "the stiffness form");
+    s->safety = factoriser->refines && options->refinement > 0 ? 15 : 2;
     enum br_status status = br_system_init(&s->system, field, options, factoriser, err);
     if (!status)
         status = allocate(s, err);
@@ -136,8 +138,7 @@ enum br_status br_assembled_set_step(void *self, double k, struct br_error *err)
 double br_assembled_round_off(const void *self, size_t steps)
 {
     const struct assembled *s = self;
-    const double safety = s->system.factoriser->refines ? 30 : 4;
-    return safety * loss_of_march(s, (double)steps) +
+    return s->safety * loss_of_march(s, (double)steps) +
            8 * DBL_EPSILON * ((double)s->system.field.n + 1024);
 }
 

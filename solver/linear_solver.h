@@ -104,7 +104,7 @@ struct br_linear_solver {
     const struct br_field_solver *axial_quadratic; /* for elements of degree 2; NULL: it has none */
 
     /* Predicted round-off of a march's displacement relative to the exact discrete
-     * solution, from measurements (the benchmark prints both). */
+     * solution at its end, from measurements (`beamrate extremes floors`; the benchmark). */
     double (*round_off)(const struct br_field *field, const struct br_linear_options *options);
 };
 

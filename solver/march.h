@@ -130,8 +130,8 @@ struct br_march_watcher {
 /* From now on; NULL: nobody. Schemes with an integrator of their own tell nothing. */
 void br_march_watch(struct br_march *march, const struct br_march_watcher *watcher);
 
-/* Predicted round-off of the displacements relative to the exact discrete
- * solution: the larger of the modelled fields'. */
+/* Predicted round-off of the displacements relative to the exact discrete solution, from the first
+ * step on and with what equal steps gather: the larger of the modelled fields'. */
 double br_march_round_off(const struct br_march *march);
 
 #endif
