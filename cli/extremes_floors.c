@@ -52,7 +52,7 @@ static enum br_status floors_verdict(const void *result, struct br_error *err)
     return br_floors_verdict(result, err);
 }
 
-const struct br_extremes_part br_extremes_floors = {
+const struct br_extremes_part br_extremes_part_floors = {
     .name = "floors",
     .title = "round-off of every linear solver over n and k, measured and predicted",
     .heeds = BR_HEEDS_N | BR_HEEDS_K | BR_HEEDS_ROUNDING,

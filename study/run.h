@@ -52,6 +52,8 @@ struct br_run_report {
 
     bool checked;
     struct br_certificate worst, limits;
+    double energy_worst, energy_limit; /* imbalance of a step; 0 and INFINITY where the works have
+                                          a remainder */
     struct br_error verdict; /* BR_OK, or the first step beyond a limit */
     size_t bad_steps;
 
@@ -59,7 +61,7 @@ struct br_run_report {
     struct br_step_cost cost;
 
     double round_off;      /* predicted, of the displacements */
-    bool contact_unstable; /* lagged contact beyond its stability limit */
+    bool contact_unstable; /* br_march_contact_unstable */
 };
 
 /* Marches and fills the report (out). A march that fails is a result: report->failure, BR_OK is
