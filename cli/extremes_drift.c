@@ -50,7 +50,7 @@ static enum br_status drifts_verdict(const void *result, struct br_error *err)
     return br_drifts_verdict(result, err);
 }
 
-const struct br_extremes_part br_extremes_steps = {
+const struct br_extremes_part br_extremes_part_steps = {
     .name = "steps",
     .title = "round-off that 1 to 1e7 steps gather, measured and predicted; time levels",
     .heeds = BR_HEEDS_K | BR_HEEDS_ROUNDING,

@@ -61,11 +61,8 @@ struct br_extremes_part {
     enum br_status (*verdict)(const void *result, struct br_error *err);
 };
 
-<<<<<<< HEAD
-extern const struct br_extremes_part br_extremes_floors, br_extremes_steps;
-=======
-extern const struct br_extremes_part br_extremes_part_floors, br_extremes_part_map;
->>>>>>> e0a29d0d781118b7cd58a3b7e17ad212f8e5f18d
+extern const struct br_extremes_part br_extremes_part_floors, br_extremes_part_steps,
+    br_extremes_part_map;
 
 /* NULL-terminated, in the order in which they run. */
 extern const struct br_extremes_part *const br_extremes_parts[];
