@@ -139,8 +139,8 @@ bool br_march_watch(struct br_march *march, const struct br_march_watcher *watch
 /* The watcher of that `self` looks no more. */
 void br_march_unwatch(struct br_march *march, const void *self);
 
-/* Predicted round-off of the displacements relative to the exact discrete
- * solution: the larger of the modelled fields'. */
+/* Predicted round-off of the displacements relative to the exact discrete solution, from the first
+ * step on and with what equal steps gather: the larger of the modelled fields'. */
 double br_march_round_off(const struct br_march *march);
 
 #endif
