@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cli/number_option.h"
-#include "cli/suggest.h"
+#include "cli/parse.h"
 #include "tables/check_emitter.h"
 
 static const char usage[] =
@@ -17,7 +17,7 @@ static const char usage[] =
     "Examples:\n  beamrate check --all --junit orders.xml --markdown summary.md\n"
     "  beamrate check my_scene.yaml --json new.json --compare old.json\n";
 
-enum { HELP = 1, FIRST_FILE }; /* FIRST_FILE + i: a file of format i */
+enum { FIRST_FILE = BR_PARSE_HELP + 1 }; /* FIRST_FILE + i: a file of format i */
 
 /* One row an option: those of the formats, then the fixed ones. */
 struct option_table {
@@ -42,7 +42,7 @@ static void fill_table(struct option_table *t, struct br_check_options *o)
         {"threads", 0, POPT_ARG_STRING, &o->threads, 0, "threads; 0, the default: all cores",
          "COUNT"},
         {"quiet", 0, POPT_ARG_NONE, &o->quiet, 0, "no progress, no table on the terminal", NULL},
-        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        BR_PARSE_HELP_ROW,
         BR_INCLUDE_METHOD(t->method),
     };
     br_method_options_table(&o->method, t->method);
@@ -54,24 +54,16 @@ static void fill_table(struct option_table *t, struct br_check_options *o)
     add(t, &(struct poptOption)POPT_TABLEEND);
 }
 
-static enum br_status read_scenes(poptContext context, struct br_check_options *o,
-                                  struct br_error *err)
+static enum br_status read_scenes(poptContext context, void *self, struct br_error *err)
 {
-    const char **words = poptGetArgs(context);
-    while (words && words[o->scenes])
-        o->scenes++;
-    if (o->all ? o->scenes > 0 : o->scenes == 0)
+    struct br_check_options *o = self;
+    const enum br_status status = br_parse_words(context, &o->scene, &o->scenes, err);
+    if (!status && (o->all ? o->scenes > 0 : o->scenes == 0))
         return br_fail(
             err, BR_BAD_INPUT,
             o->all ? "--all and scenes are given, expected one of the two"
                    : "no scene is given, expected files, names of bundled scenes, or --all");
-    o->scene = br_allocate(o->scenes + 1, sizeof *o->scene);
-    if (!o->scene)
-        return br_no_memory(err, "the options");
-    for (size_t i = 0; i < o->scenes; i++)
-        if (!(o->scene[i] = strdup(words[i])))
-            return br_no_memory(err, "the options");
-    return BR_OK;
+    return status;
 }
 
 /* Whatever the scenes say: names and numbers must be some. */
@@ -84,9 +76,10 @@ static enum br_status read_values(struct br_check_options *o, struct br_error *e
 }
 
 /* The file of a format, which would be lost if another one followed. */
-static enum br_status keep_file(poptContext context, struct br_check_options *o, size_t format,
-                                struct br_error *err)
+static enum br_status keep_file(poptContext context, int val, void *self, struct br_error *err)
 {
+    struct br_check_options *o = self;
+    const size_t format = (size_t)(val - FIRST_FILE);
     char *path = poptGetOptArg(context);
     if (o->file[format]) {
         free(path);
@@ -102,27 +95,17 @@ enum br_status br_check_options_parse(int argc, const char **argv, struct br_che
     struct option_table table = {0};
     *o = (struct br_check_options){0};
     fill_table(&table, o);
-    poptContext context = poptGetContext("beamrate", argc, argv, table.row, 0);
-    if (!context)
-        return br_no_memory(err, "the options");
-    poptSetOtherOptionHelp(context, usage);
-    int code;
-    enum br_status status = BR_OK;
-    while (!status && (code = poptGetNextOpt(context)) > 0)
-        if (code == HELP) {
-            o->help = 1;
-            poptPrintHelp(context, stdout, 0);
-            br_print_method_registries(stdout);
-        } else
-            status = keep_file(context, o, (size_t)(code - FIRST_FILE), err);
-    if (!status && code < -1)
-        status = br_bad_option(context, table.row, code, err);
-    else if (!status && !o->help)
-        status = read_scenes(context, o, err);
-    poptFreeContext(context);
-    if (!status && !o->help)
-        status = read_values(o, err);
-    return status;
+    const enum br_status status =
+        br_parse(argc, argv,
+                 &(struct br_parse){.table = table.row,
+                                    .usage = usage,
+                                    .print_below = br_print_method_registries,
+                                    .help = &o->help,
+                                    .read_words = read_scenes,
+                                    .take = keep_file,
+                                    .self = o},
+                 err);
+    return status || o->help ? status : read_values(o, err);
 }
 
 void br_check_options_clear(struct br_check_options *o)

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate completions SHELL: what makes a shell complete commands, options and their values. */
-#include <popt.h>
 #include <string.h>
 
 #include "cli/completion.h"
-#include "cli/suggest.h"
+#include "cli/parse.h"
 #include "study/scene_file.h"
 
 const struct br_shell *const br_shells[] = {&br_bash, &br_zsh, &br_fish, NULL};
@@ -16,43 +15,33 @@ static const char usage[] = SHELLS
     "Examples:\n  beamrate completions bash > beamrate.bash\n"
     "  beamrate completions zsh > _beamrate\n  beamrate completions fish > beamrate.fish\n";
 
-enum { HELP = 1 };
+static enum br_status read_shell(poptContext context, void *self, struct br_error *err)
+{
+    const struct br_shell **shell = self;
+    const char *word = poptGetArg(context), *more = poptGetArg(context);
+    for (size_t i = 0; word && br_shells[i]; i++)
+        if (strcmp(br_shells[i]->name, word) == 0)
+            *shell = br_shells[i];
+    if (!*shell || more)
+        return br_fail(err, BR_BAD_INPUT, "found '%s', expected one shell: " SHELLS,
+                       more   ? more
+                       : word ? word
+                              : "");
+    return BR_OK;
+}
 
 /* *shell (out): NULL where help was asked for. */
 static enum br_status read_options(int argc, const char **argv, const struct br_shell **shell,
                                    struct br_error *err)
 {
-    const struct poptOption table[] = {
-        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
-        POPT_TABLEEND,
-    };
-    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
-    if (!context)
-        return br_no_memory(err, "the options");
-    poptSetOtherOptionHelp(context, usage);
-    int code;
-    bool help = false;
-    while ((code = poptGetNextOpt(context)) == HELP) {
-        help = true;
-        poptPrintHelp(context, stdout, 0);
-    }
+    const struct poptOption table[] = {BR_PARSE_HELP_ROW, POPT_TABLEEND};
+    int help = 0;
     *shell = NULL;
-    enum br_status status = BR_OK;
-    if (code < -1)
-        status = br_bad_option(context, table, code, err);
-    else if (!help) {
-        const char *word = poptGetArg(context), *more = poptGetArg(context);
-        for (size_t i = 0; word && br_shells[i]; i++)
-            if (strcmp(br_shells[i]->name, word) == 0)
-                *shell = br_shells[i];
-        if (!*shell || more)
-            status = br_fail(err, BR_BAD_INPUT, "found '%s', expected one shell: " SHELLS,
-                             more   ? more
-                             : word ? word
-                                    : "");
-    }
-    poptFreeContext(context);
-    return status;
+    return br_parse(
+        argc, argv,
+        &(struct br_parse){
+            .table = table, .usage = usage, .help = &help, .read_words = read_shell, .self = shell},
+        err);
 }
 
 static enum br_status collect_scenes(char *text, size_t size, struct br_error *err)

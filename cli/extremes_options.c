@@ -142,7 +142,13 @@ enum br_status br_extremes_options_parse(int argc, const char **argv, struct br_
         POPT_TABLEEND,
     };
     return br_parse(argc, argv,
-                    &(struct br_parse){table, usage, print_parts, &o->help, read_parts, o}, err);
+                    &(struct br_parse){.table = table,
+                                       .usage = usage,
+                                       .print_below = print_parts,
+                                       .help = &o->help,
+                                       .read_words = read_parts,
+                                       .self = o},
+                    err);
 }
 
 void br_extremes_options_clear(struct br_extremes_options *o)

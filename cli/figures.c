@@ -7,10 +7,10 @@
 #include "cli/command.h"
 #include "cli/number_option.h"
 #include "cli/output.h"
+#include "cli/parse.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/signals.h"
-#include "cli/suggest.h"
 #include "plots/figures.h"
 #include "plots/plots.h"
 #include "study/ranks.h"
@@ -29,30 +29,15 @@ struct options {
 
 static enum br_status parse(int argc, const char **argv, struct options *o, struct br_error *err)
 {
-    enum { HELP = 1 };
     const struct poptOption table[] = {
         {"out", 0, POPT_ARG_STRING, &o->out, 0, "folder of the results (default: figures)", "DIR"},
         {"threads", 0, POPT_ARG_STRING, &o->threads, 0, "threads; 0, the default: all cores",
          "COUNT"},
         {"quiet", 0, POPT_ARG_NONE, &o->quiet, 0, "no progress, no claims on the terminal", NULL},
-        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        BR_PARSE_HELP_ROW,
         POPT_TABLEEND};
-    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
-    if (!context)
-        return br_no_memory(err, "the options");
-    poptSetOtherOptionHelp(context, usage);
-    int code;
-    while ((code = poptGetNextOpt(context)) > 0) {
-        o->help = 1;
-        poptPrintHelp(context, stdout, 0);
-    }
-    enum br_status status = BR_OK;
-    const char *word = poptPeekArg(context);
-    if (code < -1)
-        status = br_bad_option(context, table, code, err);
-    else if (word && !o->help)
-        status = br_fail(err, BR_BAD_INPUT, "found '%s', expected options alone", word);
-    poptFreeContext(context);
+    const enum br_status status = br_parse(
+        argc, argv, &(struct br_parse){.table = table, .usage = usage, .help = &o->help}, err);
     return status ? status
                   : br_read_count_option("threads", o->threads, 4096, &o->thread_count, err);
 }

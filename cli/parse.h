@@ -22,6 +22,8 @@ struct br_parse {
     int *help;                      /* out: set to 1 with --help */
     /* Reads the words that are no options; NULL: there are none. Not called with --help. */
     enum br_status (*read_words)(poptContext context, void *self, struct br_error *err);
+    /* Takes an option whose `val` in the table is above BR_PARSE_HELP; NULL: there is none. */
+    enum br_status (*take)(poptContext context, int val, void *self, struct br_error *err);
     void *self;
 };
 
@@ -29,5 +31,13 @@ struct br_parse {
  * BR_BAD_INPUT, naming the option, or BR_NO_MEMORY. */
 enum br_status br_parse(int argc, const char **argv, const struct br_parse *parse,
                         struct br_error *err);
+
+/* A read_words: one scene and no more; self: a char * (out), owned by the caller. */
+enum br_status br_parse_scene(poptContext context, void *self, struct br_error *err);
+
+/* Copies all words; *word (out, count) and its words are owned by the caller, even after a failure,
+ * which is BR_NO_MEMORY. */
+enum br_status br_parse_words(poptContext context, char ***word, size_t *count,
+                              struct br_error *err);
 
 #endif

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "cli/formats.h"
 #include "cli/output.h"
 #include "cli/plan_options.h"
 #include "cli/progress.h"
@@ -66,16 +67,7 @@ static enum br_status make(struct work *w, struct br_error *err)
 
 /* ---- results ---- */
 
-static bool is_wanted(const char *list, const char *name)
-{
-    const size_t length = strlen(name);
-    for (const char *rest = list; rest && *rest; rest += strcspn(rest, ","), rest += *rest == ',')
-        if (strcspn(rest, ",") == length && strncmp(rest, name, length) == 0)
-            return true;
-    return !list;
-}
-
-static enum br_status write_one(struct work *w, const struct br_plan_emitter *e,
+static enum br_status write_one(struct work *w, const struct br_page_emitter *e,
                                 const struct br_plan_page *page, struct br_error *err)
 {
     char name[600];
@@ -84,7 +76,7 @@ static enum br_status write_one(struct work *w, const struct br_plan_emitter *e,
     enum br_status status = br_output_file(&w->output, name, &file, err);
     if (status)
         return status;
-    status = e->emit(file, page, err);
+    status = br_plan_emit(e, file, page, err);
     const enum br_status closed = br_output_close(file, name, status ? NULL : err);
     return status ? status : closed;
 }
@@ -93,8 +85,8 @@ static enum br_status write_all(struct work *w, const struct br_plan_page *page,
                                 struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (const struct br_plan_emitter *const *e = br_plan_emitters; *e && !status; e++)
-        if (is_wanted(w->options.study.format, (*e)->name))
+    for (const struct br_page_emitter *const *e = br_page_emitters; *e && !status; e++)
+        if (br_format_wanted(w->options.study.format, (*e)->name))
             status = write_one(w, *e, page, err);
     if (!status)
         status = br_output_commit(&w->output, err);
@@ -117,7 +109,7 @@ static enum br_status show(struct work *w, struct br_error *err)
     };
     enum br_status status = BR_OK;
     if (!w->options.study.quiet)
-        status = br_plan_emitters[0]->emit(stdout, &page, err);
+        status = br_plan_emit(&br_page_text, stdout, &page, err);
     if (!status && w->options.study.out)
         status = write_all(w, &page, err);
     if (!status && w->plan.end == BR_PLAN_MISSED)

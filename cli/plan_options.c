@@ -7,8 +7,8 @@
 
 #include "cli/names.h"
 #include "cli/number_option.h"
-#include "cli/suggest.h"
-#include "tables/plan_emitter.h"
+#include "cli/parse.h"
+#include "tables/sheet.h"
 
 static const char usage[] =
     "SCENE --error E | --seconds S [OPTION...]\n\nThe cheapest way to a relative error, or the "
@@ -20,40 +20,13 @@ static const char usage[] =
     "  beamrate plan example3 --error 1e-4 --methods bdf2,esdirk3,adaptive --out plan\n"
     "  beamrate plan example2 --seconds 1e-3 --methods euler+implicit,adaptive\n";
 
-enum { HELP = 1 };
-
 static void print_names(FILE *out)
 {
     br_print_contender_words(out);
     fprintf(out, "Formats (--format):\n ");
-    for (const struct br_plan_emitter *const *e = br_plan_emitters; *e; e++)
+    for (const struct br_page_emitter *const *e = br_page_emitters; *e; e++)
         fprintf(out, " %s", (*e)->name);
     fputc('\n', out);
-}
-
-static int read_all(poptContext context, struct br_plan_options *o)
-{
-    int code;
-    while ((code = poptGetNextOpt(context)) > 0)
-        if (code == HELP) {
-            o->study.help = 1;
-            poptPrintHelp(context, stdout, 0);
-            print_names(stdout);
-        }
-    return code;
-}
-
-static enum br_status read_scene(poptContext context, struct br_plan_options *o,
-                                 struct br_error *err)
-{
-    const char *word = poptGetArg(context), *more = poptGetArg(context);
-    if (!word)
-        return br_fail(err, BR_BAD_INPUT,
-                       "no scene is given, expected a file or the name of a bundled scene");
-    if (more)
-        return br_fail(err, BR_BAD_INPUT, "found '%s' after the scene, expected one scene", more);
-    o->scene = strdup(word);
-    return o->scene ? BR_OK : br_no_memory(err, "the options");
 }
 
 enum br_status br_plan_options_parse(int argc, const char **argv, struct br_plan_options *o,
@@ -79,21 +52,17 @@ enum br_status br_plan_options_parse(int argc, const char **argv, struct br_plan
         {"format", 0, POPT_ARG_STRING, &s->format, 0,
          "formats to write (default all): any of those below", "LIST"},
         {"quiet", 0, POPT_ARG_NONE, &s->quiet, 0, "no progress, nothing on the terminal", NULL},
-        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        BR_PARSE_HELP_ROW,
         POPT_TABLEEND,
     };
-    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
-    if (!context)
-        return br_no_memory(err, "the options");
-    poptSetOtherOptionHelp(context, usage);
-    const int code = read_all(context, o);
-    enum br_status status = BR_OK;
-    if (code < -1)
-        status = br_bad_option(context, table, code, err);
-    else if (!s->help)
-        status = read_scene(context, o, err);
-    poptFreeContext(context);
-    return status;
+    return br_parse(argc, argv,
+                    &(struct br_parse){.table = table,
+                                       .usage = usage,
+                                       .print_below = print_names,
+                                       .help = &s->help,
+                                       .read_words = br_parse_scene,
+                                       .self = &o->scene},
+                    err);
 }
 
 void br_plan_options_clear(struct br_plan_options *o)

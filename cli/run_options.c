@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cli/number_option.h"
-#include "cli/suggest.h"
+#include "cli/parse.h"
 #include "study/history.h"
 #include "study/model.h"
 #include "study/number_list.h"
@@ -17,21 +17,6 @@ static const char usage[] =
     "and what not.\nTimes are in seconds, with their unit or without: --k 1e-3, --k '1e-3 s'.\n\n"
     "Examples:\n  beamrate run example3\n  beamrate run example2 --n 400 --k 1e-4 --check\n"
     "  beamrate run example1 --at 0.5,1 --out results --json -\n";
-
-enum { HELP = 1 };
-
-static enum br_status read_words(poptContext context, struct br_run_options *o,
-                                 struct br_error *err)
-{
-    const char *word = poptGetArg(context);
-    if (!word)
-        return br_fail(err, BR_BAD_INPUT,
-                       "no scene is given, expected a file or the name of a bundled scene");
-    if (!(o->scene = strdup(word)))
-        return br_no_memory(err, "the options");
-    word = poptGetArg(context);
-    return word ? br_fail(err, BR_BAD_INPUT, "found '%s', expected nothing more", word) : BR_OK;
-}
 
 enum br_status br_run_options_parse(int argc, const char **argv, struct br_run_options *o,
                                     struct br_error *err)
@@ -70,27 +55,18 @@ enum br_status br_run_options_parse(int argc, const char **argv, struct br_run_o
          "FILE"},
         {"plot", 0, POPT_ARG_NONE, &o->plot, 0, "the tip's history in the terminal", NULL},
         {"quiet", 0, POPT_ARG_NONE, &o->quiet, 0, "no progress, no summary on the terminal", NULL},
-        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        BR_PARSE_HELP_ROW,
         BR_INCLUDE_METHOD(method),
         POPT_TABLEEND,
     };
-    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
-    if (!context)
-        return br_no_memory(err, "the options");
-    poptSetOtherOptionHelp(context, usage);
-    int code;
-    while ((code = poptGetNextOpt(context)) > 0) {
-        o->help = 1;
-        poptPrintHelp(context, stdout, 0);
-        br_print_method_registries(stdout);
-    }
-    enum br_status status = BR_OK;
-    if (code < -1)
-        status = br_bad_option(context, table, code, err);
-    else if (!o->help)
-        status = read_words(context, o, err);
-    poptFreeContext(context);
-    return status;
+    return br_parse(argc, argv,
+                    &(struct br_parse){.table = table,
+                                       .usage = usage,
+                                       .print_below = br_print_method_registries,
+                                       .help = &o->help,
+                                       .read_words = br_parse_scene,
+                                       .self = &o->scene},
+                    err);
 }
 
 void br_run_options_clear(struct br_run_options *o)

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "cli/command.h"
-#include "cli/suggest.h"
+#include "cli/parse.h"
 #include "cli/whole_file.h"
 #include "study/ranks.h"
 #include "study/scene_file.h"
@@ -24,7 +24,14 @@ struct options {
     int schema, help;
 };
 
-enum { HELP = 1 };
+/* At most one. */
+static enum br_status read_words(poptContext context, void *self, struct br_error *err)
+{
+    struct options *o = self;
+    if (poptPeekArg(context))
+        return br_parse_scene(context, &o->scene, err);
+    return BR_OK;
+}
 
 static enum br_status read_options(int argc, const char **argv, struct options *o,
                                    struct br_error *err)
@@ -34,30 +41,16 @@ static enum br_status read_options(int argc, const char **argv, struct options *
          "write a template with every key, its unit and default; - is standard output", "FILE"},
         {"schema", 0, POPT_ARG_NONE, &o->schema, 0,
          "print the JSON schema by which an editor completes and checks scenes", NULL},
-        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        BR_PARSE_HELP_ROW,
         POPT_TABLEEND,
     };
-    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
-    if (!context)
-        return br_no_memory(err, "the options");
-    poptSetOtherOptionHelp(context, usage);
-    int code;
-    while ((code = poptGetNextOpt(context)) == HELP) {
-        o->help = 1;
-        poptPrintHelp(context, stdout, 0);
-    }
-    enum br_status status = BR_OK;
-    if (code < -1)
-        status = br_bad_option(context, table, code, err);
-    const char *word = status || o->help ? NULL : poptGetArg(context);
-    if (word && !(o->scene = strdup(word)))
-        status = br_no_memory(err, "the options");
-    word = word ? poptGetArg(context) : NULL;
-    if (!status && word)
-        status = br_fail(err, BR_BAD_INPUT, "found '%s', expected nothing more", word);
-    poptFreeContext(context);
+    const enum br_status status = br_parse(
+        argc, argv,
+        &(struct br_parse){
+            .table = table, .usage = usage, .help = &o->help, .read_words = read_words, .self = o},
+        err);
     if (!status && (o->scene != NULL) + (o->file != NULL) + o->schema > 1)
-        status = br_fail(err, BR_BAD_INPUT, "expected one of: a scene, --new, --schema");
+        return br_fail(err, BR_BAD_INPUT, "expected one of: a scene, --new, --schema");
     return status;
 }
 

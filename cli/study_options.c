@@ -5,9 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/formats.h"
 #include "cli/names.h"
 #include "cli/number_option.h"
-#include "cli/suggest.h"
+#include "cli/parse.h"
 #include "study/number_list.h"
 #include "tables/emitter.h"
 
@@ -24,39 +25,6 @@ static void print_registries(FILE *out)
     fprintf(out, "Formats (--format):\n");
     for (const struct br_emitter *const *e = br_emitters; *e; e++)
         fprintf(out, "  %-12s %s\n", (*e)->name, (*e)->title);
-}
-
-enum { HELP = 1 };
-
-/* Reads options until the end; returns popt's verdict, -1 for all well. */
-static int read_all(poptContext context, struct br_study_options *o)
-{
-    int code;
-    while ((code = poptGetNextOpt(context)) > 0)
-        if (code == HELP) {
-            o->help = 1;
-            poptPrintHelp(context, stdout, 0);
-            print_registries(stdout);
-        }
-    return code;
-}
-
-/* The words that are no options: one if wanted, else none. */
-static enum br_status read_argument(poptContext context, char **argument, struct br_error *err)
-{
-    const char *word = poptGetArg(context);
-    if (argument && !word)
-        return br_fail(err, BR_BAD_INPUT,
-                       "no scene is given, expected a file or the name of a bundled scene");
-    if (argument) {
-        *argument = strdup(word);
-        if (!*argument)
-            return br_no_memory(err, "the options");
-        word = poptGetArg(context);
-    }
-    if (word)
-        return br_fail(err, BR_BAD_INPUT, "found '%s', expected nothing more", word);
-    return BR_OK;
 }
 
 enum br_status br_study_options_parse(int argc, const char **argv, const char *usage,
@@ -81,22 +49,18 @@ enum br_status br_study_options_parse(int argc, const char **argv, const char *u
          "formats to write (default all): any of those below", "LIST"},
         {"no-plots", 0, POPT_ARG_NONE, &o->no_plots, 0, "write no plots", NULL},
         {"quiet", 0, POPT_ARG_NONE, &o->quiet, 0, "no progress, no table on the terminal", NULL},
-        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        BR_PARSE_HELP_ROW,
         BR_INCLUDE_METHOD(method),
         POPT_TABLEEND,
     };
-    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
-    if (!context)
-        return br_no_memory(err, "the options");
-    poptSetOtherOptionHelp(context, usage);
-    const int code = read_all(context, o);
-    enum br_status status = BR_OK;
-    if (code < -1)
-        status = br_bad_option(context, table, code, err);
-    else if (!o->help)
-        status = read_argument(context, argument, err);
-    poptFreeContext(context);
-    return status;
+    return br_parse(argc, argv,
+                    &(struct br_parse){.table = table,
+                                       .usage = usage,
+                                       .print_below = print_registries,
+                                       .help = &o->help,
+                                       .read_words = argument ? br_parse_scene : NULL,
+                                       .self = argument},
+                    err);
 }
 
 void br_study_options_clear(struct br_study_options *o)
@@ -189,26 +153,13 @@ static enum br_status read_norms(const char *text, struct br_study_request *r, s
     }
 }
 
-static enum br_status check_formats(const struct br_study_options *o, struct br_error *err)
-{
-    char name[64];
-    for (const char *rest = o->format; rest && *rest;) {
-        const size_t length = strcspn(rest, ",");
-        snprintf(name, sizeof name, "%.*s", (int)(length < 63 ? length : 63), rest);
-        if (!br_emitter_find(name))
-            return unknown("format", name, br_format_names(), err);
-        rest += length + (rest[length] == ',');
-    }
-    return BR_OK;
-}
-
 enum br_status br_study_request_read(const struct br_study_options *o, struct br_study_request *r,
                                      struct br_error *err)
 {
     *r = (struct br_study_request){0};
     enum br_status status = br_read_count_option("threads", o->threads, 4096, &r->threads, err);
     if (!status)
-        status = check_formats(o, err);
+        status = br_formats_check(o->format, err);
     if (!status)
         status = read_norms(o->norm, r, err);
     if (!status)

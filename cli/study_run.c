@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/formats.h"
 #include "cli/output.h"
 #include "cli/provenance.h"
 #include "cli/signals.h"
@@ -29,22 +30,11 @@ static void describe(struct run *r, size_t page)
     r->provenance.scene_text = w->text;
 }
 
-static bool wanted(const char *list, const char *name)
-{
-    if (!list)
-        return true;
-    const size_t length = strlen(name);
-    for (const char *rest = list; *rest; rest += strcspn(rest, ","), rest += *rest == ',')
-        if (strcspn(rest, ",") == length && strncmp(rest, name, length) == 0)
-            return true;
-    return false;
-}
-
 static enum br_status write_tables(struct run *r, size_t i, struct br_error *err)
 {
     describe(r, i);
     for (const struct br_emitter *const *e = br_emitters; *e; e++) {
-        if (!wanted(r->options->format, (*e)->name))
+        if (!br_format_wanted(r->options->format, (*e)->name))
             continue;
         char name[512];
         snprintf(name, sizeof name, "%s%s", r->session.page[i].report.name, (*e)->extension);

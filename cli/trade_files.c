@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/formats.h"
 #include "cli/provenance.h"
 #include "cli/read_text.h"
 #include "cli/signals.h"
@@ -78,17 +79,8 @@ enum br_status br_trade_files_open(struct br_trade_files *f, int threads, struct
     return br_output_open(&f->output, f->options->out ? f->options->out : "trade", err);
 }
 
-static bool is_wanted(const char *list, const char *name)
-{
-    const size_t length = strlen(name);
-    for (const char *rest = list; rest && *rest; rest += strcspn(rest, ","), rest += *rest == ',')
-        if (strcspn(rest, ",") == length && strncmp(rest, name, length) == 0)
-            return true;
-    return !list;
-}
-
 /* One table: of a page, or with pages > 1 their summary. */
-static enum br_status write_table(struct br_trade_files *f, const struct br_trade_emitter *e,
+static enum br_status write_table(struct br_trade_files *f, const struct br_page_emitter *e,
                                   const struct br_trade_page *page, size_t pages,
                                   struct br_error *err)
 {
@@ -99,7 +91,8 @@ static enum br_status write_table(struct br_trade_files *f, const struct br_trad
     enum br_status status = br_output_file(&f->output, name, &file, err);
     if (status)
         return status;
-    status = pages > 1 ? e->summarise(file, page, pages, err) : e->emit(file, page, err);
+    status = pages > 1 ? br_trade_summarise(e, file, page, pages, err)
+                       : br_trade_emit(e, file, page, err);
     if (br_output_close(file, name, &closing) && !status)
         status = br_fail(err, closing.status, "%s", closing.message);
     return status;
@@ -108,8 +101,8 @@ static enum br_status write_table(struct br_trade_files *f, const struct br_trad
 static enum br_status write_tables(struct br_trade_files *f, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (const struct br_trade_emitter *const *e = br_trade_emitters; *e && !status; e++) {
-        if (!is_wanted(f->options->format, (*e)->name))
+    for (const struct br_page_emitter *const *e = br_page_emitters; *e && !status; e++) {
+        if (!br_format_wanted(f->options->format, (*e)->name))
             continue;
         for (size_t i = 0; i < f->items && !status; i++)
             status = write_table(f, *e, &f->page[i], 1, err);
@@ -163,14 +156,16 @@ static enum br_status draw_all(struct br_trade_files *f, struct br_error *err)
     return status;
 }
 
-static void show(const struct br_trade_files *f)
+static enum br_status show(const struct br_trade_files *f, struct br_error *err)
 {
-    for (size_t i = 0; i < f->items; i++) {
-        br_trade_show(stdout, &f->page[i]);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < f->items && !status; i++) {
+        status = br_trade_show(stdout, &f->page[i], err);
         putchar('\n');
     }
-    if (f->items > 1)
-        br_trade_emitters[0]->summarise(stdout, f->page, f->items, NULL);
+    if (f->items > 1 && !status)
+        status = br_trade_summarise(&br_page_text, stdout, f->page, f->items, err);
+    return status;
 }
 
 /* The pictures first: they are rendered while the tables are written. */
@@ -190,8 +185,9 @@ enum br_status br_trade_files_write(struct br_trade_files *f, struct br_error *e
         fprintf(stderr, "beamrate: gnuplot is not installed: the plots are written as scripts "
                         "(*.gp) and data, but not rendered\n");
     if (!f->options->quiet)
-        show(f);
-    status = br_output_commit(&f->output, err);
+        status = show(f, err);
+    if (!status)
+        status = br_output_commit(&f->output, err);
     if (!status && !f->options->quiet)
         printf("Written to %s/\n", f->output.folder);
     return status;

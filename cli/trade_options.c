@@ -7,9 +7,9 @@
 
 #include "cli/names.h"
 #include "cli/number_option.h"
-#include "cli/suggest.h"
+#include "cli/parse.h"
 #include "study/number_list.h"
-#include "tables/trade_emitter.h"
+#include "tables/sheet.h"
 
 static const char usage[] =
     "SCENE... [OPTION...]\n\nWhat a digit costs: the relative error of many methods at many "
@@ -24,46 +24,25 @@ static const char usage[] =
     "--time-limit 2\n"
     "  beamrate trade example2 --split --methods euler+lagged,euler+implicit --k 0.1,0.01\n";
 
-enum { HELP = 1 };
-
 static const double least_tolerance = 1e-14;
 
 static void print_names(FILE *out)
 {
     br_print_contender_words(out);
     fprintf(out, "Formats (--format):\n ");
-    for (const struct br_trade_emitter *const *e = br_trade_emitters; *e; e++)
+    for (const struct br_page_emitter *const *e = br_page_emitters; *e; e++)
         fprintf(out, " %s", (*e)->name);
     fputc('\n', out);
 }
 
-static int read_all(poptContext context, struct br_trade_options *o)
+static enum br_status read_scenes(poptContext context, void *self, struct br_error *err)
 {
-    int code;
-    while ((code = poptGetNextOpt(context)) > 0)
-        if (code == HELP) {
-            o->study.help = 1;
-            poptPrintHelp(context, stdout, 0);
-            print_names(stdout);
-        }
-    return code;
-}
-
-static enum br_status read_scenes(poptContext context, int most, struct br_trade_options *o,
-                                  struct br_error *err)
-{
-    o->scene = br_allocate((size_t)most + 1, sizeof *o->scene);
-    if (!o->scene)
-        return br_no_memory(err, "the options");
-    for (const char *word; (word = poptGetArg(context));) {
-        o->scene[o->scenes] = strdup(word);
-        if (!o->scene[o->scenes++])
-            return br_no_memory(err, "the options");
-    }
-    if (o->scenes == 0)
+    struct br_trade_options *o = self;
+    const enum br_status status = br_parse_words(context, &o->scene, &o->scenes, err);
+    if (!status && o->scenes == 0)
         return br_fail(err, BR_BAD_INPUT,
                        "no scene is given, expected files or names of bundled scenes");
-    return BR_OK;
+    return status;
 }
 
 enum br_status br_trade_options_parse(int argc, const char **argv, struct br_trade_options *o,
@@ -95,21 +74,17 @@ enum br_status br_trade_options_parse(int argc, const char **argv, struct br_tra
          "formats to write (default all): any of those below", "LIST"},
         {"no-plots", 0, POPT_ARG_NONE, &s->no_plots, 0, "write no plots", NULL},
         {"quiet", 0, POPT_ARG_NONE, &s->quiet, 0, "no progress, no table on the terminal", NULL},
-        {"help", 0, POPT_ARG_NONE, NULL, HELP, "this help", NULL},
+        BR_PARSE_HELP_ROW,
         POPT_TABLEEND,
     };
-    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
-    if (!context)
-        return br_no_memory(err, "the options");
-    poptSetOtherOptionHelp(context, usage);
-    const int code = read_all(context, o);
-    enum br_status status = BR_OK;
-    if (code < -1)
-        status = br_bad_option(context, table, code, err);
-    else if (!s->help)
-        status = read_scenes(context, argc, o, err);
-    poptFreeContext(context);
-    return status;
+    return br_parse(argc, argv,
+                    &(struct br_parse){.table = table,
+                                       .usage = usage,
+                                       .print_below = print_names,
+                                       .help = &s->help,
+                                       .read_words = read_scenes,
+                                       .self = o},
+                    err);
 }
 
 void br_trade_options_clear(struct br_trade_options *o)

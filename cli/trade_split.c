@@ -4,12 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/formats.h"
 #include "cli/output.h"
+#include "cli/picture_files.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/read_text.h"
 #include "cli/signals.h"
-#include "plots/plots.h"
 #include "plots/split.h"
 #include "study/contender.h"
 #include "study/number_list.h"
@@ -156,15 +157,6 @@ static enum br_status split_all(struct work *w, struct br_error *err)
     return !status && br_signals_caught() ? br_fail(err, BR_INTERRUPTED, "interrupted") : status;
 }
 
-static bool wanted(const char *list, const char *name)
-{
-    const size_t length = strlen(name);
-    for (const char *rest = list; rest && *rest; rest += strcspn(rest, ","), rest += *rest == ',')
-        if (strcspn(rest, ",") == length && strncmp(rest, name, length) == 0)
-            return true;
-    return !list;
-}
-
 static enum br_status write_table(struct work *w, const struct br_split_emitter *emitter,
                                   const struct br_split_page *page, struct br_error *err)
 {
@@ -179,33 +171,12 @@ static enum br_status write_table(struct work *w, const struct br_split_emitter 
     return status ? status : closed;
 }
 
-static enum br_status write_part(struct work *w, const struct br_chart *chart, const char *name,
-                                 void (*write)(FILE *, const struct br_chart *),
-                                 struct br_error *err)
-{
-    FILE *file;
-    const enum br_status status = br_output_file(&w->output, name, &file, err);
-    if (status)
-        return status;
-    write(file, chart);
-    return br_output_close(file, name, err);
-}
-
 static enum br_status write_plot(struct work *w, const struct br_chart *chart, struct br_error *err)
 {
-    char data[80], script[80];
-    bool missing = false;
-    snprintf(data, sizeof data, "%s.dat", chart->stem);
-    snprintf(script, sizeof script, "%s.gp", chart->stem);
-    enum br_status status = write_part(w, chart, data, br_chart_write_data, err);
-    if (!status)
-        status = write_part(w, chart, script, br_chart_write_script, err);
-    if (!status)
-        status = br_plot_render(w->output.staging, script, &missing, err);
-    if (missing)
-        fprintf(stderr, "beamrate: gnuplot is not installed: the plot is written as a script "
-                        "(*.gp) and data, but not rendered\n");
-    return missing ? BR_OK : status;
+    struct br_picture_files files = {.output = &w->output};
+    const enum br_status status = br_picture_files_chart(&files, chart, err);
+    const enum br_status finished = br_picture_files_finish(&files, status ? NULL : err);
+    return status ? status : finished;
 }
 
 /* Over k or h, where the runs differ by one of them. */
@@ -224,7 +195,7 @@ static enum br_status write_all(struct work *w, const struct br_split_page *page
 {
     enum br_status status = BR_OK;
     for (const struct br_split_emitter *const *e = br_split_emitters; *e && !status; e++)
-        if (wanted(w->options->study.format, (*e)->name))
+        if (br_format_wanted(w->options->study.format, (*e)->name))
             status = write_table(w, *e, page, err);
     if (!status && !w->options->study.no_plots)
         status = plot(w, page, err);

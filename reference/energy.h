@@ -2,17 +2,23 @@
 /* Energies of a march and what changes them, from nodal values with element matrices of its own in
  * long double, and nothing of a solver's numerics.
  *
- * Tested with k v_n, a step of (27) and (28) says, exactly,
+ * With Y = (w, v) and <Y, Z> = v'Mv + w'Kw of the two, a step says, exactly and for each field,
  *     E_n - E_{n-1} = W - D_viscous - D_friction - D_scheme,    with
- *     E          = 1/2 v'Mv + 1/2 w'Kw + c_H/2 (u(L) - g)_+^2,
- *     W          = k F'v_n,    D_viscous = k v_n'C v_n,    D_friction = k lambda v_n(L),
- *     D_scheme   = 1/2 |v_n - v_{n-1}|_M^2 + 1/2 |w_n - w_{n-1}|_K^2
- *                + r (u_n - u_{n-1})(L) - the change of the contact's potential,
- * r being the contact force of the step. D_scheme is what implicit Euler takes away; the part of a
- * lagged contact force is negative where it adds energy.
+ *     E = 1/2 <Y, Y> (+ c_H/2 (u(L) - g)_+^2, axial),
+ * and the works summed as the scheme sums rates of change: of a Runge-Kutta method
+ *     W = sum_i b_i k F_i'v_i,    D_viscous = sum_i b_i k v_i'C v_i,    and so on over its stages,
+ *     D_scheme = k^2/2 sum_ij (b_i a_ij + b_j a_ji - b_i b_j) <Y'_i, Y'_j>
+ * (Burrage and Butcher, SIAM J. Numer. Anal. 16 (1979) 46-57), of backward differences
+ *     W = k F_n'v_n, ...,    D_scheme = 1/2 |d Y|^2 + <Y_n, d^2 Y/2 (+ d^3 Y/3)>,
+ * d being the backward difference. D_scheme is thus found from the states and the tables of
+ * textbook.h, and the balance is a check. Implicit Euler's is 1/2 |d Y|^2. A contact force r_i adds
+ *     sum_i b_i k r_i u_t,i(L) - the change of the contact's potential,
+ * negative where it gives energy, as a lagged one may. What viscosity and friction take in one step
+ * is signed like b_i, too.
  *
- * For other schemes the works are summed by the trapezoidal rule, and D_scheme is what the balance
- * leaves: measured as the remainder, with that rule's error in it. Nothing is then checked by it.
+ * A scheme with an integrator of its own (ida) has no stages: its works are summed by the
+ * trapezoidal rule, and D_scheme is what the balance leaves, with that rule's error in it. Nothing
+ * is then checked by it.
  */
 #ifndef BR_ENERGY_H
 #define BR_ENERGY_H
@@ -29,9 +35,13 @@ struct br_energy {
 struct br_work {
     double loads[2], viscous[2]; /* by br_field_kind */
     double friction;
-    double scheme;         /* D_scheme without the next */
-    double scheme_contact; /* that of the contact force */
-    bool remainder;        /* scheme is what the balance leaves; scheme_contact is 0 */
+    double scheme[2];      /* D_scheme of each field, without the next */
+    double scheme_contact; /* that of the contact force, of the axial field */
+    bool remainder;        /* scheme is what the balance leaves; the rest is then 0 */
+    double noise[2];       /* of each field's sum, by round-off: the sum of the steps' limits */
+    size_t steps[2];       /* the scheme's own */
+    size_t gaining[2];     /* of those: D_scheme with that of the contact is negative */
+    double gained[2];      /* by these steps */
 };
 
 double br_energy_total(const struct br_energy *energy);
@@ -42,26 +52,48 @@ double br_energy_total(const struct br_energy *energy);
 double br_energy_imbalance(const struct br_energy *start, const struct br_energy *now,
                            const struct br_work *work);
 
+/* What a scheme has added to a field in all, beyond round-off, J; 0: nothing, it took some. Single
+ * steps of a sound scheme may add what others take. */
+double br_energy_added(const struct br_work *work, enum br_field_kind kind);
+
+/* What was put into a field: its energy at first and the work of its loads, where that is positive,
+ * J. */
+double br_energy_put_in(const struct br_energy *start, const struct br_work *work,
+                        enum br_field_kind kind);
+
 /* Of nodal values, laid out as in solver/field.h: of one field, J. displacement, velocity: in,
  * br_field_size values. */
 double br_energy_kinetic(const struct br_field *field, const double *velocity);
 double br_energy_stored(const struct br_field *field, const double *displacement);
 
+/* Of a march as it is (out), in a scene that models no more than it does. Fails with BR_NO_MEMORY.
+ */
+enum br_status br_energy_look(const struct br_march *march, const struct br_scene *scene,
+                              struct br_energy *energy, struct br_error *err);
+
+/* What the imbalance of a step of one field stays below, relative to the sum of the sizes of its
+ * terms, given the predicted relative round-off of the solver's displacements (br_march_round_off):
+ * nodal values are rounded, which costs 2^-53 where forces are smooth, and 2^-53 n^2 squared in the
+ * energy of their noise; and what the certificate allows residuals to do. At most 1e-3: where
+ * round-off alone may be more, no balance is called good. */
+double br_energy_limit(size_t n, double round_off);
+
 /* Sums the works of a march. */
 struct br_energy_meter;
 
-/* Looks at the march as it is now, at t = 0; it and its scene must outlive the meter. scheme: of
- * the march; k: the length of its steps, s. Fails with BR_NO_MEMORY and as loads do, *meter then
+/* Looks at the march as it is now, at t = 0, and watches it from then on (br_march_watch); it, its
+ * scene and the method must outlive the meter. Fails with BR_NO_MEMORY and as loads do, *meter then
  * NULL.
  */
-enum br_status br_energy_meter_create(struct br_energy_meter **meter, const struct br_march *march,
-                                      const struct br_scene *scene,
-                                      const struct br_time_scheme *scheme, double k,
+enum br_status br_energy_meter_create(struct br_energy_meter **meter, struct br_march *march,
+                                      const struct br_scene *scene, const struct br_method *method,
                                       struct br_error *err);
 void br_energy_meter_free(struct br_energy_meter *meter); /* accepts NULL */
 
-/* To be called after every step. */
-void br_energy_meter_step(struct br_energy_meter *meter);
+/* To be called after every step of the march: the largest imbalance of a field in one of the
+ * scheme's steps since the last call, as br_energy_limit has it. NAN where there was no step or one
+ * that is not of the textbook; 0 where the works have a remainder. */
+double br_energy_meter_step(struct br_energy_meter *meter);
 
 /* When it was created, at its last look, and between. */
 void br_energy_meter_read(const struct br_energy_meter *meter, struct br_energy *start,

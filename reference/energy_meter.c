@@ -1,97 +1,71 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sums the works of a march. */
 #include <math.h>
+#include <stdlib.h>
 
 #include "reference/energy_forms.h"
-#include "solver/load.h"
 
-struct br_energy_meter {
-    const struct br_march *march;
-    const struct br_scene *scene;
-    double *before[2][2], *after[2][2]; /* by br_field_kind: displacement and velocity */
-    double *load[2];
-    double *memory;
-    struct br_energy start, now;
-    real k;
-    bool euler;                 /* else the trapezoidal rule, and D_scheme as the remainder */
-    struct br_step_load own[2]; /* where the scheme is not Euler's */
-    struct power {
-        real loads[2], viscous[2], friction;
-    } before_power; /* at the last look, W */
-    struct work {
-        real loads[2], viscous[2], friction, scheme, scheme_contact;
-    } work;
-};
-
-/* Where the tip's u is. */
-static size_t axial_tip(const struct br_energy_meter *m)
+real br_nodal_product(const double *c, const double *v, size_t size, real *sizes)
 {
-    const struct br_field *field = br_march_field(m->march, BR_AXIAL);
-    return field->n * br_field_unknowns(field);
-}
-
-static void look(struct br_energy_meter *m)
-{
-    m->now = (struct br_energy){0};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_field *field = br_march_field(m->march, (enum br_field_kind)kind);
-        if (!br_march_models(m->march, (enum br_field_kind)kind))
-            continue;
-        br_march_get(m->march, (enum br_field_kind)kind, m->after[kind][0], m->after[kind][1]);
-        m->now.kinetic[kind] = br_energy_kinetic(field, m->after[kind][1]);
-        m->now.stored[kind] = br_energy_stored(field, m->after[kind][0]);
+    real sum = 0;
+    *sizes = 0;
+    for (size_t i = 0; i < size; i++) {
+        const real term = (real)c[i] * v[i];
+        sum += term;
+        *sizes += fabsl(term);
     }
-    const struct br_contact *c = &m->scene->contact;
-    if (!c->modelled)
-        return;
-    const double depth = m->after[BR_AXIAL][0][axial_tip(m)] - c->gap;
-    m->now.contact = depth <= 0 ? 0 : c->stiffness * depth * depth / 2;
+    return sum;
 }
 
-/* Loads of one's own at the time levels, of the march's meshes. */
-static enum br_status start_powers(struct br_energy_meter *m, struct br_error *err);
+/* ---- setting up ---- */
 
-static void place(struct br_energy_meter *m, const size_t sizes[2])
+/* A field by the scene, not by the solver. */
+static struct br_field field_of(const struct br_energy_meter *m, enum br_field_kind kind)
 {
-    double *memory = m->memory;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        double **const arrays[] = {&m->before[kind][0], &m->before[kind][1], &m->after[kind][0],
-                                   &m->after[kind][1], &m->load[kind]};
-        for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++) {
-            *arrays[a] = memory;
-            memory += sizes[kind];
-        }
-    }
+    struct br_field f = br_field_of_scene(m->scene, kind, br_march_field(m->march, kind)->n, NAN);
+    if (kind == BR_AXIAL)
+        f.degree = m->method->axial_degree;
+    return f;
 }
 
-enum br_status br_energy_meter_create(struct br_energy_meter **out, const struct br_march *march,
-                                      const struct br_scene *scene,
-                                      const struct br_time_scheme *scheme, double k,
+static enum br_status set_up(struct br_energy_meter *m, struct br_error *err)
+{
+    size_t room = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        m->field[kind].field = field_of(m, (enum br_field_kind)kind);
+        m->field[kind].modelled = br_march_models(m->march, (enum br_field_kind)kind);
+        room += 2 * br_field_size(&m->field[kind].field);
+    }
+    double *memory = m->memory = br_allocate(room, sizeof *memory);
+    if (!memory)
+        return br_no_memory(err, "the energies");
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_meter_field *f = &m->field[kind];
+        for (int i = 0; i < 2; i++, memory += br_field_size(&f->field))
+            f->scratch[i] = memory;
+        br_march_get(m->march, (enum br_field_kind)kind, f->scratch[0], f->scratch[1]);
+        if (f->modelled)
+            f->start = f->now =
+                br_energy_of_field(&f->field, &m->scene->contact, f->scratch[0], f->scratch[1]);
+    }
+    return m->staged ? br_meter_watch(m, err) : br_meter_start_trapezoid(m, err);
+}
+
+enum br_status br_energy_meter_create(struct br_energy_meter **out, struct br_march *march,
+                                      const struct br_scene *scene, const struct br_method *method,
                                       struct br_error *err)
 {
-    *out = NULL;
-    const size_t sizes[2] = {br_field_size(br_march_field(march, BR_AXIAL)),
-                             br_field_size(br_march_field(march, BR_BENDING))};
-    struct br_energy_meter *m = br_allocate(1, sizeof *m);
-    double *memory = br_allocate(5 * (sizes[0] + sizes[1]), sizeof *memory);
-    if (!m || !memory) {
-        free(m);
-        free(memory);
+    struct br_energy_meter *m = *out = br_allocate(1, sizeof *m);
+    if (!m)
         return br_no_memory(err, "the energies");
-    }
-    *m = (struct br_energy_meter){.march = march,
-                                  .scene = scene,
-                                  .memory = memory,
-                                  .k = k,
-                                  .euler = scheme == br_time_schemes[0]};
-    place(m, sizes);
-    look(m);
-    m->start = m->now;
-    const enum br_status status = m->euler ? BR_OK : start_powers(m, err);
-    if (status)
+    *m = (struct br_energy_meter){
+        .march = march, .scene = scene, .method = method, .staged = !method->scheme->integrator};
+    m->limit = br_energy_limit(br_march_field(march, BR_AXIAL)->n, br_march_round_off(march));
+    const enum br_status status = set_up(m, err);
+    if (status) {
         br_energy_meter_free(m);
-    else
-        *out = m;
+        *out = NULL;
+    }
     return status;
 }
 
@@ -99,148 +73,60 @@ void br_energy_meter_free(struct br_energy_meter *m)
 {
     if (!m)
         return;
+    br_march_unwatch(m->march, m);
+    br_watched_clear(&m->seen);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        br_step_load_clear(&m->own[kind]);
+        br_step_load_clear(&m->field[kind].own);
     free(m->memory);
     free(m);
 }
 
-/* ---- by the trapezoidal rule ---- */
+/* ---- reading ---- */
 
-static real dot(const double *a, const double *b, size_t size)
+double br_energy_meter_step(struct br_energy_meter *m)
 {
-    real sum = 0;
-    for (size_t i = 0; i < size; i++)
-        sum += (real)a[i] * b[i];
-    return sum;
-}
-
-static real load_power(struct br_energy_meter *m, enum br_field_kind kind)
-{
-    const struct br_field *f = br_march_field(m->march, kind);
-    const struct br_drive *drive = &m->own[kind].drive;
-    const double *velocity = m->after[kind][1];
-    const size_t size = br_field_size(f), unknowns = br_field_unknowns(f);
-    real power = drive->vector ? drive->factor * dot(drive->vector, velocity, size) : 0;
-    for (size_t c = 0; c < unknowns; c++)
-        power += (real)drive->tip[c] * velocity[size - unknowns + c];
-    return power;
-}
-
-static enum br_status find_powers(struct br_energy_meter *m, struct power *power,
-                                  struct br_error *err)
-{
-    const double t = br_march_time(m->march);
-    const size_t tip = 2 * br_march_field(m->march, BR_BENDING)->n;
-    *power = (struct power){0};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_field *f = br_march_field(m->march, (enum br_field_kind)kind);
-        if (!br_march_models(m->march, (enum br_field_kind)kind))
-            continue;
-        const enum br_status status = br_step_load_update(&m->own[kind], f, t, err);
-        if (status)
-            return status;
-        power->loads[kind] = load_power(m, (enum br_field_kind)kind);
-        power->viscous[kind] = (real)f->viscosity * br_bend_square(f, m->after[kind][1], NULL);
+    if (!m->staged) {
+        br_meter_add_trapezoid(m);
+        return 0;
     }
-    power->friction =
-        (real)br_march_tip(m->march)->friction_force * (real)m->after[BR_BENDING][1][tip];
-    return BR_OK;
+    const double worst = m->any ? m->worst : NAN;
+    m->worst = 0;
+    m->any = false;
+    return worst;
 }
 
-static enum br_status start_powers(struct br_energy_meter *m, struct br_error *err)
+static void put(struct br_energy *to, enum br_field_kind kind, const struct br_field_energy *e)
 {
-    enum br_status status = BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        const struct br_field *f = br_march_field(m->march, (enum br_field_kind)kind);
-        const struct br_forces forces = br_forces_of_scene(m->scene, (enum br_field_kind)kind);
-        if (br_march_models(m->march, (enum br_field_kind)kind))
-            status = br_step_load_init(&m->own[kind], &forces, f, err);
-    }
-    return status ? status : find_powers(m, &m->before_power, err);
+    to->kinetic[kind] = (double)e->kinetic;
+    to->stored[kind] = (double)e->stored;
+    to->contact += (double)e->contact;
 }
 
-static void add_trapezoid(struct br_energy_meter *m)
+static real total(const struct br_field_energy *e)
 {
-    struct br_error err = {0};
-    struct power now;
-    if (find_powers(m, &now, &err)) /* the march has met that load before us */
-        now = (struct power){{NAN, NAN}, {NAN, NAN}, NAN};
-    const struct power *before = &m->before_power;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        m->work.loads[kind] += m->k / 2 * (before->loads[kind] + now.loads[kind]);
-        m->work.viscous[kind] += m->k / 2 * (before->viscous[kind] + now.viscous[kind]);
-    }
-    m->work.friction += m->k / 2 * (before->friction + now.friction);
-    m->before_power = now;
-}
-
-/* ---- by Euler's own sums ---- */
-
-static void add_field(struct br_energy_meter *m, enum br_field_kind kind)
-{
-    const struct br_field *f = br_march_field(m->march, kind);
-    const double *velocity = m->after[kind][1];
-    br_march_load(m->march, kind, m->load[kind]);
-    real power = 0;
-    for (size_t i = 0; i < br_field_size(f); i++)
-        power += (real)m->load[kind][i] * velocity[i];
-    m->work.loads[kind] += m->k * power;
-    m->work.viscous[kind] += m->k * (real)f->viscosity * br_bend_square(f, velocity, NULL);
-    m->work.scheme +=
-        br_mass_square(f, velocity, m->before[kind][1]) / 2 +
-        (real)f->stiffness * br_bend_square(f, m->after[kind][0], m->before[kind][0]) / 2;
-}
-
-static void add_euler(struct br_energy_meter *m, double potential)
-{
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (br_march_models(m->march, (enum br_field_kind)kind))
-            add_field(m, (enum br_field_kind)kind);
-    const struct br_tip *tip = br_march_tip(m->march);
-    const size_t n = br_march_field(m->march, BR_AXIAL)->n;
-    m->work.friction += m->k * (real)tip->friction_force * (real)m->after[BR_BENDING][1][2 * n];
-    const size_t rod = axial_tip(m);
-    const real way = (real)m->after[BR_AXIAL][0][rod] - m->before[BR_AXIAL][0][rod];
-    m->work.scheme_contact +=
-        (real)tip->contact_force * way - ((real)m->now.contact - (real)potential);
-}
-
-void br_energy_meter_step(struct br_energy_meter *m)
-{
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        for (int i = 0; i < 2; i++) {
-            double *const swap = m->before[kind][i];
-            m->before[kind][i] = m->after[kind][i];
-            m->after[kind][i] = swap;
-        }
-    const double potential = m->now.contact;
-    look(m);
-    if (m->euler)
-        add_euler(m, potential);
-    else
-        add_trapezoid(m);
-}
-
-/* W - D_viscous - D_friction - (E_now - E_start) */
-static real remainder_of(const struct br_energy_meter *m)
-{
-    const struct work *w = &m->work;
-    return w->loads[0] + w->loads[1] - w->viscous[0] - w->viscous[1] - w->friction -
-           ((real)br_energy_total(&m->now) - br_energy_total(&m->start));
+    return e->kinetic + e->stored + e->contact;
 }
 
 void br_energy_meter_read(const struct br_energy_meter *m, struct br_energy *start,
                           struct br_energy *now, struct br_work *work)
 {
-    *start = m->start;
-    *now = m->now;
-    *work = (struct br_work){
-        .loads = {(double)m->work.loads[0], (double)m->work.loads[1]},
-        .viscous = {(double)m->work.viscous[0], (double)m->work.viscous[1]},
-        .friction = (double)m->work.friction,
-        .scheme = (double)(m->euler ? m->work.scheme : remainder_of(m)),
-        .scheme_contact = (double)m->work.scheme_contact,
-        .remainder = !m->euler,
-    };
+    *start = *now = (struct br_energy){0};
+    *work = (struct br_work){.remainder = !m->staged};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_meter_field *f = &m->field[kind];
+        const struct br_field_work *w = &f->work;
+        put(start, (enum br_field_kind)kind, &f->start);
+        put(now, (enum br_field_kind)kind, &f->now);
+        const real remains = w->load - w->viscous - (kind == BR_BENDING ? w->tip : 0) -
+                             (total(&f->now) - total(&f->start));
+        work->loads[kind] = (double)w->load;
+        work->viscous[kind] = (double)w->viscous;
+        work->scheme[kind] = (double)(m->staged ? w->scheme : remains);
+        work->noise[kind] = (double)w->noise;
+        work->steps[kind] = w->steps;
+        work->gaining[kind] = w->gaining;
+        work->gained[kind] = (double)w->gained;
+    }
+    work->friction = (double)m->field[BR_BENDING].work.tip;
+    work->scheme_contact = (double)m->field[BR_AXIAL].work.contact;
 }

@@ -202,12 +202,15 @@ void br_assembled_size(void *self, size_t which, double size[2])
                   BR_STRAIN_RATE); /* the modes of a strain: the same scales */
     for (int part = 0; part < 2; part++) {
         const double *nodal = s->states.of[which] + (part ? s->system.nodal : 0);
-        double squares = 0, modes[2];
+        long double squares = 0; /* those of small numbers are lost in double */
+        double modes[2];
         for (size_t i = 0; i < s->system.field.n; i++) {
             strain(s, nodal, i, modes);
-            for (size_t c = 0; c < s->system.unknowns; c++)
-                squares += view.scale[c] * modes[c] * (view.scale[c] * modes[c]);
+            for (size_t c = 0; c < s->system.unknowns; c++) {
+                const long double mode = (long double)view.scale[c] * modes[c];
+                squares += mode * mode;
+            }
         }
-        size[part] = sqrt(squares);
+        size[part] = (double)sqrtl(squares);
     }
 }

@@ -96,7 +96,7 @@ static enum br_status refine(struct br_system *s, const double *rhs, double *x,
             return step == 0 && isfinite(size) ? no_digits(s, err) : BR_OK;
         for (size_t i = 0; i < s->nodal; i++)
             x[i] += s->correction[i];
-        if (size * size <= enough * last)
+        if (size == 0 || size / last * size <= enough)
             break;
         last = size;
     }

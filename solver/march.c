@@ -15,21 +15,6 @@ static double time_level(const struct br_march *m, size_t n)
 
 /* ---- stepping ---- */
 
-/* A march that has left the numbers says so at once. */
-enum br_status br_march_check_finite(const struct br_march *m, enum br_field_kind kind, double t,
-                                     struct br_error *err)
-{
-    static const char *const names[] = {"axial", "bending"};
-    const struct br_part *part = &m->part[kind];
-    if (isfinite(m->tip.velocity[kind]))
-        return BR_OK;
-    return br_fail(err, BR_NOT_FINITE,
-                   "the march blew up at t = %g s (step %zu of %zu, k = %g s): the %s velocity of "
-                   "the tip is %g m/s",
-                   t, part->done, m->steps, m->scene->duration / (double)m->steps, names[kind],
-                   m->tip.velocity[kind]);
-}
-
 static enum br_status fixed_step(struct br_march *m, enum br_field_kind kind, struct br_error *err)
 {
     struct br_part *part = &m->part[kind];
@@ -73,7 +58,8 @@ enum br_status br_march_step_field(struct br_march *m, enum br_field_kind kind,
     if (status)
         return status;
     part->done++;
-    return br_march_check_finite(m, kind, time_level(m, part->done), err);
+    status = br_march_check_finite(m, kind, time_level(m, part->done), err);
+    return status || part->done < m->steps ? status : br_march_check_range(m, kind, err);
 }
 
 enum br_status br_march_step(struct br_march *m, struct br_error *err)
@@ -98,9 +84,21 @@ struct br_counts br_march_counts(const struct br_march *m)
 
 /* ---- looking ---- */
 
-void br_march_watch(struct br_march *m, const struct br_march_watcher *watcher)
+bool br_march_watch(struct br_march *m, const struct br_march_watcher *watcher)
 {
-    m->watcher = watcher ? *watcher : (struct br_march_watcher){0};
+    if (m->watchers == BR_MOST_WATCHERS)
+        return false;
+    m->watcher[m->watchers++] = *watcher;
+    return true;
+}
+
+void br_march_unwatch(struct br_march *m, const void *self)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < m->watchers; i++)
+        if (m->watcher[i].self != self)
+            m->watcher[left++] = m->watcher[i];
+    m->watchers = left;
 }
 
 const char *br_regime_name(enum br_regime regime)

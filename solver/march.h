@@ -126,8 +126,14 @@ struct br_march_watcher {
     void (*step)(void *self, enum br_field_kind kind, bool switched);
 };
 
-/* From now on; NULL: nobody. Schemes with an integrator of their own tell nothing. */
-void br_march_watch(struct br_march *march, const struct br_march_watcher *watcher);
+enum { BR_MOST_WATCHERS = 4 };
+
+/* From now on, beside those that look already; false: there is no room for one more. Schemes with
+ * an integrator of their own tell nothing. */
+bool br_march_watch(struct br_march *march, const struct br_march_watcher *watcher);
+
+/* The watcher of that `self` looks no more. */
+void br_march_unwatch(struct br_march *march, const void *self);
 
 /* Predicted round-off of the displacements relative to the exact discrete
  * solution: the larger of the modelled fields'. */

@@ -43,7 +43,8 @@ struct br_march {
     struct br_counts counts;         /* what the parts do not count */
     struct br_adaptive *adaptive;    /* NULL: fixed steps */
     void *foreign;                   /* of a scheme's own integrator; NULL: none */
-    struct br_march_watcher watcher; /* all NULL: nobody */
+    struct br_march_watcher watcher[BR_MOST_WATCHERS];
+    size_t watchers;
 };
 
 /* Whether a scheme takes both fields through its steps together. */
@@ -71,6 +72,12 @@ void br_march_accept(struct br_march *march, enum br_field_kind kind,
 /* Refuses a tip that has left the numbers at time t, s. */
 enum br_status br_march_check_finite(const struct br_march *march, enum br_field_kind kind,
                                      double t, struct br_error *err);
+
+/* Refuses (BR_NOT_FINITE) a march that has come to its end in a field where numbers end, too: with
+ * a value that is not finite anywhere, or moved by so little that its digits are lost to underflow.
+ */
+enum br_status br_march_check_range(const struct br_march *march, enum br_field_kind kind,
+                                    struct br_error *err);
 
 /* About the largest strains (out) until the end, by a few Euler steps; the march is then where it
  * was. Fails as br_march_step. */

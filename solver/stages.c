@@ -130,8 +130,6 @@ static enum br_status stage(struct br_march *m, enum br_field_kind kind,
 static void tell(const struct br_march *m, enum br_field_kind kind, const struct br_stages *stages,
                  const struct br_step *step, int i)
 {
-    if (!m->watcher.stage)
-        return;
     const struct br_march_stage told = {
         .kind = kind,
         .index = i,
@@ -141,7 +139,8 @@ static void tell(const struct br_march *m, enum br_field_kind kind, const struct
         .time = br_step_time(step, stages->stage[i].time),
         .tau = m->part[kind].field.k,
     };
-    m->watcher.stage(m->watcher.self, &told);
+    for (size_t w = 0; w < m->watchers; w++)
+        m->watcher[w].stage(m->watcher[w].self, &told);
 }
 
 enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
@@ -175,8 +174,8 @@ void br_march_accept(struct br_march *m, enum br_field_kind kind, const struct b
                      bool switched)
 {
     br_part_accept(&m->part[kind], stages, switched);
-    if (m->watcher.step)
-        m->watcher.step(m->watcher.self, kind, switched);
+    for (size_t w = 0; w < m->watchers; w++)
+        m->watcher[w].step(m->watcher[w].self, kind, switched);
 }
 
 enum br_regime br_march_regime(const struct br_march *m, enum br_field_kind kind)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/run.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -23,20 +24,38 @@ static enum br_status start_checks(void *self, struct br_march *march, struct br
     struct br_run_report *report = r->report;
     report->round_off = br_march_round_off(march);
     report->limits = br_certificate_limits(report->method.scheme, report->n, report->round_off);
-    enum br_status status = br_energy_meter_create(&r->meter, march, &report->marched,
-                                                   report->method.scheme, report->k, err);
+    report->energy_limit = report->method.scheme->integrator
+                               ? INFINITY
+                               : br_energy_limit(report->n, report->round_off);
+    enum br_status status =
+        report->summed
+            ? br_energy_meter_create(&r->meter, march, &report->marched, &report->method, err)
+            : br_energy_look(march, &report->marched, &report->energy_start, err);
     if (!status && report->checked)
         status = br_witness_create(&r->witness, march, &report->marched, &r->report->method, err);
     return status;
 }
 
-static void check_step(struct run *r, const struct br_history_row *row)
+/* The certificate first: it says more of what is wrong. */
+static enum br_status judge_step(const struct br_run_report *report, const struct br_certificate *c,
+                                 double imbalance, struct br_error *verdict)
+{
+    const enum br_status status = br_certificate_check(c, &report->limits, verdict);
+    if (status || imbalance <= report->energy_limit)
+        return status;
+    return br_fail(verdict, BR_VERDICT,
+                   "what is missing in the energy balance is %.3g of the terms' sum, expected at "
+                   "most %.3g",
+                   imbalance, report->energy_limit);
+}
+
+static void check_step(struct run *r, const struct br_history_row *row, double imbalance)
 {
     struct br_run_report *report = r->report;
     const struct br_certificate c = br_witness_step(r->witness);
     struct br_error verdict = {0};
     br_certificate_merge(&report->worst, &c);
-    if (!br_certificate_check(&c, &report->limits, &verdict))
+    if (!judge_step(report, &c, imbalance, &verdict))
         return;
     if (report->bad_steps++ == 0)
         br_fail(&report->verdict, BR_VERDICT, "step %zu, t = %.15g s: %.400s", row->step, row->time,
@@ -51,10 +70,12 @@ static enum br_status watch_checks(void *self, const struct br_march *march,
     struct run *r = self;
     if (row->step == 0)
         return BR_OK;
+    struct br_run_report *report = r->report;
+    const double imbalance = r->meter ? br_energy_meter_step(r->meter) : 0;
+    if (isnan(imbalance) || imbalance > report->energy_worst) /* nothing is above NAN */
+        report->energy_worst = imbalance;
     if (r->witness)
-        check_step(r, row);
-    if (r->report->summed)
-        br_energy_meter_step(r->meter);
+        check_step(r, row, imbalance);
     return BR_OK;
 }
 
@@ -116,15 +137,17 @@ static void fill_model(struct run *r)
 
 /* The last good state's energies: where the works were not summed, those of the last step, which a
  * march that failed has lost. */
-static void read_energies(struct run *r)
+static enum br_status read_energies(struct run *r, const struct br_march *march,
+                                    struct br_error *err)
 {
     struct br_run_report *p = r->report;
-    if (!r->meter)
-        return;
-    p->at_end = p->summed || !p->failure.status;
-    if (!p->summed && p->at_end)
-        br_energy_meter_step(r->meter);
+    if (p->summed ? !r->meter : p->failure.status)
+        return BR_OK;
+    p->at_end = true;
+    if (!p->summed)
+        return br_energy_look(march, &p->marched, &p->energy_now, err);
     br_energy_meter_read(r->meter, &p->energy_start, &p->energy_now, &p->work);
+    return BR_OK;
 }
 
 /* What only the march itself knows. */
@@ -172,8 +195,7 @@ static enum br_status march(struct run *r, struct br_error *err)
         br_fail(err, status, "%.1000s", p->failure.message);
     } else {
         ask_march(p, made);
-        read_energies(r);
-        status = BR_OK;
+        status = read_energies(r, made, err);
     }
     br_energy_meter_free(r->meter);
     br_witness_free(r->witness);

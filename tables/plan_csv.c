@@ -28,7 +28,7 @@ static void print_trial(FILE *out, const struct br_plan_page *page, size_t i)
             i == p->chosen);
 }
 
-static enum br_status emit(FILE *out, const struct br_plan_page *page, struct br_error *err)
+enum br_status br_plan_csv(FILE *out, const struct br_plan_page *page, struct br_error *err)
 {
     (void)err;
     fputs("round,method,n,steps_or_levels,k,tolerance,predicted_error,relative_error,"
@@ -38,5 +38,3 @@ static enum br_status emit(FILE *out, const struct br_plan_page *page, struct br
         print_trial(out, page, i);
     return BR_OK;
 }
-
-const struct br_plan_emitter br_plan_csv = {"csv", ".csv", emit};

@@ -3,11 +3,17 @@
 
 #include <math.h>
 
-extern const struct br_plan_emitter br_plan_text, br_plan_csv, br_plan_markdown, br_plan_latex,
-    br_plan_json;
-
-const struct br_plan_emitter *const br_plan_emitters[] = {
-    &br_plan_text, &br_plan_csv, &br_plan_markdown, &br_plan_latex, &br_plan_json, NULL};
+enum br_status br_plan_emit(const struct br_page_emitter *format, FILE *out,
+                            const struct br_plan_page *page, struct br_error *err)
+{
+    struct br_page sheets;
+    if (format == &br_page_csv)
+        return br_plan_csv(out, page, err);
+    if (format == &br_page_json)
+        return br_plan_json(out, page, err);
+    br_plan_fill(page, &sheets);
+    return format->emit(out, &sheets, err);
+}
 
 double br_plan_step(const struct br_plan_page *page, const struct br_trial *t)
 {

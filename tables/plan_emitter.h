@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Plans (study/plan.h) as text: one const record a format. Emitters compute nothing. */
+/* Plans (study/plan.h) as text. Nothing is computed here. */
 #ifndef BR_PLAN_EMITTER_H
 #define BR_PLAN_EMITTER_H
 
 #include "study/plan.h"
-#include "tables/emitter.h"
-#include "tables/sentences.h"
+#include "tables/sheet.h"
 
 /* All borrowed. */
 struct br_plan_page {
@@ -16,29 +15,15 @@ struct br_plan_page {
     const struct br_provenance *provenance;
 };
 
-struct br_plan_emitter {
-    const char *name;      /* as on the command line */
-    const char *extension; /* of its file, with the dot */
-    /* Fails with BR_NO_MEMORY only: write errors stay in `out`. */
-    enum br_status (*emit)(FILE *out, const struct br_plan_page *page, struct br_error *err);
-};
+/* Prints a plan in a format of tables/sheet.h; CSV and JSON have what a plan has to tell programs.
+ * Fails with BR_NO_MEMORY only: write errors stay in `out`. */
+enum br_status br_plan_emit(const struct br_page_emitter *format, FILE *out,
+                            const struct br_plan_page *page, struct br_error *err);
 
-/* NULL-terminated; the first is the terminal's. */
-extern const struct br_plan_emitter *const br_plan_emitters[];
+/* ---- what formats share ---- */
 
-/* ---- what all formats share ---- */
-
-/* Tables of text: the proposals that were tried, and the models of all methods. */
-enum { BR_PLAN_CELL = 96 };
-struct br_plan_sheet {
-    const char *title;
-    size_t columns;
-    const char *(*heading)(size_t column, bool *number);
-    size_t (*rows)(const struct br_plan_page *page);
-    void (*cell)(const struct br_plan_page *page, size_t row, size_t column,
-                 char text[BR_PLAN_CELL]);
-};
-extern const struct br_plan_sheet *const br_plan_sheets[]; /* NULL-terminated */
+/* The plan as a page: what was proposed, and how good the models are. It borrows all. */
+void br_plan_fill(const struct br_plan_page *plan, struct br_page *page);
 
 /* The goal and how it was met; what is proposed; then how good the models were, what the planning
  * took, and what errors and seconds are. */
@@ -50,6 +35,10 @@ void br_say_plan_notes(const struct br_plan_page *page, const struct br_writer *
 enum { BR_PLAN_LINE = 1536 };
 void br_plan_run_line(const struct br_plan_page *page, char line[BR_PLAN_LINE]);
 void br_plan_trade_line(const struct br_plan_page *page, char line[BR_PLAN_LINE]);
+
+/* One line a trial; everything. */
+enum br_status br_plan_csv(FILE *out, const struct br_plan_page *page, struct br_error *err);
+enum br_status br_plan_json(FILE *out, const struct br_plan_page *page, struct br_error *err);
 
 /* k of a trial, s; NaN of an adaptive one. */
 double br_plan_step(const struct br_plan_page *page, const struct br_trial *trial);

@@ -94,7 +94,7 @@ static void put_parts(json_t *o, const struct br_plan *p)
     put(o, "time_order", br_json_number(parts.q));
 }
 
-static enum br_status emit(FILE *out, const struct br_plan_page *page, struct br_error *err)
+enum br_status br_plan_json(FILE *out, const struct br_plan_page *page, struct br_error *err)
 {
     const struct br_plan *p = page->plan;
     char line[BR_PLAN_LINE];
@@ -121,5 +121,3 @@ static enum br_status emit(FILE *out, const struct br_plan_page *page, struct br
     free(text);
     return BR_OK;
 }
-
-const struct br_plan_emitter br_plan_json = {"json", ".json", emit};

@@ -12,35 +12,35 @@ struct column {
 static void put(char *text, const char *format, double value)
 {
     if (isfinite(value))
-        snprintf(text, BR_PLAN_CELL, format, value);
+        snprintf(text, BR_CELL, format, value);
     else
-        snprintf(text, BR_PLAN_CELL, "-");
+        snprintf(text, BR_CELL, "-");
 }
 
 /* ---- proposals: i is a trial ---- */
 
 static void round_cell(const struct br_plan_page *page, size_t i, char *text)
 {
-    snprintf(text, BR_PLAN_CELL, "%zu", page->plan->forecast[i].round);
+    snprintf(text, BR_CELL, "%zu", page->plan->forecast[i].round);
 }
 
 static void method_cell(const struct br_plan_page *page, size_t i, char *text)
 {
-    snprintf(text, BR_PLAN_CELL, "%s", page->plan->trial[i].contender->name);
+    snprintf(text, BR_CELL, "%s", page->plan->trial[i].contender->name);
 }
 
 static void n_cell(const struct br_plan_page *page, size_t i, char *text)
 {
-    snprintf(text, BR_PLAN_CELL, "%zu", page->plan->trial[i].at.n);
+    snprintf(text, BR_CELL, "%zu", page->plan->trial[i].at.n);
 }
 
 static void step_cell(const struct br_plan_page *page, size_t i, char *text)
 {
     const struct br_trial *t = &page->plan->trial[i];
     if (br_contender_adaptive(t->contender))
-        snprintf(text, BR_PLAN_CELL, "tol %.3e", t->tolerance);
+        snprintf(text, BR_CELL, "tol %.3e", t->tolerance);
     else
-        snprintf(text, BR_PLAN_CELL, "T/%zu", t->at.steps);
+        snprintf(text, BR_CELL, "T/%zu", t->at.steps);
 }
 
 static void predicted_cell(const struct br_plan_page *page, size_t i, char *text)
@@ -67,10 +67,10 @@ static void remark_cell(const struct br_plan_page *page, size_t i, char *text)
 {
     const struct br_plan *p = page->plan;
     const struct br_trial *t = &p->trial[i];
-    snprintf(text, BR_PLAN_CELL, "%s%s%s", i == p->first ? "first" : "",
+    snprintf(text, BR_CELL, "%s%s%s", i == p->first ? "first" : "",
              i == p->first && i == p->chosen ? ", " : "", i == p->chosen ? "chosen" : "");
     if (t->end != BR_TRIAL_DONE)
-        snprintf(text, BR_PLAN_CELL, "%s", br_trial_end_name(t->end));
+        snprintf(text, BR_CELL, "%s", br_trial_end_name(t->end));
 }
 
 static const struct column proposal_columns[] = {
@@ -94,37 +94,29 @@ static size_t first_proposal(const struct br_plan *p)
     return i;
 }
 
-static const char *proposal_heading(size_t column, bool *number)
+static const char *proposal_heading(const void *self, size_t column, bool *number)
 {
+    (void)self;
     *number = proposal_columns[column].number;
     return proposal_columns[column].heading;
 }
 
-static size_t proposal_rows(const struct br_plan_page *page)
+static void proposal_cell(const void *self, size_t row, size_t column, char text[BR_CELL])
 {
-    return page->plan->count - first_proposal(page->plan);
-}
-
-static void proposal_cell(const struct br_plan_page *page, size_t row, size_t column,
-                          char text[BR_PLAN_CELL])
-{
+    const struct br_plan_page *page = self;
     proposal_columns[column].cell(page, first_proposal(page->plan) + row, text);
 }
-
-static const struct br_plan_sheet proposals = {"What was proposed",
-                                               sizeof proposal_columns / sizeof *proposal_columns,
-                                               proposal_heading, proposal_rows, proposal_cell};
 
 /* ---- models: i is a contender ---- */
 
 static void contender_cell(const struct br_plan_page *page, size_t i, char *text)
 {
-    snprintf(text, BR_PLAN_CELL, "%s", page->plan->contenders.list[i].name);
+    snprintf(text, BR_CELL, "%s", page->plan->contenders.list[i].name);
 }
 
 static void points_cell(const struct br_plan_page *page, size_t i, char *text)
 {
-    snprintf(text, BR_PLAN_CELL, "%zu", page->plan->model[i].error.points);
+    snprintf(text, BR_CELL, "%zu", page->plan->model[i].error.points);
 }
 
 static void scatter_cell(const struct br_plan_page *page, size_t i, char *text)
@@ -172,25 +164,58 @@ static const struct column model_columns[] = {
     {"and element", true, element_cell},
 };
 
-static const char *model_heading(size_t column, bool *number)
+static const char *model_heading(const void *self, size_t column, bool *number)
 {
+    (void)self;
     *number = model_columns[column].number;
     return model_columns[column].heading;
 }
 
-static size_t model_rows(const struct br_plan_page *page)
+static void model_cell(const void *self, size_t row, size_t column, char text[BR_CELL])
 {
-    return page->plan->contenders.count;
+    model_columns[column].cell(self, row, text);
 }
 
-static void model_cell(const struct br_plan_page *page, size_t row, size_t column,
-                       char text[BR_PLAN_CELL])
+/* ---- the page ---- */
+
+static void say(const void *self, const struct br_writer *w)
 {
-    model_columns[column].cell(page, row, text);
+    br_say_plan(self, w);
 }
 
-static const struct br_plan_sheet models = {
-    "How good the models are (root mean squares over a method's trials)",
-    sizeof model_columns / sizeof *model_columns, model_heading, model_rows, model_cell};
+static void say_notes(const void *self, const struct br_writer *w)
+{
+    br_say_plan_notes(self, w);
+}
 
-const struct br_plan_sheet *const br_plan_sheets[] = {&proposals, &models, NULL};
+void br_plan_fill(const struct br_plan_page *plan, struct br_page *page)
+{
+    const struct br_plan *p = plan->plan;
+    *page = (struct br_page){
+        .name = plan->name,
+        .caption = plan->caption,
+        .tables = 2,
+        .self = plan,
+        .say = say,
+        .say_notes = say_notes,
+        .provenance = plan->provenance,
+    };
+    page->table[0] = (struct br_table){
+        .name = "proposals",
+        .title = "What was proposed",
+        .columns = sizeof proposal_columns / sizeof *proposal_columns,
+        .rows = p->count - first_proposal(p),
+        .self = plan,
+        .heading = proposal_heading,
+        .cell = proposal_cell,
+    };
+    page->table[1] = (struct br_table){
+        .name = "models",
+        .title = "How good the models are (root mean squares over a method's trials)",
+        .columns = sizeof model_columns / sizeof *model_columns,
+        .rows = p->contenders.count,
+        .self = plan,
+        .heading = model_heading,
+        .cell = model_cell,
+    };
+}

@@ -136,6 +136,23 @@ static json_t *state(const struct br_run_report *p, const struct br_energy *e)
     return o;
 }
 
+/* Of each field: in all, and by the steps that add. */
+static json_t *added(const struct br_run_report *p)
+{
+    const struct br_work *w = &p->work;
+    const double all[] = {br_energy_added(w, BR_AXIAL), br_energy_added(w, BR_BENDING)};
+    const double put_in[] = {br_energy_put_in(&p->energy_start, w, BR_AXIAL),
+                             br_energy_put_in(&p->energy_start, w, BR_BENDING)};
+    json_t *o = json_object(), *steps = json_array();
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        json_array_append_new(steps, count(w->gaining[kind]));
+    put(o, "in_all", two(p, all));
+    put(o, "put_in", two(p, put_in));
+    put(o, "steps_that_add", steps);
+    put(o, "by_these_steps", two(p, w->gained));
+    return o;
+}
+
 static json_t *energies(const struct br_run_report *p)
 {
     const bool friction = p->marched.friction.law != BR_FRICTIONLESS;
@@ -149,17 +166,19 @@ static json_t *energies(const struct br_run_report *p)
         return o;
     put(o, "work_of_loads", two(p, p->work.loads));
     put(o, "lost_to_viscosity", two(p, p->work.viscous));
-    put_number(o, "lost_to_scheme", p->work.scheme);
+    put(o, "lost_to_scheme", two(p, p->work.scheme));
     put(o, "lost_to_scheme_is_the_remainder", json_boolean(p->work.remainder));
     put(o, "lost_to_scheme_by_contact",
         if_marched(p->marched.contact.modelled && !p->work.remainder, p->work.scheme_contact));
     put(o, "imbalance",
         if_marched(!p->work.remainder,
                    br_energy_imbalance(&p->energy_start, &p->energy_now, &p->work)));
+    put(o, "largest_imbalance_of_a_step", if_marched(!p->work.remainder, p->energy_worst));
+    put(o, "added_by_scheme", p->work.remainder ? json_null() : added(p));
     return o;
 }
 
-static json_t *numbers(const struct br_certificate *c)
+static json_t *numbers(const struct br_certificate *c, double energy)
 {
     json_t *o = json_object();
     put_number(o, "axial", c->axial_residual);
@@ -167,6 +186,7 @@ static json_t *numbers(const struct br_certificate *c)
     put_number(o, "update", c->update);
     put_number(o, "contact", c->contact);
     put_number(o, "friction", c->friction);
+    put(o, "energy", br_json_number(energy));
     return o;
 }
 
@@ -175,8 +195,8 @@ static json_t *certificate(const struct br_run_report *p)
     if (!p->checked)
         return json_null();
     json_t *o = json_object();
-    put(o, "worst", numbers(&p->worst));
-    put(o, "limits", numbers(&p->limits));
+    put(o, "worst", numbers(&p->worst, p->energy_worst));
+    put(o, "limits", numbers(&p->limits, p->energy_limit));
     put(o, "bad_steps", count(p->bad_steps));
     put(o, "first", p->bad_steps ? br_json_string(p->verdict.message) : json_null());
     return o;
@@ -208,6 +228,42 @@ static json_t *cost(const struct br_run_report *p)
         put(o, "part", json_string(br_cost_part_text((enum br_cost_part)part)));
         put_number(o, "ns_per_step", 1e9 * p->cost.seconds[part] / steps);
         put_number(o, "ns_per_element_step", 1e9 * p->cost.seconds[part] / steps / (double)p->n);
+        json_array_append_new(list, o);
+    }
+    return list;
+}
+
+static json_t *predicted(bool known, const struct br_predicted *e)
+{
+    json_t *o = json_object();
+    put(o, "error", if_marched(known, e->error));
+    put(o, "low", if_marched(known, e->low));
+    put(o, "high", if_marched(known, e->high));
+    return o;
+}
+
+/* Relative to the solution. */
+static json_t *prediction(const struct br_prediction *p)
+{
+    json_t *o = json_object();
+    put(o, "known", json_boolean(p->known));
+    put(o, "why_not", p->known ? json_null() : br_json_string(p->why));
+    put(o, "discretisation", predicted(p->bounded, &p->whole));
+    put(o, "time", predicted(p->bounded, &p->time));
+    put(o, "space", predicted(p->bounded, &p->space));
+    put_number(o, "round_off", p->round_off);
+    put_number(o, "seconds", p->seconds);
+    return o;
+}
+
+static json_t *warnings(const struct br_warnings *w)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < w->count; i++) {
+        json_t *o = json_object();
+        put(o, "warning", json_string(br_warning_word(w->list[i].kind)));
+        put(o, "text", br_json_string(w->list[i].text));
+        put(o, "remedy", w->list[i].remedy[0] ? br_json_string(w->list[i].remedy) : json_null());
         json_array_append_new(list, o);
     }
     return list;
@@ -255,6 +311,8 @@ enum br_status br_run_json(FILE *out, const struct br_run_page *page, struct br_
     put(root, "method", br_json_method(&p->method));
     put(root, "stopped", p->failure.status ? br_json_string(p->failure.message) : json_null());
     put(root, "contact_beyond_stability_limit", json_boolean(p->contact_unstable));
+    put(root, "prediction", prediction(page->prediction));
+    put(root, "warnings", warnings(page->warnings));
     put(root, "tip", tip(p));
     put(root, "events", events(p));
     put(root, "work", work(p));

@@ -33,6 +33,31 @@ static void head(FILE *out, const struct br_run_page *page)
                      "at the step's rate.\n--contact implicit has no such limit.\n");
 }
 
+/* ---- what was expected ---- */
+
+static void discretisation(FILE *out, const struct br_prediction *p)
+{
+    fprintf(out, "  discretisation error  ");
+    if (p->known)
+        fprintf(out, "%.1e, between %.0e and %.0e: time %.1e, space %.1e\n", p->whole.error,
+                p->whole.low, p->whole.high, p->time.error, p->space.error);
+    else if (p->bounded)
+        fprintf(out, "not known, between %.0e and %.0e: %s\n", p->whole.low, p->whole.high, p->why);
+    else
+        fprintf(out, "not known: %s\n", p->why);
+}
+
+static void expected(FILE *out, const struct br_run_page *page)
+{
+    fprintf(out, "\nPredicted before the march, relative to the largest of the solution (L2)\n");
+    discretisation(out, page->prediction);
+    fprintf(out, "  round-off             %.1e\n", page->prediction->round_off);
+    for (size_t i = 0; i < page->warnings->count; i++) {
+        const struct br_warning *w = &page->warnings->list[i];
+        fprintf(out, "  Warning: %s%s%s\n", w->text, w->remedy[0] ? "; remedy: " : "", w->remedy);
+    }
+}
+
 /* ---- the tip ---- */
 
 static void value(FILE *out, bool marched, double x)
@@ -175,6 +200,28 @@ static void one(FILE *out, const char *name, double x)
     fprintf(out, "  %-20s  %22.15g\n", name, x);
 }
 
+/* What a scheme adds, in all or in single steps. */
+static void gain(FILE *out, const struct br_run_report *p, enum br_field_kind kind)
+{
+    const struct br_work *w = &p->work;
+    const char *field = kind == BR_AXIAL ? "axial" : "bending";
+    const double added = br_energy_added(w, kind),
+                 put_in = br_energy_put_in(&p->energy_start, w, kind);
+    if (added > 0) {
+        fprintf(out, "  The scheme ADDED %.3g J to the %s field", added, field);
+        if (put_in > 0)
+            fprintf(out, " (%.2g %% of what was there at first and of the loads' work)",
+                    100 * added / put_in);
+        fprintf(out, ".\n");
+        if (kind == BR_AXIAL && w->scheme_contact < 0 && !p->method.contact->at_new_step)
+            fprintf(out, "  It is the lagged contact's: --contact implicit adds none.\n");
+    }
+    if (w->gaining[kind])
+        fprintf(out, "  In %zu of its %zu steps it added to the %s field, %.3g J in all%s.\n",
+                w->gaining[kind], w->steps[kind], field, w->gained[kind],
+                added > 0 ? "" : "; others took more");
+}
+
 static void works(FILE *out, const struct br_run_report *p)
 {
     const struct br_work *w = &p->work;
@@ -182,18 +229,21 @@ static void works(FILE *out, const struct br_run_report *p)
     two(out, p, "lost to viscosity", w->viscous);
     if (p->marched.friction.law != BR_FRICTIONLESS)
         one(out, "lost to friction", w->friction);
-    one(out, "lost to the scheme", w->scheme);
+    two(out, p, "lost to the scheme", w->scheme);
     if (w->remainder) {
         fprintf(out, "  The works are sums by the trapezoidal rule; what is lost to the scheme is "
                      "what they leave of the\n  balance, that rule's error included.\n");
         return;
     }
     if (p->marched.contact.modelled)
-        one(out, "  by its contact", w->scheme_contact);
+        one(out, "  and by its contact", w->scheme_contact);
     fprintf(out,
-            "  balance: from %.15g at t = 0 to %.15g; what is missing is %.2g of the terms' sum\n",
+            "  balance: from %.15g at t = 0 to %.15g; what is missing is %.2g of the terms' sum,\n"
+            "  in one step at most %.2g\n",
             br_energy_total(&p->energy_start), br_energy_total(&p->energy_now),
-            fabs(br_energy_imbalance(&p->energy_start, &p->energy_now, w)));
+            fabs(br_energy_imbalance(&p->energy_start, &p->energy_now, w)), p->energy_worst);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        gain(out, p, (enum br_field_kind)kind);
 }
 
 static void energies(FILE *out, const struct br_run_report *p)
@@ -236,6 +286,7 @@ static void certificate(FILE *out, const struct br_run_report *p)
         {"contact law (10)", c->contact, limit->contact, p->marched.contact.modelled},
         {"friction law (12)", c->friction, limit->friction,
          p->marched.friction.law != BR_FRICTIONLESS},
+        {"energy balance", p->energy_worst, p->energy_limit, isfinite(p->energy_limit)},
     };
     fprintf(out,
             "\nCertificate of every step%s, by code that the solver does not share: the worst, "
@@ -312,6 +363,7 @@ void br_run_text(FILE *out, const struct br_run_page *page)
 {
     const struct br_run_report *p = page->report;
     head(out, page);
+    expected(out, page);
     tip(out, p);
     events(out, p);
     energies(out, p);

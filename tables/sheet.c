@@ -3,9 +3,6 @@
 
 #include <string.h>
 
-extern const struct br_page_emitter br_page_text, br_page_csv, br_page_markdown, br_page_latex,
-    br_page_json;
-
 const struct br_page_emitter *const br_page_emitters[] = {
     &br_page_text, &br_page_csv, &br_page_markdown, &br_page_latex, &br_page_json, NULL};
 

@@ -46,6 +46,9 @@ struct br_page_emitter {
     enum br_status (*emit)(FILE *out, const struct br_page *page, struct br_error *err);
 };
 
+extern const struct br_page_emitter br_page_text, br_page_csv, br_page_markdown, br_page_latex,
+    br_page_json;
+
 /* NULL-terminated; the first is the terminal's. */
 extern const struct br_page_emitter *const br_page_emitters[];
 const struct br_page_emitter *br_page_emitter_find(const char *name);

@@ -88,9 +88,10 @@ static enum br_status emit(FILE *out, const struct br_page *page, struct br_erro
         page->say(page->self, &w);
     for (size_t i = 0; i < page->tables; i++)
         print_table(out, &page->table[i], page->caption);
-    fputc('\n', out);
-    if (page->say_notes)
+    if (page->say_notes) {
+        fputc('\n', out);
         page->say_notes(page->self, &w);
+    }
     return BR_OK;
 }
 

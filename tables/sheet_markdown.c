@@ -69,9 +69,11 @@ static enum br_status emit(FILE *out, const struct br_page *page, struct br_erro
     const struct br_provenance *p = page->provenance;
     fputs("# ", out);
     br_print_markdown(out, page->caption);
-    fputs("\n\n", out);
-    if (page->say)
+    fputc('\n', out);
+    if (page->say) {
+        fputc('\n', out);
         page->say(page->self, &(struct br_writer){item, out});
+    }
     for (size_t i = 0; i < page->tables; i++)
         print_table(out, &page->table[i]);
     if (page->say_notes)

@@ -47,7 +47,7 @@ static void print_trial(FILE *out, const struct br_trade *trade, size_t i)
     fputc('\n', out);
 }
 
-static enum br_status emit(FILE *out, const struct br_trade_page *page, struct br_error *err)
+enum br_status br_trade_csv(FILE *out, const struct br_trade_page *page, struct br_error *err)
 {
     (void)err;
     fputs(trial_heading, out);
@@ -57,8 +57,8 @@ static enum br_status emit(FILE *out, const struct br_trade_page *page, struct b
 }
 
 /* The cheapest trials, those of every target. */
-static enum br_status summarise(FILE *out, const struct br_trade_page *page, size_t pages,
-                                struct br_error *err)
+enum br_status br_trade_csv_summary(FILE *out, const struct br_trade_page *page, size_t pages,
+                                    struct br_error *err)
 {
     (void)err;
     fprintf(out, "scene,target,%s", trial_heading);
@@ -73,5 +73,3 @@ static enum br_status summarise(FILE *out, const struct br_trade_page *page, siz
         }
     return BR_OK;
 }
-
-const struct br_trade_emitter br_trade_csv = {"csv", ".csv", emit, summarise};

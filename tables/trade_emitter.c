@@ -1,18 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tables/trade_emitter.h"
 
-#include <string.h>
-
-extern const struct br_trade_emitter br_trade_text, br_trade_csv, br_trade_markdown, br_trade_latex,
-    br_trade_json;
-
-const struct br_trade_emitter *const br_trade_emitters[] = {
-    &br_trade_text, &br_trade_csv, &br_trade_markdown, &br_trade_latex, &br_trade_json, NULL};
-
-const struct br_trade_emitter *br_trade_emitter_find(const char *name)
+enum br_status br_trade_emit(const struct br_page_emitter *format, FILE *out,
+                             const struct br_trade_page *page, struct br_error *err)
 {
-    for (const struct br_trade_emitter *const *e = br_trade_emitters; *e; e++)
-        if (strcmp((*e)->name, name) == 0)
-            return *e;
-    return NULL;
+    struct br_page sheets;
+    if (format == &br_page_csv)
+        return br_trade_csv(out, page, err);
+    if (format == &br_page_json)
+        return br_trade_json(out, page, err);
+    br_trade_fill(page, &sheets);
+    return format->emit(out, &sheets, err);
+}
+
+enum br_status br_trade_summarise(const struct br_page_emitter *format, FILE *out,
+                                  const struct br_trade_page *page, size_t pages,
+                                  struct br_error *err)
+{
+    struct br_page sheets;
+    if (format == &br_page_csv)
+        return br_trade_csv_summary(out, page, pages, err);
+    if (format == &br_page_json)
+        return br_trade_json_summary(out, page, pages, err);
+    br_trade_fill_summary(page, pages, &sheets);
+    return format->emit(out, &sheets, err);
+}
+
+enum br_status br_trade_show(FILE *out, const struct br_trade_page *page, struct br_error *err)
+{
+    struct br_page sheets;
+    br_trade_fill(page, &sheets);
+    return br_page_show(out, &sheets, err);
 }

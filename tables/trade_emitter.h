@@ -1,26 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Trades as text: one const record a format, named as those of tables/emitter.h. Emitters compute
- * nothing. */
+/* Trades in the formats of tables/sheet.h; CSV and JSON have what a trade has to tell programs.
+ * Nothing is computed here. */
 #ifndef BR_TRADE_EMITTER_H
 #define BR_TRADE_EMITTER_H
 
 #include "tables/trade_page.h"
 
-struct br_trade_emitter {
-    const char *name;      /* as on the command line */
-    const char *extension; /* of its file, with the dot */
-    /* Writes one page, and the summary of several. Fail with BR_NO_MEMORY only: write errors stay
-     * in `out`. */
-    enum br_status (*emit)(FILE *out, const struct br_trade_page *page, struct br_error *err);
-    enum br_status (*summarise)(FILE *out, const struct br_trade_page *page, size_t pages,
-                                struct br_error *err);
-};
+/* One scene, and the summary of several. Fail with BR_NO_MEMORY only: write errors stay in `out`.
+ */
+enum br_status br_trade_emit(const struct br_page_emitter *format, FILE *out,
+                             const struct br_trade_page *page, struct br_error *err);
+enum br_status br_trade_summarise(const struct br_page_emitter *format, FILE *out,
+                                  const struct br_trade_page *page, size_t pages,
+                                  struct br_error *err);
 
-/* NULL-terminated; the first is the terminal's. */
-extern const struct br_trade_emitter *const br_trade_emitters[];
-const struct br_trade_emitter *br_trade_emitter_find(const char *name);
+/* For a terminal: without the table of all trials. */
+enum br_status br_trade_show(FILE *out, const struct br_trade_page *page, struct br_error *err);
 
-/* For a terminal: without the sheet of all trials. */
-void br_trade_show(FILE *out, const struct br_trade_page *page);
+/* One line a trial, or the cheapest ones of every target; everything. */
+enum br_status br_trade_csv(FILE *out, const struct br_trade_page *page, struct br_error *err);
+enum br_status br_trade_csv_summary(FILE *out, const struct br_trade_page *page, size_t pages,
+                                    struct br_error *err);
+enum br_status br_trade_json(FILE *out, const struct br_trade_page *page, struct br_error *err);
+enum br_status br_trade_json_summary(FILE *out, const struct br_trade_page *page, size_t pages,
+                                     struct br_error *err);
 
 #endif

@@ -124,7 +124,7 @@ static enum br_status dump(FILE *out, json_t *root, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status emit(FILE *out, const struct br_trade_page *page, struct br_error *err)
+enum br_status br_trade_json(FILE *out, const struct br_trade_page *page, struct br_error *err)
 {
     json_t *root = page_of(page);
     put(root, "provenance", br_json_provenance(page->provenance));
@@ -132,8 +132,8 @@ static enum br_status emit(FILE *out, const struct br_trade_page *page, struct b
 }
 
 /* The cheapest trials of every scene. */
-static enum br_status summarise(FILE *out, const struct br_trade_page *page, size_t pages,
-                                struct br_error *err)
+enum br_status br_trade_json_summary(FILE *out, const struct br_trade_page *page, size_t pages,
+                                     struct br_error *err)
 {
     json_t *root = json_object(), *rows = json_array();
     for (size_t p = 0; p < pages; p++)
@@ -149,5 +149,3 @@ static enum br_status summarise(FILE *out, const struct br_trade_page *page, siz
     put(root, "provenance", br_json_provenance(page->provenance));
     return dump(out, root, err);
 }
-
-const struct br_trade_emitter br_trade_json = {"json", ".json", emit, summarise};

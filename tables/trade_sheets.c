@@ -163,60 +163,51 @@ static const char *heading_of(const struct column *columns, size_t column, bool 
     return columns[column].heading;
 }
 
-/* ---- the cheapest way to each error ---- */
+/* ---- the cheapest way to each error: rows of page after page ---- */
 
-static size_t target_rows(const struct br_sheet_view *v)
+static const char *summary_heading(const void *self, size_t column, bool *number)
 {
-    return v->pages * BR_TRADE_DIGITS;
-}
-
-static const char *summary_heading(size_t column, bool *number)
-{
+    (void)self;
     return heading_of(summary_columns, column, number);
 }
 
-static const char *cheapest_heading(size_t column, bool *number)
+static const char *cheapest_heading(const void *self, size_t column, bool *number)
 {
+    (void)self;
     return heading_of(cheapest_columns, column, number);
 }
 
 /* Where no trial is good enough, all but the scene and the target is empty. */
-static void target_row(const struct br_sheet_view *v, size_t row, const struct column *column,
-                       char *text, size_t size)
+static void target_row(const struct br_trade_page *pages, size_t row, const struct column *column,
+                       char text[BR_CELL])
 {
-    const struct br_trade_page *page = &v->page[row / BR_TRADE_DIGITS];
+    const struct br_trade_page *page = &pages[row / BR_TRADE_DIGITS];
     const struct br_trade *trade = page->trade;
     const size_t digit = row % BR_TRADE_DIGITS, best = trade->best[digit];
     const struct place at = {page, best < trade->count ? &trade->trial[best] : NULL,
                              br_trade_target(digit)};
     if (at.trial || column->cell == scene_cell || column->cell == target_cell)
-        column->cell(&at, text, size);
+        column->cell(&at, text, BR_CELL);
     else
-        snprintf(text, size, "-");
+        snprintf(text, BR_CELL, "-");
 }
 
-static void summary_cell(const struct br_sheet_view *v, size_t row, size_t column, char *text,
-                         size_t size)
+static void summary_cell(const void *self, size_t row, size_t column, char text[BR_CELL])
 {
-    target_row(v, row, &summary_columns[column], text, size);
+    target_row(self, row, &summary_columns[column], text);
 }
 
-static void cheapest_cell(const struct br_sheet_view *v, size_t row, size_t column, char *text,
-                          size_t size)
+static void cheapest_cell(const void *self, size_t row, size_t column, char text[BR_CELL])
 {
-    target_row(v, row, &cheapest_columns[column], text, size);
+    target_row(self, row, &cheapest_columns[column], text);
 }
 
 /* ---- by method ---- */
 
-static size_t method_rows(const struct br_sheet_view *v)
-{
-    return v->page->trade->contenders.count;
-}
-
-static const char *methods_heading(size_t column, bool *number)
+static const char *methods_heading(const void *self, size_t column, bool *number)
 {
     static char text[BR_TRADE_DIGITS + 1][16];
+    (void)self;
     *number = column > 0;
     if (column == 0)
         return "method";
@@ -224,55 +215,98 @@ static const char *methods_heading(size_t column, bool *number)
     return text[column];
 }
 
-static void methods_cell(const struct br_sheet_view *v, size_t row, size_t column, char *text,
-                         size_t size)
+static void methods_cell(const void *self, size_t row, size_t column, char text[BR_CELL])
 {
-    const struct br_trade *trade = v->page->trade;
+    const struct br_trade *trade = ((const struct br_trade_page *)self)->trade;
     if (column == 0) {
-        snprintf(text, size, "%s", trade->contenders.list[row].name);
+        snprintf(text, BR_CELL, "%s", trade->contenders.list[row].name);
         return;
     }
     const size_t best = trade->best_of[row][column - 1];
-    put(text, size, "%.2g",
+    put(text, BR_CELL, "%.2g",
         best < trade->count ? br_trial_seconds(&trade->trial[best]) : (double)NAN);
 }
 
 /* ---- all trials ---- */
 
-static size_t trial_rows(const struct br_sheet_view *v)
+static const char *trials_heading(const void *self, size_t column, bool *number)
 {
-    return v->page->trade->count;
-}
-
-static const char *trials_heading(size_t column, bool *number)
-{
+    (void)self;
     return heading_of(trial_columns, column, number);
 }
 
-static void trials_cell(const struct br_sheet_view *v, size_t row, size_t column, char *text,
-                        size_t size)
+static void trials_cell(const void *self, size_t row, size_t column, char text[BR_CELL])
 {
-    const struct place at = {v->page, &v->page->trade->trial[row], NAN};
-    trial_columns[column].cell(&at, text, size);
+    const struct br_trade_page *page = self;
+    const struct place at = {page, &page->trade->trial[row], NAN};
+    trial_columns[column].cell(&at, text, BR_CELL);
 }
 
-const struct br_sheet br_sheet_cheapest = {
-    "cheapest",  "Cheapest way to an error", SUMMARY_COLUMNS - 1,
-    target_rows, cheapest_heading,           cheapest_cell,
-};
-const struct br_sheet br_sheet_summary = {
-    "summary",       "Cheapest way to an error, by scene",
-    SUMMARY_COLUMNS, target_rows,
-    summary_heading, summary_cell,
-};
-const struct br_sheet br_sheet_methods = {
-    "methods",           "CPU seconds to an error, by method",
-    BR_TRADE_DIGITS + 1, method_rows,
-    methods_heading,     methods_cell,
-};
-const struct br_sheet br_sheet_trials = {
-    "trials", "All trials", TRIAL_COLUMNS, trial_rows, trials_heading, trials_cell,
-};
+/* ---- the pages ---- */
 
-const struct br_sheet *const br_trade_sheets[] = {&br_sheet_cheapest, &br_sheet_methods,
-                                                  &br_sheet_trials, NULL};
+enum { MOST_ENDS = 6 };
+
+static void say(const void *self, const struct br_writer *w)
+{
+    br_say_trade(self, w);
+}
+
+static void say_ends(const void *self, const struct br_writer *w)
+{
+    br_say_trade_ends(self, w);
+}
+
+void br_trade_fill(const struct br_trade_page *trade, struct br_page *page)
+{
+    const struct br_trade *t = trade->trade;
+    *page = (struct br_page){
+        .name = trade->name,
+        .caption = trade->caption,
+        .table = {{.name = "cheapest",
+                   .title = "Cheapest way to an error",
+                   .columns = SUMMARY_COLUMNS - 1,
+                   .rows = BR_TRADE_DIGITS,
+                   .self = trade,
+                   .heading = cheapest_heading,
+                   .cell = cheapest_cell},
+                  {.name = "methods",
+                   .title = "CPU seconds to an error, by method",
+                   .columns = BR_TRADE_DIGITS + 1,
+                   .rows = t->contenders.count,
+                   .self = trade,
+                   .heading = methods_heading,
+                   .cell = methods_cell},
+                  {.name = "trials",
+                   .title = "All trials",
+                   .columns = TRIAL_COLUMNS,
+                   .rows = t->count,
+                   .only_in_files = true,
+                   .self = trade,
+                   .heading = trials_heading,
+                   .cell = trials_cell}},
+        .tables = 3,
+        .self = trade,
+        .say = say,
+        .say_notes = say_ends,
+        .notes_title = "How trials ended",
+        .notes_shown = MOST_ENDS,
+        .provenance = trade->provenance,
+    };
+}
+
+void br_trade_fill_summary(const struct br_trade_page *trade, size_t scenes, struct br_page *page)
+{
+    *page = (struct br_page){
+        .name = "summary",
+        .caption = "What a digit costs",
+        .table = {{.name = "summary",
+                   .title = "Cheapest way to an error, by scene",
+                   .columns = SUMMARY_COLUMNS,
+                   .rows = scenes * BR_TRADE_DIGITS,
+                   .self = trade,
+                   .heading = summary_heading,
+                   .cell = summary_cell}},
+        .tables = 1,
+        .provenance = trade->provenance,
+    };
+}

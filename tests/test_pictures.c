@@ -84,7 +84,7 @@ static void test_without_gnuplot(void **state)
 static void test_bad_options(void **state)
 {
     (void)state;
-    cli_expect("figures here", NULL, 2, "found 'here', expected options alone");
+    cli_expect("figures here", NULL, 2, "found 'here', expected nothing more");
     cli_expect("figures --threads x", NULL, 2, "--threads: found 'x'");
     cli_expect("figures --out ''", NULL, 2, "expected a folder's name");
     cli_expect("figures --help", NULL, 0, "Usage: beamrate figures [");

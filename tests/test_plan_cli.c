@@ -18,7 +18,7 @@ static void test_bad_input(void **state)
     } wrong[] = {
         {"plan", "no scene is given"},
         {"plan nowhere --error 1e-3", "scene 'nowhere' is no file"},
-        {"plan example1 example2 --error 1e-3", "found 'example2' after the scene"},
+        {"plan example1 example2 --error 1e-3", "found 'example2', expected nothing more"},
         {"plan example1", "expected one of --error and --seconds, found none"},
         {"plan example1 --error 1e-3 --seconds 1", "found both"},
         {"plan example1 --error 0", "--error: found '0'"},

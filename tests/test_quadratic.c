@@ -348,14 +348,15 @@ static void check_scene(const char *name, const char *solver)
     struct br_witness *witness;
     struct br_energy_meter *meter;
     MUST(br_witness_create(&witness, march, &scene, &method, &err));
-    MUST(br_energy_meter_create(&meter, march, &scene, method.scheme, scene.duration / 500, &err));
+    MUST(br_energy_meter_create(&meter, march, &scene, &method, &err));
     const struct br_certificate limits =
         br_certificate_limits(method.scheme, 20, br_march_round_off(march) * br_test_slack());
     for (size_t step = 1; step <= 500; step++) {
         MUST(br_march_step(march, &err));
         const struct br_certificate c = br_witness_step(witness);
         MUST(br_certificate_check(&c, &limits, &err));
-        br_energy_meter_step(meter);
+        AT_MOST(br_energy_meter_step(meter),
+                br_energy_limit(20, br_march_round_off(march)) * br_test_slack());
     }
     struct br_energy start, now;
     struct br_work work;

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Works of a march as its scheme sums rates of change, stage by stage, and what the scheme takes.
+ */
+#include <math.h>
+
+#include "reference/energy_forms.h"
+
+/* ---- a stage ---- */
+
+static struct br_power power_of(const struct br_energy_meter *m, enum br_field_kind kind)
+{
+    const struct br_meter_field *f = &m->field[kind];
+    const struct br_watched_field *seen = &m->seen.field[kind];
+    const struct br_tip *tip = br_march_tip(m->march);
+    const double *v = seen->y.row[seen->last].velocity;
+    struct br_power p = {
+        .viscous = (real)f->field.viscosity * br_bend_product(&f->field, v, v),
+        .tip = (real)(kind == BR_AXIAL ? tip->contact_force : tip->friction_force) *
+               v[f->field.n * br_field_unknowns(&f->field)],
+    };
+    p.load = br_nodal_product(seen->load, v, br_field_size(&f->field), &p.load_size);
+    return p;
+}
+
+static void watch_stage(void *self, const struct br_march_stage *told)
+{
+    struct br_energy_meter *m = self;
+    br_watched_stage(&m->seen, told);
+    const int row = m->seen.field[told->kind].last;
+    if (row >= 0)
+        m->field[told->kind].row[row] = power_of(m, told->kind);
+    m->field[told->kind].k = told->k;
+}
+
+/* ---- what a scheme takes ---- */
+
+/* <Y, Z> of displacements and velocities. */
+static real product(const struct br_field *f, const double *const y[2], const double *const z[2])
+{
+    return (real)f->stiffness * br_bend_product(f, y[0], z[0]) + br_mass_product(f, y[1], z[1]);
+}
+
+/* A sum and the sum of its terms' sizes, J. */
+struct sum {
+    real value, size;
+};
+
+static void add(struct sum *s, real term)
+{
+    s->value += term;
+    s->size += fabsl(term);
+}
+
+/* Row i's Y' = (w', v'); a row with c = 0 is the step's beginning. */
+static const struct br_nodal *row_of(const struct br_watched_field *seen,
+                                     const struct br_textbook *t, int i)
+{
+    return t->c[i] == 0 ? &seen->y.past[0] : &seen->y.row[i];
+}
+
+/* k^2/2 sum_i <Y'_i, sum_j m_ij Y'_j>,  m_ij = b_i a_ij + b_j a_ji - b_i b_j */
+static struct sum runge_kutta_takes(struct br_meter_field *m, const struct br_watched_field *seen,
+                                    const struct br_textbook *t)
+{
+    struct sum taken = {0, 0};
+    const long double *b = t->a[t->rows - 1];
+    const size_t size = br_field_size(&m->field);
+    for (int i = 0; i < t->rows; i++) {
+        for (size_t x = 0; x < size; x++) {
+            real z[2] = {0, 0};
+            for (int j = 0; j < t->rows; j++) {
+                const struct br_nodal *y = row_of(seen, t, j);
+                const real weight = b[i] * t->a[i][j] + b[j] * t->a[j][i] - b[i] * b[j];
+                z[0] += weight * y->velocity[x];
+                z[1] += weight * y->acceleration[x];
+            }
+            m->scratch[0][x] = (double)z[0];
+            m->scratch[1][x] = (double)z[1];
+        }
+        const struct br_nodal *y = row_of(seen, t, i);
+        const double *const rate[2] = {y->velocity, y->acceleration};
+        add(&taken, m->k * m->k / 2 * product(&m->field, rate, (const double *const *)m->scratch));
+    }
+    return taken;
+}
+
+/* The backward difference d^order of the displacement or the velocity. */
+static void difference(const struct br_watched_field *seen, int order, bool velocity, double *out)
+{
+    static const int binomial[4][4] = {{1}, {1, -1}, {1, -2, 1}, {1, -3, 3, -1}};
+    const struct br_nodal *now = &seen->y.row[0], *past = seen->y.past;
+    for (size_t x = 0; x < seen->y.size; x++) {
+        real sum = velocity ? now->velocity[x] : now->displacement[x];
+        for (int i = 1; i <= order; i++)
+            sum += binomial[order][i] *
+                   (real)(velocity ? past[i - 1].velocity[x] : past[i - 1].displacement[x]);
+        out[x] = (double)sum;
+    }
+}
+
+/* 1/2 |d Y|^2 + sum <Y_n, d^j Y / j>, j = 2, ... */
+static struct sum differences_take(struct br_meter_field *m, const struct br_watched_field *seen,
+                                   const struct br_textbook *t)
+{
+    struct sum taken = {0, 0};
+    const struct br_nodal *y = &seen->y.row[0];
+    const double *const now[2] = {y->displacement, y->velocity};
+    const double *const *d = (const double *const *)m->scratch;
+    for (int order = 1; order <= t->back; order++) {
+        difference(seen, order, false, m->scratch[0]);
+        difference(seen, order, true, m->scratch[1]);
+        add(&taken, product(&m->field, order == 1 ? d : now, d) / (order == 1 ? 2 : order));
+    }
+    return taken;
+}
+
+/* ---- a step ---- */
+
+/* The works of a step by the scheme's weights, J. */
+static struct sum add_works(struct br_meter_field *m, const struct br_textbook *t)
+{
+    struct br_field_work *w = &m->work;
+    struct sum all = {0, 0};
+    for (int i = 0; i < (t->rows > 0 ? t->rows : 1); i++) {
+        const real weight = m->k * (t->rows > 0 ? t->a[t->rows - 1][i] : 1);
+        const struct br_power *p = t->rows > 0 && t->c[i] == 0 ? &m->before : &m->row[i];
+        w->load += weight * p->load;
+        w->viscous += weight * p->viscous;
+        w->tip += weight * p->tip;
+        add(&all, weight * p->load);
+        add(&all, -weight * p->viscous);
+        add(&all, -weight * p->tip);
+        all.size += fabsl(weight) * p->load_size;
+    }
+    return all;
+}
+
+static real total(const struct br_field_energy *e)
+{
+    return e->kinetic + e->stored;
+}
+
+static double relative(real a, real size)
+{
+    return a == 0 ? 0 : (double)(fabsl(a) / size);
+}
+
+/* Takes the energies at the step's end into the sums. Returns the imbalance. */
+static double add_step(struct br_energy_meter *m, enum br_field_kind kind)
+{
+    struct br_meter_field *f = &m->field[kind];
+    const struct br_watched_field *seen = &m->seen.field[kind];
+    const struct br_textbook *t = br_watched_textbook(&m->seen, kind);
+    const struct br_nodal *y = &seen->y.row[seen->last];
+    const struct br_field_energy before = f->now;
+    const real tip_before = f->work.tip;
+    const struct sum works = add_works(f, t);
+    const struct sum taken =
+        t->rows > 0 ? runge_kutta_takes(f, seen, t) : differences_take(f, seen, t);
+    f->now = br_energy_of_field(&f->field, &m->scene->contact, y->displacement, y->velocity);
+    const real contact =
+        kind == BR_BENDING ? 0 : f->work.tip - tip_before - (f->now.contact - before.contact);
+    const real size =
+        works.size + taken.size + total(&f->now) + total(&before) + f->now.contact + before.contact;
+    f->work.scheme += taken.value;
+    f->work.contact += contact;
+    f->work.noise += m->limit * size;
+    f->work.steps++;
+    if (taken.value + contact < -m->limit * size) {
+        f->work.gaining++;
+        f->work.gained -= taken.value + contact;
+    }
+    f->before = f->row[seen->last];
+    return relative(total(&f->now) - total(&before) - works.value + taken.value, size);
+}
+
+static void watch_step(void *self, enum br_field_kind kind, bool switched)
+{
+    struct br_energy_meter *m = self;
+    const double imbalance = m->seen.field[kind].last < 0 ? NAN : add_step(m, kind);
+    if (isnan(imbalance) || imbalance > m->worst)
+        m->worst = imbalance;
+    m->any = true;
+    br_watched_step(&m->seen, kind, switched);
+}
+
+enum br_status br_meter_watch(struct br_energy_meter *m, struct br_error *err)
+{
+    const enum br_status status = br_watched_init(&m->seen, m->march, m->scene, m->method, err);
+    if (status)
+        return status;
+    if (!br_march_watch(m->march, &(struct br_march_watcher){m, watch_stage, watch_step}))
+        return br_fail(err, BR_BAD_INPUT, "the march has %d watchers, and room for no more",
+                       BR_MOST_WATCHERS);
+    return BR_OK;
+}

@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reference/watched.h"
+
+#include <math.h>
+
+typedef long double real;
+
+static enum br_watched_regime regime_of(const struct br_watched *w, enum br_field_kind kind)
+{
+    const struct br_tip *tip = br_march_tip(w->march);
+    if (kind == BR_AXIAL)
+        return !w->scene->contact.modelled ? BR_WATCHED_NONE
+               : tip->contact_force > 0    ? BR_CLOSED
+                                           : BR_OPEN;
+    if (w->scene->friction.law == BR_FRICTIONLESS || !(tip->friction_bound > 0))
+        return BR_WATCHED_NONE;
+    if (fabs(tip->friction_force) < tip->friction_bound)
+        return BR_STICKS;
+    return tip->friction_force > 0 ? BR_UP : BR_DOWN;
+}
+
+/* ---- a stage ---- */
+
+static void look(struct br_watched *w, enum br_field_kind kind, struct br_nodal *into)
+{
+    br_march_get(w->march, kind, into->displacement, into->velocity);
+}
+
+/* The velocity's rate of change as the stage's own equation has it: (v - Z) / tau. */
+static void find_acceleration(struct br_watched_field *f, real tau)
+{
+    struct br_nodal *y = &f->y.row[f->last];
+    for (size_t i = 0; i < f->y.size; i++)
+        y->acceleration[i] = (double)(((real)y->velocity[i] - f->y.start.velocity[i]) / tau);
+}
+
+const struct br_textbook *br_watched_textbook(const struct br_watched *w, enum br_field_kind kind)
+{
+    return br_textbook_step(w->method->scheme->name, w->field[kind].since);
+}
+
+real br_watched_stage(struct br_watched *w, const struct br_march_stage *told)
+{
+    struct br_watched_field *f = &w->field[told->kind];
+    const struct br_textbook *t = br_watched_textbook(w, told->kind);
+    const int skipped = t->rows > 0 && t->c[0] == 0, rows = t->rows > 0 ? t->rows : 1;
+    f->last = told->index + skipped;
+    f->now = told->time;
+    if (f->last >= rows || told->count != rows - skipped) {
+        f->last = -1;
+        return NAN;
+    }
+    const real tau = br_start_of_row(&f->y, t, f->last, told->k);
+    look(w, told->kind, &f->y.row[f->last]);
+    br_march_load(w->march, told->kind, f->load);
+    find_acceleration(f, tau);
+    return tau;
+}
+
+/* ---- a step ---- */
+
+static void swap(struct br_nodal *a, struct br_nodal *b)
+{
+    const struct br_nodal old = *a;
+    *a = *b;
+    *b = old;
+}
+
+/* An adaptive scheme says itself where it has found a switch; for the others a switch is what the
+ * tip's regime shows. */
+void br_watched_step(struct br_watched *w, enum br_field_kind kind, bool switched)
+{
+    struct br_watched_field *f = &w->field[kind];
+    const enum br_watched_regime before = f->regime;
+    f->regime = regime_of(w, kind);
+    if (!w->method->scheme->adaptive)
+        switched = f->steps > 0 && f->regime != before;
+    f->since = switched ? 0 : f->since + 1;
+    f->steps++;
+    f->began = f->now;
+    for (int i = w->back - 1; i > 0; i--)
+        swap(&f->y.past[i], &f->y.past[i - 1]);
+    swap(&f->y.past[0], &f->y.row[f->last < 0 ? 0 : f->last]);
+}
+
+/* ---- setting up ---- */
+
+static void find_needs(struct br_watched *w)
+{
+    w->back = w->rows = 1;
+    for (size_t since = 0; since < 3; since++) {
+        const struct br_textbook *t = br_textbook_step(w->method->scheme->name, since);
+        w->back = t->back > w->back ? t->back : w->back;
+        w->rows = t->rows > w->rows ? t->rows : w->rows;
+    }
+}
+
+static double *place(struct br_nodal *y, size_t size, double *memory)
+{
+    *y = (struct br_nodal){memory, memory + size, memory + 2 * size};
+    return memory + 3 * size;
+}
+
+/* Gives a field its arrays; returns what is left of the memory. */
+static double *place_field(struct br_watched *w, enum br_field_kind kind, double *memory)
+{
+    struct br_watched_field *f = &w->field[kind];
+    f->y.size = br_field_size(br_march_field(w->march, kind));
+    for (int i = 0; i < w->back; i++)
+        memory = place(&f->y.past[i], f->y.size, memory);
+    for (int i = 0; i < w->rows; i++)
+        memory = place(&f->y.row[i], f->y.size, memory);
+    f->y.start = (struct br_nodal){.displacement = memory, .velocity = memory + f->y.size};
+    f->load = memory + 2 * f->y.size;
+    return memory + 3 * f->y.size;
+}
+
+enum br_status br_watched_init(struct br_watched *w, const struct br_march *march,
+                               const struct br_scene *scene, const struct br_method *method,
+                               struct br_error *err)
+{
+    *w = (struct br_watched){.march = march, .scene = scene, .method = method};
+    if (!br_textbook_step(method->scheme->name, 0))
+        return br_fail(err, BR_BAD_INPUT,
+                       "scheme %s has no certificate, expected a scheme made of Euler steps",
+                       method->scheme->name);
+    w->n = br_march_field(march, BR_AXIAL)->n;
+    find_needs(w);
+    const size_t arrays = 3 * (size_t)(w->back + w->rows + 1);
+    w->memory = br_allocate(arrays * (br_field_size(br_march_field(march, BR_AXIAL)) +
+                                      br_field_size(br_march_field(march, BR_BENDING))),
+                            sizeof *w->memory);
+    if (!w->memory)
+        return br_no_memory(err, "a certificate");
+    double *memory = w->memory;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        memory = place_field(w, (enum br_field_kind)kind, memory);
+        look(w, (enum br_field_kind)kind, &w->field[kind].y.past[0]);
+    }
+    return BR_OK;
+}
+
+void br_watched_clear(struct br_watched *w)
+{
+    free(w->memory);
+    w->memory = NULL;
+}

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A march as somebody sees it who looks at each stage (br_march_watch) and knows the scheme from
+ * textbook.h: the states of the step so far, and which row of the textbook each of them is. */
+#ifndef BR_WATCHED_H
+#define BR_WATCHED_H
+
+#include "reference/past_states.h"
+#include "solver/march.h"
+
+/* What decides where a step starts anew. */
+enum br_watched_regime { BR_WATCHED_NONE, BR_OPEN, BR_CLOSED, BR_STICKS, BR_UP, BR_DOWN };
+
+struct br_watched_field {
+    struct br_past_states y;       /* what the step starts from, and its rows so far */
+    size_t steps, since;           /* steps so far, and since the last start */
+    double began, now;             /* this step, and its last stage so far, s */
+    enum br_watched_regime regime; /* then */
+    int last;                      /* of the rows, the step's end; -1: not in the textbook */
+    double *load;                  /* of the last stage, N */
+};
+
+struct br_watched {
+    const struct br_march *march;
+    const struct br_scene *scene;
+    const struct br_method *method;
+    size_t n;
+    int back, rows;                   /* steps looked back at, and rows of the textbook, at most */
+    struct br_watched_field field[2]; /* by br_field_kind */
+    double *memory;
+};
+
+/* Looks at a march at t = 0; it, its scene and the method must outlive the watched. Fails with
+ * BR_BAD_INPUT where the scheme is not in textbook.h, with BR_NO_MEMORY; clear it even then. */
+enum br_status br_watched_init(struct br_watched *watched, const struct br_march *march,
+                               const struct br_scene *scene, const struct br_method *method,
+                               struct br_error *err);
+void br_watched_clear(struct br_watched *watched);
+
+/* The textbook's step that a field is in. */
+const struct br_textbook *br_watched_textbook(const struct br_watched *watched,
+                                              enum br_field_kind kind);
+
+/* Looks at a stage: its state, rates of change and load. Returns tau, s; NAN where the textbook's
+ * step has no such row. */
+long double br_watched_stage(struct br_watched *watched, const struct br_march_stage *told);
+
+/* Goes on to the next step of a field; switched: as br_march_watcher's step is told. */
+void br_watched_step(struct br_watched *watched, enum br_field_kind kind, bool switched);
+
+#endif
