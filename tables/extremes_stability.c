@@ -162,8 +162,12 @@ static void say_found(const void *self, const struct br_writer *w)
     say(w,
         "The largest relative difference between a predicted and a measured stability limit of the "
         "lagged contact is %.1e; between predicted and measured growth, in %zu of %zu cells of the "
-        "planes, %.1e. In the others no eigenvalue is more than %.1e outside the unit circle.",
-        s->limit_error, s->growing, s->cells, s->growth_error, s->excess);
+        "planes, %.1e.",
+        s->limit_error, s->growing, s->cells, s->growth_error);
+    if (s->excess > 0)
+        say(w, "In the other cells eigenvalues are up to %.1e outside the unit circle.", s->excess);
+    else
+        say(w, "In the other cells all eigenvalues are within the unit circle.");
     say(w, "Contact at u_n has no limit: every scheme brings a pressed rod to rest with c_H up to "
            "1e15 N/m.");
 }
@@ -184,7 +188,7 @@ static void say_how(const void *self, const struct br_writer *w)
     say(w,
         "Bouncing rods (no viscosity, k = %g s): within the limit without inertia, (a + 2c/k)/L, a "
         "lagged contact never gains energy; between that and the limit a closed one is stable, but "
-        "impacts may gain some. Contact at u_n gains none.",
+        "impacts may gain some. Euler with contact at u_n gains none.",
         s->bounce_k);
 }
 
