@@ -8,6 +8,7 @@
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/signals.h"
+#include "cli/warn_marches.h"
 #include "cli/whole_file.h"
 #include "solver/clock.h"
 #include "study/ranks.h"
@@ -254,6 +255,8 @@ static enum br_status check(struct run *r, struct br_error *err)
         status = check_heeded(r, err);
     if (!status && br_ranks_first())
         status = prepare_reports(r, err);
+    if (!status && br_ranks_first())
+        br_warn_of_checks(r->check, r->count);
     if (!status)
         status = compute(r, err);
     if (!br_ranks_first())

@@ -9,6 +9,7 @@
 #include "cli/provenance.h"
 #include "cli/signals.h"
 #include "cli/study_session.h"
+#include "cli/warn_marches.h"
 #include "plots/plots.h"
 #include "study/ranks.h"
 #include "tables/emitter.h"
@@ -141,6 +142,8 @@ enum br_status br_study_run_jobs(const struct br_study_job *jobs, size_t count,
     struct run r = {.options = options};
     const bool writes = br_ranks_first();
     enum br_status status = br_session_prepare(&r.session, jobs, count, options, with_exact, err);
+    if (!status && writes)
+        status = br_warn_of_studies(r.session.study, r.session.jobs, err);
     if (!status && writes)
         status = br_output_open(&r.output, options->out ? options->out : "results", err);
     br_provenance_fill(&r.provenance, r.session.request.threads);

@@ -10,6 +10,7 @@
 #include "cli/trade_files.h"
 #include "cli/trade_options.h"
 #include "cli/trade_split.h"
+#include "cli/warn_marches.h"
 #include "study/ranks.h"
 
 struct run {
@@ -118,6 +119,7 @@ static enum br_status hold(struct run *r, struct br_error *err)
     for (size_t i = 0; i < r->options.scenes && !status; i++) {
         struct br_trade_item *item = &r->item[i];
         struct br_error inner = {0};
+        br_warn_of_trade(&item->trade);
         item->trade.request.observer = br_progress_start(item->scene.name, r->options.study.quiet);
         status = br_trade_hold(&item->trade, &inner);
         br_progress_end();

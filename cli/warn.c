@@ -3,13 +3,23 @@
 
 #include <stdio.h>
 
-void br_print_warnings(const struct br_warnings *warnings)
+static void print(const char *scene, const struct br_warnings *warnings)
 {
     for (size_t i = 0; i < warnings->count; i++) {
         const struct br_warning *w = &warnings->list[i];
-        fprintf(stderr, "beamrate: warning: %s", w->text);
+        fprintf(stderr, "beamrate: warning: %s%s%s", scene, *scene ? ": " : "", w->text);
         if (w->more)
             fprintf(stderr, " (and so %zu more of these marches)", w->more);
         fprintf(stderr, "%s%s\n", w->remedy[0] ? "; remedy: " : "", w->remedy);
     }
+}
+
+void br_print_warnings(const struct br_warnings *warnings)
+{
+    print("", warnings);
+}
+
+void br_print_warnings_of(const char *scene, const struct br_warnings *warnings)
+{
+    print(scene, warnings);
 }

@@ -8,4 +8,7 @@
 /* Prints them to standard error, a line each: "beamrate: warning: ...; ...". */
 void br_print_warnings(const struct br_warnings *warnings);
 
+/* The same where several scenes are marched: with the scene's name. */
+void br_print_warnings_of(const char *scene, const struct br_warnings *warnings);
+
 #endif

@@ -167,6 +167,10 @@ static void write_axes(FILE *out, const struct br_heat_panel *p, const double si
             "set format x '%s'; set format y '%s'\n",
             side[0], side[1], side[2], side[3], p->log_x ? "10^{%L}" : "%g",
             p->log_y ? "10^{%L}" : "%g");
+    if (p->log_x) /* a label every three decades where there are many */
+        fprintf(out, "set xtics %g\n", p->x[p->columns] / p->x[0] > 1e9 ? 1e3 : 10.0);
+    else
+        fputs("set xtics autofreq\n", out);
     if (p->log_x || p->log_y)
         fprintf(out, "set logscale %s%s\n", p->log_x ? "x" : "", p->log_y ? "y" : "");
     fprintf(out, "set xrange [%.12g:%.12g]; set yrange [%.12g:%.12g]\n", p->x[0], p->x[p->columns],

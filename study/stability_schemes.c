@@ -7,6 +7,10 @@
 
 static const double load = 1000; /* N/m, from t = 0 on */
 
+/* Enough for the adaptive scheme to pass over the vibrations of a few elements against a rigid
+ * wall. */
+static const size_t elements = 8;
+
 /* The rest by the balance of the whole rod: the free tip is at q L^2 / (2 a), and the contact's
  * share of q L / 2 is c_H L over a + c_H L. */
 static void compare(struct br_stability_scheme *c, const struct br_scene *scene,
@@ -49,8 +53,8 @@ static enum br_status try_one(const struct br_scene *scene, size_t n, size_t ste
     return BR_OK;
 }
 
-static enum br_status try_scheme(struct br_stability *s, struct br_stability_scheme *c,
-                                 struct br_run_report *report, struct br_error *err)
+static enum br_status try_scheme(struct br_stability_scheme *c, struct br_run_report *report,
+                                 struct br_error *err)
 {
     static const double stiffness[] = {1, 1e3, 1e6, 1e9, 1e12, 1e15};
     static const size_t steps[] = {10, 100, 1000};
@@ -68,7 +72,7 @@ static enum br_status try_scheme(struct br_stability *s, struct br_stability_sch
     for (size_t i = 0; i < sizeof stiffness / sizeof *stiffness; i++)
         for (size_t j = 0; j < sizeof steps / sizeof *steps && !status; j++) {
             scene.contact.stiffness = stiffness[i];
-            status = try_one(&scene, s->n, steps[j], c, report, err);
+            status = try_one(&scene, elements, steps[j], c, report, err);
         }
     return status;
 }
@@ -84,7 +88,7 @@ enum br_status br_stability_schemes(struct br_stability *s, struct br_error *err
             break;
         struct br_stability_scheme *c = &s->scheme[s->schemes++];
         *c = (struct br_stability_scheme){.scheme = *t, .certified = !(*t)->integrator};
-        status = try_scheme(s, c, report, err);
+        status = try_scheme(c, report, err);
     }
     free(report);
     return status;

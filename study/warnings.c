@@ -68,6 +68,12 @@ enum br_status br_look_ahead(const struct br_outlook *outlook, struct br_warning
     return status ? status : ask(outlook, false, w, err);
 }
 
+enum br_status br_look_ahead_cheaply(const struct br_outlook *outlook, struct br_warnings *w,
+                                     struct br_error *err)
+{
+    return ask(outlook, true, w, err);
+}
+
 enum br_status br_look_ahead_grid(const struct br_outlook_grid *g, struct br_warnings *w,
                                   struct br_error *err)
 {

@@ -74,6 +74,10 @@ extern const struct br_warning_source *const br_warning_sources[];
 enum br_status br_look_ahead(const struct br_outlook *outlook, struct br_warnings *warnings,
                              struct br_error *err);
 
+/* Asks those that are cheap alone: for marches that are many. */
+enum br_status br_look_ahead_cheaply(const struct br_outlook *outlook, struct br_warnings *warnings,
+                                     struct br_error *err);
+
 /* The marches of a study: a grid of n and steps, or, as a path, pairs of them. All borrowed. */
 struct br_outlook_grid {
     const struct br_scene *scene;

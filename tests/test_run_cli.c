@@ -299,13 +299,44 @@ static void test_interrupt(void **state)
     assert_false(cli_is_there("i"));
 }
 
+/* A lagged contact that will be unstable is warned of before the march, with what is within its
+ * limit; marched like that, nothing is said. */
+static void test_contact_limit(void **state)
+{
+    (void)state;
+    static const char stiff[] = SCENE "contact:\n  gap: 0 m\n"
+                                      "  stiffness: 5e4 N/m\n";
+    static const char *const lines[] = {
+        "run stiff.yaml --n 4 --k 0.1 --quiet",
+        "study stiff.yaml --n 2,4 --k 0.1,0.05 --reference none --no-plots --quiet",
+        "trade stiff.yaml --methods euler+lagged --n 4 --k 0.1 --no-plots --quiet --out tr",
+    };
+    static struct cli_outcome out;
+    cli_write_file("stiff.yaml", stiff);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        cli_expect(lines[i], NULL, 0, "the lagged contact is beyond its stability limit");
+        cli_expect(lines[i], NULL, 0, "remedy: --contact implicit has no limit; or time steps of");
+    }
+    cli_run_line(lines[0], NULL, &out);
+    const char *k = strstr(out.output, "--k ");
+    assert_non_null(k);
+    char line[128];
+    snprintf(line, sizeof line, "run stiff.yaml --n 4 --quiet %.*s", (int)strcspn(k, ";"), k);
+    cli_run_line(line, NULL, &out);
+    assert_int_equal(out.exit_code, 0);
+    assert_null(strstr(out.output, "stability limit"));
+    cli_run_line("run stiff.yaml --n 4 --k 0.1 --contact implicit --quiet", NULL, &out);
+    assert_null(strstr(out.output, "stability limit"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_input), cmocka_unit_test(test_summary),
-        cmocka_unit_test(test_json),      cmocka_unit_test(test_files),
-        cmocka_unit_test(test_middles),   cmocka_unit_test(test_blow_up),
-        cmocka_unit_test(test_interrupt), cmocka_unit_test(test_warnings),
+        cmocka_unit_test(test_bad_input),     cmocka_unit_test(test_summary),
+        cmocka_unit_test(test_json),          cmocka_unit_test(test_files),
+        cmocka_unit_test(test_middles),       cmocka_unit_test(test_blow_up),
+        cmocka_unit_test(test_interrupt),     cmocka_unit_test(test_warnings),
+        cmocka_unit_test(test_contact_limit),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

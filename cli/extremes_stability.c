@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* beamrate extremes stability: the contact's stability limit, predicted and measured. */
+#include "plots/extremes_stability.h"
+#include "cli/extremes_part.h"
+#include "tables/extremes_stability.h"
+
+static void release(void *result)
+{
+    if (result)
+        br_stability_clear(result);
+    free(result);
+}
+
+static enum br_status run(const struct br_extremes_job *job, void **result, struct br_error *err)
+{
+    struct br_stability *s = *result = br_allocate(1, sizeof *s);
+    if (!s)
+        return br_no_memory(err, "the contact's stability");
+    if (job->n_count > 1)
+        return br_fail(err, BR_BAD_INPUT, "--n: found %zu numbers, expected one", job->n_count);
+    const struct br_stability_request request = {
+        .n = job->n_count ? job->n[0] : 0,
+        .k = job->k,
+        .k_count = job->k_count,
+        .threads = job->threads,
+        .observer = job->observer,
+    };
+    return br_stability_run(&request, s, err);
+}
+
+static void page(const void *result, struct br_page *page)
+{
+    br_extremes_stability_page(result, page);
+}
+
+static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
+                           struct br_error *err)
+{
+    *picture = (struct br_extremes_picture){NULL};
+    if (i > 0)
+        return BR_OK;
+    picture->heat = br_allocate(1, sizeof *picture->heat);
+    return picture->heat ? br_extremes_stability_draw(result, picture->heat, err)
+                         : br_no_memory(err, "a heat map");
+}
+
+static enum br_status verdict(const void *result, struct br_error *err)
+{
+    return br_stability_verdict(result, err);
+}
+
+const struct br_extremes_part br_extremes_part_stability = {
+    .name = "stability",
+    .title = "the contact's stability limit over c_H and k, predicted and measured",
+    .heeds = BR_HEEDS_N | BR_HEEDS_K,
+    .run = run,
+    .free = release,
+    .page = page,
+    .draw = draw,
+    .verdict = verdict,
+};

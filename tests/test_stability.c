@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The part `stability` of extremes: the matrix of a step, what marches say of the limit, a verdict
+ * that sees what is wrong, its page and its heat map. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "plots/extremes_stability.h"
+#include "solver/contact_limit.h"
+#include "study/step_matrix.h"
+#include "support.h"
+#include "tables/extremes_stability.h"
+
+static struct br_stability found;
+
+static int run_small(void **state)
+{
+    (void)state;
+    static const double k[] = {1e-1, 1e-5, 1e-3}; /* in any order */
+    const struct br_stability_request request = {.n = 3, .k = k, .k_count = 3};
+    struct br_error err = {0};
+    return br_stability_run(&request, &found, &err) ? -1 : 0;
+}
+
+static int clear(void **state)
+{
+    (void)state;
+    br_stability_clear(&found);
+    return 0;
+}
+
+/* One element without inertia: u_n = (c/k - c_H L)/(a + c/k) u_{n-1}, whatever the velocity was. */
+static void test_matrix(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    const struct br_field rod = {
+        .kind = BR_AXIAL, .n = 1, .h = 2, .stiffness = 3, .viscosity = 0.5, .k = 0.25, .degree = 1};
+    double matrix[4], radius;
+    assert_int_equal(br_step_states(&rod), 2);
+    MUST(br_step_matrix(&rod, 7, matrix, &err));
+    const double z = (0.5 / 0.25 - 7 * 2) / (3 + 0.5 / 0.25);
+    CLOSE(matrix[0], z, 1e-15);
+    CLOSE(matrix[1], 0, 1e-15);
+    CLOSE(matrix[2], z - 1, 1e-15); /* k v_n = u_n - u_{n-1} */
+    CLOSE(matrix[3], 0, 1e-15);
+    MUST(br_step_radius(&rod, 7, &radius, &err));
+    CLOSE(radius, -z, 1e-14);
+}
+
+/* Of a quadratic rod the bubbles are states, too, and nothing else than a march is asked. */
+static void test_quadratic_matrix(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_field rod = br_stability_field(&br_stability_rods[5], 2, 1e-3);
+    double radius;
+    assert_int_equal(br_step_states(&rod), 8);
+    const double limit = br_contact_limit_stiffness(&rod);
+    MUST(br_step_radius(&rod, 3 * limit, &radius, &err));
+    CLOSE(radius / br_contact_growth(&rod, 3 * limit), 1, 1e-13);
+    MUST(br_step_radius(&rod, 0.999 * limit, &radius, &err));
+    assert_true(radius < 1);
+}
+
+static void test_found(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    MUST(br_stability_verdict(&found, &err));
+    assert_int_equal(found.rows, 3);
+    assert_int_equal(found.cells, BR_STABILITY_RODS * 3 * found.columns);
+    assert_true(found.growing > found.cells / 4 && found.growing < found.cells * 3 / 4);
+    AT_MOST(found.limit_error, 2e-11);
+    AT_MOST(found.growth_error, 1e-12);
+    AT_MOST(found.excess, 1e-12);
+    for (size_t i = 0; i < BR_STABILITY_RODS; i++)
+        for (size_t row = 0; row < 3; row++) {
+            const struct br_stability_row *r = &found.plane[i].row[row];
+            CLOSE(r->measured / r->limit, 1, 2e-11);
+            assert_true(row == 0 || r->k > found.plane[i].row[row - 1].k);
+        }
+    for (size_t i = 0; i < found.schemes; i++)
+        assert_int_equal(found.scheme[i].marches, 18);
+    assert_true(found.schemes >= 8);
+}
+
+/* ---- a verdict that sees what is wrong, NaN too ---- */
+
+#define WRONG(place, value, text)                                      \
+    do {                                                               \
+        struct br_stability wrong = found;                             \
+        struct br_error err = {0};                                     \
+        wrong.place = (value);                                         \
+        REFUSED(br_stability_verdict(&wrong, &err), BR_VERDICT, text); \
+    } while (0)
+
+static void test_verdict(void **state)
+{
+    (void)state;
+    WRONG(limit_error, 1e-8, "limit");
+    WRONG(limit_error, NAN, "limit");
+    WRONG(growth_error, 1e-8, "growth");
+    WRONG(growth_error, NAN, "growth");
+    WRONG(excess, 1e-8, "unit circle");
+    WRONG(excess, NAN, "unit circle");
+    WRONG(scheme[1].failed, 1, "scheme bdf2");
+    WRONG(scheme[2].uncertain, 1, "scheme bdf3");
+    WRONG(scheme[0].force, 1e-6, "scheme euler");
+    WRONG(scheme[0].depth, NAN, "scheme euler");
+    WRONG(tip[0].swing, 1e-6, "does not rest");
+    WRONG(tip[0].opened, 1, "does not rest");
+    WRONG(tip[8].opened, 0, "does not chatter");
+    WRONG(tip[8].farthest, INFINITY, "nowhere");
+    WRONG(tip[3].swing, NAN, "nowhere");
+    WRONG(bounce[0].energy, 1.001, "its energy");
+    WRONG(bounce[3].energy, NAN, "its energy");
+}
+
+/* A limit that is a little wrong is found: the one without inertia, say, in the paper's rod. */
+static void test_planted_limit(void **state)
+{
+    (void)state;
+    const struct br_stability_row *r = &found.plane[0].row[1];
+    assert_true(fabs(r->bouncing / r->measured - 1) > 1e-2);
+    const struct br_field field = br_stability_field(&br_stability_rods[0], 3, r->k);
+    CLOSE(1 / (br_tip_flexibility(&field, 2 / r->k) * r->measured), 1, 2e-11);
+    assert_true(fabs(1 / (br_tip_flexibility(&field, 1 / r->k) * r->measured) - 1) > 0.1);
+}
+
+/* Between the two limits a bouncing rod does gain energy: the narrower promise is not idle. */
+static void test_bounce(void **state)
+{
+    (void)state;
+    double most = 0;
+    for (size_t i = 0; i < BR_STABILITY_BOUNCES; i++) {
+        const struct br_stability_bounce *b = &found.bounce[i];
+        assert_true(b->impacts >= 2);
+        most = fmax(most, b->energy);
+    }
+    assert_true(most > 1.5);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    static const double wrong[] = {0, -1, NAN, 1e4, 1e-12};
+    struct br_error err = {0};
+    struct br_stability s;
+    struct br_stability_request request = {.n = 21};
+    REFUSED(br_stability_run(&request, &s, &err), BR_BAD_INPUT, "at most 20");
+    br_stability_clear(&s);
+    request.n = 1;
+    request.k_count = 1;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        request.k = &wrong[i];
+        REFUSED(br_stability_run(&request, &s, &err), BR_BAD_INPUT, "expected 1e-9 s to 1000 s");
+        br_stability_clear(&s);
+    }
+}
+
+static bool stop_now(void *self)
+{
+    (void)self;
+    return true;
+}
+
+static void test_interrupted(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_stability s;
+    const struct br_observer observer = {.stop = stop_now};
+    const struct br_stability_request request = {.n = 1, .observer = &observer};
+    REFUSED(br_stability_run(&request, &s, &err), BR_INTERRUPTED, "interrupted");
+    br_stability_clear(&s);
+}
+
+/* ---- what is shown ---- */
+
+static void test_page(void **state)
+{
+    (void)state;
+    static char text[1 << 18];
+    static const struct br_provenance provenance = {
+        .version = "1", .commit = "c", .command_line = "beamrate extremes", .date = "today"};
+    struct br_error err = {0};
+    struct br_page page = {.name = "stability", .provenance = &provenance};
+    br_extremes_stability_page(&found, &page);
+    for (const struct br_page_emitter *const *e = br_page_emitters; *e; e++) {
+        FILE *file = fmemopen(text, sizeof text, "w");
+        MUST((*e)->emit(file, &page, &err));
+        assert_int_equal(fclose(file), 0);
+        assert_true(strlen(text) < sizeof text - 1);
+        assert_true(*e == &br_page_csv || strstr(text, "exactly where it is predicted"));
+        assert_non_null(strstr(text, "quasi-static"));
+        assert_non_null(strstr(text, "trbdf2"));
+    }
+}
+
+static void test_heat(void **state)
+{
+    (void)state;
+    static char text[1 << 18];
+    struct br_error err = {0};
+    struct br_heat heat;
+    MUST(br_extremes_stability_draw(&found, &heat, &err));
+    assert_int_equal(heat.panels, BR_STABILITY_RODS);
+    for (size_t i = 0; i < heat.panels; i++) {
+        const struct br_heat_panel *p = &heat.panel[i];
+        for (size_t j = 0; j < p->columns; j++)
+            assert_true(p->x[j] < found.stiffness[j] && found.stiffness[j] < p->x[j + 1]);
+        for (size_t j = 0; j < p->rows; j++)
+            assert_true(p->y[j] < found.plane[i].row[j].k && found.plane[i].row[j].k < p->y[j + 1]);
+        CLOSE(p->line[0].point[1][0], found.plane[i].row[1].limit, 0);
+        CLOSE(p->line[0].point[1][1], found.plane[i].row[1].k, 0);
+    }
+    FILE *file = fmemopen(text, sizeof text, "w");
+    br_heat_write_script(file, &heat);
+    assert_int_equal(fclose(file), 0);
+    assert_non_null(strstr(text, "predicted limit"));
+    br_heat_clear(&heat);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_matrix),   cmocka_unit_test(test_quadratic_matrix),
+        cmocka_unit_test(test_found),    cmocka_unit_test(test_verdict),
+        cmocka_unit_test(test_bounce),   cmocka_unit_test(test_planted_limit),
+        cmocka_unit_test(test_refusals), cmocka_unit_test(test_interrupted),
+        cmocka_unit_test(test_page),     cmocka_unit_test(test_heat),
+    };
+    return cmocka_run_group_tests(tests, run_small, clear);
+}
