@@ -67,8 +67,9 @@ static enum br_status list(struct br_energy_behaviour *b, struct br_error *err)
     list_vibrations(b);
     for (size_t scene = 0; scene < br_balance_scene_count; scene++)
         for (size_t s = 0; s < schemes; s++)
-            b->balance[b->balances++] =
-                (struct br_balance_row){.scheme = br_time_schemes[s], .scene = scene};
+            if (br_time_schemes[s]->may_lag || !br_balance_scene_lags(scene))
+                b->balance[b->balances++] =
+                    (struct br_balance_row){.scheme = br_time_schemes[s], .scene = scene};
     return BR_OK;
 }
 

@@ -327,6 +327,7 @@ void br_energy_page(behaviour *b, struct br_page *page)
                                 .title = "Balances of scenes, 20 elements and 400 steps",
                                 .columns = 10,
                                 .rows = b->balances,
+                                .only_in_files = true,
                                 .heading = balance_heading,
                                 .cell = balance_cell});
 }
