@@ -132,14 +132,14 @@ static void clear_picture(struct br_extremes_picture *picture)
         br_heat_clear(picture->heat);
     free(picture->chart);
     free(picture->heat);
-    *picture = (struct br_extremes_picture){NULL};
+    *picture = (struct br_extremes_picture){NULL, NULL};
 }
 
 /* The pictures of one part. */
 static enum br_status draw(struct work *w, size_t part, struct br_picture_files *files,
                            struct br_error *err)
 {
-    struct br_extremes_picture picture = {NULL};
+    struct br_extremes_picture picture = {NULL, NULL};
     enum br_status status = BR_OK;
     for (size_t i = 0; !status; i++) {
         status = w->options.part[part]->draw(w->result[part], i, &picture, err);

@@ -51,7 +51,7 @@ static enum br_status judge(const void *result, struct br_error *err)
     return BR_OK;
 }
 
-const struct br_extremes_part br_extremes_energy = {
+const struct br_extremes_part br_extremes_part_energy = {
     .name = "energy",
     .title = "what every scheme takes from the energy or adds to it, each step's balance",
     .run = run,

@@ -10,6 +10,7 @@
 #include "cli/read_text.h"
 #include "cli/run_files.h"
 #include "cli/run_options.h"
+#include "cli/warn.h"
 #include "cli/whole_file.h"
 #include "solver/clock.h"
 #include "study/ranks.h"
@@ -21,6 +22,8 @@ struct run {
     char path[1024];                /* of the scene */
     char *text;                     /* of the scene's file */
     struct br_scene scene, marched; /* the latter borrows from the former */
+    struct br_prediction prediction;
+    struct br_warnings warnings;
     struct br_run_report report;
     struct br_provenance provenance;
     struct br_whole_file json;
@@ -99,6 +102,21 @@ static enum br_status open_files(struct run *r, struct br_error *err)
     return br_run_files_open(&r->files, r->options.out, &fields, err);
 }
 
+/* What is to be expected of the march, before anything of it is there. */
+static enum br_status look_ahead(struct run *r, struct br_error *err)
+{
+    const struct br_outlook outlook = {
+        .scene = &r->marched,
+        .method = &r->plan.method,
+        .n = r->plan.n,
+        .steps = r->plan.steps,
+        .prediction = &r->prediction,
+    };
+    const enum br_status status = br_look_ahead(&outlook, &r->warnings, err);
+    br_print_warnings(&r->warnings);
+    return status;
+}
+
 static enum br_status march(struct run *r, struct br_error *err)
 {
     struct br_history_observer output[2];
@@ -130,7 +148,13 @@ static enum br_status march(struct run *r, struct br_error *err)
 
 static enum br_status write_results(struct run *r, double start, struct br_error *err)
 {
-    const struct br_run_page page = {&r->report, &r->provenance, br_seconds() - start};
+    const struct br_run_page page = {
+        .report = &r->report,
+        .prediction = &r->prediction,
+        .warnings = &r->warnings,
+        .provenance = &r->provenance,
+        .wall_seconds = br_seconds() - start,
+    };
     enum br_status status = BR_OK;
     if (r->options.out)
         status = br_run_files_commit(&r->files, &page, err);
@@ -165,6 +189,8 @@ static enum br_status run_scene(struct run *r, struct br_error *err)
         status = br_model_select(&r->scene, r->plan.wanted, &r->marched, err);
     if (!status)
         status = open_files(r, err);
+    if (!status)
+        status = look_ahead(r, err);
     if (!status)
         status = march(r, err);
     if (!status)

@@ -13,14 +13,64 @@ enum { COLOURS = sizeof viridis / sizeof *viridis };
 
 static const char *const dashes[BR_HEAT_LINES] = {"solid", "(10,5)", "(3,4)", "(12,4,3,4)"};
 
+/* ---- the key: kinds, empty cells, and lines by their titles, whichever panel has them ---- */
+
+struct key {
+    const char *title[BR_HEAT_PANELS * BR_HEAT_LINES];
+    size_t lines;
+    bool empty;
+    size_t columns, rows;
+};
+
+static size_t line_place(const struct key *key, const char *title)
+{
+    size_t i = 0;
+    while (i < key->lines && strcmp(key->title[i], title) != 0)
+        i++;
+    return i;
+}
+
+enum { MOST_COLUMNS = 4, LETTER = 12, SAMPLE = 95, KEY_ROW = 30 }; /* pixels */
+
+/* As many columns as the longest title leaves room for. */
+static void arrange(const struct br_heat *heat, struct key *key)
+{
+    const size_t entries = heat->kinds + key->empty + key->lines;
+    size_t longest = 1;
+    for (size_t i = 0; i < heat->kinds; i++)
+        longest = strlen(heat->kind[i]) > longest ? strlen(heat->kind[i]) : longest;
+    for (size_t i = 0; i < key->lines; i++)
+        longest = strlen(key->title[i]) > longest ? strlen(key->title[i]) : longest;
+    const size_t fit = BR_PAGE_WIDE / (longest * LETTER + SAMPLE);
+    key->columns = fit < 1 ? 1 : fit > MOST_COLUMNS ? MOST_COLUMNS : fit;
+    key->rows = (entries + key->columns - 1) / key->columns;
+}
+
+static void collect(const struct br_heat *heat, struct key *key)
+{
+    *key = (struct key){.lines = 0};
+    for (size_t i = 0; i < heat->panels; i++) {
+        const struct br_heat_panel *p = &heat->panel[i];
+        for (size_t j = 0; j < p->lines; j++) {
+            const size_t at = line_place(key, p->line[j].title);
+            key->title[at] = p->line[j].title;
+            key->lines += at == key->lines;
+        }
+        for (size_t c = 0; c < p->rows * p->columns; c++)
+            key->empty |= !br_heat_told(heat, p->value[c]);
+    }
+    arrange(heat, key);
+}
+
 /* Where panels stand on the page: rows of at most three. */
 struct layout {
     size_t across, down;
     int height;                                 /* of the page, pixels */
     double left, right, top, bottom, gap, rise; /* of all panels, and between them; screen units */
+    double key;                                 /* the height of the key, below them */
 };
 
-static struct layout lay_out(const struct br_heat *heat)
+static struct layout lay_out(const struct br_heat *heat, const struct key *key)
 {
     const size_t n = heat->panels ? heat->panels : 1;
     struct layout l = {.across = n <= 3 ? n : n == 4 ? 2 : 3};
@@ -30,7 +80,8 @@ static struct layout lay_out(const struct br_heat *heat)
     l.left = 0.095;
     l.right = heat->kinds ? 0.97 : 0.87;
     l.top = 1 - 125 * pixel;
-    l.bottom = 205 * pixel;
+    l.key = (20 + KEY_ROW * (double)(key->rows > 2 ? key->rows : 2)) * pixel;
+    l.bottom = l.key + 125 * pixel;
     l.gap = l.across > 2 ? 0.085 : 0.1;
     l.rise = 165 * pixel;
     return l;
@@ -48,43 +99,14 @@ static void place(const struct layout *l, size_t i, double side[4])
     side[2] = side[3] - height;
 }
 
-/* Kinds are spread over the colours, without the brightest where there is a choice. */
+/* Kinds are spread over the colours, the last one the brightest. */
 static const char *kind_colour(const struct br_heat *heat, size_t kind)
 {
     const double along = heat->kinds > 1 ? (double)kind / (double)(heat->kinds - 1) : 0;
     return viridis[lround(along * (COLOURS - 1))];
 }
 
-/* ---- the key: kinds, empty cells, and lines by their titles, whichever panel has them ---- */
-
-struct key {
-    const char *title[BR_HEAT_PANELS * BR_HEAT_LINES];
-    size_t lines;
-    bool empty;
-};
-
-static size_t line_place(const struct key *key, const char *title)
-{
-    size_t i = 0;
-    while (i < key->lines && strcmp(key->title[i], title) != 0)
-        i++;
-    return i;
-}
-
-static void collect(const struct br_heat *heat, struct key *key)
-{
-    *key = (struct key){.lines = 0};
-    for (size_t i = 0; i < heat->panels; i++) {
-        const struct br_heat_panel *p = &heat->panel[i];
-        for (size_t j = 0; j < p->lines; j++) {
-            const size_t at = line_place(key, p->line[j].title);
-            key->title[at] = p->line[j].title;
-            key->lines += at == key->lines;
-        }
-        for (size_t c = 0; c < p->rows * p->columns; c++)
-            key->empty |= !br_heat_told(heat, p->value[c]);
-    }
-}
+/* ---- the key ---- */
 
 static void write_pen(FILE *out, size_t line)
 {
@@ -93,17 +115,19 @@ static void write_pen(FILE *out, size_t line)
 
 static const char empty_style[] = "lc rgb '#999999' fs pattern 4 border";
 
-static void write_key(FILE *out, const struct br_heat *heat, const struct key *key)
+static void write_key(FILE *out, const struct br_heat *heat, const struct key *key,
+                      const struct layout *l)
 {
     const char *before = "plot ";
-    fprintf(out,
-            "\nunset label\nunset logscale\nunset tics\nunset border\nunset colorbox\n"
-            "set lmargin at screen 0.02; set rmargin at screen 0.98\n"
-            "set bmargin at screen 0; set tmargin at screen 0.1\n"
-            "set xrange [0:1]; set yrange [0:1]\n"
-            "set key at graph 0.5,0.7 center center horizontal Left reverse samplen 2.5 maxcols 4 "
-            "spacing 1.2 font ',%d'\n",
-            BR_PAGE_SMALL);
+    fprintf(
+        out,
+        "\nunset label\nunset logscale\nunset tics\nunset border\nunset colorbox\n"
+        "set lmargin at screen 0.02; set rmargin at screen 0.98\n"
+        "set bmargin at screen 0; set tmargin at screen %.4f\n"
+        "set xrange [0:1]; set yrange [0:1]\n"
+        "set key at graph 0.5,0.55 center center horizontal Left reverse samplen 2.5 maxcols %zu "
+        "spacing 1.2 font ',%d'\n",
+        l->key, key->columns, BR_PAGE_SMALL);
     for (size_t k = 0; k < heat->kinds; k++) {
         fprintf(out, "%sNaN with boxes lc rgb '%s' fs solid 1 border title ", before,
                 kind_colour(heat, k));
@@ -251,10 +275,10 @@ static void write_head(FILE *out, const struct br_heat *heat)
 
 void br_heat_write_script(FILE *out, const struct br_heat *heat)
 {
-    const struct layout l = lay_out(heat);
     struct key key;
     size_t index = 0;
     collect(heat, &key);
+    const struct layout l = lay_out(heat, &key);
     write_head(out, heat);
     br_write_loop(out, BR_PAGE_WIDE, l.height);
     fprintf(out,
@@ -266,7 +290,7 @@ void br_heat_write_script(FILE *out, const struct br_heat *heat)
         index += 1 + heat->panel[i].lines;
     }
     if (heat->kinds || key.empty || key.lines)
-        write_key(out, heat, &key);
+        write_key(out, heat, &key, &l);
     fputs("unset multiplot\n", out);
     br_write_foot(out);
 }

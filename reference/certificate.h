@@ -31,8 +31,10 @@ struct br_certificate {
     double update;           /* u_n - u_{n-1} - k v_n of both fields, or Y - Z - tau Y'; the tip's
                                 values told; the stage's time and tau */
     double friction;         /* distance of (v, lambda) from the graph of (12) or (29), lambda
-                                relative to the bound, k v to the largest nodal value */
-    double contact;          /* force - c_H (u - g)_+ at u_{n-1} or u_n */
+                                relative to the bound, k v to the largest nodal value and to the
+                                way that lambda alone would take the tip */
+    double contact; /* force - c_H (u - g)_+ at u_{n-1} or u_n, relative to the force, and to
+                       c_H times displacements and the way that the force alone makes */
 };
 
 /* Nodal values of one field around a step, or of Z and a stage, laid out as in solver/field.h. */
@@ -42,17 +44,30 @@ struct br_step_field {
     const double *load;                               /* F_n, N */
 };
 
+/* What a certificate's numbers are relative to. */
+enum br_scale {
+    BR_SCALE_RESIDUAL, /* norms of an equation's terms */
+    BR_SCALE_FIELD,    /* displacements, and ways of the velocities */
+    BR_SCALE_LAW,      /* forces of the contact or friction law */
+    BR_SCALES
+};
+
 /* All that is known of one step or stage. */
 struct br_step {
     const struct br_scene *scene;
     const struct br_method *method; /* which laws were to be used */
     size_t n;                       /* elements */
     double k;                       /* s; of a stage tau */
-    double compliance; /* z_tip of bending, m/s per N; for friction rules that iterate */
+    double compliance[2]; /* z_tip by br_field_kind, m/s per N; 0: not known. The tip's velocity is
+                             v* less the force times that, and rounded as these two are */
     struct br_step_field field[2]; /* by br_field_kind; of modelled fields */
     const double *axial_tip;       /* u(L), m, at the time of a stage of the bending field where
                                       field[BR_AXIAL] is not of that time; else NULL */
     struct br_tip tip;
+    /* In/out: the largest scales of the march so far, BR_SCALES by br_field_kind. What has decayed
+     * below their last bit counts as nothing: down there are numbers that underflow. NULL: the
+     * step counts alone. */
+    double (*largest)[BR_SCALES];
 };
 
 struct br_certificate br_certify(const struct br_step *step);

@@ -14,6 +14,11 @@ static inline size_t br_step_unknowns(const struct br_method *method, enum br_fi
     return kind == BR_AXIAL && method->axial_degree != 2 ? 1 : 2;
 }
 
+/* a over a size, or over the last bit of the largest such size so far (in/out: in the step) where
+ * that is more; 0 for 0. */
+double br_over_scale(const struct br_step *step, enum br_field_kind kind, enum br_scale scale,
+                     double a, double size);
+
 /* The larger of two numbers; NaN where one is. */
 double br_worse_of(double a, double b);
 

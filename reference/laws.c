@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The laws at the tip and the update of the displacement, as pure numbers. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -27,6 +28,22 @@ static double positive(double a)
 static double ratio(double a, double size)
 {
     return a == 0 ? 0 : a / size;
+}
+
+static double with_last_bit(const struct br_step *s, enum br_field_kind kind, enum br_scale scale,
+                            double size)
+{
+    if (!s->largest)
+        return size;
+    double *largest = &s->largest[kind][scale];
+    *largest = br_worse_of(size, *largest);
+    return br_worse_of(size, DBL_EPSILON * *largest);
+}
+
+double br_over_scale(const struct br_step *s, enum br_field_kind kind, enum br_scale scale,
+                     double a, double size)
+{
+    return ratio(a, with_last_bit(s, kind, scale, size));
 }
 
 /* Largest magnitude of count values. */
@@ -63,6 +80,18 @@ static double field_scale(const struct br_step *s, enum br_field_kind kind)
            s->k * (magnitude(f->velocity, size) + magnitude(f->velocity_before, size));
 }
 
+/* What a force moves the tip in the step, m: no more than if nothing had mass. */
+static double way_of(const struct br_step *s, enum br_field_kind kind, double force)
+{
+    const struct br_scene *c = s->scene;
+    const double length = c->length;
+    const double still =
+        kind == BR_AXIAL
+            ? length / (c->axial.viscosity + s->k * c->axial.stiffness)
+            : length * length * length / 3 / (c->bending.viscosity + s->k * c->bending.stiffness);
+    return s->k * smaller(s->compliance[kind], still) * fabs(force);
+}
+
 /* u_n = u_{n-1} + k v_n, and the tip's velocity as told. */
 static double update_error(const struct br_step *s, enum br_field_kind kind)
 {
@@ -77,7 +106,8 @@ static double update_error(const struct br_step *s, enum br_field_kind kind)
         most = br_worse_of((double)fabsl(error), most);
     }
     const double told = fabs(s->tip.velocity[kind] - at_tip(s, kind, f->velocity));
-    return ratio(br_worse_of(most, s->k * told), field_scale(s, kind));
+    return br_over_scale(s, kind, BR_SCALE_FIELD, br_worse_of(most, s->k * told),
+                         field_scale(s, kind));
 }
 
 static double tip_displacement_error(const struct br_step *s)
@@ -85,8 +115,9 @@ static double tip_displacement_error(const struct br_step *s)
     if (!s->scene->axial.modelled)
         return s->tip.displacement == 0 ? 0 : NAN;
     const double *u = s->field[BR_AXIAL].displacement;
-    return ratio(fabs(s->tip.displacement - at_tip(s, BR_AXIAL, u)),
-                 magnitude(u, size_of(s, BR_AXIAL)));
+    return br_over_scale(s, BR_AXIAL, BR_SCALE_FIELD,
+                         fabs(s->tip.displacement - at_tip(s, BR_AXIAL, u)),
+                         magnitude(u, size_of(s, BR_AXIAL)));
 }
 
 /* (10): at u_{n-1} or u_n, as the method's contact rule has it. */
@@ -105,8 +136,9 @@ static double contact_error(const struct br_step *s)
     else
         return NAN;
     const double wanted = c->stiffness * positive(at_tip(s, BR_AXIAL, u) - c->gap);
-    const double scale = fabs(force) + c->stiffness * (field_scale(s, BR_AXIAL) + c->gap);
-    return ratio(fabs(force - wanted), scale);
+    const double scale = fabs(force) + c->stiffness * (field_scale(s, BR_AXIAL) + c->gap +
+                                                       way_of(s, BR_AXIAL, force));
+    return br_over_scale(s, BR_AXIAL, BR_SCALE_LAW, fabs(force - wanted), scale);
 }
 
 /* u(L) - g at the time of a stage of the bending field. */
@@ -170,14 +202,17 @@ static double friction_error(const struct br_step *s)
     if (s->scene->friction.law == BR_FRICTIONLESS)
         return lambda == 0 ? 0 : NAN;
     const double *nodal = s->field[BR_BENDING].velocity;
-    const double speed = field_scale(s, BR_BENDING) / s->k;
+    const double ways = field_scale(s, BR_BENDING) + way_of(s, BR_BENDING, lambda);
+    const double speed = with_last_bit(s, BR_BENDING, BR_SCALE_FIELD, ways) / s->k;
     const double bound = bound_of(s);
-    const double force = br_worse_of(fabs(lambda), bound) + bound_scale(s);
+    const double force = with_last_bit(s, BR_BENDING, BR_SCALE_LAW,
+                                       br_worse_of(fabs(lambda), bound) + bound_scale(s));
     const double told = ratio(fabs(s->tip.friction_bound - bound), force);
     const double v = ratio(at_tip(s, BR_BENDING, nodal), speed);
     const double l = ratio(lambda, force), b = ratio(bound, force);
     const double tolerance = s->method->friction->iterates ? s->method->iteration.tolerance : 0;
-    const struct slack left = {tolerance * b, ratio(tolerance * bound * s->compliance, speed)};
+    const struct slack left = {tolerance * b,
+                               ratio(tolerance * bound * s->compliance[BR_BENDING], speed)};
     if (!s->method->friction->needs_regularisation)
         return br_worse_of(told, exact_law(v, l, b, left));
     if (speed == 0)
@@ -194,7 +229,8 @@ static int contact_branches(const struct br_step *s, double distance[BR_MOST_BRA
         return 0;
     const double force = s->tip.contact_force;
     const double depth = at_tip(s, BR_AXIAL, s->field[BR_AXIAL].displacement) - c->gap;
-    const double scale = fabs(force) + c->stiffness * (field_scale(s, BR_AXIAL) + c->gap);
+    const double scale = fabs(force) + c->stiffness * (field_scale(s, BR_AXIAL) + c->gap +
+                                                       way_of(s, BR_AXIAL, force));
     distance[0] = ratio(fabs(force), scale);
     distance[1] = ratio(fabs(force - c->stiffness * depth), scale);
     return BR_CONTACT_BRANCHES;
@@ -207,7 +243,7 @@ static int friction_branches(const struct br_step *s, double distance[BR_MOST_BR
     if (scene->friction.law == BR_FRICTIONLESS || s->method->friction->needs_regularisation)
         return 0;
     const double lambda = s->tip.friction_force, bound = s->tip.friction_bound;
-    const double speed = field_scale(s, BR_BENDING) / s->k;
+    const double speed = (field_scale(s, BR_BENDING) + way_of(s, BR_BENDING, lambda)) / s->k;
     const double force = br_worse_of(fabs(lambda), fabs(bound)) + bound_scale(s);
     double told = fabs(bound - bound_of(s));
     if (scene->friction.law == BR_COULOMB)

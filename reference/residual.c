@@ -184,7 +184,7 @@ static double relative_residual(struct balance *b, double tip_force)
     for (int t = 0; t < RESIDUAL; t++)
         size += sqrtl(b->term[t].square);
     const real residual = sqrtl(b->term[RESIDUAL].square);
-    return residual == 0 && size == 0 ? 0 : (double)(residual / size);
+    return br_over_scale(b->step, b->kind, BR_SCALE_RESIDUAL, (double)residual, (double)size);
 }
 
 double br_step_residual(const struct br_step *s, enum br_field_kind kind)

@@ -19,7 +19,8 @@ struct br_witness {
     struct br_watched seen;
     struct trial trial[2]; /* by br_field_kind */
     struct br_tip_path path;
-    struct br_certificate worst; /* since the last call */
+    struct br_certificate worst;  /* since the last call */
+    double largest[2][BR_SCALES]; /* so far */
     bool any;
 };
 
@@ -85,9 +86,11 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
                            .method = seen->method,
                            .n = seen->n,
                            .k = told->tau,
-                           .compliance = br_march_compliance(w->march, BR_BENDING),
+                           .compliance = {br_march_compliance(w->march, BR_AXIAL),
+                                          br_march_compliance(w->march, BR_BENDING)},
                            .axial_tip = axial_tip,
-                           .tip = *br_march_tip(w->march)};
+                           .tip = *br_march_tip(w->march),
+                           .largest = w->largest};
     step.field[told->kind] = around(&seen->field[told->kind]);
     /* The axial field lends its size to the bound's round-off. */
     if (told->kind == BR_BENDING)

@@ -10,6 +10,11 @@
  * stage, with a length that is small. Where a branch is wrong at once, no search can begin: a small
  * step is taken by the laws themselves.
  *
+ * A field without inertia and viscosity, or with so little that it answers a load within the least
+ * step, jumps where its load does, at the start from rest above all. No step is small enough for
+ * that, and none needs to be: the end of one obeys the equations whatever was before. So the least
+ * step is taken, and what follows starts anew.
+ *
  * The error of a step is estimated in strains (part.h), relative to the largest so far, or to that
  * of a rough march (rough_size.c). */
 #include <gsl/gsl_errno.h>
@@ -58,6 +63,7 @@ static void recall_all(struct br_march *m, int known)
 
 struct trial {
     double k, error; /* s; relative to the tolerance */
+    double lasting;  /* the error of fields that do not jump */
     struct br_stages stages;
     double strain[2];
 };
@@ -92,6 +98,29 @@ static enum br_status find_branches(struct br_march *m, const struct br_stages *
     return status;
 }
 
+/* Whether a field answers a load within the least step. */
+static bool jumps(const struct br_march *m, const struct br_field *f)
+{
+    const double least = least_step * m->scene->duration;
+    return f->viscosity <= least * f->stiffness &&
+           f->density <= least * (least * f->stiffness * br_field_lowest_mode(f));
+}
+
+static void see_error(const struct br_march *m, enum br_field_kind kind, double error,
+                      struct trial *trial)
+{
+    const double scale =
+        m->method.tolerance * fmax(trial->strain[kind], m->adaptive->largest[kind]);
+    double relative = error > 0 ? INFINITY : 0;
+    if (!isfinite(error))
+        relative = INFINITY;
+    else if (scale > 0)
+        relative = error / scale;
+    trial->error = fmax(trial->error, relative);
+    if (!jumps(m, &m->part[kind].field) || !isfinite(error))
+        trial->lasting = fmax(trial->lasting, relative);
+}
+
 static enum br_status try_fields(struct br_march *m, const struct br_step *step,
                                  struct trial *trial, struct br_error *err)
 {
@@ -107,14 +136,9 @@ static enum br_status try_fields(struct br_march *m, const struct br_step *step,
         status = br_march_stages(m, (enum br_field_kind)kind, &trial->stages, step, m->path, err);
         if (status)
             break;
-        double error, strain;
-        br_part_estimate(part, &trial->stages, &error, &strain);
-        const double scale = m->method.tolerance * fmax(strain, m->adaptive->largest[kind]);
-        trial->strain[kind] = strain;
-        if (error > 0 || !isfinite(error))
-            trial->error = fmax(trial->error, scale > 0 ? error / scale : INFINITY);
-        if (!isfinite(error))
-            trial->error = INFINITY;
+        double error;
+        br_part_estimate(part, &trial->stages, &error, &trial->strain[kind]);
+        see_error(m, (enum br_field_kind)kind, error, trial);
     }
     return status;
 }
@@ -271,7 +295,8 @@ static enum br_status estimated_step(struct br_march *m, double k, struct trial 
         const enum br_status status = try_step(m, k, trial, err);
         if (status)
             return status;
-        if (trial->error <= 1)
+        const bool jump = !(k > least) && trial->lasting <= 1;
+        if (trial->error <= 1 || jump)
             return BR_OK;
         m->counts.rejected++;
         take_back(m, &tip);
@@ -343,6 +368,16 @@ static enum br_status check_progress(struct br_march *m, const struct trial *tri
                    (double)a->stalled * least_progress * m->scene->duration);
 }
 
+static enum br_status check_count(const struct br_march *m, struct br_error *err)
+{
+    const size_t most = m->method.most_steps;
+    const struct br_counts counts = br_march_counts(m);
+    if (most == 0 || counts.steps + counts.rejected < most)
+        return BR_OK;
+    return br_fail(err, BR_INTERRUPTED, "scheme %s: at t = %g s %zu steps were made, and no more",
+                   m->method.scheme->name, m->adaptive->now, most);
+}
+
 /* Goes on by at most `longest`, s. */
 static enum br_status adaptive_step(struct br_march *m, double longest, struct br_error *err)
 {
@@ -352,8 +387,14 @@ static enum br_status adaptive_step(struct br_march *m, double longest, struct b
     const double k = wanted >= longest ? longest : fmin(wanted, longest / 2);
     struct trial trial;
     bool switched = false;
-    enum br_status status = estimated_step(m, k, &trial, err);
+    enum br_status status = check_count(m, err);
+    if (!status)
+        status = estimated_step(m, k, &trial, err);
+    if (status)
+        return status;
     const double whole = trial.k;
+    if (!status && !(trial.error <= 1))
+        switched = true; /* a jump */
     if (!status)
         status = stop_at_switches(m, &tip, &trial, &switched, err);
     if (status)

@@ -23,25 +23,36 @@ double br_friction_bound(const struct br_scene *scene, double penetration)
     return 0;
 }
 
-/* lambda into [-bound, bound]; NaN stays NaN. */
+/* lambda into [-bound, bound]; NaN stays NaN, and raises no flag. */
 static double clamp(double lambda, double bound)
 {
-    if (lambda > bound)
+    if (isgreater(lambda, bound))
         return bound;
-    return lambda < -bound ? -bound : lambda;
+    return isless(lambda, -bound) ? -bound : lambda;
 }
 
-/* (12): stick, v = 0, while |lambda| <= h; slip with |lambda| = h otherwise. */
+/* (12): stick, v = 0, while |lambda| <= h; slip with |lambda| = h otherwise. Where that is certain
+ * nothing is divided, which could overflow. */
 static double exact_force(struct br_friction_state *s)
 {
+    if (isgreater(fabs(s->free_velocity), 2 * s->bound * s->compliance))
+        return copysign(s->bound, s->free_velocity);
     return clamp(s->free_velocity / s->compliance, s->bound);
 }
 
-/* (29), corrected: lambda = h v / mu for |v| <= mu, h sign(v) beyond. */
+/* (29), corrected: lambda = h v / mu for |v| <= mu, h sign(v) beyond. With v = v* - lambda z it is
+ * h v* / (mu + h z) up to |v*| = mu + h z; no product of h and v* is formed, which could overflow
+ * or be lost. */
 static double regularised_force(struct br_friction_state *s)
 {
-    const double denominator = s->regularisation + s->bound * s->compliance;
-    return clamp(s->bound * s->free_velocity / denominator, s->bound);
+    const double width = s->regularisation + s->bound * s->compliance;
+    if (isgreaterequal(fabs(s->free_velocity), width))
+        return copysign(s->bound, s->free_velocity);
+    if (s->bound > s->regularisation)
+        return clamp(s->free_velocity / (s->regularisation / s->bound + s->compliance), s->bound);
+    if (isgreater(fabs(s->free_velocity), s->bound))
+        return clamp(s->free_velocity / width * s->bound, s->bound);
+    return clamp(s->bound / width * s->free_velocity, s->bound);
 }
 
 static const struct br_friction_rule exact = {

@@ -23,12 +23,12 @@
 #include <float.h>
 #include <math.h>
 
-/* The projection onto [-1, 1]; NaN stays NaN. */
+/* The projection onto [-1, 1]; NaN stays NaN, and raises no flag. */
 static double project(double g)
 {
-    if (g > 1)
+    if (isgreater(g, 1))
         return 1;
-    return g < -1 ? -1 : g;
+    return isless(g, -1) ? -1 : g;
 }
 
 struct iteration {
@@ -63,11 +63,28 @@ static double iterate(struct iteration *i, struct br_friction_state *s)
     return NAN;
 }
 
-/* f = v* / (z b). Its limit changes no lambda, and keeps what follows finite. */
+/* f = v* / (z b), without a product or quotient on the way that is no double. Its limit, 1e50,
+ * changes no lambda, and keeps what follows finite. */
 static double relative_force(const struct br_friction_state *s)
 {
-    const double most = 1e50, f = s->free_velocity / s->compliance / s->bound;
-    return f > most ? most : f < -most ? -most : f;
+    const int most = 166; /* 2^166 is about 1e50 */
+    if (isinf(s->free_velocity))
+        return copysign(1e50, s->free_velocity);
+    int v = 0, z = 0, b = 0;
+    const double f = frexp(s->free_velocity, &v) / frexp(s->compliance, &z) / frexp(s->bound, &b);
+    return ldexp(f, v - z - b < most ? v - z - b : most);
+}
+
+/* lambda / b of the step before, into [-1, 1]. */
+static double relative_last(const struct br_friction_state *s)
+{
+    return isgreaterequal(fabs(s->last), s->bound) ? copysign(1, s->last) : s->last / s->bound;
+}
+
+/* Without a bound there is no friction; what is not a number stays so. */
+static bool has_no_bound(const struct br_friction_state *s)
+{
+    return s->bound == 0 && !isnan(s->free_velocity) && !isnan(s->compliance);
 }
 
 static double uzawa_contraction(double parameter)
@@ -77,11 +94,11 @@ static double uzawa_contraction(double parameter)
 
 static double uzawa_force(struct br_friction_state *s)
 {
-    if (s->bound == 0 && !isnan(s->free_velocity / s->compliance))
+    if (has_no_bound(s))
         return 0;
     struct iteration i = {
         .a = s->iteration.parameter,
-        .x = project(s->last / s->bound),
+        .x = relative_last(s),
         .f = relative_force(s),
     };
     return s->bound * iterate(&i, s);
@@ -94,10 +111,10 @@ static double penalty_duality_contraction(double parameter)
 
 static double penalty_duality_force(struct br_friction_state *s)
 {
-    if (s->bound == 0 && !isnan(s->free_velocity / s->compliance))
+    if (has_no_bound(s))
         return 0;
     const double omega = s->iteration.parameter, f = relative_force(s);
-    const double lambda = project(s->last / s->bound);
+    const double lambda = relative_last(s);
     struct iteration i = {
         .a = 2 * omega / (1 + omega),
         .reflects = true,

@@ -91,6 +91,10 @@ static enum br_status look(struct br_ida_march *m, int flag, struct br_error *er
         m->switched[law] |= roots[law] < 0;
     struct br_counts counts = m->counts;
     br_ida_add_counts(m, &counts);
+    if (m->most && counts.steps + counts.rejected >= m->most)
+        return br_fail(err, BR_INTERRUPTED,
+                       "scheme ida: at t = %g s %zu steps were made, and no more", m->reached,
+                       m->most);
     if (counts.steps > MOST_STEPS)
         return fail(m, "more than two million steps", err);
     return BR_OK;

@@ -13,6 +13,7 @@ struct br_ida_march {
     struct br_ida_system system; /* the first: what IDA calls takes it or the march */
     struct br_ida_scale scale;
     double tolerance;
+    size_t most; /* of IDA's steps; 0: two million */
     SUNContext context;
     void *ida;
     N_Vector y, rate;          /* at the end of the last step of IDA's */

@@ -112,7 +112,7 @@ static enum br_status set_initial(struct br_ida_march *m, struct br_error *err)
 enum br_status br_ida_init(struct br_ida_march *m, const struct br_scene *scene, size_t n,
                            const struct br_method *method, struct br_error *err)
 {
-    *m = (struct br_ida_march){.tolerance = method->tolerance};
+    *m = (struct br_ida_march){.tolerance = method->tolerance, .most = method->most_steps};
     enum br_status status = br_ida_system_init(&m->system, scene, n, method, err);
     if (status || m->system.count == 0)
         return status;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/contact_limit.h"
 #include "solver/march_state.h"
 
 /* t_n = n T / N, never summed. */
@@ -13,21 +14,6 @@ static double time_level(const struct br_march *m, size_t n)
 }
 
 /* ---- stepping ---- */
-
-/* A march that has left the numbers says so at once. */
-enum br_status br_march_check_finite(const struct br_march *m, enum br_field_kind kind, double t,
-                                     struct br_error *err)
-{
-    static const char *const names[] = {"axial", "bending"};
-    const struct br_part *part = &m->part[kind];
-    if (isfinite(m->tip.velocity[kind]))
-        return BR_OK;
-    return br_fail(err, BR_NOT_FINITE,
-                   "the march blew up at t = %g s (step %zu of %zu, k = %g s): the %s velocity of "
-                   "the tip is %g m/s",
-                   t, part->done, m->steps, m->scene->duration / (double)m->steps, names[kind],
-                   m->tip.velocity[kind]);
-}
 
 static enum br_status fixed_step(struct br_march *m, enum br_field_kind kind, struct br_error *err)
 {
@@ -72,7 +58,8 @@ enum br_status br_march_step_field(struct br_march *m, enum br_field_kind kind,
     if (status)
         return status;
     part->done++;
-    return br_march_check_finite(m, kind, time_level(m, part->done), err);
+    status = br_march_check_finite(m, kind, time_level(m, part->done), err);
+    return status || part->done < m->steps ? status : br_march_check_range(m, kind, err);
 }
 
 enum br_status br_march_step(struct br_march *m, struct br_error *err)
@@ -225,12 +212,16 @@ double br_march_compliance(const struct br_march *m, enum br_field_kind kind)
 
 bool br_march_contact_unstable(const struct br_march *m)
 {
-    if (!m->scene->contact.modelled || m->method.contact->at_new_step || m->foreign)
+    if (!m->was_closed || m->method.contact->at_new_step || m->foreign)
         return false;
-    const struct br_field *f = &m->part[BR_AXIAL].field;
-    const double gain = m->scene->contact.stiffness * f->k * br_march_compliance(m, BR_AXIAL);
-    const double limit = 1 + f->viscosity / (f->viscosity + f->k * f->stiffness);
-    return !(gain <= (1 + 1e-12) * limit); /* at the limit, whatever the solver's last digits */
+    return br_contact_grows(&m->part[BR_AXIAL].field, m->scene->contact.stiffness);
+}
+
+static double part_round_off(const struct br_march *m, const struct br_part *part)
+{
+    if (part->solver->round_off)
+        return part->solver->round_off(part->state);
+    return m->method.solver->round_off(&part->field, &m->method.linear);
 }
 
 double br_march_round_off(const struct br_march *m)
@@ -238,7 +229,6 @@ double br_march_round_off(const struct br_march *m)
     double largest = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (m->part[kind].solver)
-            largest =
-                fmax(largest, m->method.solver->round_off(&m->part[kind].field, &m->method.linear));
+            largest = fmax(largest, part_round_off(m, &m->part[kind]));
     return largest;
 }

@@ -100,10 +100,9 @@ void br_march_load(const struct br_march *march, enum br_field_kind kind, double
 /* z_tip of the field, m/s per N. */
 double br_march_compliance(const struct br_march *march, enum br_field_kind kind);
 
-/* Whether the lagged contact is beyond its stability limit,
- *     c_H k z_tip <= 1 + c1/(c1 + k a1),
- * where a closed contact's step amplifies; the tip then chatters, bounded, since the
- * contact opens. Exact for small inertia; with much of it the limit lies higher. */
+/* Whether the march is beyond the stability limit of the lagged contact (contact_limit.h), and its
+ * contact has been closed in a step: that one grew, and the tip chatters, bounded or not, since the
+ * contact opens. A contact that has never closed is not touched by it. */
 bool br_march_contact_unstable(const struct br_march *march);
 
 /* ---- watching ---- */

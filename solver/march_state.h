@@ -34,7 +34,8 @@ struct br_march {
     size_t steps;
     struct br_part part[2]; /* by br_field_kind */
     enum br_regime regime[2];
-    bool held[2]; /* the regime holds, whatever the law says of the stage's result */
+    bool was_closed; /* the contact, in a step */
+    bool held[2];    /* the regime holds, whatever the law says of the stage's result */
     struct br_margins margins[2]; /* of the step so far, where a branch is held */
     struct br_tip tip;
     struct br_tip_path *path; /* of the last `lead` steps */
@@ -71,6 +72,12 @@ void br_march_accept(struct br_march *march, enum br_field_kind kind,
 /* Refuses a tip that has left the numbers at time t, s. */
 enum br_status br_march_check_finite(const struct br_march *march, enum br_field_kind kind,
                                      double t, struct br_error *err);
+
+/* Refuses (BR_NOT_FINITE) a march that has come to its end in a field where numbers end, too: with
+ * a value that is not finite anywhere, or moved by so little that its digits are lost to underflow.
+ */
+enum br_status br_march_check_range(const struct br_march *march, enum br_field_kind kind,
+                                    struct br_error *err);
 
 /* About the largest strains (out) until the end, by a few Euler steps; the march is then where it
  * was. Fails as br_march_step. */

@@ -18,6 +18,8 @@ struct br_method {
     const struct br_friction_rule *friction;
     struct br_iteration iteration; /* of friction rules that iterate */
     int axial_degree;              /* of the axial elements: 1, the paper's, or 2 */
+    size_t most_steps;             /* of an adaptive scheme, those taken back included: more end the
+                                      march with BR_INTERRUPTED; 0: no limit but the scheme's own */
 };
 
 /* The defaults: the first row of each registry, elements of degree 1. */

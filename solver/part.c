@@ -36,6 +36,9 @@ static enum br_status set_initial(struct br_part *part, const struct br_function
     enum br_status status = interpolate(part, displacement, displacement_slope, nodal, err);
     if (!status)
         status = interpolate(part, velocity, velocity_slope, nodal + size, err);
+    for (size_t i = 0; i < size && !status; i++)
+        part->started_with =
+            fmax(part->started_with, fmax(fabs(nodal[i]), part->field.k * fabs(nodal[size + i])));
     if (!status)
         part->solver->set(part->state, nodal, nodal + size);
     free(nodal);
@@ -176,12 +179,27 @@ enum br_status br_part_start_stage(struct br_part *part, const struct br_stages 
     return BR_OK;
 }
 
+/* What the largest force is, for br_march_check_range. */
+static void see_load(struct br_part *part)
+{
+    const struct br_drive *drive = &part->load.drive;
+    if (drive->vector && drive->changed) {
+        part->load_size = 0;
+        for (size_t i = 0; i < br_field_size(&part->field); i++)
+            part->load_size = fmax(part->load_size, fabs(drive->vector[i]));
+    }
+    const long double load = (long double)part->load_size * fabs(drive->factor);
+    const double tip = fmax(fabs(drive->tip[0]), fabs(drive->tip[1]));
+    part->moved_by = fmaxl(part->moved_by, fmaxl(load, tip));
+}
+
 enum br_status br_part_predict(struct br_part *part, double t, double *velocity,
                                struct br_error *err)
 {
     const enum br_status status = br_step_load_update(&part->load, &part->field, t, err);
     if (status)
         return status;
+    see_load(part);
     part->counts.stages++;
     const enum br_status predicted =
         part->solver->predict(part->state, &part->load.drive, velocity, err);
@@ -219,7 +237,11 @@ void br_part_accept(struct br_part *part, const struct br_stages *stages, bool s
 static double reach_of_rate(const struct br_field *f)
 {
     const double number = br_field_lowest_mode(f);
-    return fmin(sqrt(f->density / (f->stiffness * number)), f->density / (f->viscosity * number));
+    if (f->density == 0)
+        return 0; /* a rate that inertia does not keep leads nowhere */
+    const double swing = f->stiffness > 0 ? sqrt(f->density / (f->stiffness * number)) : INFINITY;
+    const double creep = f->viscosity > 0 ? f->density / (f->viscosity * number) : INFINITY;
+    return fmin(swing, creep);
 }
 
 void br_part_estimate(struct br_part *part, const struct br_stages *stages, double *error,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Other steps and sums of states, for schemes of several stages; see pieces.h. */
+#include <fenv.h>
 #include <math.h>
 
 #include "solver/pieces_state.h"
@@ -111,18 +112,48 @@ void br_pieces_combine(void *self, size_t into, size_t count, const double *weig
         take_tip(s);
 }
 
+/* The same of numbers whose squares are no doubles. */
+static void add_squares(const struct br_strip *strip, size_t numbers, const double *state,
+                        long double sum[2])
+{
+    for (size_t i = 0; i < numbers; i++)
+        if (i % BR_LANES < strip->lanes) {
+            const size_t rate = i / ((size_t)strip->d * BR_LANES) % 2;
+            sum[rate] += (long double)state[i] * state[i];
+        }
+}
+
+/* What overflows here is summed again, and no reason to stop. */
+static void sum_squares(const struct br_pieces *s, size_t state, double sum[2])
+{
+    const double *at = s->states.of[state];
+    fenv_t environment;
+    feholdexcept(&environment);
+    sum[0] = sum[1] = 0;
+    for (int i = 0; i < s->strands; i++) {
+        s->kernel->square(&s->strand[i].strip, at, sum);
+        at += strand_size(s, &s->strand[i]);
+    }
+    fesetenv(&environment);
+}
+
 /* The square of u_x over an element is kappa^2 / h, of w_xx in the units of lq.h (kappa_0^2 +
  * kappa_1^2) / h^3. */
 void br_pieces_size(void *self, size_t state, double size[2])
 {
     const struct br_pieces *s = self;
-    double sum[2] = {0};
+    const double least = 1e-280, most = 1e280; /* of squares that have lost nothing */
+    double sum[2];
+    long double wide[2] = {0};
+    sum_squares(s, state, sum);
     const double *at = s->states.of[state];
-    for (int i = 0; i < s->strands; i++) {
-        s->kernel->square(&s->strand[i].strip, at, sum);
-        at += strand_size(s, &s->strand[i]);
+    const bool told = isgreater(fmin(sum[0], sum[1]), least) && isless(fmax(sum[0], sum[1]), most);
+    for (int i = 0; i < s->strands && !told; i++) {
+        const size_t numbers = strand_size(s, &s->strand[i]);
+        add_squares(&s->strand[i].strip, numbers, at, wide);
+        at += numbers;
     }
-    const double h = s->field.h, unit = s->d == 1 ? h : h * h * h;
+    const long double h = s->field.h, unit = s->d == 1 ? h : h * h * h;
     for (int rate = 0; rate < 2; rate++)
-        size[rate] = sqrt(sum[rate] / unit);
+        size[rate] = (double)sqrtl((told ? sum[rate] : wide[rate]) / unit);
 }

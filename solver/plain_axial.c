@@ -250,16 +250,16 @@ static void axial_combine(void *self, size_t into, size_t count, const double *w
         take_numbers(a);
 }
 
-/* u_x = elongation/h */
+/* u_x = elongation/h. Squares of small numbers are lost in double. */
 static void axial_size(void *self, size_t state, double size[2])
 {
     struct axial *a = self;
     const double *from = state == 0 ? numbers_of(a) : a->states.of[state];
-    double sum[2] = {0};
+    long double sum[2] = {0};
     for (size_t i = 0; i < 2 * a->n; i++)
-        sum[i % 2] += from[i] * from[i];
+        sum[i % 2] += (long double)from[i] * from[i];
     for (int rate = 0; rate < 2; rate++)
-        size[rate] = sqrt(sum[rate] / a->field.h);
+        size[rate] = (double)sqrtl(sum[rate] / a->field.h);
 }
 
 const struct br_field_solver br_plain_axial = {

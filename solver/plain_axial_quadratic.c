@@ -163,11 +163,11 @@ static void rod_size(void *self, size_t state, double size[2])
 {
     struct rod *a = self;
     const double *from = a->states.of[state];
-    double sum[ELEMENT] = {0};
+    long double sum[ELEMENT] = {0}; /* squares of small numbers are lost in double */
     for (size_t i = 0; i < ELEMENT * a->field.n; i++)
-        sum[i % ELEMENT] += from[i] * from[i];
-    size[0] = sqrt((sum[STRETCH] + sum[STRETCH + 1] / 3) / a->field.h);
-    size[1] = sqrt((sum[RATE] + sum[RATE + 1] / 3) / a->field.h);
+        sum[i % ELEMENT] += (long double)from[i] * from[i];
+    size[0] = (double)sqrtl((sum[STRETCH] + sum[STRETCH + 1] / 3) / a->field.h);
+    size[1] = (double)sqrtl((sum[RATE] + sum[RATE + 1] / 3) / a->field.h);
 }
 
 static void rod_set(void *self, const double *displacement, const double *velocity)

@@ -420,13 +420,14 @@ static void bending_size(void *self, size_t state, double size[2])
 {
     struct bending *b = self;
     const double *from = state == 0 ? numbers_of(b) : b->states.of[state];
-    double sum[2] = {0};
+    long double sum[2] = {0}; /* squares of small numbers are lost in double */
     for (size_t i = 0; i < b->n; i++, from += 4)
-        for (int rate = 0; rate < 2; rate++)
-            sum[rate] +=
-                from[2 * rate] * from[2 * rate] + from[2 * rate + 1] * from[2 * rate + 1] / 3;
+        for (int rate = 0; rate < 2; rate++) {
+            const long double first = from[2 * rate], second = from[2 * rate + 1];
+            sum[rate] += first * first + second * second / 3;
+        }
     for (int rate = 0; rate < 2; rate++)
-        size[rate] = sqrt(sum[rate] / b->field.h) / b->field.h;
+        size[rate] = (double)(sqrtl(sum[rate] / b->field.h) / b->field.h);
 }
 
 const struct br_field_solver br_plain_bending = {

@@ -41,6 +41,7 @@ static enum br_status axial_stage(struct br_march *m, double t, struct br_error 
     if (status)
         return status;
     m->tip.contact_force = contact_force(m, &contact);
+    m->was_closed |= m->tip.contact_force > 0;
     m->tip.velocity[BR_AXIAL] = part->solver->finish(part->state, m->tip.contact_force);
     m->tip.displacement = part->solver->tip_displacement(part->state);
     return BR_OK;

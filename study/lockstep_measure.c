@@ -159,7 +159,7 @@ static void conclude_cell(const struct br_lockstep *l, struct br_study *s, size_
     struct br_cell *cell = &s->cell[index];
     const struct br_cell *first = &l->study->cell[index];
     cell->seconds = l->cell[index].seconds;
-    cell->unstable = first->unstable;
+    cell->unstable = l->cell[index].march && br_march_contact_unstable(l->cell[index].march);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         cell->tip[kind] = first->tip[kind];
     for (int part = 0; part < BR_PARTS && !cell->failure.status; part++) {

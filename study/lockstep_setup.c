@@ -249,8 +249,6 @@ static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
         const enum br_status failure = l->cell[i].error.status;
         if (failure == BR_BAD_INPUT || failure == BR_NO_MEMORY)
             return br_fail(err, failure, "%s", l->cell[i].error.message);
-        if (!failure)
-            s->cell[i].unstable = br_march_contact_unstable(l->cell[i].march);
         if (failure)
             br_cell_failed(l->study, i, &l->cell[i].error);
     }

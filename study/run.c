@@ -23,7 +23,6 @@ static enum br_status start_checks(void *self, struct br_march *march, struct br
     struct run *r = self;
     struct br_run_report *report = r->report;
     report->round_off = br_march_round_off(march);
-    report->contact_unstable = br_march_contact_unstable(march);
     report->limits = br_certificate_limits(report->method.scheme, report->n, report->round_off);
     report->energy_limit = report->method.scheme->integrator
                                ? INFINITY
@@ -156,6 +155,7 @@ static void ask_march(struct br_run_report *p, const struct br_march *march)
 {
     const struct br_switch *first;
     p->counts = br_march_counts(march);
+    p->contact_unstable = br_march_contact_unstable(march);
     p->switches = br_march_switches(march, &first);
     const size_t kept = p->switches < BR_MOST_SWITCHES ? p->switches : BR_MOST_SWITCHES;
     if (kept)

@@ -61,7 +61,7 @@ struct br_run_report {
     struct br_step_cost cost;
 
     double round_off;      /* predicted, of the displacements */
-    bool contact_unstable; /* lagged contact beyond its stability limit */
+    bool contact_unstable; /* br_march_contact_unstable */
 };
 
 /* Marches and fills the report (out). A march that fails is a result: report->failure, BR_OK is

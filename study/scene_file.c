@@ -246,23 +246,19 @@ enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br
     return br_scene_read_verify(path, scene, NULL, err);
 }
 
-enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
-                                    struct br_verify *verify, struct br_error *err)
+/* From a file, or where that is NULL from a text. */
+static enum br_status parse(const char *path, FILE *file, const char *text, struct br_scene *scene,
+                            struct br_verify *verify, struct br_error *err)
 {
-    *scene = (struct br_scene){0};
-    if (verify)
-        *verify = (struct br_verify){0};
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno));
     yaml_parser_t parser;
     yaml_document_t document;
     enum br_status status = BR_OK;
-    if (!yaml_parser_initialize(&parser)) {
-        fclose(file);
+    if (!yaml_parser_initialize(&parser))
         return br_no_memory(err, "the YAML parser");
-    }
-    yaml_parser_set_input_file(&parser, file);
+    if (file)
+        yaml_parser_set_input_file(&parser, file);
+    else
+        yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
     const struct br_scene_reader r = {path, &document, scene, err};
     if (!yaml_parser_load(&parser, &document))
         status = not_yaml(&r, &parser);
@@ -273,6 +269,26 @@ enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
     if (!status)
         status = check_end(&r, &parser);
     yaml_parser_delete(&parser);
+    return status;
+}
+
+enum br_status br_scene_read_text(const char *name, const char *text, struct br_scene *scene,
+                                  struct br_error *err)
+{
+    *scene = (struct br_scene){0};
+    return parse(name, NULL, text, scene, NULL, err);
+}
+
+enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
+                                    struct br_verify *verify, struct br_error *err)
+{
+    *scene = (struct br_scene){0};
+    if (verify)
+        *verify = (struct br_verify){0};
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno));
+    const enum br_status status = parse(path, file, NULL, scene, verify, err);
     fclose(file);
     return status;
 }

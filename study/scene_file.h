@@ -10,7 +10,11 @@
  * br_scene_clear, even after a failure. */
 enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br_error *err);
 
-/* The same with what is expected of the scene: its `verify` part, or else the default. The caller
+/* The same from a text, which messages call `name`. */
+enum br_status br_scene_read_text(const char *name, const char *text, struct br_scene *scene,
+                                  struct br_error *err);
+
+/* The same from a file with what is expected of the scene: its `verify` part, or else the default. The caller
  * clears both. */
 enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
                                     struct br_verify *verify, struct br_error *err);

@@ -4,7 +4,13 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "study/warn_contact.h"
+
+extern const struct br_warning_source br_warn_prediction;
+
 const struct br_warning_source *const br_warning_sources[] = {
+    &br_warn_contact,
+    &br_warn_prediction,
     NULL,
 };
 
@@ -65,15 +71,19 @@ enum br_status br_look_ahead(const struct br_outlook *outlook, struct br_warning
 enum br_status br_look_ahead_grid(const struct br_outlook_grid *g, struct br_warnings *w,
                                   struct br_error *err)
 {
-    struct br_outlook coarsest = {g->scene, g->method, 0, 0};
+    struct br_outlook finest = {.scene = g->scene, .method = g->method};
     for (size_t i = 0; i < g->n_count; i++)
         for (size_t j = 0; j < (g->path ? 1 : g->step_count); j++) {
-            const struct br_outlook at = {g->scene, g->method, g->n[i], g->steps[g->path ? i : j]};
+            struct br_outlook at = finest;
+            at.n = g->n[i];
+            at.steps = g->steps[g->path ? i : j];
             const enum br_status status = ask(&at, true, w, err);
             if (status)
                 return status;
-            if (coarsest.n == 0 || at.n * at.steps < coarsest.n * coarsest.steps)
-                coarsest = at;
+            if ((double)at.n * (double)at.steps > (double)finest.n * (double)finest.steps) {
+                finest.n = at.n;
+                finest.steps = at.steps;
+            }
         }
-    return coarsest.n ? ask(&coarsest, false, w, err) : BR_OK;
+    return finest.n ? ask(&finest, false, w, err) : BR_OK;
 }

@@ -45,18 +45,21 @@ __attribute__((format(printf, 4, 5))) void br_warn(struct br_warnings *warnings,
 const struct br_warning *br_warnings_find(const struct br_warnings *warnings,
                                           enum br_warning_kind kind);
 
+struct br_prediction;
+
 /* What is to be marched. All borrowed; the scene is the part of it that is marched (model.h). */
 struct br_outlook {
     const struct br_scene *scene;
     const struct br_method *method;
     size_t n, steps;
+    struct br_prediction *prediction; /* out: the errors to expect; NULL: nobody asks */
 };
 
 /* A source of warnings: a row of the registry. */
 struct br_warning_source {
     const char *title; /* what it looks at, for a person */
     bool every;        /* so cheap that each march of a study is looked at; else one a study,
-                          the one with the fewest elements and steps */
+                          the finest */
     /* Adds what it has to say. What it cannot tell is no failure. Fails with BR_BAD_INPUT or
      * BR_NO_MEMORY where the march is refused, the message with the figures. */
     enum br_status (*look)(const struct br_outlook *outlook, struct br_warnings *warnings,
@@ -80,7 +83,7 @@ struct br_outlook_grid {
     bool path; /* (n[i], steps[i]) alone */
 };
 
-/* Asks about a grid: all sources about its coarsest march, those that are cheap about all. */
+/* Asks about a grid: all sources about its finest march, those that are cheap about all. */
 enum br_status br_look_ahead_grid(const struct br_outlook_grid *grid, struct br_warnings *warnings,
                                   struct br_error *err);
 

@@ -233,6 +233,42 @@ static json_t *cost(const struct br_run_report *p)
     return list;
 }
 
+static json_t *predicted(bool known, const struct br_predicted *e)
+{
+    json_t *o = json_object();
+    put(o, "error", if_marched(known, e->error));
+    put(o, "low", if_marched(known, e->low));
+    put(o, "high", if_marched(known, e->high));
+    return o;
+}
+
+/* Relative to the solution. */
+static json_t *prediction(const struct br_prediction *p)
+{
+    json_t *o = json_object();
+    put(o, "known", json_boolean(p->known));
+    put(o, "why_not", p->known ? json_null() : br_json_string(p->why));
+    put(o, "discretisation", predicted(p->bounded, &p->whole));
+    put(o, "time", predicted(p->bounded, &p->time));
+    put(o, "space", predicted(p->bounded, &p->space));
+    put_number(o, "round_off", p->round_off);
+    put_number(o, "seconds", p->seconds);
+    return o;
+}
+
+static json_t *warnings(const struct br_warnings *w)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < w->count; i++) {
+        json_t *o = json_object();
+        put(o, "warning", json_string(br_warning_word(w->list[i].kind)));
+        put(o, "text", br_json_string(w->list[i].text));
+        put(o, "remedy", w->list[i].remedy[0] ? br_json_string(w->list[i].remedy) : json_null());
+        json_array_append_new(list, o);
+    }
+    return list;
+}
+
 static json_t *time_used(const struct br_run_page *page)
 {
     const struct br_history_end *end = &page->report->end;
@@ -275,6 +311,8 @@ enum br_status br_run_json(FILE *out, const struct br_run_page *page, struct br_
     put(root, "method", br_json_method(&p->method));
     put(root, "stopped", p->failure.status ? br_json_string(p->failure.message) : json_null());
     put(root, "contact_beyond_stability_limit", json_boolean(p->contact_unstable));
+    put(root, "prediction", prediction(page->prediction));
+    put(root, "warnings", warnings(page->warnings));
     put(root, "tip", tip(p));
     put(root, "events", events(p));
     put(root, "work", work(p));

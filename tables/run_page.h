@@ -3,12 +3,15 @@
 #ifndef BR_RUN_PAGE_H
 #define BR_RUN_PAGE_H
 
+#include "study/prediction.h"
 #include "study/run.h"
 #include "tables/emitter.h"
 
 /* All that a run's summary is made of. Borrowed. */
 struct br_run_page {
     const struct br_run_report *report;
+    const struct br_prediction *prediction;
+    const struct br_warnings *warnings;
     const struct br_provenance *provenance; /* with its scene */
     double wall_seconds;
 };

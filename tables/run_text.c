@@ -33,6 +33,31 @@ static void head(FILE *out, const struct br_run_page *page)
                      "at the step's rate.\n--contact implicit has no such limit.\n");
 }
 
+/* ---- what was expected ---- */
+
+static void discretisation(FILE *out, const struct br_prediction *p)
+{
+    fprintf(out, "  discretisation error  ");
+    if (p->known)
+        fprintf(out, "%.1e, between %.0e and %.0e: time %.1e, space %.1e\n", p->whole.error,
+                p->whole.low, p->whole.high, p->time.error, p->space.error);
+    else if (p->bounded)
+        fprintf(out, "not known, between %.0e and %.0e: %s\n", p->whole.low, p->whole.high, p->why);
+    else
+        fprintf(out, "not known: %s\n", p->why);
+}
+
+static void expected(FILE *out, const struct br_run_page *page)
+{
+    fprintf(out, "\nPredicted before the march, relative to the largest of the solution (L2)\n");
+    discretisation(out, page->prediction);
+    fprintf(out, "  round-off             %.1e\n", page->prediction->round_off);
+    for (size_t i = 0; i < page->warnings->count; i++) {
+        const struct br_warning *w = &page->warnings->list[i];
+        fprintf(out, "  Warning: %s%s%s\n", w->text, w->remedy[0] ? "; remedy: " : "", w->remedy);
+    }
+}
+
 /* ---- the tip ---- */
 
 static void value(FILE *out, bool marched, double x)
@@ -338,6 +363,7 @@ void br_run_text(FILE *out, const struct br_run_page *page)
 {
     const struct br_run_report *p = page->report;
     head(out, page);
+    expected(out, page);
     tip(out, p);
     events(out, p);
     energies(out, p);

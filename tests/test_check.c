@@ -86,7 +86,7 @@ static void test_unstable_reference(void **state)
     m.scene.duration = 2;
     m.scene.axial.stiffness = 100;
     m.scene.axial.viscosity = 0.001;
-    m.scene.contact = (struct br_contact){true, 0.05, 5062.5};
+    m.scene.contact = (struct br_contact){true, 0, 10400};
     struct br_verify_study *space = &m.verify.study[BR_VERIFY_SPACE];
     for (size_t i = 0; i < space->count; i++)
         space->steps[i] = 1000;

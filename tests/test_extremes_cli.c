@@ -34,8 +34,8 @@ static void test_bad_input(void **state)
         {"extremes fast --format xml", "--format: found 'xml'"},
         {"extremes fast --n 10,x", "--n: found 'x'"},
         {"extremes fast --k nan", "--k: found 'nan'"},
-        {"extremes fast --resume", "--resume: no chosen part heeds it; slow does"},
-        {"extremes slow --seed 3", "--seed: no chosen part heeds it; fast does"},
+        {"extremes fast --resume", "--resume: no chosen part heeds it; it is for slow"},
+        {"extremes slow --seed 3", "--seed: no chosen part heeds it; it is for fast"},
         {"extremes slow --rounding up", "--rounding: no chosen part heeds it"},
         {"extremes fast --sead 3", "did you mean --seed?"},
         {"extremes fast --seed 14", "fast: 14 is refused"},
@@ -131,12 +131,27 @@ static void test_interrupted(void **state)
                "nothing was done before, and is 3 cases now");
 }
 
+/* A full disk, no place to write, no gnuplot. */
+static void test_circumstances(void **state)
+{
+    (void)state;
+    static const struct cli_circumstances full = {.file_size = 256}, bare = {.path = "/nowhere"};
+    cli_expect("extremes fast --no-plots --quiet --out full", &full, 3,
+               "could not be written whole");
+    assert_false(cli_is_there("full"));
+    cli_expect("extremes fast --out /proc/nowhere", NULL, 2, "--out: cannot make the folder");
+    cli_expect("extremes fast --quiet --out bare", &bare, 0, "gnuplot is not installed");
+    assert_true(cli_is_there("bare/fast-heat.gp") && !cli_is_there("bare/fast-heat.png"));
+    cli_write_file("file", "");
+    cli_expect("extremes fast --out file", NULL, 2, "--out: cannot");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bad_input),   cmocka_unit_test(test_asked),
         cmocka_unit_test(test_files),       cmocka_unit_test(test_verdict),
-        cmocka_unit_test(test_interrupted),
+        cmocka_unit_test(test_interrupted), cmocka_unit_test(test_circumstances),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

@@ -256,6 +256,39 @@ static void test_blow_up(void **state)
     assert_true(cli_file_contains("t/history.csv", "\n7003,0.7"));
 }
 
+/* Before it marches, on standard error; then in the summaries. */
+static void test_warnings(void **state)
+{
+    (void)state;
+    static struct cli_outcome out;
+    const struct cli_circumstances apart = {.errors = "errors.txt"};
+    cli_run_line("run example4 --n 100 --k 1 --out warned --json warned.json", &apart, &out);
+    assert_int_equal(out.exit_code, 0);
+    assert_true(cli_file_contains("errors.txt", "beamrate: warning: the predicted discretisation "
+                                                "error at n = 100, k = 1 s is 0."));
+    assert_true(cli_file_contains("errors.txt", "; remedy: --k "));
+    assert_non_null(strstr(out.output, "Warning: the predicted discretisation error"));
+    assert_true(cli_file_contains("warned/summary.txt", "Warning: the predicted discretisation"));
+    json_t *root = json_loads(cli_read("warned.json"), 0, NULL);
+    const json_t *warning = json_array_get(json_object_get(root, "warnings"), 0);
+    assert_string_equal(json_string_value(json_object_get(warning, "warning")), "inaccurate");
+    const json_t *p = json_object_get(root, "prediction");
+    assert_true(json_is_true(json_object_get(p, "known")));
+    const json_t *whole = json_object_get(p, "discretisation");
+    AT_MOST(0.05, json_real_value(json_object_get(whole, "error")));
+    json_decref(root);
+
+    cli_run_line("run example2 --n 3200 --k 0.001 --solver banded", &apart, &out);
+    assert_int_equal(out.exit_code, 0);
+    assert_true(cli_file_contains("errors.txt", "round-off of --solver banded at n = 3200"));
+    assert_true(cli_file_contains("errors.txt", "--solver riccati ("));
+    cli_run_line("run example2", &apart, &out);
+    assert_int_equal(out.exit_code, 0);
+    assert_false(cli_file_contains("errors.txt", "warning"));
+    assert_non_null(strstr(out.output, "discretisation error  9.8e-04, between "));
+    assert_non_null(strstr(out.output, "round-off             2.0e-12"));
+}
+
 static void test_interrupt(void **state)
 {
     (void)state;
@@ -272,7 +305,7 @@ int main(void)
         cmocka_unit_test(test_bad_input), cmocka_unit_test(test_summary),
         cmocka_unit_test(test_json),      cmocka_unit_test(test_files),
         cmocka_unit_test(test_middles),   cmocka_unit_test(test_blow_up),
-        cmocka_unit_test(test_interrupt),
+        cmocka_unit_test(test_interrupt), cmocka_unit_test(test_warnings),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

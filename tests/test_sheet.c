@@ -6,7 +6,7 @@
 #include "support.h"
 #include "tables/sheet.h"
 
-enum { ROWS = 5, COLUMNS = 3 };
+enum { ROWS = 6, COLUMNS = 3 };
 
 static const char *const headings[COLUMNS] = {"who, \"how\"", "n", "error"};
 static const char *const cells[ROWS][COLUMNS] = {
@@ -15,6 +15,7 @@ static const char *const cells[ROWS][COLUMNS] = {
     {"a|b *c* `d` <e>", "-7", "nan"},
     {"1e-3", "0x1p3", "9007199254740993"},
     {"gr\xc3\xbc\xc3\x9f", "18446744073709551615", "inf"},
+    {"2e-3 of it", "1", "tol 1e-05"},
 };
 
 static const char *heading(const void *self, size_t column, bool *number)
@@ -83,8 +84,10 @@ static const char *printed(const char *format)
 
 static void expect(const char *text, const char *part)
 {
-    if (!strstr(text, part))
-        fail_msg("expected:\n%s\nin:\n%s", part, text);
+    if (strstr(text, part))
+        return;
+    print_error("expected:\n%s\nin:\n%s\n", part, text);
+    fail();
 }
 
 static void test_text(void **state)
@@ -96,7 +99,8 @@ static void test_text(void **state)
                  "who, \"how\"                                        n             error\n"
                  "plain                                           100           1.5e-05\n");
     expect(text, "\ngr\xc3\xbc\xc3\x9f                           18446744073709551615"
-                 "               inf\n");
+                 "               inf\n"
+                 "2e-3 of it                                        1         tol 1e-05\n");
     expect(text, "\nNothing\nwho, \"how\"  n  error\n\nfirst_note\nsecond_note\nthird_note\n");
     const char *shown = printed("the terminal's");
     assert_null(strstr(shown, "sundry"));
@@ -113,6 +117,7 @@ static void test_csv(void **state)
                                         "first,a|b *c* `d` <e>,-7,nan\n"
                                         "first,1e-3,0x1p3,9007199254740993\n"
                                         "first,gr\xc3\xbc\xc3\x9f,18446744073709551615,inf\n"
+                                        "first,2e-3 of it,1,tol 1e-05\n"
                                         "\n"
                                         "table,\"who, \"\"how\"\"\",n,error\n");
 }
@@ -142,6 +147,7 @@ static void test_latex(void **state)
                  "\\textasciitilde{} & 1000000 & - \\\\\n");
     expect(text, "a$|$b *c* `d` $<$e$>$ & -7 & nan \\\\\n");
     expect(text, "\n$1\\cdot10^{-3}$ & 0x1p3 & 9007199254740993 \\\\\n");
+    expect(text, "\n2e-3 of it & 1 & tol $1\\cdot10^{-5}$ \\\\\n");
     expect(text, "first\\_note\\par\n");
 }
 

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* beamrate extremes map: thousands of cases at random, and none of them silently wrong. */
+#include <stdio.h>
+
+#include "cli/extremes_part.h"
+#include "cli/provenance.h"
+#include "plots/extremes_map.h"
+#include "tables/extremes_map.h"
+
+enum { CASES = 2000, SEED = 1 };
+
+struct result {
+    struct br_extreme_map map;
+    struct br_extreme_counts counts;
+    struct br_extremes_map_page page;
+};
+
+static void release(void *result)
+{
+    struct result *r = result;
+    if (!r)
+        return;
+    br_extreme_counts_clear(&r->counts);
+    br_extreme_map_clear(&r->map);
+    free(r);
+}
+
+static enum br_status run(const struct br_extremes_job *job, void **result, struct br_error *err)
+{
+    struct result *r = *result = br_allocate(1, sizeof *r);
+    char program[300];
+    if (!r)
+        return br_no_memory(err, "the map");
+    snprintf(program, sizeof program, "beamrate %s %s", br_version(), br_commit());
+    r->page = (struct br_extremes_map_page){&r->map, &r->counts};
+    const struct br_extreme_wish wish = {
+        .seed = job->seed ? job->seed : SEED,
+        .cases = job->cases ? job->cases : CASES,
+        .threads = job->threads,
+        .court = {.rounding = job->rounding},
+        .kept = job->kept,
+        .program = program,
+        .folder = job->folder,
+        .observer = job->observer,
+    };
+    const enum br_status status = br_extreme_map_run(&wish, &r->map, err);
+    return status ? status : br_extreme_count(&r->map, &r->counts, err);
+}
+
+static void page(const void *result, struct br_page *page)
+{
+    br_extremes_map_page(&((const struct result *)result)->page, page);
+}
+
+static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
+                           struct br_error *err)
+{
+    const struct result *r = result;
+    *picture = (struct br_extremes_picture){NULL};
+    if (i > 0)
+        return BR_OK;
+    picture->heat = br_allocate(1, sizeof *picture->heat);
+    return picture->heat ? br_extremes_map_draw(&r->map, picture->heat, err)
+                         : br_no_memory(err, "a heat map");
+}
+
+static enum br_status verdict(const void *result, struct br_error *err)
+{
+    const struct br_extreme_map *m = &((const struct result *)result)->map;
+    const size_t wrong = m->count[BR_EXTREME_WRONG];
+    return wrong ? br_fail(err, BR_VERDICT,
+                           "%zu of %zu cases are silently wrong, the first of them: %s", wrong,
+                           m->cases, m->shrunk[0].command)
+                 : BR_OK;
+}
+
+const struct br_extremes_part br_extremes_part_map = {
+    .name = "map",
+    .title = "cases at random: right, inaccurate, unstable, refused, and none silently wrong",
+    .heeds = BR_HEEDS_CASES | BR_HEEDS_SEED | BR_HEEDS_ROUNDING | BR_HEEDS_RESUME,
+    .run = run,
+    .free = release,
+    .page = page,
+    .draw = draw,
+    .verdict = verdict,
+};

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A case before the court, for extreme_judge.c, extreme_accuracy.c and extreme_units.c alone. */
+#ifndef BR_EXTREME_TRIAL_H
+#define BR_EXTREME_TRIAL_H
+
+#include "study/extreme_judge.h"
+#include "study/extreme_track.h"
+
+enum { BR_EXTREME_PATIENCE = 4000 }; /* steps of the exact solution, and of adaptive schemes */
+
+struct br_extreme_trial {
+    const struct br_extreme_case *one;
+    const struct br_extreme_court *court;
+    struct br_extreme_verdict *verdict;
+    struct br_scene scene, marched; /* the latter borrows */
+    struct br_method method;
+    struct br_track_places places;
+    struct br_track *own, *other;
+    double size[2]; /* of the solution by those who judge, by br_field_kind, m */
+    struct br_warnings warnings;
+    bool done;
+};
+
+/* Decides a case, once and for all; the format is of what is to be said. */
+__attribute__((format(printf, 3, 4))) void br_extreme_decide(struct br_extreme_trial *trial,
+                                                             enum br_extreme_class which,
+                                                             const char *format, ...);
+
+/* What is marched where nothing is changed. */
+struct br_track_request br_extreme_request(const struct br_extreme_trial *trial);
+
+/* How accurate the march is, by the exact solution or by refinement; decides. Fails with
+ * BR_NO_MEMORY. */
+enum br_status br_extreme_judge_accuracy(struct br_extreme_trial *trial, struct br_error *err);
+
+/* Whether other units change the answer; decides where they do. Fails with BR_NO_MEMORY. */
+enum br_status br_extreme_judge_units(struct br_extreme_trial *trial, struct br_error *err);
+
+#endif

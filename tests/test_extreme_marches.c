@@ -1,0 +1,436 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Marches at the extremes, with every linear solver and every scheme of fixed steps: random scenes
+ * against quadruple precision; no inertia, no viscosity or neither; laws that degenerate, and their
+ * corners; and what double precision cannot hold, which is refused. None raises a flag of a trap.
+ */
+#include <fenv.h>
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "quad_march.h"
+#include "solver/damping.h"
+#include "support.h"
+
+static int bad_flags(void)
+{
+    return fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+}
+
+static struct br_method method_of(size_t solver, size_t scheme, size_t contact, size_t friction)
+{
+    struct br_method method = br_method_default();
+    method.solver = br_linear_solvers[solver];
+    method.scheme = br_time_schemes[scheme];
+    method.contact = br_contact_rules[method.scheme->may_lag ? contact : 1];
+    method.friction = br_friction_rules[friction];
+    return method;
+}
+
+static size_t solver_count(void)
+{
+    size_t count = 0;
+    while (br_linear_solvers[count])
+        count++;
+    return count;
+}
+
+static size_t fixed_schemes(void)
+{
+    size_t count = 0;
+    while (!br_time_schemes[count]->adaptive)
+        count++;
+    return count;
+}
+
+/* ---- random scenes against quadruple precision ---- */
+
+/* 0 now and then, else anything from low to high. */
+static double any(struct br_test_random *r, double low, double high, double zero)
+{
+    return br_test_uniform(r, 0, 1) < zero ? 0 : br_test_log_uniform(r, low, high);
+}
+
+static struct br_load any_load(struct br_test_random *r, double size, double duration)
+{
+    static const char *const times[] = {
+        "1", "t/%.17g", "exp(t/%.17g)-1", "sin(30*t/%.17g)", "exp(-30*t/%.17g)", "t<0.3*%.17g?1:0"};
+    char text[80];
+    snprintf(text, sizeof text, times[br_test_index(r, 6)], duration);
+    struct br_load load = {.time = br_test_function(text)};
+    load.space.constant = br_test_index(r, 2) ? size : -size;
+    return load;
+}
+
+/* Numbers of the material as they come, or so that inertia, stiffness and viscosity have ratios up
+ * to 1e12 over the duration. */
+static void fill_material(struct br_test_random *r, struct br_scene *s)
+{
+    const double T = s->duration, L = s->length, ratio = br_test_index(r, 2) ? 1e3 : 1e12;
+    s->axial.stiffness = br_test_log_uniform(r, 1e-6, 1e6);
+    s->bending.stiffness = br_test_log_uniform(r, 1e-6, 1e6);
+    s->density = any(r, 1e-6, 1e6, 0.15);
+    s->axial.viscosity = any(r, 1e-6, 1e6, 0.2);
+    s->bending.viscosity = any(r, 1e-6, 1e6, 0.2);
+    if (br_test_index(r, 3)) {
+        s->axial.viscosity = s->axial.stiffness * T * any(r, 1 / ratio, ratio, 0.2);
+        s->bending.viscosity = s->bending.stiffness * T * any(r, 1 / ratio, ratio, 0.2);
+        s->density = s->bending.stiffness * pow(T / (L * L), 2) * any(r, 1 / ratio, ratio, 0.2);
+    }
+    if (s->axial.viscosity > 0 && br_test_index(r, 8) == 0)
+        s->axial.stiffness = 0;
+    if (s->bending.viscosity > 0 && br_test_index(r, 8) == 0)
+        s->bending.stiffness = 0;
+}
+
+/* A stiff contact that bounces magnifies every difference from bounce to bounce: none here. */
+static void fill_laws(struct br_test_random *r, struct br_scene *s, double load)
+{
+    const double L = s->length, T = s->duration;
+    const double inert = s->density * L / (T * T);
+    const double rod = s->axial.stiffness / L + s->axial.viscosity / (T * L) + inert;
+    s->contact.modelled = br_test_index(r, 3) > 0;
+    s->contact.gap = load * L / rod * any(r, 1e-4, 10, 0.2);
+    s->contact.stiffness = rod * any(r, 1e-4, s->density > 0 ? 1 : 1e6, 0.1);
+    s->friction.law = (enum br_friction_law)br_test_index(r, s->contact.modelled ? 3 : 2);
+    s->friction.coefficient =
+        (s->friction.law == BR_TRESCA ? load * L : rod) * any(r, 1e-4, 1e6, 0.1);
+    s->friction.regularisation = br_test_index(r, 2) ? br_test_log_uniform(r, 1e-300, 1)
+                                                     : L / T * br_test_log_uniform(r, 1e-8, 1);
+}
+
+static struct br_scene any_scene(struct br_test_random *r)
+{
+    struct br_scene s = br_test_bare();
+    s.length = br_test_log_uniform(r, 1e-6, 1e6);
+    s.duration = br_test_log_uniform(r, 1e-6, 1e6);
+    fill_material(r, &s);
+    const double load = br_test_log_uniform(r, 1e-200, 1e12);
+    s.axial.load = any_load(r, load, s.duration);
+    s.bending.load = any_load(r, load * any(r, 1e-3, 1, 0.1), s.duration);
+    fill_laws(r, &s, load);
+    return s;
+}
+
+struct worst {
+    double deviation[2][2]; /* by field and derivative */
+    size_t compared, unstable;
+};
+
+/* bdf3 refuses vibration of little damping. */
+static bool goes(const struct br_scene *s, const struct br_method *m, size_t n, size_t steps)
+{
+    struct br_error err;
+    return !m->scheme->needs_damping ||
+           (!br_method_check_scene(m, s, &err) &&
+            !br_damping_check(m, s, n, s->duration / (double)steps, &err));
+}
+
+static double follow(struct br_march *march, struct br_quad_march *quad, size_t steps)
+{
+    double most = 0;
+    for (size_t step = 1; step <= steps; step++) {
+        feclearexcept(FE_ALL_EXCEPT);
+        br_test_advance(march, step);
+        if (bad_flags())
+            return INFINITY;
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+            most = fmax(most, br_quad_deviation(quad, (enum br_field_kind)kind, 0));
+    }
+    return most;
+}
+
+static void check_scene(uint64_t seed, size_t *compared)
+{
+    static const size_t meshes[] = {1, 2, 5, 17, 21, 33, 40};
+    struct br_test_random r = {seed};
+    struct br_scene s = any_scene(&r);
+    const struct br_method method =
+        method_of(br_test_index(&r, solver_count()), br_test_index(&r, fixed_schemes()),
+                  br_test_index(&r, 2), br_test_index(&r, 2));
+    const size_t n = meshes[br_test_index(&r, 7)], steps = 1 + br_test_index(&r, 30);
+    if (goes(&s, &method, n, steps)) {
+        struct br_march *march = br_test_march(&s, n, steps, &method);
+        struct br_quad_march *quad = br_quad_follow(march, &s, &method, steps);
+        const double limit = 1e-10 + 4 * br_march_round_off(march);
+        if (quad && !br_march_contact_unstable(march)) {
+            const double most = follow(march, quad, steps);
+            if (!(most <= limit) || !(limit <= 1e-8))
+                fail_msg("seed %zu: %s, %s, %s, %s, n = %zu, %zu steps: off by %g, expected %g",
+                         (size_t)seed, method.solver->name, method.scheme->name,
+                         method.contact->name, method.friction->name, n, steps, most, limit);
+            ++*compared;
+        }
+        br_quad_free(quad);
+        br_march_free(march);
+    }
+    br_scene_clear(&s);
+}
+
+static void test_random_scenes(void **state)
+{
+    (void)state;
+    size_t compared = 0;
+    const size_t most = getenv("BR_EXTREMES") ? (size_t)atol(getenv("BR_EXTREMES")) : 600;
+    for (uint64_t seed = 1; seed <= (br_test_quick() ? 60 : most); seed++)
+        check_scene(seed, &compared);
+    print_message("# %zu scenes\n", compared);
+    if (br_test_slack() == 1)
+        assert_true(compared >= 40);
+}
+
+/* ---- no inertia, no viscosity, neither ---- */
+
+/* A cantilever and a rod under constant loads: f L^4 / (8 a) and f L^2 / (2 a), exact at nodes. */
+static struct br_scene loaded(void)
+{
+    struct br_scene s = br_test_bare();
+    s.density = s.axial.viscosity = s.bending.viscosity = 0;
+    s.length = 3;
+    s.duration = 7;
+    s.axial.stiffness = 11;
+    s.bending.stiffness = 13;
+    s.axial.load = s.bending.load = br_test_load("5");
+    s.bending.load.space = s.axial.load.space = (struct br_function){.constant = 5};
+    return s;
+}
+
+static void test_statics(void **state)
+{
+    (void)state;
+    const double u = 5.0 * 9 / 22, w = 5.0 * 81 / (8 * 13);
+    for (size_t scheme = 0; scheme <= fixed_schemes(); scheme++) /* and the adaptive one */
+        for (size_t solver = 0; solver < solver_count(); solver++) {
+            struct br_scene s = loaded();
+            const struct br_method method = method_of(solver, scheme, 1, 0);
+            struct br_march *march = br_test_march(&s, 20, 25, &method);
+            feclearexcept(FE_ALL_EXCEPT);
+            for (size_t step = 1; step <= 25; step++) {
+                br_test_advance(march, step);
+                CLOSE(br_march_tip_displacement(march, BR_AXIAL), u, 1e-12 * u);
+                CLOSE(br_march_tip_displacement(march, BR_BENDING), w, 1e-10 * w);
+            }
+            assert_int_equal(bad_flags(), 0);
+            br_march_free(march);
+            br_scene_clear(&s);
+        }
+}
+
+/* A load that jumps, and its field with it, on the adaptive scheme. */
+static void test_jumps(void **state)
+{
+    (void)state;
+    const double u = 5.0 * 9 / 22, w = 5.0 * 81 / (8 * 13);
+    for (size_t solver = 0; solver < solver_count(); solver++) {
+        struct br_scene s = loaded();
+        const struct br_method method = method_of(solver, fixed_schemes(), 1, 0);
+        s.axial.viscosity = solver % 2 ? 0 : 1e-20;
+        s.axial.load.time = br_test_function("t < 3.3 ? 1 : 0-2");
+        s.bending.load.time = br_test_function("t < 4.4 ? 1 : 3");
+        struct br_march *march = br_test_march(&s, 20, 14, &method);
+        for (size_t step = 1; step <= 14; step++) {
+            br_test_advance(march, step);
+            const double t = 0.5 * (double)step;
+            CLOSE(br_march_tip_displacement(march, BR_AXIAL), t < 3.3 ? u : -2 * u, 1e-11 * u);
+            CLOSE(br_march_tip_displacement(march, BR_BENDING), t < 4.4 ? w : 3 * w, 1e-9 * w);
+        }
+        br_march_free(march);
+        br_scene_clear(&s);
+    }
+}
+
+/* ---- laws that degenerate ---- */
+
+struct outcome {
+    double tip[4], w_middle;
+};
+
+static struct outcome outcome_of(const struct br_scene *s, const struct br_method *method)
+{
+    enum { N = 40, STEPS = 30 };
+    struct br_march *march = br_test_march(s, N, STEPS, method);
+    double w[2 * (N + 1)];
+    struct outcome o;
+    feclearexcept(FE_ALL_EXCEPT);
+    br_test_advance(march, STEPS);
+    assert_int_equal(bad_flags(), 0);
+    br_march_get(march, BR_BENDING, w, NULL);
+    o = (struct outcome){{br_march_tip_displacement(march, BR_AXIAL),
+                          br_march_tip_displacement(march, BR_BENDING),
+                          br_march_tip(march)->velocity[0], br_march_tip(march)->velocity[1]},
+                         w[N]};
+    br_march_free(march);
+    return o;
+}
+
+/* The same bits: a law without an effect does nothing. */
+static void same_bits(const struct br_scene *s, const struct br_scene *without,
+                      const struct br_method *method, const char *what)
+{
+    const struct outcome a = outcome_of(s, method), b = outcome_of(without, method);
+    for (int i = 0; i < 4; i++)
+        if (!(a.tip[i] == b.tip[i]))
+            fail_msg("%s, %s, %s: tip %d: %.17g, without the law %.17g", what, method->solver->name,
+                     method->scheme->name, i, a.tip[i], b.tip[i]);
+    assert_true(a.w_middle == b.w_middle);
+}
+
+static void check_without_effect(const struct br_method *method)
+{
+    struct br_scene s = br_test_bundled("example1"), plain = s;
+    plain.friction = (struct br_friction){0};
+    s.friction = (struct br_friction){.law = BR_TRESCA, .regularisation = 1e-3};
+    same_bits(&s, &plain, method, "Tresca's friction with a bound of 0");
+    s.friction.law = BR_COULOMB;
+    same_bits(&s, &plain, method, "Coulomb's friction with a coefficient of 0");
+    s.friction = plain.friction;
+    plain.contact = (struct br_contact){0};
+    s.contact.stiffness = 0;
+    same_bits(&s, &plain, method, "a contact of stiffness 0");
+    s.contact.stiffness = 1e15;
+    s.contact.gap = 1e300;
+    same_bits(&s, &plain, method, "a gap of 1e300 m");
+    br_scene_clear(&s);
+}
+
+static void test_laws_without_effect(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < 4 * fixed_schemes(); i++) {
+        const struct br_method method = method_of(i % 2, i / 4, i / 2 % 2, i % 4 / 2);
+        check_without_effect(&method);
+    }
+}
+
+/* ---- corners of the laws ---- */
+
+/* A beam with a load at its tip and Tresca's friction: a reaction that is the load itself, once all
+ * else rests. */
+static struct br_scene held(double load, double bound)
+{
+    struct br_scene s = br_test_bare();
+    s.axial.modelled = false;
+    s.density = 0;
+    s.bending.tip_force.constant = load;
+    s.friction = (struct br_friction){.law = BR_TRESCA, .coefficient = bound};
+    return s;
+}
+
+/* A bound that is the reaction of a stuck tip to the last bit holds it; one less lets it creep by
+ * no more than that. */
+static void test_bound_is_the_reaction(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < 3 * solver_count() * fixed_schemes(); i++) {
+        const struct br_method method =
+            method_of(i / 3 % solver_count(), i / 3 / solver_count(), 1, 0);
+        const double bounds[] = {nextafter(3, 4), 3, nextafter(3, 2)};
+        struct br_scene s = held(3, bounds[i % 3]);
+        struct br_march *march = br_test_march(&s, 21, 40, &method);
+        for (size_t step = 1; step <= 40; step++) {
+            br_test_advance(march, step);
+            CLOSE(br_march_tip_displacement(march, BR_BENDING), 0, 1e-12);
+            AT_MOST(fabs(br_march_tip(march)->friction_force), bounds[i % 3]);
+            CLOSE(br_march_tip(march)->friction_force, 3, 1e-12);
+        }
+        br_march_free(march);
+    }
+}
+
+/* A load that turns round from one step to the next: slip one way, then the other. Without inertia
+ * a tip that slips obeys 3 (a w + c v) / L^3 = f - lambda. */
+static void test_reversal_in_a_step(void **state)
+{
+    (void)state;
+    for (size_t solver = 0; solver < solver_count(); solver++) {
+        struct br_scene s = held(0, 1);
+        s.bending.tip_force = br_test_function("t < 0.5 ? 5 : 0-5");
+        s.bending.stiffness = 2;
+        const struct br_method method = method_of(solver, 0, 1, 0);
+        struct br_march *march = br_test_march(&s, 8, 11, &method);
+        double w = 0;
+        for (size_t step = 1; step <= 11; step++) {
+            const double k = 1.0 / 11, f = step < 6 ? 4 : -4;
+            br_test_advance(march, step);
+            w = (f / 3 * k + w) / (1 + 2 * k);
+            assert_true(br_march_tip(march)->friction_force == (step < 6 ? 1 : -1));
+            CLOSE(br_march_tip_displacement(march, BR_BENDING), w, 1e-12);
+        }
+        br_march_free(march);
+        br_function_free(&s.bending.tip_force);
+    }
+}
+
+/* A tip that comes to the gap with no speed and stays: no force, no bound. */
+static void test_grazing(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < solver_count() * fixed_schemes(); i++) {
+        struct br_scene s = loaded();
+        s.contact = (struct br_contact){.modelled = true, .stiffness = 1e15};
+        const struct br_method method = method_of(i % solver_count(), i / solver_count(), 1, 0);
+        for (int ulps = -1; ulps <= 1; ulps++) {
+            s.contact.gap = 5.0 * 9 / 22 * (1 + ulps * DBL_EPSILON);
+            struct br_march *march = br_test_march(&s, 17, 12, &method);
+            for (size_t step = 1; step <= 12; step++) {
+                br_test_advance(march, step);
+                CLOSE(br_march_tip_displacement(march, BR_AXIAL), s.contact.gap, 1e-12);
+                AT_MOST(br_march_tip(march)->contact_force, 1e-11);
+            }
+            br_march_free(march);
+        }
+        br_scene_clear(&s);
+    }
+}
+
+/* ---- beyond double precision ---- */
+
+static enum br_status end_of(const struct br_scene *s, const struct br_method *method,
+                             struct br_error *err)
+{
+    struct br_march *march = br_test_march(s, 21, 6, method);
+    enum br_status status = BR_OK;
+    for (int step = 0; step < 6 && !status; step++)
+        status = br_march_step(march, err);
+    br_march_free(march);
+    return status;
+}
+
+static void test_beyond_double(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < solver_count() * (fixed_schemes() + 1); i++) {
+        const struct br_method method = method_of(i % solver_count(), i / solver_count(), 1, 0);
+        struct br_error err = {0};
+        struct br_scene s = loaded();
+        /* An estimate of an error may say so first. */
+        const char *const field = method.scheme->adaptive ? "" : "motion is lost to underflow";
+        s.axial.load.space.constant = 1e-310;
+        REFUSED(end_of(&s, &method, &err), BR_NOT_FINITE, field);
+        s.axial.load.space.constant = 1;
+        s.bending.load.space.constant = 1e-290;
+        REFUSED(end_of(&s, &method, &err), BR_NOT_FINITE, field);
+        s.bending.load.space.constant = 1e-200;
+        MUST(end_of(&s, &method, &err));
+        s.bending.load.space.constant = 1.7e308;
+        REFUSED(end_of(&s, &method, &err), BR_NOT_FINITE, method.scheme->adaptive ? "" : "blew up");
+        br_scene_clear(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_random_scenes),
+        cmocka_unit_test(test_statics),
+        cmocka_unit_test(test_jumps),
+        cmocka_unit_test(test_laws_without_effect),
+        cmocka_unit_test(test_bound_is_the_reaction),
+        cmocka_unit_test(test_reversal_in_a_step),
+        cmocka_unit_test(test_grazing),
+        cmocka_unit_test(test_beyond_double),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Predicted errors against those that the exact reference measures. */
+#include "study/prediction.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "study/contender.h"
+#include "study/study.h"
+#include "support.h"
+
+/* ---- predicted over measured ---- */
+
+struct tally {
+    int all, known, within_3, within_10, inside, far_too_low, far_too_high;
+};
+
+static void count_one(struct tally *t, const struct br_prediction *p, double actual)
+{
+    const double ratio = p->whole.error / actual;
+    t->all++;
+    if (!p->known)
+        return;
+    t->known++;
+    t->within_3 += ratio >= 1.0 / 3 && ratio <= 3;
+    t->within_10 += ratio >= 0.1 && ratio <= 10;
+    t->inside += actual >= p->whole.low && actual <= p->whole.high;
+    t->far_too_low += !(ratio >= 0.01);
+    t->far_too_high += !(ratio <= 100);
+}
+
+static void show(const char *what, const struct tally *t)
+{
+    print_message("# %s: %d errors, %d known, of these %d within 3, %d within 10, %d between the "
+                  "bounds\n",
+                  what, t->all, t->known, t->within_3, t->within_10, t->inside);
+}
+
+static const size_t meshes[] = {3, 16, 100, 400}, steps[] = {1, 8, 40, 200, 600};
+enum { MESHES = sizeof meshes / sizeof *meshes, STEPS = sizeof steps / sizeof *steps };
+
+/* Marches a scene by one method at the resolutions (n[i], steps[i]) and adds what it shows. A
+ * scene that the exact reference refuses is left out. */
+static void measure(struct tally *t, const struct br_scene *scene, const char *name,
+                    const struct br_study *shape)
+{
+    struct br_contender c;
+    struct br_error err = {0};
+    MUST(br_contender_read(name, &c, &err));
+    struct br_study s = *shape;
+    s.scene = scene;
+    s.norm = &br_norm_l2;
+    s.method = c.method;
+    if (!s.judge)
+        s.judge = &br_judge_exact;
+    MUST(br_study_run_each(&s, 1, 0, NULL, &err));
+    for (size_t i = 0; !s.failure.status && i < br_study_cells(&s); i++) {
+        const struct br_cell *cell = &s.cell[i];
+        const double own = br_norm_of_constant(s.norm, scene, s.judged_by.own_error, BR_PART_TOTAL);
+        const double error = cell->error[BR_PART_TOTAL];
+        struct br_prediction p;
+        if (cell->failure.status || cell->unstable || error <= 10 * own)
+            continue;
+        const struct br_outlook o = {scene, &c.method, cell->at.n, cell->at.steps, NULL};
+        MUST(br_predict(&o, &p, &err));
+        count_one(t, &p, error / s.reference_scale);
+    }
+    br_study_clear(&s);
+}
+
+static void test_bundled(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"example1", "example2", "example3", "example4",
+                                         "reversal", "release",  "smoothed", "close_bound"};
+    static const char *const methods[] = {"euler+lagged", "euler+implicit", "bdf2"};
+    const struct br_study shape = {
+        .n_count = MESHES, .k_count = STEPS, .n = meshes, .steps = steps};
+    struct tally t = {0};
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i += br_test_quick() ? 4 : 1) {
+        struct br_scene scene = br_test_bundled(scenes[i]);
+        for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
+            measure(&t, &scene, methods[m], &shape);
+        br_scene_clear(&scene);
+    }
+    show("bundled scenes", &t);
+    assert_true(t.all >= 100);
+    AT_MOST(0.85 * t.all, t.known);
+    AT_MOST(0.88 * t.known, t.within_3);
+    AT_MOST(0.95 * t.known, t.within_10);
+    AT_MOST(0.96 * t.known, t.inside);
+    assert_int_equal(t.far_too_low, 0);
+    assert_int_equal(t.far_too_high, 0);
+}
+
+/* ---- scenes drawn at random, against a march by a tolerance ---- */
+
+static const char *const loads[] = {"1", "t", "sin(3*t)", "exp(t) - 1", "x*cos(2*t)", "1 - x*t"};
+enum { LOADS = sizeof loads / sizeof *loads };
+
+static void draw_load(struct br_test_random *r, double scale, struct br_load *load)
+{
+    char text[64];
+    snprintf(text, sizeof text, "%.17g*(%s)", scale * br_test_uniform(r, -1, 1),
+             loads[br_test_index(r, LOADS)]);
+    *load = br_test_load(text);
+}
+
+/* Relaxation times and periods from far below the duration to above it. */
+static struct br_scene draw(struct br_test_random *r)
+{
+    struct br_scene s = br_test_bare();
+    s.duration = br_test_log_uniform(r, 0.5, 4);
+    s.density = br_test_log_uniform(r, 1e-4, 10);
+    s.axial.stiffness = br_test_log_uniform(r, 10, 1000);
+    s.axial.viscosity = s.axial.stiffness * br_test_log_uniform(r, 1e-3, 1);
+    s.bending.stiffness = br_test_log_uniform(r, 10, 1000);
+    s.bending.viscosity = s.bending.stiffness * br_test_log_uniform(r, 1e-3, 1);
+    draw_load(r, s.axial.stiffness, &s.axial.load);
+    draw_load(r, s.bending.stiffness, &s.bending.load);
+    s.contact.modelled = br_test_index(r, 3) > 0;
+    s.contact.gap = br_test_uniform(r, 0, 0.2);
+    s.contact.stiffness = s.axial.stiffness * br_test_log_uniform(r, 0.01, 1);
+    s.friction.law = (enum br_friction_law)br_test_index(r, s.contact.modelled ? 3 : 2);
+    s.friction.coefficient = s.bending.stiffness * br_test_log_uniform(r, 0.01, 1);
+    return s;
+}
+
+static void test_random(void **state)
+{
+    (void)state;
+    enum { SCENES = 60 };
+    static const char *const methods[] = {"euler+lagged", "euler+implicit", "bdf2", "trbdf2",
+                                          "esdirk3"};
+    struct br_test_random r = {20061};
+    struct br_contender adaptive;
+    struct br_error err = {0};
+    MUST(br_contender_read("adaptive", &adaptive, &err));
+    adaptive.method.tolerance = 1e-8;
+    struct tally t = {0};
+    for (int i = 0; i < (br_test_quick() ? 3 : SCENES); i++) {
+        struct br_scene scene = draw(&r);
+        const size_t n = 1 + (size_t)br_test_log_uniform(&r, 1, 500);
+        const size_t k = 1 + (size_t)br_test_log_uniform(&r, 1, 600);
+        const struct br_study shape = {
+            .n_count = 1,
+            .k_count = 1,
+            .n = &n,
+            .steps = &k,
+            .judge = &br_judge_fine,
+            .reference_method = adaptive.method,
+            .reference = {n * (4 + 400 / n), k},
+        };
+        measure(&t, &scene, methods[br_test_index(&r, 5)], &shape);
+        br_function_free(&scene.axial.load.space);
+        br_function_free(&scene.axial.load.time);
+        br_function_free(&scene.bending.load.space);
+        br_function_free(&scene.bending.load.time);
+    }
+    show("random scenes", &t);
+    AT_MOST(0.8 * t.known, t.within_3);
+    AT_MOST(0.95 * t.known, t.within_10);
+    AT_MOST(0.95 * t.known, t.inside);
+    assert_int_equal(t.far_too_low, 0);
+}
+
+/* ---- what is plainly inaccurate, or not known ---- */
+
+static struct br_prediction predict(const struct br_scene *scene, const struct br_method *method,
+                                    size_t n, size_t k)
+{
+    const struct br_outlook o = {scene, method, n, k, NULL};
+    struct br_error err = {0};
+    struct br_prediction p;
+    MUST(br_predict(&o, &p, &err));
+    return p;
+}
+
+static void test_inaccurate(void **state)
+{
+    (void)state;
+    struct br_scene s = br_test_bundled("example4");
+    const struct br_method method = br_method_default();
+    struct br_prediction p = predict(&s, &method, 100, 1);
+    assert_true(p.known && p.time.error > 0.05);
+    br_scene_clear(&s);
+
+    s = br_test_bare();
+    s.bending.modelled = false;
+    s.axial.load = br_test_load("sin(60*3.14159265*x)");
+    p = predict(&s, &method, 10, 100);
+    assert_true(p.whole.low > 0.05);
+    assert_true(p.space.error > 0.05);
+    p = predict(&s, &method, 3000, 100); /* now the waves are seen */
+    assert_true(p.space.high < 0.05);
+    br_function_free(&s.axial.load.space);
+    br_function_free(&s.axial.load.time);
+}
+
+static void test_not_known(void **state)
+{
+    (void)state;
+    struct br_scene s = br_test_bare();
+    struct br_method method = br_method_default();
+    struct br_prediction p = predict(&s, &method, 10, 10);
+    assert_false(p.known || p.bounded);
+    assert_non_null(strstr(p.why, "a solution that is zero"));
+    s = br_test_bundled("example2");
+    s.contact.stiffness = 1e9;
+    p = predict(&s, &method, 10, 10);
+    assert_false(p.known || p.bounded);
+    assert_non_null(strstr(p.why, "stability limit"));
+    method.contact = br_contact_rule_find("implicit");
+    p = predict(&s, &method, 10, 10);
+    assert_true(p.known);
+    br_scene_clear(&s);
+}
+
+/* ---- warnings ---- */
+
+static struct br_warnings warnings_of(const struct br_scene *scene, const struct br_method *method,
+                                      size_t n, size_t k)
+{
+    const struct br_outlook o = {scene, method, n, k, NULL};
+    struct br_warnings w = {0};
+    struct br_error err = {0};
+    MUST(br_look_ahead(&o, &w, &err));
+    return w;
+}
+
+static void test_warnings(void **state)
+{
+    (void)state;
+    struct br_scene s = br_test_bundled("example2");
+    struct br_method method = br_method_default();
+    struct br_warnings w = warnings_of(&s, &method, 100, 1000);
+    assert_int_equal(w.count, 0);
+
+    w = warnings_of(&s, &method, 100, 2);
+    const struct br_warning *one = br_warnings_find(&w, BR_WARN_INACCURATE);
+    assert_non_null(one);
+    assert_non_null(strstr(one->remedy, "--contact implicit"));
+
+    method.solver = br_linear_solver_find("banded");
+    w = warnings_of(&s, &method, 6400, 1000);
+    one = br_warnings_find(&w, BR_WARN_ROUND_OFF);
+    assert_non_null(one);
+    assert_non_null(strstr(one->text, "--solver banded at n = 6400"));
+    assert_non_null(strstr(one->remedy, "--solver riccati"));
+    assert_null(br_warnings_find(&w, BR_WARN_INACCURATE));
+    br_scene_clear(&s);
+}
+
+/* Of each kind the first is kept, the others are counted. */
+static void test_list(void **state)
+{
+    (void)state;
+    struct br_warnings w = {0};
+    br_warn(&w, BR_WARN_LONG, NULL, "%d days", 3);
+    br_warn(&w, BR_WARN_UNSTABLE, "less", "grows");
+    br_warn(&w, BR_WARN_LONG, "none", "%d days", 4);
+    assert_int_equal(w.count, 2);
+    const struct br_warning *one = br_warnings_find(&w, BR_WARN_LONG);
+    assert_string_equal(one->text, "3 days");
+    assert_string_equal(one->remedy, "");
+    assert_int_equal(one->more, 1);
+    assert_null(br_warnings_find(&w, BR_WARN_ROUND_OFF));
+    for (int kind = 0; kind < BR_WARNINGS; kind++)
+        assert_non_null(br_warning_word((enum br_warning_kind)kind));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bundled),    cmocka_unit_test(test_random),
+        cmocka_unit_test(test_inaccurate), cmocka_unit_test(test_not_known),
+        cmocka_unit_test(test_warnings),   cmocka_unit_test(test_list),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
