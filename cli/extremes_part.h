@@ -62,7 +62,7 @@ struct br_extremes_part {
 };
 
 extern const struct br_extremes_part br_extremes_part_floors, br_extremes_part_steps,
-    br_extremes_part_stability, br_extremes_part_map;
+    br_extremes_part_stability, br_extremes_part_energy, br_extremes_part_map;
 
 /* NULL-terminated, in the order in which they run. */
 extern const struct br_extremes_part *const br_extremes_parts[];

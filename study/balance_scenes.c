@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/balance_scenes.h"
 
+#include <string.h>
+
 #include "study/energy_behaviour.h"
 #include "study/scene_file.h"
 
@@ -74,6 +76,11 @@ const size_t br_balance_scene_count = sizeof scenes / sizeof *scenes;
 _Static_assert(sizeof scenes / sizeof *scenes ==
                    sizeof br_balance_scenes / sizeof *br_balance_scenes,
                "a name for each scene");
+
+bool br_balance_scene_lags(size_t i)
+{
+    return scenes[i].contact && strcmp(scenes[i].contact, "lagged") == 0;
+}
 
 enum br_status br_balance_scene(size_t i, struct br_scene *scene, const char **contact,
                                 struct br_error *err)

@@ -10,4 +10,7 @@
 enum br_status br_balance_scene(size_t i, struct br_scene *scene, const char **contact,
                                 struct br_error *err);
 
+/* Whether its contact is lagged, which few schemes take. */
+bool br_balance_scene_lags(size_t i);
+
 #endif

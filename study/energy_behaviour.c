@@ -21,6 +21,7 @@ static const double dampings[] = {0, 0.01};
 
 /* Of a balance. */
 enum { ELEMENTS = 20, STEPS = 400 };
+static const double tolerance = 1e-3;
 
 size_t br_vibration_per_period(size_t rate)
 {
@@ -66,8 +67,9 @@ static enum br_status list(struct br_energy_behaviour *b, struct br_error *err)
     list_vibrations(b);
     for (size_t scene = 0; scene < br_balance_scene_count; scene++)
         for (size_t s = 0; s < schemes; s++)
-            b->balance[b->balances++] =
-                (struct br_balance_row){.scheme = br_time_schemes[s], .scene = scene};
+            if (br_time_schemes[s]->may_lag || !br_balance_scene_lags(scene))
+                b->balance[b->balances++] =
+                    (struct br_balance_row){.scheme = br_time_schemes[s], .scene = scene};
     return BR_OK;
 }
 
@@ -104,6 +106,11 @@ static enum br_status measure(struct balance *b, struct br_error *err)
 {
     struct br_balance_row *row = b->row;
     enum br_status status = br_march_create(&b->march, &b->scene, ELEMENTS, STEPS, &b->method, err);
+    if (status == BR_BAD_INPUT || status == BR_SINGULAR) {
+        row->end = BR_VIBRATION_REFUSED;
+        row->failure = *err;
+        return BR_OK;
+    }
     if (status)
         return status;
     row->limit = br_energy_limit(ELEMENTS, br_march_round_off(b->march));
@@ -122,8 +129,11 @@ static enum br_status run_balance(struct br_balance_row *row, struct br_error *e
     enum br_status status = br_balance_scene(row->scene, &b.scene, &contact, err);
     b.method.scheme = row->scheme;
     b.method.contact = contact ? br_contact_rule_find(contact) : br_contact_rule_of(row->scheme);
-    if (!status && (br_method_check(&b.method, &row->failure) ||
-                    br_method_check_scene(&b.method, &b.scene, &row->failure)))
+    b.method.tolerance = tolerance;
+    if (row->scheme->integrator)
+        row->end = BR_VIBRATION_REFUSED;
+    else if (!status && (br_method_check(&b.method, &row->failure) ||
+                         br_method_check_scene(&b.method, &b.scene, &row->failure)))
         row->end = BR_VIBRATION_REFUSED;
     else if (!status)
         status = measure(&b, err);
@@ -221,5 +231,5 @@ double br_vibration_difference(const struct br_vibration_row *row)
 
 bool br_balance_row_is_right(const struct br_balance_row *row)
 {
-    return row->end == BR_VIBRATION_REFUSED || row->work.remainder || row->worst <= row->limit;
+    return row->end == BR_VIBRATION_REFUSED || row->worst <= row->limit;
 }

@@ -143,6 +143,7 @@ enum br_status br_vibration_run(struct br_vibration *v, struct br_error *err)
     t.method.contact = br_contact_rule_of(v->scheme);
     if (v->scheme->adaptive)
         t.method.tolerance = v->tolerance;
+    v->end = BR_VIBRATION_DONE;
     v->worst = 0;
     if (refuse(&t, &v->failure)) {
         v->end = BR_VIBRATION_REFUSED;

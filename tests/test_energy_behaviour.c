@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What schemes take from a free vibration, and the page that says so. */
+#include <complex.h>
+#include <math.h>
+#include <string.h>
+
+#include "study/amplification.h"
+#include "study/beam_mode.h"
+#include "study/energy_behaviour.h"
+#include "support.h"
+
+/* e^z to the scheme's order; Euler's is 1/(1 - z). */
+static void test_amplification(void **state)
+{
+    (void)state;
+    const double complex z = 0.02 + 0.03 * I, large = -0.5 + 2 * I;
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
+        const struct br_textbook *t = br_textbook_step((*s)->name, 2);
+        if (!t)
+            continue;
+        AT_MOST(cabs(br_amplification(t, z) - cexp(z)), pow(cabs(z), (*s)->order + 1));
+        AT_MOST(cabs(br_amplification(t, conj(large)) - conj(br_amplification(t, large))), 1e-15);
+    }
+    const struct br_textbook *euler = br_textbook_step("euler", 2);
+    AT_MOST(cabs(br_amplification(euler, large) - 1 / (1 - large)), 1e-15);
+    const double complex r = br_amplification(br_textbook_step("bdf2", 2), large);
+    AT_MOST(cabs((1 - 2 * large / 3) * r * r - 4 * r / 3 + 1.0 / 3), 1e-15);
+}
+
+/* omega^2 = 6 a/(rho h^2) (1 - cos t)/(2 + cos t), t = pi h/2, of linear elements; 1.875^4 of a
+ * cantilever, from above. */
+static void test_modes(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bare();
+    struct br_beam_mode mode;
+    const double h = 1.0 / BR_MODE_ELEMENTS, t = M_PI * h / 2;
+    MUST(br_beam_mode_find(&mode, &scene, BR_AXIAL, &err));
+    CLOSE(mode.omega, sqrt(6 * (1 - cos(t)) / (2 + cos(t))) / h, 1e-13);
+    for (size_t i = 0; i < BR_MODE_ELEMENTS; i++)
+        CLOSE(mode.phi[i], sin(t * (double)(i + 1)), 1e-12);
+    MUST(br_beam_mode_find(&mode, &scene, BR_BENDING, &err));
+    const double exact = 1.8751040687119611664 * 1.8751040687119611664;
+    assert_true(mode.omega > exact && mode.omega < exact * (1 + 1e-5));
+    double nodal[2 * (BR_MODE_ELEMENTS + 1)] = {0};
+    memcpy(nodal + 2, mode.phi, sizeof mode.phi);
+    CLOSE(br_beam_mode_part(&mode, nodal), 1, 1e-13);
+}
+
+/* One period of one scheme: by the formula, and what is refused. */
+static void test_one(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_vibration v = {
+        .scheme = br_time_schemes[0], .kind = BR_BENDING, .density = 1, .per_period = 24};
+    MUST(br_vibration_run(&v, &err));
+    const double y = 2 * M_PI / 24;
+    CLOSE(v.predicted, 1 - pow(1 + y * y, -24), 1e-14);
+    CLOSE(v.measured, v.predicted, 1e-10);
+    assert_true(br_vibration_is_right(&v));
+    struct br_vibration wrong = v;
+    wrong.measured *= 1 + 1e-6;
+    assert_false(br_vibration_is_right(&wrong));
+    wrong.measured = NAN;
+    assert_false(br_vibration_is_right(&wrong));
+    wrong = v;
+    wrong.worst = NAN;
+    assert_false(br_vibration_is_right(&wrong));
+    v.scheme = br_time_scheme_find("bdf3");
+    MUST(br_vibration_run(&v, &err));
+    assert_int_equal(v.end, BR_VIBRATION_REFUSED);
+    v.damping = 0.01; /* it is taken, and grows against viscosity */
+    MUST(br_vibration_run(&v, &err));
+    assert_true(v.end == BR_VIBRATION_DONE && v.measured < 0 && br_vibration_is_right(&v));
+}
+
+/* All of the part, on any number of threads. */
+static void test_all(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_energy_behaviour b;
+    MUST(br_energy_behaviour_run(&b, 0, NULL, &err));
+    double most = 0;
+    size_t done = 0;
+    for (size_t i = 0; i < b.vibrations; i++)
+        if (!br_vibration_row_is_right(&b.vibration[i]))
+            fail_msg("a vibration by %s", b.vibration[i].scheme->name);
+    for (size_t i = 0; i < b.balances; i++) {
+        const struct br_balance_row *row = &b.balance[i];
+        if (!br_balance_row_is_right(row))
+            fail_msg("%s by %s: %g", br_balance_scenes[row->scene], row->scheme->name, row->worst);
+        done += row->end == BR_VIBRATION_DONE;
+        most = fmax(most, br_energy_added(&row->work, BR_AXIAL));
+    }
+    assert_true(done > 100 && most > 1e6); /* by the lagged contact */
+    b.balance[0].worst = NAN;
+    assert_false(br_balance_row_is_right(&b.balance[0]));
+    br_energy_behaviour_clear(&b);
+}
+
+static bool give_up(void *self)
+{
+    (void)self;
+    return true;
+}
+
+static void test_interrupted(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_energy_behaviour b;
+    const struct br_observer observer = {.stop = give_up};
+    REFUSED(br_energy_behaviour_run(&b, 2, &observer, &err), BR_INTERRUPTED, "interrupted");
+    br_energy_behaviour_clear(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_amplification), cmocka_unit_test(test_modes),
+        cmocka_unit_test(test_one),           cmocka_unit_test(test_all),
+        cmocka_unit_test(test_interrupted),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
