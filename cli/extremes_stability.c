@@ -36,7 +36,7 @@ static void page(const void *result, struct br_page *page)
 static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
                            struct br_error *err)
 {
-    *picture = (struct br_extremes_picture){NULL};
+    *picture = (struct br_extremes_picture){.heat = NULL};
     if (i > 0)
         return BR_OK;
     picture->heat = br_allocate(1, sizeof *picture->heat);

@@ -13,7 +13,10 @@ static const char *heading_of(const char *const *headings, size_t words, size_t 
 
 static void put(char text[BR_CELL], const char *format, double value)
 {
-    snprintf(text, BR_CELL, isnan(value) ? "-" : format, value);
+    if (isnan(value))
+        snprintf(text, BR_CELL, "-");
+    else
+        snprintf(text, BR_CELL, format, value);
 }
 
 /* ---- limits ---- */
