@@ -25,6 +25,7 @@ struct br_field {
     double viscosity; /* c, N s or N m^2 s */
     double k;         /* time step, s */
     int degree;       /* of axial elements: 2, or 1 (0 is the same); bending has its own */
+    size_t solves;    /* of a march, at most; 0: not known */
 };
 
 /* The field of the given kind of a scene, on n elements with the time step k; degree 1. */

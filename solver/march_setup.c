@@ -26,6 +26,7 @@ static enum br_status create_parts(struct br_march *m, size_t n, struct br_error
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
         struct br_field field = br_field_of_scene(m->scene, (enum br_field_kind)kind, n, tau);
         field.degree = m->method.axial_degree;
+        field.solves = m->method.scheme->adaptive ? 0 : BR_MOST_STAGES * m->steps;
         status = br_part_create(&m->part[kind], m->scene, &field, &m->method, err);
     }
     if (!status && m->method.scheme->adaptive)
