@@ -41,6 +41,7 @@ struct br_meter_field {
     struct br_field_work work;
     struct br_step_load own; /* where there are no stages */
     real k;                  /* of the step, s */
+    real largest;            /* sum of the sizes of a step's terms so far, J */
     double *scratch[2];      /* displacement and velocity, br_field_size values each */
 };
 
@@ -51,8 +52,9 @@ struct br_energy_meter {
     bool staged;                    /* else by the trapezoidal rule */
     struct br_watched seen;         /* where staged */
     struct br_meter_field field[2]; /* by br_field_kind */
-    double time;          /* of the last look, s, where it is not */
+    double time;                    /* of the last look, s, where it is not */
     double limit, worst;            /* of the imbalance; worst: since the last call */
+    double update;                  /* what a certificate allows the displacement's update */
     bool any;
     double *memory;
 };

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "reference/certificate.h"
 #include "reference/energy_forms.h"
 
 real br_nodal_product(const double *c, const double *v, size_t size, real *sizes)
@@ -61,6 +62,9 @@ enum br_status br_energy_meter_create(struct br_energy_meter **out, struct br_ma
     *m = (struct br_energy_meter){
         .march = march, .scene = scene, .method = method, .staged = !method->scheme->integrator};
     m->limit = br_energy_limit(br_march_field(march, BR_AXIAL)->n, br_march_round_off(march));
+    m->update = br_certificate_limits(method->scheme, br_march_field(march, BR_AXIAL)->n,
+                                      br_march_round_off(march))
+                    .update;
     const enum br_status status = set_up(m, err);
     if (status) {
         br_energy_meter_free(m);

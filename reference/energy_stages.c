@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Works of a march as its scheme sums rates of change, stage by stage, and what the scheme takes.
  */
+#include <float.h>
 #include <math.h>
 
 #include "reference/energy_forms.h"
@@ -145,6 +146,27 @@ static double relative(real a, real size)
     return a == 0 ? 0 : (double)(fabsl(a) / size);
 }
 
+/* Displacements are sums of ways k v, and as good as these, also where a step annihilates the
+ * velocity it begins with: with what the certificate allows their update, relative to |w| + k |v|,
+ * stored energy has that times |k v| |w|, J, in the norms of K. */
+static real noise_of_ways(const struct br_energy_meter *m, const struct br_meter_field *f,
+                          const double *velocity, const double *displacement)
+{
+    const real ways = f->k * sqrtl(br_bend_product(&f->field, velocity, velocity));
+    const real size = sqrtl(br_bend_product(&f->field, displacement, displacement));
+    return (real)m->update * (real)f->field.stiffness * ways * size;
+}
+
+/* What an imbalance is relative to, J: what has decayed below the last bit of the largest so far
+ * counts as nothing. */
+static real scale_of(struct br_energy_meter *m, struct br_meter_field *f, real size, real noise)
+{
+    size += noise / m->limit;
+    f->largest = f->largest > size ? f->largest : size;
+    const real least = (real)DBL_EPSILON * f->largest;
+    return size > least ? size : least;
+}
+
 /* Takes the energies at the step's end into the sums. Returns the imbalance. */
 static double add_step(struct br_energy_meter *m, enum br_field_kind kind)
 {
@@ -160,8 +182,10 @@ static double add_step(struct br_energy_meter *m, enum br_field_kind kind)
     f->now = br_energy_of_field(&f->field, &m->scene->contact, y->displacement, y->velocity);
     const real contact =
         kind == BR_BENDING ? 0 : f->work.tip - tip_before - (f->now.contact - before.contact);
-    const real size =
-        works.size + taken.size + total(&f->now) + total(&before) + f->now.contact + before.contact;
+    const real size = scale_of(m, f,
+                               works.size + taken.size + total(&f->now) + total(&before) +
+                                   f->now.contact + before.contact,
+                               noise_of_ways(m, f, seen->y.past[0].velocity, y->displacement));
     f->work.scheme += taken.value;
     f->work.contact += contact;
     f->work.noise += m->limit * size;

@@ -5,7 +5,7 @@
 
 static const double accurate = 0.05;    /* relative, of displacements */
 static const double grown = 10;         /* times the solution, and what Euler makes of it */
-static const double refined_work = 2e6; /* elements times linear solves */
+static const double refined_work = 1e6; /* elements times linear solves */
 
 static double worst_distance(struct br_extreme_trial *t)
 {

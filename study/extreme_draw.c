@@ -209,7 +209,7 @@ double br_extreme_work(const struct br_extreme_case *c)
 }
 
 /* Most of the elements times linear solves of a case. */
-static const double most_work = 2e5;
+static const double most_work = 1e5;
 
 static void draw_resolution(struct br_random *r, struct br_extreme_case *c)
 {

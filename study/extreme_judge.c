@@ -114,10 +114,10 @@ static enum br_status march(struct br_extreme_trial *t, struct br_error *err)
     t->verdict->round_off = own->report.round_off;
     if (own->report.contact_unstable)
         t->verdict->warned |= 1u << BR_WARN_UNSTABLE;
-    if (own->begun && own->report.bad_steps)
-        br_extreme_decide(t, BR_EXTREME_WRONG, "certificate: %.160s", own->report.verdict.message);
-    else if (own->failure.status)
+    if (own->failure.status)
         return refuse(t, own->failure.status, &own->failure, err);
+    if (own->report.bad_steps)
+        br_extreme_decide(t, BR_EXTREME_WRONG, "certificate: %.160s", own->report.verdict.message);
     else if (!own->finite)
         br_extreme_decide(t, BR_EXTREME_WRONG, "values that are not finite");
     else if (!(own->report.round_off < no_digit) && !warned_of(t, BR_WARN_ROUND_OFF))

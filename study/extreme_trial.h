@@ -6,7 +6,7 @@
 #include "study/extreme_judge.h"
 #include "study/extreme_track.h"
 
-enum { BR_EXTREME_PATIENCE = 4000 }; /* steps of the exact solution, and of adaptive schemes */
+enum { BR_EXTREME_PATIENCE = 2500 }; /* steps of the exact solution, and of adaptive schemes */
 
 struct br_extreme_trial {
     const struct br_extreme_case *one;
