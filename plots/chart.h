@@ -8,7 +8,7 @@
 
 #include "solver/status.h"
 
-enum { BR_CHART_PANELS = 3, BR_CHART_CURVES = 8, BR_CHART_MARKS = 3 };
+enum { BR_CHART_PANELS = 3, BR_CHART_CURVES = 12, BR_CHART_MARKS = 3 };
 
 /* How a curve is drawn. */
 enum br_stroke {

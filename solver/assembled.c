@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/assembled.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -15,6 +16,7 @@ struct assembled {
     double *free_velocity; /* v* */
     double *tip_response;  /* z = A^-1 e_tip, nodal */
     double *rhs;           /* workspace, nodal */
+    double loss;           /* of a solve, relative, as br_system_loss has it */
 };
 
 /* Index of the tip's displacement in a nodal array. */
@@ -23,14 +25,39 @@ static size_t tip_index(const struct assembled *s)
     return s->system.field.n * s->system.unknowns;
 }
 
+/* A solve that has lost more than this has lost the march: near 1 the mass, or what the clamp
+ * holds, is not in the factors any more, and steps grow. */
+static const double most_loss = 0.1;
+
+/* What is lost is measured, not predicted: it depends on n, k, damping and the order of elimination
+ * by factors of thousands, and only sometimes makes a pivot negative. A force at the tip asks for
+ * the softest motion there is, which loses most. */
+static enum br_status check_digits(struct assembled *s, struct br_error *err)
+{
+    const struct br_field *f = &s->system.field;
+    s->loss = NAN;
+    const enum br_status status =
+        br_system_loss(&s->system, s->rhs, s->tip_response, &s->loss, err);
+    if (status || s->loss <= most_loss)
+        return status;
+    return br_fail(err, BR_SINGULAR,
+                   "%s: the %s matrix of n = %zu elements and k = %g s is too ill-conditioned: a "
+                   "solve is %.2g of its size off, expected at most %g; solver riccati has no such "
+                   "matrix",
+                   s->system.factoriser->name, f->kind == BR_AXIAL ? "axial" : "bending", f->n,
+                   f->k, s->loss, most_loss);
+}
+
 static enum br_status find_tip_response(struct assembled *s, struct br_error *err)
 {
     memset(s->rhs, 0, s->system.nodal * sizeof *s->rhs);
     s->rhs[tip_index(s)] = 1;
     const enum br_status status = br_system_solve(&s->system, s->rhs, s->tip_response, err);
-    const double compliance = s->tip_response[tip_index(s)];
-    if (status || (compliance > 0 && isfinite(compliance)))
+    if (status)
         return status;
+    const double compliance = s->tip_response[tip_index(s)];
+    if (compliance > 0 && isfinite(compliance))
+        return check_digits(s, err);
     return br_fail(err, BR_SINGULAR, "%s: the tip's compliance is %g, expected > 0",
                    s->system.factoriser->name, compliance);
 }
@@ -94,6 +121,17 @@ enum br_status br_assembled_set_step(void *self, double k, struct br_error *err)
     struct assembled *s = self;
     s->system.field.k = k;
     return factorise(s, err);
+}
+
+/* Each step's velocity is off by `loss`, which inertia keeps for that many steps. Measured for n =
+ * 100 to 100,000 and k = 1e-2 to 1e-6: at most 1.1 times that. UMFPACK's own refinement is not of
+ * the same use in every step: up to 7 times. */
+double br_assembled_round_off(const void *self)
+{
+    const struct assembled *s = self;
+    const struct br_field *f = &s->system.field;
+    const double safety = s->system.factoriser->refines ? 30 : 4;
+    return safety * s->loss * (1 + br_field_inertia(f)) + 8 * DBL_EPSILON * ((double)f->n + 1024);
 }
 
 double br_assembled_compliance(const void *self)

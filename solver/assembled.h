@@ -75,6 +75,11 @@ enum br_status br_system_factorise(struct br_system *s, struct br_error *err);
 enum br_status br_system_solve(struct br_system *s, const double *rhs, double *x,
                                struct br_error *err);
 
+/* How much of x = A^-1 rhs is wrong, relative to its largest value (out): the correction that one
+ * more step of refinement would make. Both nodal (in). Fails as br_system_solve. */
+enum br_status br_system_loss(struct br_system *s, const double *rhs, const double *x, double *loss,
+                              struct br_error *err);
+
 /* Round-off of a march's displacement, as br_linear_solver has it, after `refinement` steps by
  * br_system_solve. */
 double br_system_round_off(const struct br_field *field, int refinement);
@@ -88,6 +93,7 @@ enum br_status br_assembled_create(const struct br_field *field,
                                    struct br_error *err);
 void br_assembled_free(void *self);
 double br_assembled_compliance(const void *self);
+double br_assembled_round_off(const void *self);
 void br_assembled_set(void *self, const double *displacement, const double *velocity);
 void br_assembled_get(const void *self, double *displacement, double *velocity);
 void br_assembled_strain_rate(const void *self, double *rate);
@@ -105,11 +111,12 @@ void br_assembled_size(void *self, size_t state, double size[2]);
 #define BR_ASSEMBLED(create_it)                                                                    \
     {                                                                                              \
         .create = create_it, .free = br_assembled_free, .tip_compliance = br_assembled_compliance, \
-        .set = br_assembled_set, .get = br_assembled_get, .strain_rate = br_assembled_strain_rate, \
-        .predict = br_assembled_predict, .finish = br_assembled_finish,                            \
-        .tip_displacement = br_assembled_tip_displacement, .set_step = br_assembled_set_step,      \
-        .keep = br_assembled_keep, .exchange = br_assembled_exchange,                              \
-        .combine = br_assembled_combine, .size = br_assembled_size,                                \
+        .round_off = br_assembled_round_off, .set = br_assembled_set, .get = br_assembled_get,     \
+        .strain_rate = br_assembled_strain_rate, .predict = br_assembled_predict,                  \
+        .finish = br_assembled_finish, .tip_displacement = br_assembled_tip_displacement,          \
+        .set_step = br_assembled_set_step, .keep = br_assembled_keep,                              \
+        .exchange = br_assembled_exchange, .combine = br_assembled_combine,                        \
+        .size = br_assembled_size,                                                                 \
     }
 
 #endif

@@ -59,6 +59,11 @@ double br_field_lowest_mode(const struct br_field *field)
                                    : 12.36236336833 / (square * square);
 }
 
+double br_field_inertia(const struct br_field *f)
+{
+    return f->density / (f->k * (f->viscosity + f->k * f->stiffness) * br_field_lowest_mode(f));
+}
+
 size_t br_field_size(const struct br_field *field)
 {
     return br_field_unknowns(field) * (field->n + 1);

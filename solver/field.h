@@ -44,6 +44,10 @@ size_t br_field_unknowns(const struct br_field *field);
  * rho: (pi/2)^2 / L^2 axial, 1.875^4 / L^4 bending; 1/m^2 or 1/m^4. */
 double br_field_lowest_mode(const struct br_field *field);
 
+/* How much heavier the field is in one step than it is stiff, in its lowest mode: rho / (k (c + k
+ * a) mu^2). */
+double br_field_inertia(const struct br_field *field);
+
 /* Length of a nodal array, clamped node included: unknowns * (n + 1). */
 size_t br_field_size(const struct br_field *field);
 

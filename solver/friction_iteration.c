@@ -78,7 +78,7 @@ static double relative_force(const struct br_friction_state *s)
 /* lambda / b of the step before, into [-1, 1]. */
 static double relative_last(const struct br_friction_state *s)
 {
-    return isless(fabs(s->last), s->bound) ? s->last / s->bound : project(copysign(1, s->last));
+    return isgreaterequal(fabs(s->last), s->bound) ? copysign(1, s->last) : s->last / s->bound;
 }
 
 /* Without a bound there is no friction; what is not a number stays so. */

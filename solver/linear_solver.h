@@ -33,7 +33,8 @@ struct br_drive {
     double tip[2]; /* on the tip's unknowns, N; bending: force and moment over h */
 };
 
-/* A march of one field: create, then predict and finish once a step. Every function is needed. */
+/* A march of one field: create, then predict and finish once a step. Every function but
+ * round_off is needed. */
 struct br_field_solver {
     /* Prepares the field's operator; the state starts at rest. Fails with
      * BR_SINGULAR, BR_BAD_INPUT (an option), BR_NO_MEMORY; free *self even then. */
@@ -43,6 +44,10 @@ struct br_field_solver {
 
     /* The tip's velocity per unit of tip force, z_tip > 0, m/s per N. */
     double (*tip_compliance)(const void *self);
+
+    /* What a row's round_off predicts, from what was measured when the step was set; NULL: nothing
+     * is. */
+    double (*round_off)(const void *self);
 
     /* Set or get nodal displacement, m, and velocity, m/s: arrays of
      * br_field_size values laid out as in field.h. get: either may be NULL. */

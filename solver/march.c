@@ -217,12 +217,18 @@ bool br_march_contact_unstable(const struct br_march *m)
     return br_contact_grows(&m->part[BR_AXIAL].field, m->scene->contact.stiffness);
 }
 
+static double part_round_off(const struct br_march *m, const struct br_part *part)
+{
+    if (part->solver->round_off)
+        return part->solver->round_off(part->state);
+    return m->method.solver->round_off(&part->field, &m->method.linear);
+}
+
 double br_march_round_off(const struct br_march *m)
 {
     double largest = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (m->part[kind].solver)
-            largest =
-                fmax(largest, m->method.solver->round_off(&m->part[kind].field, &m->method.linear));
+            largest = fmax(largest, part_round_off(m, &m->part[kind]));
     return largest;
 }

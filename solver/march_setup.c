@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Setting a march up, by parts or as an integrator's own. */
+#include "solver/damping.h"
 #include "solver/march_state.h"
 
 static enum br_status check_method(const struct br_scene *scene, size_t n, size_t steps,
@@ -9,8 +10,11 @@ static enum br_status check_method(const struct br_scene *scene, size_t n, size_
         return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
     if (steps < 1)
         return br_fail(err, BR_BAD_INPUT, "there are no time steps, expected at least one");
-    const enum br_status status = br_method_check_scene(method, scene, err);
-    return status ? status : br_scene_check(scene, err);
+    enum br_status status = br_method_check_scene(method, scene, err);
+    if (!status)
+        status = br_scene_check(scene, err);
+    return status ? status
+                  : br_damping_check(method, scene, n, scene->duration / (double)steps, err);
 }
 
 static enum br_status create_parts(struct br_march *m, size_t n, struct br_error *err)

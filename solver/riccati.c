@@ -14,13 +14,6 @@ static double plain_round_off(const struct br_field *field, const struct br_line
     return 4 * DBL_EPSILON * ((double)field->n + 1024);
 }
 
-/* How much larger the strain g is than the increment that it leads to, in the lowest mode of free
- * vibration: rho / (k (c + k a) mu^2). */
-static double excess(const struct br_field *f)
-{
-    return f->density / (f->k * (f->viscosity + f->k * f->stiffness) * br_field_lowest_mode(f));
-}
-
 /* Where a wave does not cross an element in a step, the step is the mass's alone, whose condition
  * in strains is n for a rod and n^2 for a beam: no more than that is lost. Measured for n = 40 to
  * 3200 and rho / (c k) up to 1e25. */
@@ -30,15 +23,17 @@ static double most_excess(const struct br_field *f)
     return f->kind == BR_AXIAL ? 1e4 + 64 * n : 1e5 + 4 * n * n;
 }
 
-/* The joins add that of their sums: where inertia rules, pieces that are free at one end answer by
- * far more than what is left when they are joined. Short beams are one piece. */
+/* The strain g is larger than the increment that it leads to by br_field_inertia, in the lowest
+ * mode of free vibration. The joins add the round-off of their sums: where inertia rules, pieces
+ * that are free at one end answer by far more than what is left when they are joined. Short beams
+ * are one piece. */
 static double riccati_round_off(const struct br_field *field,
                                 const struct br_linear_options *options)
 {
     (void)options;
     const double joined = field->n <= 20 ? 0 : field->kind == BR_AXIAL ? 0.25 : 4;
-    return DBL_EPSILON *
-           (8 * ((double)field->n + 1024) + joined * fmin(excess(field), most_excess(field)));
+    const double excess = fmin(br_field_inertia(field), most_excess(field));
+    return DBL_EPSILON * (8 * ((double)field->n + 1024) + joined * excess);
 }
 
 const struct br_linear_solver br_riccati = {

@@ -98,6 +98,12 @@ static void start(struct watched_march *w, const char *scene, const char *solver
     w->scene = br_test_bundled(scene);
     w->method = br_test_method(solver, "implicit", "exact");
     w->method.scheme = scheme;
+    if (scheme->needs_damping) { /* as much as lets no mode grow */
+        const double k = w->scene.duration / (double)steps;
+        w->scene.axial.viscosity = fmax(w->scene.axial.viscosity, k * w->scene.axial.stiffness);
+        w->scene.bending.viscosity =
+            fmax(w->scene.bending.viscosity, k * w->scene.bending.stiffness);
+    }
     w->march = br_test_march(&w->scene, n, steps, &w->method);
     w->limits = br_certificate_limits(scheme, n, br_test_slack() * br_march_round_off(w->march));
 }

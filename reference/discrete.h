@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The exact discrete solution: the same equations (27), (28) with the same elements, laws and time
+ * scheme as a march of solver/, in long double and in a form that loses nothing on fine meshes
+ * (discrete_field.h). What a march differs from it by is the march's round-off.
+ *
+ * It shares no code with the solver: element matrices, quadrature and laws are its own, the schemes
+ * are those of textbook.h. The data are the doubles that the scene's functions give at the time
+ * levels t_n = n T/N, at the nodes and at the five Gauss points of each element; they are part of
+ * the discrete problem, whose solution this is.
+ *
+ * Its own round-off, against the same source in quadruple precision (x86-64, 64 bits): see
+ * discrete.c. Where long double has no more digits than double, it judges nothing. */
+#ifndef BR_DISCRETE_H
+#define BR_DISCRETE_H
+
+#include "solver/march.h"
+
+struct br_discrete;
+
+/* The tip after a step; what is not modelled is zero. */
+struct br_discrete_tip {
+    long double displacement[2], velocity[2];   /* m, m/s, by br_field_kind */
+    long double contact_force;                  /* N */
+    long double friction_force, friction_bound; /* N */
+};
+
+/* At t = 0. Of the method the names of scheme, contact and friction rule count. The scene must
+ * outlive it. Fails with BR_BAD_INPUT where a rule or the scheme is not known here, or elements are
+ * not of degree 1; BR_SINGULAR, BR_NOT_FINITE, BR_NO_MEMORY; *discrete is then NULL. */
+enum br_status br_discrete_create(struct br_discrete **discrete, const struct br_scene *scene,
+                                  size_t n, size_t steps, const struct br_method *method,
+                                  struct br_error *err);
+void br_discrete_free(struct br_discrete *discrete); /* accepts NULL */
+
+/* One step. Fails with BR_NOT_FINITE, BR_SINGULAR; the state is then lost. */
+enum br_status br_discrete_step(struct br_discrete *discrete, struct br_error *err);
+
+size_t br_discrete_steps_done(const struct br_discrete *discrete);
+struct br_discrete_tip br_discrete_tip(const struct br_discrete *discrete);
+
+/* Nodal values, laid out as in solver/field.h, m and m/s (out; either may be NULL): zero where the
+ * field is not modelled. */
+void br_discrete_get(const struct br_discrete *discrete, enum br_field_kind kind,
+                     long double *displacement, long double *velocity);
+
+/* The load vector F_n of the last step, or of its last stage (out), N. */
+void br_discrete_load(const struct br_discrete *discrete, enum br_field_kind kind,
+                      long double *load);
+
+/* Whether long double has more digits than double, so that anything can be judged. */
+bool br_discrete_judges(void);
+
+#endif

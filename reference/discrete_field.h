@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One field of the exact discrete solution (discrete.h), in long double, and its backward Euler
+ * step; for discrete*.c alone.
+ *
+ * The step's velocity y minimises, over all y with y = 0 at the clamp,
+ *     1/2 y'(M/tau) y + sum_e 1/2 q'R q + g'q - b'y,    R = (c + tau a) D,  g = a D kappa,
+ * where q is what deforms an element by time (h u_x; or the two coefficients of h^2 w_xx), kappa
+ * the same of the displacement that the step starts from, D = 1/h (or diag(1, 1/3)/h^3) and
+ * b = F + M v/tau. The value of all elements from node i to the tip is a quadratic function of y_i,
+ * 1/2 y'P y - p'y, found from the free end (dynamic programming; Bellman 1957). Its unknowns are
+ * strains: what a stiffness matrix of condition n^4 would lose is never there. */
+#ifndef BR_DISCRETE_FIELD_H
+#define BR_DISCRETE_FIELD_H
+
+#include "solver/field.h"
+
+enum {
+    BR_DISCRETE_MOST = 2,       /* unknowns a node */
+    BR_DISCRETE_NOW = 0,        /* the state that steps are taken with */
+    BR_DISCRETE_START,          /* of the step */
+    BR_DISCRETE_PAST,           /* Y_{n-2}, Y_{n-3} */
+    BR_DISCRETE_RATE = 4,       /* Y' of the rows of a tableau */
+    BR_DISCRETE_LAST_RATE = 10, /* of the step before */
+    BR_DISCRETE_STATES,
+};
+
+/* Of an element, by its distance to the tip: q = -(gain y + inverse (g - G'p)). */
+struct br_discrete_gain {
+    long double gain[BR_DISCRETE_MOST][BR_DISCRETE_MOST];
+    long double inverse[BR_DISCRETE_MOST][BR_DISCRETE_MOST]; /* S^-1, m/s per N */
+};
+
+struct br_discrete_field {
+    size_t n, d; /* elements; unknowns a node, and strains an element */
+    long double h, density, stiffness, viscosity;
+    long double tau;                        /* s, that of the gains; 0: none yet */
+    struct br_discrete_gain *gain;          /* n */
+    long double *state[BR_DISCRETE_STATES]; /* 2 d n: strains, m; rates, m/s */
+    size_t states;                          /* 1, or all */
+    long double *response;                  /* d n: the rates for a unit force at
+                                               the tip, m/s per N */
+    long double compliance;                 /* its own at the tip, m/s per N */
+    long double *free_rate;                 /* d n: without a force from the laws */
+    long double *nodal;                     /* workspace, d (n + 1) */
+    long double *load;                      /* d (n + 1), N: for a factor of 1 */
+};
+
+/* Makes room for a field at rest, without a load; `states`: 1, or BR_DISCRETE_STATES. Fails with
+ * BR_NO_MEMORY; clear it even then. */
+enum br_status br_discrete_field_init(struct br_discrete_field *f, const struct br_scene *scene,
+                                      enum br_field_kind kind, size_t n, size_t states,
+                                      struct br_error *err);
+void br_discrete_field_clear(struct br_discrete_field *f);
+
+/* Sets state 0 from nodal values, m and m/s (in, d (n + 1) each); and back (out, either may be
+ * NULL). */
+void br_discrete_field_set(struct br_discrete_field *f, const long double *displacement,
+                           const long double *velocity);
+void br_discrete_field_get(const struct br_discrete_field *f, long double *displacement,
+                           long double *velocity);
+
+/* The tip's displacement, m, or velocity, m/s, in state 0. */
+long double br_discrete_field_tip(const struct br_discrete_field *f, bool velocity);
+
+/* The gains and the tip's response for steps of tau, s. Fails with BR_SINGULAR. */
+enum br_status br_discrete_field_set_step(struct br_discrete_field *f, long double tau,
+                                          struct br_error *err);
+
+/* The tip's velocity, m/s, at the end of a step from state 0 without contact or friction, with the
+ * load factor * load and forces on the tip's unknowns, N. */
+long double br_discrete_field_predict(struct br_discrete_field *f, long double factor,
+                                      const long double tip[BR_DISCRETE_MOST]);
+
+/* Ends that step: a force, N, resists the tip. */
+void br_discrete_field_finish(struct br_discrete_field *f, long double force);
+
+#endif

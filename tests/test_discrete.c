@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The exact discrete solution: against quadruple precision, by the certificate, and against the
+ * solver, in every scheme that it knows. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "reference/certificate.h"
+#include "reference/discrete.h"
+#include "support.h"
+
+enum { MOST_N = 40 };
+
+static struct br_discrete *created(const struct br_scene *scene, size_t n, size_t steps,
+                                   const struct br_method *method)
+{
+    struct br_error err = {0};
+    struct br_discrete *d;
+    MUST(br_discrete_create(&d, scene, n, steps, method, &err));
+    return d;
+}
+
+static void advance(struct br_discrete *d, size_t until)
+{
+    struct br_error err = {0};
+    while (br_discrete_steps_done(d) < until)
+        MUST(br_discrete_step(d, &err));
+}
+
+/* ---- the golden values: another form (stiffness), other digits (113 bits) ---- */
+
+static void check_golden(const struct br_test_golden *row)
+{
+    struct br_scene scene = br_test_bundled(row->scene);
+    const struct br_method method = br_test_method(NULL, "lagged", "exact");
+    struct br_discrete *d = created(&scene, row->n, row->steps, &method);
+    advance(d, row->steps);
+    const size_t size = 2 * (row->n + 1);
+    long double *w = calloc(size, sizeof *w);
+    assert_non_null(w);
+    br_discrete_get(d, BR_BENDING, w, NULL);
+    const struct br_discrete_tip tip = br_discrete_tip(d);
+    const struct br_test_end end = {(double)tip.displacement[BR_AXIAL],
+                                    (double)tip.displacement[BR_BENDING], (double)w[row->n]};
+    /* exp(t) - 1 is a double here */
+    AT_MOST(br_test_deviation(&end, &row->end), 1e-14 * br_test_slack());
+    CLOSE((double)w[2 * row->n], end.w_tip, 0);
+    free(w);
+    br_discrete_free(d);
+    br_scene_clear(&scene);
+}
+
+static void test_golden(void **state)
+{
+    (void)state;
+    struct br_test_golden rows[BR_TEST_MOST_GOLDEN];
+    const size_t count = br_test_golden(rows), most = br_test_quick() ? 0 : 3200;
+    size_t checked = 0;
+    for (size_t i = 0; i < count; i++)
+        if (rows[i].n <= most) {
+            check_golden(&rows[i]);
+            checked++;
+        }
+    assert_true(checked == 4 || br_test_quick());
+}
+
+/* ---- the certificate: an independent argument ---- */
+
+/* What br_certify wants of a field, in doubles. */
+struct values {
+    double before[2 * (MOST_N + 1)], after[2 * (MOST_N + 1)];
+    double velocity_before[2 * (MOST_N + 1)], velocity[2 * (MOST_N + 1)];
+    double load[2 * (MOST_N + 1)];
+};
+
+static void round_to(double *to, const long double *from, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        to[i] = (double)from[i];
+}
+
+static void look(const struct br_discrete *d, enum br_field_kind kind, size_t size, double *w,
+                 double *v)
+{
+    long double x[2 * (MOST_N + 1)], y[2 * (MOST_N + 1)];
+    br_discrete_get(d, kind, x, y);
+    round_to(w, x, size);
+    round_to(v, y, size);
+}
+
+static void certify_step(struct br_discrete *d, const struct br_scene *scene, size_t n,
+                         size_t steps, const struct br_method *method)
+{
+    static struct values of[2];
+    struct br_error err = {0};
+    struct br_step step = {
+        .scene = scene, .method = method, .n = n, .k = scene->duration / (double)steps};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        look(d, (enum br_field_kind)kind, (size_t)(kind + 1) * (n + 1), of[kind].before,
+             of[kind].velocity_before);
+    MUST(br_discrete_step(d, &err));
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct values *o = &of[kind];
+        const size_t size = (size_t)(kind + 1) * (n + 1);
+        long double load[2 * (MOST_N + 1)];
+        look(d, (enum br_field_kind)kind, size, o->after, o->velocity);
+        br_discrete_load(d, (enum br_field_kind)kind, load);
+        round_to(o->load, load, size);
+        step.field[kind] =
+            (struct br_step_field){o->before, o->after, o->velocity_before, o->velocity, o->load};
+    }
+    const struct br_discrete_tip tip = br_discrete_tip(d);
+    step.tip = (struct br_tip){
+        .displacement = (double)tip.displacement[BR_AXIAL],
+        .velocity = {(double)tip.velocity[BR_AXIAL], (double)tip.velocity[BR_BENDING]},
+        .contact_force = (double)tip.contact_force,
+        .friction_force = (double)tip.friction_force,
+        .friction_bound = (double)tip.friction_bound,
+    };
+    const struct br_certificate certificate = br_certify(&step);
+    const struct br_certificate limits = br_certificate_limits(method->scheme, n, 0);
+    MUST(br_certificate_check(&certificate, &limits, &err));
+}
+
+static void test_certificate(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"example1", "example2", "example3", "example4"};
+    static const char *const contacts[] = {"lagged", "implicit"};
+    static const char *const frictions[] = {"exact", "regularised"};
+    for (size_t i = 0; i < 4; i++)
+        for (size_t j = 0; j < 4; j++) {
+            struct br_scene scene = br_test_bundled(scenes[i]);
+            const struct br_method method = br_test_method(NULL, contacts[j % 2], frictions[j / 2]);
+            struct br_discrete *d = created(&scene, MOST_N, 200, &method);
+            for (int step = 0; step < 200; step++)
+                certify_step(d, &scene, MOST_N, 200, &method);
+            br_discrete_free(d);
+            br_scene_clear(&scene);
+        }
+}
+
+/* ---- against the solver, which is certified itself: schemes, loads, initial data ---- */
+
+/* Largest difference of the displacements, relative to the largest of them. */
+static double deviation(const struct br_discrete *d, const struct br_march *march,
+                        enum br_field_kind kind, size_t n)
+{
+    long double x[2 * (MOST_N + 1)];
+    double w[2 * (MOST_N + 1)], most = 0, largest = 0;
+    br_discrete_get(d, kind, x, NULL);
+    br_march_get(march, kind, w, NULL);
+    for (size_t i = 0; i < (size_t)(kind + 1) * (n + 1); i++) {
+        const double error = (double)fabsl(x[i] - w[i]);
+        most = !(error <= most) ? error : most;
+        largest = fmax(largest, fabs((double)x[i]));
+    }
+    return largest > 0 ? most / largest : most;
+}
+
+static void same_as_solver(const struct br_scene *scene, const struct br_method *method,
+                           double tolerance)
+{
+    enum { STEPS = 160 };
+    struct br_discrete *d = created(scene, MOST_N, STEPS, method);
+    struct br_march *march = br_test_march(scene, MOST_N, STEPS, method);
+    for (size_t step = 8; step <= STEPS; step += 8) {
+        advance(d, step);
+        br_test_advance(march, step);
+        AT_MOST(deviation(d, march, BR_AXIAL, MOST_N), tolerance * br_test_slack());
+        AT_MOST(deviation(d, march, BR_BENDING, MOST_N), tolerance * br_test_slack());
+    }
+    br_march_free(march);
+    br_discrete_free(d);
+}
+
+static void test_schemes(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"example1", "example2", "example3", "example4"};
+    for (size_t i = 0; i < 4; i++)
+        for (size_t j = 0; br_time_schemes[j]; j++) {
+            const struct br_time_scheme *scheme = br_time_schemes[j];
+            if (scheme->adaptive || scheme->integrator)
+                continue;
+            struct br_scene scene = br_test_bundled(scenes[i]);
+            struct br_method method = br_test_method("plain", "implicit", "exact");
+            method.scheme = scheme;
+            same_as_solver(&scene, &method, 1e-12);
+            br_scene_clear(&scene);
+        }
+}
+
+static void test_data(void **state)
+{
+    (void)state;
+    struct br_scene s = br_test_bare();
+    s.duration = 2;
+    s.axial.load = br_test_load("100*sin(3*x)*cos(5*t)");
+    s.axial.displacement = br_test_function("0.02*x");
+    s.axial.velocity = br_test_function("sin(x)");
+    s.axial.tip_force = br_test_function("3*cos(2*t)");
+    s.bending.load = br_test_load("50*x^2");
+    s.bending.displacement = br_test_function("0.3*x^2");
+    s.bending.displacement_slope = br_test_function("0.6*x");
+    s.bending.velocity = br_test_function("1 - cos(2*x)");
+    s.bending.velocity_slope = br_test_function("2*sin(2*x)");
+    s.bending.tip_force = br_test_function("1 + t");
+    s.bending.tip_moment = br_test_function("sin(4*t)");
+    s.contact = (struct br_contact){.modelled = true, .gap = 0.01, .stiffness = 50};
+    s.friction = (struct br_friction){.law = BR_COULOMB, .coefficient = 20, .regularisation = 1e-3};
+    struct br_method method = br_test_method("plain", "lagged", "regularised");
+    same_as_solver(&s, &method, 1e-12);
+    s.friction.law = BR_TRESCA;
+    method = br_test_method("plain", "implicit", "exact");
+    same_as_solver(&s, &method, 1e-12);
+    s.friction.law = BR_FRICTIONLESS;
+    same_as_solver(&s, &method, 1e-12);
+    s.axial.modelled = s.contact.modelled = false;
+    same_as_solver(&s, &method, 1e-12);
+    br_function_free(&s.axial.load.space);
+    br_function_free(&s.axial.displacement);
+    br_function_free(&s.axial.velocity);
+    br_function_free(&s.axial.tip_force);
+    br_function_free(&s.bending.load.space);
+    br_function_free(&s.bending.displacement);
+    br_function_free(&s.bending.displacement_slope);
+    br_function_free(&s.bending.velocity);
+    br_function_free(&s.bending.velocity_slope);
+    br_function_free(&s.bending.tip_force);
+    br_function_free(&s.bending.tip_moment);
+}
+
+/* ---- refusals ---- */
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_method method = br_method_default();
+    struct br_discrete *d;
+    REFUSED(br_discrete_create(&d, &scene, 0, 10, &method, &err), BR_BAD_INPUT, "0 elements");
+    assert_null(d);
+    method.scheme = br_time_scheme_find("adaptive");
+    REFUSED(br_discrete_create(&d, &scene, 10, 10, &method, &err), BR_BAD_INPUT, "adaptive");
+    method = br_method_default();
+    method.friction = br_friction_rule_find("uzawa");
+    REFUSED(br_discrete_create(&d, &scene, 10, 10, &method, &err), BR_BAD_INPUT, "uzawa");
+    method = br_method_default();
+    method.axial_degree = 2;
+    REFUSED(br_discrete_create(&d, &scene, 10, 10, &method, &err), BR_BAD_INPUT, "degree 1, not 2");
+    method = br_method_default();
+    scene.bending.viscosity = NAN;
+    d = created(&scene, 10, 10, &method);
+    REFUSED(br_discrete_step(d, &err), BR_SINGULAR, "not positive definite at element 9 of 10");
+    br_discrete_free(d);
+    br_discrete_free(NULL);
+    br_scene_clear(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_golden),   cmocka_unit_test(test_certificate),
+        cmocka_unit_test(test_schemes),  cmocka_unit_test(test_data),
+        cmocka_unit_test(test_refusals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
