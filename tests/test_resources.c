@@ -33,7 +33,7 @@ static void compare(const struct br_scene *scene, const struct br_method *method
     const double bytes = held(scene, method, n);
     if (bytes <= 0)
         return;
-    AT_MOST(bytes, br_march_bytes(&o));
+    AT_MOST(bytes, br_march_bytes(&o) - 80.0 * (double)n); /* without what watchers take */
     AT_MOST(br_march_bytes(&o), 5 * bytes);
 }
 
@@ -43,6 +43,7 @@ static void test_memory(void **state)
     enum { N = 8000 };
     static const char *const schemes[] = {"euler", "bdf2", "esdirk4", "adaptive"};
     struct br_scene scene = br_test_bare();
+    scene.bending.stiffness = scene.bending.viscosity = 1e-9; /* well-conditioned */
     scene.axial.load = br_test_load("t");
     scene.bending.load = br_test_load("t");
     for (int fields = 1; fields <= 3; fields++)
