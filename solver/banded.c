@@ -105,4 +105,7 @@ const struct br_linear_solver br_banded = {
     .axial = &form,
     .bending = &form,
     .round_off = round_off,
+    .bytes = {135, 310, 0},
+    .state_bytes = {16, 32, 0},
+    .nanoseconds = 70,
 };

@@ -125,4 +125,5 @@ const struct br_time_scheme br_ida = {
     .order = 5,
     .adaptive = true,
     .integrator = &integrator,
+    .bytes = 4100,
 };

@@ -77,6 +77,17 @@ static void find_needed(const struct br_time_scheme *scheme, bool needed[BR_KNOW
     needed[BR_NOW] |= needed[BR_BEFORE];
 }
 
+int br_time_scheme_kept(const struct br_time_scheme *scheme)
+{
+    bool needed[BR_KNOWN] = {false};
+    int kept = 0;
+    if (scheme->stages)
+        find_needed(scheme, needed);
+    for (int i = 0; i < BR_KNOWN; i++)
+        kept += needed[i];
+    return kept;
+}
+
 static enum br_status make_room(struct br_part *part, const struct br_time_scheme *scheme,
                                 struct br_error *err)
 {

@@ -55,6 +55,7 @@ struct br_time_scheme {
      * before that is given a weight, nor is Y' of 0. */
     void (*stages)(size_t since, struct br_stages *stages);
     const struct br_integrator *integrator; /* of its own, instead of stages; NULL: none */
+    double bytes; /* an element, of an integrator of its own, both fields; as measured */
 };
 
 extern const struct br_time_scheme br_ida; /* where SUNDIALS IDA is built in */
@@ -62,6 +63,9 @@ extern const struct br_time_scheme br_ida; /* where SUNDIALS IDA is built in */
 /* NULL-terminated; the first is the default, the paper's. */
 extern const struct br_time_scheme *const br_time_schemes[];
 const struct br_time_scheme *br_time_scheme_find(const char *name);
+
+/* States that its steps look back to, beside the solver's own. */
+int br_time_scheme_kept(const struct br_time_scheme *scheme);
 
 /* Linear solves a step, where it is not the first. */
 int br_time_scheme_stages(const struct br_time_scheme *scheme);

@@ -187,4 +187,7 @@ const struct br_linear_solver br_umfpack = {
     .axial = &form,
     .bending = &form,
     .round_off = round_off,
+    .bytes = {410, 1110, 0},
+    .state_bytes = {16, 32, 0},
+    .nanoseconds = 70,
 };

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "solver/clock.h"
+#include "study/resources.h"
 #include "study/trial.h"
 
 /* Element-steps between two looks at the clock, which takes some 0.3 us. */
@@ -72,8 +73,12 @@ static enum br_status march_once(struct clocked *c, struct br_trial_cost *cost,
     struct br_trial *t = c->trial;
     const struct br_method method = br_trial_method(t);
     const double start = br_thread_seconds();
-    enum br_status status =
-        br_march_create(&c->march, c->request->scene, t->at.n, t->at.steps, &method, &t->failure);
+    const struct br_outlook outlook = {
+        .scene = c->request->scene, .method = &method, .n = t->at.n, .steps = t->at.steps};
+    enum br_status status = br_fits_memory(&outlook, br_memory_available(), &t->failure);
+    if (!status)
+        status = br_march_create(&c->march, c->request->scene, t->at.n, t->at.steps, &method,
+                                 &t->failure);
     c->start = br_thread_seconds();
     cost->set_up = c->start - start;
     if (!status)
@@ -118,8 +123,6 @@ static enum br_status time_one(struct br_trial *trial, const struct br_trial_req
     const enum br_status status = repeat(&c, err);
     if (status == BR_INTERRUPTED)
         return status;
-    if (status == BR_NO_MEMORY)
-        return br_fail(err, status, "%.1000s", trial->failure.message);
     if (status && trial->end != BR_TRIAL_OVER)
         trial->end = BR_TRIAL_FAILED;
     return BR_OK;

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The memory that a march is said to take against what it has allocated; what does not fit, or
+ * would never end, is refused. */
+#include "study/resources.h"
+
+#include <malloc.h>
+#include <math.h>
+
+#include "support.h"
+
+/* Valgrind's and the sanitizers' allocators tell nothing. */
+static double allocated(void)
+{
+    const struct mallinfo2 info = mallinfo2();
+    return (double)info.uordblks + (double)info.hblkhd;
+}
+
+static double held(const struct br_scene *scene, const struct br_method *method, size_t n)
+{
+    struct br_error err = {0};
+    struct br_march *march;
+    const double before = allocated();
+    MUST(br_march_create(&march, scene, n, 1000, method, &err));
+    MUST(br_march_step(march, &err));
+    const double bytes = allocated() - before;
+    br_march_free(march);
+    return bytes;
+}
+
+static void compare(const struct br_scene *scene, const struct br_method *method, size_t n)
+{
+    const struct br_outlook o = {.scene = scene, .method = method, .n = n, .steps = 1000};
+    const double bytes = held(scene, method, n);
+    if (bytes <= 0)
+        return;
+    AT_MOST(bytes, br_march_bytes(&o) - 80.0 * (double)n); /* without what watchers take */
+    AT_MOST(br_march_bytes(&o), 5 * bytes);
+}
+
+static void test_memory(void **state)
+{
+    (void)state;
+    enum { N = 8000 };
+    static const char *const schemes[] = {"euler", "bdf2", "esdirk4", "adaptive"};
+    struct br_scene scene = br_test_bare();
+    scene.bending.stiffness = scene.bending.viscosity = 1e-9; /* well-conditioned */
+    scene.axial.load = br_test_load("t");
+    scene.bending.load = br_test_load("t");
+    for (int fields = 1; fields <= 3; fields++)
+        for (const struct br_linear_solver *const *l = br_linear_solvers; *l; l++)
+            for (size_t s = 0; s < (br_test_quick() ? 1 : sizeof schemes / sizeof *schemes); s++)
+                for (int degree = 1; degree <= ((*l)->axial_quadratic ? 2 : 1); degree++) {
+                    struct br_method method = br_method_default();
+                    scene.axial.modelled = fields & 1;
+                    scene.bending.modelled = fields & 2;
+                    method.solver = *l;
+                    method.scheme = br_time_scheme_find(schemes[s]);
+                    method.contact = br_contact_rule_of(method.scheme);
+                    method.axial_degree = scene.axial.modelled ? degree : 1;
+                    compare(&scene, &method, N);
+                }
+    br_function_free(&scene.axial.load.time);
+    br_function_free(&scene.bending.load.time);
+    br_function_free(&scene.axial.load.space);
+    br_function_free(&scene.bending.load.space);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bare();
+    const struct br_method method = br_method_default();
+    struct br_error err;
+    struct br_outlook o = {.scene = &scene, .method = &method, .n = 1000, .steps = 10};
+    MUST(br_fits_memory(&o, br_march_bytes(&o), &err));
+    REFUSED(br_fits_memory(&o, 0.9 * br_march_bytes(&o), &err), BR_NO_MEMORY,
+            "are available: expected at most 900 elements");
+    REFUSED(br_fits_memory(&o, NAN, &err), BR_NO_MEMORY, "n = 1000 elements take about");
+    assert_true(br_memory_available() > 0);
+
+    struct br_warnings w = {0};
+    o.n = 100000000000000;
+    REFUSED(br_look_ahead(&o, &w, &err), BR_NO_MEMORY, "elements take about");
+    o.n = 3000000;
+    o.steps = 1000000000000;
+    REFUSED(br_look_ahead(&o, &w, &err), BR_BAD_INPUT, "years, expected at most a hundred");
+    o.n = 10000;
+    o.steps = 10000000000;
+    MUST(br_look_ahead(&o, &w, &err));
+    assert_non_null(br_warnings_find(&w, BR_WARN_LONG));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_memory),
+                                       cmocka_unit_test(test_refused)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
