@@ -269,7 +269,7 @@ static void compare_units(const struct br_scene *s, const struct br_method *meth
     /* The other scene's numbers are rounded, too. */
     const double limit = exact                      ? 0
                          : method->scheme->adaptive ? 100 * method->tolerance
-                                                    : 16 * a.round_off + 1e-12;
+                                                    : 64 * a.round_off + 1e-12;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (!(apart(&a, &b, kind, 1 / u->metre) <= limit))
             fail_msg("%s, %s, %s, n = %zu, units %g %g %g: off by %g, expected %g at most",
