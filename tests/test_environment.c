@@ -266,10 +266,12 @@ static void compare_units(const struct br_scene *s, const struct br_method *meth
     if (!goes(s, n, 30, method))
         return;
     const struct result a = run(s, n, 30, method), b = run(&other, n, 30, method);
-    /* The other scene's numbers are rounded, too. */
+    /* The other scene's numbers are rounded, too: what that does to an assembled matrix. */
+    const bool flexible = method->solver == &br_riccati || method->solver == &br_plain;
+    const double condition = flexible ? 1e-12 : 1e-8;
     const double limit = exact                      ? 0
                          : method->scheme->adaptive ? 100 * method->tolerance
-                                                    : 64 * a.round_off + 1e-12;
+                                                    : 16 * a.round_off + condition;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (!(apart(&a, &b, kind, 1 / u->metre) <= limit))
             fail_msg("%s, %s, %s, n = %zu, units %g %g %g: off by %g, expected %g at most",
