@@ -16,7 +16,8 @@ static const char usage[] =
     "[PART...] [OPTION...]\n\nWhere does it break, and does it say so? Each part goes to one kind "
     "of extremes, compares what\nthe theory predicts with what is measured, and writes tables and "
     "pictures. The verdict fails where\na result is wrong and nothing said so. Without a PART all "
-    "of those below are tried.\n\nExamples:\n  beamrate extremes\n";
+    "of those below are tried.\n\nExamples:\n  beamrate extremes\n  beamrate extremes map --cases 10 --seed 7\n"
+    "  beamrate extremes floors --n 100,1000 --k 0.01\n";
 
 /* By the mode that fesetround takes; nearest is the usual one. */
 static const struct {
@@ -55,9 +56,9 @@ static void print_parts(FILE *out)
     fprintf(out, "\nParts:\n");
     for (const struct br_extremes_part *const *p = br_extremes_parts; *p; p++)
         fprintf(out, "  %-12s %s\n", (*p)->name, (*p)->title);
-    fprintf(out, "Heeded by:\n");
+    fprintf(out, "Heeded by:\n"); /* without --: else they are options, for completions */
     for (size_t i = 0; i < HEEDED; i++)
-        fprintf(out, "  %-12s %s\n", heeded[i].option, heeders(heeded[i].bit));
+        fprintf(out, "  %-12s %s\n", heeded[i].option + 2, heeders(heeded[i].bit));
     fprintf(out, "Formats (--format):\n ");
     for (const struct br_page_emitter *const *e = br_page_emitters; *e; e++)
         fprintf(out, " %s", (*e)->name);
@@ -170,7 +171,7 @@ static enum br_status check_heeded(const struct br_extremes_options *o, struct b
         all |= o->part[i]->heeds;
     for (size_t i = 0; i < HEEDED; i++)
         if (given[i] && !(all & heeded[i].bit))
-            return br_fail(err, BR_BAD_INPUT, "%s: no chosen part heeds it; %s does",
+            return br_fail(err, BR_BAD_INPUT, "%s: no chosen part heeds it; it is for %s",
                            heeded[i].option, heeders(heeded[i].bit));
     return BR_OK;
 }

@@ -61,7 +61,8 @@ struct br_extremes_part {
     enum br_status (*verdict)(const void *result, struct br_error *err);
 };
 
-extern const struct br_extremes_part br_extremes_part_floors, br_extremes_part_map;
+extern const struct br_extremes_part br_extremes_part_floors, br_extremes_part_steps,
+    br_extremes_part_map;
 
 /* NULL-terminated, in the order in which they run. */
 extern const struct br_extremes_part *const br_extremes_parts[];

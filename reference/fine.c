@@ -11,6 +11,7 @@ struct fine {
     struct br_march *march[2]; /* by br_field_kind; the same where fields go apart */
     bool together;             /* a step is one of both fields */
     double seconds[2];
+    struct br_method method;
 };
 
 static void fine_free(void *self)
@@ -27,7 +28,11 @@ static void fine_free(void *self)
 static enum br_status create_march(struct fine *f, enum br_field_kind kind,
                                    const struct br_judge_request *r, struct br_error *err)
 {
-    return br_march_create(&f->march[kind], r->scene, r->n, r->levels, &r->method, err);
+    const enum br_status status =
+        br_march_create(&f->march[kind], r->scene, r->n, r->levels, &r->method, err);
+    if (!status)
+        br_march_stop_when(f->march[kind], r->stop, r->stop_self);
+    return status;
 }
 
 static enum br_status fine_create(void **self, const struct br_judge_request *r,
@@ -38,6 +43,7 @@ static enum br_status fine_create(void **self, const struct br_judge_request *r,
     if (!f)
         return br_no_memory(err, "the reference");
     const double start = br_seconds();
+    f->method = r->method;
     f->together = r->method.scheme->adaptive || r->method.scheme->integrator;
     enum br_status status = create_march(f, BR_AXIAL, r, err);
     if (!status && f->together)
@@ -70,11 +76,25 @@ static void fine_look(void *self, const struct br_look_at *at, struct br_view *v
     br_look(f->march[at->kind], at->kind, at->measure, view);
 }
 
+/* At the end, beside the largest displacement of all times: as cells are held to (study/fit.c).
+ * What the march says of itself holds in its first steps, too. */
+static double round_off(const struct fine *f)
+{
+    double largest = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (br_march_models(f->march[kind], (enum br_field_kind)kind) &&
+            !f->method.scheme->integrator)
+            largest = fmax(largest, f->method.solver->round_off(
+                                        br_march_field(f->march[kind], (enum br_field_kind)kind),
+                                        &f->method.linear));
+    return largest;
+}
+
 static struct br_judge_report fine_report(const void *self)
 {
     const struct fine *f = self;
     struct br_judge_report report = {
-        .round_off = br_march_round_off(f->march[BR_AXIAL]),
+        .round_off = round_off(f),
         .seconds = f->seconds[BR_AXIAL] + f->seconds[BR_BENDING],
         .unstable = br_march_contact_unstable(f->march[BR_AXIAL]),
     };

@@ -93,7 +93,7 @@ enum br_status br_assembled_create(const struct br_field *field,
                                    struct br_error *err);
 void br_assembled_free(void *self);
 double br_assembled_compliance(const void *self);
-double br_assembled_round_off(const void *self);
+double br_assembled_round_off(const void *self, size_t steps);
 void br_assembled_set(void *self, const double *displacement, const double *velocity);
 void br_assembled_get(const void *self, double *displacement, double *velocity);
 void br_assembled_strain_rate(const void *self, double *rate);

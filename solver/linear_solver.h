@@ -45,9 +45,9 @@ struct br_field_solver {
     /* The tip's velocity per unit of tip force, z_tip > 0, m/s per N. */
     double (*tip_compliance)(const void *self);
 
-    /* What a row's round_off predicts, from what was measured when the step was set; NULL: nothing
-     * is. */
-    double (*round_off)(const void *self);
+    /* What a row's round_off predicts, from what was measured when the step was set, for a march of
+     * so many steps; NULL: nothing is. */
+    double (*round_off)(const void *self, size_t steps);
 
     /* Set or get nodal displacement, m, and velocity, m/s: arrays of
      * br_field_size values laid out as in field.h. get: either may be NULL. */
@@ -104,7 +104,7 @@ struct br_linear_solver {
     const struct br_field_solver *axial_quadratic; /* for elements of degree 2; NULL: it has none */
 
     /* Predicted round-off of a march's displacement relative to the exact discrete
-     * solution, from measurements (the benchmark prints both). */
+     * solution at its end, from measurements (`beamrate extremes floors`; the benchmark). */
     double (*round_off)(const struct br_field *field, const struct br_linear_options *options);
 };
 

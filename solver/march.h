@@ -105,6 +105,10 @@ double br_march_compliance(const struct br_march *march, enum br_field_kind kind
  * contact opens. A contact that has never closed is not touched by it. */
 bool br_march_contact_unstable(const struct br_march *march);
 
+/* From now on: asked between the steps that an adaptive scheme chooses, of which it may need very
+ * many for one of the march's; true ends the march with BR_INTERRUPTED. May be NULL. */
+void br_march_stop_when(struct br_march *march, bool (*stop)(void *self), void *self);
+
 /* ---- watching ---- */
 
 /* A stage of a step of one field (scheme.h) that has ended. */
@@ -135,8 +139,8 @@ bool br_march_watch(struct br_march *march, const struct br_march_watcher *watch
 /* The watcher of that `self` looks no more. */
 void br_march_unwatch(struct br_march *march, const void *self);
 
-/* Predicted round-off of the displacements relative to the exact discrete
- * solution: the larger of the modelled fields'. */
+/* Predicted round-off of the displacements relative to the exact discrete solution, from the first
+ * step on and with what equal steps gather: the larger of the modelled fields'. */
 double br_march_round_off(const struct br_march *march);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/scheme.h"
 
+#include <math.h>
 #include <string.h>
 
 /* ---- Runge-Kutta methods with one gamma on the diagonal, the last stage being the end ---- */
@@ -13,6 +14,26 @@ struct tableau {
     double a[BR_MOST_STAGES + 1][BR_MOST_STAGES + 1], c[BR_MOST_STAGES + 1];
     double embedded[BR_MOST_STAGES + 1]; /* weights of a second end; all 0: none */
 };
+
+/* The weights of states (tau Y' is none) sum to 1. Rounded ones may miss that by 1e-16, which a
+ * march of N steps would gather N times, always to the same side: what they miss goes into the
+ * smallest, which has the digits for it. */
+static void balance(struct br_stage *stage)
+{
+    const double round_off = 1e-14;
+    long double excess = -1;
+    int smallest = -1;
+    for (int i = 0; i < BR_KNOWN; i++) {
+        const double size = fabs(stage->weight[i]);
+        if (i == BR_RATE || size == 0)
+            continue;
+        excess += stage->weight[i];
+        if (smallest < 0 || size < fabs(stage->weight[smallest]))
+            smallest = i;
+    }
+    if (smallest >= 0 && fabsl(excess) < round_off)
+        stage->weight[smallest] -= (double)excess;
+}
 
 /* sum += factor tau Y' of a row: of a stage, tau Y' = Y - Z. */
 static void add_rate(double factor, const struct br_stages *s, int stage, double *sum)
@@ -36,6 +57,7 @@ static void of_tableau(const struct tableau *t, struct br_stages *s)
         *stage = (struct br_stage){.time = t->c[i], .gamma = t->gamma, .weight = {[BR_NOW] = 1}};
         for (int j = 0; j < i; j++)
             add_rate(t->a[i][j] / t->gamma, s, j - skipped, stage->weight);
+        balance(stage);
         estimates |= t->embedded[i] != 0;
     }
     for (int j = 0; j < t->rows && estimates; j++)
@@ -148,6 +170,7 @@ static void bdf2_stages(size_t since, struct br_stages *s)
         of_tableau(&sdirk2_tableau, s);
     else
         *s = bdf2;
+    balance(&s->stage[s->count - 1]);
 }
 
 /* Y_n = 18/11 Y_{n-1} - 9/11 Y_{n-2} + 2/11 Y_{n-3} + 6/11 k Y'_n */
@@ -163,6 +186,7 @@ static void bdf3_stages(size_t since, struct br_stages *s)
         bdf2_stages(since, s);
     else
         *s = bdf3;
+    balance(&s->stage[s->count - 1]);
 }
 
 /* The trapezoidal rule over 2 gamma k, Y_1 = Y_{n-1} + gamma k (Y'_{n-1} + Y'_1), then a BDF2 of

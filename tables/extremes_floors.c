@@ -132,8 +132,8 @@ static void say_notes(const void *self, const struct br_writer *w)
                  "nothing), relative to the largest displacement of the field, after 20 steps of "
                  "Example 2 by implicit Euler with lagged contact; the larger of both fields.");
     w->paragraph(w->self,
-                 "Refused: a solve with the assembled matrix would be more than a tenth off. "
-                 "'refined' does up to 4 steps of refinement a solve, 'scaled' scales the rows.");
+                 "Refused: the assembled matrix would leave a march more than a twentieth off. "
+                 "'refined' does up to 2 steps of refinement a solve, 'scaled' scales the rows.");
 }
 
 void br_floors_page(const struct br_floors *f, struct br_page *page)

@@ -43,6 +43,7 @@ for command in $commands; do
     offers "$command" beamrate help ''
     "$BEAMRATE" "$command" --help | grep -oE '^ +(-., )?--[-a-z]+(=[A-Z]+)?' | sed 's/.*--/--/' >arguments
     grep -q -e --help arguments || failures=$((failures + 1))
+    [ -z "$(sort arguments | uniq -d)" ] || failures=$((failures + 1)) # each once
     while IFS='=' read -r option argument; do
         offers "$option" beamrate "$command" "$option"
         case $argument in
@@ -71,6 +72,7 @@ offers_only 'csv,latex' beamrate study example1 --format = csv,l
 offers_only mine.yaml beamrate study mine
 offers_only '--version' beamrate --v
 offers fish beamrate completions ''
+offers_only map beamrate extremes floors ma
 
 if command -v fish >/dev/null; then
     # fish_offers EXPECTED LINE

@@ -84,8 +84,10 @@ static const char *printed(const char *format)
 
 static void expect(const char *text, const char *part)
 {
-    if (!strstr(text, part))
-        fail_msg("expected:\n%s\nin:\n%s", part, text);
+    if (strstr(text, part))
+        return;
+    print_error("expected:\n%s\nin:\n%s\n", part, text);
+    fail();
 }
 
 static void test_text(void **state)

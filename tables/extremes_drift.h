@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What steps gather, as a page. */
+#ifndef BR_EXTREMES_DRIFT_H
+#define BR_EXTREMES_DRIFT_H
+
+#include "study/drift.h"
+#include "tables/sheet.h"
+
+/* Fills caption, tables and sentences, which borrow the drifts. */
+void br_drifts_page(const struct br_drifts *drifts, struct br_page *page);
+
+#endif
