@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "solver/assembled.h"
+#include "solver/traps.h"
 
 enum br_status br_system_init(struct br_system *s, const struct br_field *field,
                               const struct br_linear_options *options,
@@ -43,7 +44,10 @@ enum br_status br_system_factorise(struct br_system *s, struct br_error *err)
         if (!isfinite(s->matrix.value[i]))
             return br_fail(err, BR_SINGULAR, "%s: the matrix has an entry %g, expected numbers",
                            s->factoriser->name, s->matrix.value[i]);
-    return s->factoriser->factorise(s->factor, &s->matrix, err);
+    const int traps = br_traps_lift(); /* libraries may try a pivot of 0 */
+    const enum br_status status = s->factoriser->factorise(s->factor, &s->matrix, err);
+    br_traps_restore(traps);
+    return status;
 }
 
 /* NaN where one of them is. */

@@ -48,11 +48,9 @@ static double regularised_force(struct br_friction_state *s)
     const double width = s->regularisation + s->bound * s->compliance;
     if (isgreaterequal(fabs(s->free_velocity), width))
         return copysign(s->bound, s->free_velocity);
-    if (s->bound > s->regularisation)
+    if (s->bound * s->compliance > s->regularisation)
         return clamp(s->free_velocity / (s->regularisation / s->bound + s->compliance), s->bound);
-    if (isgreater(fabs(s->free_velocity), s->bound))
-        return clamp(s->free_velocity / width * s->bound, s->bound);
-    return clamp(s->bound / width * s->free_velocity, s->bound);
+    return clamp(s->free_velocity / width * s->bound, s->bound);
 }
 
 static const struct br_friction_rule exact = {

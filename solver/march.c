@@ -7,6 +7,7 @@
 
 #include "solver/contact_limit.h"
 #include "solver/march_state.h"
+#include "solver/traps.h"
 
 /* t_n = n T / N, never summed. */
 static double time_level(const struct br_march *m, size_t n)
@@ -47,8 +48,7 @@ static enum br_status common_step(struct br_march *m, enum br_field_kind kind, s
     return status;
 }
 
-enum br_status br_march_step_field(struct br_march *m, enum br_field_kind kind,
-                                   struct br_error *err)
+static enum br_status step_field(struct br_march *m, enum br_field_kind kind, struct br_error *err)
 {
     struct br_part *part = &m->part[kind];
     enum br_status status = BR_OK;
@@ -61,6 +61,15 @@ enum br_status br_march_step_field(struct br_march *m, enum br_field_kind kind,
     part->done++;
     status = br_march_check_finite(m, kind, time_level(m, part->done), err);
     return status || part->done < m->steps ? status : br_march_check_range(m, kind, err);
+}
+
+enum br_status br_march_step_field(struct br_march *m, enum br_field_kind kind,
+                                   struct br_error *err)
+{
+    const int traps = m->foreign ? br_traps_lift() : br_traps_set();
+    const enum br_status status = step_field(m, kind, err);
+    br_traps_restore(traps);
+    return status;
 }
 
 enum br_status br_march_step(struct br_march *m, struct br_error *err)

@@ -39,6 +39,10 @@ static enum br_status set_initial(struct br_part *part, const struct br_function
     for (size_t i = 0; i < size && !status; i++)
         part->started_with =
             fmax(part->started_with, fmax(fabs(nodal[i]), part->field.k * fabs(nodal[size + i])));
+    if (!status && !(part->started_with <= br_most_size))
+        status = br_fail(
+            err, BR_NOT_FINITE, "the %s initial data are as large as %g m, expected at most %g m",
+            part->field.kind == BR_AXIAL ? "axial" : "bending", part->started_with, br_most_size);
     if (!status)
         part->solver->set(part->state, nodal, nodal + size);
     free(nodal);
@@ -190,16 +194,31 @@ enum br_status br_part_start_stage(struct br_part *part, const struct br_stages 
     return BR_OK;
 }
 
+/* The largest nodal force of a load whose vector is zero: it may be so small that its products with
+ * h are lost. */
+static long double lost_force(const struct br_part *part, double t)
+{
+    enum { PLACES = 64 };
+    double x[PLACES], value[PLACES], most = 0;
+    for (int i = 0; i < PLACES; i++)
+        x[i] = (i + 0.5) / PLACES * (double)part->field.n * part->field.h;
+    br_function_evaluate(&part->load.functions.space, PLACES, x, t, value);
+    for (int i = 0; i < PLACES; i++)
+        most = fmax(most, fabs(value[i]));
+    return (long double)most * part->field.h;
+}
+
 /* What the largest force is, for br_march_check_range. */
-static void see_load(struct br_part *part)
+static void see_load(struct br_part *part, double t)
 {
     const struct br_drive *drive = &part->load.drive;
     if (drive->vector && drive->changed) {
-        part->load_size = 0;
+        double most = 0;
         for (size_t i = 0; i < br_field_size(&part->field); i++)
-            part->load_size = fmax(part->load_size, fabs(drive->vector[i]));
+            most = fmax(most, fabs(drive->vector[i]));
+        part->load_size = most > 0 ? most : lost_force(part, t);
     }
-    const long double load = (long double)part->load_size * fabs(drive->factor);
+    const long double load = part->load_size * fabs(drive->factor);
     const double tip = fmax(fabs(drive->tip[0]), fabs(drive->tip[1]));
     part->moved_by = fmaxl(part->moved_by, fmaxl(load, tip));
 }
@@ -210,7 +229,13 @@ enum br_status br_part_predict(struct br_part *part, double t, double *velocity,
     const enum br_status status = br_step_load_update(&part->load, &part->field, t, err);
     if (status)
         return status;
-    see_load(part);
+    see_load(part, t);
+    if (!(part->moved_by <= br_most_size))
+        return br_fail(err, BR_NOT_FINITE,
+                       "the %s load at t = %g s has a nodal force of %Lg N, "
+                       "expected at most %g",
+                       part->field.kind == BR_AXIAL ? "axial" : "bending", t, part->moved_by,
+                       br_most_size);
     part->counts.stages++;
     const enum br_status predicted =
         part->solver->predict(part->state, &part->load.drive, velocity, err);

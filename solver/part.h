@@ -19,10 +19,13 @@ struct br_part {
     size_t slot[BR_KNOWN]; /* which of them is what; 0: none */
     double rate_tau;       /* of BR_RATE, s */
     struct br_counts counts;
-    double load_size;     /* of the load vector's largest entry for a factor of 1, N */
-    long double moved_by; /* the largest nodal force so far, N */
-    double started_with;  /* the largest nodal value of the initial data, velocities times k, m */
+    long double load_size; /* of the load vector's largest entry for a factor of 1, N */
+    long double moved_by;  /* the largest nodal force so far, N */
+    double started_with;   /* the largest nodal value of the initial data, velocities times k, m */
 };
+
+/* Larger forces, N, initial data and tip values are refused: their squares are beyond a double. */
+extern const double br_most_size;
 
 /* A field of a scene at rest or as it starts, with its initial step, s, by a method. Where the
  * scheme looks back or has several stages, room is made for what it keeps. Fails as

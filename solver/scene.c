@@ -3,11 +3,15 @@
 
 #include <math.h>
 
+#include "solver/traps.h"
+
 void br_function_evaluate(const struct br_function *f, size_t count, const double *x, double t,
                           double *value)
 {
-    if (f->ops) {
+    if (f->ops) { /* 1/0 of an expression is told, where it is used */
+        const int traps = br_traps_lift();
         f->ops->evaluate(f->self, count, x, t, value);
+        br_traps_restore(traps);
         return;
     }
     for (size_t i = 0; i < count; i++)

@@ -31,8 +31,9 @@ static void check_rule(const struct br_friction_rule *rule, struct br_friction_s
     feclearexcept(FE_ALL_EXCEPT);
     const double lambda = rule->force(&s);
     const double tolerance = rule->iterates ? 2 * s.iteration.tolerance : 8 * DBL_EPSILON;
-    if (bad_flags() || !(fabs(lambda - expected) <=
-                         tolerance * (rule->iterates ? s.bound : fabs(expected)) + DBL_TRUE_MIN))
+    if (bad_flags() ||
+        !(fabs(lambda - expected) <=
+          tolerance * (rule->iterates ? s.bound : fabs(expected)) + (1 + s.bound) * DBL_TRUE_MIN))
         fail_msg("%s: lambda is %.17g, expected %.17g; v* = %g, z = %g, bound %g, mu %g; flags %x",
                  rule->name, lambda, expected, s.free_velocity, s.compliance, s.bound,
                  s.regularisation, (unsigned)bad_flags());
@@ -55,7 +56,9 @@ static void test_sizes(void **state)
             .regularisation = jitter * sizes[1 + br_test_index(&random, COUNT - 1)],
             .last = sizes[br_test_index(&random, COUNT)],
         };
-        check_rule(*rule, s);
+        const double way = s.bound * s.compliance; /* below DBL_MIN it has no digits of its own */
+        if (way == 0 || way > DBL_MIN)
+            check_rule(*rule, s);
     }
 }
 

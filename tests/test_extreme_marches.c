@@ -154,10 +154,11 @@ static void check_scene(uint64_t seed, size_t *compared)
     if (goes(&s, &method, n, steps)) {
         struct br_march *march = br_test_march(&s, n, steps, &method);
         struct br_quad_march *quad = br_quad_follow(march, &s, &method, steps);
-        const double limit = 1e-10 + 4 * br_march_round_off(march);
+        const double predicted = br_march_round_off(march);
+        const double limit = fmin(1e-10 + 4 * predicted, 1e-8);
         if (quad && !br_march_contact_unstable(march)) {
             const double most = follow(march, quad, steps);
-            if (!(most <= limit) || !(limit <= 1e-8))
+            if (!(most <= limit))
                 fail_msg("seed %zu: %s, %s, %s, %s, n = %zu, %zu steps: off by %g, expected %g",
                          (size_t)seed, method.solver->name, method.scheme->name,
                          method.contact->name, method.friction->name, n, steps, most, limit);
@@ -390,8 +391,8 @@ static void test_grazing(void **state)
 static enum br_status end_of(const struct br_scene *s, const struct br_method *method,
                              struct br_error *err)
 {
-    struct br_march *march = br_test_march(s, 21, 6, method);
-    enum br_status status = BR_OK;
+    struct br_march *march;
+    enum br_status status = br_march_create(&march, s, 21, 6, method, err);
     for (int step = 0; step < 6 && !status; step++)
         status = br_march_step(march, err);
     br_march_free(march);
@@ -415,7 +416,7 @@ static void test_beyond_double(void **state)
         s.bending.load.space.constant = 1e-200;
         MUST(end_of(&s, &method, &err));
         s.bending.load.space.constant = 1.7e308;
-        REFUSED(end_of(&s, &method, &err), BR_NOT_FINITE, method.scheme->adaptive ? "" : "blew up");
+        REFUSED(end_of(&s, &method, &err), BR_NOT_FINITE, "bending load at t = ");
         br_scene_clear(&s);
     }
 }

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Traps for what no sound march does: an invalid operation, a division by zero, an overflow. On in
+ * builds with -Dtraps (debug ones), where they stop the program at the operation; else nothing is
+ * done here. They belong to the thread that sets them. */
+#ifndef BR_TRAPS_H
+#define BR_TRAPS_H
+
+#include <fenv.h>
+
+#ifdef BR_TRAPS
+
+/* Sets the traps, after forgetting what was raised before; returns those that were set. */
+static inline int br_traps_set(void)
+{
+    feclearexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+    return feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+}
+
+/* No traps, around what others have written: libraries, a person's expressions. Returns those that
+ * were set. */
+static inline int br_traps_lift(void)
+{
+    return fedisableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+}
+
+/* As they were before one of these. */
+static inline void br_traps_restore(int before)
+{
+    fedisableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+    feclearexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+    feenableexcept(before);
+}
+
+#else
+
+static inline int br_traps_set(void)
+{
+    return 0;
+}
+
+static inline int br_traps_lift(void)
+{
+    return 0;
+}
+
+static inline void br_traps_restore(int before)
+{
+    (void)before;
+}
+
+#endif
+#endif

@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Marches in other surroundings: no step raises a flag that a trap would stop at; rounding up, down
+ * or to zero moves nothing by more than the predicted round-off, and certificates pass; the same
+ * scene in other units of length, time and mass gives the same answer, to the bit where the units
+ * are powers of two. */
+#include <fenv.h>
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "reference/certificate.h"
+#include "study/scene_file.h"
+#include "support.h"
+
+enum { MOST = 2 * 100 };
+
+/* Displacements and velocities at the end. */
+struct result {
+    size_t size[2];
+    double value[2][2][MOST]; /* by field, derivative */
+    double round_off;
+};
+
+static int bad_flags(void)
+{
+    return fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+}
+
+static struct br_method method_of(size_t solver, size_t scheme)
+{
+    struct br_method method = br_test_method(NULL, "implicit", NULL);
+    method.solver = br_linear_solvers[solver];
+    method.scheme = br_time_schemes[scheme];
+    return method;
+}
+
+static bool goes(const struct br_scene *s, size_t n, size_t steps, const struct br_method *method)
+{
+    struct br_error err;
+    struct br_march *march;
+    if (method->scheme->integrator)
+        return false;
+    const enum br_status status = br_march_create(&march, s, n, steps, method, &err);
+    br_march_free(march);
+    return status == BR_OK;
+}
+
+static struct result run(const struct br_scene *s, size_t n, size_t steps,
+                         const struct br_method *method)
+{
+    struct br_march *march = br_test_march(s, n, steps, method);
+    struct result r = {.round_off = br_march_round_off(march)};
+    br_test_advance(march, steps);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        r.size[kind] = br_field_size(br_march_field(march, (enum br_field_kind)kind));
+        assert_true(r.size[kind] <= MOST);
+        br_march_get(march, (enum br_field_kind)kind, r.value[kind][0], r.value[kind][1]);
+    }
+    br_march_free(march);
+    return r;
+}
+
+static double largest(const double *x, size_t size)
+{
+    double most = 0;
+    for (size_t i = 0; i < size; i++)
+        most = fmax(most, fabs(x[i]));
+    return most;
+}
+
+/* Largest difference of b times a factor from a, relative to the largest value of a. */
+static double apart(const struct result *a, const struct result *b, int kind, double factor)
+{
+    const double *x = a->value[kind][0], *y = b->value[kind][0];
+    const double scale = largest(x, a->size[kind]);
+    double most = 0;
+    for (size_t i = 0; i < a->size[kind]; i++)
+        if (!(fabs(x[i] - factor * y[i]) <= most))
+            most = fabs(x[i] - factor * y[i]);
+    return scale > 0 ? most / scale : most;
+}
+
+/* Impacts magnify differences: these scenes have none that chatter. */
+static const char *const scenes[] = {"example1", "example2", "example3",    "example4",
+                                     "impact",   "release",  "moving_load", "vibration"};
+enum { SCENES = sizeof scenes / sizeof *scenes };
+
+#define EACH_METHOD(solver, scheme)                            \
+    for (size_t scheme = 0; br_time_schemes[scheme]; scheme++) \
+        for (size_t solver = 0; br_linear_solvers[solver]; solver++)
+
+/* ---- flags ---- */
+
+static void test_flags(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    char **names;
+    size_t count;
+    MUST(br_scene_list(&names, &count, &err));
+    assert_true(count > 5);
+    for (size_t i = 0; i < count; i++) {
+        struct br_scene s = br_test_bundled(names[i]);
+        EACH_METHOD(solver, scheme)
+        {
+            const struct br_method method = method_of(solver, scheme);
+            feclearexcept(FE_ALL_EXCEPT);
+            if (goes(&s, 24, 40, &method))
+                run(&s, 24, 40, &method);
+            if (bad_flags())
+                fail_msg("%s, %s, %s: flags %x", names[i], method.solver->name, method.scheme->name,
+                         (unsigned)bad_flags());
+        }
+        br_scene_clear(&s);
+    }
+    br_scene_list_free(names, count);
+}
+
+/* ---- rounding ---- */
+
+static const struct {
+    int mode;
+    const char *name;
+} modes[] = {{FE_UPWARD, "up"}, {FE_DOWNWARD, "down"}, {FE_TOWARDZERO, "to zero"}};
+
+/* Steps that are rounded all to one side gather what else would cancel. */
+static const double one_sided = 16;
+
+static void compare_modes(const struct br_scene *s, const char *name,
+                          const struct br_method *method)
+{
+    enum { N = 48, STEPS = 100 };
+    if (!goes(s, N, STEPS, method))
+        return;
+    const struct result nearest = run(s, N, STEPS, method);
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        fesetround(modes[i].mode);
+        const struct result r = run(s, N, STEPS, method);
+        fesetround(FE_TONEAREST);
+        /* Steps by a tolerance may be others, and differ by their error. */
+        const double limit =
+            method->scheme->adaptive ? 100 * method->tolerance : one_sided * nearest.round_off;
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+            if (!(apart(&nearest, &r, kind, 1) <= limit))
+                fail_msg("%s, %s, %s, rounding %s: off by %g, expected %g at most", name,
+                         method->solver->name, method->scheme->name, modes[i].name,
+                         apart(&nearest, &r, kind, 1), limit);
+    }
+}
+
+static void test_rounding(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < SCENES; i++) {
+        struct br_scene s = br_test_bundled(scenes[i]);
+        EACH_METHOD(solver, scheme)
+        {
+            const struct br_method method = method_of(solver, scheme);
+            compare_modes(&s, scenes[i], &method);
+        }
+        br_scene_clear(&s);
+    }
+}
+
+static void certify(const struct br_scene *s, const char *name, const struct br_method *method,
+                    const char *mode)
+{
+    enum { N = 24, STEPS = 50 };
+    struct br_error err = {0};
+    struct br_witness *witness;
+    if (!goes(s, N, STEPS, method))
+        return;
+    struct br_march *march = br_test_march(s, N, STEPS, method);
+    const struct br_certificate limits = br_certificate_limits(
+        method->scheme, N, br_test_slack() * one_sided * br_march_round_off(march));
+    MUST(br_witness_create(&witness, march, s, method, &err));
+    for (size_t step = 1; step <= STEPS; step++) {
+        br_test_advance(march, step);
+        const struct br_certificate c = br_witness_step(witness);
+        if (br_certificate_check(&c, &limits, &err))
+            fail_msg("%s, %s, %s, rounding %s, step %zu: %s", name, method->solver->name,
+                     method->scheme->name, mode, step, err.message);
+    }
+    br_witness_free(witness);
+    br_march_free(march);
+}
+
+static void test_certificates(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < SCENES; i++) {
+        struct br_scene s = br_test_bundled(scenes[i]);
+        for (size_t scheme = 0; br_time_schemes[scheme]; scheme++)
+            for (size_t m = 0; m < sizeof modes / sizeof *modes; m++) {
+                const struct br_method method = method_of((scheme + i) % 2, scheme);
+                fesetround(modes[m].mode);
+                certify(&s, scenes[i], &method, modes[m].name);
+                fesetround(FE_TONEAREST);
+            }
+        br_scene_clear(&s);
+    }
+}
+
+/* ---- other units ---- */
+
+struct units {
+    double metre, second, kilogram; /* how many of the other units one is */
+};
+
+static struct br_load other_load(const struct br_load *load, double factor)
+{
+    struct br_load other = *load;
+    other.space.constant *= factor;
+    return other;
+}
+
+/* The same scene with its numbers in other units. Loads are constants in x and t. */
+static struct br_scene in_units(const struct br_scene *s, const struct units *u)
+{
+    const double m = u->metre, t = u->second, newton = u->kilogram * m / (t * t);
+    struct br_scene o = *s;
+    o.length *= m;
+    o.duration *= t;
+    o.density *= u->kilogram / m;
+    o.axial.stiffness *= newton;
+    o.axial.viscosity *= newton * t;
+    o.bending.stiffness *= newton * m * m;
+    o.bending.viscosity *= newton * m * m * t;
+    o.axial.load = other_load(&s->axial.load, newton / m);
+    o.bending.load = other_load(&s->bending.load, newton / m);
+    o.contact.gap *= m;
+    o.contact.stiffness *= newton / m;
+    o.friction.coefficient *= s->friction.law == BR_TRESCA ? newton : newton / m;
+    o.friction.regularisation *= m / t;
+    return o;
+}
+
+/* A soft contact and any friction: nothing that magnifies differences. */
+static struct br_scene any_scene(struct br_test_random *r)
+{
+    struct br_scene s = br_test_bare();
+    s.length = br_test_log_uniform(r, 0.1, 10);
+    s.duration = br_test_log_uniform(r, 0.1, 10);
+    s.density = br_test_index(r, 4) ? br_test_log_uniform(r, 1e-3, 1e3) : 0;
+    s.axial.stiffness = br_test_log_uniform(r, 1e-3, 1e3);
+    s.axial.viscosity = br_test_index(r, 4) ? br_test_log_uniform(r, 1e-3, 1e3) : 0;
+    s.bending.stiffness = br_test_log_uniform(r, 1e-3, 1e3);
+    s.bending.viscosity = br_test_index(r, 4) ? br_test_log_uniform(r, 1e-3, 1e3) : 0;
+    s.axial.load.space.constant = br_test_uniform(r, -1, 3);
+    s.bending.load.space.constant = br_test_uniform(r, -3, 3);
+    s.axial.load.time.constant = s.bending.load.time.constant = 1;
+    s.contact = (struct br_contact){true, br_test_index(r, 2) ? br_test_uniform(r, 0, 1e-2) : 0,
+                                    s.axial.stiffness / s.length};
+    s.friction.law = (enum br_friction_law)br_test_index(r, 3);
+    s.friction.coefficient = br_test_log_uniform(r, 1e-3, 1e3);
+    s.friction.regularisation = br_test_log_uniform(r, 1e-6, 1);
+    return s;
+}
+
+static void compare_units(const struct br_scene *s, const struct br_method *method, size_t n,
+                          const struct units *u, bool exact)
+{
+    const struct br_scene other = in_units(s, u);
+    if (!goes(s, n, 30, method))
+        return;
+    const struct result a = run(s, n, 30, method), b = run(&other, n, 30, method);
+    /* The other scene's numbers are rounded, too: what that does to an assembled matrix. */
+    const bool flexible = method->solver == &br_riccati || method->solver == &br_plain;
+    const double condition = flexible ? 1e-12 : 1e-8;
+    const double limit = exact                      ? 0
+                         : method->scheme->adaptive ? 100 * method->tolerance
+                                                    : 16 * a.round_off + condition;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (!(apart(&a, &b, kind, 1 / u->metre) <= limit))
+            fail_msg("%s, %s, %s, n = %zu, units %g %g %g: off by %g, expected %g at most",
+                     method->solver->name, method->scheme->name, method->friction->name, n,
+                     u->metre, u->second, u->kilogram, apart(&a, &b, kind, 1 / u->metre), limit);
+}
+
+/* A Cholesky factor has roots of the units, which for two are not exact. */
+static bool takes_roots(const struct br_method *method)
+{
+    return method->solver == &br_cholmod || method->solver == &br_banded;
+}
+
+static void test_units(void **state)
+{
+    (void)state;
+    struct br_test_random r = {5};
+    for (int i = 0; i < (br_test_quick() ? 20 : 150); i++) {
+        struct br_scene s = any_scene(&r);
+        const size_t n = 1 + br_test_index(&r, 40);
+        const struct units any = {br_test_log_uniform(&r, 1e-6, 1e6),
+                                  br_test_log_uniform(&r, 1e-6, 1e6),
+                                  br_test_log_uniform(&r, 1e-6, 1e6)};
+        const struct units twos = {ldexp(1, (int)br_test_index(&r, 40) - 20),
+                                   ldexp(1, (int)br_test_index(&r, 40) - 20),
+                                   ldexp(1, (int)br_test_index(&r, 40) - 20)};
+        EACH_METHOD(solver, scheme)
+        {
+            struct br_method method = method_of(solver, scheme);
+            method.friction = br_friction_rules[br_test_index(&r, 2)];
+            compare_units(&s, &method, n, &any, false);
+            compare_units(&s, &method, n, &twos, !method.scheme->adaptive && !takes_roots(&method));
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_flags),
+        cmocka_unit_test(test_rounding),
+        cmocka_unit_test(test_certificates),
+        cmocka_unit_test(test_units),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
