@@ -28,7 +28,11 @@ static void fine_free(void *self)
 static enum br_status create_march(struct fine *f, enum br_field_kind kind,
                                    const struct br_judge_request *r, struct br_error *err)
 {
-    return br_march_create(&f->march[kind], r->scene, r->n, r->levels, &r->method, err);
+    const enum br_status status =
+        br_march_create(&f->march[kind], r->scene, r->n, r->levels, &r->method, err);
+    if (!status)
+        br_march_stop_when(f->march[kind], r->stop, r->stop_self);
+    return status;
 }
 
 static enum br_status fine_create(void **self, const struct br_judge_request *r,

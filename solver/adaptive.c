@@ -368,9 +368,11 @@ static enum br_status check_progress(struct br_march *m, const struct trial *tri
                    (double)a->stalled * least_progress * m->scene->duration);
 }
 
-static enum br_status check_count(const struct br_march *m, struct br_error *err)
+static enum br_status check_going_on(const struct br_march *m, struct br_error *err)
 {
     const size_t most = m->method.most_steps;
+    if (m->stop && m->stop(m->stop_self))
+        return br_fail(err, BR_INTERRUPTED, "interrupted at t = %.15g s", m->adaptive->now);
     const struct br_counts counts = br_march_counts(m);
     if (most == 0 || counts.steps + counts.rejected < most)
         return BR_OK;
@@ -387,7 +389,7 @@ static enum br_status adaptive_step(struct br_march *m, double longest, struct b
     const double k = wanted >= longest ? longest : fmin(wanted, longest / 2);
     struct trial trial;
     bool switched = false;
-    enum br_status status = check_count(m, err);
+    enum br_status status = check_going_on(m, err);
     if (!status)
         status = estimated_step(m, k, &trial, err);
     if (status)

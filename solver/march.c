@@ -83,6 +83,12 @@ struct br_counts br_march_counts(const struct br_march *m)
     return counts;
 }
 
+void br_march_stop_when(struct br_march *m, bool (*stop)(void *self), void *self)
+{
+    m->stop = stop;
+    m->stop_self = self;
+}
+
 /* ---- looking ---- */
 
 bool br_march_watch(struct br_march *m, const struct br_march_watcher *watcher)

@@ -105,6 +105,10 @@ double br_march_compliance(const struct br_march *march, enum br_field_kind kind
  * contact opens. A contact that has never closed is not touched by it. */
 bool br_march_contact_unstable(const struct br_march *march);
 
+/* From now on: asked between the steps that an adaptive scheme chooses, of which it may need very
+ * many for one of the march's; true ends the march with BR_INTERRUPTED. May be NULL. */
+void br_march_stop_when(struct br_march *march, bool (*stop)(void *self), void *self);
+
 /* ---- watching ---- */
 
 /* A stage of a step of one field (scheme.h) that has ended. */

@@ -40,9 +40,11 @@ struct br_march {
     struct br_tip tip;
     struct br_tip_path *path; /* of the last `lead` steps */
     size_t lead;
-    struct br_counts counts;         /* what the parts do not count */
-    struct br_adaptive *adaptive;    /* NULL: fixed steps */
-    void *foreign;                   /* of a scheme's own integrator; NULL: none */
+    struct br_counts counts;      /* what the parts do not count */
+    struct br_adaptive *adaptive; /* NULL: fixed steps */
+    void *foreign;                /* of a scheme's own integrator; NULL: none */
+    bool (*stop)(void *self);     /* NULL: nobody is asked */
+    void *stop_self;
     struct br_march_watcher watcher[BR_MOST_WATCHERS];
     size_t watchers;
 };

@@ -246,6 +246,8 @@ static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
         return br_no_memory(err, "the cells");
     for (size_t i = 0; i < cells; i++) {
         br_runner_start(&l->cell[i], s->scene, s->cell[i].at, br_study_method(s, i));
+        if (l->cell[i].march && l->observer)
+            br_march_stop_when(l->cell[i].march, l->observer->stop, l->observer->self);
         const enum br_status failure = l->cell[i].error.status;
         if (failure == BR_BAD_INPUT || failure == BR_NO_MEMORY)
             return br_fail(err, failure, "%s", l->cell[i].error.message);

@@ -22,6 +22,8 @@ static enum br_status start_checks(void *self, struct br_march *march, struct br
 {
     struct run *r = self;
     struct br_run_report *report = r->report;
+    if (r->request->progress)
+        br_march_stop_when(march, r->request->progress->stop, r->request->progress->self);
     report->round_off = br_march_round_off(march);
     report->limits = br_certificate_limits(report->method.scheme, report->n, report->round_off);
     report->energy_limit = report->method.scheme->integrator
