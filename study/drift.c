@@ -268,8 +268,8 @@ static enum br_status check(const struct br_drifts *d, size_t scene, size_t cont
 {
     const struct br_drift *drift = br_drift_at(d, scene, contender, k);
     const char *name = d->contender[contender].name, *of = d->scene[scene].name;
-    if (!drift->steps)
-        return BR_OK;
+    if (!drift->steps || drift->refused.status == BR_BAD_INPUT)
+        return BR_OK; /* a step that is too long for the scheme is refused by rule */
     if (drift->refused.status)
         return br_fail(err, BR_VERDICT, "%s of %s in %zu steps: %.700s", name, of, drift->steps,
                        drift->refused.message);

@@ -53,8 +53,8 @@ const struct br_drift *br_drift_at(const struct br_drifts *drifts, size_t scene,
 /* The larger deviation of both fields; NaN where there is none. */
 double br_drift_deviation(const struct br_drift *drift);
 
-/* BR_OK, or BR_VERDICT with the first march that is above its prediction, was refused, or whose
- * times drift. */
+/* BR_OK, or BR_VERDICT with the first march that is above its prediction, failed (a step that the
+ * scheme refuses by rule, BR_BAD_INPUT, is no failure), or whose times drift. */
 enum br_status br_drifts_verdict(const struct br_drifts *drifts, struct br_error *err);
 
 #endif
