@@ -289,7 +289,7 @@ static void test_units(void **state)
 {
     (void)state;
     struct br_test_random r = {5};
-    for (int i = 0; i < (br_test_quick() ? 20 : 150); i++) {
+    for (int i = 0; i < (br_test_quick() ? 4 : 25); i++) {
         struct br_scene s = any_scene(&r);
         const size_t n = 1 + br_test_index(&r, 40);
         const struct units any = {br_test_log_uniform(&r, 1e-6, 1e6),
