@@ -139,9 +139,12 @@ static void compare_modes(const struct br_scene *s, const char *name,
         fesetround(modes[i].mode);
         const struct result r = run(s, N, STEPS, method);
         fesetround(FE_TONEAREST);
+        /* An assembled matrix of this size costs that at most, whatever is predicted. */
+        const bool flexible = method->solver == &br_riccati || method->solver == &br_plain;
+        const double least = flexible ? 0 : 1e-8;
         /* Steps by a tolerance may be others, and differ by their error. */
-        const double limit =
-            method->scheme->adaptive ? 100 * method->tolerance : one_sided * nearest.round_off;
+        const double limit = method->scheme->adaptive ? 100 * method->tolerance
+                                                      : one_sided * nearest.round_off + least;
         for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
             if (!(apart(&nearest, &r, kind, 1) <= limit))
                 fail_msg("%s, %s, %s, rounding %s: off by %g, expected %g at most", name,
