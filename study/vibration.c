@@ -157,6 +157,11 @@ enum br_status br_vibration_run(struct br_vibration *v, struct br_error *err)
     }
     if (!status)
         status = march(&t, err);
+    if (status == BR_BAD_INPUT) { /* by the march: a mode of too little damping, say */
+        v->end = BR_VIBRATION_REFUSED;
+        v->failure = *err;
+        status = BR_OK;
+    }
     br_energy_meter_free(t.meter);
     br_march_free(t.march);
     return status;

@@ -38,7 +38,10 @@ static bool start(struct metered *m, size_t n, size_t steps, const struct br_sce
     m->worst = 0;
     if (m->method.scheme->integrator || br_method_check_scene(&m->method, &m->scene, &err))
         return false;
-    m->march = br_test_march(&m->scene, n, steps, &m->method);
+    const enum br_status status = br_march_create(&m->march, &m->scene, n, steps, &m->method, &err);
+    if (status == BR_BAD_INPUT)
+        return false;
+    br_test_must(status, &err, "a march", __FILE__, __LINE__);
     m->limit = br_energy_limit(n, br_march_round_off(m->march)) * br_test_slack();
     MUST(br_energy_meter_create(&m->meter, m->march, told ? told : &m->scene, &m->method, &err));
     return true;
