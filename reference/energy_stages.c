@@ -22,19 +22,31 @@ static real mass_norm(const struct br_field *f, const double *y)
 /* A stage goes from Z to Y in tau, and its residual r is relative to the sum of its terms, those of
  * Z among them (residual.c): where a velocity stops or a displacement decays in one step, Z's are
  * far larger than Y's. By Schwarz' inequality |v'r| is at most that relative size times
- *     |v| (a (|w| + |Z_w| + tau |v| + tau |Z_v|) + c (|v| + |Z_v|))    in the norms of K,
- *     |v - Z_v| (|v| + |Z_v|) / tau                                    in those of M,
+ *     |v| (a (|w| + |Z_w| + tau |v| + tau |Z_v|) + c (|v| + |Z_v|) + |r_tip|)  in the norms of K,
+ *     |v - Z_v| (|v| + |Z_v|) / tau                                            in those of M,
  * and so is what rounding the stage's update does to <v, w> and <v', v>; |Z_w| <= |w| + tau |v|. */
 static real residual_power(const struct br_field *f, const struct br_watched_field *seen, real tau,
-                           real bent_speed)
+                           real bent_speed, real tip_force)
 {
+    const real length = (real)f->h * f->n;
+    const real tip = tip_force * sqrtl(f->kind == BR_AXIAL ? length : length * length * length / 3);
     const struct br_nodal *y = &seen->y.row[seen->last], *z = &seen->y.start;
     const real w = bend_norm(f, y->displacement), v = bent_speed,
                before = bend_norm(f, z->velocity);
     const real moving = mass_norm(f, y->velocity) + mass_norm(f, z->velocity);
     return v * ((real)f->stiffness * (2 * w + 2 * tau * v + tau * before) +
-                (real)f->viscosity * (v + before)) +
+                (real)f->viscosity * (v + before) + fabsl(tip)) +
            moving * moving / tau;
+}
+
+/* How far a stage's own round-off is above the march's: it depends on tau, and some solvers leave a
+ * residual beyond it. */
+static real excess_of(const struct br_energy_meter *m, const struct br_field *f)
+{
+    const struct br_method *method = m->method;
+    const double own = method->solver->residual ? method->solver->residual(f, &method->linear) : 0;
+    const double now = br_energy_limit(f->n, br_march_round_off(m->march)) + own;
+    return fmax(1, now / m->limit);
 }
 
 static struct br_power power_of(const struct br_energy_meter *m, enum br_field_kind kind, real tau)
@@ -44,11 +56,12 @@ static struct br_power power_of(const struct br_energy_meter *m, enum br_field_k
     const struct br_tip *tip = br_march_tip(m->march);
     const double *v = seen->y.row[seen->last].velocity;
     const real bent = br_bend_product(&f->field, v, v);
+    const double force = kind == BR_AXIAL ? tip->contact_force : tip->friction_force;
     struct br_power p = {
         .viscous = (real)f->field.viscosity * bent,
-        .residual = residual_power(&f->field, seen, tau, sqrtl(bent)),
-        .tip = (real)(kind == BR_AXIAL ? tip->contact_force : tip->friction_force) *
-               v[f->field.n * br_field_unknowns(&f->field)],
+        .residual =
+            excess_of(m, &f->field) * residual_power(&f->field, seen, tau, sqrtl(bent), force),
+        .tip = (real)force * v[f->field.n * br_field_unknowns(&f->field)],
     };
     p.load = br_nodal_product(seen->load, v, br_field_size(&f->field), &p.load_size);
     return p;

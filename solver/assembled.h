@@ -84,6 +84,9 @@ enum br_status br_system_loss(struct br_system *s, const double *rhs, const doub
  * br_system_solve. */
 double br_system_round_off(const struct br_field *field, int refinement);
 
+/* What elimination without refinement leaves of the equations, as br_linear_solver's residual. */
+double br_system_residual(const struct br_field *field);
+
 /* ---- the functions of a br_field_solver: see there ---- */
 
 /* `create` of a row: with the row's own factoriser. */
