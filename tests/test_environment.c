@@ -127,6 +127,14 @@ static const struct {
 
 /* Steps that are rounded all to one side gather what else would cancel. */
 static const double one_sided = 16;
+/* A factorisation all the more: 42 times, by umfpack in a vibration with bdf2, rounding up. */
+static const double one_sided_factors = 64;
+
+static double one_sided_by(const struct br_method *method)
+{
+    const bool flexible = method->solver == &br_riccati || method->solver == &br_plain;
+    return flexible ? one_sided : one_sided_factors;
+}
 
 static void compare_modes(const struct br_scene *s, const char *name,
                           const struct br_method *method)
@@ -139,12 +147,9 @@ static void compare_modes(const struct br_scene *s, const char *name,
         fesetround(modes[i].mode);
         const struct result r = run(s, N, STEPS, method);
         fesetround(FE_TONEAREST);
-        /* An assembled matrix of this size costs that at most, whatever is predicted. */
-        const bool flexible = method->solver == &br_riccati || method->solver == &br_plain;
-        const double least = flexible ? 0 : 1e-8;
         /* Steps by a tolerance may be others, and differ by their error. */
         const double limit = method->scheme->adaptive ? 100 * method->tolerance
-                                                      : one_sided * nearest.round_off + least;
+                                                      : one_sided_by(method) * nearest.round_off;
         for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
             if (!(apart(&nearest, &r, kind, 1) <= limit))
                 fail_msg("%s, %s, %s, rounding %s: off by %g, expected %g at most", name,
@@ -271,10 +276,10 @@ static void compare_units(const struct br_scene *s, const struct br_method *meth
     const struct result a = run(s, n, 30, method), b = run(&other, n, 30, method);
     /* The other scene's numbers are rounded, too: what that does to an assembled matrix. */
     const bool flexible = method->solver == &br_riccati || method->solver == &br_plain;
-    const double condition = flexible ? 1e-12 : 1e-8;
+    const double numbers = flexible ? 1e-12 : 1e-8;
     const double limit = exact                      ? 0
                          : method->scheme->adaptive ? 100 * method->tolerance
-                                                    : 16 * a.round_off + condition;
+                                                    : 16 * a.round_off + numbers;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (!(apart(&a, &b, kind, 1 / u->metre) <= limit))
             fail_msg("%s, %s, %s, n = %zu, units %g %g %g: off by %g, expected %g at most",
