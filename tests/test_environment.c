@@ -47,12 +47,18 @@ static bool goes(const struct br_scene *s, size_t n, size_t steps, const struct 
     return status == BR_OK;
 }
 
-static struct result run(const struct br_scene *s, size_t n, size_t steps,
-                         const struct br_method *method)
+static struct br_march *marched(const struct br_scene *s, size_t n, size_t steps,
+                                const struct br_method *method)
 {
     struct br_march *march = br_test_march(s, n, steps, method);
-    struct result r = {.round_off = br_march_round_off(march)};
     br_test_advance(march, steps);
+    return march;
+}
+
+/* And frees the march. */
+static struct result result_of(struct br_march *march)
+{
+    struct result r = {.round_off = br_march_round_off(march)};
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         r.size[kind] = br_field_size(br_march_field(march, (enum br_field_kind)kind));
         assert_true(r.size[kind] <= MOST);
@@ -60,6 +66,12 @@ static struct result run(const struct br_scene *s, size_t n, size_t steps,
     }
     br_march_free(march);
     return r;
+}
+
+static struct result run(const struct br_scene *s, size_t n, size_t steps,
+                         const struct br_method *method)
+{
+    return result_of(marched(s, n, steps, method));
 }
 
 static double largest(const double *x, size_t size)
@@ -170,6 +182,32 @@ static void test_rounding(void **state)
         }
         br_scene_clear(&s);
     }
+}
+
+/* The method's own mode is what a thread's is, and stays in the march. */
+static void test_mode_of_method(void **state)
+{
+    (void)state;
+    struct br_scene s = br_test_bundled("example1");
+    EACH_METHOD(solver, scheme)
+    {
+        struct br_method method = method_of(solver, scheme);
+        if (!goes(&s, 24, 20, &method))
+            continue;
+        fesetround(FE_UPWARD);
+        struct br_march *march = marched(&s, 24, 20, &method);
+        fesetround(FE_TONEAREST);
+        const struct result thread = result_of(march);
+        const struct result nearest = run(&s, 24, 20, &method);
+        method.rounding = FE_UPWARD;
+        const struct result own = run(&s, 24, 20, &method);
+        assert_int_equal(fegetround(), FE_TONEAREST);
+        assert_memory_equal(own.value[BR_BENDING][0], thread.value[BR_BENDING][0],
+                            own.size[BR_BENDING] * sizeof(double));
+        assert_memory_not_equal(own.value[BR_BENDING][0], nearest.value[BR_BENDING][0],
+                                own.size[BR_BENDING] * sizeof(double));
+    }
+    br_scene_clear(&s);
 }
 
 static void certify(const struct br_scene *s, const char *name, const struct br_method *method,
@@ -310,6 +348,8 @@ static void test_units(void **state)
         {
             struct br_method method = method_of(solver, scheme);
             method.friction = br_friction_rules[br_test_index(&r, 2)];
+            if (method.scheme->adaptive && n > 10)
+                continue; /* it follows every vibration of a fine mesh: too many steps */
             compare_units(&s, &method, n, &any, false);
             compare_units(&s, &method, n, &twos, !method.scheme->adaptive && !takes_roots(&method));
         }
@@ -319,9 +359,8 @@ static void test_units(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flags),
-        cmocka_unit_test(test_rounding),
-        cmocka_unit_test(test_certificates),
+        cmocka_unit_test(test_flags),          cmocka_unit_test(test_rounding),
+        cmocka_unit_test(test_mode_of_method), cmocka_unit_test(test_certificates),
         cmocka_unit_test(test_units),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
