@@ -188,9 +188,9 @@ static enum br_status run_scene(struct run *r, struct br_error *err)
     if (!status)
         status = br_model_select(&r->scene, r->plan.wanted, &r->marched, err);
     if (!status)
-        status = open_files(r, err);
-    if (!status)
         status = look_ahead(r, err);
+    if (!status)
+        status = open_files(r, err);
     if (!status)
         status = march(r, err);
     if (!status)
