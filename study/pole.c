@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-enum { MOST_HALVINGS = 64, SOON = 12, LATE = 8 };
+enum { MOST_HALVINGS = 64, SOON = 12, LATE = 8, NEAR_ENDS = 8 };
 
 static const double grown_soon = 4, grown_late = 2.8; /* over so many halvings */
 
@@ -126,13 +126,27 @@ static bool is_at(const struct br_line *l, const struct point p[3], size_t count
     return peak && pole_at_peak(l, p[0], p[1], p[2], pole);
 }
 
+/* Place i of [0, end]: equidistant ones, and in the first and in the last of their intervals
+ * halves, quarters ... towards the end, since the size of a function cannot be the largest of three
+ * there. */
+static double place(const struct br_line *l, size_t parts, size_t i)
+{
+    const double h = l->end / (double)parts;
+    if (i <= NEAR_ENDS)
+        return i ? ldexp(h, (int)i - NEAR_ENDS - 1) : 0;
+    if (i < NEAR_ENDS + parts)
+        return l->end * (double)(i - NEAR_ENDS) / (double)parts;
+    const int j = (int)(i - NEAR_ENDS - parts);
+    return j < NEAR_ENDS ? l->end - ldexp(h, -j - 1) : l->end;
+}
+
 bool br_find_pole(const struct br_line *l, size_t parts, double *at, double *value)
 {
     struct point last[3] = {{0}}, pole;
-    for (size_t i = 0; i <= parts; i++) {
+    for (size_t i = 0; i <= parts + 2 * NEAR_ENDS; i++) {
         last[0] = last[1];
         last[1] = last[2];
-        last[2] = point_of(l, l->end * (double)i / (double)parts);
+        last[2] = point_of(l, place(l, parts, i));
         if (is_at(l, last, i + 1, &pole)) {
             *at = pole.at;
             *value = pole.value;

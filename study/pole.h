@@ -16,13 +16,13 @@ struct br_line {
 /* The function at a place of the line. */
 double br_line_value(const struct br_line *line, double at);
 
-/* Looks at the line's `parts` + 1 equidistant places, of which there are 3 or more, and at what is
- * between them: wherever the sign changes, or the size is the largest of three, it halves towards
- * that until neighbouring numbers are reached. A pole is where the size still grows then, by
- * 2.8 over each 8 halvings: of order 3/16 or above, like 1/(t - c), its root and its square. Steep
- * and finite functions have ceased to grow by then.
- * Returns whether it found a pole or a value that is not finite; *at and *value: where (as near as
- * it came), and how large. */
+/* Looks at the line's `parts` + 1 equidistant places, of which there are 3 or more, some more near
+ * both ends, and at what is between them: wherever the sign changes, or the size is the largest of
+ * three, it halves towards that until neighbouring numbers are reached. A pole is where the size
+ * still grows then, by 2.8 over each 8 halvings: of order 3/16 or above, like 1/(t - c), its root
+ * and its square. Steep and finite functions have ceased to grow by then. Returns whether it found
+ * a pole or a value that is not finite; *at and *value: where (as near as it came), and how large.
+ */
 bool br_find_pole(const struct br_line *line, size_t parts, double *at, double *value);
 
 #endif

@@ -10,8 +10,8 @@
  * marches: the upper bound then takes order one.
  *
  * Over eight bundled scenes, three methods, n from 3 to 100 and 1 to 200 steps, held against the
- * exact solution: of 473 known predictions 95 % are within a factor 3 and 99 % within 10, none is
- * 100 times too low.
+ * exact solution (tests/test_prediction.c): of 288 predictions, all known, 96 % are within a factor
+ * 3 and 99 % within 10, none is 100 times too low.
  */
 #ifndef BR_PREDICTION_H
 #define BR_PREDICTION_H

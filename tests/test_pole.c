@@ -28,6 +28,11 @@ static const struct {
     {"cos(7*x)/sin(3*x - 1)", 1.0 / 3},
     {"1/(exp(x) - 2)", 0.6931471805599453},
     {"1/log(x + 0.6)^2", 0.4},
+    {"4e6*(x - 0.3333) + 1/(x - 0.3333)", 0.3333}, /* no peak where it is looked at */
+    {"1/(x - 1e-5)", 1e-5},                        /* near the ends */
+    {"1/(x - 0.99999)", 0.99999},
+    {"1/(x - 1e-5)^2", 1e-5},
+    {"1/(x - 0.99999)^2", 0.99999},
 };
 
 static void test_poles(void **state)
