@@ -54,7 +54,7 @@ static void test_draws(void **state)
     assert_string_equal(first, second);
     br_extreme_scene(&other, second);
     assert_string_not_equal(first, second);
-    draw_all(300, solver, scheme);
+    draw_all(120, solver, scheme);
     for (size_t s = 0; br_linear_solvers[s]; s++)
         assert_true(solver[s] > 0);
     for (size_t s = 0; br_time_schemes[s]; s++)
