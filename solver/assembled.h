@@ -89,6 +89,9 @@ double br_system_usual_loss(const struct br_field *field, const struct br_factor
 double br_system_round_off(const struct br_field *field, const struct br_factoriser *factoriser,
                            const struct br_linear_options *options);
 
+/* What elimination without refinement leaves of the equations, as br_linear_solver's residual. */
+double br_system_residual(const struct br_field *field);
+
 /* ---- the functions of a br_field_solver: see there ---- */
 
 /* `create` of a row: with the row's own factoriser. */

@@ -162,3 +162,14 @@ double br_system_round_off(const struct br_field *f, const struct br_factoriser 
     return br_system_usual_loss(f, factoriser, options) +
            (repaired ? 8 * DBL_EPSILON * ((double)f->n + 1024) : 0);
 }
+
+/* Elimination is backward stable: each row is solved for a nodal force that is off by a few last
+ * bits of its terms, 24 C/h^3 |v| for bending and 2 C/h |v| for the rod (Higham, chapter 10). Such
+ * forces are at random, and what balances them is a sum of them and of their levers: of moments
+ * C |v|/L^2 the relative error is 0.5 times 2^-52 n^3.5, of normal forces 0.3 times 2^-52 n^1.5.
+ * Eight times as much. */
+double br_system_residual(const struct br_field *f)
+{
+    const double n = (double)f->n;
+    return DBL_EPSILON * (f->kind == BR_AXIAL ? 3 * n : 4 * n * n * n) * sqrt(n);
+}
