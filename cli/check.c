@@ -45,6 +45,7 @@ static enum br_status choose_method(const struct run *r, struct item *item, stru
     for (int kind = 0; kind < BR_VERIFY_KINDS && !status; kind++) {
         struct br_verify_study *v = &item->verify.study[kind];
         struct br_error inner = {0};
+        v->method.rounding = r->options.rounding_mode;
         if (v->count && br_method_options_read(&r->options.method, &v->method, &inner))
             status = br_fail(err, inner.status, "%s: verify: %s: %s", item->path,
                              br_verify_names[kind], inner.message);

@@ -7,6 +7,7 @@
 
 #include "cli/number_option.h"
 #include "cli/parse.h"
+#include "cli/rounding_option.h"
 #include "tables/check_emitter.h"
 
 static const char usage[] =
@@ -22,7 +23,7 @@ enum { FIRST_FILE = BR_PARSE_HELP + 1 }; /* FIRST_FILE + i: a file of format i *
 /* One row an option: those of the formats, then the fixed ones. */
 struct option_table {
     struct poptOption method[BR_METHOD_OPTIONS];
-    struct poptOption row[BR_MOST_CHECK_FORMATS + 12];
+    struct poptOption row[BR_MOST_CHECK_FORMATS + 13];
     size_t rows;
 };
 
@@ -39,6 +40,8 @@ static void fill_table(struct option_table *t, struct br_check_options *o)
          "an earlier check's JSON: what has moved since, and how serious that is", "FILE"},
         {"fail-fast", 0, POPT_ARG_NONE, &o->fail_fast, 0,
          "one scene after the other, the cheapest first, until one fails", NULL},
+        {"rounding", 0, POPT_ARG_STRING, &o->rounding, 0,
+         "rounding mode of the marches: nearest (the default), up, down or zero", "MODE"},
         {"threads", 0, POPT_ARG_STRING, &o->threads, 0, "threads; 0, the default: all cores",
          "COUNT"},
         {"quiet", 0, POPT_ARG_NONE, &o->quiet, 0, "no progress, no table on the terminal", NULL},
@@ -70,7 +73,9 @@ static enum br_status read_scenes(poptContext context, void *self, struct br_err
 static enum br_status read_values(struct br_check_options *o, struct br_error *err)
 {
     struct br_method method = br_method_default();
-    const enum br_status status = br_method_options_read(&o->method, &method, err);
+    enum br_status status = br_method_options_read(&o->method, &method, err);
+    if (!status)
+        status = br_read_rounding(o->rounding, &o->rounding_mode, err);
     return status ? status
                   : br_read_count_option("threads", o->threads, 4096, &o->thread_count, err);
 }
@@ -118,5 +123,6 @@ void br_check_options_clear(struct br_check_options *o)
     free(o->compare);
     br_method_options_clear(&o->method);
     free(o->threads);
+    free(o->rounding);
     *o = (struct br_check_options){0};
 }

@@ -10,12 +10,13 @@ enum { BR_MOST_CHECK_FORMATS = 8 };
 struct br_check_options {
     char *file[BR_MOST_CHECK_FORMATS]; /* by the registry of emitters; NULL: not given */
     struct br_method_options method;   /* instead of what the scenes say */
-    char *compare, *threads;
+    char *compare, *threads, *rounding;
     int all, fail_fast, quiet, help;
     char **scene; /* scenes; owned */
     size_t scenes;
 
-    int thread_count; /* 0: all cores */
+    int thread_count;  /* 0: all cores */
+    int rounding_mode; /* of the marches, as fesetround takes it */
 };
 
 /* Parses and checks argv (argv[0] is "beamrate check"). With --help it prints the help and sets

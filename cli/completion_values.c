@@ -3,6 +3,7 @@
 
 #include "cli/completion.h"
 #include "cli/extremes_part.h"
+#include "cli/rounding_option.h"
 #include "study/study.h"
 #include "tables/emitter.h"
 
@@ -55,21 +56,24 @@ static const char *degrees(void)
     return "1 2";
 }
 
-static const char *roundings(void)
-{
-    return "nearest up down zero";
-}
-
 /* Options by name, the same in all commands. */
 static const struct {
     const char *option;
     const char *(*words)(void);
 } values[] = {
-    {"solver", solvers},     {"reference-solver", solvers}, {"kernel", kernels},
-    {"contact", contacts},   {"friction", frictions},       {"norm", norms},
-    {"format", formats},     {"reference", references},     {"scaling", scalings},
-    {"scheme", schemes},     {"axial-degree", degrees},     {"methods", schemes},
-    {"rounding", roundings},
+    {"solver", solvers},
+    {"reference-solver", solvers},
+    {"kernel", kernels},
+    {"contact", contacts},
+    {"friction", frictions},
+    {"norm", norms},
+    {"format", formats},
+    {"reference", references},
+    {"scaling", scalings},
+    {"scheme", schemes},
+    {"axial-degree", degrees},
+    {"methods", schemes},
+    {"rounding", br_rounding_words},
 };
 
 enum br_value_kind br_option_values(const struct br_help_option *option, const char **words)

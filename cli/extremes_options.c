@@ -2,13 +2,13 @@
 #include "cli/extremes_options.h"
 
 #include <errno.h>
-#include <fenv.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/formats.h"
 #include "cli/number_option.h"
 #include "cli/parse.h"
+#include "cli/rounding_option.h"
 #include "cli/suggest.h"
 #include "study/number_list.h"
 
@@ -19,13 +19,7 @@ static const char usage[] =
     "of those below are tried.\n\nExamples:\n  beamrate extremes\n  beamrate extremes map --cases 10 --seed 7\n"
     "  beamrate extremes floors --n 100,1000 --k 0.01\n";
 
-/* By the mode that fesetround takes; nearest is the usual one. */
-static const struct {
-    const char *name;
-    int mode;
-} roundings[] = {
-    {"nearest", FE_TONEAREST}, {"up", FE_UPWARD}, {"down", FE_DOWNWARD}, {"zero", FE_TOWARDZERO}};
-enum { ROUNDINGS = sizeof roundings / sizeof *roundings, MOST_CASES = 1000000000 };
+enum { MOST_CASES = 1000000000 };
 
 /* Which parts heed an option, as in the help: "map". */
 static const char *heeders(unsigned option)
@@ -195,19 +189,6 @@ static enum br_status read_seed(const char *text, uint64_t *seed, struct br_erro
     return BR_OK;
 }
 
-static enum br_status read_rounding(const char *text, int *mode, struct br_error *err)
-{
-    *mode = FE_TONEAREST;
-    for (size_t i = 0; i < ROUNDINGS && text; i++)
-        if (strcmp(roundings[i].name, text) == 0) {
-            *mode = roundings[i].mode;
-            return BR_OK;
-        }
-    return text ? br_fail(err, BR_BAD_INPUT,
-                          "--rounding: found '%s', expected one of: nearest, up, down, zero", text)
-                : BR_OK;
-}
-
 static enum br_status read_cases(const char *text, size_t *cases, struct br_error *err)
 {
     int value = 0;
@@ -232,7 +213,7 @@ enum br_status br_extremes_wish_read(const struct br_extremes_options *o,
     if (!status)
         status = read_seed(o->seed, &w->seed, err);
     if (!status)
-        status = read_rounding(o->rounding, &w->rounding, err);
+        status = br_read_rounding(o->rounding, &w->rounding, err);
     if (!status && o->n)
         status = br_read_counts("--n", o->n, &w->n, &w->n_count, err);
     if (!status && o->k)

@@ -92,7 +92,7 @@ static enum br_status create(const struct br_field *field, const struct br_linea
 
 static double round_off(const struct br_field *f, const struct br_linear_options *options)
 {
-    return br_system_round_off(f, options->refinement);
+    return br_system_round_off(f, &banded, options);
 }
 
 static double residual(const struct br_field *f, const struct br_linear_options *options)

@@ -7,6 +7,7 @@
 
 #include "solver/contact_limit.h"
 #include "solver/march_state.h"
+#include "solver/rounding.h"
 #include "solver/traps.h"
 
 /* t_n = n T / N, never summed. */
@@ -67,7 +68,9 @@ enum br_status br_march_step_field(struct br_march *m, enum br_field_kind kind,
                                    struct br_error *err)
 {
     const int traps = m->foreign ? br_traps_lift() : br_traps_set();
+    const int rounding = br_rounding_set(m->method.rounding);
     const enum br_status status = step_field(m, kind, err);
+    br_rounding_restore(rounding);
     br_traps_restore(traps);
     return status;
 }

@@ -2,6 +2,7 @@
 /* Setting a march up, by parts or as an integrator's own. */
 #include "solver/damping.h"
 #include "solver/march_state.h"
+#include "solver/rounding.h"
 
 static enum br_status check_method(const struct br_scene *scene, size_t n, size_t steps,
                                    const struct br_method *method, struct br_error *err)
@@ -59,7 +60,9 @@ enum br_status br_march_create(struct br_march **out, const struct br_scene *sce
     m->scene = scene;
     m->method = *method;
     m->steps = steps;
+    const int rounding = br_rounding_set(method->rounding);
     status = method->scheme->integrator ? create_foreign(m, n, err) : create_parts(m, n, err);
+    br_rounding_restore(rounding);
     if (status) {
         br_march_free(m);
         return status;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/method.h"
 
+#include <fenv.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -15,6 +16,7 @@ struct br_method br_method_default(void)
         .friction = br_friction_rules[0],
         .iteration = br_iteration_defaults,
         .axial_degree = 1,
+        .rounding = FE_TONEAREST,
     };
 }
 

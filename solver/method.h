@@ -20,6 +20,8 @@ struct br_method {
     int axial_degree;              /* of the axial elements: 1, the paper's, or 2 */
     size_t most_steps;             /* of an adaptive scheme, those taken back included: more end the
                                       march with BR_INTERRUPTED; 0: no limit but the scheme's own */
+    int rounding;                  /* of the march's set-up and steps, as fesetround takes it;
+                                      FE_TONEAREST: as the caller's thread has it */
 };
 
 /* The defaults: the first row of each registry, elements of degree 1. */

@@ -92,7 +92,7 @@ static void fill_weights(const struct br_lq *lq, const struct br_lq_gain *gain, 
                          block *zeta, double *weight, struct whole *whole)
 {
     const int d = lq->d;
-    block y = {{0}}, from_left, to_right, turned, step;
+    block y = {{0}}, from_left = {{0}}, to_right, turned, step;
     fill_reaction(lq, gain, length, zeta);
     set_identity(d, from_left);
     for (size_t e = length; e-- > 0; weight += 2 * d * d) {

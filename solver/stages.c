@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "solver/march_state.h"
+#include "solver/traps.h"
 
 /* ---- contact ---- */
 
@@ -139,8 +140,10 @@ static void tell(const struct br_march *m, enum br_field_kind kind, const struct
         .time = br_step_time(step, stages->stage[i].time),
         .tau = m->part[kind].field.k,
     };
+    const int traps = br_traps_lift(); /* who judges may meet a NaN, and says so */
     for (size_t w = 0; w < m->watchers; w++)
         m->watcher[w].stage(m->watcher[w].self, &told);
+    br_traps_restore(traps);
 }
 
 enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
@@ -174,8 +177,10 @@ void br_march_accept(struct br_march *m, enum br_field_kind kind, const struct b
                      bool switched)
 {
     br_part_accept(&m->part[kind], stages, switched);
+    const int traps = br_traps_lift();
     for (size_t w = 0; w < m->watchers; w++)
         m->watcher[w].step(m->watcher[w].self, kind, switched);
+    br_traps_restore(traps);
 }
 
 enum br_regime br_march_regime(const struct br_march *m, enum br_field_kind kind)

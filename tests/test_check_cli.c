@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate check as a CI job meets it: exit codes, messages, reports. */
 #include <jansson.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,6 +49,37 @@ static void test_verdicts(void **state)
     cli_expect("check --help", NULL, 0, "\n  portable     available here\n");
 }
 
+/* Error of the finest mesh in a check's JSON. */
+static double last_error(const char *name)
+{
+    char path[512];
+    cli_path(name, path);
+    json_t *root = json_load_file(path, 0, NULL);
+    assert_non_null(root);
+    const json_t *scene = json_array_get(json_object_get(root, "scenes"), 0);
+    const json_t *order = json_array_get(json_object_get(scene, "cases"), 0);
+    const json_t *points = json_object_get(order, "points");
+    const json_t *last = json_array_get(points, json_array_size(points) - 1);
+    const double value = json_real_value(json_object_get(last, "error"));
+    json_decref(root);
+    return value;
+}
+
+/* Verdicts hold whichever way the marches round; their last digits do not. */
+static void test_rounding(void **state)
+{
+    (void)state;
+    cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n");
+    cli_expect("check good.yaml --json nearest.json", NULL, 0, "1 PASS");
+    cli_expect("check good.yaml --rounding up --json up.json", NULL, 0, "1 PASS");
+    cli_expect("check good.yaml --rounding zero --json zero.json", NULL, 0, "1 PASS");
+    const double nearest = last_error("nearest.json"), up = last_error("up.json");
+    assert_true(nearest > 0);
+    assert_true(up != nearest);
+    assert_true(up != last_error("zero.json"));
+    assert_true(fabs(up / nearest - 1) < 1e-6);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -66,6 +98,8 @@ static void test_refusals(void **state)
         {"check", "no scene is given, expected files, names of bundled scenes, or --all"},
         {"check nowhere", "scene 'nowhere' is no file and no bundled scene"},
         {"check --all good.yaml", "--all and scenes are given"},
+        {"check good.yaml --rounding away",
+         "--rounding: found 'away', expected one of: nearest, up, down, zero"},
         {"check good.yaml --threads -1", "--threads: found '-1'"},
         {"check good.yaml --solver riccati --kernel sse2",
          "--kernel: found 'sse2', expected one of: "},
@@ -345,15 +379,11 @@ static void test_all(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_verdicts),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_strange_baselines),
-        cmocka_unit_test(test_reports),
-        cmocka_unit_test(test_standard_output),
-        cmocka_unit_test(test_whole_files),
-        cmocka_unit_test(test_compare),
-        cmocka_unit_test(test_links),
-        cmocka_unit_test(test_all),
+        cmocka_unit_test(test_verdicts),    cmocka_unit_test(test_rounding),
+        cmocka_unit_test(test_refusals),    cmocka_unit_test(test_strange_baselines),
+        cmocka_unit_test(test_reports),     cmocka_unit_test(test_standard_output),
+        cmocka_unit_test(test_whole_files), cmocka_unit_test(test_compare),
+        cmocka_unit_test(test_links),       cmocka_unit_test(test_all),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

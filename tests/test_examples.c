@@ -72,6 +72,9 @@ static void collect(char *text, const char *origin)
             *end = '\0';
             continue;
         }
+        char *remark = strstr(whole, " # "); /* else it would swallow what is added to the line */
+        if (remark)
+            *remark = '\0';
         keep(whole, origin);
         whole[0] = '\0';
     }

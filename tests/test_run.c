@@ -353,7 +353,7 @@ static void test_failures(void **state)
     struct br_error err = {0};
     struct br_run_report report;
     struct br_scene scene = br_test_bare();
-    scene.axial.load = br_test_load("exp(1000*t)");
+    scene.axial.load = br_test_load("sqrt(0.705 - t)");
     struct stop_at s = {.step = 5};
     struct br_history_observer observer = {.self = &s, .step = stop};
     struct br_run_request request = {.scene = &scene,
