@@ -11,6 +11,7 @@
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/signals.h"
+#include "cli/warn_marches.h"
 #include "plots/figures.h"
 #include "plots/plots.h"
 #include "study/ranks.h"
@@ -198,6 +199,8 @@ static enum br_status run(int argc, const char **argv, struct br_error *err)
     struct run r = {.options = &options};
     enum br_status status = parse(argc, argv, &options, err);
     const bool works = !options.help, writes = works && br_ranks_first();
+    if (writes && !status)
+        status = br_warn_of_paper(err);
     if (writes && !status)
         status = br_output_open(&r.output, options.out ? options.out : "figures", err);
     br_provenance_fill(&r.provenance, options.thread_count);

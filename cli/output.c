@@ -9,6 +9,8 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include "cli/staging.h"
+
 /* Every folder of the path that is not there yet; *made: whether the last one was not. */
 static bool make_folders(const char *path, bool *made)
 {
@@ -33,8 +35,8 @@ enum br_status br_output_open(struct br_output *o, const char *folder, struct br
     if (!make_folders(folder, &o->made))
         return br_fail(err, BR_BAD_INPUT, "--out: cannot make the folder %s: %s", folder,
                        strerror(errno));
-    snprintf(o->staging, sizeof o->staging, "%s/.beamrate-XXXXXX", folder);
-    if (!mkdtemp(o->staging)) {
+    br_staging_sweep(folder);
+    if (!br_staging_make(folder, o->staging, sizeof o->staging, &o->lock)) {
         o->staging[0] = '\0';
         return br_fail(err, BR_BAD_INPUT, "--out: cannot write in the folder %s: %s", folder,
                        strerror(errno));
@@ -127,6 +129,8 @@ void br_output_discard(struct br_output *o)
         return;
     for_each(o, erase, NULL);
     rmdir(o->staging);
+    if (o->lock >= 0)
+        close(o->lock);
     o->staging[0] = '\0';
     if (o->made)
         rmdir(o->folder); /* fails, as it should, where there are results */

@@ -12,10 +12,12 @@
 struct br_output {
     char folder[1024];  /* where the results will be */
     char staging[1088]; /* where they are being written */
+    int lock;           /* of the latter */
     bool made;          /* the folder was not there before */
 };
 
-/* Makes the folder (and its parents) and the hidden one. Fails with BR_BAD_INPUT
+/* Makes the folder (and its parents) and the hidden one; those that were left behind in it are
+ * removed. Fails with BR_BAD_INPUT
  * where that cannot be written, so call it before a long computation. */
 enum br_status br_output_open(struct br_output *output, const char *folder, struct br_error *err);
 

@@ -12,6 +12,7 @@
 #include "cli/provenance.h"
 #include "cli/read_text.h"
 #include "cli/signals.h"
+#include "cli/warn_marches.h"
 #include "study/ranks.h"
 #include "study/scene_file.h"
 #include "tables/plan_emitter.h"
@@ -108,6 +109,7 @@ static enum br_status show(struct work *w, struct br_error *err)
         .provenance = &w->provenance,
     };
     enum br_status status = BR_OK;
+    br_warn_of_plan(&w->plan);
     if (!w->options.study.quiet)
         status = br_plan_emit(&br_page_text, stdout, &page, err);
     if (!status && w->options.study.out)

@@ -187,10 +187,12 @@ static enum br_status run_scene(struct run *r, struct br_error *err)
         status = br_run_plan_make(&r->options, &r->scene, &r->plan, err);
     if (!status)
         status = br_model_select(&r->scene, r->plan.wanted, &r->marched, err);
-    if (!status)
-        status = open_files(r, err);
+    if (!status && r->plan.method.axial_degree != 1 && !r->marched.axial.modelled)
+        status = br_fail(err, BR_BAD_INPUT, "--axial-degree: no axial field is marched");
     if (!status)
         status = look_ahead(r, err);
+    if (!status)
+        status = open_files(r, err);
     if (!status)
         status = march(r, err);
     if (!status)

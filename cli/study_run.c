@@ -12,6 +12,7 @@
 #include "cli/warn_marches.h"
 #include "plots/plots.h"
 #include "study/ranks.h"
+#include "study/resources.h"
 #include "tables/emitter.h"
 
 /* A run on its way to its files. */
@@ -135,6 +136,18 @@ static enum br_status check_cells(const struct br_session *s, struct br_error *e
                    first->failure.status ? first->failure.message : "its error is not a number");
 }
 
+/* Of what marches at once: without a reference one job after the other. */
+static enum br_status check_memory(const struct br_session *s, struct br_error *err)
+{
+    const double available = br_memory_available();
+    if (s->request.judge != &br_judge_none)
+        return br_fit_together(s->study, s->heads, available, err);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < s->jobs && !status; i++)
+        status = br_fit_together(br_session_study(s, i, 0), 1, available, err);
+    return status;
+}
+
 enum br_status br_study_run_jobs(const struct br_study_job *jobs, size_t count,
                                  const struct br_study_options *options, bool with_exact,
                                  struct br_error *err)
@@ -144,6 +157,8 @@ enum br_status br_study_run_jobs(const struct br_study_job *jobs, size_t count,
     enum br_status status = br_session_prepare(&r.session, jobs, count, options, with_exact, err);
     if (!status && writes)
         status = br_warn_of_studies(r.session.study, r.session.jobs, err);
+    if (!status && br_ranks_size() == 1)
+        status = check_memory(&r.session, err);
     if (!status && writes)
         status = br_output_open(&r.output, options->out ? options->out : "results", err);
     br_provenance_fill(&r.provenance, r.session.request.threads);

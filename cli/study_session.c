@@ -8,6 +8,7 @@
 #include "cli/progress.h"
 #include "cli/read_text.h"
 #include "cli/signals.h"
+#include "plots/plots.h"
 #include "reference/printed.h"
 #include "solver/clock.h"
 #include "study/differences.h"
@@ -179,6 +180,9 @@ static enum br_status start_report(struct br_session *s, const struct place *at,
         &s->page[(at->job * s->request.norms + at->norm) * variants + at->variant];
     const bool companion = variants == 1 && s->heads > s->jobs;
     name_page(s, at, job, page);
+    const enum br_status status = br_check_stem(page->name, err);
+    if (status)
+        return status;
     page->report = (struct br_report){
         .name = page->name,
         .caption = page->caption,
@@ -227,6 +231,15 @@ static enum br_status allocate(struct br_session *s, struct br_error *err)
     return s->work && s->page && s->study ? BR_OK : br_no_memory(err, "the studies");
 }
 
+static enum br_status check_degree(const struct br_session *s, struct br_error *err)
+{
+    bool axial = s->request.method.axial_degree == 1;
+    for (size_t i = 0; i < s->jobs; i++)
+        axial |= s->work[i].scene.axial.modelled;
+    return axial ? BR_OK
+                 : br_fail(err, BR_BAD_INPUT, "--axial-degree: no scene has an axial field");
+}
+
 enum br_status br_session_prepare(struct br_session *s, const struct br_study_job *jobs,
                                   size_t count, const struct br_study_options *options,
                                   bool with_exact, struct br_error *err)
@@ -241,7 +254,7 @@ enum br_status br_session_prepare(struct br_session *s, const struct br_study_jo
     status = allocate(s, err);
     for (size_t i = 0; i < count && !status; i++)
         status = prepare(s, i, &jobs[i], err);
-    return status;
+    return status ? status : check_degree(s, err);
 }
 
 void br_session_clear(struct br_session *s)

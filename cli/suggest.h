@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What somebody may have meant who mistyped a name. */
+/* What option somebody may have meant who mistyped it. */
 #ifndef BR_SUGGEST_H
 #define BR_SUGGEST_H
 
@@ -7,9 +7,7 @@
 #include <stddef.h>
 
 #include "solver/status.h"
-
-/* The nearest of count names, by the number of letters that differ; NULL: none is near. */
-const char *br_nearest(const char *word, const char *const *names, size_t count);
+#include "study/nearest.h"
 
 /* Refuses (BR_BAD_INPUT) an option that popt has refused with `code`, and names the nearest one of
  * the table. */

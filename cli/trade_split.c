@@ -11,6 +11,7 @@
 #include "cli/provenance.h"
 #include "cli/read_text.h"
 #include "cli/signals.h"
+#include "cli/warn_marches.h"
 #include "plots/split.h"
 #include "study/contender.h"
 #include "study/number_list.h"
@@ -211,6 +212,8 @@ static enum br_status run(struct work *w, struct br_error *err)
         status = read_scene(w, err);
     if (!status)
         status = lay_out(w, err);
+    if (!status && writes)
+        status = br_warn_of_splits(w->split, w->splits, err);
     if (!status && writes)
         status = br_output_open(&w->output, out ? out : "trade", err);
     if (!status)

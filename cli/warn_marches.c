@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/warn_marches.h"
 
+#include <math.h>
+
 #include "cli/warn.h"
+#include "study/paper.h"
 
 static enum br_status look_at_cells(const struct br_study *study, struct br_warnings *warnings,
                                     struct br_error *err)
@@ -65,4 +68,57 @@ void br_warn_of_trade(const struct br_trade *trade)
         br_look_ahead_cheaply(&outlook, &warnings, &refusal);
     }
     br_print_warnings_of(scene->name, &warnings);
+}
+
+void br_warn_of_plan(const struct br_plan *plan)
+{
+    if (plan->chosen >= plan->count)
+        return;
+    const struct br_trial *t = &plan->trial[plan->chosen];
+    struct br_warnings warnings = {0};
+    struct br_error refusal = {0};
+    const struct br_outlook outlook = {.scene = plan->request.scene,
+                                       .method = &t->contender->method,
+                                       .n = t->at.n,
+                                       .steps = t->at.steps};
+    br_look_ahead_cheaply(&outlook, &warnings, &refusal);
+    br_print_warnings_of(plan->request.scene->name, &warnings);
+}
+
+enum br_status br_warn_of_splits(const struct br_split *splits, size_t count, struct br_error *err)
+{
+    struct br_warnings warnings = {0};
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < count && !status; i++) {
+        const struct br_split *s = &splits[i];
+        const struct br_outlook outlook = {
+            .scene = s->scene, .method = &s->method, .n = s->at.n, .steps = s->at.steps};
+        status = br_look_ahead_cheaply(&outlook, &warnings, err);
+    }
+    if (count)
+        br_print_warnings_of(splits[0].scene->name, &warnings);
+    return status;
+}
+
+enum br_status br_warn_of_paper(struct br_error *err)
+{
+    const struct br_paper_request request = br_paper_request_default();
+    const struct br_method method = br_method_default();
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < BR_EXAMPLES && !status; i++) {
+        struct br_warnings warnings = {0};
+        struct br_scene scene;
+        status = br_paper_scene(i, &scene, err);
+        if (!status) {
+            const struct br_outlook outlook = {.scene = &scene,
+                                               .method = &method,
+                                               .n = request.n,
+                                               .steps = request.per_second *
+                                                        (size_t)lround(scene.duration)};
+            status = br_look_ahead_cheaply(&outlook, &warnings, err);
+            br_print_warnings_of(scene.name, &warnings);
+        }
+        br_scene_clear(&scene);
+    }
+    return status;
 }

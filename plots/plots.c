@@ -28,14 +28,21 @@ static bool is_stem(const char *name)
     return true;
 }
 
+enum br_status br_check_stem(const char *name, struct br_error *err)
+{
+    return is_stem(name) ? BR_OK
+                         : br_fail(err, BR_BAD_INPUT,
+                                   "the report's name is \"%s\", expected the beginning of a file "
+                                   "name: a letter, digit or underscore, then no slash",
+                                   name);
+}
+
 enum br_status br_plot_file(const struct br_plot *plot, const struct br_report *report,
                             const char *extension, char *file, size_t size, struct br_error *err)
 {
-    if (!is_stem(report->name))
-        return br_fail(err, BR_BAD_INPUT,
-                       "the report's name is \"%s\", expected the beginning of a file name: a "
-                       "letter, digit or underscore, then no slash",
-                       report->name);
+    const enum br_status status = br_check_stem(report->name, err);
+    if (status)
+        return status;
     const int length = snprintf(file, size, "%s-%s%s%s", report->name, plot->name,
                                 *extension ? "." : "", extension);
     if (length < 0 || (size_t)length >= size)

@@ -68,6 +68,8 @@ struct br_step {
      * below their last bit counts as nothing: down there are numbers that underflow. NULL: the
      * step counts alone. */
     double (*largest)[BR_SCALES];
+    double speed[2]; /* the largest by br_field_kind in the steps that this one's states were found
+                        from, m/s; 0: the step counts alone */
 };
 
 struct br_certificate br_certify(const struct br_step *step);

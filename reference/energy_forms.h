@@ -25,6 +25,7 @@ struct br_field_energy br_energy_of_field(const struct br_field *field,
 struct br_power {
     real load, viscous, tip; /* tip: of the contact or the friction force, which resists */
     real load_size;          /* the sum of the sizes of the nodes' shares */
+    real residual;           /* of what a sound stage's residual may do, over its relative size */
 };
 
 /* Since t = 0, J. */

@@ -8,16 +8,60 @@
 
 /* ---- a stage ---- */
 
-static struct br_power power_of(const struct br_energy_meter *m, enum br_field_kind kind)
+/* The norms of K, without its coefficient, and of M. */
+static real bend_norm(const struct br_field *f, const double *y)
+{
+    return sqrtl(br_bend_product(f, y, y));
+}
+
+static real mass_norm(const struct br_field *f, const double *y)
+{
+    return f->density > 0 ? sqrtl(br_mass_product(f, y, y)) : 0;
+}
+
+/* A stage goes from Z to Y in tau, and its residual r is relative to the sum of its terms, those of
+ * Z among them (residual.c): where a velocity stops or a displacement decays in one step, Z's are
+ * far larger than Y's. By Schwarz' inequality |v'r| is at most that relative size times
+ *     |v| (a (|w| + |Z_w| + tau |v| + tau |Z_v|) + c (|v| + |Z_v|) + |r_tip|)  in the norms of K,
+ *     |v - Z_v| (|v| + |Z_v|) / tau                                            in those of M,
+ * and so is what rounding the stage's update does to <v, w> and <v', v>; |Z_w| <= |w| + tau |v|. */
+static real residual_power(const struct br_field *f, const struct br_watched_field *seen, real tau,
+                           real bent_speed, real tip_force)
+{
+    const real length = (real)f->h * f->n;
+    const real tip = tip_force * sqrtl(f->kind == BR_AXIAL ? length : length * length * length / 3);
+    const struct br_nodal *y = &seen->y.row[seen->last], *z = &seen->y.start;
+    const real w = bend_norm(f, y->displacement), v = bent_speed,
+               before = bend_norm(f, z->velocity);
+    const real moving = mass_norm(f, y->velocity) + mass_norm(f, z->velocity);
+    return v * ((real)f->stiffness * (2 * w + 2 * tau * v + tau * before) +
+                (real)f->viscosity * (v + before) + fabsl(tip)) +
+           moving * moving / tau;
+}
+
+/* How far a stage's own round-off is above the march's: it depends on tau, and some solvers leave a
+ * residual beyond it. */
+static real excess_of(const struct br_energy_meter *m, const struct br_field *f)
+{
+    const struct br_method *method = m->method;
+    const double own = method->solver->residual ? method->solver->residual(f, &method->linear) : 0;
+    const double now = br_energy_limit(f->n, br_march_round_off(m->march)) + own;
+    return fmax(1, now / m->limit);
+}
+
+static struct br_power power_of(const struct br_energy_meter *m, enum br_field_kind kind, real tau)
 {
     const struct br_meter_field *f = &m->field[kind];
     const struct br_watched_field *seen = &m->seen.field[kind];
     const struct br_tip *tip = br_march_tip(m->march);
     const double *v = seen->y.row[seen->last].velocity;
+    const real bent = br_bend_product(&f->field, v, v);
+    const double force = kind == BR_AXIAL ? tip->contact_force : tip->friction_force;
     struct br_power p = {
-        .viscous = (real)f->field.viscosity * br_bend_product(&f->field, v, v),
-        .tip = (real)(kind == BR_AXIAL ? tip->contact_force : tip->friction_force) *
-               v[f->field.n * br_field_unknowns(&f->field)],
+        .viscous = (real)f->field.viscosity * bent,
+        .residual =
+            excess_of(m, &f->field) * residual_power(&f->field, seen, tau, sqrtl(bent), force),
+        .tip = (real)force * v[f->field.n * br_field_unknowns(&f->field)],
     };
     p.load = br_nodal_product(seen->load, v, br_field_size(&f->field), &p.load_size);
     return p;
@@ -26,10 +70,10 @@ static struct br_power power_of(const struct br_energy_meter *m, enum br_field_k
 static void watch_stage(void *self, const struct br_march_stage *told)
 {
     struct br_energy_meter *m = self;
-    br_watched_stage(&m->seen, told);
+    const real tau = br_watched_stage(&m->seen, told);
     const int row = m->seen.field[told->kind].last;
     if (row >= 0)
-        m->field[told->kind].row[row] = power_of(m, told->kind);
+        m->field[told->kind].row[row] = power_of(m, told->kind, tau);
     m->field[told->kind].k = told->k;
 }
 
@@ -131,7 +175,7 @@ static struct sum add_works(struct br_meter_field *m, const struct br_textbook *
         add(&all, weight * p->load);
         add(&all, -weight * p->viscous);
         add(&all, -weight * p->tip);
-        all.size += fabsl(weight) * p->load_size;
+        all.size += fabsl(weight) * (p->load_size + p->residual);
     }
     return all;
 }
@@ -150,11 +194,12 @@ static double relative(real a, real size)
  * velocity it begins with: with what the certificate allows their update, relative to |w| + k |v|,
  * stored energy has that times |k v| |w|, J, in the norms of K. */
 static real noise_of_ways(const struct br_energy_meter *m, const struct br_meter_field *f,
-                          const double *velocity, const double *displacement)
+                          const struct br_watched_field *seen)
 {
-    const real ways = f->k * sqrtl(br_bend_product(&f->field, velocity, velocity));
-    const real size = sqrtl(br_bend_product(&f->field, displacement, displacement));
-    return (real)m->update * (real)f->field.stiffness * ways * size;
+    const real ways = bend_norm(&f->field, seen->y.past[0].velocity) +
+                      bend_norm(&f->field, seen->y.start.velocity);
+    const real size = bend_norm(&f->field, seen->y.row[seen->last].displacement);
+    return (real)m->update * (real)f->field.stiffness * f->k * ways * size;
 }
 
 /* What an imbalance is relative to, J: what has decayed below the last bit of the largest so far
@@ -185,7 +230,7 @@ static double add_step(struct br_energy_meter *m, enum br_field_kind kind)
     const real size = scale_of(m, f,
                                works.size + taken.size + total(&f->now) + total(&before) +
                                    f->now.contact + before.contact,
-                               noise_of_ways(m, f, seen->y.past[0].velocity, y->displacement));
+                               noise_of_ways(m, f, seen));
     f->work.scheme += taken.value;
     f->work.contact += contact;
     f->work.noise += m->limit * size;

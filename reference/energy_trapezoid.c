@@ -66,7 +66,7 @@ void br_meter_add_trapezoid(struct br_energy_meter *m)
         if (!f->modelled)
             continue;
         if (look(m, (enum br_field_kind)kind, &now, &err)) /* the march has met that load before */
-            now = (struct br_power){NAN, NAN, NAN, NAN};
+            now = (struct br_power){.load = NAN};
         f->work.load += half * (f->before.load + now.load);
         f->work.viscous += half * (f->before.viscous + now.viscous);
         f->work.tip += half * (f->before.tip + now.tip);

@@ -120,6 +120,35 @@ static double tip_displacement_error(const struct br_step *s)
                          magnitude(u, size_of(s, BR_AXIAL)));
 }
 
+/* A scheme's weights are up to 8, and its steps grow by 5. */
+static const double most_weight = 64;
+
+/* Velocities are sums of increments: what those that a step starts from were rounded to remains in
+ * its own, m/s. */
+static double stillness(const struct br_step *s, enum br_field_kind kind)
+{
+    const size_t size = size_of(s, kind);
+    const struct br_step_field *f = &s->field[kind];
+    const double own =
+        br_worse_of(magnitude(f->velocity, size), magnitude(f->velocity_before, size));
+    return most_weight * DBL_EPSILON * br_worse_of(own, s->speed[kind]);
+}
+
+/* c_H (u - g) for a depth of any sign, less what rounding leaves of velocities. */
+static double force_error(const struct br_step *s, double force, double wanted)
+{
+    const double way = s->k * stillness(s, BR_AXIAL);
+    return positive(fabs(force - wanted) - s->scene->contact.stiffness * way);
+}
+
+/* What a contact force is relative to, N. */
+static double contact_scale(const struct br_step *s, double force)
+{
+    const struct br_contact *c = &s->scene->contact;
+    const double ways = field_scale(s, BR_AXIAL) + way_of(s, BR_AXIAL, force);
+    return fabs(force) + c->stiffness * (ways + c->gap);
+}
+
 /* (10): at u_{n-1} or u_n, as the method's contact rule has it. */
 static double contact_error(const struct br_step *s)
 {
@@ -136,9 +165,8 @@ static double contact_error(const struct br_step *s)
     else
         return NAN;
     const double wanted = c->stiffness * positive(at_tip(s, BR_AXIAL, u) - c->gap);
-    const double scale = fabs(force) + c->stiffness * (field_scale(s, BR_AXIAL) + c->gap +
-                                                       way_of(s, BR_AXIAL, force));
-    return br_over_scale(s, BR_AXIAL, BR_SCALE_LAW, fabs(force - wanted), scale);
+    return br_over_scale(s, BR_AXIAL, BR_SCALE_LAW, force_error(s, force, wanted),
+                         contact_scale(s, force));
 }
 
 /* u(L) - g at the time of a stage of the bending field. */
@@ -165,10 +193,12 @@ static double bound_scale(const struct br_step *s)
 {
     if (s->scene->friction.law != BR_COULOMB)
         return 0;
-    return s->scene->friction.coefficient * (field_scale(s, BR_AXIAL) + s->scene->contact.gap);
+    const double ways = field_scale(s, BR_AXIAL) + way_of(s, BR_AXIAL, s->tip.contact_force);
+    return s->scene->friction.coefficient * (ways + s->scene->contact.gap);
 }
 
-/* What an iteration may leave: of lambda, and of v = v* - lambda z. */
+/* What an iteration may leave: of lambda, and of v = v* - lambda z; and what rounding leaves of v.
+ */
 struct slack {
     double force, speed;
 };
@@ -211,8 +241,9 @@ static double friction_error(const struct br_step *s)
     const double v = ratio(at_tip(s, BR_BENDING, nodal), speed);
     const double l = ratio(lambda, force), b = ratio(bound, force);
     const double tolerance = s->method->friction->iterates ? s->method->iteration.tolerance : 0;
-    const struct slack left = {tolerance * b,
-                               ratio(tolerance * bound * s->compliance[BR_BENDING], speed)};
+    const struct slack left = {
+        tolerance * b,
+        ratio(tolerance * bound * s->compliance[BR_BENDING] + stillness(s, BR_BENDING), speed)};
     if (!s->method->friction->needs_regularisation)
         return br_worse_of(told, exact_law(v, l, b, left));
     if (speed == 0)
@@ -229,10 +260,9 @@ static int contact_branches(const struct br_step *s, double distance[BR_MOST_BRA
         return 0;
     const double force = s->tip.contact_force;
     const double depth = at_tip(s, BR_AXIAL, s->field[BR_AXIAL].displacement) - c->gap;
-    const double scale = fabs(force) + c->stiffness * (field_scale(s, BR_AXIAL) + c->gap +
-                                                       way_of(s, BR_AXIAL, force));
+    const double scale = contact_scale(s, force);
     distance[0] = ratio(fabs(force), scale);
-    distance[1] = ratio(fabs(force - c->stiffness * depth), scale);
+    distance[1] = ratio(force_error(s, force, c->stiffness * depth), scale);
     return BR_CONTACT_BRANCHES;
 }
 
@@ -243,14 +273,15 @@ static int friction_branches(const struct br_step *s, double distance[BR_MOST_BR
     if (scene->friction.law == BR_FRICTIONLESS || s->method->friction->needs_regularisation)
         return 0;
     const double lambda = s->tip.friction_force, bound = s->tip.friction_bound;
-    const double speed = (field_scale(s, BR_BENDING) + way_of(s, BR_BENDING, lambda)) / s->k;
+    const double ways = field_scale(s, BR_BENDING) + way_of(s, BR_BENDING, lambda);
+    const double speed = ways / s->k;
     const double force = br_worse_of(fabs(lambda), fabs(bound)) + bound_scale(s);
     double told = fabs(bound - bound_of(s));
     if (scene->friction.law == BR_COULOMB)
         told = smaller(told, fabs(bound - scene->friction.coefficient * depth_of(s)));
     told = ratio(told, force);
-    distance[0] =
-        br_worse_of(told, ratio(fabs(at_tip(s, BR_BENDING, s->field[BR_BENDING].velocity)), speed));
+    const double v = fabs(at_tip(s, BR_BENDING, s->field[BR_BENDING].velocity));
+    distance[0] = br_worse_of(told, ratio(positive(v - stillness(s, BR_BENDING)), speed));
     distance[1] = br_worse_of(told, ratio(fabs(lambda - bound), force));
     distance[2] = br_worse_of(told, ratio(fabs(lambda + bound), force));
     return BR_FRICTION_BRANCHES;

@@ -14,6 +14,10 @@ struct trial {
     double branch[BR_MOST_BRANCHES]; /* the worst so far of each branch that may be held */
 };
 
+/* A step looks back at most three steps, to states that look back as far, and the tip's increments
+ * are set right by those of the step before. */
+enum { REMEMBERED = 8 };
+
 struct br_witness {
     struct br_march *march;
     struct br_watched seen;
@@ -21,6 +25,8 @@ struct br_witness {
     struct br_tip_path path;
     struct br_certificate worst;  /* since the last call */
     double largest[2][BR_SCALES]; /* so far */
+    double speed[2][REMEMBERED];  /* the largest of each of the last steps, m/s */
+    struct br_certificate limits; /* as predicted when the march began */
     bool any;
 };
 
@@ -78,6 +84,66 @@ static struct br_step_field around(const struct br_watched_field *f)
                                   now->velocity, f->load};
 }
 
+/* The same of a field whose step may have been taken already: its last states, for their size. */
+static struct br_step_field lately(const struct br_watched_field *f)
+{
+    const struct br_nodal *a = &f->y.past[0], *b = &f->y.row[f->last < 0 ? 0 : f->last];
+    return (struct br_step_field){a->displacement, b->displacement, a->velocity, b->velocity,
+                                  f->load};
+}
+
+/* ---- what was before ---- */
+
+static void remember(struct br_witness *w, enum br_field_kind kind)
+{
+    const struct br_watched_field *f = &w->seen.field[kind];
+    double *most = &w->speed[kind][f->steps % REMEMBERED];
+    for (size_t i = 0; i < f->y.size; i++) {
+        *most = br_worse_of(fabs(f->y.past[0].velocity[i]), *most);
+        *most = br_worse_of(fabs(f->y.row[f->last].velocity[i]), *most);
+    }
+}
+
+static double largest_speed(const struct br_witness *w, enum br_field_kind kind)
+{
+    double most = 0;
+    for (int i = 0; i < REMEMBERED; i++)
+        most = br_worse_of(w->speed[kind][i], most);
+    return most;
+}
+
+/* ---- what a stage may lose ---- */
+
+/* How far the limits of this stage are above those of the march's first step: round-off depends on
+ * the stage's tau, and some solvers leave a residual of their own. */
+static struct br_certificate excess_of(const struct br_witness *w, enum br_field_kind kind)
+{
+    const struct br_method *method = w->seen.method;
+    const struct br_certificate *then = &w->limits;
+    const struct br_certificate now =
+        br_certificate_limits(method->scheme, w->seen.n, br_march_round_off(w->march));
+    const double own =
+        method->solver->residual
+            ? method->solver->residual(br_march_field(w->march, kind), &method->linear)
+            : 0;
+    return (struct br_certificate){
+        .axial_residual = fmax(1, (now.axial_residual + own) / then->axial_residual),
+        .bending_residual = fmax(1, (now.bending_residual + own) / then->bending_residual),
+        .update = fmax(1, now.update / then->update),
+        .friction = fmax(1, now.friction / then->friction),
+        .contact = fmax(1, now.contact / then->contact),
+    };
+}
+
+static void divide(struct br_certificate *c, const struct br_certificate *by)
+{
+    c->axial_residual /= by->axial_residual;
+    c->bending_residual /= by->bending_residual;
+    c->update /= by->update;
+    c->friction /= by->friction;
+    c->contact /= by->contact;
+}
+
 static struct br_certificate certify(struct br_witness *w, const struct br_march_stage *told,
                                      const double *axial_tip)
 {
@@ -90,15 +156,21 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
                                           br_march_compliance(w->march, BR_BENDING)},
                            .axial_tip = axial_tip,
                            .tip = *br_march_tip(w->march),
-                           .largest = w->largest};
+                           .largest = w->largest,
+                           .speed = {largest_speed(w, BR_AXIAL), largest_speed(w, BR_BENDING)}};
     step.field[told->kind] = around(&seen->field[told->kind]);
     /* The axial field lends its size to the bound's round-off. */
     if (told->kind == BR_BENDING)
-        step.field[BR_AXIAL] = around(&seen->field[BR_AXIAL]);
+        step.field[BR_AXIAL] = lately(&seen->field[BR_AXIAL]);
+    const struct br_certificate excess = excess_of(w, told->kind);
     struct br_certificate c = br_certify_field(&step, told->kind);
+    divide(&c, &excess);
     double distance[BR_MOST_BRANCHES];
     const int branches =
         seen->method->scheme->adaptive ? br_branch_distances(&step, told->kind, distance) : 0;
+    const double by = told->kind == BR_AXIAL ? excess.contact : excess.friction;
+    for (int i = 0; i < branches; i++)
+        distance[i] /= by;
     double *law = told->kind == BR_AXIAL ? &c.contact : &c.friction;
     if (branches > 0)
         *law =
@@ -118,6 +190,7 @@ static void watch_stage(void *self, const struct br_march_stage *told)
         trial->worst = not_good;
         return;
     }
+    remember(w, told->kind);
     double axial_tip = 0;
     if (told->kind == BR_AXIAL)
         path_stage(w, told);
@@ -133,6 +206,7 @@ static void watch_step(void *self, enum br_field_kind kind, bool switched)
 {
     struct br_witness *w = self;
     br_watched_step(&w->seen, kind, switched);
+    w->speed[kind][w->seen.field[kind].steps % REMEMBERED] = 0;
     br_certificate_merge(&w->worst, &w->trial[kind].worst);
     w->any = true;
 }
@@ -153,6 +227,8 @@ enum br_status br_witness_create(struct br_witness **out, struct br_march *march
     if (!w)
         return br_no_memory(err, "a certificate");
     w->march = march;
+    w->limits = br_certificate_limits(method->scheme, br_march_field(march, BR_AXIAL)->n,
+                                      br_march_round_off(march));
     enum br_status status = br_watched_init(&w->seen, march, scene, method, err);
     if (!status && !br_march_watch(march, &(struct br_march_watcher){w, watch_stage, watch_step}))
         status = br_fail(err, BR_BAD_INPUT, "the march has %d watchers, and room for no more",

@@ -92,7 +92,12 @@ static enum br_status create(const struct br_field *field, const struct br_linea
 
 static double round_off(const struct br_field *f, const struct br_linear_options *options)
 {
-    return br_system_round_off(f, options->refinement);
+    return br_system_round_off(f, &banded, options);
+}
+
+static double residual(const struct br_field *f, const struct br_linear_options *options)
+{
+    return options->refinement > 0 ? 0 : br_system_residual(f);
 }
 
 static const struct br_field_solver form = BR_ASSEMBLED(create);
@@ -105,6 +110,7 @@ const struct br_linear_solver br_banded = {
     .axial = &form,
     .bending = &form,
     .round_off = round_off,
+    .residual = residual,
     .bytes = {135, 310, 0},
     .state_bytes = {16, 32, 0},
     .nanoseconds = 70,

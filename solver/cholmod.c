@@ -129,7 +129,12 @@ static enum br_status create(const struct br_field *field, const struct br_linea
 
 static double round_off(const struct br_field *f, const struct br_linear_options *options)
 {
-    return br_system_round_off(f, options->refinement);
+    return br_system_round_off(f, &cholmod, options);
+}
+
+static double residual(const struct br_field *f, const struct br_linear_options *options)
+{
+    return options->refinement > 0 ? 0 : br_system_residual(f);
 }
 
 static const struct br_field_solver form = BR_ASSEMBLED(create);
@@ -143,6 +148,7 @@ const struct br_linear_solver br_cholmod = {
     .axial = &form,
     .bending = &form,
     .round_off = round_off,
+    .residual = residual,
     .bytes = {260, 650, 0},
     .state_bytes = {16, 32, 0},
     .nanoseconds = 80,

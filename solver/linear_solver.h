@@ -112,6 +112,11 @@ struct br_linear_solver {
      * solution at its end, from measurements (`beamrate extremes floors`; the benchmark). */
     double (*round_off)(const struct br_field *field, const struct br_linear_options *options);
 
+    /* What its solves leave of the equations (27) and (28) beyond the rounding of nodal values:
+     * the norm of the normal force or the moment that is missing, relative to the terms' sum.
+     * NULL: nothing. */
+    double (*residual)(const struct br_field *field, const struct br_linear_options *options);
+
     /* Bytes an element at most, as measured: with one state, while it is set up and after; and of
      * each state more that a scheme keeps. tests/test_resources.c compares. */
     struct br_by_element bytes, state_bytes;

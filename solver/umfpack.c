@@ -170,11 +170,15 @@ static enum br_status create(const struct br_field *field, const struct br_linea
     return br_assembled_create(field, options, &umfpack, self, err);
 }
 
-/* UMFPACK's refinement repairs residuals, not errors: with it, up to 10 times as much. */
 static double round_off(const struct br_field *f, const struct br_linear_options *options)
 {
-    const double more = f->kind == BR_AXIAL ? 4 : 10;
-    return br_system_round_off(f, 0) * (options->refinement > 0 ? more : 1);
+    return br_system_round_off(f, &umfpack, options);
+}
+
+static double residual(const struct br_field *f, const struct br_linear_options *options)
+{
+    (void)options; /* its own refinement is of the rounded matrix */
+    return br_system_residual(f);
 }
 
 static const struct br_field_solver form = BR_ASSEMBLED(create);
@@ -187,6 +191,7 @@ const struct br_linear_solver br_umfpack = {
     .axial = &form,
     .bending = &form,
     .round_off = round_off,
+    .residual = residual,
     .bytes = {410, 1110, 0},
     .state_bytes = {16, 32, 0},
     .nanoseconds = 70,

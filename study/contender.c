@@ -154,6 +154,37 @@ static enum br_status take_word(const char *word, struct br_method *m, bool take
     return BR_OK;
 }
 
+/* Whether a march of the scene begins with it. */
+static enum br_status try_scene(const struct br_scene *scene, const struct br_method *method,
+                                struct br_error *err)
+{
+    struct br_march *march = NULL;
+    const enum br_status status = br_march_create(&march, scene, 4, 4, method, err);
+    br_march_free(march);
+    return status;
+}
+
+/* What is refused with each field alone and with all there is goes with no scene. */
+static enum br_status check_somewhere(const struct br_method *m, struct br_error *err)
+{
+    const struct br_scene axial = {.length = 1,
+                                   .duration = 1,
+                                   .density = 1,
+                                   .axial = {.modelled = true, .stiffness = 1, .viscosity = 1}};
+    struct br_scene bending = axial, all = axial;
+    bending.axial.modelled = false;
+    bending.bending.modelled = all.bending.modelled = true;
+    bending.bending.stiffness = all.bending.stiffness = 1;
+    bending.bending.viscosity = all.bending.viscosity = 1;
+    all.contact = (struct br_contact){.modelled = true, .stiffness = 1};
+    all.friction = (struct br_friction){BR_TRESCA, 1, 1};
+    struct br_error refusal = {0};
+    const bool refused = try_scene(&axial, m, NULL) == BR_BAD_INPUT &&
+                         try_scene(&bending, m, NULL) == BR_BAD_INPUT &&
+                         try_scene(&all, m, &refusal) == BR_BAD_INPUT;
+    return refused ? br_fail(err, BR_BAD_INPUT, "%.1000s", refusal.message) : BR_OK;
+}
+
 /* What no march would heed is refused. */
 static enum br_status check(const struct br_method *m, const bool taken[KINDS],
                             struct br_error *err)
@@ -162,7 +193,8 @@ static enum br_status check(const struct br_method *m, const bool taken[KINDS],
         return br_fail(err, BR_BAD_INPUT, "solver %s does not heed 'scaled'", m->solver->name);
     if (taken[REFINEMENT] && !br_linear_solver_heeds(m->solver, "--refinement"))
         return br_fail(err, BR_BAD_INPUT, "solver %s does not heed 'refined'", m->solver->name);
-    return br_method_check(m, err);
+    const enum br_status status = br_method_check(m, err);
+    return status ? status : check_somewhere(m, err);
 }
 
 bool br_contender_adaptive(const struct br_contender *contender)
@@ -238,21 +270,12 @@ enum br_status br_contenders_read(const char *option, const char *text, struct b
 
 /* ---- the default ones ---- */
 
-/* Whether a march of the scene begins with it. */
-static bool is_accepted(const struct br_scene *scene, const struct br_method *method)
-{
-    struct br_march *march = NULL;
-    const enum br_status status = br_march_create(&march, scene, 4, 4, method, NULL);
-    br_march_free(march);
-    return status == BR_OK;
-}
-
 /* Adds the contender of that name, unless the scene or the list has no use for it. */
 static void add(const struct br_scene *scene, struct br_contenders *all, const char *name)
 {
     struct br_contender c;
     if (br_contender_read(name, &c, NULL) || contains(all, &c) ||
-        all->count == BR_MOST_CONTENDERS || !is_accepted(scene, &c.method))
+        all->count == BR_MOST_CONTENDERS || try_scene(scene, &c.method, NULL))
         return;
     all->list[all->count++] = c;
 }

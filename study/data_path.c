@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "study/nearest.h"
 #include "study/scene_file.h"
 
 void br_data_path(const char *relative, char *path, size_t size)
@@ -14,6 +15,21 @@ void br_data_path(const char *relative, char *path, size_t size)
     if (!folder || !*folder)
         folder = access(BR_SOURCE_DIR "/study/scenes", R_OK) == 0 ? BR_SOURCE_DIR : BR_DATA_DIR;
     snprintf(path, size, "%s/%s", folder, relative);
+}
+
+/* Names the bundled scene whose name is near, if there is one. */
+static enum br_status refuse(const char *name, const char *path, struct br_error *err)
+{
+    char **names;
+    size_t count;
+    const char *nearest = NULL;
+    if (!br_scene_list(&names, &count, NULL))
+        nearest = br_nearest(name, (const char *const *)names, count);
+    const enum br_status status = br_fail(
+        err, BR_BAD_INPUT, "scene '%s' is no file and no bundled scene (looked for %s)%s%s%s", name,
+        path, nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
+    br_scene_list_free(names, count);
+    return status;
 }
 
 enum br_status br_scene_find(const char *name, char *path, size_t size, struct br_error *err)
@@ -28,8 +44,7 @@ enum br_status br_scene_find(const char *name, char *path, size_t size, struct b
     br_data_path(relative, path, size);
     if (access(path, R_OK) == 0)
         return BR_OK;
-    return br_fail(err, BR_BAD_INPUT, "scene '%s' is no file and no bundled scene (looked for %s)",
-                   name, path);
+    return refuse(name, path, err);
 }
 
 static int is_scene(const struct dirent *entry)

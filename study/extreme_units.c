@@ -59,8 +59,10 @@ static enum br_status march_with_noise(struct br_extreme_trial *t, double *most,
     return BR_OK;
 }
 
-/* What rounding may do to the displacements, relative to the largest: what is predicted, what an
- * iteration leaves, and the velocities' own, since displacements are sums of them. */
+/* What rounding may do to the displacements, relative to the largest: what is predicted, in either
+ * units, since assembled matrices are rounded otherwise in others; what an iteration leaves; the
+ * velocities' own, since displacements are sums of them; and what an integrator of its own is asked
+ * for, since it takes a step or not by comparisons that a last bit decides. */
 static double allowed(const struct br_extreme_trial *t)
 {
     const double k = t->marched.duration / (double)t->one->steps;
@@ -69,15 +71,16 @@ static double allowed(const struct br_extreme_trial *t)
         if (t->own->largest[kind] > 0)
             ways = fmax(ways, k * t->own->speed[kind] / t->own->largest[kind]);
     const double iteration = t->method.friction->iterates ? t->method.iteration.tolerance : 0;
-    return 16 * (t->verdict->round_off + DBL_EPSILON * ways) + 4 * iteration;
+    const double predicted = fmax(t->verdict->round_off, t->other->report.round_off);
+    const double control = t->method.scheme->integrator ? t->method.tolerance : 0;
+    return 16 * (predicted + DBL_EPSILON * ways) + 4 * iteration + control;
 }
 
 enum br_status br_extreme_judge_units(struct br_extreme_trial *t, struct br_error *err)
 {
     double by_noise;
-    const double limit = allowed(t);
     enum br_status status = march_in_other_units(t, err);
-    const double units = t->verdict->units;
+    const double units = t->verdict->units, limit = allowed(t);
     if (status || units <= limit || (isnan(units) && !t->other->begun))
         return status;
     char why[120];

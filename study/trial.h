@@ -58,7 +58,7 @@ struct br_trial_request {
     size_t norms;
     size_t repeats;                     /* timed marches of a trial, at least 1 */
     double repeat_seconds;              /* no more repeats once they have taken so long, s */
-    double time_limit;                  /* of one march, s; 0: none */
+    double time_limit;                  /* of one march with its set-up, s; 0: none */
     int threads;                        /* of the errors; 0: all cores */
     const struct br_observer *observer; /* NULL: nobody */
 };

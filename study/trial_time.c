@@ -19,7 +19,8 @@ struct clocked {
     struct br_trial *trial;
     const struct br_trial_request *request;
     struct br_march *march;
-    double start; /* of its steps, s of this thread */
+    double set_up; /* s */
+    double start;  /* of its steps, s of this thread */
 };
 
 static bool is_stopped(const struct br_trial_request *request)
@@ -35,21 +36,22 @@ static double foreseen(const struct clocked *c, double spent)
     const double done = (double)br_march_steps_done(c->march);
     if (br_contender_adaptive(c->trial->contender) || !(spent >= least_evidence))
         return spent;
-    return spent * (double)c->trial->at.steps / (sure_excess * done);
+    return c->set_up + spent * (double)c->trial->at.steps / (sure_excess * done);
 }
 
-/* Ends a march that takes too long. */
+/* Ends a march that takes too long, its set-up included. */
 static enum br_status look_at_clock(const struct clocked *c, struct br_error *err)
 {
-    const double limit = c->request->time_limit, spent = br_thread_seconds() - c->start;
+    const double limit = c->request->time_limit, steps = br_thread_seconds() - c->start;
+    const double spent = c->set_up + steps;
     if (is_stopped(c->request))
         return br_fail(err, BR_INTERRUPTED, "interrupted");
-    if (!(limit > 0) || (spent <= limit && foreseen(c, spent) <= limit))
+    if (!(limit > 0) || (spent <= limit && foreseen(c, steps) <= limit))
         return BR_OK;
     c->trial->end = BR_TRIAL_OVER;
     return br_fail(&c->trial->failure, BR_VERDICT,
-                   "over the time limit of %g s: %.2g s for %zu of %zu time levels", limit, spent,
-                   br_march_steps_done(c->march), c->trial->at.steps);
+                   "over the time limit of %g s: %.2g s for set-up and %zu of %zu time levels",
+                   limit, spent, br_march_steps_done(c->march), c->trial->at.steps);
 }
 
 static enum br_status make_steps(const struct clocked *c, struct br_error *err)
@@ -80,7 +82,9 @@ static enum br_status march_once(struct clocked *c, struct br_trial_cost *cost,
         status = br_march_create(&c->march, c->request->scene, t->at.n, t->at.steps, &method,
                                  &t->failure);
     c->start = br_thread_seconds();
-    cost->set_up = c->start - start;
+    cost->set_up = c->set_up = c->start - start;
+    if (!status)
+        status = look_at_clock(c, err);
     if (!status)
         status = make_steps(c, err);
     cost->march = br_thread_seconds() - c->start;

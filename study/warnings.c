@@ -6,10 +6,17 @@
 
 #include "study/warn_contact.h"
 
-extern const struct br_warning_source br_warn_load, br_warn_prediction, br_warn_resources;
+extern const struct br_warning_source br_warn_bounce, br_warn_load, br_warn_load_space,
+    br_warn_prediction, br_warn_resources;
 
 const struct br_warning_source *const br_warning_sources[] = {
-    &br_warn_resources, &br_warn_contact, &br_warn_load, &br_warn_prediction, NULL,
+    &br_warn_resources,
+    &br_warn_contact,
+    &br_warn_bounce,
+    &br_warn_load,
+    &br_warn_load_space,
+    &br_warn_prediction,
+    NULL,
 };
 
 const char *br_warning_word(enum br_warning_kind kind)

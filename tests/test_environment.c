@@ -139,11 +139,13 @@ static const struct {
 
 /* Steps that are rounded all to one side gather what else would cancel. */
 static const double one_sided = 16;
+/* A factorisation all the more: 42 times, by umfpack in a vibration with bdf2, rounding up. */
+static const double one_sided_factors = 64;
 
-/* What an assembled matrix of these sizes costs at most, whatever is predicted. */
-static double assembled_loses(const struct br_method *method)
+static double one_sided_by(const struct br_method *method)
 {
-    return method->solver == &br_riccati || method->solver == &br_plain ? 0 : 1e-8;
+    const bool flexible = method->solver == &br_riccati || method->solver == &br_plain;
+    return flexible ? one_sided : one_sided_factors;
 }
 
 static void compare_modes(const struct br_scene *s, const char *name,
@@ -158,9 +160,8 @@ static void compare_modes(const struct br_scene *s, const char *name,
         const struct result r = run(s, N, STEPS, method);
         fesetround(FE_TONEAREST);
         /* Steps by a tolerance may be others, and differ by their error. */
-        const double limit = method->scheme->adaptive
-                                 ? 100 * method->tolerance
-                                 : one_sided * nearest.round_off + assembled_loses(method);
+        const double limit = method->scheme->adaptive ? 100 * method->tolerance
+                                                      : one_sided_by(method) * nearest.round_off;
         for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
             if (!(apart(&nearest, &r, kind, 1) <= limit))
                 fail_msg("%s, %s, %s, rounding %s: off by %g, expected %g at most", name,
@@ -202,7 +203,7 @@ static void test_mode_of_method(void **state)
         const struct result own = run(&s, 24, 20, &method);
         assert_int_equal(fegetround(), FE_TONEAREST);
         /* Not the same bits: a compiler may take a quotient from before the mode was set. */
-        const double limit = one_sided * nearest.round_off + assembled_loses(&method);
+        const double limit = one_sided_by(&method) * nearest.round_off;
         assert_true(method.scheme->adaptive || apart(&thread, &own, BR_BENDING, 1) <= limit);
         assert_memory_not_equal(own.value[BR_BENDING][0], nearest.value[BR_BENDING][0],
                                 own.size[BR_BENDING] * sizeof(double));
@@ -314,10 +315,10 @@ static void compare_units(const struct br_scene *s, const struct br_method *meth
     const struct result a = run(s, n, 30, method), b = run(&other, n, 30, method);
     /* The other scene's numbers are rounded, too: what that does to an assembled matrix. */
     const bool flexible = method->solver == &br_riccati || method->solver == &br_plain;
-    const double condition = flexible ? 1e-12 : 1e-8;
+    const double numbers = flexible ? 1e-12 : 1e-8;
     const double limit = exact                      ? 0
                          : method->scheme->adaptive ? 100 * method->tolerance
-                                                    : 16 * a.round_off + condition;
+                                                    : 16 * a.round_off + numbers;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (!(apart(&a, &b, kind, 1 / u->metre) <= limit))
             fail_msg("%s, %s, %s, n = %zu, units %g %g %g: off by %g, expected %g at most",

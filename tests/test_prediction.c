@@ -270,6 +270,18 @@ static void test_blow(void **state)
     assert_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
     br_function_free(&s.axial.load.space);
     br_function_free(&s.axial.load.time);
+    s.axial.load = br_test_load("exp(-((t - 0.4567)/1e-5)^2)"); /* 2 samples a step */
+    w = warnings_of(&s, &method, 3, 40000);
+    assert_non_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
+    br_function_free(&s.axial.load.space);
+    br_function_free(&s.axial.load.time);
+    s.axial.load = br_test_load("sin(2*3.14159265358979*130000.3*t)^2"); /* a sample of the steps */
+    w = warnings_of(&s, &method, 1, 130000);
+    assert_non_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
+    w = warnings_of(&s, &method, 1, 20000000);
+    assert_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
+    br_function_free(&s.axial.load.space);
+    br_function_free(&s.axial.load.time);
     s.axial.load = br_test_load("sin(3*t) + exp(t)");
     w = warnings_of(&s, &method, 20, 10);
     assert_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));

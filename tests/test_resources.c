@@ -78,6 +78,21 @@ static void test_refused(void **state)
     REFUSED(br_fits_memory(&o, NAN, &err), BR_NO_MEMORY, "n = 1000 elements take about");
     assert_true(br_memory_available() > 0);
 
+    const size_t n[] = {100, 900}, steps[] = {10, 20};
+    const struct br_study study = {.scene = &scene,
+                                   .method = method,
+                                   .reference_method = method,
+                                   .judge = &br_judge_fine,
+                                   .reference = {1000, 20},
+                                   .n = n,
+                                   .steps = steps,
+                                   .n_count = 2,
+                                   .k_count = 2};
+    MUST(br_fit_together(&study, 1, 3 * br_march_bytes(&o), &err));
+    REFUSED(br_fit_together(&study, 1, 2.9 * br_march_bytes(&o), &err), BR_NO_MEMORY,
+            "5 marches at once take about");
+    REFUSED(br_fit_together(&study, 1, NAN, &err), BR_NO_MEMORY, "5 marches");
+
     struct br_warnings w = {0};
     o.n = 100000000000000;
     REFUSED(br_look_ahead(&o, &w, &err), BR_NO_MEMORY, "elements take about");

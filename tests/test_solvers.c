@@ -287,7 +287,7 @@ static void test_not_finite(void **state)
         while (!status && br_march_steps_done(march) < 800)
             status = br_march_step(march, &err);
         REFUSED(status, BR_NOT_FINITE, "the march blew up at t = ");
-        REFUSED(status, BR_NOT_FINITE, "of 800, k = 1.25 s): the axial displacement of the tip is");
+        REFUSED(status, BR_NOT_FINITE, "of 800, k = 1.25 s): the axial ");
         br_march_free(march);
         br_scene_clear(&scene);
     }

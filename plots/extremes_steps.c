@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "plots/extremes_drift.h"
+#include "plots/extremes_steps.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/drift.h"
+#include "study/steps.h"
 
 #include <fenv.h>
 #include <float.h>

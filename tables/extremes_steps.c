@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "tables/extremes_drift.h"
+#include "tables/extremes_steps.h"
 
 #include <math.h>
 

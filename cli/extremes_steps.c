@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The part `steps`. */
-#include "plots/extremes_drift.h"
+#include "plots/extremes_steps.h"
 #include "cli/extremes_part.h"
-#include "tables/extremes_drift.h"
+#include "tables/extremes_steps.h"
 
 static void drifts_free(void *result)
 {

@@ -3,8 +3,8 @@
  * discrete solution (reference/discrete.h) at the end of the duration, over the number of steps,
  * for every time scheme of equal steps, with contact and friction; and whether the time levels that
  * it tells are n T/N, however many there are. Example 1 sticks, Example 2 slips. */
-#ifndef BR_DRIFT_H
-#define BR_DRIFT_H
+#ifndef BR_STEPS_H
+#define BR_STEPS_H
 
 #include "study/contender.h"
 #include "study/study.h"

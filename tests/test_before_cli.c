@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the program says and refuses before anything is marched or written. */
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli_driver.h"
+#include "support.h"
+
+#define SCENE                                                     \
+    "title: a rod\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n" \
+    "axial:\n  stiffness: 100 N\n  viscosity: 1 N s\n"
+
+static void test_refused(void **state)
+{
+    (void)state;
+    cli_write_file("tan.yaml", SCENE "  load: tan(pi*t) [N/m]\n");
+    cli_write_file("pole.yaml", SCENE "  load: 1/(t - 0.3333) [N/m]\n");
+    static const struct {
+        const char *line;
+        int code;
+        const char *message;
+    } rows[] = {
+        {"run tan.yaml --k 0.1", 2, "tan.yaml:8: load: it has a pole: found "},
+        {"run pole.yaml --k 0.1", 2, "at t = 0.3333 s, expected a finite number everywhere"},
+        {"run exmaple2", 2, "; did you mean 'example2'?"},
+        {"study bounce", 2, "(looked for "},
+        {"run example3 --axial-degree 2", 2, "--axial-degree: no axial field is marched"},
+        {"run example3 --fields bending --axial-degree 2", 2, "--axial-degree: no axial field"},
+        {"study example3 --axial-degree 2", 2, "--axial-degree: no scene has an axial field"},
+        {"trade example1 --methods ida+umfpack", 2, "--methods: 'ida+umfpack': "},
+        {"trade example1 --methods bdf2,adaptive+uzawa+umfpack+p2+cholmod", 2, "--methods: "},
+        {"plan example1 --error 0.1 --methods ida+umfpack", 2, "--methods: 'ida+umfpack': "},
+        {"run example1 --n 1000000000 --solver banded --out never", 3,
+         "GB are available: expected"},
+        {"study example1 --n 1000000000 --solver banded --k 1 --out never", 3, "GB are available"},
+        {"trade example1 --split --methods euler+banded --n 1000000000 --k 1 --out never", 3,
+         "GB are available"},
+        {"run example1 --n 3000000 --k 1e-12 --out never", 2, "years, expected at most a hundred"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        cli_expect(rows[i].line, NULL, rows[i].code, rows[i].message);
+    assert_false(cli_is_there("never"));
+}
+
+/* Before it prints anything of its results. */
+static void test_name(void **state)
+{
+    (void)state;
+    static struct cli_outcome out;
+    cli_write_file("two\nlines.yaml", SCENE "  load: t [N/m]\n");
+    cli_run_line("study two\nlines.yaml --n 4,8 --k 0.1,0.05 --out s", NULL, &out);
+    assert_int_equal(out.exit_code, 2);
+    assert_non_null(strstr(out.output, "expected the beginning of a file name"));
+    assert_null(strstr(out.output, "Reference"));
+    assert_false(cli_is_there("s"));
+}
+
+static void test_warned(void **state)
+{
+    (void)state;
+    cli_write_file("stiff.yaml", SCENE "  load: 10*t [N/m]\ncontact:\n  gap: 0 m\n"
+                                       "  stiffness: 5e4 N/m\n");
+    cli_expect("trade stiff.yaml --split --methods euler+lagged --n 4 --k 0.1 --no-plots --quiet "
+               "--out sp",
+               NULL, 0, "the lagged contact is beyond its stability limit");
+    cli_expect("run mms_pressed --n 10 --contact lagged --quiet", NULL, 0,
+               "the lagged contact may gain energy as it opens and closes");
+}
+
+static void make_left_behind(const char *name, char path[512])
+{
+    char file[512];
+    cli_path(name, path);
+    assert_int_equal(mkdir(path, 0700), 0);
+    snprintf(file, sizeof file, "%s/half.csv", name);
+    cli_write_file(file, "half");
+}
+
+/* A folder that a program left behind is removed by the next one; one that is in use is not. */
+static void test_left_behind(void **state)
+{
+    (void)state;
+    char path[512], used[512], other[512];
+    cli_path("left", path);
+    assert_int_equal(mkdir(path, 0700), 0);
+    make_left_behind("left/.beamrate-abcdef", path);
+    make_left_behind("left/.beamrate-inuse1", used);
+    make_left_behind("left/.beamrate-mine", other);
+    const int lock = open(used, O_RDONLY | O_DIRECTORY);
+    assert_true(lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) == 0);
+    cli_expect("run example1 --n 4 --k 0.1 --quiet --out left", NULL, 0, "");
+    assert_true(cli_is_there("left/summary.txt"));
+    assert_false(cli_is_there("left/.beamrate-abcdef"));
+    assert_true(cli_is_there("left/.beamrate-inuse1/half.csv"));
+    assert_true(cli_is_there("left/.beamrate-mine/half.csv"));
+    close(lock);
+    cli_expect("run example1 --n 4 --k 0.1 --quiet --out left", NULL, 0, "");
+    assert_false(cli_is_there("left/.beamrate-inuse1"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_name),
+        cmocka_unit_test(test_warned),
+        cmocka_unit_test(test_left_behind),
+    };
+    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
+}

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The warning of loads that the elements' quadrature does not see. */
+#include <stdio.h>
+#include <string.h>
+
+#include "study/scene_file.h"
+#include "study/warnings.h"
+#include "support.h"
+
+extern const struct br_warning_source br_warn_load_space;
+
+static struct br_warnings warnings_of(const struct br_scene *scene, size_t n)
+{
+    const struct br_method method = br_method_default();
+    const struct br_outlook o = {.scene = scene, .method = &method, .n = n, .steps = 10};
+    struct br_warnings w = {0};
+    struct br_error err;
+    MUST(br_warn_load_space.look(&o, &w, &err));
+    return w;
+}
+
+static const struct {
+    const char *load;
+    size_t n;
+    bool warned;
+} rows[] = {
+    {"7", 1, false},
+    {"t", 1, false},
+    {"x^9", 1, false},
+    {"exp(x)*t", 2, false},
+    {"exp(-((x - 0.53)/0.004)^2)", 10, true}, /* narrow */
+    {"exp(-((x - 0.53)/0.004)^2)", 400, false},
+    {"100*(x > 0.5 && x < 0.501)", 20, true},
+    {"100*(x > 0.5 && x < 0.501)", 20000, false},
+    {"x < 0.37 ? 1 : 0", 1, true}, /* jumps */
+    {"x < 0.37 ? 1 : 0", 100, false},
+    {"x < 0.4 ? 1 : 0", 10, false},
+    {"sin(400*x)", 10, true}, /* waves */
+    {"sin(400*x)", 200, false},
+    {"exp(-((x - t)/0.003)^2)", 8, true}, /* it travels */
+    {"exp(-((x - t)/0.003)^2)", 600, false},
+    {"exp(-((x - 0.53)/1e-6)^2) + 1", 100000, false},
+};
+
+static void test_rows(void **state)
+{
+    (void)state;
+    struct br_scene s = br_test_bare();
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        for (int bending = 0; bending < 2; bending++) {
+            struct br_load load = br_test_load(rows[i].load);
+            *(bending ? &s.bending.load : &s.axial.load) = load;
+            const struct br_warnings w = warnings_of(&s, rows[i].n);
+            if (rows[i].warned != (w.count == 1))
+                fail_msg("%s, n = %zu: %s", rows[i].load, rows[i].n, w.list[0].text);
+            br_function_free(&load.space);
+            br_function_free(&load.time);
+            s.bending.load = s.axial.load = (struct br_load){0};
+        }
+}
+
+/* The share is that of the force, and the place the nearest node. */
+static void test_share(void **state)
+{
+    (void)state;
+    struct br_scene s = br_test_bare();
+    s.axial.load = br_test_load("1 + 500*(x > 0.7009 && x < 0.7029)"); /* half of the force */
+    const struct br_warnings w = warnings_of(&s, 10);
+    const struct br_warning *one = br_warnings_find(&w, BR_WARN_LOAD_SPACE);
+    assert_non_null(one);
+    assert_non_null(strstr(one->text, "the axial load does inside of elements"));
+    assert_non_null(strstr(one->text, "with n = 10 50 % of it, most of it near x = 0.7 m"));
+    br_function_free(&s.axial.load.space);
+    br_function_free(&s.axial.load.time);
+}
+
+static void test_bundled(void **state)
+{
+    (void)state;
+    char **name;
+    size_t count;
+    struct br_error err;
+    MUST(br_scene_list(&name, &count, &err));
+    for (size_t i = 0; i < count; i++) {
+        struct br_scene scene = br_test_bundled(name[i]);
+        for (size_t n = 10; n <= 1000; n *= 10)
+            assert_int_equal(warnings_of(&scene, n).count, 0);
+        br_scene_clear(&scene);
+    }
+    br_scene_list_free(name, count);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_share),
+        cmocka_unit_test(test_bundled),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
