@@ -57,11 +57,11 @@ static const struct planted_bug planted_bugs[] = {
      "return contact->stiffness * br_penetration(contact, s->displacement);",
      "return 0.5 * contact->stiffness * br_penetration(contact, s->displacement);"},
     {"mu_ignored", "solver/friction.c",
-     "if (s->bound * s->compliance > s->regularisation)\n        return clamp(s->free_velocity / (s->regularisation / s->bound + s->compliance), s->bound);",
-     "if (s->bound * s->compliance > s->regularisation)\n        return clamp(s->free_velocity / s->compliance, s->bound);"},
+     "const double width = s->regularisation + s->bound * s->compliance;",
+     "const double width = s->bound * s->compliance;"},
     {"mu_doubled", "solver/friction.c",
-     "if (s->bound * s->compliance > s->regularisation)\n        return clamp(s->free_velocity / (s->regularisation / s->bound + s->compliance), s->bound);",
-     "if (s->bound * s->compliance > s->regularisation)\n        return clamp(s->free_velocity / (2 * s->regularisation / s->bound + s->compliance), s->bound);"},
+     "const double width = s->regularisation + s->bound * s->compliance;",
+     "const double width = 2 * s->regularisation + s->bound * s->compliance;"},
     {"friction_in_one_direction_only", "solver/friction.c",
      "return isless(lambda, -bound) ? -bound : lambda;", "return isless(lambda, -bound) ? 0 : lambda;"},
     {"friction_without_bound_one_way", "solver/friction.c",
@@ -75,7 +75,8 @@ static const struct planted_bug planted_bugs[] = {
      "return clamp(0.5 * s->free_velocity / s->compliance, s->bound);"},
 
     {"mu_with_the_bound_of_another_scene", "solver/friction.c",
-     "(s->regularisation / s->bound + s->compliance)", "(s->regularisation / 8 + s->compliance)"},
+     "const double width = s->regularisation + s->bound * s->compliance;",
+     "const double width = s->regularisation * s->bound / 8 + s->bound * s->compliance;"},
 
     /* ---- element integrals ---- */
     {"axial_mass_lumped", "solver/field.c", "{{1.0 / 3, 1.0 / 6}, {1.0 / 6, 1.0 / 3}};",
@@ -300,8 +301,8 @@ static const struct planted_bug planted_bugs[] = {
     {"stage_at_the_end_of_the_step", "solver/stages.c",
      "const double t = br_step_time(step, stage->time);", "const double t = step->to;"},
     {"adaptive_by_another_tolerance", "solver/adaptive.c",
-     "const double scale = m->method.tolerance * fmax(",
-     "const double scale = 1e4 * m->method.tolerance * fmax("},
+     "m->method.tolerance * fmax(trial->strain",
+     "1e4 * m->method.tolerance * fmax(trial->strain"},
 
     /* ---- what is measured ---- */
     {"strain_rate_one_and_a_half_percent_off", "solver/modes.c",
