@@ -67,8 +67,9 @@ static struct br_power power_of(const struct br_energy_meter *m, enum br_field_k
     return p;
 }
 
-static void see_stage(struct br_energy_meter *m, const struct br_march_stage *told)
+static void watch_stage(void *self, const struct br_march_stage *told)
 {
+    struct br_energy_meter *m = self;
     const real tau = br_watched_stage(&m->seen, told);
     const int row = m->seen.field[told->kind].last;
     if (row >= 0)
@@ -242,29 +243,14 @@ static double add_step(struct br_energy_meter *m, enum br_field_kind kind)
     return relative(total(&f->now) - total(&before) - works.value + taken.value, size);
 }
 
-static void see_step(struct br_energy_meter *m, enum br_field_kind kind, bool switched)
+static void watch_step(void *self, enum br_field_kind kind, bool switched)
 {
+    struct br_energy_meter *m = self;
     const double imbalance = m->seen.field[kind].last < 0 ? NAN : add_step(m, kind);
     if (isnan(imbalance) || imbalance > m->worst)
         m->worst = imbalance;
     m->any = true;
     br_watched_step(&m->seen, kind, switched);
-}
-
-/* ---- watching ---- */
-
-static void watch_stage(void *self, const struct br_march_stage *told)
-{
-    const int mode = br_round_to_nearest();
-    see_stage(self, told);
-    fesetround(mode);
-}
-
-static void watch_step(void *self, enum br_field_kind kind, bool switched)
-{
-    const int mode = br_round_to_nearest();
-    see_step(self, kind, switched);
-    fesetround(mode);
 }
 
 enum br_status br_meter_watch(struct br_energy_meter *m, struct br_error *err)

@@ -4,8 +4,6 @@
 #ifndef BR_WATCHED_H
 #define BR_WATCHED_H
 
-#include <fenv.h>
-
 #include "reference/past_states.h"
 #include "solver/march.h"
 
@@ -48,14 +46,5 @@ long double br_watched_stage(struct br_watched *watched, const struct br_march_s
 
 /* Goes on to the next step of a field; switched: as br_march_watcher's step is told. */
 void br_watched_step(struct br_watched *watched, enum br_field_kind kind, bool switched);
-
-/* Judges round to nearest, whatever the march does that calls them. Returns the march's mode, for
- * fesetround when they are done. */
-static inline int br_round_to_nearest(void)
-{
-    const int mode = fegetround();
-    fesetround(FE_TONEAREST);
-    return mode;
-}
 
 #endif

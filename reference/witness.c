@@ -178,8 +178,9 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
     return c;
 }
 
-static void see_stage(struct br_witness *w, const struct br_march_stage *told)
+static void watch_stage(void *self, const struct br_march_stage *told)
 {
+    struct br_witness *w = self;
     struct trial *trial = &w->trial[told->kind];
     if (told->index == 0)
         *trial = (struct trial){0};
@@ -201,28 +202,13 @@ static void see_stage(struct br_witness *w, const struct br_march_stage *told)
     br_certificate_merge(&trial->worst, &c);
 }
 
-static void see_step(struct br_witness *w, enum br_field_kind kind, bool switched)
+static void watch_step(void *self, enum br_field_kind kind, bool switched)
 {
+    struct br_witness *w = self;
     br_watched_step(&w->seen, kind, switched);
     w->speed[kind][w->seen.field[kind].steps % REMEMBERED] = 0;
     br_certificate_merge(&w->worst, &w->trial[kind].worst);
     w->any = true;
-}
-
-/* ---- watching ---- */
-
-static void watch_stage(void *self, const struct br_march_stage *told)
-{
-    const int mode = br_round_to_nearest();
-    see_stage(self, told);
-    fesetround(mode);
-}
-
-static void watch_step(void *self, enum br_field_kind kind, bool switched)
-{
-    const int mode = br_round_to_nearest();
-    see_step(self, kind, switched);
-    fesetround(mode);
 }
 
 struct br_certificate br_witness_step(struct br_witness *w)

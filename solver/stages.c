@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "solver/march_state.h"
+#include "solver/rounding.h"
 #include "solver/traps.h"
 
 /* ---- contact ---- */
@@ -128,6 +129,25 @@ static enum br_status stage(struct br_march *m, enum br_field_kind kind,
     return status;
 }
 
+/* Who judges a march may meet a NaN, and says so; and rounds to nearest, whatever the march does.
+ */
+struct outside {
+    int traps, rounding;
+};
+
+static struct outside step_outside(void)
+{
+    const struct outside march = {br_traps_lift(), fegetround()};
+    fesetround(FE_TONEAREST);
+    return march;
+}
+
+static void come_back(const struct outside *march)
+{
+    br_rounding_restore(march->rounding);
+    br_traps_restore(march->traps);
+}
+
 static void tell(const struct br_march *m, enum br_field_kind kind, const struct br_stages *stages,
                  const struct br_step *step, int i)
 {
@@ -140,10 +160,10 @@ static void tell(const struct br_march *m, enum br_field_kind kind, const struct
         .time = br_step_time(step, stages->stage[i].time),
         .tau = m->part[kind].field.k,
     };
-    const int traps = br_traps_lift(); /* who judges may meet a NaN, and says so */
+    const struct outside march = step_outside();
     for (size_t w = 0; w < m->watchers; w++)
         m->watcher[w].stage(m->watcher[w].self, &told);
-    br_traps_restore(traps);
+    come_back(&march);
 }
 
 enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
@@ -177,10 +197,10 @@ void br_march_accept(struct br_march *m, enum br_field_kind kind, const struct b
                      bool switched)
 {
     br_part_accept(&m->part[kind], stages, switched);
-    const int traps = br_traps_lift();
+    const struct outside march = step_outside();
     for (size_t w = 0; w < m->watchers; w++)
         m->watcher[w].step(m->watcher[w].self, kind, switched);
-    br_traps_restore(traps);
+    come_back(&march);
 }
 
 enum br_regime br_march_regime(const struct br_march *m, enum br_field_kind kind)

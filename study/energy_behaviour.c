@@ -7,10 +7,7 @@
 #include <string.h>
 
 #include "study/balance_scenes.h"
-
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include "study/threads.h"
 
 /* ---- what is tried ---- */
 
@@ -180,10 +177,7 @@ enum br_status br_energy_behaviour_run(struct br_energy_behaviour *b, int thread
     if (status)
         return status;
     struct work w = {.b = b, .tasks = b->vibrations + b->balances, .failed = SIZE_MAX};
-#ifdef _OPENMP
-    if (threads <= 0)
-        threads = omp_get_num_procs();
-#endif
+    threads = br_threads(threads);
     (void)threads;
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
     for (size_t i = 0; i < w.tasks; i++) {

@@ -3,11 +3,11 @@
 
 #include <errno.h>
 #include <math.h>
-#include <omp.h>
 #include <string.h>
 
 #include "study/extreme_kept.h"
 #include "study/shrink.h"
+#include "study/threads.h"
 
 struct work {
     const struct br_extreme_wish *wish;
@@ -76,7 +76,8 @@ static void do_case(struct work *work, size_t i)
 
 static enum br_status do_cases(struct work *work, struct br_error *err)
 {
-    const int threads = work->wish->threads > 0 ? work->wish->threads : omp_get_max_threads();
+    const int threads = br_threads(work->wish->threads);
+    (void)threads; /* without OpenMP */
     for (size_t i = 0; i < work->map->cases; i++)
         work->finished += work->done[i];
     work->map->resumed = work->finished;
@@ -136,7 +137,8 @@ static enum br_status shrink(const struct br_extreme_wish *w, struct br_extreme_
 static enum br_status shrink_all(struct work *work, struct br_error *err)
 {
     struct br_extreme_map *m = work->map;
-    const int threads = work->wish->threads > 0 ? work->wish->threads : omp_get_max_threads();
+    const int threads = br_threads(work->wish->threads);
+    (void)threads; /* without OpenMP */
     for (size_t i = 0; i < m->cases && m->shrunks < BR_EXTREME_MOST_SHRUNK; i++)
         if (m->verdict[i].which == BR_EXTREME_WRONG)
             m->shrunk[m->shrunks++] =

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/extreme_track.h"
 
-#include <fenv.h>
 #include <math.h>
 
 struct br_track_places br_track_places(size_t n, size_t steps)
@@ -92,10 +91,12 @@ enum br_status br_track_march(const struct br_track_request *q, struct br_track 
     size_t level[BR_TRACK_LEVELS + 1];
     for (size_t i = 0; i < t->places.levels; i++)
         level[i] = t->places.level[i] * q->shorter;
+    struct br_method method = *q->method;
+    method.rounding = q->rounding;
     const struct br_run_request request = {
         .scene = q->scene,
         .wanted = q->wanted,
-        .method = *q->method,
+        .method = method,
         .n = t->places.n * q->finer,
         .steps = t->places.steps * q->shorter,
         .level = level,
@@ -104,10 +105,7 @@ enum br_status br_track_march(const struct br_track_request *q, struct br_track 
         .output = &observer,
         .outputs = 1,
     };
-    const int before = fegetround();
-    fesetround(q->rounding);
     const enum br_status status = br_run(&request, &t->report, &t->failure);
-    fesetround(before);
     free(looker.nodal);
     if (status == BR_NO_MEMORY)
         return br_fail(err, status, "%s", t->failure.message);

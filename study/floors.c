@@ -1,17 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/floors.h"
 
-#include <fenv.h>
+#include "reference/discrete.h"
+#include "study/scene_file.h"
+#include "study/threads.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
-#include "reference/discrete.h"
-#include "study/scene_file.h"
 
 static const size_t usual_n[] = {100, 400, 1600, 6400, 12800, 100000, 1000000};
 static const double usual_k[] = {1e-2, 1e-4, 1e-6};
@@ -62,6 +58,8 @@ static enum br_status prepare(struct br_floors *f, const struct br_floors_plan *
     if (status)
         return status;
     add_solvers(f);
+    for (size_t s = 0; s < f->solvers; s++)
+        f->solver[s].method.rounding = plan->rounding;
     f->n_count = plan->n ? plan->n_count : sizeof usual_n / sizeof *usual_n;
     f->k_count = plan->k ? plan->k_count : sizeof usual_k / sizeof *usual_k;
     f->n = br_allocate(f->n_count, sizeof *f->n);
@@ -91,7 +89,6 @@ void br_floors_clear(struct br_floors *f)
 
 struct task {
     struct br_floors *floors;
-    int rounding;
     size_t i, j;           /* of n and k */
     size_t steps, taken;   /* of the whole duration, and as many as are taken */
     long double *nodal[2]; /* of the exact discrete solution then, by br_field_kind; owned */
@@ -151,14 +148,12 @@ static void compare(struct task *t, const struct br_march *march, enum br_field_
 static void measure(struct task *t, const struct br_method *method, struct br_floor *floor)
 {
     struct br_march *march;
-    fesetround(t->rounding);
     enum br_status status =
         br_march_create(&march, &t->floors->scene, floor->n, t->steps, method, &floor->refused);
     for (size_t step = 0; step < t->taken && !status; step++)
         status = br_march_step(march, &floor->refused);
     if (march)
         floor->predicted = br_march_round_off(march);
-    fesetround(FE_TONEAREST);
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
         compare(t, march, (enum br_field_kind)kind, floor);
     br_march_free(march);
@@ -208,19 +203,14 @@ enum br_status br_floors_run(struct br_floors *f, const struct br_floors_plan *p
         return status;
     struct br_error first = {0};
     double done = 0, all = 0;
-    int threads = plan->threads;
+    const int threads = br_threads(plan->threads);
     for (size_t i = 0; i < f->n_count; i++)
         all += (double)f->n[i] * (double)f->k_count;
-#ifdef _OPENMP
-    if (threads <= 0)
-        threads = omp_get_num_procs();
-#endif
     (void)threads;
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
     for (size_t task = 0; task < f->n_count * f->k_count; task++) {
         struct br_error failure = {0};
-        struct task t = {
-            .floors = f, .rounding = plan->rounding, .j = task % f->k_count, .observer = observer};
+        struct task t = {.floors = f, .j = task % f->k_count, .observer = observer};
         while (rank_of(f, t.i) != task / f->k_count)
             t.i++;
         run_task(&t, &failure);

@@ -7,12 +7,9 @@
  * operations whichever threads run it, so the result has the same bits on any number. */
 #include "study/lockstep.h"
 
-#include <stdio.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "study/lockstep_state.h"
+#include "study/threads.h"
+#include <stdio.h>
 
 static size_t batch_end(const struct br_lockstep *l, size_t b)
 {
@@ -252,10 +249,7 @@ enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
     work.step = br_allocate(count, sizeof *work.step);
     if (!work.step)
         return br_no_memory(err, "the studies");
-#ifdef _OPENMP
-    if (threads <= 0)
-        threads = omp_get_num_procs();
-#endif
+    threads = br_threads(threads);
     create_all(&work, studies, threads);
     bool fatal = false;
     for (size_t s = 0; s < count; s++)

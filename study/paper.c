@@ -4,12 +4,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "solver/clock.h"
 #include "study/scene_file.h"
+#include "study/threads.h"
 
 /* The times of the curves, s. Example 3 has the two at which its tip is said to let go. */
 static const double figure_times[BR_EXAMPLES][BR_FIGURE_TIMES] = {
@@ -127,11 +124,7 @@ static enum br_status run_tasks(const struct work *w, const struct br_observer *
 {
     struct br_error first = {0};
     size_t failed = w->tasks, done = 0;
-    int threads = w->paper->request.threads;
-#ifdef _OPENMP
-    if (threads <= 0)
-        threads = omp_get_num_procs();
-#endif
+    const int threads = br_threads(w->paper->request.threads);
     (void)threads;
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
     for (size_t i = 0; i < w->tasks; i++) {

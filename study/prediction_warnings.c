@@ -44,21 +44,16 @@ static void warn_of_round_off(const struct br_outlook *o, const struct br_predic
 {
     char remedy[400];
     const double error = p->known ? p->whole.error : p->whole.high;
-    if (!(p->round_off > negligible) || (p->bounded && !(p->round_off > error)))
-        return;
-    if (!p->bounded && !(p->round_off > aim))
+    if (p->round_off <= fmax(p->bounded ? error : aim, negligible))
         return;
     round_off_remedy(o, p->round_off, remedy);
-    if (!p->bounded) {
-        br_warn(w, BR_WARN_ROUND_OFF, remedy,
-                "the predicted round-off of --solver %s at n = %zu is %.1e of the solution",
-                o->method->solver->name, o->n, p->round_off);
-        return;
-    }
+    char beside[128] = "";
+    if (p->bounded)
+        snprintf(beside, sizeof beside, ", above the predicted discretisation error, %s%.1e",
+                 p->known ? "" : "at most ", error);
     br_warn(w, BR_WARN_ROUND_OFF, remedy,
-            "the predicted round-off of --solver %s at n = %zu, %.1e of the solution, is above the "
-            "predicted discretisation error, %s%.1e",
-            o->method->solver->name, o->n, p->round_off, p->known ? "" : "at most ", error);
+            "the predicted round-off of --solver %s at n = %zu is %.1e of the solution%s",
+            o->method->solver->name, o->n, p->round_off, beside);
 }
 
 /* ---- accuracy ---- */

@@ -10,10 +10,7 @@
 
 #include "solver/contact_limit.h"
 #include "study/step_matrix.h"
-
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include "study/threads.h"
 
 const double br_stability_tolerance = 1e-9;
 
@@ -135,11 +132,7 @@ static enum br_status measure_planes(struct br_stability *s,
                                      const struct br_stability_request *request,
                                      struct br_error *err)
 {
-    int threads = request->threads;
-#ifdef _OPENMP
-    if (threads <= 0)
-        threads = omp_get_num_procs();
-#endif
+    const int threads = br_threads(request->threads);
     struct work w = {.s = s, .observer = request->observer};
     w.error = br_allocate(BR_STABILITY_RODS * s->rows, sizeof *w.error);
     if (!w.error)

@@ -1,17 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/steps.h"
 
-#include <fenv.h>
+#include "reference/discrete.h"
+#include "study/scene_file.h"
+#include "study/threads.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
-#include "reference/discrete.h"
-#include "study/scene_file.h"
 
 enum { N = BR_DRIFT_N };
 
@@ -71,6 +67,8 @@ static enum br_status prepare(struct br_drifts *d, const struct br_drifts_plan *
     if (status)
         return status;
     add_contenders(d);
+    for (size_t i = 0; i < d->contenders; i++)
+        d->contender[i].method.rounding = plan->rounding;
     d->k_count = plan->k ? plan->k_count : sizeof usual_steps / sizeof *usual_steps;
     d->steps = br_allocate(d->k_count, sizeof *d->steps);
     d->drift = br_allocate(BR_DRIFT_SCENES * d->contenders * d->k_count, sizeof *d->drift);
@@ -98,7 +96,6 @@ void br_drifts_clear(struct br_drifts *d)
 struct task {
     struct br_drifts *drifts;
     size_t scene, first, j; /* first: contender */
-    int rounding;
     long double exact[2][2 * (N + 1)];
     const struct br_observer *observer;
 };
@@ -156,7 +153,6 @@ static enum br_status measure(struct task *t, const struct br_method *method, si
     const struct br_scene *scene = &t->drifts->scene[t->scene];
     struct br_march *march;
     bool stop = false;
-    fesetround(t->rounding);
     enum br_status status = br_march_create(&march, scene, N, steps, method, &drift->refused);
     for (size_t i = 0; i < steps && !status && !stop; i++) {
         stop = stopped(t->observer, i);
@@ -165,7 +161,6 @@ static enum br_status measure(struct task *t, const struct br_method *method, si
     }
     if (march)
         drift->predicted = br_march_round_off(march);
-    fesetround(FE_TONEAREST);
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
         drift->deviation[kind] = compare(t, march, (enum br_field_kind)kind);
     br_march_free(march);
@@ -222,19 +217,14 @@ enum br_status br_drifts_run(struct br_drifts *d, const struct br_drifts_plan *p
     const size_t tasks = BR_DRIFT_SCENES * (d->contenders / d->solvers) * d->k_count;
     struct br_error first = {0};
     double done = 0, all = 0;
-    int threads = plan->threads;
+    const int threads = br_threads(plan->threads);
     for (size_t i = 0; i < tasks; i++)
         all += (double)d->steps[task_of(d, i).j];
-#ifdef _OPENMP
-    if (threads <= 0)
-        threads = omp_get_num_procs();
-#endif
     (void)threads;
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
     for (size_t i = 0; i < tasks; i++) {
         struct br_error failure = {0};
         struct task t = task_of(d, i);
-        t.rounding = plan->rounding;
         t.observer = observer;
         run_task(&t, plan->k != NULL, &failure);
 #pragma omp critical(drifts)

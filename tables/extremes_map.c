@@ -3,7 +3,6 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <string.h>
 
 /* ---- how many of each kind ---- */
@@ -171,26 +170,16 @@ static void case_cell(const void *self, size_t row, size_t column, char text[BR_
 
 /* ---- in words ---- */
 
-__attribute__((format(printf, 2, 3))) static void say(const struct br_writer *w, const char *format,
-                                                      ...)
-{
-    char text[1024];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    w->paragraph(w->self, text);
-}
-
 static void say_counts(const void *self, const struct br_writer *w)
 {
     const struct br_extreme_map *m = ((const struct br_extremes_map_page *)self)->map;
     const size_t *n = m->count;
     if (n[BR_EXTREME_WRONG])
-        say(w, "%zu of %zu cases are silently wrong.", n[BR_EXTREME_WRONG], m->cases);
+        br_say(w, "%zu of %zu cases are silently wrong.", n[BR_EXTREME_WRONG], m->cases);
     else
-        say(w, "None of %zu cases is silently wrong.", m->cases);
-    say(w,
+        br_say(w, "None of %zu cases is silently wrong.", m->cases);
+    br_say(
+        w,
         "%zu are right, %zu are inaccurate and say so, %zu are inaccurate and do not say so, %zu are "
         "unstable as predicted, %zu are refused, and %zu were given up by the map, since they or "
         "their judges take too long.",
@@ -223,19 +212,22 @@ static void say_how(const void *self, const struct br_writer *w)
     const struct br_extreme_map *m = ((const struct br_extremes_map_page *)self)->map;
     size_t compared;
     const double units = largest_units(m, &compared);
-    say(w,
+    br_say(
+        w,
         "Cases are drawn from seed %" PRIu64
         ". Right means: read, looked ahead at and marched with "
         "the certificate of every step, and displacements within 5 %% of their largest at eight "
         "times and sixteen places, judged by the exact solution (%zu cases) or by the same scheme on "
         "twice the elements with up to 64 times the steps (%zu).",
         m->seed, judged_by(m, BR_BY_EXACT), judged_by(m, BR_BY_REFINEMENT));
-    say(w,
+    br_say(
+        w,
         "%zu cases were marched in other units of length, time and mass, too. Their displacements "
         "agree to the predicted round-off, or to what a change of the data by 1e-12 does to them; "
         "the largest difference is %.1e.",
         compared, units);
-    say(w, "beamrate extremes map --cases %zu --seed %" PRIu64 " repeats this.", m->cases, m->seed);
+    br_say(w, "beamrate extremes map --cases %zu --seed %" PRIu64 " repeats this.", m->cases,
+           m->seed);
 }
 
 void br_extremes_map_page(const struct br_extremes_map_page *self, struct br_page *page)

@@ -2,7 +2,6 @@
 #include "tables/extremes_stability.h"
 
 #include <math.h>
-#include <stdarg.h>
 
 static const char *heading_of(const char *const *headings, size_t words, size_t column,
                               bool *number)
@@ -143,52 +142,47 @@ static void bounce_cell(const void *self, size_t row, size_t column, char text[B
 
 /* ---- in words ---- */
 
-__attribute__((format(printf, 2, 3))) static void say(const struct br_writer *w, const char *format,
-                                                      ...)
-{
-    char text[1024];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    w->paragraph(w->self, text);
-}
-
 static void say_found(const void *self, const struct br_writer *w)
 {
     const struct br_stability *s = self;
     struct br_error err = {0};
     if (br_stability_verdict(s, &err))
-        say(w, "Not as predicted: %s.", err.message);
+        br_say(w, "Not as predicted: %s.", err.message);
     else
-        say(w, "The contact is stable and unstable exactly where it is predicted to be.");
-    say(w,
+        br_say(w, "The contact is stable and unstable exactly where it is predicted to be.");
+    br_say(
+        w,
         "The largest relative difference between a predicted and a measured stability limit of the "
         "lagged contact is %.1e; between predicted and measured growth, in %zu of %zu cells of the "
         "planes, %.1e.",
         s->limit_error, s->growing, s->cells, s->growth_error);
     if (s->excess > 0)
-        say(w, "In the other cells eigenvalues are up to %.1e outside the unit circle.", s->excess);
+        br_say(w, "In the other cells eigenvalues are up to %.1e outside the unit circle.",
+               s->excess);
     else
-        say(w, "In the other cells all eigenvalues are within the unit circle.");
-    say(w, "Contact at u_n has no limit: every scheme brings a pressed rod to rest with c_H up to "
+        br_say(w, "In the other cells all eigenvalues are within the unit circle.");
+    br_say(w,
+           "Contact at u_n has no limit: every scheme brings a pressed rod to rest with c_H up to "
            "1e15 N/m.");
 }
 
 static void say_how(const void *self, const struct br_writer *w)
 {
     const struct br_stability *s = self;
-    say(w,
+    br_say(
+        w,
         "Measured: the matrix of a step against a closed contact, column by column by marches of "
         "one step of %zu elements, its largest eigenvalue, and by bisection the c_H where that "
         "leaves the unit circle. Predicted: c_H times the tip's flexibility at s = 2/k is 1.",
         s->n);
-    say(w,
+    br_say(
+        w,
         "Pressed tips (the paper's rod, k = %g s, 4000 steps of a constant load): swing of the last "
         "quarter, and largest displacement, over the free rod's. Within the limit they rest, "
         "beyond it they chatter.",
         s->tip_k);
-    say(w,
+    br_say(
+        w,
         "Bouncing rods (no viscosity, k = %g s): within the limit without inertia, (a + 2c/k)/L, a "
         "lagged contact never gains energy; between that and the limit a closed one is stable, but "
         "impacts may gain some. Euler with contact at u_n gains none.",

@@ -1,19 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include <stdarg.h>
 
 #include "tables/plan_emitter.h"
-
-__attribute__((format(printf, 2, 3))) static void say(const struct br_writer *w, const char *format,
-                                                      ...)
-{
-    char text[2 * BR_PLAN_LINE];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    w->paragraph(w->self, text);
-}
 
 /* "bdf2, n = 100, k = 0.01 s (100 steps)" */
 static const char *describe(const struct br_plan_page *page, size_t i, char *text, size_t size)
@@ -33,9 +21,9 @@ static void say_trial(const struct br_plan_page *page, const char *what, size_t 
 {
     const struct br_plan *p = page->plan;
     char text[256];
-    say(w, "%s: %s. Error %.3e predicted, %.3e achieved; CPU %.3g s predicted, %.3g s achieved.",
-        what, describe(page, i, text, sizeof text), p->forecast[i].error,
-        br_trial_bound(&p->trial[i], 0), p->forecast[i].seconds, p->seconds(&p->trial[i]));
+    br_say(w, "%s: %s. Error %.3e predicted, %.3e achieved; CPU %.3g s predicted, %.3g s achieved.",
+           what, describe(page, i, text, sizeof text), p->forecast[i].error,
+           br_trial_bound(&p->trial[i], 0), p->forecast[i].seconds, p->seconds(&p->trial[i]));
 }
 
 static void say_end(const struct br_plan *p, const struct br_writer *w)
@@ -43,28 +31,31 @@ static void say_end(const struct br_plan *p, const struct br_writer *w)
     const double error = p->chosen < p->count ? br_trial_bound(&p->trial[p->chosen], 0) : NAN;
     const bool by_error = isfinite(p->goal.error);
     if (p->end == BR_PLAN_MISSED && by_error)
-        say(w,
+        br_say(
+            w,
             "Missed: nothing that was tried has an error so small within the time limit of %g s a "
             "march.",
             p->request.time_limit);
     else if (p->end == BR_PLAN_MISSED)
-        say(w, "Missed: nothing that was tried takes so little.");
+        br_say(w, "Missed: nothing that was tried takes so little.");
     else if (!by_error)
-        say(w, "Met: the least error found within the seconds.");
+        br_say(w, "Met: the least error found within the seconds.");
     else if (p->end == BR_PLAN_MET)
-        say(w,
+        br_say(
+            w,
             "Met: the achieved error is %.2f of what was asked for, between a third and all of it.",
             error / p->goal.error);
     else if (p->end == BR_PLAN_COARSEST)
-        say(w,
+        br_say(
+            w,
             "Met, and better: the coarsest mesh was taken, and its error is %.2g of what was asked "
             "for; there is nothing coarser that would cost less.",
             error / p->goal.error);
     else
-        say(w,
-            "Met, and better: the achieved error is %.2g of what was asked for, below a third: "
-            "nothing between was found that costs as little.",
-            error / p->goal.error);
+        br_say(w,
+               "Met, and better: the achieved error is %.2g of what was asked for, below a third: "
+               "nothing between was found that costs as little.",
+               error / p->goal.error);
 }
 
 /* The least error of all. */
@@ -84,11 +75,11 @@ void br_say_plan(const struct br_plan_page *page, const struct br_writer *w)
     const struct br_plan *p = page->plan;
     char text[256], line[BR_PLAN_LINE];
     if (isfinite(p->goal.error))
-        say(w, "Goal: the cheapest way to a relative error of %g at most, norm %s.", p->goal.error,
-            p->norm[0]->name);
+        br_say(w, "Goal: the cheapest way to a relative error of %g at most, norm %s.",
+               p->goal.error, p->norm[0]->name);
     else
-        say(w, "Goal: the least error within %g CPU s, norm %s.", p->goal.seconds,
-            p->norm[0]->name);
+        br_say(w, "Goal: the least error within %g CPU s, norm %s.", p->goal.seconds,
+               p->norm[0]->name);
     if (p->first < p->count && p->first != p->chosen)
         say_trial(page, "First proposal, by the cheap trials alone", p->first, w);
     if (p->chosen < p->count)
@@ -97,15 +88,15 @@ void br_say_plan(const struct br_plan_page *page, const struct br_writer *w)
     say_end(p, w);
     const size_t best = most_accurate(p);
     if (p->end == BR_PLAN_MISSED && best < p->count)
-        say(w, "The most accurate one was %s: error %.3e, CPU %.3g s.",
-            describe(page, best, text, sizeof text), br_trial_bound(&p->trial[best], 0),
-            p->seconds(&p->trial[best]));
+        br_say(w, "The most accurate one was %s: error %.3e, CPU %.3g s.",
+               describe(page, best, text, sizeof text), br_trial_bound(&p->trial[best], 0),
+               p->seconds(&p->trial[best]));
     br_plan_run_line(page, line);
     if (*line)
-        say(w, "To march it: %s", line);
+        br_say(w, "To march it: %s", line);
     br_plan_trade_line(page, line);
     if (*line)
-        say(w, "To measure it again: %s", line);
+        br_say(w, "To measure it again: %s", line);
 }
 
 static void say_parts(const struct br_plan *p, const struct br_writer *w)
@@ -113,7 +104,8 @@ static void say_parts(const struct br_plan *p, const struct br_writer *w)
     const struct br_plan_parts parts = br_plan_chosen_parts(p);
     if (!isfinite(parts.space))
         return;
-    say(w,
+    br_say(
+        w,
         "By the model, the space error is %.2e and the time error %.2e there, relative; the observed "
         "order in h is %.2f, and that in %s %.2f.",
         parts.space, parts.time, parts.p,
@@ -127,7 +119,8 @@ static void say_work(const struct br_plan *p, const struct br_writer *w)
         cheap += p->forecast[i].round == 0 ? 1 : 0;
         failed += isfinite(br_trial_bound(&p->trial[i], 0)) ? 0 : 1;
     }
-    say(w,
+    br_say(
+        w,
         "The planning: %zu cheap trials and %zu proposals in %zu rounds, %zu of them failed; their "
         "marches take %.3g CPU s, once each, and all of it took %.3g s.",
         cheap, p->count - cheap, p->rounds, failed, br_plan_spent(p), p->wall_seconds);
@@ -138,15 +131,18 @@ void br_say_plan_notes(const struct br_plan_page *page, const struct br_writer *
     const struct br_plan *p = page->plan;
     say_parts(p, w);
     say_work(p, w);
-    say(w, "%s", p->norm[0]->title);
-    say(w,
+    br_say(w, "%s", p->norm[0]->title);
+    br_say(
+        w,
         "Relative errors are over the norm of the solution; the judge's own error, %.1e, is added.",
         isfinite(p->own) ? p->own : 0.0);
-    say(w,
+    br_say(
+        w,
         "An error is the largest at a run's own time levels: long steps are not asked about what "
         "happens between them. There are at least 10 steps, and 20 levels where the scheme chooses its "
         "steps.");
-    say(w,
+    br_say(
+        w,
         "CPU s: set-up and march, seconds of the processor in one thread, the least of up to %zu "
         "marches after a warm-up. On %s.",
         p->request.repeats, page->provenance->machine);

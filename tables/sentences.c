@@ -7,10 +7,9 @@
 
 #include "tables/method_text.h"
 
-__attribute__((format(printf, 2, 3))) static void say(const struct br_writer *w, const char *format,
-                                                      ...)
+void br_say(const struct br_writer *w, const char *format, ...)
 {
-    char text[1024];
+    char text[4096];
     va_list args;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
@@ -39,14 +38,14 @@ static void describe_reference(const struct br_study *s, char *text, size_t size
 void br_say_method(const struct br_report *r, const struct br_writer *w)
 {
     char cells[BR_METHOD_TEXT], reference[512];
-    say(w, "%s Cells: %s.", r->study->norm->title,
-        br_method_text(r->study->scene, &r->study->method, cells));
+    br_say(w, "%s Cells: %s.", r->study->norm->title,
+           br_method_text(r->study->scene, &r->study->method, cells));
     describe_reference(br_report_fitted(r), reference, sizeof reference);
-    say(w, "Reference: %s.", reference);
+    br_say(w, "Reference: %s.", reference);
     if (!r->exact)
         return;
     describe_reference(r->study, reference, sizeof reference);
-    say(w, "Beside it, %s: %s.", r->study->judge->name, reference);
+    br_say(w, "Beside it, %s: %s.", r->study->judge->name, reference);
 }
 
 /* "C_h = 0.0716, p = 2.03 [2.01, 2.04]" */
@@ -67,38 +66,38 @@ static void say_joint(const struct br_report *r, enum br_part part, const struct
     const struct br_joint_fit *fit = &r->fits[part].joint;
     const char *name = br_part_names[part];
     if (!fit->converged) {
-        say(w, "%s: no joint fit: %zu usable cells tell no order.", name, fit->points);
+        br_say(w, "%s: no joint fit: %zu usable cells tell no order.", name, fit->points);
         return;
     }
     char space[160], time[160];
     describe_side("C_h", &fit->c_h, "p", &fit->p, space, sizeof space);
     describe_side("C_k", &fit->c_k, "q", &fit->q, time, sizeof time);
     if (!br_joint_describes(fit)) {
-        say(w,
-            "%s: the joint model does not describe these errors (misfit %.0f %%, %zu cells); no "
-            "orders are claimed.",
-            name, 100 * fit->misfit, fit->points);
+        br_say(w,
+               "%s: the joint model does not describe these errors (misfit %.0f %%, %zu cells); no "
+               "orders are claimed.",
+               name, 100 * fit->misfit, fit->points);
         return;
     }
     switch (fit->kind) {
     case BR_JOINT_BOTH:
-        say(w,
-            "%s: %s; %s; r = %.3f [%.3f, %.3f]; misfit %.2g %% (worst %.2g %%), R^2 = %.6f, %zu "
-            "cells.",
-            name, space, time, fit->r.value, fit->r.low, fit->r.high, 100 * fit->misfit,
-            100 * fit->worst, fit->r_squared, fit->points);
+        br_say(w,
+               "%s: %s; %s; r = %.3f [%.3f, %.3f]; misfit %.2g %% (worst %.2g %%), R^2 = %.6f, %zu "
+               "cells.",
+               name, space, time, fit->r.value, fit->r.low, fit->r.high, 100 * fit->misfit,
+               100 * fit->worst, fit->r_squared, fit->points);
         return;
     case BR_JOINT_TIME:
-        say(w,
-            "%s: %s; the fit needs no space error; misfit %.2g %% (worst %.2g %%), "
-            "R^2 = %.6f, %zu cells.",
-            name, time, 100 * fit->misfit, 100 * fit->worst, fit->r_squared, fit->points);
+        br_say(w,
+               "%s: %s; the fit needs no space error; misfit %.2g %% (worst %.2g %%), "
+               "R^2 = %.6f, %zu cells.",
+               name, time, 100 * fit->misfit, 100 * fit->worst, fit->r_squared, fit->points);
         return;
     case BR_JOINT_SPACE:
-        say(w,
-            "%s: %s; the fit needs no time error; misfit %.2g %% (worst %.2g %%), "
-            "R^2 = %.6f, %zu cells.",
-            name, space, 100 * fit->misfit, 100 * fit->worst, fit->r_squared, fit->points);
+        br_say(w,
+               "%s: %s; the fit needs no time error; misfit %.2g %% (worst %.2g %%), "
+               "R^2 = %.6f, %zu cells.",
+               name, space, 100 * fit->misfit, 100 * fit->worst, fit->r_squared, fit->points);
     }
 }
 
@@ -117,18 +116,18 @@ static void say_tip(const struct br_report *r, enum br_field_kind kind, const st
                      : "OUTSIDE that: the cells are too coarse to see all of the solution, or one "
                        "of the two is wrong");
     if (isfinite(half))
-        say(w, "From the cells alone (Richardson, h and k to 0): %s(L, T) = %.10g +- %.1e m%s.",
-            kind == BR_AXIAL ? "u" : "w", e->value, half, reference);
+        br_say(w, "From the cells alone (Richardson, h and k to 0): %s(L, T) = %.10g +- %.1e m%s.",
+               kind == BR_AXIAL ? "u" : "w", e->value, half, reference);
 }
 
 void br_say_orders(const struct br_report *r, const struct br_writer *w)
 {
-    say(w, "Joint fit with 95 %% intervals: e^2 = a^2 + 2 r a b + b^2, a = C_h (h^p - h_ref^p), "
-           "b = C_k (k^q - k_ref^q).");
+    br_say(w, "Joint fit with 95 %% intervals: e^2 = a^2 + 2 r a b + b^2, a = C_h (h^p - h_ref^p), "
+              "b = C_k (k^q - k_ref^q).");
     for (int part = 0; part < BR_PARTS; part++)
         if (br_part_shown(r, (enum br_part)part))
             say_joint(r, (enum br_part)part, w);
-    say(w, "Theory: %s", r->study->norm->theory);
+    br_say(w, "Theory: %s", r->study->norm->theory);
     if (r->study->scene->axial.modelled)
         say_tip(r, BR_AXIAL, w);
     if (r->study->scene->bending.modelled)
@@ -148,8 +147,8 @@ static void say_failures(const struct br_study *s, const struct br_writer *w)
     for (size_t i = 0; i < s->n_count * s->k_count; i++) {
         const struct br_cell *c = &s->cell[i];
         if (c->failure.status)
-            say(w, "Failed: n = %zu, k = %g s: %s.", c->at.n, br_time_step(s->scene, c->at.steps),
-                c->failure.message);
+            br_say(w, "Failed: n = %zu, k = %g s: %s.", c->at.n,
+                   br_time_step(s->scene, c->at.steps), c->failure.message);
     }
 }
 
@@ -168,10 +167,11 @@ static void say_reference(const struct br_study *s, double own, const struct br_
     if (floor > 0)
         snprintf(rounding, sizeof rounding, "; its round-off is about %.0e", floor);
     if (isfinite(own))
-        say(w, "The own error of the %s reference is about %.1e, %s%s.", s->judge->name, own, by,
-            rounding);
+        br_say(w, "The own error of the %s reference is about %.1e, %s%s.", s->judge->name, own, by,
+               rounding);
     else
-        say(w,
+        br_say(
+            w,
             "The own error of the %s reference is not known: the joint fit does not describe the "
             "errors%s.",
             s->judge->name, rounding);
@@ -182,23 +182,23 @@ static void say_marks(const struct br_study *s, const struct br_writer *w)
     const size_t limited = count_flag(s, BR_FLAG_REFERENCE);
     const size_t rounded = count_flag(s, BR_FLAG_ROUND_OFF);
     if (limited)
-        say(w,
-            "R marks %zu cells whose error is below %g times the own error of the %s reference; "
-            "they are left out of fits.",
-            limited, br_flag_margin, s->judge->name);
+        br_say(w,
+               "R marks %zu cells whose error is below %g times the own error of the %s reference; "
+               "they are left out of fits.",
+               limited, br_flag_margin, s->judge->name);
     const size_t unstable = count_flag(s, BR_FLAG_UNSTABLE);
     if (unstable)
-        say(w,
-            "U marks %zu cells beyond the stability limit of the lagged contact: the tip may "
-            "chatter. They are left out of fits; smaller k or --contact implicit mends it.",
-            unstable);
+        br_say(w,
+               "U marks %zu cells beyond the stability limit of the lagged contact: the tip may "
+               "chatter. They are left out of fits; smaller k or --contact implicit mends it.",
+               unstable);
     if (s->judged_by.unstable)
-        say(w, "The %s reference itself is beyond that limit: do not trust it.", s->judge->name);
+        br_say(w, "The %s reference itself is beyond that limit: do not trust it.", s->judge->name);
     if (rounded)
-        say(w,
-            "F marks %zu cells whose error is below %g times the predicted round-off (floor); "
-            "they are left out of fits.",
-            rounded, br_flag_margin);
+        br_say(w,
+               "F marks %zu cells whose error is below %g times the predicted round-off (floor); "
+               "they are left out of fits.",
+               rounded, br_flag_margin);
 }
 
 void br_say_flags(const struct br_report *r, const struct br_writer *w)
@@ -224,11 +224,11 @@ void br_say_events(const struct br_report *r, const struct br_writer *w)
     const char *line = br_report_fitted(r)->events;
     while (line && *line) {
         const size_t length = strcspn(line, "\n");
-        say(w, "%.*s", (int)length, line);
+        br_say(w, "%.*s", (int)length, line);
         line += length + (line[length] == '\n');
     }
     if (r->study->scene->remark)
-        say(w, "%s", r->study->scene->remark);
+        br_say(w, "%s", r->study->scene->remark);
 }
 
 static size_t contradictions(const struct br_report *r)
@@ -255,9 +255,10 @@ static void say_ratio(const struct br_report *r, const struct br_writer *w)
     if (compared == 0)
         return;
     if (differ == 0)
-        say(w, "Ours and the printed errors agree within 5 %% in all %zu cells.", compared);
+        br_say(w, "Ours and the printed errors agree within 5 %% in all %zu cells.", compared);
     else
-        say(w,
+        br_say(
+            w,
             "Ours and the printed errors DIFFER by more than 5 %% in %zu of %zu cells; ours over "
             "printed goes from %.2g to %.2g.%s",
             differ, compared, least, most,
@@ -272,7 +273,8 @@ static void say_triangle(const struct br_report *r, const struct br_triangle *t,
     const double bound = t->distance < t->least ? t->least : t->most;
     if (!t->contradiction)
         return;
-    say(w,
+    br_say(
+        w,
         "Cells (n = %zu, k = %g) and (n = %zu, k = %g): the printed %.3e and %.3e, against "
         "whatever common reference, need solutions that are %s %.2e apart (triangle inequality); "
         "the scheme's are %.2e apart.",

@@ -13,6 +13,10 @@ struct br_writer {
     void *self;
 };
 
+/* One paragraph of at most 4095 characters; the text is a format. */
+__attribute__((format(printf, 2, 3))) void br_say(const struct br_writer *w, const char *format,
+                                                  ...);
+
 /* What was measured and how: the error, the reference, the method. */
 void br_say_method(const struct br_report *report, const struct br_writer *w);
 

@@ -1,19 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
-#include <stdarg.h>
 
 #include "tables/trade_page.h"
-
-__attribute__((format(printf, 2, 3))) static void say(const struct br_writer *w, const char *format,
-                                                      ...)
-{
-    char text[2048];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    w->paragraph(w->self, text);
-}
 
 /* The first trial that has an error: it knows the judge and the solution. */
 static const struct br_trial *judged(const struct br_trade *trade)
@@ -31,31 +19,35 @@ static void say_judge(const struct br_trade *t, const struct br_writer *w)
     const struct br_trial *known = judged(t);
     const char *unit = t->norm[0]->unit;
     if (!known)
-        say(w, "Judged by: %s. No trial came to its end.", judge->title);
+        br_say(w, "Judged by: %s. No trial came to its end.", judge->title);
     else if (isfinite(known->own[0]))
-        say(w,
+        br_say(
+            w,
             "Judged by: %s. Relative errors are over the norm of the solution, %.4g %s. The judge's "
             "own error is at most %.1e of that; it is added before a trial counts as good enough.",
             judge->title, known->scale[0], unit, known->own[0] / known->scale[0]);
     else
-        say(w, "Judged by: %s. Relative errors are over the norm of the solution, %.4g %s.",
-            judge->title, known->scale[0], unit);
+        br_say(w, "Judged by: %s. Relative errors are over the norm of the solution, %.4g %s.",
+               judge->title, known->scale[0], unit);
 }
 
 void br_say_trade(const struct br_trade_page *page, const struct br_writer *w)
 {
     const struct br_trade *t = page->trade;
-    say(w, "%s", t->norm[0]->title);
+    br_say(w, "%s", t->norm[0]->title);
     say_judge(t, w);
-    say(w,
+    br_say(
+        w,
         "CPU s: set-up and march, seconds of the processor in one thread, the least of up to %zu "
         "marches after a warm-up; longer ones than %g s are marched once. Digits/s: -log10 of the "
         "relative error, over these seconds. On %s.",
         t->request.repeats, t->request.repeat_seconds, page->provenance->machine);
-    say(w, "An error is the largest at a trial's own time levels: long steps are not asked about what "
-           "happens between them.");
-    say(w, "A method is its time scheme and what is not the default with it; a tolerance (tol) "
-           "stands for k where the scheme chooses its steps.");
+    br_say(
+        w,
+        "An error is the largest at a trial's own time levels: long steps are not asked about what "
+        "happens between them.");
+    br_say(w, "A method is its time scheme and what is not the default with it; a tolerance (tol) "
+              "stands for k where the scheme chooses its steps.");
 }
 
 /* As it was asked for: "bdf2 n = 100, k = 0.01 s" */
@@ -80,11 +72,11 @@ void br_say_trade_ends(const struct br_trade_page *page, const struct br_writer 
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%s: %zu", end ? ", " : "",
                                  br_trial_end_name((enum br_trial_end)end),
                                  br_trade_tally(t, (enum br_trial_end)end));
-    say(w, "%zu trials. %s.", t->count, text);
+    br_say(w, "%zu trials. %s.", t->count, text);
     if (br_trade_tally(t, BR_TRIAL_DOUBTFUL))
-        say(w, "Doubtful: the judge's own error is more than a third of the trial's.");
+        br_say(w, "Doubtful: the judge's own error is more than a third of the trial's.");
     for (size_t i = 0; i < t->count; i++)
         if (t->trial[i].failure.status)
-            say(w, "%s: %s: %.1000s", describe(t, &t->trial[i], text, sizeof text),
-                br_trial_end_name(t->trial[i].end), t->trial[i].failure.message);
+            br_say(w, "%s: %s: %.1000s", describe(t, &t->trial[i], text, sizeof text),
+                   br_trial_end_name(t->trial[i].end), t->trial[i].failure.message);
 }
