@@ -3,47 +3,6 @@
 
 #include <math.h>
 
-#include "solver/traps.h"
-
-void br_function_evaluate(const struct br_function *f, size_t count, const double *x, double t,
-                          double *value)
-{
-    if (f->ops) { /* 1/0 of an expression is told, where it is used */
-        const int traps = br_traps_lift();
-        f->ops->evaluate(f->self, count, x, t, value);
-        br_traps_restore(traps);
-        return;
-    }
-    for (size_t i = 0; i < count; i++)
-        value[i] = f->constant;
-}
-
-enum br_status br_function_clone(const struct br_function *f, struct br_function *out,
-                                 struct br_error *err)
-{
-    *out = *f;
-    if (!f->ops)
-        return BR_OK;
-    out->self = f->ops->clone(f->self);
-    if (!out->self) {
-        *out = (struct br_function){0};
-        return br_no_memory(err, "a copy of a function");
-    }
-    return BR_OK;
-}
-
-void br_function_free(struct br_function *f)
-{
-    if (f->ops)
-        f->ops->free(f->self);
-    *f = (struct br_function){0};
-}
-
-bool br_function_is_zero(const struct br_function *f)
-{
-    return !f->ops && f->constant == 0;
-}
-
 /* One physical number: its name, value, and the range that makes sense. */
 struct range {
     const char *name;

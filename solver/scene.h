@@ -4,27 +4,7 @@
 #ifndef BR_SCENE_H
 #define BR_SCENE_H
 
-#include <stdbool.h>
-#include <stddef.h>
-
-#include "solver/status.h"
-
-/* How a function of (x, t) is evaluated, copied and released. An instance may
- * be used by one thread at a time; clone it for another. */
-struct br_function_ops {
-    /* x: in, m, count values; t: s; value: out, count values */
-    void (*evaluate)(void *self, size_t count, const double *x, double t, double *value);
-    void *(*clone)(const void *self); /* NULL when out of memory */
-    void (*free)(void *self);         /* accepts NULL */
-};
-
-/* A function of x and t. With ops == NULL it is the constant `constant`. */
-struct br_function {
-    const struct br_function_ops *ops;
-    void *self;
-    double constant;
-    bool uses_x, uses_t;
-};
+#include "solver/function.h"
 
 /* A load per length, N/m: f(x, t) = space(x, t) * time(t). Where space does not
  * use t it is assembled once; where it does not use x either, without
@@ -89,18 +69,6 @@ struct br_scene {
     struct br_contact contact;
     struct br_friction friction;
 };
-
-/* Values of f at count points x (in, m) and time t (s) into value (out). */
-void br_function_evaluate(const struct br_function *f, size_t count, const double *x, double t,
-                          double *value);
-
-/* out becomes an independent copy of f. Fails with BR_NO_MEMORY. */
-enum br_status br_function_clone(const struct br_function *f, struct br_function *out,
-                                 struct br_error *err);
-void br_function_free(struct br_function *f);
-
-/* Whether f is the constant zero. */
-bool br_function_is_zero(const struct br_function *f);
 
 /* Refuses (BR_BAD_INPUT) numbers that are not finite or have a sign that makes
  * no sense, and combinations that mean nothing (Coulomb without contact). */

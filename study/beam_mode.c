@@ -123,8 +123,12 @@ static void nothing(void *self)
 
 struct br_function br_beam_mode_function(const struct br_beam_mode *mode, bool slope)
 {
-    static const struct br_function_ops value_ops = {evaluate_value, same, nothing},
-                                        slope_ops = {evaluate_slope, same, nothing};
+    static const struct br_function_ops value_ops = {.evaluate = evaluate_value,
+                                                     .clone = same,
+                                                     .free = nothing},
+                                        slope_ops = {.evaluate = evaluate_slope,
+                                                     .clone = same,
+                                                     .free = nothing};
     return (struct br_function){
         .ops = slope ? &slope_ops : &value_ops, .self = same(mode), .uses_x = true};
 }

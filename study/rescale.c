@@ -53,7 +53,8 @@ static void *clone(const void *self)
     return copy;
 }
 
-static const struct br_function_ops scaled_ops = {evaluate, clone, release};
+static const struct br_function_ops scaled_ops = {
+    .evaluate = evaluate, .clone = clone, .free = release};
 
 /* The powers of metre, second and kilogram of a unit. */
 struct unit {

@@ -40,7 +40,8 @@ static void *clone(const void *self)
     return copy;
 }
 
-static const struct br_function_ops nodal_ops = {evaluate, clone, free};
+static const struct br_function_ops nodal_ops = {
+    .evaluate = evaluate, .clone = clone, .free = free};
 
 /* ---- columns ---- */
 

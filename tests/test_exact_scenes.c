@@ -145,7 +145,8 @@ static void *rescaled_clone(const void *self)
     return copy;
 }
 
-static const struct br_function_ops rescaled_ops = {rescaled_evaluate, rescaled_clone, free};
+static const struct br_function_ops rescaled_ops = {
+    .evaluate = rescaled_evaluate, .clone = rescaled_clone, .free = free};
 
 /* How many of a unit one old unit is. */
 struct units {

@@ -85,8 +85,10 @@ static void *parts_clone(const void *self)
     return copy;
 }
 
-static const struct br_function_ops axial_ops = {axial_evaluate, parts_clone, parts_free};
-static const struct br_function_ops bending_ops = {bending_evaluate, parts_clone, parts_free};
+static const struct br_function_ops axial_ops = {
+    .evaluate = axial_evaluate, .clone = parts_clone, .free = parts_free};
+static const struct br_function_ops bending_ops = {
+    .evaluate = bending_evaluate, .clone = parts_clone, .free = parts_free};
 
 static enum br_status take_over(struct br_tip_parts *parts, const struct br_function_ops *ops,
                                 struct br_function *f, struct br_error *err)

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/function.h"
+
+#include <math.h>
+
+#include "solver/traps.h"
+
+void br_function_evaluate(const struct br_function *f, size_t count, const double *x, double t,
+                          double *value)
+{
+    if (f->ops) { /* 1/0 of an expression is told, where it is used */
+        const int traps = br_traps_lift();
+        f->ops->evaluate(f->self, count, x, t, value);
+        br_traps_restore(traps);
+        return;
+    }
+    for (size_t i = 0; i < count; i++)
+        value[i] = f->constant;
+}
+
+enum br_status br_function_clone(const struct br_function *f, struct br_function *out,
+                                 struct br_error *err)
+{
+    *out = *f;
+    if (!f->ops)
+        return BR_OK;
+    out->self = f->ops->clone(f->self);
+    if (!out->self) {
+        *out = (struct br_function){0};
+        return br_no_memory(err, "a copy of a function");
+    }
+    return BR_OK;
+}
+
+void br_function_free(struct br_function *f)
+{
+    if (f->ops)
+        f->ops->free(f->self);
+    *f = (struct br_function){0};
+}
+
+bool br_function_is_zero(const struct br_function *f)
+{
+    return !f->ops && f->constant == 0;
+}
+
+static const struct br_interval everywhere = {-INFINITY, INFINITY};
+
+bool br_function_bound(const struct br_function *f, struct br_box box, struct br_interval *value)
+{
+    *value = f->ops ? everywhere : (struct br_interval){f->constant, f->constant};
+    return !f->ops || (f->ops->bound && f->ops->bound(f->self, box, value));
+}
+
+bool br_function_taylor(const struct br_function *f, enum br_variable along, struct br_box box,
+                        size_t order, struct br_interval *c)
+{
+    for (size_t i = 0; i <= order; i++)
+        c[i] = (struct br_interval){i || f->ops ? 0 : f->constant, i || f->ops ? 0 : f->constant};
+    return !f->ops || (f->ops->taylor && f->ops->taylor(f->self, along, box, order, c));
+}
+
+const struct br_function *br_function_guard(const struct br_function *f, size_t i)
+{
+    return f->ops && f->ops->guard ? f->ops->guard(f->self, i) : NULL;
+}

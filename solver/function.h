@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A function of x and t: how it is evaluated, and what can be proved of it. */
+#ifndef BR_FUNCTION_H
+#define BR_FUNCTION_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "solver/status.h"
+
+/* A closed interval, low <= high. */
+struct br_interval {
+    double low, high;
+};
+
+/* All x of an interval at all t of another. Either may be one point. */
+struct br_box {
+    struct br_interval x; /* m */
+    struct br_interval t; /* s */
+};
+
+enum br_variable { BR_X, BR_T };
+
+struct br_function;
+
+/* How a function is evaluated, copied, released, and enclosed. An instance may be used by one
+ * thread at a time; clone it for another. Without bound, taylor or guard (NULL) nothing is proved
+ * of it, and who needs a proof refuses it. */
+struct br_function_ops {
+    /* x: in, m, count values; t: s; value: out, count values */
+    void (*evaluate)(void *self, size_t count, const double *x, double t, double *value);
+    void *(*clone)(const void *self); /* NULL when out of memory */
+    void (*free)(void *self);         /* accepts NULL */
+
+    /* Encloses all values that evaluate gives, or exact arithmetic would, in a box; rounded
+     * outward. False: that failed, the function may be infinite or no number there. */
+    bool (*bound)(const void *self, struct br_box box, struct br_interval *value);
+
+    /* Encloses the Taylor coefficients f^(i) / i! along one variable, i = 0 to order, at all points
+     * of the box. False: the function may be infinite, no number, or not smooth somewhere in the
+     * box (at a guard, or like a root at zero). */
+    bool (*taylor)(const void *self, enum br_variable along, struct br_box box, size_t order,
+                   struct br_interval *coefficient);
+
+    /* Guard i, borrowed, or NULL from the last one on: a function whose change of sign, and nothing
+     * else, makes this function or a derivative of it jump. The argument of step, abs and sign, the
+     * difference of what min, max and a comparison compare. */
+    const struct br_function *(*guard)(const void *self, size_t i);
+};
+
+/* With ops == NULL it is the constant `constant`. */
+struct br_function {
+    const struct br_function_ops *ops;
+    void *self;
+    double constant;
+    bool uses_x, uses_t;
+};
+
+/* Values of f at count points x (in, m) and time t (s) into value (out). */
+void br_function_evaluate(const struct br_function *f, size_t count, const double *x, double t,
+                          double *value);
+
+/* out becomes an independent copy of f. Fails with BR_NO_MEMORY. */
+enum br_status br_function_clone(const struct br_function *f, struct br_function *out,
+                                 struct br_error *err);
+void br_function_free(struct br_function *f);
+
+/* Whether f is the constant zero. */
+bool br_function_is_zero(const struct br_function *f);
+
+/* The proofs, as struct br_function_ops has them; value and coefficient (order + 1) are out. */
+bool br_function_bound(const struct br_function *f, struct br_box box, struct br_interval *value);
+bool br_function_taylor(const struct br_function *f, enum br_variable along, struct br_box box,
+                        size_t order, struct br_interval *coefficient);
+const struct br_function *br_function_guard(const struct br_function *f, size_t i);
+
+#endif
