@@ -243,6 +243,11 @@ bool br_test_quick(void)
     return getenv("BR_TEST_QUICK") != NULL;
 }
 
+bool br_test_long(void)
+{
+    return getenv("BR_TEST_LONG") != NULL;
+}
+
 double br_test_slack(void)
 {
     volatile long double one = 1, tiny = 1e-18L;

@@ -93,6 +93,9 @@ void br_test_keep_wrong(const char *scene, const char *message);
 /* Whether long tests are to be left out (BR_TEST_QUICK is set: valgrind). */
 bool br_test_quick(void);
 
+/* Whether everything is tested, also what takes minutes: ./bootstrap test --long. */
+bool br_test_long(void);
+
 /* 1, or more where long double has no more digits than double, as under valgrind. */
 double br_test_slack(void);
 
