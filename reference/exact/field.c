@@ -43,10 +43,9 @@ static enum br_status set_initial(struct br_field *f, const struct data *d, stru
     const double scale = f->modes->degree == 1 ? 1 : f->length; /* dw/dxi = L dw/dx */
     enum br_status status = BR_OK;
     if (!br_function_is_zero(d->slope))
-        status =
-            br_modes_project_energy(f->modes, d->slope, f->length, scale, f->displacement, err);
+        status = br_modes_project_energy(f->modes, d->slope, scale, f->displacement, err);
     if (!status && !br_function_is_zero(d->velocity))
-        status = br_modes_project(f->modes, d->velocity, f->length, f->velocity, err);
+        status = br_modes_project(f->modes, d->velocity, f->velocity, err);
     br_function_evaluate(d->displacement, 1, &f->length, 0, &f->tip_displacement);
     br_function_evaluate(d->velocity, 1, &f->length, 0, &f->tip_velocity);
     return status;
@@ -57,7 +56,7 @@ static enum br_status set_space(struct br_field *f, struct br_error *err)
     if (f->load->space.uses_t)
         return BR_OK;
     const enum br_status status =
-        br_modes_load(f->modes, &f->load->space, f->length, 0, f->load_space, err);
+        br_modes_load(f->modes, &f->load->space, 0, (struct br_places){0}, f->load_space, err);
     for (size_t i = 0; i < f->modes->count; i++)
         f->load_space[i] *= f->length;
     return status;
@@ -65,7 +64,11 @@ static enum br_status set_space(struct br_field *f, struct br_error *err)
 
 static enum br_status allocate(struct br_field *f, size_t degree, size_t m, struct br_error *err)
 {
-    const enum br_status status = br_modes_create(&f->modes, m, degree, err);
+    struct br_pieces whole;
+    enum br_status status = br_pieces_whole(&whole, f->length, m, err);
+    if (!status)
+        status = br_modes_create(&f->modes, &whole, degree, err);
+    br_pieces_clear(&whole);
     f->mass = br_allocate(m, sizeof *f->mass);
     f->load_space = br_allocate(m, sizeof *f->load_space);
     f->displacement = br_allocate(m, sizeof *f->displacement);
@@ -136,7 +139,7 @@ enum br_status br_field_load(const struct br_field *f, double t, double *out, st
     const double *space = f->load_space;
     if (f->load->space.uses_t) {
         const enum br_status status =
-            br_modes_load(f->modes, &f->load->space, f->length, t, out, err);
+            br_modes_load(f->modes, &f->load->space, t, (struct br_places){0}, out, err);
         if (status)
             return status;
         factor *= f->length;

@@ -6,6 +6,7 @@
 #define BR_FIELD_H
 
 #include "reference/exact/modes.h"
+#include "solver/scene.h"
 
 struct br_field {
     struct br_modes *modes;
