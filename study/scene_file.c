@@ -7,7 +7,7 @@
 #include <yaml.h>
 
 #include "reference/mms/manufactured.h"
-#include "study/expression.h"
+#include "study/scene/expression.h"
 #include "study/scene_scan.h"
 #include "study/scene_value.h"
 #include "study/verify_file.h"

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/expression.h"
+#include "study/scene/expression.h"
 
 /* "path:line: key: ..." */
 enum br_status br_scene_refuse(const struct br_scene_reader *r, size_t line, const char *key,

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/expression.h"
+#include "study/scene/expression.h"
 #include "study/scene_file.h"
 
 void br_test_close(const char *what, double actual, double expected, double tolerance,

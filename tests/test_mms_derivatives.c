@@ -8,7 +8,7 @@
 
 #include "reference/mms/check.h"
 #include "reference/mms/product.h"
-#include "study/expression.h"
+#include "study/scene/expression.h"
 #include "support.h"
 
 /* ---- derivatives ---- */

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/expression.h"
+#include "study/scene/expression.h"
 #include "study/scene_file.h"
 #include "study/scene_schema.h"
 #include "support.h"

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/expression.h"
+#include "study/scene/expression.h"
 #include "tests/support.h"
 
 enum { N = 7, STEPS = 30 };

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "study/expression.h"
+#include "study/scene/expression.h"
 #include "tests/bench/bench.h"
 
 static const size_t sizes[] = {100, 400, 3200, 12800, 100000, 1000000};
