@@ -3,6 +3,7 @@
 
 #include <cblas.h>
 #include <lapacke.h>
+#include <math.h>
 #include <string.h>
 
 enum { S = BR_STAGES };
@@ -17,6 +18,7 @@ enum br_status br_stepper_create(struct br_stepper **out, const struct br_field 
         return br_no_memory(err, "a time step");
     s->field = field;
     s->law = law;
+    s->to = INFINITY;
     s->tip_displacement = field->tip_displacement - gap;
     s->tip_velocity = field->tip_velocity;
     s->q = br_allocate(m, sizeof *s->q);
@@ -140,8 +142,11 @@ enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *e
 {
     const size_t m = s->field->modes->count;
     enum br_status status = respond(s, h, err);
-    for (size_t j = 0; j < S && !status; j++)
-        status = br_field_load(s->field, s->time + s->radau.node[j] * h, &s->load[j * m], err);
+    s->work += br_field_work(s->field);
+    for (size_t j = 0; j < S && !status; j++) {
+        const double t = fmin(fmax(s->time + s->radau.node[j] * h, s->from), s->to);
+        status = br_field_load(s->field, t, &s->load[j * m], err);
+    }
     if (status)
         return status;
     s->tip = (struct br_tip){

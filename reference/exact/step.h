@@ -14,7 +14,8 @@ struct br_stepper {
     const struct br_law *law;
     struct br_radau radau;
 
-    double time; /* s */
+    double time;     /* s */
+    double from, to; /* s: the load is taken between these, where it does not jump */
     enum br_phase phase;
     double *q, *v;                         /* modes: m, m/s */
     double tip_displacement, tip_velocity; /* less the gap, m, m/s */
@@ -23,6 +24,8 @@ struct br_stepper {
     double *series;    /* modes x BR_STAGES: its velocity, m/s */
     double free_size;  /* m^(3/2)/s: mean velocity in L2 as if the tip were free: where a tip
                           force cancels it, its round-off is what remains */
+
+    double work; /* of the trial steps, see effort.h; whoever reads it sets it to zero */
 
     double length;    /* s, of the step that the responses are for */
     double *response; /* modes x BR_STAGES x BR_STAGES: velocity over force, m/(N s) */
