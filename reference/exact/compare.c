@@ -7,11 +7,13 @@
  * the worse one, but hardly by less than that. */
 static const double safety = 2;
 
-/* After an event velocity and force are not compared for this part of T. */
+/* After an event, a jump of the data or a blow that is as short, velocity and force are not
+ * compared for this part of T. */
 static const double layer = 1e-6;
 
 /* One field of two solutions, with room for their values at one time. */
 struct pair {
+    const struct br_outline *outline;
     const struct br_field *field[2];
     const struct br_law *law[2];
     const struct br_track *track[2];
@@ -152,13 +154,15 @@ static void compare_field(struct pair *p, double duration, struct br_exact_repor
                 const struct br_tip *tip = &p->track[i]->tip[n];
                 const double t = tip->start + inside[j] * tip->length;
                 const bool smooth = !in_layer(p->track[0], t, layer * duration) &&
-                                    !in_layer(p->track[1], t, layer * duration);
+                                    !in_layer(p->track[1], t, layer * duration) &&
+                                    !br_outline_is_sharp(p->outline, t, layer * duration);
                 compare_at(p, t, smooth, report);
             }
     compare_at(p, duration, true, report);
 }
 
 enum br_status br_exact_compare(struct br_exact *exact, const struct br_solution *other,
+                                const struct br_outline outline[BR_EXACT_FIELDS],
                                 struct br_error *err)
 {
     enum br_status status = BR_OK;
@@ -167,7 +171,7 @@ enum br_status br_exact_compare(struct br_exact *exact, const struct br_solution
         *report = (struct br_exact_report){0};
         if (!exact->solution->track[which])
             continue;
-        struct pair p = {0};
+        struct pair p = {.outline = &outline[which]};
         report->modes = exact->solution->field[which]->modes->count;
         report->steps = exact->solution->track[which]->steps;
         exact->noise[which] = 1e-13 * exact->solution->track[which]->free_velocity;

@@ -90,8 +90,7 @@ static void scale_size(struct br_exact_size *size, double factor)
 }
 
 /* size += share * of */
-static void add_to_size(struct br_exact_size *size, double share,
-                              const struct br_exact_size *of)
+static void add_to_size(struct br_exact_size *size, double share, const struct br_exact_size *of)
 {
     size->displacement += share * of->displacement;
     size->velocity += share * of->velocity;
@@ -121,10 +120,10 @@ struct search {
     struct br_outline outline[BR_EXACT_FIELDS];
     struct br_effort effort;
     struct br_solution *before;
-    double missed;             /* the largest of the outlines */
+    double missed;              /* the largest of the outlines */
     double worst, worst_before; /* of the last two pairs, infinite where that cannot be said */
-    double round_work;         /* of the last round */
-    struct br_error cause;     /* why not */
+    double round_work;          /* of the last round */
+    struct br_error cause;      /* why not */
 };
 
 /* The next solution, and how far it is from the last one. */
@@ -137,11 +136,11 @@ static enum br_status next_round(struct search *s, const struct br_fineness *fin
     s->cause = (struct br_error){0};
     s->worst_before = s->worst;
     s->worst = INFINITY;
-    enum br_status status = br_solution_create(&exact->solution, s->scene, s->outline, fine,
-                                               &s->effort, &s->cause);
+    enum br_status status =
+        br_solution_create(&exact->solution, s->scene, s->outline, fine, &s->effort, &s->cause);
     s->round_work = s->effort.done - done;
     if (!status && s->before) {
-        status = br_exact_compare(exact, s->before, &s->cause);
+        status = br_exact_compare(exact, s->before, s->outline, &s->cause);
         s->worst = badness(exact, s->o);
     }
     const bool hopeful = status == BR_NOT_FINITE && s->effort.done <= s->effort.most;
@@ -217,10 +216,11 @@ static enum br_status outline(struct search *s, struct br_error *err)
         s->missed = fmax(s->missed, s->outline[which].missed);
     }
     if (!status && !(s->missed <= s->o->acceptable))
-        status = br_fail(err, BR_NOT_FINITE,
-                         "no exact solution: %.2g of a load may be in places that are too narrow to "
-                         "be looked into",
-                         s->missed);
+        status =
+            br_fail(err, BR_NOT_FINITE,
+                    "no exact solution: %.2g of a load may be in places that are too narrow to "
+                    "be looked into",
+                    s->missed);
     return status;
 }
 

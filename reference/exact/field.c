@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference/exact/field.h"
 
+#include <cblas.h>
 #include <math.h>
 
 static enum br_status set_initial(struct br_field *f, struct br_error *err)
@@ -41,9 +42,9 @@ static enum br_status create_modes(struct br_field *f, size_t degree, const stru
     size_t *terms = br_allocate(elements, sizeof *terms);
     for (size_t e = 0; terms && e < elements; e++)
         terms[e] = br_outline_terms(o, e, modes);
-    enum br_status status = terms ? br_pieces_init(&pieces, f->length, elements, o->end.at, terms,
-                                                   err)
-                                  : br_no_memory(err, "the modes");
+    enum br_status status =
+        terms ? br_pieces_init(&pieces, f->length, elements, o->end.at, terms, err)
+              : br_no_memory(err, "the modes");
     if (!status)
         status = br_modes_create(&f->modes, &pieces, degree, err);
     br_pieces_clear(&pieces);
@@ -64,8 +65,7 @@ static enum br_status allocate(struct br_field *f, struct br_error *err)
 }
 
 enum br_status br_field_create(struct br_field **out, const struct br_scene *scene, size_t degree,
-                               const struct br_outline *outline, size_t modes,
-                               struct br_error *err)
+                               const struct br_outline *outline, size_t modes, struct br_error *err)
 {
     const double power = pow(scene->length, 1 - 2 * (double)degree);
     *out = NULL;
@@ -136,9 +136,11 @@ static enum br_status load_at(const struct br_field *f, const struct br_function
     return status;
 }
 
-enum br_status br_field_load(const struct br_field *f, double t, double *out, struct br_error *err)
+enum br_status br_field_load(const struct br_field *f, double t, double *out, double *size,
+                             struct br_error *err)
 {
     const size_t m = f->modes->count;
+    *size = 0;
     for (size_t i = 0; i < m; i++)
         out[i] = 0;
     for (size_t term = 0; term < BR_LOAD_TERMS; term++) {
@@ -153,6 +155,8 @@ enum br_status br_field_load(const struct br_field *f, double t, double *out, st
             if (status)
                 return status;
             factor *= f->length;
+            *size +=
+                fabs(factor) * cblas_dnrm2((int)br_modes_length(f->modes, 0), f->modes->series, 1);
         }
         for (size_t i = 0; i < m; i++)
             out[i] += factor * space[i];

@@ -17,8 +17,8 @@ struct br_field {
     bool fronts;               /* places where the load jumps move */
     double *load_space;        /* BR_LOAD_TERMS * modes: of the terms whose space part is constant
                                   in time; and workspace for one that is not */
-    double *displacement; /* modes: at t = 0, m */
-    double *velocity;     /* modes: at t = 0, m/s */
+    double *displacement;      /* modes: at t = 0, m */
+    double *velocity;          /* modes: at t = 0, m/s */
     double tip_displacement, tip_velocity; /* at t = 0, m, m/s */
 };
 
@@ -30,8 +30,10 @@ enum br_status br_field_create(struct br_field **out, const struct br_scene *sce
                                struct br_error *err);
 void br_field_free(struct br_field *field);
 
-/* out[i] = load_i(t), N. Fails with BR_NO_MEMORY, or BR_BAD_INPUT: too many fronts. */
-enum br_status br_field_load(const struct br_field *field, double t, double *out,
+/* out[i] = load_i(t), N. *size: out, of loads that no product gives, N: what a mode of size 1 gets
+ * of them may be wrong by round-off of that. Fails with BR_NO_MEMORY, or BR_BAD_INPUT: too many
+ * fronts. */
+enum br_status br_field_load(const struct br_field *field, double t, double *out, double *size,
                              struct br_error *err);
 
 /* What a step costs in the units of effort.h: its modes, and loads that no product gives. */

@@ -74,7 +74,7 @@ static double step_error(const struct march *m, const struct scale *scale)
     const double before = br_field_norm(s->field, s->series + S - 2, S);
     const double velocity = larger(last, before / 8);
     const double force = larger(fabs(s->tip.force[S - 1]), fabs(s->tip.force[S - 2]) / 8);
-    const double noise = 10 * DBL_EPSILON * s->free_size / m->options->tolerance;
+    const double noise = 10 * (DBL_EPSILON * s->free_size + s->load_noise) / m->options->tolerance;
     double error =
         ratio(velocity * s->tip.length, scale->displacement + (velocity + noise) * s->tip.length);
     error = larger(error, ratio(velocity, scale->velocity + noise));
@@ -222,10 +222,13 @@ static double reach(const struct march *m)
     return fmax(most, m->options->first_step);
 }
 
-/* A step of about h from one number to another, so that steps leave nothing out between them. */
+/* A step of h, or a little less, that ends on a number, so that steps leave nothing out between
+ * them. */
 static double exact_step(const struct br_stepper *s, double h)
 {
-    const double end = s->time + h;
+    double end = s->time + h;
+    if (end - s->time > h)
+        end = nextafter(end, s->time);
     return end > s->time ? end - s->time : h;
 }
 
@@ -235,7 +238,8 @@ static void step(struct march *m, double limit)
     struct br_stepper *s = m->s;
     const double left = limit - s->time, wish = fmin(m->h, reach(m));
     const bool last = wish >= left;
-    const double h = last ? left : exact_step(s, fmin(wish, fmax(left / 2, m->options->first_step)));
+    const double h =
+        last ? left : exact_step(s, fmin(wish, fmax(left / 2, m->options->first_step)));
     m->status = br_stepper_try(s, h, m->err);
     if (m->status)
         return;
@@ -298,8 +302,8 @@ static size_t list_changes(const struct march *m, struct change *change)
     for (size_t i = 0; i < jump->count; i++)
         change[count++] = (struct change){jump->at[i], 0};
     for (size_t i = 1; axial && i < axial->entries; i++)
-        change[count++] = (struct change){{axial->entry[i].time, axial->entry[i].time},
-                                          axial->entry[i].error};
+        change[count++] =
+            (struct change){{axial->entry[i].time, axial->entry[i].time}, axial->entry[i].error};
     qsort(change, count, sizeof *change, by_time);
     for (size_t i = 1; i < count; i++) {
         struct change *last = &change[kept];

@@ -9,10 +9,10 @@
 #include "reference/exact/outline.h"
 
 struct br_march_options {
-    double duration;   /* T, s */
+    double duration;                     /* T, s */
     const struct br_outline *outline[2]; /* of this field, and NULL or the one that it depends on:
                                             the steps that they ask for */
-    double gap;        /* of the contact, m; 0 for friction */
+    double gap;                          /* of the contact, m; 0 for friction */
     double tolerance;  /* what the last coefficients of a step may be of the largest value */
     double first_step; /* s: length of the first step of a phase, always accepted */
     size_t max_steps;

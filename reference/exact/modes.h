@@ -26,7 +26,7 @@ struct br_modes {
     double *slope; /* m: derivative of each there; degree 2 only, else zeros */
 
     struct br_quadrature quadrature; /* of functions that are tested with shapes */
-    double *series;                  /* br_modes_length(0), workspace */
+    double *series;                  /* br_modes_length(0): coefficients of the last one */
 };
 
 /* Modes on a copy of the elements. Fails with BR_NO_MEMORY or BR_SINGULAR. */

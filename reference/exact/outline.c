@@ -97,25 +97,42 @@ static bool inseparable(const struct subject *s)
 
 /* ---- parts between places where functions jump ---- */
 
-/* Part i of `breaks`->count + 1 of [0, all]. */
+/* So much apart, of a place, guards that vanish there have a sign for sure. */
+static const double apart = 8 * DBL_EPSILON;
+
+/* Part i of `breaks`->count + 1 of [0, all], as far as functions are smooth there for sure. */
 static struct br_interval part(const struct br_breaks *breaks, size_t i, double all)
 {
-    return (struct br_interval){i ? breaks->at[i - 1].high : 0,
-                                i < breaks->count ? breaks->at[i].low : all};
+    return (struct br_interval){i ? breaks->at[i - 1].high * (1 + apart) : 0,
+                                i < breaks->count ? breaks->at[i].low * (1 - apart) : all};
 }
 
-/* A part between jumps that is no wider than round-off, but not empty, cannot be integrated over. */
+/* A part between jumps that is no wider than round-off, but not empty, cannot be integrated over.
+ */
 static enum br_status check_parts(const struct br_breaks *breaks, double all, const char *unit,
                                   struct br_error *err)
 {
-    for (size_t i = 0; i <= breaks->count; i++) {
-        const struct br_interval p = part(breaks, i, all);
-        if (p.high - p.low < 8 * DBL_EPSILON * all && i > 0 && i < breaks->count)
+    for (size_t i = 1; i < breaks->count; i++)
+        if (!(breaks->at[i].low - breaks->at[i - 1].high > 1e-13 * all))
             return br_fail(err, BR_NOT_FINITE,
                            "no exact solution: the data jump twice within %.2g %s at %.17g %s",
-                           p.high - p.low, unit, p.low, unit);
-    }
+                           breaks->at[i].low - breaks->at[i - 1].high, unit, breaks->at[i].low,
+                           unit);
     return BR_OK;
+}
+
+/* The ends of [0, all] and of the parts. */
+static enum br_status add_parts(struct br_list *list, const struct br_breaks *breaks, double all,
+                                struct br_error *err)
+{
+    enum br_status status = br_list_add(list, 0, err);
+    for (size_t i = 0; i < breaks->count && !status; i++) {
+        const struct br_interval at = breaks->at[i];
+        status = br_list_add(list, at.high, err);
+        if (!status && at.high - at.low > 1e-13 * all) /* no more could be told */
+            status = br_list_add(list, at.low, err);
+    }
+    return status ? status : br_list_add(list, all, err);
 }
 
 static enum br_status find_bends(struct work *w)
@@ -135,69 +152,81 @@ static struct br_list *new_cells(struct work *w)
     return &w->o->cell[w->o->cells++];
 }
 
+static struct br_sight sight_of(const struct work *w, const struct subject *s)
+{
+    const struct br_box box = box_of(w, s);
+    const double x = s->f->uses_x ? w->length : 1, t = s->f->uses_t && s->until > 0 ? s->until : 1;
+    const double mean = br_sight_mean(s->f, box);
+    return (struct br_sight){
+        .f = s->f,
+        .degree = {SPACE_DEGREE, TIME_DEGREE},
+        .mean = mean,
+        .most_missed = 1e-13 * mean * x * t,
+        .least = 1e-15 * (s->f->uses_x ? w->length : w->duration),
+        .most = MOST_CELLS,
+    };
+}
+
+/* What a function may hide, of its integral. */
+static void count_missed(struct work *w, const struct br_sight *sight)
+{
+    if (sight->missed > 0) /* in units of most_missed */
+        w->o->missed = fmax(w->o->missed, 1e-13 * sight->missed / sight->most_missed);
+}
+
 static enum br_status mesh_both(struct work *w, const struct subject *s)
 {
-    const struct br_sight sight[2] = {{SPACE_DEGREE, 1e-12 * w->length, MOST_CELLS},
-                                      {TIME_DEGREE, 1e-14 * w->duration, MOST_CELLS}};
+    const struct br_breaks *bend = &w->bend, *jump = &w->o->jump;
+    struct br_sight sight = sight_of(w, s);
     struct br_list ends[2] = {{0}, {0}};
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i <= w->bend.count && !status; i++)
-        for (size_t j = 0; j <= w->o->jump.count && !status; j++) {
-            const struct br_box box = {part(&w->bend, i, w->length),
-                                       part(&w->o->jump, j, w->duration)};
-            double missed = 0;
+    enum br_status status = add_parts(&ends[BR_T], jump, w->duration, w->err);
+    for (size_t i = 0; i <= bend->count && !status; i++)
+        for (size_t j = 0; j <= jump->count && !status; j++) {
+            const struct br_box box = {part(bend, i, w->length), part(jump, j, w->duration)};
             if (box.x.high > box.x.low && box.t.high > box.t.low)
-                status = br_sight_both(s->f, box, sight, ends, &missed, w->err);
-            w->o->missed = fmax(w->o->missed, missed);
+                status = br_sight_both(&sight, box, ends, w->err);
         }
     for (size_t i = 0; i < ends[BR_X].count && !status; i++)
         status = br_list_add(&w->o->end, ends[BR_X].at[i], w->err);
     br_list_free(&ends[BR_X]);
-    br_list_sort(&ends[BR_T], 0);
     *new_cells(w) = ends[BR_T];
+    count_missed(w, &sight);
     return status;
 }
 
-static enum br_status mesh_space(struct work *w, const struct subject *s)
+static enum br_status mesh_parts(struct work *w, const struct subject *s, enum br_variable along,
+                                 struct br_list *ends)
 {
-    const struct br_sight sight = {SPACE_DEGREE, 1e-13 * w->length, MOST_CELLS};
+    const struct br_breaks *breaks = along == BR_X ? &w->bend : &w->o->jump;
+    const double all = along == BR_X ? w->length : w->duration;
+    struct br_sight sight = sight_of(w, s);
     enum br_status status = BR_OK;
-    for (size_t i = 0; i <= w->bend.count && !status; i++) {
-        const struct br_box box = {part(&w->bend, i, w->length), {0, 0}};
-        double missed = 0;
-        if (box.x.high > box.x.low)
-            status = br_sight_along(s->f, BR_X, box, &sight, &w->o->end, &missed, w->err);
-        w->o->missed = fmax(w->o->missed, missed);
+    for (size_t i = 0; i <= breaks->count && !status; i++) {
+        struct br_box box = {{0, 0}, {0, 0}};
+        const struct br_interval here = part(breaks, i, all);
+        *(along == BR_X ? &box.x : &box.t) = here;
+        if (here.high > here.low)
+            status = br_sight_along(&sight, along, box, ends, w->err);
     }
+    count_missed(w, &sight);
     return status;
 }
 
 static enum br_status mesh_time(struct work *w, const struct subject *s)
 {
-    const struct br_sight sight = {TIME_DEGREE, 1e-14 * w->duration, MOST_CELLS};
     struct br_list *cells = new_cells(w);
-    double missed = 0;
-    enum br_status status =
-        br_sight_along(s->f, BR_T, box_of(w, s), &sight, cells, &missed, w->err);
-    br_list_sort(cells, 0);
-    w->o->missed = fmax(w->o->missed, missed);
-    return status;
+    const enum br_status status = add_parts(cells, &w->o->jump, w->duration, w->err);
+    return status || !is_known(s->f) ? status : mesh_parts(w, s, BR_T, cells);
 }
 
 static enum br_status find_elements(struct work *w)
 {
-    enum br_status status = br_list_add(&w->o->end, 0, w->err);
-    if (!status)
-        status = br_list_add(&w->o->end, w->length, w->err);
-    for (size_t i = 0; i < w->bend.count && !status; i++) {
-        status = br_list_add(&w->o->end, w->bend.at[i].low, w->err);
-        if (!status)
-            status = br_list_add(&w->o->end, w->bend.at[i].high, w->err);
-    }
+    enum br_status status = add_parts(&w->o->end, &w->bend, w->length, w->err);
     for (size_t i = 0; i < w->spaces && !status; i++)
-        status = inseparable(&w->space[i]) ? mesh_both(w, &w->space[i])
-                                           : mesh_space(w, &w->space[i]);
-    br_list_sort(&w->o->end, 4 * DBL_EPSILON * w->length);
+        if (is_known(w->space[i].f))
+            status = inseparable(&w->space[i]) ? mesh_both(w, &w->space[i])
+                                               : mesh_parts(w, &w->space[i], BR_X, &w->o->end);
+    br_list_sort(&w->o->end, 0);
     return status;
 }
 
@@ -205,11 +234,11 @@ static enum br_status find_elements(struct work *w)
 static bool fits(const struct work *w, double a, double b)
 {
     for (size_t i = 0; i < w->bend.count; i++)
-        if (w->bend.at[i].high > a && w->bend.at[i].low < b)
+        if (w->bend.at[i].high > a && w->bend.at[i].high < b)
             return false;
     for (size_t i = 0; i < w->spaces; i++) {
         const struct subject *s = &w->space[i];
-        const struct br_box box = {{a, b}, {0, s->until}};
+        const struct br_box box = {{a * (1 + apart), b * (1 - apart)}, {0, s->until}};
         struct br_interval value;
         if (!is_known(s->f))
             continue;
@@ -284,6 +313,8 @@ static enum br_status look(struct work *w)
         status = find_crossings(w);
     for (size_t i = 0; i < w->times && !status; i++)
         status = mesh_time(w, &w->time[i]);
+    for (size_t i = 0; i < w->o->cells; i++)
+        br_list_sort(&w->o->cell[i], 0);
     return status;
 }
 
@@ -347,6 +378,17 @@ static double reach_in(const struct br_list *cells, double t)
             break;
     }
     return reach;
+}
+
+bool br_outline_is_sharp(const struct br_outline *o, double t, double width)
+{
+    for (size_t i = 0; i < o->cells; i++) {
+        const struct br_list *c = &o->cell[i];
+        for (size_t j = cell_of(c, t - width); j + 1 < c->count && c->at[j] < t + width; j++)
+            if (c->at[j + 1] - c->at[j] < width)
+                return true;
+    }
+    return false;
 }
 
 double br_outline_reach(const struct br_outline *o, double t)

@@ -19,12 +19,12 @@ struct br_field_data {
 struct br_field_data br_field_data(const struct br_scene *scene, size_t degree);
 
 struct br_outline {
-    struct br_list end;     /* of the elements, m: from 0 to L */
-    struct br_breaks jump;  /* times inside of (0, T) at which the data jump or bend */
-    struct br_list *cell;   /* cells: in each, ends of cells in time, s, that no step may overlook */
+    struct br_list end;    /* of the elements, m: from 0 to L */
+    struct br_breaks jump; /* times inside of (0, T) at which the data jump or bend */
+    struct br_list *cell;  /* cells: in each, ends of cells in time, s, that no step may overlook */
     size_t cells;
-    bool fronts;            /* places where the load jumps move */
-    double missed;          /* of the load's integral: what proofs could not exclude */
+    bool fronts;   /* places where the load jumps move */
+    double missed; /* of the load's integral: what proofs could not exclude */
 };
 
 /* Clear it even after a failure: BR_NOT_FINITE, the data have details that are too fine,
@@ -35,6 +35,9 @@ void br_outline_clear(struct br_outline *outline);
 
 /* The number of polynomials on element e in a solution where `modes` would do on one. */
 size_t br_outline_terms(const struct br_outline *outline, size_t e, size_t modes);
+
+/* Whether the data change so fast within `width` of t that a cell is shorter than that. */
+bool br_outline_is_sharp(const struct br_outline *outline, double t, double width);
 
 /* How long a step from t may be: not longer than any cell that it touches. */
 double br_outline_reach(const struct br_outline *outline, double t);

@@ -46,7 +46,7 @@ void br_list_sort(struct br_list *list, double least)
     list->count = kept;
 }
 
-/* ---- one variable ---- */
+/* ---- boxes ---- */
 
 static double magnitude(struct br_interval v)
 {
@@ -70,102 +70,105 @@ enum br_fit br_sight_fit(const struct br_function *f, enum br_variable along, st
     return error <= BR_SIGHT_TOLERANCE * size ? BR_FITS : BR_TOO_WIDE;
 }
 
-/* A part is meshed anew where the function is smaller than its scale by this factor. */
-static const double much_smaller = 1.0 / 64;
+/* ---- the mean ---- */
 
-struct survey {
-    const struct br_function *f;
-    enum br_variable along;
-    const struct br_sight *sight;
-    double mean; /* of |f| over the whole box, an upper bound; infinite while it is not known */
-    struct br_list *ends;
-    double missed;
+/* Halves of halves, of which the one is halved whose share is least known. */
+struct share {
+    struct br_box box;
+    double low, high; /* of the integral of |f| over it */
 };
 
-/* The largest |f| in the cells first to last - 1. */
-static double largest_in(const struct survey *s, struct br_box box, const struct br_mesh *mesh,
-                         size_t first, size_t last)
+static double measure(struct br_box box)
 {
-    double largest = 0;
-    for (size_t i = first; i < last; i++) {
-        struct br_interval value;
-        *side(&box, s->along) = (struct br_interval){mesh->at[i], mesh->at[i + 1]};
-        if (!br_function_bound(s->f, box, &value))
-            return INFINITY;
-        largest = fmax(largest, magnitude(value));
-    }
-    return largest;
+    const double x = box.x.high - box.x.low, t = box.t.high - box.t.low;
+    return (x > 0 ? x : 1) * (t > 0 ? t : 1);
 }
 
-static double mean_of(const struct survey *s, struct br_box box, const struct br_mesh *mesh)
+static struct share share_of(const struct br_function *f, struct br_box box)
 {
-    double sum = 0;
-    for (size_t i = 0; i < mesh->count; i++)
-        sum += (mesh->at[i + 1] - mesh->at[i]) * largest_in(s, box, mesh, i, i + 1);
-    return sum / (mesh->at[mesh->count] - mesh->at[0]);
+    struct br_interval v;
+    if (!br_function_bound(f, box, &v))
+        return (struct share){box, 0, INFINITY};
+    const double least = v.low > 0 ? v.low : v.high < 0 ? -v.high : 0;
+    return (struct share){box, measure(box) * least, measure(box) * magnitude(v)};
 }
 
-static enum br_status mesh_part(struct survey *s, struct br_box box, double scale,
-                                struct br_error *err);
-
-/* The cells that need no closer look, and those that do together. */
-static enum br_status take_cells(struct survey *s, struct br_box box, const struct br_mesh *mesh,
-                                 double scale, struct br_error *err)
+double br_sight_mean(const struct br_function *f, struct br_box whole)
 {
-    enum br_status status = BR_OK;
-    for (size_t i = 0, j; i < mesh->count && !status; i = j) {
-        double largest = 0, next;
-        for (j = i; j < mesh->count; j++, largest = fmax(largest, next))
-            if (!((next = largest_in(s, box, mesh, j, j + 1)) < much_smaller * scale))
-                break;
-        largest = fmax(largest, s->mean);
-        if (j > i && largest < much_smaller * scale) {
-            *side(&box, s->along) = (struct br_interval){mesh->at[i], mesh->at[j]};
-            status = mesh_part(s, box, largest, err);
-            continue;
+    enum { MOST = 400 };
+    struct share share[MOST];
+    size_t count = 1;
+    share[0] = share_of(f, whole);
+    for (;;) {
+        double low = 0, high = 0;
+        size_t worst = 0;
+        for (size_t i = 0; i < count; i++) {
+            low += share[i].low;
+            high += share[i].high;
+            if (share[i].high - share[i].low > share[worst].high - share[worst].low)
+                worst = i;
         }
-        j += j == i;
-        for (size_t k = i; k < j && !status; k++)
-            status = br_list_add(s->ends, mesh->at[k + 1], err);
+        if (count == MOST || low >= high / 2)
+            return (low > 0 ? low : high) / measure(whole);
+        const struct br_box box = share[worst].box;
+        const double x = box.x.high - box.x.low, t = box.t.high - box.t.low;
+        const bool along_x =
+            x > 0 && !(t / (whole.t.high - whole.t.low) > x / (whole.x.high - whole.x.low));
+        struct br_box half[2] = {box, box};
+        const struct br_interval cut = along_x ? box.x : box.t;
+        side(&half[0], along_x ? BR_X : BR_T)->high = cut.low + (cut.high - cut.low) / 2;
+        side(&half[1], along_x ? BR_X : BR_T)->low = cut.low + (cut.high - cut.low) / 2;
+        share[worst] = share_of(f, half[0]);
+        share[count++] = share_of(f, half[1]);
     }
-    return status;
 }
 
-static enum br_status mesh_part(struct survey *s, struct br_box box, double scale,
-                                struct br_error *err)
+/* ---- one variable ---- */
+
+struct survey {
+    struct br_sight *sight;
+    enum br_variable along;
+    double end; /* of the whole box */
+    struct br_list *ends;
+    struct br_error *err;
+};
+
+static enum br_status too_fine(const struct survey *s, double place)
 {
-    const struct br_resolution resolution = {s->sight->degree, BR_SIGHT_TOLERANCE * scale,
-                                             s->sight->least, s->sight->most};
-    struct br_mesh mesh = {0};
-    enum br_status status = br_resolve(s->f, s->along, box, &resolution, &mesh, err);
-    if (!status && isinf(s->mean))
-        s->mean = mean_of(s, box, &mesh);
-    if (!status)
-        status = take_cells(s, box, &mesh, scale, err);
-    s->missed += status ? 0 : mesh.missed;
-    br_mesh_free(&mesh);
-    return status;
+    const char *name = s->along == BR_X ? "x" : "t", *unit = s->along == BR_X ? "m" : "s";
+    return br_fail(s->err, BR_NOT_FINITE,
+                   "no exact solution: the data have details that are too fine near %s = %g %s",
+                   name, place, unit);
 }
 
-enum br_status br_sight_along(const struct br_function *f, enum br_variable along,
-                              struct br_box box, const struct br_sight *sight, struct br_list *ends,
-                              double *missed, struct br_error *err)
+static enum br_status survey(const struct survey *s, struct br_box box)
 {
-    struct survey s = {f, along, sight, INFINITY, ends, 0};
-    const struct br_interval whole = *side(&box, along);
-    struct br_interval value = {f->constant, f->constant};
-    struct br_box where;
-    *missed = 0;
-    enum br_status status = br_list_add(ends, whole.low, err);
-    if (!status)
-        status = br_list_add(ends, whole.high, err);
-    if (status || !f->ops || !f->ops->bound)
-        return status;
-    if (br_prove_bounded(f, box, 0, &value, &where) != BR_FINITE)
-        return br_must_be_finite(f, box, err);
-    if (!(magnitude(value) > 0))
-        return BR_OK;
-    status = mesh_part(&s, box, magnitude(value), err);
-    *missed = s.mean > 0 ? s.missed / (s.mean * (whole.high - whole.low)) : 0;
-    return status;
+    struct br_sight *sight = s->sight;
+    struct br_interval value = {0, 0}, here = *side(&box, s->along);
+    const double width = here.high - here.low, middle = here.low + width / 2;
+    const bool bounded = br_function_bound(sight->f, box, &value);
+    const double size = fmax(magnitude(value), sight->mean);
+    const double unseen = width * (value.high - value.low);
+    const bool narrow = !(width > sight->least && here.low < middle && middle < here.high);
+    if (narrow && !bounded)
+        return br_must_be_finite(sight->f, box, s->err);
+    if (!bounded || br_sight_fit(sight->f, s->along, box, sight->degree[s->along], size)) {
+        if (!narrow && !(bounded && unseen <= sight->most_missed)) {
+            struct br_box half[2] = {box, box};
+            side(&half[0], s->along)->high = side(&half[1], s->along)->low = middle;
+            const enum br_status status = survey(s, half[0]);
+            return status ? status : survey(s, half[1]);
+        }
+        sight->missed += unseen;
+    }
+    if (s->ends->count >= sight->most)
+        return too_fine(s, middle);
+    return here.high < s->end ? br_list_add(s->ends, here.high, s->err) : BR_OK;
+}
+
+enum br_status br_sight_along(struct br_sight *sight, enum br_variable along, struct br_box box,
+                              struct br_list *ends, struct br_error *err)
+{
+    const struct survey s = {sight, along, side(&box, along)->high, ends, err};
+    return survey(&s, box);
 }

@@ -21,10 +21,17 @@ enum br_status br_list_add(struct br_list *list, double value, struct br_error *
 /* Sorts, and keeps one of those that are closer than `least` to each other. */
 void br_list_sort(struct br_list *list, double least);
 
+/* The mean of |f| over a box of one or two variables, at least half of it where it can be told. */
+double br_sight_mean(const struct br_function *f, struct br_box box);
+
 struct br_sight {
-    size_t degree; /* of the polynomials, up to 15 */
-    double least;  /* narrower cells are not looked into */
-    size_t most;   /* cells */
+    const struct br_function *f;
+    size_t degree[2];   /* by br_variable: of the polynomials, up to 15 */
+    double mean;        /* of |f| over all that counts, see br_sight_mean */
+    double most_missed; /* integral of |f| that a cell may hold unseen */
+    double least;       /* narrower cells are not looked into */
+    size_t most;        /* cells */
+    double missed;      /* out: integral that cells may hold unseen, in all */
 };
 
 enum br_fit { BR_FITS, BR_TOO_WIDE, BR_NOT_SMOOTH };
@@ -34,17 +41,15 @@ enum br_fit { BR_FITS, BR_TOO_WIDE, BR_NOT_SMOOTH };
 enum br_fit br_sight_fit(const struct br_function *f, enum br_variable along, struct br_box box,
                          size_t degree, double size);
 
-/* Adds the ends of cells along one variable, those of the box included, for a function of that
- * variable alone (at the other's low end). *missed: out, what rough cells may miss, of the integral
- * of |f|. Fails as br_resolve. */
-enum br_status br_sight_along(const struct br_function *f, enum br_variable along,
-                              struct br_box box, const struct br_sight *sight, struct br_list *ends,
-                              double *missed, struct br_error *err);
+/* Adds the ends of cells inside of the box along one variable, for a function of that variable
+ * alone (at the other's low end). Fails with BR_NOT_FINITE: too many, BR_BAD_INPUT where the
+ * function is not finite, or BR_NO_MEMORY. */
+enum br_status br_sight_along(struct br_sight *sight, enum br_variable along, struct br_box box,
+                              struct br_list *ends, struct br_error *err);
 
 /* The same along both variables at once, for a function that cannot be split, in whose box guards
  * may move. */
-enum br_status br_sight_both(const struct br_function *f, struct br_box box,
-                             const struct br_sight sight[2], struct br_list ends[2],
-                             double *missed, struct br_error *err);
+enum br_status br_sight_both(struct br_sight *sight, struct br_box box, struct br_list ends[2],
+                             struct br_error *err);
 
 #endif

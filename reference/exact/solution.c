@@ -52,8 +52,8 @@ static enum br_status solve(struct br_solution *s, enum br_exact_field which,
         .outline = {&r->outline[which], s->law[which].axial ? &r->outline[BR_EXACT_AXIAL] : NULL},
         .effort = r->effort,
     };
-    enum br_status status = br_effort_spend(
-        r->effort, modes_work(&r->outline[which], r->fineness->modes), err);
+    enum br_status status =
+        br_effort_spend(r->effort, modes_work(&r->outline[which], r->fineness->modes), err);
     if (!status)
         status = br_field_create(&s->field[which], scene, axial ? 1 : 2, &r->outline[which],
                                  r->fineness->modes, err);

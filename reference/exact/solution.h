@@ -41,6 +41,7 @@ void br_solution_free(struct br_solution *solution);
 /* Fills exact->report with the size of exact->solution and its distance to
  * another, infinite where their events differ. Fails with BR_NO_MEMORY. */
 enum br_status br_exact_compare(struct br_exact *exact, const struct br_solution *other,
+                                const struct br_outline outline[BR_EXACT_FIELDS],
                                 struct br_error *err);
 
 /* Fills exact->event from exact->solution, with error bars from another that

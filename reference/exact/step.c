@@ -2,6 +2,7 @@
 #include "reference/exact/step.h"
 
 #include <cblas.h>
+#include <float.h>
 #include <lapacke.h>
 #include <math.h>
 #include <string.h>
@@ -79,6 +80,7 @@ static enum br_status respond(struct br_stepper *s, double h, struct br_error *e
         return BR_OK;
     const struct br_field *f = s->field;
     double *z = &s->tip_response[0][0];
+    double square = 0;
     memset(z, 0, sizeof s->tip_response);
     s->length = h;
     for (size_t i = 0; i < f->modes->count; i++) {
@@ -88,7 +90,10 @@ static enum br_status respond(struct br_stepper *s, double h, struct br_error *e
             return status;
         for (size_t k = 0; k < S * S; k++)
             z[k] += f->modes->tip[i] * f->modes->tip[i] * r[k];
+        const double size = f->modes->size[i], gain = size * size * r[0];
+        square += gain * gain;
     }
+    s->noise_response = sqrt(f->length * square);
     return BR_OK;
 }
 
@@ -143,9 +148,12 @@ enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *e
     const size_t m = s->field->modes->count;
     enum br_status status = respond(s, h, err);
     s->work += br_field_work(s->field);
+    s->load_noise = 0;
     for (size_t j = 0; j < S && !status; j++) {
+        double size;
         const double t = fmin(fmax(s->time + s->radau.node[j] * h, s->from), s->to);
-        status = br_field_load(s->field, t, &s->load[j * m], err);
+        status = br_field_load(s->field, t, &s->load[j * m], &size, err);
+        s->load_noise = fmax(s->load_noise, DBL_EPSILON * size * s->noise_response);
     }
     if (status)
         return status;

@@ -30,7 +30,9 @@ struct br_stepper {
     double length;    /* s, of the step that the responses are for */
     double *response; /* modes x BR_STAGES x BR_STAGES: velocity over force, m/(N s) */
     double tip_response[BR_STAGES][BR_STAGES];
-    double *load; /* BR_STAGES x modes, workspace, N */
+    double *load;          /* BR_STAGES x modes, workspace, N */
+    double load_noise;     /* m^(3/2)/s: what a load's round-off may do to the velocity, in L2 */
+    double noise_response; /* the same of a load of 1 N of every shape */
 };
 
 /* Field and law are borrowed; gap in m. Starts at t = 0. Fails with BR_NO_MEMORY. */
