@@ -48,7 +48,7 @@ enum br_status br_front_times(const struct br_function *f, struct br_box box,
                               struct br_breaks *breaks, bool *complete, struct br_error *err);
 
 /* What polynomials are to stand for a function. */
-struct br_resolution {
+struct br_mesh_aim {
     size_t degree;    /* of the interpolant at a cell's Chebyshev nodes, 1 to 15 */
     double tolerance; /* of |f - interpolant|, absolute, in f's unit */
     double least;     /* cells that are narrower than this need no proof: 0 for what follows */
@@ -72,7 +72,7 @@ void br_mesh_free(struct br_mesh *mesh);
  * ends of cells. *mesh: out. Fails with BR_BAD_INPUT where the cells are too many, naming where, or
  * BR_NO_MEMORY. */
 enum br_status br_resolve(const struct br_function *f, enum br_variable along, struct br_box box,
-                          const struct br_resolution *resolution, struct br_mesh *mesh,
+                          const struct br_mesh_aim *aim, struct br_mesh *mesh,
                           struct br_error *err);
 
 #endif
