@@ -247,7 +247,7 @@ void br_breaks_free(struct br_breaks *b)
 /* The sign of a guard where it has one. Zero: everywhere. */
 enum sign { NEGATIVE = -1, ZERO, POSITIVE, UNDECIDED };
 
-struct search {
+struct zero_search {
     const struct br_function *guard;
     enum br_variable along;
     struct br_box box;
@@ -267,7 +267,7 @@ static enum sign sign_of(bool bounded, iv a)
                                          : UNDECIDED;
 }
 
-static enum sign sign_on(const struct search *s, iv part)
+static enum sign sign_on(const struct zero_search *s, iv part)
 {
     iv value;
     const bool bounded = br_function_bound(s->guard, with(s->box, s->along, part), &value);
@@ -291,7 +291,7 @@ static bool make_room(struct br_breaks *b)
     return true;
 }
 
-static void refuse(struct search *s, iv part, const char *what)
+static void refuse(struct zero_search *s, iv part, const char *what)
 {
     char place[80];
     name_place(s->guard, with(s->box, s->along, part), place);
@@ -299,7 +299,7 @@ static void refuse(struct search *s, iv part, const char *what)
 }
 
 /* The state behind it is not known. */
-static void add_break(struct search *s, iv at)
+static void add_break(struct zero_search *s, iv at)
 {
     const iv all = *side(&s->box, s->along);
     s->before = UNDECIDED;
@@ -314,7 +314,7 @@ static void add_break(struct search *s, iv at)
 }
 
 /* The guard has this sign in the part that follows. */
-static void settle(struct search *s, iv part, enum sign sign)
+static void settle(struct zero_search *s, iv part, enum sign sign)
 {
     if (sign != s->before && s->before != UNDECIDED)
         add_break(s, point(part.low));
@@ -325,7 +325,7 @@ static void settle(struct search *s, iv part, enum sign sign)
 
 /* The last number of the part that is known to have the sign of its first one; or, backward, the
  * first one that has the sign of its last. */
-static double last_with(const struct search *s, double from, double to, enum sign sign)
+static double last_with(const struct zero_search *s, double from, double to, enum sign sign)
 {
     for (double m = from + (to - from) / 2; m != from && m != to; m = from + (to - from) / 2)
         if (sign_on(s, point(m)) == sign)
@@ -336,7 +336,7 @@ static double last_with(const struct search *s, double from, double to, enum sig
 }
 
 /* The one zero, if any, of a guard that rises or falls (up) everywhere in the part. */
-static void find_zero(struct search *s, iv part, bool up)
+static void find_zero(struct zero_search *s, iv part, bool up)
 {
     const enum sign left = up ? NEGATIVE : POSITIVE, right = up ? POSITIVE : NEGATIVE;
     const enum sign first = sign_on(s, point(part.low)), last = sign_on(s, point(part.high));
@@ -358,14 +358,14 @@ static void find_zero(struct search *s, iv part, bool up)
 }
 
 /* Whether the guard is no larger in the part than the round-off in its middle. */
-static bool is_noise(const struct search *s, iv part, iv value)
+static bool is_noise(const struct zero_search *s, iv part, iv value)
 {
     iv at;
     return br_function_bound(s->guard, with(s->box, s->along, point(middle(part))), &at) &&
            at.low <= 0 && at.high >= 0 && width(at) > 0 && width(value) <= 8 * width(at);
 }
 
-static void locate(struct search *s, iv part)
+static void locate(struct zero_search *s, iv part)
 {
     const struct br_box box = with(s->box, s->along, part);
     iv value, slope[2];
@@ -413,7 +413,7 @@ static void merge(struct br_breaks *b)
 static enum br_status search(const struct br_function *guard, enum br_variable along,
                              struct br_box box, struct br_breaks *out, struct br_error *err)
 {
-    struct search s = {.guard = guard, .along = along, .box = box, .out = out, .err = err,
+    struct zero_search s = {.guard = guard, .along = along, .box = box, .out = out, .err = err,
                        .before = UNDECIDED};
     iv *all = side(&box, along);
     s.before = sign_on(&s, point(all->low)); /* so that zero from the start on is no break */

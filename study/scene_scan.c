@@ -26,6 +26,11 @@ enum br_status br_scene_scan(const struct br_scene *scene, const struct br_scene
     if (key->kind != BR_KEY_LOAD)
         return BR_OK;
     const struct br_load *load = at;
-    const enum br_status status = scan(scene, &load->space, err);
-    return status ? status : scan(scene, &load->time, err);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < BR_LOAD_TERMS && !status; i++) {
+        status = scan(scene, &load->term[i].space, err);
+        if (!status)
+            status = scan(scene, &load->term[i].time, err);
+    }
+    return status;
 }

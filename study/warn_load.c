@@ -88,6 +88,22 @@ static enum br_status look_at(const struct br_function *f, const char *name,
     return BR_OK;
 }
 
+static enum br_status look_at_load(const struct br_load *load, const char *name,
+                                   const struct br_outlook *o, struct br_warnings *w,
+                                   struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < BR_LOAD_TERMS && !status; i++) {
+        const struct br_product *p = &load->term[i];
+        if (br_product_is_zero(p))
+            continue;
+        status = look_at(&p->time, name, o, w, err);
+        if (!status)
+            status = look_at(&p->space, name, o, w, err);
+    }
+    return status;
+}
+
 static enum br_status look(const struct br_outlook *o, struct br_warnings *w, struct br_error *err)
 {
     const struct br_axial *a = &o->scene->axial;
@@ -97,11 +113,7 @@ static enum br_status look(const struct br_outlook *o, struct br_warnings *w, st
         const char *name;
         bool modelled;
     } rows[] = {
-        {&a->load.time, "the axial load", a->modelled},
-        {&a->load.space, "the axial load", a->modelled},
         {&a->tip_force, "the axial tip force", a->modelled},
-        {&b->load.time, "the bending load", b->modelled},
-        {&b->load.space, "the bending load", b->modelled},
         {&b->tip_force, "the bending tip force", b->modelled},
         {&b->tip_moment, "the tip moment", b->modelled},
     };
@@ -109,6 +121,10 @@ static enum br_status look(const struct br_outlook *o, struct br_warnings *w, st
     for (size_t i = 0; i < sizeof rows / sizeof *rows && !status; i++)
         if (rows[i].modelled)
             status = look_at(rows[i].function, rows[i].name, o, w, err);
+    if (a->modelled && !status)
+        status = look_at_load(&a->load, "the axial load", o, w, err);
+    if (b->modelled && !status)
+        status = look_at_load(&b->load, "the bending load", o, w, err);
     return status;
 }
 

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/load.h"
 #include "study/warnings.h"
 
 /* Elements of the finer mesh, about, and how much finer it is at least. */
@@ -48,23 +49,29 @@ static void compare(const struct br_scene *scene, size_t n, size_t finer, const 
         m->size += fabs(fine[j]);
 }
 
-/* At times inside of [0, T]; finer: how many elements the finer mesh has in one. */
-static enum br_status measure(const struct br_function *f, const struct br_outlook *o, size_t finer,
+/* The load at some times inside of [0, T] or, where its shape does not change, at one. */
+static enum br_status measure(const struct br_load *load, const struct br_outlook *o, bool changes,
                               struct missed *m, struct br_error *err)
 {
-    const struct br_field coarse = hats(o->scene, o->n), fine = hats(o->scene, o->n * finer);
-    const size_t size = br_field_size(&coarse), times = f->uses_t ? most_times : 1;
-    double *values = br_allocate(size + br_field_size(&fine), sizeof *values);
-    enum br_status status = values ? BR_OK : br_no_memory(err, "a load vector");
+    const size_t times = changes ? most_times : 1;
+    size_t finer = FINE / o->n / times; /* how many elements the finer mesh has in one */
+    finer = finer < LEAST_FINER ? LEAST_FINER : finer > MOST_FINER ? MOST_FINER : finer;
+    const struct br_field mesh[] = {hats(o->scene, o->n), hats(o->scene, o->n * finer)};
+    const struct br_function none = {0};
+    const struct br_forces forces = {load, &none, NULL};
+    struct br_step_load on[2] = {0};
+    enum br_status status = BR_OK;
+    for (int i = 0; i < 2 && !status; i++)
+        status = br_step_load_init(&on[i], &forces, &mesh[i], err);
     for (size_t i = 0; i < times && !status; i++) {
         const double t = o->scene->duration * ((double)i + 0.5) / (double)most_times;
-        status = br_assemble_load(&coarse, f, t, values, err);
+        for (int j = 0; j < 2 && !status; j++)
+            status = br_step_load_update(&on[j], &mesh[j], t, err);
         if (!status)
-            status = br_assemble_load(&fine, f, t, values + size, err);
-        if (!status)
-            compare(o->scene, o->n, finer, values, values + size, m);
+            compare(o->scene, o->n, finer, on[0].drive.vector, on[1].drive.vector, m);
     }
-    free(values);
+    for (int i = 0; i < 2; i++)
+        br_step_load_clear(&on[i]);
     return status;
 }
 
@@ -73,17 +80,20 @@ static enum br_status look_at(const struct br_load *load, const char *name,
                               struct br_error *err)
 {
     struct missed m = {0};
-    struct br_function own;
     struct br_error failure = {0};
-    if (!load->space.uses_x || br_function_is_zero(&load->time))
+    size_t terms = 0;
+    bool uses_x = false, uses_t = false;
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
+        const struct br_product *p = &load->term[i];
+        if (br_product_is_zero(p))
+            continue;
+        terms++;
+        uses_x |= p->space.uses_x;
+        uses_t |= p->space.uses_t;
+    }
+    if (!uses_x)
         return BR_OK;
-    size_t finer = FINE / o->n / (load->space.uses_t ? most_times : 1);
-    finer = finer < LEAST_FINER ? LEAST_FINER : finer > MOST_FINER ? MOST_FINER : finer;
-    enum br_status status = br_function_clone(&load->space, &own, err);
-    if (status)
-        return status;
-    status = measure(&own, o, finer, &m, &failure);
-    br_function_free(&own);
+    const enum br_status status = measure(load, o, uses_t || terms > 1, &m, &failure);
     if (status == BR_NO_MEMORY)
         return br_fail(err, status, "%s", failure.message);
     if (status || !(m.force > large * m.size)) /* what is not finite, the march tells */

@@ -6,8 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/march.h"
 #include "study/scene/elementary.h"
 #include "study/scene/expression.h"
+#include "study/scene/products.h"
 #include "support.h"
 
 static double value_of(const char *text, double x, double t)
@@ -252,12 +254,144 @@ static void test_bits(void **state)
     br_function_free(&f);
 }
 
+/* ---- sums of products ---- */
+
+static const struct {
+    const char *text;
+    size_t products, mixed; /* terms without t in their space, and with */
+} loads[] = {
+    {"7", 1, 0},
+    {"sin(t)", 1, 0},
+    {"exp(x)", 1, 0},
+    {"x*t", 1, 0},
+    {"-x*t", 1, 0},
+    {"x*sin(t)/3", 1, 0},
+    {"x*sin(t) + 5", 2, 0},
+    {"x*sin(t) - x^2*cos(t)", 2, 0},
+    {"x*sin(t) + x*cos(t)", 1, 0},
+    {"x*sin(t) + 2*x*cos(t)", 2, 0},
+    {"x*sin(t) + exp(x)*sin(t)", 1, 0},
+    {"(x*t)^3", 1, 0},
+    {"(x*t)^-2", 1, 0},
+    {"(x*t)^0.5", 0, 1},
+    {"abs(cos(5*x)*cos(3*t))", 1, 0},
+    {"step(x-0.3)*sin(t)", 1, 0},
+    {"(x > 0.2 ? 1 : x)*exp(-t)", 1, 0},
+    {"(1+x)*(1+t)", 1, 0},
+    {"(x+t)*sin(x)", 2, 0},
+    {"sin(x)*(x-t)", 2, 0},
+    {"(x+t)/(2*t*x)", 2, 0},
+    {"(2*t*x)/(x+t+1)", 0, 1},
+    {"(x-t)*(x+t)", 0, 1},
+    {"(x-t)^2", 0, 1},
+    {"exp(-(x-t)^2)", 0, 1},
+    {"exp(-(x-t)^2)*t", 0, 1},
+    {"exp(-(x-t)^2) + sin(x*t)", 0, 1},
+    {"exp(-(x-t)^2) + x*t", 1, 1},
+    {"x*t + 1 + x", 2, 0},
+    {"x*t+x^2*t^2+x^3*t^3+x^4*t^4+x^5*t^5+x^6*t^6+x^7*t^7+x^8*t^8", 8, 0},
+    {"x*t+x^2*t^2+x^3*t^3+x^4*t^4+x^5*t^5+x^6*t^6+x^7*t^7+x^8*t^8+x^9*t^9", 0, 1},
+};
+
+static void check_value(const struct br_load *load, const char *text, double x, double t)
+{
+    const double expected = value_of(text, x, t), found = br_load_value(load, x, t);
+    if (!(fabs(found - expected) <= 1e-13 * (1 + fabs(expected))))
+        fail_msg("%s is %.17g at x = %g, t = %g, expected %.17g", text, found, x, t, expected);
+}
+
+static void test_products(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof loads / sizeof *loads; i++) {
+        struct br_function f = br_test_function(loads[i].text);
+        struct br_load load;
+        struct br_error err;
+        size_t products = 0, mixed = 0;
+        MUST(br_products(&f, &load, &err));
+        for (size_t j = 0; j < BR_LOAD_TERMS; j++) {
+            const struct br_product *p = &load.term[j];
+            assert_false(p->time.uses_x);
+            products += !br_product_is_zero(p) && !p->space.uses_t;
+            mixed += !br_product_is_zero(p) && p->space.uses_t;
+        }
+        if (products != loads[i].products || mixed != loads[i].mixed)
+            fail_msg("%s has %zu products and %zu mixed terms", loads[i].text, products, mixed);
+        for (double x = 0.1; x < 2; x += 0.3)
+            for (double t = 0.1; t < 2; t += 0.3)
+                check_value(&load, loads[i].text, x, t);
+        br_load_clear(&load);
+    }
+}
+
+/* Out of memory at every allocation: told, and nothing is lost. */
+static void test_no_memory(void **state)
+{
+    (void)state;
+    enum br_status status = BR_NO_MEMORY;
+    for (long i = 0; status == BR_NO_MEMORY; i++) {
+        struct br_function f = {0}, copy = {0};
+        struct br_load load = {0};
+        struct br_error err = {0};
+        br_allocation_fails_at(i);
+        status = br_expression("x*sin(t) + exp(-(x-t)^2)", &f, &err);
+        if (!status)
+            status = br_function_clone(&f, &copy, &err);
+        if (!status)
+            status = br_products(&f, &load, &err);
+        br_allocation_fails_at(-1);
+        if (status)
+            assert_true(status == BR_NO_MEMORY && strstr(err.message, "memory"));
+        br_function_free(&copy);
+        br_load_clear(&load);
+        assert_true(i < 1000);
+        if (status && f.ops)
+            br_function_free(&f);
+    }
+    assert_int_equal(status, BR_OK);
+}
+
+static double tip_after(struct br_function f, bool products, enum br_field_kind kind)
+{
+    struct br_scene s = br_test_bare();
+    struct br_load *load = kind == BR_AXIAL ? &s.axial.load : &s.bending.load;
+    struct br_error err;
+    if (products)
+        MUST(br_products(&f, load, &err));
+    else
+        load->term[0] = (struct br_product){f, {.constant = 1}};
+    const struct br_method method = br_method_default();
+    struct br_march *march;
+    MUST(br_march_create(&march, &s, 20, 50, &method, &err));
+    for (int i = 0; i < 50; i++)
+        MUST(br_march_step(march, &err));
+    const double out = br_march_tip_displacement(march, kind);
+    br_march_free(march);
+    br_load_clear(load);
+    return out;
+}
+
+/* A march with a load's terms, and with the load as one f(x, t). */
+static void test_march(void **state)
+{
+    (void)state;
+    static const char text[] = "100*(x*sin(t) - x^2*cos(3*t) + exp(-(x-t)^2))";
+    for (int kind = 0; kind <= BR_BENDING; kind++) {
+        const double sum = tip_after(br_test_function(text), true, (enum br_field_kind)kind),
+                     whole = tip_after(br_test_function(text), false, (enum br_field_kind)kind);
+        assert_true(fabs(whole) > 1e-3);
+        CLOSE(sum, whole, 1e-12 * fabs(whole));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_grammar),    cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_limits),     cmocka_unit_test(test_locale),
         cmocka_unit_test(test_no_numbers), cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_products),   cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(test_march),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -53,8 +53,7 @@ static void test_rows(void **state)
             const struct br_warnings w = warnings_of(&s, rows[i].n);
             if (rows[i].warned != (w.count == 1))
                 fail_msg("%s, n = %zu: %s", rows[i].load, rows[i].n, w.list[0].text);
-            br_function_free(&load.space);
-            br_function_free(&load.time);
+            br_load_clear(&load);
             s.bending.load = s.axial.load = (struct br_load){0};
         }
 }
@@ -70,8 +69,7 @@ static void test_share(void **state)
     assert_non_null(one);
     assert_non_null(strstr(one->text, "the axial load does inside of elements"));
     assert_non_null(strstr(one->text, "with n = 10 50 % of it, most of it near x = 0.7 m"));
-    br_function_free(&s.axial.load.space);
-    br_function_free(&s.axial.load.time);
+    br_load_clear(&s.axial.load);
 }
 
 static void test_bundled(void **state)

@@ -120,15 +120,16 @@ static void test_data(void **state)
                                            "  solution: x^4*(t^2 + t) [m]\n" CONTACT COULOMB);
     const double x = 0.7, t = 0.6, g = t * t + t, g_t = 2 * t + 1, tip = 2;
     assert_string_equal(s.axial.solution, "x^2*(t^2 + t)");
-    assert_true(s.axial.load.space.uses_x && s.axial.load.space.uses_t);
-    CLOSE(at(&s.axial.load.space, x, t), 3 * x * x * 2 - 2 * (5 * g + 7 * g_t), 1e-12);
+    assert_true(s.axial.load.term[0].space.uses_x && s.axial.load.term[0].space.uses_t);
+    CLOSE(at(&s.axial.load.term[0].space, x, t), 3 * x * x * 2 - 2 * (5 * g + 7 * g_t), 1e-12);
     const double many[] = {x, 0.1, 1.9};
     double loads[3];
-    br_function_evaluate(&s.axial.load.space, 3, many, t, loads);
+    br_function_evaluate(&s.axial.load.term[0].space, 3, many, t, loads);
     for (size_t i = 0; i < 3; i++)
         CLOSE(loads[i], 6 * many[i] * many[i] - 2 * (5 * g + 7 * g_t), 1e-12);
-    CLOSE(at(&s.axial.load.time, x, t), 1, 0);
-    CLOSE(at(&s.bending.load.space, x, t), 3 * pow(x, 4) * 2 + 24 * (11 * g + 13 * g_t), 1e-11);
+    CLOSE(at(&s.axial.load.term[0].time, x, t), 1, 0);
+    CLOSE(at(&s.bending.load.term[0].space, x, t), 3 * pow(x, 4) * 2 + 24 * (11 * g + 13 * g_t),
+          1e-11);
     const double press = 4 * g - 0.1;
     CLOSE(at(&s.axial.tip_force, 0, t), 2 * tip * (5 * g + 7 * g_t) + 17 * press, 1e-11);
     CLOSE(at(&s.bending.tip_force, 0, t), 19 * press - 24 * tip * (11 * g + 13 * g_t), 1e-11);

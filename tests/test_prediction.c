@@ -154,10 +154,8 @@ static void test_random(void **state)
             .reference = {n * (4 + 400 / n), k},
         };
         measure(&t, &scene, methods[br_test_index(&r, 5)], &shape);
-        br_function_free(&scene.axial.load.space);
-        br_function_free(&scene.axial.load.time);
-        br_function_free(&scene.bending.load.space);
-        br_function_free(&scene.bending.load.time);
+        br_load_clear(&scene.axial.load);
+        br_load_clear(&scene.bending.load);
     }
     show("random scenes", &t);
     AT_MOST(0.8 * t.known, t.within_3);
@@ -195,8 +193,7 @@ static void test_inaccurate(void **state)
     assert_true(p.space.error > 0.05);
     p = predict(&s, &method, 3000, 100); /* now the waves are seen */
     assert_true(p.space.high < 0.05);
-    br_function_free(&s.axial.load.space);
-    br_function_free(&s.axial.load.time);
+    br_load_clear(&s.axial.load);
 }
 
 static void test_not_known(void **state)
@@ -268,25 +265,21 @@ static void test_blow(void **state)
     assert_non_null(strstr(one->text, "near t = 0.455 s"));
     w = warnings_of(&s, &method, 20, 10000);
     assert_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
-    br_function_free(&s.axial.load.space);
-    br_function_free(&s.axial.load.time);
+    br_load_clear(&s.axial.load);
     s.axial.load = br_test_load("exp(-((t - 0.4567)/1e-5)^2)"); /* 2 samples a step */
     w = warnings_of(&s, &method, 3, 40000);
     assert_non_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
-    br_function_free(&s.axial.load.space);
-    br_function_free(&s.axial.load.time);
+    br_load_clear(&s.axial.load);
     s.axial.load = br_test_load("sin(2*3.14159265358979*130000.3*t)^2"); /* a sample of the steps */
     w = warnings_of(&s, &method, 1, 130000);
     assert_non_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
     w = warnings_of(&s, &method, 1, 20000000);
     assert_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
-    br_function_free(&s.axial.load.space);
-    br_function_free(&s.axial.load.time);
+    br_load_clear(&s.axial.load);
     s.axial.load = br_test_load("sin(3*t) + exp(t)");
     w = warnings_of(&s, &method, 20, 10);
     assert_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
-    br_function_free(&s.axial.load.space);
-    br_function_free(&s.axial.load.time);
+    br_load_clear(&s.axial.load);
 }
 
 /* Of each kind the first is kept, the others are counted. */

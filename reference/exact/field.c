@@ -54,12 +54,17 @@ static enum br_status set_initial(struct br_field *f, const struct data *d, stru
 
 static enum br_status set_space(struct br_field *f, struct br_error *err)
 {
-    if (f->load->space.uses_t)
-        return BR_OK;
-    const enum br_status status =
-        br_modes_load(f->modes, &f->load->space, f->length, 0, f->load_space, err);
-    for (size_t i = 0; i < f->modes->count; i++)
-        f->load_space[i] *= f->length;
+    const size_t m = f->modes->count;
+    enum br_status status = BR_OK;
+    for (size_t term = 0; term < BR_LOAD_TERMS && !status; term++) {
+        const struct br_product *p = &f->load->term[term];
+        double *space = f->load_space + term * m;
+        if (p->space.uses_t || br_product_is_zero(p))
+            continue;
+        status = br_modes_load(f->modes, &p->space, f->length, 0, space, err);
+        for (size_t i = 0; i < m; i++)
+            space[i] *= f->length;
+    }
     return status;
 }
 
@@ -67,7 +72,7 @@ static enum br_status allocate(struct br_field *f, size_t degree, size_t m, stru
 {
     const enum br_status status = br_modes_create(&f->modes, m, degree, err);
     f->mass = br_allocate(m, sizeof *f->mass);
-    f->load_space = br_allocate(m, sizeof *f->load_space);
+    f->load_space = br_allocate(m * (BR_LOAD_TERMS + 1), sizeof *f->load_space);
     f->displacement = br_allocate(m, sizeof *f->displacement);
     f->velocity = br_allocate(m, sizeof *f->velocity);
     if (status)
@@ -131,19 +136,26 @@ static void add_tip(const struct br_field *f, double t, double *out)
 
 enum br_status br_field_load(const struct br_field *f, double t, double *out, struct br_error *err)
 {
-    double factor;
-    br_function_evaluate(&f->load->time, 1, &f->length, t, &factor);
-    const double *space = f->load_space;
-    if (f->load->space.uses_t) {
-        const enum br_status status =
-            br_modes_load(f->modes, &f->load->space, f->length, t, out, err);
-        if (status)
-            return status;
-        factor *= f->length;
-        space = out;
+    const size_t m = f->modes->count;
+    for (size_t i = 0; i < m; i++)
+        out[i] = 0;
+    for (size_t term = 0; term < BR_LOAD_TERMS; term++) {
+        const struct br_product *p = &f->load->term[term];
+        double factor, *space = f->load_space + term * m;
+        if (br_product_is_zero(p))
+            continue;
+        br_function_evaluate(&p->time, 1, &f->length, t, &factor);
+        if (p->space.uses_t) {
+            space = f->load_space + BR_LOAD_TERMS * m;
+            const enum br_status status =
+                br_modes_load(f->modes, &p->space, f->length, t, space, err);
+            if (status)
+                return status;
+            factor *= f->length;
+        }
+        for (size_t i = 0; i < m; i++)
+            out[i] += factor * space[i];
     }
-    for (size_t i = 0; i < f->modes->count; i++)
-        out[i] = factor * space[i];
     add_tip(f, t, out);
     return BR_OK;
 }

@@ -14,7 +14,8 @@ struct br_field {
     double damping, stiffness; /* N s/m, N/m */
     const struct br_load *load;
     const struct br_function *tip_force, *tip_moment; /* N, N m; the moment NULL for axial */
-    double *load_space;   /* modes: of the load's space part, where that is constant in time */
+    double *load_space;   /* BR_LOAD_TERMS * modes: of the terms whose space part is constant in
+                             time; and workspace for one that is not */
     double *displacement; /* modes: at t = 0, m */
     double *velocity;     /* modes: at t = 0, m/s */
     double tip_displacement, tip_velocity; /* at t = 0, m, m/s */

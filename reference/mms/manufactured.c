@@ -27,8 +27,8 @@ static enum br_status refuse_given(const struct given *given, size_t count, stru
 static enum br_status check_axial_free(const struct br_axial *a, struct br_error *err)
 {
     const struct given given[] = {
-        {"load", &a->load.space},     {"load", &a->load.time},
-        {"tip_force", &a->tip_force}, {"displacement", &a->displacement},
+        {"load", &a->load.term[0].space}, {"load", &a->load.term[0].time},
+        {"tip_force", &a->tip_force},     {"displacement", &a->displacement},
         {"velocity", &a->velocity},
     };
     return refuse_given(given, sizeof given / sizeof *given, err);
@@ -37,7 +37,7 @@ static enum br_status check_axial_free(const struct br_axial *a, struct br_error
 static enum br_status check_bending_free(const struct br_bending *b, struct br_error *err)
 {
     const struct given given[] = {
-        {"load", &b->load.space},           {"load", &b->load.time},
+        {"load", &b->load.term[0].space},   {"load", &b->load.term[0].time},
         {"tip_force", &b->tip_force},       {"tip_moment", &b->tip_moment},
         {"displacement", &b->displacement}, {"displacement_slope", &b->displacement_slope},
         {"velocity", &b->velocity},         {"velocity_slope", &b->velocity_slope},
@@ -73,8 +73,8 @@ static enum br_status make_load(const char *text, double density, double elastic
 {
     const struct br_sum sum = {
         3, {{density, {0, 2}}, {elastic, {order, 0}}, {viscous, {order, 1}}}, NAN, NAN};
-    load->time = (struct br_function){.constant = 1};
-    return br_sum_function(&sum, text, &load->space, err);
+    load->term[0].time = (struct br_function){.constant = 1};
+    return br_sum_function(&sum, text, &load->term[0].space, err);
 }
 
 /* a1 u_x + c1 u_xt + c_H (u - g)_+ at x = L, from (8) and (10) */

@@ -161,10 +161,10 @@ void bench_loads(void **state)
            n);
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         struct br_scene scene = br_test_bare();
-        scene.axial.load.space = br_test_function(kinds[i].space);
-        scene.axial.load.time = br_test_function(kinds[i].time);
-        scene.bending.load.space = br_test_function(kinds[i].space);
-        scene.bending.load.time = br_test_function(kinds[i].time);
+        scene.axial.load.term[0].space = br_test_function(kinds[i].space);
+        scene.axial.load.term[0].time = br_test_function(kinds[i].time);
+        scene.bending.load.term[0].space = br_test_function(kinds[i].space);
+        scene.bending.load.term[0].time = br_test_function(kinds[i].time);
         const struct bench_march march = {&scene, &method, n, 0};
         const struct bench_time t = bench_march(&march).step;
         printf("  %-12s %9.2f %9.2f %9.2f\n", kinds[i].name, t.median, t.least, t.most);
