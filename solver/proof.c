@@ -167,6 +167,18 @@ static enum br_finite judge_gap(const struct proof *p, struct br_box box, enum b
     return is_guarded(p, face) ? BR_FINITE : BR_UNBOUNDED;
 }
 
+/* Whether evaluation grows by more than 1000 over the last 2^40 numbers before a point. */
+static bool is_steep(const struct proof *p, struct br_box box, enum br_variable v)
+{
+    const double at = side(&box, v)->low, away = ldexp(nextafter(at, INFINITY) - at, 40);
+    double value[3];
+    for (int k = 0; k < 3; k++) {
+        const struct br_box place = with(box, v, point(at + (k - 1) * away));
+        br_function_evaluate(p->f, 1, &place.x.low, place.t.low, &value[k]);
+    }
+    return !(fabs(value[1]) <= 1000 * fmin(fabs(value[0]), fabs(value[2])));
+}
+
 /* Looks at a box that has no bound: leaves its halves, or tells what it is. */
 static enum br_finite divide(struct proof *p, struct br_box box)
 {
@@ -174,7 +186,7 @@ static enum br_finite divide(struct proof *p, struct br_box box)
     if (is_no_number(p, box))
         return BR_NOT_NUMBER;
     if (width(box.x) == 0 && width(box.t) == 0)
-        return BR_UNBOUNDED;
+        return is_steep(p, box, p->f->uses_x ? BR_X : BR_T) ? BR_POLE : BR_UNBOUNDED;
     const enum br_variable v = choose_side(p, box);
     struct br_box half[2];
     split(box, v, half);
@@ -213,6 +225,76 @@ enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, 
     return found;
 }
 
+/* A box and what is proved of it. */
+struct piece {
+    struct br_box box;
+    iv value;
+};
+
+/* The piece that reaches highest, or, for sign -1, lowest. */
+static size_t find_worst(const struct piece *piece, size_t count, double sign)
+{
+    size_t worst = 0;
+    for (size_t i = 1; i < count; i++)
+        if (sign > 0 ? piece[i].value.high > piece[worst].value.high
+                     : piece[i].value.low < piece[worst].value.low)
+            worst = i;
+    return worst;
+}
+
+/* Halves piece i: one half takes its place, the other one the next. */
+static bool halve(const struct br_function *f, struct br_box whole, struct piece *piece, size_t i,
+                  size_t next)
+{
+    struct br_box half[2];
+    const struct br_box box = piece[i].box;
+    const bool along_x = width(box.x) * width(whole.t) >= width(box.t) * width(whole.x);
+    if (!is_divisible(along_x ? box.x : box.t))
+        return false;
+    split(box, along_x ? BR_X : BR_T, half);
+    piece[i].box = half[0];
+    piece[next].box = half[1];
+    return br_function_bound(f, half[0], &piece[i].value) &&
+           br_function_bound(f, half[1], &piece[next].value);
+}
+
+bool br_enclose_values(const struct br_function *f, struct br_box box, size_t budget, iv *value)
+{
+    enum { MOST = 500 };
+    struct piece piece[MOST] = {{.box = used_box(f, box)}};
+    const size_t most = budget && budget < MOST ? budget : MOST;
+    const struct br_box whole = piece[0].box;
+    iv seen = {INFINITY, -INFINITY};
+    bool bounded = br_function_bound(f, whole, &piece[0].value);
+    *value = piece[0].value;
+    for (size_t count = 1; bounded; count++) {
+        const size_t top = find_worst(piece, count, 1), bottom = find_worst(piece, count, -1);
+        *value = (iv){piece[bottom].value.low, piece[top].value.high};
+        for (int k = 0; k < 2; k++) {
+            const struct br_box *at = &piece[k ? top : bottom].box;
+            const double x = middle(at->x);
+            double found;
+            br_function_evaluate(f, 1, &x, middle(at->t), &found);
+            seen = (iv){fmin(seen.low, found), fmax(seen.high, found)};
+        }
+        const double above = value->high - seen.high, below = seen.low - value->low;
+        if (count == most || (above + below) * 20 <= width(seen) ||
+            !halve(f, whole, piece, above >= below ? top : bottom, count))
+            break;
+    }
+    return bounded;
+}
+
+/* Whether evaluation gives numbers at the neighbours of a point, in each variable. */
+static bool is_lonely(const struct br_function *f, struct br_box at)
+{
+    const double x[] = {nextafter(at.x.low, -INFINITY), nextafter(at.x.low, INFINITY)};
+    double value[4];
+    br_function_evaluate(f, 2, x, nextafter(at.t.low, -INFINITY), value);
+    br_function_evaluate(f, 2, x, nextafter(at.t.low, INFINITY), value + 2);
+    return isfinite(value[0]) && isfinite(value[1]) && isfinite(value[2]) && isfinite(value[3]);
+}
+
 enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,
                                  struct br_error *err)
 {
@@ -230,10 +312,10 @@ enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,
     if (found == BR_UNBOUNDED)
         return br_fail(err, BR_BAD_INPUT, "it cannot be proved to be finite near %s (found %g)",
                        place, at);
-    const char *hint = isnan(at) ? " (where that has a limit, write ?: with ==, as in "
-                                   "x == 0 ? 1 : sin(x)/x)"
-                                 : "";
-    return br_fail(err, BR_BAD_INPUT, "found %g at %s%s", isnan(at) ? NAN : at, place, hint);
+    return br_fail(err, BR_BAD_INPUT, "found %g at %s%s", isnan(at) ? NAN : at, place,
+                   isnan(at) && is_lonely(f, where)
+                       ? " alone; if it has a limit there, write it as in x == 0 ? 1 : sin(x)/x"
+                       : "");
 }
 
 /* ---- breaks ---- */

@@ -53,7 +53,7 @@ static const struct {
     {"atanh(x)", 1},
     {"sin(x)/x", 0}, /* its limit is not filled in */
     {"x*log(x)", 0},
-    {"exp(1000*x)", 0.85},
+    {"exp(1000*x)", 1},
     {"x < 0.5 ? 1 : 1/0.0", 0.75},
     {"cosh(711*x)", 1},
 };
@@ -86,8 +86,8 @@ static const struct {
     {"exp(100*x)", 1, 2.6881171418161356e43},
     {"tanh(1e4*(x - 0.3333))", -1, 1},
     {"tanh(1e12*(x - 0.3333))", -1, 1},
-    {"1/(1e-6 + (x - 0.3333)^2)", 2.2497, 1e6},
-    {"1/(1e-18 + (x - 0.3333)^2)", 2.2497, 1e18},
+    {"1/(1e-6 + (x - 0.3333)^2)", 2.24977, 1e6},
+    {"1/(1e-18 + (x - 0.3333)^2)", 2.24978, 1e18},
     {"(x - 0.3333)/(1e-12 + (x - 0.3333)^2)", -5e5, 5e5},
     {"(x > 0.3333 ? 1 : -1)/(1e-6 + abs(x - 0.3333))", -1e6, 1e6},
     {"x < 0.3333 ? -1 : 1", -1, 1},
@@ -96,40 +96,43 @@ static const struct {
     {"sin(1000*x)", -1, 1},
     {"sin(1/(x + 1e-3))", -1, 1},
     {"sin(1e6*x)^9", -1, 1},
-    {"sqrt(abs(x - 0.3333))", 0, 0.8166},
+    {"sqrt(abs(x - 0.3333))", 0, 0.81651},
     {"sqrt(x*(1 - x))", 0, 0.5},
     {"sqrt(1 - x^2)", 0, 1},
-    {"1/(1.0001 - x)", 0.9999, 10001},
+    {"1/(1.0001 - x)", 0.99992, 9999},
     {"exp(-1e8*(x - 0.3333)^2)", 0, 1},
     {"1/(1 + exp(-1e4*(x - 0.5)))", 0, 1}, /* through an overflow */
     {"1e300*(x - 0.3333)", -3.333e299, 6.667e299},
-    {"cos(40*x)*exp(50*x)", -5.2e21, 5.2e21},
+    {"cos(40*x)*exp(50*x)", -3.45787e21, 5e20},
     {"x == 0 ? 1 : sin(x)/x", 0.84, 1},
     {"(x == 0 ? 1 : sin(x)/x)*cos(t)", 0.45, 1},
     {"x <= 0.3 ? 2 : (x - 0.3)/tan(x - 0.3)", 0.8, 2},
     {"x == 0 ? 0 : x*log(x)", -0.368, 0},
     {"x < 0.5 ? 1 : 1/x", 1, 2},
     {"sqrt(max(0, x - t))", 0, 1},
-    {"1/((x - t)^2 + 1e-4)", 0.9999, 1e4},
-    {"1/(x^2 - 2*x*t + t^2 + 1e-4)", 0.9999, 1e4},
+    {"1/((x - t)^2 + 1e-4)", 0.99991, 9999},
+    {"1/(x^2 - 2*x*t + t^2 + 1e-4)", 0.99991, 9999},
     {"x^t", 0, 1},
     {"exp(-((t - 0.1)/1e-150)^2)", 0, 1},
 };
 
-/* ... and its bounds hold, and are not 20 times too wide. */
+/* ... and bounds of the values hold, and are as tight as is said. */
 static void test_finite(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof sound / sizeof *sound; i++) {
         struct br_function f = br_test_function(sound[i].text);
-        struct br_interval value;
+        const double low = sound[i].low, high = sound[i].high, room = 0.06 * (high - low);
+        struct br_interval value, tight;
         struct br_box where;
         if (br_prove_bounded(&f, unit, 0, &value, &where) != BR_FINITE)
             fail_msg("%s: at x = %.17g, t = %.17g", sound[i].text, where.x.low, where.t.low);
-        const double low = sound[i].low, high = sound[i].high, room = 20 * (high - low);
-        if (!(value.low <= low + 1e-3 * fabs(low) && value.high >= high - 1e-3 * fabs(high) &&
-              value.low >= low - room && value.high <= high + (room > 0 ? 1e7 : 1) * room))
-            fail_msg("%s: %g .. %g", sound[i].text, value.low, value.high);
+        if (!br_enclose_values(&f, unit, 0, &tight))
+            tight = value; /* where a limit is filled in */
+        else if (!(tight.low >= low - room && tight.high <= high + room))
+            fail_msg("%s: %g .. %g", sound[i].text, tight.low, tight.high);
+        if (!(tight.low <= low && tight.high >= high && value.low <= low && value.high >= high))
+            fail_msg("%s: %.17g .. %.17g", sound[i].text, tight.low, tight.high);
         br_function_free(&f);
     }
 }
@@ -147,8 +150,11 @@ static void test_unbounded(void **state)
     static const struct br_function_ops none = {0};
     const struct br_function unknown = {.ops = &none, .uses_x = true};
     assert_false(br_function_bound(&unknown, unit, &value));
+    f = br_test_function("sqrt(t*t - 2*t + 1)");
+    assert_int_not_equal(br_prove_bounded(&f, unit, 0, &value, &where), BR_FINITE);
+    br_function_free(&f);
     f = br_test_function("tan(pi*t)");
-    REFUSED(br_must_be_finite(&f, unit, &err), BR_BAD_INPUT, "finite near t = 0.5 s (found 1.6");
+    REFUSED(br_must_be_finite(&f, unit, &err), BR_BAD_INPUT, "a pole at t = 0.5 s");
     br_function_free(&f);
 }
 
@@ -159,14 +165,14 @@ static void test_scene(void **state)
     static const struct {
         const char *load, *message;
     } rows[] = {
-        {"tan(pi*t) [N/m]", "cannot be proved to be finite near t = 0.5 s"},
+        {"tan(pi*t) [N/m]", "it has a pole at t = 0.5 s"},
         {"1/(t - 0.3333) [N/m]", "at t = 0.3333 s, expected a finite number everywhere in [0, T]"},
         {"1/(x - 0.3333) [N/m]", "at x = 0.3333 m, expected a finite number everywhere in [0, L]"},
-        {"1/(3*x^2 - 1) [N/m]", "has a pole at x = 0.5773502692 m, expected a finite number"},
+        {"1e-9/(x*x - 0.5) [N/m]", "has a pole at x = 0.7071067812 m, expected a finite number"},
         {"1/(x - t + 0.1001) [N/m]", " m, t = "},
         {"1e-3/(t - 0.3333)^0.1*(t > 0.3333) [N/m]", "load: found "},
         {"{shape: \"1/(x - 0.3333)^2 [1]\", history: \"t [N/m]\"}", "at x = 0.3333 m"},
-        {"sin(x)/x [N/m]", "found nan at x = 0 m (where that has a limit, write ?: with =="},
+        {"sin(x)/x [N/m]", "found nan at x = 0 m alone; if it has a limit there, write it as in x == 0 ? 1"},
     };
     char path[] = "/tmp/br_test_proof_XXXXXX.yaml";
     const int descriptor = mkstemps(path, 5);
@@ -207,7 +213,7 @@ static const struct {
     {"!(t - 0.25) ? 7 : 2", 1, {0.25}},
     {"t == 0.75", 1, {0.75}},
     {"sign(exp(t) - 1.5)", 1, {0.4054651081081644}},
-    {"min(t, 0.3, 2*t - 0.1, 1 - t)", 5, {0.1, 0.2, 0.3, 0.2 + 0.5 / 3, 0.7}},
+    {"min(t, 0.3, 2*t - 0.1, 1 - t)", 3, {0.1, 0.3, 0.7}},
     {"step(sin(1/(t + 0.05)))", 6, {0.0000, 0}},
     {"step(abs(t - 0.5) - 0.25)", 3, {0.25, 0.5, 0.75}},
     {"(t > 0.5)*x", 1, {0.5}},
