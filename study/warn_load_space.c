@@ -100,6 +100,8 @@ static enum br_status measure(struct sight *s, const struct br_product *p, struc
     struct br_interval values;
     struct br_box peak;
     double weight = 0;
+    if (p->space.ops && !p->space.ops->bound)
+        return BR_OK; /* of a solution that was given: nothing is proved of it */
     if (br_enclose_values(&p->time, box, 0, &values, &peak))
         weight = fmax(fabs(values.low), fabs(values.high));
     if (!p->space.uses_t)
