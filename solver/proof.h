@@ -10,16 +10,22 @@
 enum br_finite {
     BR_FINITE,     /* everywhere in the box */
     BR_NOT_NUMBER, /* evaluate gives no finite number at `where`, which is one point */
-    BR_POLE,       /* it has no bound in `where`, which is neighbouring numbers wide */
-    BR_UNBOUNDED,  /* the budget is used up: it has no bound in `where`, of what was left */
+    BR_POLE,       /* it grows without bounds towards `where`, at most neighbouring numbers wide */
+    BR_UNBOUNDED,  /* it may have no bound in `where`, or the budget is used up there */
 };
 
-/* Whether f is finite everywhere in the box. value: out, encloses all its values where it is;
- * where: out where it is not. budget: how many boxes may be looked at, 0 for the usual number. */
+/* Whether f is finite everywhere in the box. value: out, encloses all its values where it is,
+ * perhaps by far; where: out where it is not. budget: how many boxes may be looked at, 0 for the usual number. */
 enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, size_t budget,
                                 struct br_interval *value, struct br_box *where);
 
-/* The same as a status: BR_BAD_INPUT with what was found and where. */
+/* Encloses the values of a function that is finite, about as tightly as a twentieth of their range,
+ * or as `budget` boxes allow (0: the usual number). peak: out, a point where it is about as large
+ * as anywhere. False: it has no bound. */
+bool br_enclose_values(const struct br_function *f, struct br_box box, size_t budget,
+                       struct br_interval *value, struct br_box *peak);
+
+/* The same as br_prove_bounded as a status: BR_BAD_INPUT with what was found and where. */
 enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,
                                  struct br_error *err);
 
@@ -48,7 +54,7 @@ enum br_status br_front_times(const struct br_function *f, struct br_box box,
                               struct br_breaks *breaks, bool *complete, struct br_error *err);
 
 /* What polynomials are to stand for a function. */
-struct br_resolution {
+struct br_mesh_aim {
     size_t degree;    /* of the interpolant at a cell's Chebyshev nodes, 1 to 15 */
     double tolerance; /* of |f - interpolant|, absolute, in f's unit */
     double least;     /* cells that are narrower than this need no proof: 0 for what follows */
@@ -72,7 +78,7 @@ void br_mesh_free(struct br_mesh *mesh);
  * ends of cells. *mesh: out. Fails with BR_BAD_INPUT where the cells are too many, naming where, or
  * BR_NO_MEMORY. */
 enum br_status br_resolve(const struct br_function *f, enum br_variable along, struct br_box box,
-                          const struct br_resolution *resolution, struct br_mesh *mesh,
+                          const struct br_mesh_aim *aim, struct br_mesh *mesh,
                           struct br_error *err);
 
 #endif

@@ -24,7 +24,7 @@ static void test_refused(void **state)
         int code;
         const char *message;
     } rows[] = {
-        {"run tan.yaml --k 0.1", 2, "tan.yaml:8: load: it has a pole: found "},
+        {"run tan.yaml --k 0.1", 2, "tan.yaml:8: load: it has a pole at "},
         {"run pole.yaml --k 0.1", 2, "at t = 0.3333 s, expected a finite number everywhere"},
         {"run exmaple2", 2, "; did you mean 'example2'?"},
         {"study bounce", 2, "(looked for "},
@@ -69,6 +69,11 @@ static void test_warned(void **state)
                NULL, 0, "the lagged contact is beyond its stability limit");
     cli_expect("run mms_pressed --n 10 --contact lagged --quiet", NULL, 0,
                "the lagged contact may gain energy as it opens and closes");
+    /* run and study alike */
+    cli_write_file("blow.yaml", SCENE "  load: t + 3e5*exp(-((t - 0.1234567)/1e-5)^2) [N/m]\n");
+    cli_expect("run blow.yaml --n 4 --k 0.05", NULL, 0, "with k = 0.05 s 91 % of its impulse");
+    cli_expect("study blow.yaml --n 4,8 --k 0.1,0.05 --reference fine:16,0.025 --out blow", NULL, 0,
+               "with k = 0.05 s 91 % of its impulse, most of it near t = 0.125 s");
 }
 
 static void make_left_behind(const char *name, char path[512])

@@ -189,7 +189,7 @@ static iv within(double (*f)(double), iv a, bool inside, double exact_at)
 /* Whether phase + k period may be in a, for an integer k. */
 static bool has_phase(iv a, double phase, double period)
 {
-    const double slack = 8 * DBL_EPSILON * (br_magnitude(a) + period);
+    const double slack = 4 * DBL_EPSILON * (br_magnitude(a) + 1);
     const double k = ceil((a.low - slack - phase) / period);
     return phase + k * period <= a.high + slack;
 }
