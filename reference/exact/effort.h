@@ -25,7 +25,9 @@ static inline enum br_status br_effort_spend(struct br_effort *effort, double wo
     if (effort->progress)
         effort->progress(effort->progress_self, effort->done / effort->most);
     if (!(effort->done <= effort->most))
-        return br_fail(err, BR_NOT_FINITE, "it takes more work than is allowed");
+        return br_fail(
+            err, BR_NOT_FINITE,
+            "more work than is allowed, some 20 s of a core, does not make two solutions agree");
     return BR_OK;
 }
 

@@ -126,25 +126,36 @@ struct search {
     struct br_error cause;      /* why not */
 };
 
-/* The next solution, and how far it is from the last one. */
+/* The next solution, and how far it is from the last one. Where it fails, more modes may help;
+ * where no work is left the last pair stays. */
 static enum br_status next_round(struct search *s, const struct br_fineness *fine)
 {
     struct br_exact *exact = s->exact;
+    struct br_solution *next = NULL;
     const double done = s->effort.done;
+    s->cause = (struct br_error){0};
+    enum br_status status =
+        br_solution_create(&next, s->scene, s->outline, fine, &s->effort, &s->cause);
+    s->round_work = s->effort.done - done;
+    if (status == BR_NOT_FINITE)
+        return BR_OK;
+    if (status)
+        return status;
     br_solution_free(s->before);
     s->before = exact->solution;
-    s->cause = (struct br_error){0};
+    exact->solution = next;
+    if (!s->before)
+        return BR_OK;
+    status = br_exact_compare(exact, s->before, s->outline, &s->cause);
     s->worst_before = s->worst;
-    s->worst = INFINITY;
-    enum br_status status =
-        br_solution_create(&exact->solution, s->scene, s->outline, fine, &s->effort, &s->cause);
-    s->round_work = s->effort.done - done;
-    if (!status && s->before) {
-        status = br_exact_compare(exact, s->before, s->outline, &s->cause);
-        s->worst = badness(exact, s->o);
-    }
-    const bool hopeful = status == BR_NOT_FINITE && s->effort.done <= s->effort.most;
-    return hopeful ? BR_OK : status; /* more modes may help */
+    s->worst = badness(exact, s->o);
+    return status;
+}
+
+/* Whether the work that was allowed is done. */
+static bool is_spent(const struct search *s)
+{
+    return s->effort.done > s->effort.most;
 }
 
 static size_t count_modes(const struct search *s, size_t which, size_t modes)
@@ -163,7 +174,15 @@ static size_t next_modes(const struct search *s, size_t modes)
     for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
         if (count_modes(s, which, next) > 4 * most)
             return 0;
-    return modes == most || s->effort.done + 2 * s->round_work > s->effort.most ? 0 : next;
+    return modes == most || is_spent(s) ? 0 : next;
+}
+
+/* Whether the last pair is all but what was wished for, and more modes do not help: the steps' own
+ * errors are left. */
+static bool is_stuck(const struct search *s)
+{
+    return s->worst <= fmin(10, s->o->acceptable / s->o->tolerance) &&
+           s->worst > 0.5 * s->worst_before && s->worst < 2 * s->worst_before;
 }
 
 /* Whether the last pair will do though it is not what was wished for: either it is all but that, or
@@ -171,7 +190,7 @@ static size_t next_modes(const struct search *s, size_t modes)
 static bool will_do(struct search *s)
 {
     const double near = 100, slow = 0.8, ratio = s->worst / s->worst_before;
-    if (!(s->worst <= s->o->acceptable / s->o->tolerance))
+    if (!(s->worst <= s->o->acceptable / s->o->tolerance) || (s->cause.status && !is_spent(s)))
         return false;
     if (s->worst <= near)
         return true;
@@ -190,14 +209,13 @@ static enum br_status refine(struct search *s, struct br_error *err)
         return br_fail(err, BR_NOT_FINITE,
                        "no exact solution: the loads and initial data ask for %zu and %zu elements",
                        s->outline[0].end.count, s->outline[1].end.count);
-    for (size_t round = 0; !status && modes && !(s->worst <= enough); round++) {
+    for (size_t round = 0; !status && modes && !(s->worst <= enough) && !is_stuck(s); round++) {
         const struct br_fineness fine = fineness(s->o, s->exact->duration, round, modes);
         status = next_round(s, &fine);
         modes = next_modes(s, modes);
     }
-    if (status && s->cause.status)
-        return br_fail(err, status, "%s%s", status == BR_NOT_FINITE ? "no exact solution: " : "",
-                       s->cause.message);
+    if (status)
+        return br_fail(err, status, "%s", s->cause.message);
     if (!(s->worst <= enough) && !will_do(s))
         return refuse(s->exact, s->worst, &s->cause, err);
     for (size_t i = 0; i < BR_EXACT_FIELDS; i++)

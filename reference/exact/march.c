@@ -222,6 +222,17 @@ static double reach(const struct march *m)
     return fmax(most, m->options->first_step);
 }
 
+/* What half a unit in the last place of t does to a load that changes within its cells. */
+static double blur(const struct march *m, double h)
+{
+    const double t = m->s->time + h / 2;
+    double cell = INFINITY;
+    for (size_t i = 0; i < 2; i++)
+        if (m->options->outline[i])
+            cell = fmin(cell, br_outline_cell(m->options->outline[i], t));
+    return DBL_EPSILON * t / cell;
+}
+
 /* A step of h, or a little less, that ends on a number, so that steps leave nothing out between
  * them. */
 static double exact_step(const struct br_stepper *s, double h)
@@ -240,6 +251,7 @@ static void step(struct march *m, double limit)
     const bool last = wish >= left;
     const double h =
         last ? left : exact_step(s, fmin(wish, fmax(left / 2, m->options->first_step)));
+    s->blur = blur(m, h);
     m->status = br_stepper_try(s, h, m->err);
     if (m->status)
         return;

@@ -242,8 +242,10 @@ static bool fits(const struct work *w, double a, double b)
         struct br_interval value;
         if (!is_known(s->f))
             continue;
-        if (inseparable(s) || !br_function_bound(s->f, box, &value) ||
-            br_sight_fit(s->f, BR_X, box, SPACE_DEGREE, fmax(fabs(value.low), fabs(value.high))))
+        if (inseparable(s) || !br_function_bound(s->f, box, &value))
+            return false;
+        const double size = fmax(fabs(value.low), fabs(value.high));
+        if (!(br_sight_error(s->f, BR_X, box, SPACE_DEGREE) <= BR_SIGHT_TOLERANCE * size))
             return false;
     }
     return true;
@@ -389,6 +391,17 @@ bool br_outline_is_sharp(const struct br_outline *o, double t, double width)
                 return true;
     }
     return false;
+}
+
+double br_outline_cell(const struct br_outline *o, double t)
+{
+    double width = INFINITY;
+    for (size_t i = 0; i < o->cells; i++)
+        if (o->cell[i].count > 1) {
+            const size_t j = cell_of(&o->cell[i], t);
+            width = fmin(width, o->cell[i].at[j + 1] - o->cell[i].at[j]);
+        }
+    return width;
 }
 
 double br_outline_reach(const struct br_outline *o, double t)

@@ -39,6 +39,9 @@ size_t br_outline_terms(const struct br_outline *outline, size_t e, size_t modes
 /* Whether the data change so fast within `width` of t that a cell is shorter than that. */
 bool br_outline_is_sharp(const struct br_outline *outline, double t, double width);
 
+/* The shortest cell that holds t, infinite for none. */
+double br_outline_cell(const struct br_outline *outline, double t);
+
 /* How long a step from t may be: not longer than any cell that it touches. */
 double br_outline_reach(const struct br_outline *outline, double t);
 

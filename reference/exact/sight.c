@@ -58,16 +58,16 @@ static struct br_interval *side(struct br_box *box, enum br_variable along)
     return along == BR_X ? &box->x : &box->t;
 }
 
-enum br_fit br_sight_fit(const struct br_function *f, enum br_variable along, struct br_box box,
-                         size_t degree, double size)
+double br_sight_error(const struct br_function *f, enum br_variable along, struct br_box box,
+                      size_t degree)
 {
     struct br_interval coefficient[17];
     const struct br_interval here = *side(&box, along);
     if (!br_function_taylor(f, along, box, degree + 1, coefficient))
-        return BR_NOT_SMOOTH;
+        return INFINITY;
     const double error = 2 * magnitude(coefficient[degree + 1]) *
                          pow((here.high - here.low) / 4, (double)degree + 1);
-    return error <= BR_SIGHT_TOLERANCE * size ? BR_FITS : BR_TOO_WIDE;
+    return isnan(error) ? INFINITY : error;
 }
 
 /* ---- the mean ---- */
@@ -152,7 +152,8 @@ static enum br_status survey(const struct survey *s, struct br_box box)
     const bool narrow = !(width > sight->least && here.low < middle && middle < here.high);
     if (narrow && !bounded)
         return br_must_be_finite(sight->f, box, s->err);
-    if (!bounded || br_sight_fit(sight->f, s->along, box, sight->degree[s->along], size)) {
+    if (!bounded || !(br_sight_error(sight->f, s->along, box, sight->degree[s->along]) <=
+                      BR_SIGHT_TOLERANCE * size)) {
         if (!narrow && !(bounded && unseen <= sight->most_missed)) {
             struct br_box half[2] = {box, box};
             side(&half[0], s->along)->high = side(&half[1], s->along)->low = middle;

@@ -21,6 +21,11 @@ enum br_status br_list_add(struct br_list *list, double value, struct br_error *
 /* Sorts, and keeps one of those that are closer than `least` to each other. */
 void br_list_sort(struct br_list *list, double least);
 
+/* Of how much a polynomial along one variable misses f in the box at most; infinite where f is not
+ * smooth. */
+double br_sight_error(const struct br_function *f, enum br_variable along, struct br_box box,
+                      size_t degree);
+
 /* The mean of |f| over a box of one or two variables, at least half of it where it can be told. */
 double br_sight_mean(const struct br_function *f, struct br_box box);
 
@@ -33,13 +38,6 @@ struct br_sight {
     size_t most;        /* cells */
     double missed;      /* out: integral that cells may hold unseen, in all */
 };
-
-enum br_fit { BR_FITS, BR_TOO_WIDE, BR_NOT_SMOOTH };
-
-/* Whether a polynomial along one variable stands for f in the whole box, to the tolerance times
- * `size`. */
-enum br_fit br_sight_fit(const struct br_function *f, enum br_variable along, struct br_box box,
-                         size_t degree, double size);
 
 /* Adds the ends of cells inside of the box along one variable, for a function of that variable
  * alone (at the other's low end). Fails with BR_NOT_FINITE: too many, BR_BAD_INPUT where the

@@ -143,6 +143,21 @@ static void move(struct br_stepper *s)
     memcpy(s->tip.velocity, tip, sizeof tip);
 }
 
+/* The velocity that the largest of the stages' loads alone give in the step, in L2. */
+static double impulse(const struct br_stepper *s)
+{
+    const size_t m = s->field->modes->count;
+    double sum = 0;
+    for (size_t i = 0; i < m; i++) {
+        double most = 0;
+        for (size_t j = 0; j < S; j++)
+            most = fmax(most, fabs(s->load[j * m + i]));
+        const double part = s->field->modes->size[i] * s->response[i * S * S] * most;
+        sum += part * part;
+    }
+    return sqrt(s->field->length * sum);
+}
+
 enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *err)
 {
     const size_t m = s->field->modes->count;
@@ -157,6 +172,7 @@ enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *e
     }
     if (status)
         return status;
+    s->load_noise += s->blur * impulse(s);
     s->tip = (struct br_tip){
         .start = s->time, .length = h, .phase = s->phase, .displacement = s->tip_displacement};
     move(s); /* as if the tip were free */

@@ -16,6 +16,7 @@ struct br_stepper {
 
     double time;     /* s */
     double from, to; /* s: the load is taken between these, where it does not jump */
+    double blur;     /* of the load: what the rounding of t does to it, relative */
     enum br_phase phase;
     double *q, *v;                         /* modes: m, m/s */
     double tip_displacement, tip_velocity; /* less the gap, m, m/s */
