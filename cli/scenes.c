@@ -63,10 +63,10 @@ static enum br_status print_line(const char *name, size_t width, struct br_error
     enum br_status status = br_scene_find(name, path, sizeof path, err);
     if (!status)
         status = br_scene_read(path, &scene, err);
-    if (!status || status == BR_UNSUPPORTED)
-        printf("%-*s  %s%s\n", (int)width, name, scene.title, status ? " (not in this build)" : "");
+    if (!status)
+        printf("%-*s  %s\n", (int)width, name, scene.title);
     br_scene_clear(&scene);
-    return status == BR_UNSUPPORTED ? BR_OK : status;
+    return status;
 }
 
 static enum br_status list(struct br_error *err)
