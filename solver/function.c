@@ -49,7 +49,12 @@ static const struct br_interval everywhere = {-INFINITY, INFINITY};
 bool br_function_bound(const struct br_function *f, struct br_box box, struct br_interval *value)
 {
     *value = f->ops ? everywhere : (struct br_interval){f->constant, f->constant};
-    return !f->ops || (f->ops->bound && f->ops->bound(f->self, box, value));
+    if (!f->ops || !f->ops->bound)
+        return !f->ops;
+    const int traps = br_traps_lift(); /* a bound may overflow */
+    const bool bounded = f->ops->bound(f->self, box, value);
+    br_traps_restore(traps);
+    return bounded;
 }
 
 bool br_function_taylor(const struct br_function *f, enum br_variable along, struct br_box box,
@@ -57,7 +62,12 @@ bool br_function_taylor(const struct br_function *f, enum br_variable along, str
 {
     for (size_t i = 0; i <= order; i++)
         c[i] = (struct br_interval){i || f->ops ? 0 : f->constant, i || f->ops ? 0 : f->constant};
-    return !f->ops || (f->ops->taylor && f->ops->taylor(f->self, along, box, order, c));
+    if (!f->ops || !f->ops->taylor)
+        return !f->ops;
+    const int traps = br_traps_lift();
+    const bool smooth = f->ops->taylor(f->self, along, box, order, c);
+    br_traps_restore(traps);
+    return smooth;
 }
 
 const struct br_function *br_function_guard(const struct br_function *f, size_t i)

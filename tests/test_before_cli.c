@@ -24,7 +24,7 @@ static void test_refused(void **state)
         int code;
         const char *message;
     } rows[] = {
-        {"run tan.yaml --k 0.1", 2, "tan.yaml:8: load: it has a pole: found "},
+        {"run tan.yaml --k 0.1", 2, "tan.yaml:8: load: it has a pole at "},
         {"run pole.yaml --k 0.1", 2, "at t = 0.3333 s, expected a finite number everywhere"},
         {"run exmaple2", 2, "; did you mean 'example2'?"},
         {"study bounce", 2, "(looked for "},

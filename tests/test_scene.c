@@ -187,9 +187,9 @@ static const struct {
     {8, "  load: {shape: \"1/x [1]\", history: \"t [N/m]\"}", 8, "load",
      "found inf at x = 0 m, expected a finite number everywhere in [0, L]"},
     {8, "  load: {shape: \"x [1]\", history: \"sqrt(0.25 - t) [N/m]\"}", 8, "load",
-     "found nan at t = 0.2509765625 s, expected"},
+     "found nan at t = 0.5 s, expected"},
     {12, "  tip_moment: 1/t [N m]", 12, "tip_moment", "found inf at t = 0 s, expected"},
-    {8, "  tip_force: exp(2000*t) [N]", 8, "tip_force", "found inf at t = 0.35546875 s, expected"},
+    {8, "  tip_force: exp(2000*t) [N]", 8, "tip_force", "found inf at t = 0.5 s, expected"},
 };
 
 static void test_refusals(void **state)

@@ -6,6 +6,7 @@
 
 #include "study/scene/derive.h"
 #include "study/scene/elementary.h"
+#include "study/scene/enclosure.h"
 
 enum { CHUNK = 256 }; /* places at a time: the arrays stay in the first caches */
 
@@ -14,6 +15,7 @@ struct expression {
     const struct br_elementary *set;
     double **array; /* of each node: CHUNK values, in a slot of `room` */
     double *room;
+    struct br_proofs proofs;
 };
 
 static void expression_free(void *self)
@@ -21,6 +23,7 @@ static void expression_free(void *self)
     struct expression *e = self;
     if (!e)
         return;
+    br_proofs_clear(&e->proofs);
     br_tree_clear(&e->tree);
     free(e->array);
     free(e->room);
@@ -91,7 +94,8 @@ static struct expression *create(struct br_tree *tree)
     e->tree = *tree;
     *tree = (struct br_tree){0};
     e->set = br_elementary_best();
-    if (make_arrays(e))
+    struct br_error unsaid;
+    if (make_arrays(e) && !br_proofs_init(&e->proofs, &e->tree, &unsaid))
         return e;
     expression_free(e);
     return NULL;
@@ -176,10 +180,32 @@ static enum br_status expression_derive(const void *self, const struct br_deriva
     return status ? status : br_tree_function(&tree, out, err);
 }
 
+static bool expression_bound(const void *self, struct br_box box, struct br_interval *value)
+{
+    const struct expression *e = self;
+    return br_tree_bound(&e->tree, e->proofs.work, box, value);
+}
+
+static bool expression_taylor(const void *self, enum br_variable along, struct br_box box,
+                              size_t order, struct br_interval *coefficient)
+{
+    const struct expression *e = self;
+    return br_tree_taylor(&e->tree, e->proofs.work, along, box, order, coefficient);
+}
+
+static const struct br_function *expression_guard(const void *self, size_t i)
+{
+    const struct expression *e = self;
+    return i < e->proofs.guards ? &e->proofs.guard[i] : NULL;
+}
+
 static const struct br_function_ops expression_ops = {
     .evaluate = expression_evaluate,
     .clone = expression_clone,
     .free = expression_free,
+    .bound = expression_bound,
+    .taylor = expression_taylor,
+    .guard = expression_guard,
     .derive = expression_derive,
 };
 
