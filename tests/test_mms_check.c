@@ -72,41 +72,44 @@ static const struct {
     const char *text, *message; /* NULL: accepted */
 } solutions[] = {
     {BR_AXIAL, "sin(x)*exp(t)", NULL},
-    {BR_AXIAL, "x*abs(t - 0.3)*(t - 0.3)", NULL},        /* u_tt jumps */
-    {BR_BENDING, "x^2*(t - 0.4)^2*step(t - 0.4)", NULL}, /* at no sample point */
-    {BR_AXIAL, "x*(0.5 + (x + t - 1)^2*step(x + t - 1))", "u_xxt integrates"}, /* u_xx jumps */
+    {BR_AXIAL, "x*abs(t - 0.3)*(t - 0.3)", NULL},                        /* u_tt jumps */
+    {BR_BENDING, "x^2*(t - 0.4)^2*step(t - 0.4)", NULL},                 /* at no sample point */
+    {BR_AXIAL, "x*(0.5 + (x + t - 1)^2*step(x + t - 1))", "u_xx jumps"}, /* u_xx jumps */
     {BR_AXIAL, "1 + x", "u is 1 at x = 0, t = 0 s, expected 0 where the beam is clamped"},
     {BR_AXIAL, "x + (t - 0.5)^2*step(t - 0.5)", "u is "},
     {BR_BENDING, "1 + x^2", "w is 1 at x = 0, t = 0 s"},
     {BR_BENDING, "sin(x)", "w_x is 1 at x = 0, t = 0 s, expected 0"},
-    {BR_AXIAL, "x/(t - 0.5)", "u is "},
-    {BR_AXIAL, "x*log(t)", "u is "},
-    {BR_AXIAL, "x*sqrt(t)", "u_t is "},
-    {BR_AXIAL, "x*abs(t - 0.3)^1.5", "u_tt reaches "},
-    {BR_AXIAL, "x*abs(t - 0.5)^1.5", "u_tt is "},
-    {BR_AXIAL, "x*t^1.5", "u_tt is "},
-    {BR_AXIAL, "x^1.5", "u_xx is "},
+    {BR_AXIAL, "x/(t - 0.5)", "u: "},
+    {BR_AXIAL, "x*log(t)", "u: "},
+    {BR_AXIAL, "x*sqrt(t)", "u_t: "},
+    {BR_AXIAL, "x*abs(t - 0.3)^1.5", "u_tt: "},
+    {BR_AXIAL, "x*abs(t - 0.5)^1.5", "u_tt: "},
+    {BR_AXIAL, "x*t^1.5", "u_tt: "},
+    {BR_AXIAL, "x^1.5", "u_xx: "},
     {BR_AXIAL, "x*(1 + exp(-100*t))", NULL},
-    {BR_AXIAL, "x/(t - 0.3)", "u_t "},
+    {BR_AXIAL, "x/(t - 0.3)", "u: "},
     /* jumps, whose deltas the derivatives leave out */
     {BR_AXIAL, "x*step(t - 0.3)",
-     "u_t integrates to 0 from t = 0.25 to 0.375 s at x = 0.125 m, "
-     "expected 0.125, the change of u there: it jumps"},
-    {BR_AXIAL, "x*abs(t - 0.3)", "u_tt integrates to 0 from t = 0.25 to 0.375 s"},
-    {BR_AXIAL, "x*step(x - 0.3)", "u_x integrates"},
-    {BR_AXIAL, "x*abs(x - 0.3)", "u_xx integrates"},
-    {BR_BENDING, "x^2*step(t - 0.3)", "w_t integrates"},
-    {BR_BENDING, "x^2*abs(t - 0.3)", "w_tt integrates"},
-    {BR_BENDING, "x^2*abs(x - 0.3)", "w_xx integrates"},
-    {BR_BENDING, "x^2*abs(x - 0.3)*(x - 0.3)", "w_xxx integrates"},
-    {BR_BENDING, "x^2*abs(x - 0.3)^3", "w_xxxx integrates"},
+     "u jumps by 0.125 at t = 0.3 s, x = 0.125 m, expected a solution whose derivatives"},
+    {BR_AXIAL, "x*abs(t - 0.3)", "u_t jumps by 0.25 at t = 0.3 s"},
+    {BR_AXIAL, "x*step(x - 0.3)", "u jumps"},
+    {BR_AXIAL, "x*abs(x - 0.3)", "u_x jumps"},
+    {BR_BENDING, "x^2*step(t - 0.3)", "w jumps"},
+    {BR_BENDING, "x^2*abs(t - 0.3)", "w_t jumps"},
+    {BR_BENDING, "x^2*abs(x - 0.3)", "w_x jumps"},
+    {BR_BENDING, "x^2*abs(x - 0.3)*(x - 0.3)", "w_xx jumps"},
+    {BR_BENDING, "x^2*abs(x - 0.3)^3", "w_xxx jumps"},
     {BR_BENDING, "x^2*abs(x - 0.3)^3*(x - 0.3)", NULL},
     {BR_AXIAL, "asinh(x/2)*t", NULL},
     {BR_AXIAL, "x*asinh(t/2)", NULL},
     {BR_AXIAL, "x > 0.3 ? x : x", NULL},
-    {BR_AXIAL, "x > 0.3 ? x : 0", "u_x integrates"},
-    {BR_AXIAL, "x*min(t, 0.3)", "u_tt integrates"},
+    {BR_AXIAL, "x > 0.3 ? x : 0", "u jumps"},
+    {BR_AXIAL, "x*min(t, 0.3)", "u_t jumps"},
     {BR_BENDING, "ln(1 + x^2)*2^3^t", NULL},
+    /* between all samples */
+    {BR_AXIAL, "x*(1 + step(t - 0.3001) - step(t - 0.3002))", "u jumps by "},
+    {BR_AXIAL, "x*(1 + (t > 0.3001 && t < 0.3002 && x > 0.7001 && x < 0.7002))", "u jumps by "},
+    {BR_AXIAL, "x + 1e-9*x/(t - 0.300001)", "u: "},
 };
 
 static void test_check(void **state)

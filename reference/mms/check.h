@@ -16,10 +16,10 @@ struct br_solution {
 const struct br_partial *br_solution_orders(enum br_field_kind kind, size_t *count);
 
 /* Refuses (BR_BAD_INPUT), naming the derivative, x, t, what was found and expected:
- * - a solution or derivative that is not finite somewhere;
+ * - a solution or derivative of which it is not proved that it is finite everywhere;
  * - u(0, t), w(0, t) or w_x(0, t) that is not zero;
- * - a derivative that does not integrate back to the function it was derived from. This is
- *   numerical: it finds a jump, whose delta the derivatives leave out.
+ * - a jump in what is derived, whose delta the derivative would leave out: at what the guards of
+ *   function.h tell, on lines that cross every stretch between them.
  * Fails with BR_NO_MEMORY, too. */
 enum br_status br_solution_check(const struct br_solution *solution, struct br_error *err);
 
