@@ -1,30 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/pictures.h"
 
-#include <ctype.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/signals.h"
+#include "cli/picture_files.h"
 #include "plots/gnuplot.h"
+#include "study/quote.h"
 
 /* All frames are kept with all nodes: 120 MB at most. */
 enum { FRAMES = 120, MOST_ELEMENTS = 20000, ROWS = 2000, NARROW = 40, USUAL = 80, WIDE = 160 };
 
 /* ---- where the movie goes ---- */
-
-/* gnuplot reads the name in quotes, and as a format. */
-static bool is_stem(const char *stem)
-{
-    if (!isalnum((unsigned char)*stem) && *stem != '_')
-        return false;
-    for (const char *c = stem; *c; c++)
-        if (iscntrl((unsigned char)*c) || strchr("'\"\\%`", *c))
-            return false;
-    return true;
-}
 
 static bool is_folder(const char *path)
 {
@@ -47,11 +36,11 @@ static enum br_status split(struct br_pictures *p, char *folder, size_t size, st
     if (slash == file)
         snprintf(folder, size, "/");
     snprintf(p->stem, sizeof p->stem, "%.*s", length, name);
-    return is_stem(p->stem)
+    return br_is_name(p->stem)
                ? BR_OK
                : br_fail(err, BR_BAD_INPUT,
                          "--animate: found '%s', expected a file's name that begins with "
-                         "a letter or digit and has no quote, percent sign or backslash",
+                         "a letter or digit, with no others but blanks and _ . - +",
                          file);
 }
 
@@ -168,16 +157,30 @@ static enum br_status write_file(const struct br_pictures *p, const struct br_mo
     return br_output_close(file, name, err);
 }
 
-/* Those of a longer movie that was there before. */
-static void remove_old_frames(const struct br_pictures *p, const struct br_movie *movie)
+/* The frames from one on, or the whole movie. */
+static void remove_frames(const char *folder, const struct br_movie *movie, size_t first)
 {
     char name[512], path[2048];
-    for (size_t i = p->record.looks;; i++) {
+    for (size_t i = first;; i++) {
         br_movie_file(movie, i, name, sizeof name);
-        snprintf(path, sizeof path, "%s/%s", p->request.animate, name);
+        snprintf(path, sizeof path, "%s/%s", folder, name);
         if (unlink(path) != 0)
             return;
     }
+}
+
+/* A movie that fails leaves no half of it. */
+static enum br_status render(struct br_pictures *p, const struct br_movie *movie,
+                             const char *script, struct br_error *err)
+{
+    struct br_error why = {0};
+    enum br_status status = br_gnuplot_run(p->output.staging, script, &p->missing, &why);
+    if (!status)
+        status = check_files(p, movie, &why);
+    if (!status || p->missing)
+        return BR_OK;
+    remove_frames(p->output.staging, movie, 0);
+    return br_picture_failed(&why, p->request.animate, err);
 }
 
 static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
@@ -188,17 +191,12 @@ static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
     enum br_status status = write_file(p, &movie, "dat", br_movie_write_data, err);
     if (!status)
         status = write_file(p, &movie, "gp", br_movie_write_script, err);
-    if (!status && !p->missing) {
-        status = br_gnuplot_run(p->output.staging, script, &p->missing, err);
-        if (!status)
-            status = check_files(p, &movie, err);
-    }
-    if (br_signals_caught()) /* Ctrl-C ends gnuplot, too */
-        status = br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (!status && !p->missing)
+        status = render(p, &movie, script, err);
     if (!status)
         status = br_output_commit(&p->output, err);
     if (!status && p->format->frames)
-        remove_old_frames(p, &movie);
+        remove_frames(p->request.animate, &movie, p->record.looks); /* of a longer one before */
     return status;
 }
 
@@ -213,13 +211,13 @@ static int columns_of(FILE *letters)
 static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct br_error *err)
 {
     bool missing;
-    struct br_error inner = {0};
+    struct br_error why = {0};
     fflush(letters);
     if (!br_gnuplot_letters(letters, p->request.scene, &p->record, columns_of(letters), &missing,
-                            &inner))
+                            &why))
         return BR_OK;
     if (!missing)
-        return br_fail(err, inner.status, "%s", inner.message);
+        return br_picture_failed(&why, "--plot", err);
     fprintf(stderr, "beamrate: gnuplot is not installed: --plot shows nothing\n");
     return BR_OK;
 }

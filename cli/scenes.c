@@ -9,9 +9,11 @@
 #include "cli/command.h"
 #include "cli/parse.h"
 #include "cli/whole_file.h"
+#include "study/quote.h"
 #include "study/ranks.h"
 #include "study/scene_file.h"
 #include "tables/scene_format.h"
+#include "tables/sentences.h"
 
 static const char usage[] =
     "[SCENE] [OPTION...]\n\nLists the bundled scenes, a line each; shows one; or begins a new "
@@ -63,8 +65,12 @@ static enum br_status print_line(const char *name, size_t width, struct br_error
     enum br_status status = br_scene_find(name, path, sizeof path, err);
     if (!status)
         status = br_scene_read(path, &scene, err);
-    if (!status || status == BR_UNSUPPORTED)
-        printf("%-*s  %s%s\n", (int)width, name, scene.title, status ? " (not in this build)" : "");
+    if (!status || status == BR_UNSUPPORTED) {
+        br_quote(stdout, &br_for_text, name);
+        printf("%*s", (int)width + 2 - br_width_of(name), "");
+        br_quote(stdout, &br_for_text, scene.title);
+        puts(status ? " (not in this build)" : "");
+    }
     br_scene_clear(&scene);
     return status == BR_UNSUPPORTED ? BR_OK : status;
 }

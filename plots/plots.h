@@ -50,7 +50,8 @@ struct br_renderer {
     struct br_rendering {
         char folder[4096], script[BR_SCRIPT_NAME];
         pid_t child;
-        int said; /* the end of a pipe: what gnuplot says */
+        int said;       /* the end of a pipe: what gnuplot says */
+        double started; /* s, by the monotonic clock */
     } at_work[BR_MOST_RENDERINGS];
 };
 
@@ -60,8 +61,13 @@ struct br_renderer {
 enum br_status br_renderer_add(struct br_renderer *renderer, const char *folder, const char *script,
                                bool *missing, struct br_error *err);
 
-/* Waits for all of them. Fails with BR_IO where gnuplot did, with the line in which the first one
- * says why, and where a picture is not complete (a full disk). */
+/* Waits for the first of them, of which there is one. Fails with BR_IO where gnuplot did, with the
+ * line in which it says why, where it took longer than a minute (or BEAMRATE_GNUPLOT_SECONDS), and
+ * where a picture is not complete (a full disk): then no picture of the script stays. Fails with
+ * BR_INTERRUPTED when the work is to stop. A gnuplot that has not ended is killed. */
+enum br_status br_renderer_end_oldest(struct br_renderer *renderer, struct br_error *err);
+
+/* Waits for all of them. Fails as the first one that failed. */
 enum br_status br_renderer_finish(struct br_renderer *renderer, struct br_error *err);
 
 /* Both for one script. */
