@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "cli/picture_files.h"
+#include "cli/signals.h"
 #include "plots/gnuplot.h"
 #include "study/quote.h"
 
@@ -157,30 +158,16 @@ static enum br_status write_file(const struct br_pictures *p, const struct br_mo
     return br_output_close(file, name, err);
 }
 
-/* The frames from one on, or the whole movie. */
-static void remove_frames(const char *folder, const struct br_movie *movie, size_t first)
+/* Those of a longer movie that was there before. */
+static void remove_old_frames(const struct br_pictures *p, const struct br_movie *movie)
 {
     char name[512], path[2048];
-    for (size_t i = first;; i++) {
+    for (size_t i = p->record.looks;; i++) {
         br_movie_file(movie, i, name, sizeof name);
-        snprintf(path, sizeof path, "%s/%s", folder, name);
+        snprintf(path, sizeof path, "%s/%s", p->request.animate, name);
         if (unlink(path) != 0)
             return;
     }
-}
-
-/* A movie that fails leaves no half of it. */
-static enum br_status render(struct br_pictures *p, const struct br_movie *movie,
-                             const char *script, struct br_error *err)
-{
-    struct br_error why = {0};
-    enum br_status status = br_gnuplot_run(p->output.staging, script, &p->missing, &why);
-    if (!status)
-        status = check_files(p, movie, &why);
-    if (!status || p->missing)
-        return BR_OK;
-    remove_frames(p->output.staging, movie, 0);
-    return br_picture_failed(&why, p->request.animate, err);
 }
 
 static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
@@ -191,12 +178,17 @@ static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
     enum br_status status = write_file(p, &movie, "dat", br_movie_write_data, err);
     if (!status)
         status = write_file(p, &movie, "gp", br_movie_write_script, err);
-    if (!status && !p->missing)
-        status = render(p, &movie, script, err);
+    if (!status && !p->missing) {
+        status = br_gnuplot_run(p->output.staging, script, &p->missing, err);
+        if (!status)
+            status = check_files(p, &movie, err);
+    }
+    if (br_signals_caught()) /* Ctrl-C ends gnuplot, too */
+        status = br_fail(err, BR_INTERRUPTED, "interrupted");
     if (!status)
         status = br_output_commit(&p->output, err);
     if (!status && p->format->frames)
-        remove_frames(p->request.animate, &movie, p->record.looks); /* of a longer one before */
+        remove_old_frames(p, &movie);
     return status;
 }
 

@@ -17,23 +17,13 @@ const struct br_plot *br_plot_find(const char *name)
     return NULL;
 }
 
-/* gnuplot reads "<..." and "|..." as commands and "-..." as options. */
-enum br_status br_check_stem(const char *name, struct br_error *err)
-{
-    return br_is_name(name)
-               ? BR_OK
-               : br_fail(err, BR_BAD_INPUT,
-                         "the report's name is \"%s\", expected the beginning of a file name: a "
-                         "letter, digit or underscore, then these, blanks and . - +",
-                         name);
-}
-
 enum br_status br_plot_file(const struct br_plot *plot, const struct br_report *report,
                             const char *extension, char *file, size_t size, struct br_error *err)
 {
-    const enum br_status status = br_check_stem(report->name, err);
-    if (status)
-        return status;
+    if (!br_is_name(report->name))
+        return br_fail(err, BR_BAD_INPUT,
+                       "the report's name is \"%s\", expected the beginning of a file name",
+                       report->name);
     const int length = snprintf(file, size, "%s-%s%s%s", report->name, plot->name,
                                 *extension ? "." : "", extension);
     if (length < 0 || (size_t)length >= size)

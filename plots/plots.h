@@ -30,9 +30,6 @@ extern const struct br_plot *const br_plots[];
 /* The plot of that name, or NULL. */
 const struct br_plot *br_plot_find(const char *name);
 
-/* Refuses (BR_BAD_INPUT) a report's name that cannot begin the names of its files. */
-enum br_status br_check_stem(const char *name, struct br_error *err);
-
 /* Writes the name of a plot's file with that extension ("gp", "svg"...) into `file` (out,
  * size bytes). Fails with BR_BAD_INPUT where report->name makes no file name. */
 enum br_status br_plot_file(const struct br_plot *plot, const struct br_report *report,
