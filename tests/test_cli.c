@@ -222,7 +222,7 @@ static void test_failures(void **state)
     assert_int_equal(cli_count_files("full"), 0);
     /* no gnuplot: the plots are written, but not drawn */
     cli_expect("study example1 --out bare --n 5,10 --k 0.1,0.05 --quiet",
-               &(struct cli_circumstances){.path = "/nonexistent"}, 0, "gnuplot is not installed");
+               &(struct cli_circumstances){.path = "/dev/null"}, 0, "gnuplot is not installed");
     assert_true(cli_is_there("bare/example1-h.gp") && !cli_is_there("bare/example1-h.png"));
     /* Ctrl-C: ends by the signal and leaves nothing */
     cli_expect("tables --out stopped --quiet", &(struct cli_circumstances){.interrupt_after = 700},

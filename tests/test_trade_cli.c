@@ -142,7 +142,7 @@ static void test_rules(void **state)
                "--tolerances");
     cli_expect("trade example2 --methods bdf2,bdf2+umfpack,euler --n 10 --k 0.1,0.05 --repeats 1 "
                "--format csv --out r",
-               &(struct cli_circumstances){.path = "/nonexistent"}, 0, "gnuplot is not installed");
+               &(struct cli_circumstances){.path = "/dev/null"}, 0, "gnuplot is not installed");
     assert_true(cli_file_contains("r/example2-rules.gp", "'bdf2+umfpack'"));
     assert_true(cli_file_contains("r/example2-rules.gp", "'bdf2'"));
     assert_false(cli_file_contains("r/example2-rules.gp", "'euler'"));
