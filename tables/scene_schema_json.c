@@ -249,7 +249,7 @@ enum br_status br_scene_schema_write(FILE *out, struct br_error *err)
     json_t *scene = section("");
     const bool whole = o && scene && json_object_update(o, scene) == 0;
     if (whole) {
-        json_dumpf(o, out, JSON_INDENT(1));
+        json_dumpf(o, out, JSON_INDENT(1) | JSON_ENSURE_ASCII);
         fputc('\n', out);
     }
     json_decref(scene);
