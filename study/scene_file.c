@@ -7,6 +7,7 @@
 #include <yaml.h>
 
 #include "reference/mms/manufactured.h"
+#include "study/quote.h"
 #include "study/scene/products.h"
 #include "study/scene_scan.h"
 #include "study/scene_value.h"
@@ -136,7 +137,8 @@ static enum br_status apply_solutions(const struct br_scene_reader *r, const siz
     return status ? br_fail(r->err, status, "%s", inner.message) : BR_OK;
 }
 
-/* The scene's name is its file's, without folder and ending. */
+/* The scene's name is its file's, without folder and ending; the names of all files that are
+ * written for it begin with it. */
 static enum br_status set_name(const struct br_scene_reader *r)
 {
     const char *slash = strrchr(r->path, '/');
@@ -147,6 +149,7 @@ static enum br_status set_name(const struct br_scene_reader *r)
     if (!r->scene->name)
         return br_no_memory(r->err, "the scene");
     memcpy(r->scene->name, base, length);
+    br_make_name(r->scene->name);
     return BR_OK;
 }
 

@@ -159,7 +159,7 @@ static void test_over_the_limit(void **state)
                "--repeats 1 --out l --no-plots",
                NULL, 0, "over limit: over the time limit of 0.01 s");
     assert_true(cli_file_contains("l/example2.txt", "over limit: 1"));
-    assert_true(cli_file_contains("l/example2.csv", "over limit,0,0,\"over the time limit"));
+    assert_true(cli_file_contains("l/example2.csv", "over limit,0,0,over the time limit"));
     assert_true(has_row(cli_read("l/example2.txt"),
                         "euler+implicit 50 1e-08 - - - - - - - - - over limit"));
     cli_expect("trade example2 --methods euler+implicit --n 50 --k 1e-8 --time-limit 0.01 "
