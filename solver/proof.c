@@ -258,7 +258,8 @@ static bool halve(const struct br_function *f, struct br_box whole, struct piece
            br_function_bound(f, half[1], &piece[next].value);
 }
 
-bool br_enclose_values(const struct br_function *f, struct br_box box, size_t budget, iv *value)
+bool br_enclose_values(const struct br_function *f, struct br_box box, size_t budget, iv *value,
+                       struct br_box *peak)
 {
     enum { MOST = 500 };
     struct piece piece[MOST] = {{.box = used_box(f, box)}};
@@ -266,7 +267,12 @@ bool br_enclose_values(const struct br_function *f, struct br_box box, size_t bu
     const struct br_box whole = piece[0].box;
     iv seen = {INFINITY, -INFINITY};
     bool bounded = br_function_bound(f, whole, &piece[0].value);
+    *peak = (struct br_box){point(middle(whole.x)), point(middle(whole.t))};
     *value = piece[0].value;
+    if (!bounded) { /* not at once */
+        struct br_box where;
+        return br_prove_bounded(f, box, budget, value, &where) == BR_FINITE;
+    }
     for (size_t count = 1; bounded; count++) {
         const size_t top = find_worst(piece, count, 1), bottom = find_worst(piece, count, -1);
         *value = (iv){piece[bottom].value.low, piece[top].value.high};
@@ -275,6 +281,8 @@ bool br_enclose_values(const struct br_function *f, struct br_box box, size_t bu
             const double x = middle(at->x);
             double found;
             br_function_evaluate(f, 1, &x, middle(at->t), &found);
+            if (!(fabs(found) <= magnitude(seen)) || count == 1)
+                *peak = (struct br_box){point(x), point(middle(at->t))};
             seen = (iv){fmin(seen.low, found), fmax(seen.high, found)};
         }
         const double above = value->high - seen.high, below = seen.low - value->low;

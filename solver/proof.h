@@ -20,9 +20,10 @@ enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, 
                                 struct br_interval *value, struct br_box *where);
 
 /* Encloses the values of a function that is finite, about as tightly as a twentieth of their range,
- * or as `budget` boxes allow (0: the usual number). False: it has no bound. */
+ * or as `budget` boxes allow (0: the usual number). peak: out, a point where it is about as large
+ * as anywhere. False: it has no bound. */
 bool br_enclose_values(const struct br_function *f, struct br_box box, size_t budget,
-                       struct br_interval *value);
+                       struct br_interval *value, struct br_box *peak);
 
 /* The same as br_prove_bounded as a status: BR_BAD_INPUT with what was found and where. */
 enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,

@@ -65,6 +65,11 @@ static void test_warned(void **state)
                NULL, 0, "the lagged contact is beyond its stability limit");
     cli_expect("run mms_pressed --n 10 --contact lagged --quiet", NULL, 0,
                "the lagged contact may gain energy as it opens and closes");
+    /* run and study alike */
+    cli_write_file("blow.yaml", SCENE "  load: t + 3e5*exp(-((t - 0.1234567)/1e-5)^2) [N/m]\n");
+    cli_expect("run blow.yaml --n 4 --k 0.05", NULL, 0, "with k = 0.05 s 91 % of its impulse");
+    cli_expect("study blow.yaml --n 4,8 --k 0.1,0.05 --reference fine:16,0.025 --out blow", NULL, 0,
+               "with k = 0.05 s 91 % of its impulse, most of it near t = 0.125 s");
 }
 
 static void make_left_behind(const char *name, char path[512])
