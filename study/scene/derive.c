@@ -80,6 +80,28 @@ static unsigned square_minus_one(builder *b, unsigned a)
 
 /* ---- rules ---- */
 
+/* f'(a) of an inverse function, or of one that is constant between jumps */
+static unsigned outer_of_inverse(builder *b, enum br_operation operation, unsigned a)
+{
+    const unsigned one = number(b, 1);
+    switch (operation) {
+    case BR_OP_ASIN:
+        return divide(b, one, of(b, BR_OP_SQRT, one_minus_square(b, a)));
+    case BR_OP_ACOS:
+        return divide(b, number(b, -1), of(b, BR_OP_SQRT, one_minus_square(b, a)));
+    case BR_OP_ATAN:
+        return divide(b, one, add(b, one, square(b, a)));
+    case BR_OP_ASINH:
+        return divide(b, one, of(b, BR_OP_SQRT, add(b, one, square(b, a))));
+    case BR_OP_ACOSH:
+        return divide(b, one, of(b, BR_OP_SQRT, square_minus_one(b, a)));
+    case BR_OP_ATANH:
+        return divide(b, one, one_minus_square(b, a));
+    default: /* not, sign, step */
+        return number(b, 0);
+    }
+}
+
 /* f'(a) of a function of one argument, f = node i */
 static unsigned outer(builder *b, enum br_operation operation, unsigned i, unsigned a)
 {
@@ -93,24 +115,12 @@ static unsigned outer(builder *b, enum br_operation operation, unsigned i, unsig
         return negate(b, of(b, BR_OP_SIN, a));
     case BR_OP_TAN:
         return add(b, one, square(b, i));
-    case BR_OP_ASIN:
-        return divide(b, one, of(b, BR_OP_SQRT, one_minus_square(b, a)));
-    case BR_OP_ACOS:
-        return divide(b, number(b, -1), of(b, BR_OP_SQRT, one_minus_square(b, a)));
-    case BR_OP_ATAN:
-        return divide(b, one, add(b, one, square(b, a)));
     case BR_OP_SINH:
         return of(b, BR_OP_COSH, a);
     case BR_OP_COSH:
         return of(b, BR_OP_SINH, a);
     case BR_OP_TANH:
         return divide(b, one, square(b, of(b, BR_OP_COSH, a)));
-    case BR_OP_ASINH:
-        return divide(b, one, of(b, BR_OP_SQRT, add(b, one, square(b, a))));
-    case BR_OP_ACOSH:
-        return divide(b, one, of(b, BR_OP_SQRT, square_minus_one(b, a)));
-    case BR_OP_ATANH:
-        return divide(b, one, one_minus_square(b, a));
     case BR_OP_EXP:
         return i;
     case BR_OP_EXPM1:
@@ -125,8 +135,8 @@ static unsigned outer(builder *b, enum br_operation operation, unsigned i, unsig
         return divide(b, number(b, 0.5), i);
     case BR_OP_ABS:
         return subtract(b, multiply(b, number(b, 2), of(b, BR_OP_STEP, a)), one);
-    default: /* not, sign, step */
-        return number(b, 0);
+    default:
+        return outer_of_inverse(b, operation, a);
     }
 }
 
