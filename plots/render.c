@@ -169,7 +169,7 @@ static enum br_status begin(struct br_rendering *r, bool *missing, struct br_err
     if (!failure)
         return BR_OK;
     close(ends[0]);
-    *missing = failure == ENOENT;
+    *missing = failure == ENOENT || failure == ENOTDIR; /* PATH may name what is no folder */
     return br_fail(err, BR_IO, "gnuplot cannot be run: %s",
                    *missing ? "it is not installed" : strerror(failure));
 }
