@@ -20,6 +20,11 @@ const char *br_commit(void)
     return BR_COMMIT;
 }
 
+const char *br_command_line(void)
+{
+    return command_line;
+}
+
 /* text += part, in single quotes where a shell would need them. */
 static void append_quoted(const char *part)
 {

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/manifest.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "cli/provenance.h"
+#include "tables/json_value.h"
+
+static const char format[] = "beamrate-set 1";
+
+enum { LARGEST = 1 << 24 }; /* bytes of a manifest */
+
+enum br_status br_run_id_make(char run[BR_RUN_ID], struct br_error *err)
+{
+    const time_t now = time(NULL);
+    struct tm utc;
+    unsigned long long random;
+    if (getrandom(&random, sizeof random, 0) != sizeof random)
+        return br_fail(err, BR_IO, "no random bits for the run's name: %s", strerror(errno));
+    gmtime_r(&now, &utc);
+    const size_t used = strftime(run, BR_RUN_ID, "%Y%m%dT%H%M%SZ", &utc);
+    snprintf(run + used, BR_RUN_ID - used, "-%016llx", random);
+    return BR_OK;
+}
+
+void br_manifest_clear(struct br_manifest *m)
+{
+    for (size_t i = 0; i < m->count; i++)
+        free(m->file[i].name);
+    free(m->file);
+    m->file = NULL;
+    m->count = 0;
+}
+
+const struct br_manifest_file *br_manifest_find(const struct br_manifest *m, const char *name)
+{
+    for (size_t i = 0; i < m->count; i++)
+        if (strcmp(m->file[i].name, name) == 0)
+            return &m->file[i];
+    return NULL;
+}
+
+/* ---- listing ---- */
+
+/* Size and sum of an open file. */
+static bool measure(int file, struct br_manifest_file *f)
+{
+    struct br_sha256 sum;
+    char piece[1 << 15];
+    ssize_t got;
+    f->size = 0;
+    br_sha256_start(&sum);
+    while ((got = read(file, piece, sizeof piece)) != 0) {
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            return false;
+        br_sha256_add(&sum, piece, (size_t)got);
+        f->size += got;
+    }
+    br_sha256_end(&sum, f->sha256);
+    return true;
+}
+
+static enum br_status list_one(int folder, const char *name, struct br_manifest_file *f,
+                               struct br_error *err)
+{
+    f->name = strdup(name);
+    if (!f->name)
+        return br_no_memory(err, "the list of files");
+    const int file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+    const bool whole = file >= 0 && fsync(file) == 0 && measure(file, f);
+    const int reason = errno;
+    if (file >= 0)
+        close(file);
+    return whole ? BR_OK
+                 : br_fail(err, BR_IO, "%s could not be written whole: %s", name, strerror(reason));
+}
+
+static int is_listed(const struct dirent *entry)
+{
+    return entry->d_name[0] != '.';
+}
+
+enum br_status br_manifest_list(int folder, struct br_manifest *m, struct br_error *err)
+{
+    struct dirent **entry;
+    const int found = scandirat(folder, ".", &entry, is_listed, alphasort);
+    if (found < 0)
+        return errno == ENOMEM ? br_no_memory(err, "the list of files")
+                               : br_fail(err, BR_IO, "the results: %s", strerror(errno));
+    m->file = br_allocate((size_t)found, sizeof *m->file);
+    enum br_status status = m->file ? BR_OK : br_no_memory(err, "the list of files");
+    for (int i = 0; i < found; i++) {
+        if (!status)
+            status = list_one(folder, entry[i]->d_name, &m->file[m->count++], err);
+        free(entry[i]);
+    }
+    free(entry);
+    return status;
+}
+
+bool br_manifest_matches(int folder, const struct br_manifest_file *listed)
+{
+    struct br_manifest_file there;
+    const int file = openat(folder, listed->name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0)
+        return false;
+    const bool same = measure(file, &there) && there.size == listed->size &&
+                      strcmp(there.sha256, listed->sha256) == 0;
+    close(file);
+    return same;
+}
+
+/* ---- as JSON ---- */
+
+static json_t *json_of(const struct br_manifest *m)
+{
+    json_t *files = json_array();
+    for (size_t i = 0; i < m->count; i++) {
+        json_t *file = json_pack("{s:o, s:I, s:s}", "name", br_json_string(m->file[i].name), "size",
+                                 (json_int_t)m->file[i].size, "sha256", m->file[i].sha256);
+        if (json_array_append_new(files, file) != 0) {
+            json_decref(files);
+            return NULL;
+        }
+    }
+    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o}", "format", format, "run", m->run, "version",
+                     br_version(), "commit", br_commit(), "command",
+                     br_json_string(br_command_line()), "files", files);
+}
+
+bool br_write_whole(int file, const char *text, size_t length)
+{
+    while (length) {
+        const ssize_t put = write(file, text, length);
+        if (put < 0 && errno != EINTR)
+            return false;
+        text += put > 0 ? put : 0;
+        length -= put > 0 ? (size_t)put : 0;
+    }
+    return fsync(file) == 0;
+}
+
+static enum br_status write_text(int folder, const char *name, const char *text,
+                                 struct br_error *err)
+{
+    static const char unfinished[] = ".unfinished";
+    const int file = openat(folder, unfinished, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    const bool written = file >= 0 && br_write_whole(file, text, strlen(text));
+    const int reason = errno;
+    if (file >= 0)
+        close(file);
+    if (!written)
+        return br_fail(err, BR_IO, "the manifest could not be written: %s", strerror(reason));
+    if (renameat(folder, unfinished, folder, name) != 0 || fsync(folder) != 0)
+        return br_fail(err, BR_IO, "the manifest: %s", strerror(errno));
+    return BR_OK;
+}
+
+enum br_status br_manifest_write(int folder, const char *name, const struct br_manifest *m,
+                                 struct br_error *err)
+{
+    json_t *json = json_of(m);
+    char *text = json ? json_dumps(json, JSON_INDENT(2)) : NULL;
+    json_decref(json);
+    const enum br_status status =
+        text ? write_text(folder, name, text, err) : br_no_memory(err, "the manifest");
+    free(text);
+    return status;
+}
+
+/* A name that leads elsewhere, or to what is hidden, is none of ours. */
+static bool read_file(json_t *json, struct br_manifest_file *f, enum br_status *status)
+{
+    const char *name, *sum;
+    json_int_t size;
+    if (json_unpack(json, "{s:s, s:I, s:s}", "name", &name, "size", &size, "sha256", &sum) != 0 ||
+        !*name || *name == '.' || strchr(name, '/') || strlen(sum) != BR_SHA256_TEXT - 1)
+        return false;
+    f->name = strdup(name);
+    f->size = size;
+    strcpy(f->sha256, sum);
+    *status = f->name ? BR_OK : BR_NO_MEMORY;
+    return true;
+}
+
+static enum br_status read_json(json_t *json, const char *name, struct br_manifest *m,
+                                struct br_error *err)
+{
+    const char *tag, *run;
+    json_t *files;
+    bool ours =
+        json_unpack(json, "{s:s, s:s, s:o}", "format", &tag, "run", &run, "files", &files) == 0 &&
+        strcmp(tag, format) == 0 && strlen(run) < sizeof m->run && json_is_array(files);
+    const size_t count = ours ? json_array_size(files) : 0;
+    enum br_status status = BR_OK;
+    if (ours && !(m->file = br_allocate(count, sizeof *m->file)))
+        return br_no_memory(err, "a manifest");
+    for (size_t i = 0; i < count && ours && !status; i++) {
+        ours = read_file(json_array_get(files, i), &m->file[i], &status);
+        m->count += ours;
+    }
+    if (!ours)
+        return br_fail(err, BR_BAD_INPUT, "%s is not a manifest of this program (\"%s\")", name,
+                       format);
+    strcpy(m->run, run);
+    return status ? br_no_memory(err, "a manifest") : BR_OK;
+}
+
+enum br_status br_manifest_read(int folder, const char *name, struct br_manifest *m,
+                                struct br_error *err)
+{
+    json_error_t why = {.line = 0};
+    const int file = openat(folder, name, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0)
+        return errno == ENOENT ? BR_OK : br_fail(err, BR_IO, "%s: %s", name, strerror(errno));
+    struct stat info;
+    const bool plain = fstat(file, &info) == 0 && S_ISREG(info.st_mode) && info.st_size < LARGEST;
+    errno = 0;
+    json_t *json = plain ? json_loadfd(file, 0, &why) : NULL;
+    const bool memory = errno == ENOMEM || json_error_code(&why) == json_error_out_of_memory;
+    close(file);
+    if (!json && plain && memory)
+        return br_no_memory(err, "a manifest");
+    const enum br_status status = read_json(json, name, m, err);
+    json_decref(json);
+    return status;
+}
