@@ -109,16 +109,25 @@ enum br_status br_manifest_list(int folder, struct br_manifest *m, struct br_err
     return status;
 }
 
-bool br_manifest_matches(int folder, const struct br_manifest_file *listed)
+enum br_status br_manifest_compare(int folder, const struct br_manifest_file *listed, bool *same,
+                                   struct br_error *err)
 {
     struct br_manifest_file there;
+    struct stat info;
     const int file = openat(folder, listed->name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0)
-        return false;
-    const bool same = measure(file, &there) && there.size == listed->size &&
-                      strcmp(there.sha256, listed->sha256) == 0;
-    close(file);
-    return same;
+    *same = false;
+    if (file < 0 && errno == ELOOP)
+        return BR_OK; /* a symbolic link now */
+    const bool known = file >= 0 && fstat(file, &info) == 0;
+    const bool read = known && (!S_ISREG(info.st_mode) || measure(file, &there));
+    const int reason = errno;
+    if (file >= 0)
+        close(file);
+    if (!read)
+        return br_fail(err, BR_IO, "%s: %s", listed->name, strerror(reason));
+    *same = S_ISREG(info.st_mode) && there.size == listed->size &&
+            strcmp(there.sha256, listed->sha256) == 0;
+    return BR_OK;
 }
 
 /* ---- as JSON ---- */

@@ -42,8 +42,9 @@ enum br_status br_manifest_read(int folder, const char *name, struct br_manifest
 const struct br_manifest_file *br_manifest_find(const struct br_manifest *manifest,
                                                 const char *name);
 
-/* Whether the file in the open folder is as listed, to the byte. */
-bool br_manifest_matches(int folder, const struct br_manifest_file *file);
+/* *same (out): whether the file in the open folder is as listed, to the byte. Fails with BR_IO. */
+enum br_status br_manifest_compare(int folder, const struct br_manifest_file *file, bool *same,
+                                   struct br_error *err);
 
 /* Writes all of the bytes, and waits until the disk has them. False: errno tells why. */
 bool br_write_whole(int file, const char *bytes, size_t count);

@@ -34,20 +34,20 @@ static enum br_status place(int parent, int folder, const char *name, bool liste
     return failed ? br_fail(err, BR_IO, "%s: %s", name, strerror(errno)) : BR_OK;
 }
 
-static enum br_status remove_stale(int parent, const struct br_manifest *old,
-                                   const struct br_manifest *set, struct br_error *err)
+/* What has been changed since is a person's own. */
+static enum br_status remove_stale(int parent, const struct br_manifest_file *f,
+                                   struct br_error *err)
 {
-    for (size_t i = 0; i < old->count; i++) {
-        const struct br_manifest_file *f = &old->file[i];
-        if (br_manifest_find(set, f->name) || !is_there(parent, f->name))
-            continue;
-        if (!br_manifest_matches(parent, f))
-            fprintf(stderr, "beamrate: %s is of an earlier run and was changed since: it stays\n",
-                    f->name);
-        else if (unlinkat(parent, f->name, 0) != 0)
-            return br_fail(err, BR_IO, "%s: %s", f->name, strerror(errno));
-    }
-    return BR_OK;
+    bool same;
+    const enum br_status status = br_manifest_compare(parent, f, &same, err);
+    if (status)
+        return status;
+    if (!same)
+        fprintf(stderr, "beamrate: %s is of an earlier run and was changed since: it stays\n",
+                f->name);
+    return !same || unlinkat(parent, f->name, 0) == 0
+               ? BR_OK
+               : br_fail(err, BR_IO, "%s: %s", f->name, strerror(errno));
 }
 
 static enum br_status move_all(int parent, int folder, const char *name, struct br_error *err)
@@ -60,8 +60,9 @@ static enum br_status move_all(int parent, int folder, const char *name, struct 
         const char *file = set.file[i].name;
         status = place(parent, folder, file, br_manifest_find(&old, file), err);
     }
-    if (!status)
-        status = remove_stale(parent, &old, &set, err);
+    for (size_t i = 0; i < old.count && !status; i++)
+        if (!br_manifest_find(&set, old.file[i].name) && is_there(parent, old.file[i].name))
+            status = remove_stale(parent, &old.file[i], err);
     if (!status && renameat(folder, decided, parent, name) != 0)
         status = br_fail(err, BR_IO, "%s: %s", name, strerror(errno));
     if (!status && fsync(parent) != 0 && errno != EINVAL)
@@ -308,9 +309,13 @@ void br_output_discard(struct br_output *o)
 {
     if (!o->staging[0])
         return;
-    if (o->descriptor >= 0)
-        br_staging_remove(o->parent, o->hidden, o->descriptor);
-    o->descriptor = -1;
+    if (o->descriptor >= 0) {
+        unlinkat(o->descriptor, decided, 0); /* where it cannot go, its files must stay */
+        if (!is_there(o->descriptor, decided)) {
+            br_staging_remove(o->parent, o->hidden, o->descriptor);
+            o->descriptor = -1;
+        }
+    }
     close_output(o);
     if (o->made)
         rmdir(o->folder); /* fails, as it should, where there are results */

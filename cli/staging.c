@@ -105,20 +105,29 @@ int br_staging_take(int parent, const char *name)
     return -1;
 }
 
-/* The owner goes last: what has one is ours. */
-void br_staging_remove(int parent, const char *name, int folder)
+/* All files but the owner's. False: some are still there. */
+static bool empty(int folder)
 {
     const int copy = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     DIR *list = copy >= 0 ? fdopendir(copy) : NULL;
-    for (struct dirent *entry; list && (entry = readdir(list));)
-        if (strcmp(entry->d_name, owner_name) != 0)
-            unlinkat(folder, entry->d_name, 0); /* a folder stays, "." and ".." too */
+    if (!list && copy >= 0)
+        close(copy);
+    bool all = list;
+    for (struct dirent *entry; list && (entry = readdir(list));) {
+        const char *name = entry->d_name;
+        if (strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && strcmp(name, owner_name) != 0)
+            all = unlinkat(folder, name, 0) == 0 && all;
+    }
     if (list)
         closedir(list);
-    else if (copy >= 0)
-        close(copy);
-    unlinkat(folder, owner_name, 0);
-    unlinkat(parent, name, AT_REMOVEDIR);
+    return all;
+}
+
+/* The owner goes last: what has one is ours, and the next program removes the rest. */
+void br_staging_remove(int parent, const char *name, int folder)
+{
+    if (empty(folder) && unlinkat(folder, owner_name, 0) == 0)
+        unlinkat(parent, name, AT_REMOVEDIR);
     close(folder);
 }
 
