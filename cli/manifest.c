@@ -132,13 +132,22 @@ enum br_status br_manifest_compare(int folder, const struct br_manifest_file *li
 
 /* ---- as JSON ---- */
 
+/* A name, or where it is not UTF-8, which JSON must be, "name_hex": its bytes. */
+static json_t *json_of_file(const struct br_manifest_file *f)
+{
+    json_t *name = json_string(f->name);
+    char hex[2 * 256 + 1] = "";
+    for (size_t i = 0; !name && f->name[i] && i < 256; i++)
+        snprintf(hex + 2 * i, 3, "%02x", (unsigned char)f->name[i]);
+    return json_pack("{s:o, s:I, s:s}", name ? "name" : "name_hex", name ? name : json_string(hex),
+                     "size", (json_int_t)f->size, "sha256", f->sha256);
+}
+
 static json_t *json_of(const struct br_manifest *m)
 {
     json_t *files = json_array();
     for (size_t i = 0; i < m->count; i++) {
-        json_t *file = json_pack("{s:o, s:I, s:s}", "name", br_json_string(m->file[i].name), "size",
-                                 (json_int_t)m->file[i].size, "sha256", m->file[i].sha256);
-        if (json_array_append_new(files, file) != 0) {
+        if (json_array_append_new(files, json_of_file(&m->file[i])) != 0) {
             json_decref(files);
             return NULL;
         }
@@ -188,19 +197,31 @@ enum br_status br_manifest_write(int folder, const char *name, const struct br_m
     return status;
 }
 
-/* A name that leads elsewhere, or to what is hidden, is none of ours. */
-static bool read_file(json_t *json, struct br_manifest_file *f, enum br_status *status)
+/* false: no name. */
+static bool read_name(const json_t *json, struct br_manifest_file *f, enum br_status *status)
 {
-    const char *name, *sum;
-    json_int_t size;
-    if (json_unpack(json, "{s:s, s:I, s:s}", "name", &name, "size", &size, "sha256", &sum) != 0 ||
-        !*name || *name == '.' || strchr(name, '/') || strlen(sum) != BR_SHA256_TEXT - 1)
+    const char *name = json_string_value(json_object_get(json, "name"));
+    const char *hex = json_string_value(json_object_get(json, "name_hex"));
+    if (!name == !hex)
         return false;
-    f->name = strdup(name);
-    f->size = size;
-    strcpy(f->sha256, sum);
+    f->name = name ? strdup(name) : br_allocate(strlen(hex) / 2 + 1, 1);
+    for (unsigned i = 0, byte; hex && f->name && sscanf(hex + 2 * i, "%2x", &byte) == 1; i++)
+        f->name[i] = (char)byte;
     *status = f->name ? BR_OK : BR_NO_MEMORY;
     return true;
+}
+
+/* A name that leads elsewhere, or to what is hidden, is none of ours. */
+static bool read_file(const json_t *json, struct br_manifest_file *f, enum br_status *status)
+{
+    const json_t *size = json_object_get(json, "size");
+    const char *sum = json_string_value(json_object_get(json, "sha256"));
+    if (!json_is_integer(size) || !sum || strlen(sum) != BR_SHA256_TEXT - 1 ||
+        !read_name(json, f, status))
+        return false;
+    f->size = json_integer_value(size);
+    strcpy(f->sha256, sum);
+    return *status || (*f->name && *f->name != '.' && !strchr(f->name, '/'));
 }
 
 static enum br_status read_json(json_t *json, const char *name, struct br_manifest *m,
@@ -217,7 +238,7 @@ static enum br_status read_json(json_t *json, const char *name, struct br_manife
         return br_no_memory(err, "a manifest");
     for (size_t i = 0; i < count && ours && !status; i++) {
         ours = read_file(json_array_get(files, i), &m->file[i], &status);
-        m->count += ours;
+        m->count += m->file[i].name != NULL;
     }
     if (!ours)
         return br_fail(err, BR_BAD_INPUT, "%s is not a manifest of this program (\"%s\")", name,
