@@ -4,7 +4,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <jansson.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/random.h>
@@ -37,8 +36,13 @@ void br_manifest_clear(struct br_manifest *m)
     for (size_t i = 0; i < m->count; i++)
         free(m->file[i].name);
     free(m->file);
-    m->file = NULL;
-    m->count = 0;
+    json_decref(m->sets);
+    *m = (struct br_manifest){.sets = NULL};
+}
+
+bool br_manifest_newest(const struct br_manifest *m, const struct br_manifest_file *f)
+{
+    return f->set + 1 == json_array_size(m->sets);
 }
 
 const struct br_manifest_file *br_manifest_find(const struct br_manifest *m, const char *name)
@@ -91,24 +95,6 @@ static int is_listed(const struct dirent *entry)
     return entry->d_name[0] != '.';
 }
 
-enum br_status br_manifest_list(int folder, struct br_manifest *m, struct br_error *err)
-{
-    struct dirent **entry;
-    const int found = scandirat(folder, ".", &entry, is_listed, alphasort);
-    if (found < 0)
-        return errno == ENOMEM ? br_no_memory(err, "the list of files")
-                               : br_fail(err, BR_IO, "the results: %s", strerror(errno));
-    m->file = br_allocate((size_t)found, sizeof *m->file);
-    enum br_status status = m->file ? BR_OK : br_no_memory(err, "the list of files");
-    for (int i = 0; i < found; i++) {
-        if (!status)
-            status = list_one(folder, entry[i]->d_name, &m->file[m->count++], err);
-        free(entry[i]);
-    }
-    free(entry);
-    return status;
-}
-
 enum br_status br_manifest_compare(int folder, const struct br_manifest_file *listed, bool *same,
                                    struct br_error *err)
 {
@@ -143,7 +129,8 @@ static json_t *json_of_file(const struct br_manifest_file *f)
                      "size", (json_int_t)f->size, "sha256", f->sha256);
 }
 
-static json_t *json_of(const struct br_manifest *m)
+/* The set of the files in m, all of them. */
+static json_t *json_of(const struct br_manifest *m, const char *run)
 {
     json_t *files = json_array();
     for (size_t i = 0; i < m->count; i++) {
@@ -152,9 +139,8 @@ static json_t *json_of(const struct br_manifest *m)
             return NULL;
         }
     }
-    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o}", "format", format, "run", m->run, "version",
-                     br_version(), "commit", br_commit(), "command",
-                     br_json_string(br_command_line()), "files", files);
+    return json_pack("{s:s, s:s, s:s, s:o, s:o}", "run", run, "version", br_version(), "commit",
+                     br_commit(), "command", br_json_string(br_command_line()), "files", files);
 }
 
 bool br_write_whole(int file, const char *text, size_t length)
@@ -188,7 +174,7 @@ static enum br_status write_text(int folder, const char *name, const char *text,
 enum br_status br_manifest_write(int folder, const char *name, const struct br_manifest *m,
                                  struct br_error *err)
 {
-    json_t *json = json_of(m);
+    json_t *json = json_pack("{s:s, s:O}", "format", format, "sets", m->sets);
     char *text = json ? json_dumps(json, JSON_INDENT(2)) : NULL;
     json_decref(json);
     const enum br_status status =
@@ -224,27 +210,50 @@ static bool read_file(const json_t *json, struct br_manifest_file *f, enum br_st
     return *status || (*f->name && *f->name != '.' && !strchr(f->name, '/'));
 }
 
+/* Adds the files of the set after those that are there. */
+static bool read_set(const json_t *set, struct br_manifest *m, enum br_status *status)
+{
+    const json_t *files = json_object_get(set, "files");
+    const size_t count = json_array_size(files), index = json_array_size(m->sets) - 1;
+    struct br_manifest_file *all = realloc(m->file, (m->count + count + 1) * sizeof *all);
+    *status = all ? BR_OK : BR_NO_MEMORY;
+    bool ours = json_is_array(files);
+    m->file = all ? all : m->file;
+    for (size_t i = 0; i < count && ours && !*status; i++) {
+        struct br_manifest_file *f = &m->file[m->count];
+        *f = (struct br_manifest_file){.set = index};
+        ours = read_file(json_array_get(files, i), f, status);
+        m->count += f->name != NULL;
+    }
+    return ours;
+}
+
+static enum br_status add_set(json_t *set, const char *name, struct br_manifest *m,
+                              struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    if (!m->sets && !(m->sets = json_array()))
+        return br_no_memory(err, "a manifest");
+    if (json_array_append(m->sets, set) != 0)
+        return br_no_memory(err, "a manifest");
+    if (!read_set(set, m, &status))
+        return br_fail(err, BR_BAD_INPUT, "%s is not a manifest of this program (\"%s\")", name,
+                       format);
+    return status ? br_no_memory(err, "a manifest") : BR_OK;
+}
+
 static enum br_status read_json(json_t *json, const char *name, struct br_manifest *m,
                                 struct br_error *err)
 {
-    const char *tag, *run;
-    json_t *files;
-    bool ours =
-        json_unpack(json, "{s:s, s:s, s:o}", "format", &tag, "run", &run, "files", &files) == 0 &&
-        strcmp(tag, format) == 0 && strlen(run) < sizeof m->run && json_is_array(files);
-    const size_t count = ours ? json_array_size(files) : 0;
-    enum br_status status = BR_OK;
-    if (ours && !(m->file = br_allocate(count, sizeof *m->file)))
-        return br_no_memory(err, "a manifest");
-    for (size_t i = 0; i < count && ours && !status; i++) {
-        ours = read_file(json_array_get(files, i), &m->file[i], &status);
-        m->count += m->file[i].name != NULL;
-    }
-    if (!ours)
+    const char *tag = json_string_value(json_object_get(json, "format"));
+    const json_t *sets = json_object_get(json, "sets");
+    if (!tag || strcmp(tag, format) != 0 || !json_is_array(sets))
         return br_fail(err, BR_BAD_INPUT, "%s is not a manifest of this program (\"%s\")", name,
                        format);
-    strcpy(m->run, run);
-    return status ? br_no_memory(err, "a manifest") : BR_OK;
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < json_array_size(sets) && !status; i++)
+        status = add_set(json_array_get(sets, i), name, m, err);
+    return status;
 }
 
 enum br_status br_manifest_read(int folder, const char *name, struct br_manifest *m,
@@ -264,5 +273,60 @@ enum br_status br_manifest_read(int folder, const char *name, struct br_manifest
         return br_no_memory(err, "a manifest");
     const enum br_status status = read_json(json, name, m, err);
     json_decref(json);
+    return status;
+}
+
+/* ---- a new set ---- */
+
+/* The files of the open folder. */
+static enum br_status list_files(int folder, struct br_manifest *m, struct br_error *err)
+{
+    struct dirent **entry;
+    const int found = scandirat(folder, ".", &entry, is_listed, alphasort);
+    if (found < 0)
+        return errno == ENOMEM ? br_no_memory(err, "the list of files")
+                               : br_fail(err, BR_IO, "the results: %s", strerror(errno));
+    m->file = br_allocate((size_t)found, sizeof *m->file);
+    enum br_status status = m->file ? BR_OK : br_no_memory(err, "the list of files");
+    for (int i = 0; i < found; i++) {
+        if (!status)
+            status = list_one(folder, entry[i]->d_name, &m->file[m->count++], err);
+        free(entry[i]);
+    }
+    free(entry);
+    return status;
+}
+
+static size_t stem_of(const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    return dot ? (size_t)(dot - name) : strlen(name);
+}
+
+/* Whether a file of the old set has the name of a new one, whatever their formats are. */
+static bool is_superseded(const struct br_manifest *old, size_t set, const struct br_manifest *new)
+{
+    for (size_t i = 0; i < old->count; i++)
+        for (size_t j = 0; j < new->count && old->file[i].set == set; j++) {
+            const char *a = old->file[i].name, *b = new->file[j].name;
+            if (stem_of(a) == stem_of(b) && strncmp(a, b, stem_of(a)) == 0)
+                return true;
+        }
+    return false;
+}
+
+enum br_status br_manifest_list(int folder, const char *run, const struct br_manifest *old,
+                                struct br_manifest *m, struct br_error *err)
+{
+    struct br_manifest new = {.sets = NULL};
+    enum br_status status = list_files(folder, &new, err);
+    for (size_t i = 0; i < json_array_size(old->sets) && !status; i++)
+        if (!is_superseded(old, i, &new))
+            status = add_set(json_array_get(old->sets, i), "it", m, err);
+    json_t *set = status ? NULL : json_of(&new, run);
+    if (!status)
+        status = set ? add_set(set, "it", m, err) : br_no_memory(err, "the manifest");
+    json_decref(set);
+    br_manifest_clear(&new);
     return status;
 }

@@ -52,13 +52,14 @@ static enum br_status remove_stale(int parent, const struct br_manifest_file *f,
 
 static enum br_status move_all(int parent, int folder, const char *name, struct br_error *err)
 {
-    struct br_manifest old = {.count = 0}, set = {.count = 0};
+    struct br_manifest old = {.sets = NULL}, set = {.sets = NULL};
     enum br_status status = br_manifest_read(folder, decided, &set, err);
     if (!status)
         status = br_manifest_read(folder, replaced, &old, err);
     for (size_t i = 0; i < set.count && !status; i++) {
         const char *file = set.file[i].name;
-        status = place(parent, folder, file, br_manifest_find(&old, file), err);
+        if (br_manifest_newest(&set, &set.file[i]))
+            status = place(parent, folder, file, br_manifest_find(&old, file), err);
     }
     for (size_t i = 0; i < old.count && !status; i++)
         if (!br_manifest_find(&set, old.file[i].name) && is_there(parent, old.file[i].name))
@@ -165,7 +166,7 @@ static enum br_status make_staging(struct br_output *o, struct br_error *err)
 
 static enum br_status check_manifest(const struct br_output *o, struct br_error *err)
 {
-    struct br_manifest old = {.count = 0};
+    struct br_manifest old = {.sets = NULL};
     const enum br_status status = br_manifest_read(o->parent, o->manifest, &old, err);
     br_manifest_clear(&old);
     return status;
@@ -230,7 +231,8 @@ static const char *find_foreign(const struct br_output *o, const struct br_manif
 {
     struct stat info;
     for (size_t i = 0; i < set->count; i++)
-        if (fstatat(o->parent, set->file[i].name, &info, AT_SYMLINK_NOFOLLOW) == 0 &&
+        if (br_manifest_newest(set, &set->file[i]) &&
+            fstatat(o->parent, set->file[i].name, &info, AT_SYMLINK_NOFOLLOW) == 0 &&
             (S_ISDIR(info.st_mode) || !br_manifest_find(old, set->file[i].name)))
             return set->file[i].name;
     return NULL;
@@ -286,11 +288,10 @@ static enum br_status put_in_place(struct br_output *o, struct br_error *err)
 
 enum br_status br_output_commit(struct br_output *o, struct br_error *err)
 {
-    struct br_manifest set = {.count = 0}, old = {.count = 0};
-    enum br_status status = br_manifest_list(o->descriptor, &set, err);
+    struct br_manifest set = {.sets = NULL}, old = {.sets = NULL};
+    enum br_status status = br_manifest_read(o->parent, o->manifest, &old, err);
     if (!status)
-        status = br_manifest_read(o->parent, o->manifest, &old, err);
-    strcpy(set.run, o->run);
+        status = br_manifest_list(o->descriptor, o->run, &old, &set, err);
     const char *foreign = status ? NULL : find_foreign(o, &set, &old);
     if (!status && br_signals_caught())
         status = br_fail(err, BR_INTERRUPTED, "interrupted");

@@ -10,7 +10,10 @@
  *   4. the new manifest is renamed into place: the folder has the new set.
  * A program that is ended before that rename leaves the old set, and one that is ended after it
  * leaves the rest to the next one that opens the folder. So a folder with a manifest has all of
- * that set, at every moment. What neither manifest lists is never touched. */
+ * that set, at every moment. What neither manifest lists is never touched.
+ *
+ * A folder may have several sets, of several runs. A new one takes the place of those with which it
+ * shares a file's name, whatever the formats are; the others stay. */
 #ifndef BR_OUTPUT_H
 #define BR_OUTPUT_H
 

@@ -17,8 +17,7 @@
 static struct cli_outcome out;
 
 /* Two commands whose sets share some names, and not all. */
-static const char old_line[] = "study example1 --n 4 --k 0.1 --reference exact --no-plots --quiet "
-                               "--out set",
+static const char old_line[] = "study summary.yaml --n 4 --k 0.1 --no-plots --quiet --out set",
                   new_line[] = "run example1 --n 4 --k 0.1 --quiet --out set";
 
 /* Runs a line with a fault; whether the call was reached. */
@@ -71,7 +70,9 @@ static char set_that_is_there(void)
     json_t *manifest = json_load_file(path, 0, NULL);
     if (!manifest)
         return '-';
-    const json_t *files = json_object_get(manifest, "files");
+    const json_t *set = json_array_get(json_object_get(manifest, "sets"), 0);
+    const json_t *files = json_object_get(set, "files");
+    assert_int_equal(json_array_size(json_object_get(manifest, "sets")), 1);
     const size_t count = json_array_size(files);
     assert_true(count > 0);
     const char *lines = sums();
@@ -83,7 +84,7 @@ static char set_that_is_there(void)
         if (!strstr(lines, line))
             fail_msg("not as the manifest says: %s", line);
     }
-    const char *command = json_string_value(json_object_get(manifest, "command"));
+    const char *command = json_string_value(json_object_get(set, "command"));
     const char which = strstr(command, " study ") ? 's' : 'r';
     const size_t hidden = cli_is_there("set/.beamrate");
     assert_int_equal(cli_count_files("set"), count + hidden);
@@ -224,13 +225,13 @@ static void test_foreign(void **state)
     cli_write_file("set/notes.txt", "mine");
     cli_expect(new_line, NULL, 0, "");
     assert_string_equal(cli_read("set/notes.txt"), "mine");
-    assert_false(cli_is_there("set/example1.csv")); /* of the old set */
-    cli_write_file("set/summary.txt", "changed");
-    cli_expect(old_line, NULL, 0, "summary.txt is of an earlier run and was changed since");
-    assert_string_equal(cli_read("set/summary.txt"), "changed");
-    cli_expect(new_line, NULL, 3, "summary.txt was not written by an earlier run");
-    assert_string_equal(cli_read("set/summary.txt"), "changed");
-    assert_true(cli_is_there("set/example1.csv"));
+    assert_false(cli_is_there("set/summary.csv")); /* of the old set */
+    cli_write_file("set/history.csv", "changed");
+    cli_expect(old_line, NULL, 0, "history.csv is of an earlier run and was changed since");
+    assert_string_equal(cli_read("set/history.csv"), "changed");
+    cli_expect(new_line, NULL, 3, "history.csv was not written by an earlier run");
+    assert_string_equal(cli_read("set/history.csv"), "changed");
+    assert_true(cli_is_there("set/summary.csv"));
     assert_false(cli_is_there("set/.beamrate"));
 }
 
@@ -254,6 +255,26 @@ static void test_scene_in_the_way(void **state)
     assert_true(cli_file_contains("set/manifest.json", "somebody"));
 }
 
+/* Sets that share no name live side by side; one of other formats takes the old one's place. */
+static void test_several_sets(void **state)
+{
+    (void)state;
+    clear_set();
+    cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set", NULL, 0, "");
+    cli_expect("study example2 --n 4 --k 0.1 --no-plots --quiet --out set", NULL, 0, "");
+    assert_int_equal(cli_count_files("set"), 10);
+    cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --norm tip", NULL, 0, "");
+    assert_int_equal(cli_count_files("set"), 15);
+    assert_true(cli_file_contains("set/manifest.json", "study example2"));
+    cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --format csv", NULL, 0,
+               "");
+    assert_int_equal(cli_count_files("set"), 11);
+    cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --format json", NULL, 0,
+               "");
+    assert_true(cli_is_there("set/example1.json") && !cli_is_there("set/example1.csv"));
+    assert_int_equal(cli_count_files("set"), 11);
+}
+
 /* A movie's set and the other one do not disturb one another. */
 static void test_two_sets(void **state)
 {
@@ -264,7 +285,16 @@ static void test_two_sets(void **state)
     assert_true(cli_is_there("set/tip.manifest.json"));
     cli_expect(old_line, NULL, 0, "");
     assert_true(cli_is_there("set/tip.gp"));
-    assert_false(cli_is_there("set/summary.txt"));
+    assert_false(cli_is_there("set/history.csv"));
+}
+
+static int make_folder(void **state)
+{
+    if (cli_make_folder(state))
+        return -1;
+    cli_run_line("scenes example1", NULL, &out);
+    cli_write_file("summary.yaml", out.output);
+    return 0;
 }
 
 int main(void)
@@ -274,6 +304,7 @@ int main(void)
         cmocka_unit_test(test_dead_disk),        cmocka_unit_test(test_two_at_once),
         cmocka_unit_test(test_many_at_once),     cmocka_unit_test(test_foreign),
         cmocka_unit_test(test_scene_in_the_way), cmocka_unit_test(test_two_sets),
+        cmocka_unit_test(test_several_sets),
     };
-    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, cli_remove_folder);
 }
