@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/command.h"
 #include "cli/provenance.h"
@@ -110,7 +111,20 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     return command->run(argc - 1, argv + 1, err);
 }
 
-int main(int argc, const char **argv)
+/* Libraries that have no memory, or no thread, end the program: popt, OpenMP. */
+static bool returned;
+
+static void name_the_end(int code, void *self)
+{
+    (void)self;
+    static const char message[] = "beamrate: out of memory or threads: a library gave up\n";
+    if (returned || code == 0)
+        return;
+    (void)!write(STDERR_FILENO, message, sizeof message - 1);
+    _exit(br_status_exit_code(BR_NO_MEMORY));
+}
+
+static int run_all(int argc, const char **argv)
 {
     struct br_error err = {0};
     enum br_status status = join_ranks(&err);
@@ -128,4 +142,12 @@ int main(int argc, const char **argv)
     if (status)
         fprintf(stderr, "beamrate: %s\n", err.message);
     return br_status_exit_code(status);
+}
+
+int main(int argc, const char **argv)
+{
+    on_exit(name_the_end, NULL);
+    const int code = run_all(argc, argv);
+    returned = true;
+    return code;
 }

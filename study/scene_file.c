@@ -221,9 +221,15 @@ static enum br_status read_document(const struct br_scene_reader *r, struct br_v
     return status;
 }
 
+/* Where libyaml's loader has no memory it fails, and says nothing. */
+static bool lacks_memory(const yaml_parser_t *parser)
+{
+    return parser->error == YAML_MEMORY_ERROR || parser->error == YAML_NO_ERROR;
+}
+
 static enum br_status not_yaml(const struct br_scene_reader *r, const yaml_parser_t *parser)
 {
-    if (parser->error == YAML_MEMORY_ERROR)
+    if (lacks_memory(parser))
         return br_no_memory(r->err, "the YAML parser");
     return br_fail(r->err, BR_BAD_INPUT, "%s:%zu: not YAML: %s", r->path,
                    parser->problem_mark.line + 1, parser->problem ? parser->problem : "unreadable");
@@ -258,15 +264,15 @@ static enum br_status check_depth(const char *path, const char *text, struct br_
     if (!yaml_parser_initialize(&parser))
         return br_no_memory(err, "the YAML parser");
     yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
-    bool more = true;
-    while (more && depth <= DEEPEST && yaml_parser_parse(&parser, &event)) {
+    bool more = true, parsed = true;
+    while (more && depth <= DEEPEST && (parsed = yaml_parser_parse(&parser, &event))) {
         line = event.start_mark.line + 1;
         depth += event.type == YAML_SEQUENCE_START_EVENT || event.type == YAML_MAPPING_START_EVENT;
         depth -= event.type == YAML_SEQUENCE_END_EVENT || event.type == YAML_MAPPING_END_EVENT;
         more = event.type != YAML_STREAM_END_EVENT;
         yaml_event_delete(&event);
     }
-    const bool memory = parser.error == YAML_MEMORY_ERROR;
+    const bool memory = !parsed && lacks_memory(&parser);
     yaml_parser_delete(&parser);
     if (memory)
         return br_no_memory(err, "the YAML parser");

@@ -61,8 +61,6 @@ static void test_streams(void **state)
     expect_kept("fifos/summary.json");
     assert_int_equal(shell("cat scene.yaml | $BEAMRATE study - --no-plots " RUN "study"), 0);
     expect_kept("study/stdin.json");
-    assert_int_equal(shell("cat scene.yaml | $BEAMRATE plan - --error 0.1 --quiet --out plan"), 0);
-    expect_kept("plan/stdin-plan.json");
     assert_int_equal(shell("cat scene.yaml | $BEAMRATE trade - --split --no-plots " RUN "split"),
                      0);
     expect_kept("split/stdin-split.json");
