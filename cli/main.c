@@ -139,6 +139,10 @@ static int run_all(int argc, const char **argv)
         fprintf(stderr, "beamrate: interrupted; no file is half written\n");
         br_signals_raise_again();
     }
+    if (!status && br_signals_caught()) { /* a script that runs many commands must hear of it */
+        fprintf(stderr, "beamrate: interrupted when all was written\n");
+        br_signals_raise_again();
+    }
     if (status)
         fprintf(stderr, "beamrate: %s\n", err.message);
     return br_status_exit_code(status);
