@@ -10,6 +10,7 @@
 #include "cli/suggest.h"
 #include "study/ranks.h"
 #include "study/spread.h"
+#include "tables/json_value.h"
 
 extern const struct br_command br_command_check, br_command_completions, br_command_extremes,
     br_command_figures, br_command_plan, br_command_run, br_command_scenes, br_command_study,
@@ -59,6 +60,8 @@ static enum br_status check_stdout(struct br_error *err)
 {
     if (fflush(stdout) != 0 || ferror(stdout))
         return br_fail(err, BR_IO, "standard output could not be written");
+    if (br_json_lacked_memory())
+        return br_no_memory(err, "a JSON document");
     return BR_OK;
 }
 
@@ -151,6 +154,7 @@ static int run_all(int argc, const char **argv)
 int main(int argc, const char **argv)
 {
     on_exit(name_the_end, NULL);
+    br_json_lacked_memory(); /* from now on it remembers */
     const int code = run_all(argc, argv);
     returned = true;
     return code;

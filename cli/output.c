@@ -10,6 +10,7 @@
 
 #include "cli/signals.h"
 #include "cli/staging.h"
+#include "tables/json_value.h"
 
 /* Of the hidden folder: the manifests of the new set, which decides it, and of the old one. */
 static const char decided[] = ".manifest", replaced[] = ".old";
@@ -293,6 +294,8 @@ enum br_status br_output_commit(struct br_output *o, struct br_error *err)
     if (!status)
         status = br_manifest_list(o->descriptor, o->run, &old, &set, err);
     const char *foreign = status ? NULL : find_foreign(o, &set, &old);
+    if (!status && br_json_lacked_memory())
+        status = br_no_memory(err, "a JSON document");
     if (!status && br_signals_caught())
         status = br_fail(err, BR_INTERRUPTED, "interrupted");
     if (foreign && !status)

@@ -50,6 +50,8 @@ enum br_status br_parse(int argc, const char **argv, const struct br_parse *p, s
     enum br_status status = read_options(context, p, err);
     if (!status && !*p->help)
         status = read_words(context, p, err);
+    if (errno == ENOMEM)
+        status = br_no_memory(err, "the options");
     poptFreeContext(context);
     return status;
 }

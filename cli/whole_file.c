@@ -11,10 +11,13 @@
 
 #include "cli/output.h"
 #include "cli/staging.h"
+#include "tables/json_value.h"
 
 static enum br_status refuse(const char *option, const char *path, const char *reason,
                              struct br_error *err)
 {
+    if (errno == ENOMEM)
+        return br_no_memory(err, path);
     return br_fail(err, BR_BAD_INPUT, "--%s: cannot write '%s': %s", option, path, reason);
 }
 
@@ -72,6 +75,7 @@ enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, c
                                   struct br_error *err)
 {
     *w = (struct br_whole_file){.path = path};
+    errno = 0;
     if (!path)
         return BR_OK;
     if (!*path)
@@ -192,7 +196,7 @@ enum br_status br_whole_file_commit(struct br_whole_file *w, struct br_error *er
     FILE *file = w->file;
     w->file = NULL;
     const bool failed = fflush(file) != 0 || ferror(file);
-    if (fclose(file) != 0 || failed)
+    if (fclose(file) != 0 || failed || br_json_lacked_memory() || (w->renamed && !w->text))
         return w->renamed ? br_no_memory(err, w->path)
                           : br_fail(err, BR_IO, "%s could not be written whole", w->path);
     return w->renamed ? write_beside(w, err) : BR_OK;

@@ -120,6 +120,8 @@ enum br_status br_scene_list(char ***names, size_t *count, struct br_error *err)
     *count = 0;
     br_data_path("study/scenes", folder, sizeof folder);
     const int found = scandir(folder, &entry, is_scene, alphasort);
+    if (found < 0 && errno == ENOMEM)
+        return br_no_memory(err, "the list of scenes");
     if (found < 0)
         return br_fail(err, BR_BAD_INPUT, "the bundled scenes: %s: %s", folder, strerror(errno));
     *names = br_allocate((size_t)found + 1, sizeof **names);
