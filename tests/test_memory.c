@@ -27,7 +27,8 @@ static void take_results(char results[CLI_MOST_OUTPUT])
 
 static bool is_named(const char *said)
 {
-    return strstr(said, "out of memory") || strstr(said, "(-1010)"); /* LAPACK's name of it */
+    return strstr(said, "out of memory") || strstr(said, "Cannot allocate memory") ||
+           strstr(said, "(-1010)"); /* LAPACK's name of it */
 }
 
 /* The n-th fails, n = first, first + every...; how many did. */
