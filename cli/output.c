@@ -10,6 +10,7 @@
 
 #include "cli/signals.h"
 #include "cli/staging.h"
+#include "study/quote.h"
 #include "tables/json_value.h"
 
 /* Of the hidden folder: the manifests of the new set, which decides it, and of the old one. */
@@ -43,9 +44,11 @@ static enum br_status remove_stale(int parent, const struct br_manifest_file *f,
     const enum br_status status = br_manifest_compare(parent, f, &same, err);
     if (status)
         return status;
-    if (!same)
-        fprintf(stderr, "beamrate: %s is of an earlier run and was changed since: it stays\n",
-                f->name);
+    if (!same) {
+        fputs("beamrate: ", stderr);
+        br_quote(stderr, &br_for_text, f->name);
+        fputs(" is of an earlier run and was changed since: it stays\n", stderr);
+    }
     return !same || unlinkat(parent, f->name, 0) == 0
                ? BR_OK
                : br_fail(err, BR_IO, "%s: %s", f->name, strerror(errno));
@@ -307,6 +310,13 @@ enum br_status br_output_commit(struct br_output *o, struct br_error *err)
     br_manifest_clear(&set);
     br_manifest_clear(&old);
     return status;
+}
+
+void br_output_announce(const struct br_output *o)
+{
+    fputs("Written to ", stdout);
+    br_quote(stdout, &br_for_text, o->folder);
+    fputs("/\n", stdout);
 }
 
 void br_output_discard(struct br_output *o)

@@ -7,6 +7,7 @@
 
 #include "reference/mms/manufactured.h"
 #include "study/expression.h"
+#include "study/quote.h"
 #include "study/scene_scan.h"
 #include "study/scene_value.h"
 #include "study/verify_file.h"
@@ -138,7 +139,8 @@ static enum br_status apply_solutions(const struct br_scene_reader *r, const siz
     return r->err ? r->err->status = status : status;
 }
 
-/* The scene's name is its file's, without folder and ending. */
+/* The scene's name is its file's, without folder and ending; the names of all files that are
+ * written for it begin with it. */
 static enum br_status set_name(const struct br_scene_reader *r)
 {
     const char *slash = strrchr(r->path, '/');
@@ -149,6 +151,7 @@ static enum br_status set_name(const struct br_scene_reader *r)
     if (!r->scene->name)
         return br_no_memory(r->err, "the scene");
     memcpy(r->scene->name, base, length);
+    br_make_name(r->scene->name);
     return BR_OK;
 }
 
