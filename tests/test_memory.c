@@ -72,16 +72,18 @@ static void test_sweep(void **state)
     (void)state;
     static const struct {
         const char *line;
-        long every; /* by default */
+        long every; /* by default; 0: only where everything is tested */
     } runs[] = {
         {"scenes --new set.json", 1},
         {"run small.yaml --n 4 --k 0.1 --quiet --json set.json", 23},
         {"study small.yaml --n 2,4 --k 0.1,0.05 --no-plots --quiet --out set", 37},
         {"check small.yaml --quiet --json set.json", 37},
-        {"tables --n 2,4 --k 0.5,0.25 --reference fine:8,0.25 --no-plots --quiet --out set", 499},
+        {"tables --n 2,4 --k 0.5,0.25 --reference fine:8,0.25 --no-plots --quiet --out set", 0},
     };
     cli_write_file("small.yaml", small);
     for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
+        if (!runs[i].every && !br_test_long())
+            continue;
         const size_t failures = sweep(runs[i].line, 1, br_test_long() ? 1 : runs[i].every);
         print_message("%s: %zu failures\n", runs[i].line, failures);
     }
