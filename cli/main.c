@@ -7,6 +7,8 @@
 #include "cli/provenance.h"
 #include "cli/signals.h"
 #include "cli/suggest.h"
+#include "plots/gnuplot.h"
+#include "study/quote.h"
 #include "study/ranks.h"
 #include "study/spread.h"
 
@@ -103,11 +105,20 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     if (!command)
         return unknown(argv[1], err);
     br_signals_install();
+    br_gnuplot_stop_when(br_signals_caught);
     br_remember_command_line(argc, argv);
     static char name[64]; /* for the usage line */
     snprintf(name, sizeof name, "beamrate %s", command->name);
     argv[1] = name;
     return command->run(argc - 1, argv + 1, err);
+}
+
+/* A message may repeat what a file says. */
+static void complain(const char *message)
+{
+    fputs("beamrate: ", stderr);
+    br_quote(stderr, &br_for_text, message);
+    fputc('\n', stderr);
 }
 
 int main(int argc, const char **argv)
@@ -126,6 +137,6 @@ int main(int argc, const char **argv)
         br_signals_raise_again();
     }
     if (status)
-        fprintf(stderr, "beamrate: %s\n", err.message);
+        complain(err.message);
     return br_status_exit_code(status);
 }

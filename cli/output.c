@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "cli/staging.h"
+#include "study/quote.h"
 
 /* Every folder of the path that is not there yet; *made: whether the last one was not. */
 static bool make_folders(const char *path, bool *made)
@@ -121,6 +122,13 @@ enum br_status br_output_commit(struct br_output *o, struct br_error *err)
     if (!status)
         br_output_discard(o);
     return status;
+}
+
+void br_output_announce(const struct br_output *o)
+{
+    fputs("Written to ", stdout);
+    br_quote(stdout, &br_for_text, o->folder);
+    fputs("/\n", stdout);
 }
 
 void br_output_discard(struct br_output *o)

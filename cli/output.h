@@ -31,6 +31,9 @@ enum br_status br_output_close(FILE *file, const char *name, struct br_error *er
 /* Moves all files into place. */
 enum br_status br_output_commit(struct br_output *output, struct br_error *err);
 
+/* Says on the terminal where they are. */
+void br_output_announce(const struct br_output *output);
+
 /* Removes what has not been moved, and the folder if it was made for nothing; does
  * nothing after a commit. */
 void br_output_discard(struct br_output *output);

@@ -1,30 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/pictures.h"
 
-#include <ctype.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/picture_files.h"
 #include "cli/signals.h"
 #include "plots/gnuplot.h"
+#include "study/quote.h"
 
 /* All frames are kept with all nodes: 120 MB at most. */
 enum { FRAMES = 120, MOST_ELEMENTS = 20000, ROWS = 2000, NARROW = 40, USUAL = 80, WIDE = 160 };
 
 /* ---- where the movie goes ---- */
-
-/* gnuplot reads the name in quotes, and as a format. */
-static bool is_stem(const char *stem)
-{
-    if (!isalnum((unsigned char)*stem) && *stem != '_')
-        return false;
-    for (const char *c = stem; *c; c++)
-        if (iscntrl((unsigned char)*c) || strchr("'\"\\%`", *c))
-            return false;
-    return true;
-}
 
 static bool is_folder(const char *path)
 {
@@ -47,11 +37,11 @@ static enum br_status split(struct br_pictures *p, char *folder, size_t size, st
     if (slash == file)
         snprintf(folder, size, "/");
     snprintf(p->stem, sizeof p->stem, "%.*s", length, name);
-    return is_stem(p->stem)
+    return br_is_name(p->stem)
                ? BR_OK
                : br_fail(err, BR_BAD_INPUT,
                          "--animate: found '%s', expected a file's name that begins with "
-                         "a letter or digit and has no quote, percent sign or backslash",
+                         "a letter or digit, with no others but blanks and _ . - +",
                          file);
 }
 
@@ -213,13 +203,13 @@ static int columns_of(FILE *letters)
 static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct br_error *err)
 {
     bool missing;
-    struct br_error inner = {0};
+    struct br_error why = {0};
     fflush(letters);
     if (!br_gnuplot_letters(letters, p->request.scene, &p->record, columns_of(letters), &missing,
-                            &inner))
+                            &why))
         return BR_OK;
     if (!missing)
-        return br_fail(err, inner.status, "%s", inner.message);
+        return br_picture_failed(&why, "--plot", err);
     fprintf(stderr, "beamrate: gnuplot is not installed: --plot shows nothing\n");
     return BR_OK;
 }

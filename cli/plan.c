@@ -91,8 +91,10 @@ static enum br_status write_all(struct work *w, const struct br_plan_page *page,
             status = write_one(w, *e, page, err);
     if (!status)
         status = br_output_commit(&w->output, err);
-    if (!status && !w->options.study.quiet)
-        printf("\nWritten to %s/\n", w->output.folder);
+    if (!status && !w->options.study.quiet) {
+        putchar('\n');
+        br_output_announce(&w->output);
+    }
     return status;
 }
 

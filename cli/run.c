@@ -162,9 +162,10 @@ static enum br_status write_results(struct run *r, double start, struct br_error
         status = br_run_json(r->json.file, &page, err);
     if (!status && !r->options.quiet && r->json.file != stdout)
         br_run_text(stdout, &page);
+    FILE *letters = r->json.file == stdout ? NULL : stdout;
     if (!status)
-        status = br_pictures_finish(&r->pictures, r->json.file == stdout ? NULL : stdout, err);
-    return status ? status : br_whole_file_commit(&r->json, err);
+        status = br_whole_file_commit(&r->json, err);
+    return status ? status : br_pictures_finish(&r->pictures, letters, err);
 }
 
 /* Results are kept also where the march stopped, or a step is beyond its certificate's limits. */

@@ -8,7 +8,6 @@
 #include "cli/progress.h"
 #include "cli/read_text.h"
 #include "cli/signals.h"
-#include "plots/plots.h"
 #include "reference/printed.h"
 #include "solver/clock.h"
 #include "study/differences.h"
@@ -180,9 +179,6 @@ static enum br_status start_report(struct br_session *s, const struct place *at,
         &s->page[(at->job * s->request.norms + at->norm) * variants + at->variant];
     const bool companion = variants == 1 && s->heads > s->jobs;
     name_page(s, at, job, page);
-    const enum br_status status = br_check_stem(page->name, err);
-    if (status)
-        return status;
     page->report = (struct br_report){
         .name = page->name,
         .caption = page->caption,

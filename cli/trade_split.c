@@ -228,8 +228,10 @@ static enum br_status run(struct work *w, struct br_error *err)
         status = br_split_emitters[0]->emit(stdout, &page, err);
     if (!status)
         status = write_all(w, &page, err);
-    if (!status && !w->options->study.quiet)
-        printf("\nWritten to %s/\n", w->output.folder);
+    if (!status && !w->options->study.quiet) {
+        putchar('\n');
+        br_output_announce(&w->output);
+    }
     return status;
 }
 

@@ -7,7 +7,8 @@
 #include <yaml.h>
 
 #include "reference/mms/manufactured.h"
-#include "study/scene/expression.h"
+#include "study/quote.h"
+#include "study/scene/products.h"
 #include "study/scene_scan.h"
 #include "study/scene_value.h"
 #include "study/verify_file.h"
@@ -121,25 +122,23 @@ static size_t solution_line(enum br_field_kind kind, const size_t seen[MOST_KEYS
 /* What a solution determines (reference/mms). */
 static enum br_status apply_solutions(const struct br_scene_reader *r, const size_t seen[MOST_KEYS])
 {
-    const char *const texts[2] = {r->scene->axial.solution, r->scene->bending.solution};
-    struct br_function parsed[2] = {{0}, {0}};
     struct br_error inner = {0};
     enum br_field_kind culprit = BR_AXIAL;
-    enum br_status status = BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        if (texts[kind])
-            status = br_expression(texts[kind], &parsed[kind], &inner);
-    if (!status)
-        status = br_manufactured_apply(r->scene, parsed, &culprit, &inner);
-    br_function_free(&parsed[BR_AXIAL]);
-    br_function_free(&parsed[BR_BENDING]);
-    if (status != BR_BAD_INPUT && status != BR_UNSUPPORTED)
-        return status ? br_fail(r->err, status, "%s", inner.message) : BR_OK;
-    br_scene_refuse(r, solution_line(culprit, seen), "solution", "%s", inner.message);
-    return r->err ? r->err->status = status : status;
+    enum br_status status = br_manufactured_apply(r->scene, &culprit, &inner);
+    if (status == BR_BAD_INPUT)
+        return br_scene_refuse(r, solution_line(culprit, seen), "solution", "%s", inner.message);
+    struct br_load *const load[] = {&r->scene->axial.load, &r->scene->bending.load};
+    const bool derived[] = {r->scene->axial.solution, r->scene->bending.solution};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        struct br_function whole = load[kind]->term[0].space;
+        if (derived[kind])
+            status = br_products(&whole, load[kind], &inner);
+    }
+    return status ? br_fail(r->err, status, "%s", inner.message) : BR_OK;
 }
 
-/* The scene's name is its file's, without folder and ending. */
+/* The scene's name is its file's, without folder and ending; the names of all files that are
+ * written for it begin with it. */
 static enum br_status set_name(const struct br_scene_reader *r)
 {
     const char *slash = strrchr(r->path, '/');
@@ -150,6 +149,7 @@ static enum br_status set_name(const struct br_scene_reader *r)
     if (!r->scene->name)
         return br_no_memory(r->err, "the scene");
     memcpy(r->scene->name, base, length);
+    br_make_name(r->scene->name);
     return BR_OK;
 }
 

@@ -128,7 +128,7 @@ static enum br_status emit(FILE *out, const struct br_check_page *page, struct b
                           "differences", differences(page->comparison));
     if (!o)
         return br_no_memory(err, "the JSON document");
-    json_dumpf(o, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
+    json_dumpf(o, out, JSON_INDENT(1) | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(17));
     fputc('\n', out);
     json_decref(o);
     return BR_OK;
