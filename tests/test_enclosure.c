@@ -356,6 +356,35 @@ static void test_trees(void **state)
     AT_MOST((double)cases(6000) / 2, (double)bounded);
 }
 
+/* Where abs, min and max turn inside of the box, or something is taken by one of them only. */
+static void test_kinks(void **state)
+{
+    (void)state;
+    static const char *const rows[] = {"abs(x) - x",         "abs(x - t) + x - t",
+                                       "max(x, t) - x",      "min(x, 2*t) + abs(t - x) - t",
+                                       "x*abs(x) - x*t",     "t - max(x, t, -x)",
+                                       "(x < t ? x : t) - x", "sign(x)*x - abs(x)"};
+    struct br_test_random r = {7};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_tree tree;
+        struct br_error err;
+        MUST(br_expression_parse(rows[i], &tree, &err));
+        struct br_function f = br_test_function(rows[i]);
+        for (size_t k = 0; k < cases(300); k++) {
+            const double x = br_test_uniform(&r, -1, 0.1), t = br_test_uniform(&r, -1, 0.1),
+                         w = br_test_log_uniform(&r, 1e-3, 2);
+            const struct br_box box = {{x, x + w}, {t, t + w}};
+            iv bound;
+            assert_true(br_function_bound(&f, box, &bound));
+            AT_MOST(bound.high - bound.low, 12 * w * (1 + w));
+            for (int j = 0; j < 4; j++)
+                check_tree(&tree, &f, box, bound, &r);
+        }
+        br_tree_clear(&tree);
+        br_function_free(&f);
+    }
+}
+
 /* Halved boxes are enclosed four times as tightly: the excess over the range falls quadratically. */
 static void test_quadratic(void **state)
 {
@@ -576,7 +605,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_operations), cmocka_unit_test(test_tight),
-        cmocka_unit_test(test_trees),      cmocka_unit_test(test_quadratic),
+        cmocka_unit_test(test_trees),      cmocka_unit_test(test_kinks),
+        cmocka_unit_test(test_quadratic),
         cmocka_unit_test(test_taylor),     cmocka_unit_test(test_not_smooth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -300,6 +300,7 @@ static void test_short_blows(void **state)
         {"exp(-((x - 0.123)/1e-3)^2 - ((t - 0.456)/1e-6)^2)", 100, "near t = 0.455 s"},
         {"x*1e3*(t > 0.70001 && t < 0.70002)", 200, "near t = 0.7025 s"},
         {"t < 0.45 ? 0 : x", 3, " 9.1 % of its impulse"},
+        {"exp(-7 - x)*(t < 0.45)", 3, " 11 % of its impulse"},
         {"t < 0.45 ? 0 : x", 30, NULL},
     };
     struct br_scene s = br_test_bare();
