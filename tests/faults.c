@@ -99,14 +99,6 @@ int posix_memalign(void **out, size_t unit, size_t size)
     return *out ? 0 : ENOMEM;
 }
 
-/* operator new never fails: of the libraries only muParser, which ends the program then, uses it. */
-void *_Znwm(size_t size);
-
-void *_Znwm(size_t size)
-{
-    return __libc_malloc(size);
-}
-
 /* ---- the disk ---- */
 
 static bool disk_fails(void)
