@@ -7,9 +7,8 @@
 #define FAR 0.45308992296933200
 
 const double br_load_place[BR_LOAD_PLACES] = {0.5 - FAR, 0.5 - NEAR, 0.5, 0.5 + NEAR, 0.5 + FAR};
-const double br_load_weight[BR_LOAD_PLACES] = {0.11846344252809454, 0.23931433524968324,
-                                               64.0 / 225, 0.23931433524968324,
-                                               0.11846344252809454};
+const double br_load_weight[BR_LOAD_PLACES] = {0.11846344252809454, 0.23931433524968324, 64.0 / 225,
+                                               0.23931433524968324, 0.11846344252809454};
 
 void br_load_values(const struct br_function *f, enum br_variable along, struct br_box box,
                     struct br_interval piece, double value[BR_LOAD_PLACES])
