@@ -91,12 +91,16 @@ static enum br_status read_case(struct br_extreme_trial *t, struct br_error *err
         status = br_model_select(&t->scene, t->one->wanted, &t->marched, &said);
     if (!status)
         status = br_method_check(&t->method, &said);
-    const struct br_outlook outlook = {
-        .scene = &t->marched, .method = &t->method, .n = t->one->n, .steps = t->one->steps};
+    const struct br_outlook outlook = {.scene = &t->marched,
+                                       .method = &t->method,
+                                       .n = t->one->n,
+                                       .steps = t->one->steps,
+                                       .prediction = &t->prediction};
     if (!status)
         status = br_look_ahead(&outlook, &t->warnings, &said);
     for (size_t i = 0; i < t->warnings.count; i++)
         t->verdict->warned |= 1u << t->warnings.list[i].kind;
+    t->verdict->known = t->prediction.known;
     return status ? refuse(t, status, &said, err) : BR_OK;
 }
 
@@ -146,7 +150,7 @@ enum br_status br_extreme_judge(const struct br_extreme_case *one,
                                 const struct br_extreme_court *court,
                                 struct br_extreme_verdict *verdict, struct br_error *err)
 {
-    *verdict = (struct br_extreme_verdict){.error = NAN, .units = NAN, .round_off = NAN};
+    *verdict = (struct br_extreme_verdict){.error = NAN, .stated = NAN, .units = NAN, .round_off = NAN};
     struct br_extreme_trial t = {
         .one = one, .court = court, .verdict = verdict, .method = one->method};
     t.method.most_steps = BR_EXTREME_PATIENCE;

@@ -3,16 +3,28 @@
 
 #include <math.h>
 
+/* Even ones, then ever nearer to the tip, which is the last. */
+static size_t choose_nodes(size_t n, size_t node[BR_TRACK_POINTS])
+{
+    const size_t even = n < BR_TRACK_EVEN ? n : BR_TRACK_EVEN;
+    size_t count = 0;
+    for (size_t i = 0; i + 1 < even; i++)
+        node[count++] = (i + 1) * n / even;
+    for (size_t from_tip = n / (2 * BR_TRACK_EVEN); from_tip > 0 && count + 1 < BR_TRACK_POINTS;
+         from_tip /= 2)
+        node[count++] = n - from_tip;
+    node[count++] = n;
+    return count;
+}
+
 struct br_track_places br_track_places(size_t n, size_t steps)
 {
     struct br_track_places p = {.n = n, .steps = steps};
     const size_t parts = steps < BR_TRACK_LEVELS ? steps : BR_TRACK_LEVELS;
     p.levels = parts + 1;
-    p.points = n < BR_TRACK_POINTS ? n : BR_TRACK_POINTS;
+    p.points = choose_nodes(n, p.node);
     for (size_t i = 0; i < p.levels; i++)
         p.level[i] = i * steps / parts;
-    for (size_t i = 0; i < p.points; i++)
-        p.node[i] = (i + 1) * n / p.points;
     return p;
 }
 
@@ -147,8 +159,9 @@ static enum br_status read_exact(const struct br_exact *exact, struct br_track *
     enum br_status status = evaluate(exact, t, &part, length, state, value);
     for (size_t p = 0; p < t->places.points && !status; p++)
         t->largest[kind] = fmax(t->largest[kind], fabs(value[p]));
-    t->largest[kind] =
-        fmax(t->largest[kind], br_exact_report(exact, part.field).largest.displacement);
+    const struct br_exact_report report = br_exact_report(exact, part.field);
+    t->largest[kind] = fmax(t->largest[kind], report.largest.displacement);
+    t->own_error[kind] = report.error.displacement;
     part.order = 1;
     if (!status && kind == BR_BENDING)
         status = evaluate(exact, t, &part, length, state, slope);
@@ -221,4 +234,68 @@ double br_track_distance(const struct br_track *track, const struct br_track *re
         most = isnan(slope) || slope > most ? slope : most;
     }
     return most == 0 ? 0 : most / (size[kind] > 0 ? size[kind] : size[1 - kind]);
+}
+
+/* ---- errors ---- */
+
+enum { FEW_PLACES = 8 };
+
+/* The mean square of a field less another's, or alone, at a level: by trapezes from the clamped
+ * end, where nothing moves. */
+static double square(const struct br_track *a, const struct br_track *b, int value, size_t level)
+{
+    const struct br_track_places *at = &a->places;
+    double sum = 0;
+    for (size_t p = 0; p < at->points; p++) {
+        const double d = a->value[value][level][p] - (b ? b->value[value][level][p] : 0);
+        const size_t before = p > 0 ? at->node[p - 1] : 0;
+        const size_t after = p + 1 < at->points ? at->node[p + 1] : at->n;
+        sum += d * d * (double)(after - before) / 2;
+    }
+    return sum / (double)at->n;
+}
+
+static double largest_mean(const struct br_track *a, const struct br_track *b,
+                           enum br_field_kind kind)
+{
+    const bool bulge = kind == BR_BENDING && a->places.points < FEW_PLACES;
+    double most = 0;
+    for (size_t i = 0; i < a->places.levels; i++) {
+        const double mean =
+            square(a, b, kind, i) + (bulge ? square(a, b, BR_TRACK_SLOPE, i) : 0);
+        most = isnan(mean) || mean > most ? mean : most;
+    }
+    return sqrt(most);
+}
+
+/* The largest of the values that are looked at. */
+static double largest_seen(const struct br_track *t, enum br_field_kind kind)
+{
+    double most = 0;
+    const int last = kind == BR_BENDING ? BR_TRACK_SLOPE : (int)kind;
+    for (int value = kind; value <= last; value++)
+        for (size_t i = 0; i < t->places.levels; i++)
+            for (size_t p = 0; p < t->places.points; p++)
+                most = fmax(most, fabs(t->value[value][i][p]));
+    return most;
+}
+
+/* Of the mean at all times: as much larger as what the track has seen at other times. */
+static double mean_size(const struct br_track *t, enum br_field_kind kind)
+{
+    const double mean = largest_mean(t, NULL, kind), seen = largest_seen(t, kind);
+    return seen > 0 ? mean * fmax(1, t->largest[kind] / seen) : 0;
+}
+
+double br_track_error(const struct br_track *track, const struct br_track *reference,
+                      enum br_field_kind kind, double *sure_to)
+{
+    *sure_to = 0;
+    if (track->seen < track->places.levels || reference->seen < track->places.levels)
+        return NAN;
+    const double own = mean_size(reference, kind);
+    const double size = own > 0 ? own : mean_size(reference, (enum br_field_kind)(1 - kind));
+    const double error = largest_mean(track, reference, kind);
+    *sure_to = reference->own_error[kind] == 0 ? 0 : reference->own_error[kind] / size;
+    return error == 0 ? 0 : error / size;
 }

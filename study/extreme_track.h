@@ -7,7 +7,13 @@
 #include "reference/exact/exact.h"
 #include "study/run.h"
 
-enum { BR_TRACK_LEVELS = 8, BR_TRACK_POINTS = 16, BR_TRACK_SLOPE = 2, BR_TRACK_VALUES };
+enum {
+    BR_TRACK_LEVELS = 8,
+    BR_TRACK_EVEN = 16,   /* nodes at equal distances */
+    BR_TRACK_POINTS = 24, /* and others near the tip, where layers are */
+    BR_TRACK_SLOPE = 2,
+    BR_TRACK_VALUES
+};
 
 /* Where is looked: levels of `steps`, nodes of n elements, each ascending, the last being the end;
  * the first level is 0, whose values count as sizes. */
@@ -26,6 +32,7 @@ struct br_track {
     size_t seen;                 /* levels */
     bool finite;                 /* all nodal values there */
     double largest[2];           /* of all nodal displacements there, m */
+    double own_error[2];         /* what an exact solution says that it is off by, m */
     double speed[2];             /* of the nodes there, and of the tip at every step, m/s */
     struct br_run_report report; /* its scenes are gone */
     struct br_error failure;     /* BR_OK; why it did not begin, or stopped */
@@ -58,5 +65,11 @@ enum br_status br_track_exact(const struct br_scene *modelled, const struct br_t
  * the track's. 0 where there is no difference, NAN where a value is not finite or missing. */
 double br_track_distance(const struct br_track *track, const struct br_track *reference,
                          enum br_field_kind kind, double unit);
+
+/* The error of a field: the largest root of the mean square over x, by the places, at a level, over
+ * the largest of `reference`, as br_track_distance. The bulge counts as much as the displacement where
+ * there are few places. *sure_to (out): what the reference says of itself, relative to the same. */
+double br_track_error(const struct br_track *track, const struct br_track *reference,
+                      enum br_field_kind kind, double *sure_to);
 
 #endif
