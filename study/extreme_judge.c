@@ -52,9 +52,12 @@ void br_extreme_decide(struct br_extreme_trial *t, enum br_extreme_class which, 
     t->done = true;
 }
 
-static bool warned_of(const struct br_extreme_trial *t, enum br_warning_kind kind)
+/* Whether it was said before the march that no digit may be right. */
+static bool warned(const struct br_extreme_trial *t)
 {
-    return br_warnings_find(&t->warnings, kind) != NULL;
+    return br_warnings_find(&t->warnings, BR_WARN_ROUND_OFF) ||
+           br_warnings_find(&t->warnings, BR_WARN_INACCURATE) ||
+           br_warnings_find(&t->warnings, BR_WARN_UNKNOWN);
 }
 
 struct br_track_request br_extreme_request(const struct br_extreme_trial *t)
@@ -124,7 +127,7 @@ static enum br_status march(struct br_extreme_trial *t, struct br_error *err)
         br_extreme_decide(t, BR_EXTREME_WRONG, "certificate: %.160s", own->report.verdict.message);
     else if (!own->finite)
         br_extreme_decide(t, BR_EXTREME_WRONG, "values that are not finite");
-    else if (!(own->report.round_off < no_digit) && !warned_of(t, BR_WARN_ROUND_OFF))
+    else if (!(own->report.round_off < no_digit) && !warned(t))
         br_extreme_decide(t, BR_EXTREME_WRONG,
                           "no digit is left (round-off %.2g), and nothing is said",
                           own->report.round_off);

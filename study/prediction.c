@@ -78,7 +78,7 @@ static void bracket(double observed, double q, double spoilt, double order[3])
 /* ---- the run itself ---- */
 
 /* A cell's distance from the reference, which its check tells how sure it is. */
-static struct br_predicted measured(const struct br_probe *p, enum br_whole_cell cell, int kind)
+static struct br_predicted distance(const struct br_probe *p, enum br_whole_cell cell, int kind)
 {
     const double e = cell_error(p, cell, kind);
     const double unsure = of_check * cell_error(p, BR_WHOLE_CHECK, kind);
@@ -88,6 +88,25 @@ static struct br_predicted measured(const struct br_probe *p, enum br_whole_cell
         .high = measured_doubt * (e + unsure),
         .order = NAN,
     };
+}
+
+static bool is_measured(const struct br_probe_set *s)
+{
+    return s->probe[BR_PROBE_TIGHT].held || s->probe[BR_PROBE_WHOLE].held;
+}
+
+/* By the reference that is surer of the run's error; but one of equal steps may have missed
+ * what dies away within a step, and is not believed where the other one contradicts it. */
+static struct br_predicted measured(const struct br_probe_set *s, enum br_whole_cell cell, int kind)
+{
+    const struct br_probe *tight = &s->probe[BR_PROBE_TIGHT], *whole = &s->probe[BR_PROBE_WHOLE];
+    if (!whole->held)
+        return distance(tight, cell, kind);
+    if (!tight->held)
+        return distance(whole, cell, kind);
+    const struct br_predicted a = distance(tight, BR_WHOLE_RUN, kind);
+    const struct br_predicted b = distance(whole, BR_WHOLE_RUN, kind);
+    return distance(b.high < a.low || a.high <= b.high ? tight : whole, cell, kind);
 }
 
 /* ---- time ---- */
@@ -124,23 +143,29 @@ static struct br_predicted extrapolated_time(const struct br_probe *p, const str
     return predicted;
 }
 
+/* What the run's first steps are off by, it is off by somewhere. */
+static struct br_predicted and_at_start(const struct br_probe_set *s, struct br_predicted e,
+                                        int kind)
+{
+    const struct br_probe *start = &s->probe[BR_PROBE_START];
+    const double first = start->held ? cell_error(start, 0, kind) : 0;
+    e.error = fmax(e.error, first);
+    e.low = fmax(e.low, first / doubt);
+    e.high = fmax(e.high, first * doubt);
+    return e;
+}
+
 static struct br_predicted time_error(const struct br_probe_set *s, int kind)
 {
-    const struct br_probe *p = &s->probe[BR_PROBE_TIME], *start = &s->probe[BR_PROBE_START];
+    const struct br_probe *p = &s->probe[BR_PROBE_TIME];
     struct br_predicted e;
-    if (s->probe[BR_PROBE_WHOLE].held)
-        return measured(&s->probe[BR_PROBE_WHOLE], BR_WHOLE_TIME, kind);
-    if (s->outlook->method->scheme->adaptive)
+    if (is_measured(s))
+        e = measured(s, BR_WHOLE_TIME, kind);
+    else if (s->outlook->method->scheme->adaptive || s->outlook->method->scheme->integrator)
         e = by_orders(cell_error(p, 0, kind), p->beyond, by_tolerance);
     else
         e = p->measured ? measured_time(p, kind) : extrapolated_time(p, s->outlook, kind);
-    if (start->held) {
-        const double first = cell_error(start, 0, kind);
-        e.error = fmax(e.error, first);
-        e.low = fmax(e.low, first / doubt);
-        e.high = fmax(e.high, first * doubt);
-    }
-    return e;
+    return and_at_start(s, e, kind);
 }
 
 /* ---- space ---- */
@@ -148,8 +173,8 @@ static struct br_predicted time_error(const struct br_probe_set *s, int kind)
 static struct br_predicted space_error(const struct br_probe_set *s, int kind)
 {
     const struct br_probe *p = &s->probe[BR_PROBE_SPACE];
-    if (s->probe[BR_PROBE_WHOLE].held)
-        return measured(&s->probe[BR_PROBE_WHOLE], BR_WHOLE_SPACE, kind);
+    if (is_measured(s))
+        return measured(s, BR_WHOLE_SPACE, kind);
     const double q = kind == BR_AXIAL ? s->outlook->method->axial_degree + 1 : 4;
     const double fine = cell_error(p, p->study.n_count - 1, kind);
     if (fine == 0) /* not modelled, or at rest */
@@ -164,8 +189,8 @@ static struct br_predicted space_error(const struct br_probe_set *s, int kind)
 
 static struct br_predicted whole_error(const struct br_probe_set *s, int kind)
 {
-    if (s->probe[BR_PROBE_WHOLE].held)
-        return measured(&s->probe[BR_PROBE_WHOLE], BR_WHOLE_RUN, kind);
+    if (is_measured(s))
+        return and_at_start(s, measured(s, BR_WHOLE_RUN, kind), kind);
     const struct br_predicted time = time_error(s, kind), space = space_error(s, kind);
     return (struct br_predicted){
         .error = time.error + space.error,
@@ -190,7 +215,7 @@ static bool is_modelled(const struct br_scene *scene, int kind)
 
 static void judge(struct br_prediction *p, const struct br_probe_set *s)
 {
-    for (int i = 0; i < BR_PROBES; i++)
+    for (int i = BR_PROBE_TIME; i < BR_PROBES; i++)
         if (br_probe_failed(&s->probe[i], p->why))
             return;
     bool useful = true;

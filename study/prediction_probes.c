@@ -9,9 +9,12 @@ static const double overhead = 700;
 
 /* Elements times solves of all probes together: at least, at most, and as a share of the run's. */
 static const double least_work = 1e7, most_work = 5e7, most_share = 0.5;
+static const double chosen_work = 2e7; /* where the run chooses its steps */
+static const double chosen_stages = 8;
 static const double time_share = 0.5, start_share = 0.2, space_share = 0.3;
 
-enum { SPACE_N = 128, TIME_N = 32, MOST_REFINED = 32, FINE_N = 32, TOLERANCE_LEVELS = 24 };
+enum { SPACE_N = 128, TIME_N = 32, MOST_REFINED = 32, FINE_N = 32, TOLERANCE_LEVELS = 24,
+       FIRST_STEPS = 4 };
 
 /* A reference is sure enough where its check differs from it by so much of the run's error, or of
  * the solution. */
@@ -21,6 +24,9 @@ static const double sure = 0.2, negligible = 1e-5;
  * the run's by `tighter`, its check's by the root of that. */
 static const double loosest = 1e-4, tighter = 25, tightest = 1e-12;
 
+/* That of a reference for equal steps; its check's is larger by the same. */
+static const double tight = 1e-6;
+
 static bool by_tolerance(const struct br_method *m)
 {
     return m->scheme->adaptive || m->scheme->integrator;
@@ -28,7 +34,7 @@ static bool by_tolerance(const struct br_method *m)
 
 static double stages(const struct br_method *m)
 {
-    return by_tolerance(m) ? 8 : br_time_scheme_stages(m->scheme);
+    return by_tolerance(m) ? chosen_stages : br_time_scheme_stages(m->scheme);
 }
 
 static double budget(const struct br_outlook *o)
@@ -36,7 +42,8 @@ static double budget(const struct br_outlook *o)
     const double own = ((double)o->n + overhead) * (double)o->steps * stages(o->method);
     if (o->budget > 0)
         return o->budget;
-    return by_tolerance(o->method) ? most_work : fmin(fmax(most_share * own, least_work), most_work);
+    return by_tolerance(o->method) ? chosen_work
+                                   : fmin(fmax(most_share * own, least_work), most_work);
 }
 
 static size_t least(size_t a, size_t b)
@@ -70,12 +77,13 @@ static struct br_method best_method(const struct br_method *own)
     return m;
 }
 
-/* The same by a tolerance. */
+/* The same by a tolerance, smaller than the run's, or than that of a check. */
 static struct br_method tight_method(const struct br_method *own, double times)
 {
+    const double from = by_tolerance(own) ? own->tolerance : tight * tighter;
     struct br_method m = best_method(own);
     m.scheme = br_time_scheme_find("adaptive");
-    m.tolerance = fmax(own->tolerance / times, tightest);
+    m.tolerance = fmax(from / times, tightest);
     return m;
 }
 
@@ -149,12 +157,15 @@ static double whole_work(const struct br_outlook *o, const struct br_method *bes
     return (own + others) * (double)o->steps;
 }
 
-/* Where the work is within the budget. */
+static bool is_affordable(const struct br_outlook *o, struct finer by)
+{
+    const struct br_method best = best_method(o->method);
+    return whole_work(o, &best, by) <= budget(o);
+}
+
 static void set_whole(struct br_probe *p, const struct br_outlook *o, struct finer by)
 {
     const struct br_method best = best_method(o->method);
-    if (!(whole_work(o, &best, by) <= budget(o)))
-        return;
     p->steps[BR_WHOLE_RUN] = o->steps;
     set_whole_cells(p, o, &best, &best, by);
 }
@@ -162,16 +173,20 @@ static void set_whole(struct br_probe *p, const struct br_outlook *o, struct fin
 /* Steps that a scheme may choose within a share of the budget. */
 static size_t most_steps(const struct br_outlook *o, double n)
 {
-    return (size_t)(budget(o) / 4 / ((n + overhead) * stages(o->method))) + 10;
+    return (size_t)(budget(o) / 4 / ((n + overhead) * chosen_stages)) + 10;
 }
 
-static void set_whole_by_tolerance(struct br_probe *p, const struct br_outlook *o)
+/* Where there are not so many time levels that a tolerance decides little. */
+static void set_tight(struct br_probe *p, const struct br_outlook *o)
 {
+    const size_t finer = refinement(o->n), most = most_steps(o, (double)(o->n * finer));
     struct br_method check = tight_method(o->method, sqrt(tighter));
     struct br_method reference = tight_method(o->method, tighter);
-    check.most_steps = reference.most_steps = most_steps(o, (double)(o->n * refinement(o->n)));
-    p->steps[BR_WHOLE_RUN] = least(o->steps, TOLERANCE_LEVELS);
-    set_whole_cells(p, o, &check, &reference, (struct finer){refinement(o->n), 1});
+    check.most_steps = reference.most_steps = most;
+    p->steps[BR_WHOLE_RUN] =
+        by_tolerance(o->method) ? least(o->steps, TOLERANCE_LEVELS) : o->steps;
+    if (p->steps[BR_WHOLE_RUN] <= most / 2)
+        set_whole_cells(p, o, &check, &reference, (struct finer){finer, 1});
 }
 
 /* Where no step is small enough for a smaller tolerance, or steps are too many: equal ones. */
@@ -244,20 +259,23 @@ static void set_time(struct br_probe *p, const struct br_outlook *o)
         extrapolate_time(p, o, most);
 }
 
-static void set_start(struct br_probe *p, const struct br_outlook *o, const struct br_probe *time)
+/* The run's first steps against steps by a tolerance, which find what dies away within a step; if
+ * `equal`, and more of them, against smaller equal ones. */
+static void set_start(struct br_probe *p, const struct br_outlook *o, bool equal)
 {
     const struct br_method best = best_method(o->method);
-    if (by_tolerance(o->method) || time->measured)
-        return;
+    struct br_method fine = equal ? best : tight_method(o->method, tighter);
     p->scene = *o->scene;
     p->n[0] = least(o->n, TIME_N);
     const double most = start_share * budget(o) / ((double)p->n[0] + overhead);
-    p->steps[0] =
-        least(o->steps, (size_t)(most / (stages(o->method) + 3 * stages(&best))) + 1);
+    const double many = equal ? most / (stages(o->method) + 3 * stages(&best)) + 1 : FIRST_STEPS;
+    fine.most_steps = most_steps(o, (double)p->n[0]);
+    p->steps[0] = least(o->steps, (size_t)many);
     p->scene.duration *= (double)p->steps[0] / (double)o->steps;
     p->measured = true;
     p->ratio = 3;
-    set_study(p, o->method, &best, (struct br_resolution){p->n[0], 3 * p->steps[0]});
+    set_study(p, o->method, &fine,
+              (struct br_resolution){p->n[0], (equal ? 3 : 1) * p->steps[0]});
 }
 
 /* ---- space ---- */
@@ -326,43 +344,35 @@ static enum br_status march(struct br_probe_set *set, int first, int last, struc
     return status;
 }
 
-/* Whether the run itself, against finer ones, tells its error. */
-static bool is_told(const struct br_probe_set *set)
-{
-    char why[200];
-    const struct br_probe *whole = &set->probe[BR_PROBE_WHOLE];
-    return whole->held && !br_probe_failed(whole, why);
-}
-
 static void forget(struct br_probe *p)
 {
     br_study_clear(&p->study);
     *p = (struct br_probe){0};
 }
 
+/* Marches one probe, and forgets one that fails. */
+static enum br_status try_probe(struct br_probe_set *set, enum br_probe_kind kind,
+                                struct br_error *err)
+{
+    char why[200];
+    struct br_probe *p = &set->probe[kind];
+    const enum br_status status = march(set, kind, kind, err);
+    if (!status && br_probe_failed(p, why))
+        forget(p);
+    return status;
+}
+
 /* Whether the check is near enough to the reference. */
 static bool is_sure(const struct br_probe *p)
 {
     static const enum br_part parts[] = {BR_PART_AXIAL, BR_PART_BENDING};
-    bool all = true;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    bool all = p->held;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && all; kind++) {
         const double off = p->study.cell[BR_WHOLE_CHECK].error[parts[kind]];
         const double error = p->study.cell[BR_WHOLE_RUN].error[parts[kind]];
-        all = all && off <= fmax(sure * error, negligible * p->study.reference_size[kind]);
+        all = off <= fmax(sure * error, negligible * p->study.reference_size[kind]);
     }
     return all;
-}
-
-static enum br_status march_by_tolerance(struct br_probe_set *set, struct br_error *err)
-{
-    struct br_probe *whole = &set->probe[BR_PROBE_WHOLE];
-    set_whole_by_tolerance(whole, set->outlook);
-    enum br_status status = march(set, BR_PROBE_WHOLE, BR_PROBE_WHOLE, err);
-    if (status || is_told(set))
-        return status;
-    forget(whole);
-    set_whole_by_equal_steps(whole, set->outlook);
-    return march(set, BR_PROBE_WHOLE, BR_PROBE_WHOLE, err);
 }
 
 /* By ever finer references until one is sure, or the next one is beyond the budget. */
@@ -371,33 +381,59 @@ static enum br_status march_whole(struct br_probe_set *set, struct br_error *err
     struct br_probe *whole = &set->probe[BR_PROBE_WHOLE];
     struct finer by = {refinement(set->outlook->n), 4};
     enum br_status status = BR_OK;
-    for (struct br_probe next = {0}; !status; by.elements *= 2, by.steps *= 4) {
-        set_whole(&next, set->outlook, by);
-        if (!next.held)
-            break;
+    for (; !status && is_affordable(set->outlook, by); by.elements *= 2, by.steps *= 4) {
         forget(whole);
         set_whole(whole, set->outlook, by);
-        next.held = false;
-        status = march(set, BR_PROBE_WHOLE, BR_PROBE_WHOLE, err);
-        if (status || !is_told(set) || is_sure(whole))
+        status = try_probe(set, BR_PROBE_WHOLE, err);
+        if (!whole->held || is_sure(whole))
             break;
     }
     return status;
+}
+
+static enum br_status march_itself(struct br_probe_set *set, struct br_error *err)
+{
+    struct br_probe *probe = set->probe;
+    set_tight(&probe[BR_PROBE_TIGHT], set->outlook);
+    enum br_status status = try_probe(set, BR_PROBE_TIGHT, err);
+    if (status || is_sure(&probe[BR_PROBE_TIGHT]))
+        return status;
+    if (!by_tolerance(set->outlook->method))
+        return march_whole(set, err);
+    if (probe[BR_PROBE_TIGHT].held)
+        return BR_OK;
+    set_whole_by_equal_steps(&probe[BR_PROBE_WHOLE], set->outlook);
+    return try_probe(set, BR_PROBE_WHOLE, err);
+}
+
+/* What happens at t = 0, where no steps by a tolerance have seen it. */
+static enum br_status march_start(struct br_probe_set *set, struct br_error *err)
+{
+    struct br_probe *start = &set->probe[BR_PROBE_START];
+    set_start(start, set->outlook, false);
+    enum br_status status = try_probe(set, BR_PROBE_START, err);
+    if (status || start->held || set->probe[BR_PROBE_WHOLE].held)
+        return status;
+    set_start(start, set->outlook, true);
+    return march(set, BR_PROBE_START, BR_PROBE_START, err);
 }
 
 enum br_status br_probes_hold(struct br_probe_set *set, const struct br_outlook *outlook,
                               struct br_error *err)
 {
     *set = (struct br_probe_set){.outlook = outlook};
-    const enum br_status status =
-        by_tolerance(outlook->method) ? march_by_tolerance(set, err) : march_whole(set, err);
-    if (status || is_told(set))
+    struct br_probe *probe = set->probe;
+    enum br_status status = march_itself(set, err);
+    if (status || probe[BR_PROBE_TIGHT].held)
         return status;
-    forget(&set->probe[BR_PROBE_WHOLE]);
-    set_time(&set->probe[BR_PROBE_TIME], outlook);
-    set_start(&set->probe[BR_PROBE_START], outlook, &set->probe[BR_PROBE_TIME]);
-    set_space(&set->probe[BR_PROBE_SPACE], outlook);
-    return march(set, BR_PROBE_TIME, BR_PROBE_SPACE, err);
+    if (!probe[BR_PROBE_WHOLE].held) {
+        set_time(&probe[BR_PROBE_TIME], outlook);
+        set_space(&probe[BR_PROBE_SPACE], outlook);
+        status = march(set, BR_PROBE_TIME, BR_PROBE_SPACE, err);
+    }
+    if (status || by_tolerance(outlook->method))
+        return status;
+    return march_start(set, err);
 }
 
 void br_probes_clear(struct br_probe_set *set)
