@@ -14,8 +14,8 @@ static const double doubt = 3;
  * in elements of the run alone. */
 static const double measured_doubt = 1.5;
 
-/* A reference is off by at most so many times what its check differs from it: orders down to 1/2. */
-static const double of_check = 2.5;
+/* A reference is off by at most so many times what its check differs from it: orders from 3/4 on. */
+static const double of_check = 1.5;
 
 /* Round-off that is found may be so many times what is predicted. */
 static const double of_round_off = 4;

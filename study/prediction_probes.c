@@ -4,16 +4,18 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A solve costs as much as so many elements more than it has. */
-static const double overhead = 700;
+/* A solve costs as much as so many elements more than it has; an element whose load must be
+ * evaluated anew at each time, as so many others. */
+static const double overhead = 700, evaluated = 30;
 
 /* Elements times solves of all probes together: at least, at most, and as a share of the run's. */
 static const double least_work = 1e7, most_work = 5e7, most_share = 0.5;
-static const double chosen_work = 2e7; /* where the run chooses its steps */
-static const double chosen_stages = 8;
+static const double chosen_work = 6e7; /* where the run chooses its steps */
+static const double chosen_stages = 12;
 static const double time_share = 0.5, start_share = 0.2, space_share = 0.3;
 
-enum { SPACE_N = 128, TIME_N = 32, MOST_REFINED = 32, FINE_N = 32, TOLERANCE_LEVELS = 24,
+enum { SPACE_N = 128, TIME_N = 32, MOST_REFINED = 32, FINE_N = 32, MANY_N = 1000,
+       TOLERANCE_LEVELS = 24, LEAST_CHOSEN = 40,
        FIRST_STEPS = 4 };
 
 /* A reference is sure enough where its check differs from it by so much of the run's error, or of
@@ -37,9 +39,22 @@ static double stages(const struct br_method *m)
     return by_tolerance(m) ? chosen_stages : br_time_scheme_stages(m->scheme);
 }
 
+static bool is_evaluated(const struct br_load *load)
+{
+    return load->space.uses_x && load->space.uses_t;
+}
+
+/* A solve on so many elements. */
+static double solve(const struct br_outlook *o, double n)
+{
+    const bool anew = (o->scene->axial.modelled && is_evaluated(&o->scene->axial.load)) ||
+                      (o->scene->bending.modelled && is_evaluated(&o->scene->bending.load));
+    return n * (anew ? evaluated : 1) + overhead;
+}
+
 static double budget(const struct br_outlook *o)
 {
-    const double own = ((double)o->n + overhead) * (double)o->steps * stages(o->method);
+    const double own = solve(o, (double)o->n) * (double)o->steps * stages(o->method);
     if (o->budget > 0)
         return o->budget;
     return by_tolerance(o->method) ? chosen_work
@@ -112,9 +127,10 @@ struct finer {
     size_t elements, steps;
 };
 
+/* On a check's mesh, too, where that is not very fine. */
 static size_t refinement(size_t n)
 {
-    size_t ratio = 2;
+    size_t ratio = n < MANY_N ? 4 : 2;
     while (ratio < MOST_REFINED && n * ratio < FINE_N)
         ratio *= 2;
     return ratio;
@@ -151,9 +167,9 @@ static void set_whole_cells(struct br_probe *p, const struct br_outlook *o,
 static double whole_work(const struct br_outlook *o, const struct br_method *best, struct finer by)
 {
     const double n = (double)o->n, fine = n * (double)by.elements;
-    const double own = (n + fine + 2 * overhead) * stages(o->method);
-    const double others =
-        ((fine + overhead) + (fine / 2 + n + 2 * overhead) / 2) * (double)by.steps * stages(best);
+    const double own = (solve(o, n) + solve(o, fine)) * stages(o->method);
+    const double others = (solve(o, fine) + (solve(o, fine / 2) + solve(o, n)) / 2) *
+                          (double)by.steps * stages(best);
     return (own + others) * (double)o->steps;
 }
 
@@ -173,7 +189,7 @@ static void set_whole(struct br_probe *p, const struct br_outlook *o, struct fin
 /* Steps that a scheme may choose within a share of the budget. */
 static size_t most_steps(const struct br_outlook *o, double n)
 {
-    return (size_t)(budget(o) / 4 / ((n + overhead) * chosen_stages)) + 10;
+    return 1 + (size_t)(budget(o) / 4 / (solve(o, n) * chosen_stages));
 }
 
 /* Where there are not so many time levels that a tolerance decides little. */
@@ -185,7 +201,7 @@ static void set_tight(struct br_probe *p, const struct br_outlook *o)
     check.most_steps = reference.most_steps = most;
     p->steps[BR_WHOLE_RUN] =
         by_tolerance(o->method) ? least(o->steps, TOLERANCE_LEVELS) : o->steps;
-    if (p->steps[BR_WHOLE_RUN] <= most / 2)
+    if (p->steps[BR_WHOLE_RUN] + LEAST_CHOSEN <= most)
         set_whole_cells(p, o, &check, &reference, (struct finer){finer, 1});
 }
 
@@ -250,7 +266,7 @@ static void set_time(struct br_probe *p, const struct br_outlook *o)
     const struct br_method best = best_method(o->method);
     p->scene = *o->scene;
     p->n[0] = least(o->n, TIME_N);
-    const double most = time_share * budget(o) / ((double)p->n[0] + overhead);
+    const double most = time_share * budget(o) / solve(o, (double)p->n[0]);
     if (by_tolerance(o->method))
         compare_tolerances(p, o);
     else if ((double)o->steps * (stages(o->method) + 3 * stages(&best)) <= most)
@@ -267,7 +283,7 @@ static void set_start(struct br_probe *p, const struct br_outlook *o, bool equal
     struct br_method fine = equal ? best : tight_method(o->method, tighter);
     p->scene = *o->scene;
     p->n[0] = least(o->n, TIME_N);
-    const double most = start_share * budget(o) / ((double)p->n[0] + overhead);
+    const double most = start_share * budget(o) / solve(o, (double)p->n[0]);
     const double many = equal ? most / (stages(o->method) + 3 * stages(&best)) + 1 : FIRST_STEPS;
     fine.most_steps = most_steps(o, (double)p->n[0]);
     p->steps[0] = least(o->steps, (size_t)many);
@@ -299,7 +315,8 @@ static void set_space(struct br_probe *p, const struct br_outlook *o)
     p->ratio = (double)ratio;
     p->beyond = (double)o->n / (double)p->n[cells - 1];
     const double a_step =
-        ((double)(finest + p->n[0] + p->n[1]) + (1 + (double)cells) * overhead) * stages(&best);
+        (solve(o, (double)finest) + (double)cells * solve(o, (double)p->n[cells - 1])) *
+        stages(&best);
     p->steps[0] = least(o->steps, (size_t)(space_share * budget(o) / a_step) + 1);
     set_study(p, &best, &best, (struct br_resolution){finest, p->steps[0]});
     p->study.n_count = cells;
@@ -375,18 +392,43 @@ static bool is_sure(const struct br_probe *p)
     return all;
 }
 
-/* By ever finer references until one is sure, or the next one is beyond the budget. */
+/* The largest, over the fields, of a cell's distance from the reference, relative. */
+static double off(const struct br_probe *p, enum br_whole_cell cell)
+{
+    const double *error = p->study.cell[cell].error, *size = p->study.reference_size;
+    const double axial = size[BR_AXIAL] > 0 ? error[BR_PART_AXIAL] / size[BR_AXIAL] : 0;
+    const double bending = size[BR_BENDING] > 0 ? error[BR_PART_BENDING] / size[BR_BENDING] : 0;
+    return fmax(axial, bending);
+}
+
+/* Elements and steps of the next reference; where there is no room for both, of what the last one
+ * was less sure of: its check is unsure of space where meshes matter that much. False: no room. */
+static bool refine(const struct br_outlook *o, const struct br_probe *last, struct finer *by)
+{
+    const struct finer both = {4 * by->elements, 4 * by->steps}, space = {both.elements, by->steps},
+                       time = {by->elements, both.steps};
+    const bool of_space = 2 * off(last, BR_WHOLE_SPACE) > off(last, BR_WHOLE_CHECK);
+    const struct finer tries[] = {both, of_space ? space : time, of_space ? time : space};
+    for (size_t i = 0; i < sizeof tries / sizeof *tries; i++)
+        if (is_affordable(o, tries[i])) {
+            *by = tries[i];
+            return true;
+        }
+    return false;
+}
+
+/* By ever finer references until one is sure, or there is no room for more. */
 static enum br_status march_whole(struct br_probe_set *set, struct br_error *err)
 {
     struct br_probe *whole = &set->probe[BR_PROBE_WHOLE];
     struct finer by = {refinement(set->outlook->n), 4};
     enum br_status status = BR_OK;
-    for (; !status && is_affordable(set->outlook, by); by.elements *= 2, by.steps *= 4) {
+    bool more = is_affordable(set->outlook, by);
+    while (more && !status) {
         forget(whole);
         set_whole(whole, set->outlook, by);
         status = try_probe(set, BR_PROBE_WHOLE, err);
-        if (!whole->held || is_sure(whole))
-            break;
+        more = whole->held && !is_sure(whole) && refine(set->outlook, whole, &by);
     }
     return status;
 }
