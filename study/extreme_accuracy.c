@@ -12,15 +12,19 @@ static void compare(struct br_extreme_trial *t)
 {
     struct br_extreme_verdict *v = t->verdict;
     v->error = v->stated = 0;
-    t->beyond = 0;
+    t->beyond = t->error = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         double sure;
         const double e = br_track_error(t->own, t->other, (enum br_field_kind)kind, &sure);
-        const double stated = br_predicted_most(&t->prediction, (enum br_field_kind)kind);
+        const double boast = t->court->boast > 0 ? t->court->boast : 1;
+        const double stated =
+            br_predicted_most(&t->prediction, (enum br_field_kind)kind) / boast;
         const double slack = fmax(sure, of_distance * t->judge_error[kind]);
         const double beyond = e <= slack + stated ? 0 : (e - slack) / fmax(stated, 1e-300);
-        if (isnan(beyond) || beyond > t->beyond || (beyond == t->beyond && !(e <= v->error)))
+        if (isnan(beyond) || beyond > t->beyond || (beyond == t->beyond && !(e <= t->error))) {
             v->stated = stated;
+            t->error = e;
+        }
         v->error = isnan(e) || e > v->error ? e : v->error;
         t->beyond = isnan(beyond) || beyond > t->beyond ? beyond : t->beyond;
     }
@@ -135,7 +139,7 @@ static void decide_accuracy(struct br_extreme_trial *t)
         br_extreme_decide(t, BR_EXTREME_WARNED, "error %.2g, and says so", v->error);
     else
         br_extreme_decide(t, BR_EXTREME_WRONG,
-                          "error %.2g by %s, stated to be at most %.2g", v->error,
+                          "error %.2g by %s, stated to be at most %.2g", t->error,
                           br_extreme_by_name(v->by), v->stated);
 }
 

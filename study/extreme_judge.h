@@ -56,6 +56,8 @@ struct br_extreme_verdict {
 struct br_extreme_court {
     int rounding; /* of the marches, as fesetround takes it */
     bool quick;   /* without the other units and the exact solution */
+    double boast; /* stated errors are taken for so many times smaller, so that tests see what is
+                     called wrong; 0: as stated */
 };
 
 /* Judges a case; *verdict (out). Fails with BR_NO_MEMORY. */

@@ -19,7 +19,8 @@ struct br_extreme_trial {
     struct br_track *own, *other;
     struct br_prediction prediction;
     double judge_error[2]; /* of those who judge, by br_field_kind, relative; 0: not known */
-    double beyond;         /* the error over what is stated, where it is more; 0: it is not */
+    double beyond;         /* an error over what is stated, where it is more; 0: it is not */
+    double error;          /* that error, or the largest */
     struct br_warnings warnings;
     bool done;
 };

@@ -14,15 +14,18 @@ static const double doubt = 3;
  * in elements of the run alone. */
 static const double measured_doubt = 1.5;
 
-/* A reference is off by at most so many times what its check differs from it: orders from 3/4 on. */
+/* A reference of order one is off by at most so many times what its check differs from it. */
 static const double of_check = 1.5;
+
+/* Orders in space that are told apart. */
+static const double lowest_order = 0.25, highest_order = 1;
 
 /* Round-off that is found may be so many times what is predicted. */
 static const double of_round_off = 4;
 
 /* An interval is of use if its ends differ by at most this factor, or its upper end is below the
- * solution itself. */
-static const double widest = 300, all = 1;
+ * solution itself or near to the error that is expected. */
+static const double widest = 300, all = 1, near = 10;
 
 /* Exponents of the tolerance: least, expected, most. */
 static const double by_tolerance[] = {0.6, 0.9, 1.2};
@@ -77,11 +80,36 @@ static void bracket(double observed, double q, double spoilt, double order[3])
 
 /* ---- the run itself ---- */
 
-/* A cell's distance from the reference, which its check tells how sure it is. */
+/* How far a reference may be off, of whose elements or steps two cells have 1/a and 1/b and these
+ * distances from it: by the order q with (a^q - 1) / (b^q - 1) as their ratio. Where a layer is
+ * narrower than all of them, finer ones change little, and the order is next to nothing. */
+static double reference_error(double coarse, double a, double finer, double b)
+{
+    double low = lowest_order, high = highest_order;
+    for (int i = 0; i < 30; i++) {
+        const double q = (low + high) / 2;
+        if ((pow(a, q) - 1) * finer < coarse * (pow(b, q) - 1))
+            low = q;
+        else
+            high = q;
+    }
+    return of_check * finer / (pow(b, low) - 1);
+}
+
+/* The same of the run's own reference: in time by its check's steps, in space by three meshes. */
+static double whole_reference_error(const struct br_probe *p, int kind)
+{
+    const double steps = cell_error(p, BR_WHOLE_STEPS, kind);
+    const double finer = fmax(0, cell_error(p, BR_WHOLE_CHECK, kind) - steps);
+    const double coarse = fmax(0, cell_error(p, BR_WHOLE_SPACE, kind) - steps);
+    const double a = (double)p->study.reference.n / (double)p->n[BR_WHOLE_RUN];
+    return of_check * steps + reference_error(coarse, a, finer, 2);
+}
+
+/* A cell's distance from the reference, and how sure that is. */
 static struct br_predicted distance(const struct br_probe *p, enum br_whole_cell cell, int kind)
 {
-    const double e = cell_error(p, cell, kind);
-    const double unsure = of_check * cell_error(p, BR_WHOLE_CHECK, kind);
+    const double e = cell_error(p, cell, kind), unsure = whole_reference_error(p, kind);
     return (struct br_predicted){
         .error = e,
         .low = fmax(0, (e - unsure) / measured_doubt),
@@ -122,13 +150,20 @@ static double order_in_time(const struct br_outlook *o)
     return o->method->contact->at_new_step ? o->method->scheme->order : 1;
 }
 
+/* A distance of the run's own steps or elements from a reference that may be off by so much. */
+static struct br_predicted around(double e, double unsure)
+{
+    return (struct br_predicted){.error = e,
+                                 .low = fmax(0, e - unsure) / doubt,
+                                 .high = doubt * (e + unsure),
+                                 .order = NAN};
+}
+
 static struct br_predicted measured_time(const struct br_probe *p, int kind)
 {
-    static const double same[3] = {0, 0, 0};
-    double e = cell_error(p, 0, kind);
-    if (p->study.k_count > 1)
-        e += cell_error(p, 1, kind) / 2;
-    return by_orders(e, 1, same);
+    const double e = cell_error(p, 0, kind);
+    const double finer = p->study.k_count > 1 ? cell_error(p, 1, kind) : e / 2;
+    return around(e, reference_error(e, p->ratio, finer, 3));
 }
 
 static struct br_predicted extrapolated_time(const struct br_probe *p, const struct br_outlook *o,
@@ -179,7 +214,10 @@ static struct br_predicted space_error(const struct br_probe_set *s, int kind)
     const double fine = cell_error(p, p->study.n_count - 1, kind);
     if (fine == 0) /* not modelled, or at rest */
         return (struct br_predicted){.order = NAN};
-    const double observed = p->measured ? q : observed_order(cell_error(p, 0, kind), fine);
+    if (p->measured)
+        return around(cell_error(p, 0, kind),
+                      reference_error(cell_error(p, 0, kind), p->ratio, fine, 2));
+    const double observed = observed_order(cell_error(p, 0, kind), fine);
     double order[3];
     bracket(observed, q, q, order);
     return by_orders(fine / (1 - pow(p->ratio, -fmax(order[1], least_order))), p->beyond, order);
@@ -227,7 +265,7 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
             continue;
         const struct br_predicted e = p->field[kind] = relative(whole_error(s, kind), size);
         p->bounded = p->bounded && isfinite(e.high);
-        useful = useful && (e.high <= all || e.high <= widest * e.low);
+        useful = useful && (e.high <= fmax(all, near * e.error) || e.high <= widest * e.low);
         if (e.high <= p->whole.high)
             continue;
         p->whole = e;

@@ -141,12 +141,13 @@ static void set_whole_cells(struct br_probe *p, const struct br_outlook *o,
                             struct finer by)
 {
     const size_t finer = by.elements, shorter = by.steps, steps = p->steps[BR_WHOLE_RUN];
-    const size_t n[] = {o->n, o->n * finer / 2, o->n * finer, o->n};
-    const size_t times[] = {steps, steps * shorter / 2, steps, steps * shorter / 2};
+    const size_t fine = o->n * finer, half = steps * shorter / 2;
+    const size_t n[] = {o->n, fine / 2, fine, o->n, fine};
+    const size_t times[] = {steps, half, steps, half, half};
     struct br_method own_steps = *o->method;
     own_steps.solver = br_linear_solvers[0];
     own_steps.most_steps = check->most_steps;
-    const struct br_method method[] = {*o->method, *check, own_steps, *check};
+    const struct br_method method[] = {*o->method, *check, own_steps, *check, *check};
     for (int i = 0; i < BR_WHOLE_CELLS; i++) {
         p->n[i] = n[i];
         p->steps[i] = by_tolerance(check) ? steps : times[i];
@@ -156,8 +157,7 @@ static void set_whole_cells(struct br_probe *p, const struct br_outlook *o,
     p->scene = *o->scene;
     p->measured = true;
     set_study(p, o->method, reference,
-              (struct br_resolution){o->n * finer,
-                                     by_tolerance(check) ? steps : steps * shorter});
+              (struct br_resolution){fine, by_tolerance(check) ? steps : steps * shorter});
     p->study.path = true;
     p->study.n_count = p->study.k_count = BR_WHOLE_CELLS;
     p->study.cell_method = p->method;
@@ -168,7 +168,7 @@ static double whole_work(const struct br_outlook *o, const struct br_method *bes
 {
     const double n = (double)o->n, fine = n * (double)by.elements;
     const double own = (solve(o, n) + solve(o, fine)) * stages(o->method);
-    const double others = (solve(o, fine) + (solve(o, fine / 2) + solve(o, n)) / 2) *
+    const double others = (1.5 * solve(o, fine) + (solve(o, fine / 2) + solve(o, n)) / 2) *
                           (double)by.steps * stages(best);
     return (own + others) * (double)o->steps;
 }
@@ -299,27 +299,25 @@ static void set_start(struct br_probe *p, const struct br_outlook *o, bool equal
 static void set_space(struct br_probe *p, const struct br_outlook *o)
 {
     const struct br_method best = best_method(o->method);
-    size_t ratio = 2, cells = 1;
+    size_t finest = 2 * SPACE_N;
     p->scene = *o->scene;
     p->measured = o->n <= SPACE_N;
     if (p->measured) {
-        p->n[0] = o->n;
+        size_t ratio = 4;
         while (ratio < MOST_REFINED && o->n * ratio < SPACE_N)
             ratio *= 2;
-    } else {
-        p->n[0] = SPACE_N / 2;
-        p->n[1] = SPACE_N;
-        cells = 2;
+        finest = ratio * o->n;
     }
-    const size_t finest = ratio * p->n[cells - 1];
-    p->ratio = (double)ratio;
-    p->beyond = (double)o->n / (double)p->n[cells - 1];
+    p->n[0] = p->measured ? o->n : SPACE_N / 2;
+    p->n[1] = finest / 2;
+    p->ratio = (double)finest / (double)p->n[p->measured ? 0 : 1];
+    p->beyond = p->measured ? 1 : (double)o->n / (double)p->n[1];
     const double a_step =
-        (solve(o, (double)finest) + (double)cells * solve(o, (double)p->n[cells - 1])) *
+        (solve(o, (double)finest) + solve(o, (double)p->n[0]) + solve(o, (double)p->n[1])) *
         stages(&best);
     p->steps[0] = least(o->steps, (size_t)(space_share * budget(o) / a_step) + 1);
     set_study(p, &best, &best, (struct br_resolution){finest, p->steps[0]});
-    p->study.n_count = cells;
+    p->study.n_count = 2;
 }
 
 /* ---- marching ---- */
@@ -329,8 +327,8 @@ bool br_probe_failed(const struct br_probe *p, char why[200])
     const struct br_study *s = &p->study;
     const struct br_error *failure = &s->failure;
     for (size_t i = 0; p->held && !failure->status && i < br_study_cells(s); i++) {
-        if (s->path && i > BR_WHOLE_CHECK) /* these only tell what the error comes from */
-            break;
+        if (s->path && (i == BR_WHOLE_TIME || i == BR_WHOLE_SPACE))
+            continue; /* these only tell what the error comes from */
         if (s->cell[i].unstable) {
             snprintf(why, 200, "the lagged contact is beyond its stability limit%s",
                      p->measured ? "" : " at the steps of a cheap march");

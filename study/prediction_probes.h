@@ -22,6 +22,7 @@ enum br_whole_cell {
                        tolerance: how sure it is */
     BR_WHOLE_TIME,  /* the run's steps on the reference's mesh: the error of time */
     BR_WHOLE_SPACE, /* the run's mesh with the check's steps: the error of space */
+    BR_WHOLE_STEPS, /* the reference's mesh with the check's steps: how sure it is of time */
     BR_WHOLE_CELLS
 };
 
