@@ -35,14 +35,24 @@ static const double least_order = 0.5;
 
 static const enum br_part part_of[2] = {BR_PART_AXIAL, BR_PART_BENDING};
 
-/* The largest a field becomes; where it rests, the other field's. */
-static double solution_size(const struct br_probe_set *s, int kind)
+/* How large a field becomes: at least, and at most, by the marches that go to the end; a coarse mesh
+ * may sway far more than a fine one. Where the field rests in one of them, the other field's. */
+struct size {
+    double least, most;
+};
+
+static struct size solution_size(const struct br_probe_set *s, int kind)
 {
-    double size[2] = {0, 0};
-    for (int i = 0; i < BR_PROBES; i++)
-        for (int k = BR_AXIAL; k <= BR_BENDING && s->probe[i].held; k++)
-            size[k] = fmax(size[k], s->probe[i].study.reference_size[k]);
-    return size[kind] > 0 ? size[kind] : size[1 - kind];
+    struct size size = {INFINITY, 0};
+    for (int i = 0; i < BR_PROBES; i++) {
+        const double *seen = s->probe[i].study.reference_size;
+        if (!s->probe[i].held || i == BR_PROBE_START)
+            continue;
+        const double one = seen[kind] > 0 ? seen[kind] : seen[1 - kind];
+        size.least = fmin(size.least, one);
+        size.most = fmax(size.most, one);
+    }
+    return size;
 }
 
 static double cell_error(const struct br_probe *p, size_t cell, int kind)
@@ -96,14 +106,20 @@ static double reference_error(double coarse, double a, double finer, double b)
     return of_check * finer / (pow(b, low) - 1);
 }
 
-/* The same of the run's own reference: in time by its check's steps, in space by three meshes. */
+/* The same of the run's own reference: in time by its check's steps and the run's, in space by three
+ * meshes. */
 static double whole_reference_error(const struct br_probe *p, int kind)
 {
     const double steps = cell_error(p, BR_WHOLE_STEPS, kind);
+    const double shorter = (double)p->study.reference.steps / (double)p->steps[BR_WHOLE_RUN];
+    const double in_time =
+        p->study.reference_method.scheme->adaptive
+            ? of_check * steps
+            : reference_error(cell_error(p, BR_WHOLE_TIME, kind), shorter, steps, 2);
     const double finer = fmax(0, cell_error(p, BR_WHOLE_CHECK, kind) - steps);
     const double coarse = fmax(0, cell_error(p, BR_WHOLE_SPACE, kind) - steps);
     const double a = (double)p->study.reference.n / (double)p->n[BR_WHOLE_RUN];
-    return of_check * steps + reference_error(coarse, a, finer, 2);
+    return in_time + reference_error(coarse, a, finer, 2);
 }
 
 /* A cell's distance from the reference, and how sure that is. */
@@ -239,11 +255,12 @@ static struct br_predicted whole_error(const struct br_probe_set *s, int kind)
 }
 
 /* Of a field that rests in every march, 0. */
-static struct br_predicted relative(struct br_predicted e, double size)
+static struct br_predicted relative(struct br_predicted e, struct size size)
 {
     if (e.high == 0)
         return (struct br_predicted){.order = e.order};
-    return (struct br_predicted){e.error / size, e.low / size, e.high / size, e.order};
+    return (struct br_predicted){e.error / size.least, e.low / size.most, e.high / size.least,
+                                 e.order};
 }
 
 static bool is_modelled(const struct br_scene *scene, int kind)
@@ -260,7 +277,7 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
     p->bounded = true;
     p->whole.high = -1;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const double size = solution_size(s, kind);
+        const struct size size = solution_size(s, kind);
         if (!is_modelled(s->outlook->scene, kind))
             continue;
         const struct br_predicted e = p->field[kind] = relative(whole_error(s, kind), size);

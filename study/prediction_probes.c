@@ -400,12 +400,12 @@ static double off(const struct br_probe *p, enum br_whole_cell cell)
 }
 
 /* Elements and steps of the next reference; where there is no room for both, of what the last one
- * was less sure of: its check is unsure of space where meshes matter that much. False: no room. */
+ * was less sure of. False: no room. */
 static bool refine(const struct br_outlook *o, const struct br_probe *last, struct finer *by)
 {
     const struct finer both = {4 * by->elements, 4 * by->steps}, space = {both.elements, by->steps},
                        time = {by->elements, both.steps};
-    const bool of_space = 2 * off(last, BR_WHOLE_SPACE) > off(last, BR_WHOLE_CHECK);
+    const bool of_space = 2 * off(last, BR_WHOLE_STEPS) < off(last, BR_WHOLE_CHECK);
     const struct finer tries[] = {both, of_space ? space : time, of_space ? time : space};
     for (size_t i = 0; i < sizeof tries / sizeof *tries; i++)
         if (is_affordable(o, tries[i])) {
