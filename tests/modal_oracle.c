@@ -209,6 +209,17 @@ static real step_piece(const struct weight *w, real x0, real x1)
     return w->mode ? mode_integral(w->mode, x0, x1) : smooth_piece(w, &one, none, x0, x1);
 }
 
+/* The integral of exp(-((x - s) / w)^2) times a mode over the whole line: the beam's, where the
+ * blow is inside. */
+static real whole_gauss(const struct mode *m, real s, real w)
+{
+    const real b = m->b, bend = b * b * w * w / 4, area = w * sqrtl(pi);
+    if (!m->bending)
+        return root2 * area * expl(-bend) * sinl(b * s);
+    return area * (m->start * expl(bend - b * s) + m->end * expl(bend - b * (1 - s)) +
+                   expl(-bend) * (m->sine * sinl(b * s) - cosl(b * s)));
+}
+
 static real clipped(real x)
 {
     return fminl(fmaxl(x, 0), 1);
@@ -228,6 +239,9 @@ static real spread(const struct weight *w, const struct oracle_factor *f, real s
     if (f->kind == ORACLE_STEPS)
         return sum;
     const size_t edges = factor_edges(f, edge);
+    if (f->kind == ORACLE_GAUSS && w->mode && w->mode->b * f->p[1] <= 12 * length &&
+        shift + edge[0] >= 0 && shift + edge[edges - 1] <= length)
+        return whole_gauss(w->mode, (shift + f->p[0]) / length, f->p[1] / length);
     for (size_t i = 0; i <= edges; i++) {
         const real x1 = i < edges ? clipped((shift + edge[i]) / length) : 1;
         const bool outside = edges && (i == 0 || i == edges); /* nothing is left there */
@@ -748,7 +762,7 @@ void oracle_term(const struct oracle_problem *problem, const struct oracle_term 
                  const double *t, struct oracle_tip *tip)
 {
     const size_t least = problem->finer ? 64 : 32;
-    const size_t most = (term->moving ? 4 : problem->bending ? 8 : 64) * least;
+    const size_t most = (term->moving ? 4 : problem->bending ? 8 : 32) * least;
     prepare_gauss();
     struct solver s = {.problem = problem, .term = term, .times = times, .t = t};
     make_solver(&s, most);

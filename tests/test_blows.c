@@ -353,7 +353,9 @@ static void add_moving(struct trial *c, char load[3][TEXT])
         if (sign)
             *sign = '-';
     } else {
-        const double width = brief(decades(c, 1e-8, 0.1) * length);
+        /* A wide one costs the oracle much where there are many modes. */
+        const double widest = c->problem.bending ? 0.1 : 3e-3;
+        const double width = brief(decades(c, 1e-8, widest) * length);
         char v[220];
         sprintf(v, "(x - %s)", place);
         term.space = draw_narrow(c, 0, width, v, step, d.space);
@@ -416,13 +418,17 @@ static int ascending_times(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Random times, the last, and one in or just after each blow. */
+/* Random times, the last, and one in or just after each blow; in a rod no sooner than the modes of
+ * the oracle have followed. */
 static void draw_times(struct trial *c)
 {
-    for (size_t i = 0; i < c->terms && c->times < TIMES - 3; i++)
+    for (size_t i = 0; i < c->terms && c->times < TIMES - 3; i++) {
+        const double width = c->sharp[i] * c->duration;
+        const double wait = c->problem.bending ? width : fmax(width, 1e-4 * c->duration);
         if (c->quick[i] != 0)
             c->t[c->times++] =
-                c->quick[i] + uniform(c, -1, 9) * fmin(c->sharp[i] * c->duration, c->quick[i] / 10);
+                c->quick[i] + uniform(c, wait > width ? 0.1 : -1, 9) * fmin(wait, c->quick[i] / 10);
+    }
     for (c->t[c->times++] = c->duration; c->times < TIMES; c->times++)
         c->t[c->times] = uniform(c, 0.001, 1) * c->duration;
     for (size_t i = 0; i < TIMES; i++)
