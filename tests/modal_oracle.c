@@ -190,7 +190,7 @@ static real smooth_piece(const struct weight *w, const struct oracle_factor *f, 
 {
     const real wave = f->kind == ORACLE_WAVE ? (real)f->p[0] * shift[1] : 0;
     const real angle = (x1 - x0) * fmaxl(w->mode ? w->mode->b : 0, fabsl(wave));
-    const size_t parts = 1 + (size_t)(angle / 4);
+    const size_t parts = 1 + (size_t)(angle / 12);
     const real width = (x1 - x0) / (real)parts;
     real sum = 0;
     for (size_t i = 0; i < parts; i++)
@@ -755,7 +755,7 @@ static bool settled(size_t times, const struct oracle_tip *before, struct oracle
         error[0] = fmaxl(error[0], tip[k].displacement_error);
         error[1] = fmaxl(error[1], tip[k].velocity_error);
     }
-    return error[0] <= 1e-14L * most[0] && error[1] <= 1e-12L * most[1];
+    return error[0] <= 1e-13L * most[0] && error[1] <= 1e-11L * most[1];
 }
 
 void oracle_term(const struct oracle_problem *problem, const struct oracle_term *term, size_t times,
