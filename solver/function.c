@@ -74,3 +74,24 @@ const struct br_function *br_function_guard(const struct br_function *f, size_t 
 {
     return f->ops && f->ops->guard ? f->ops->guard(f->self, i) : NULL;
 }
+
+enum br_status br_function_derive(const struct br_function *f, const struct br_derivation *what,
+                                  struct br_function *out, struct br_error *err)
+{
+    *out = (struct br_function){0};
+    if (f->ops && !f->ops->derive)
+        return br_fail(err, BR_BAD_INPUT, "found a function without derivatives");
+    if (f->ops)
+        return f->ops->derive(f->self, what, out, err);
+    for (size_t i = 0; i < what->count; i++)
+        if (what->term[i].order.x == 0 && what->term[i].order.t == 0)
+            out->constant += what->term[i].factor * f->constant;
+    return BR_OK;
+}
+
+enum br_status br_function_derivative(const struct br_function *f, struct br_partial order,
+                                      struct br_function *out, struct br_error *err)
+{
+    const struct br_derivation what = {1, {{1, order}}, NAN, NAN};
+    return br_function_derive(f, &what, out, err);
+}

@@ -217,8 +217,9 @@ static void see_load(struct br_part *part, double t)
     const struct br_drive *drive = &part->load.drive;
     if (drive->vector && drive->changed) {
         double most = 0;
-        for (size_t i = 0; i < br_field_size(&part->field); i++)
-            most = fmax(most, fabs(drive->vector[i]));
+        const size_t size = br_field_size(&part->field);
+        for (size_t i = 0; i < size; i++)
+            most = fabs(drive->vector[i]) > most ? fabs(drive->vector[i]) : most;
         part->load_size = most > 0 ? most : lost_force(part, t);
     }
     const long double load = part->load_size * fabs(drive->factor);

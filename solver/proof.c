@@ -77,8 +77,8 @@ static bool take_in(struct proof *p, struct br_box box)
     iv value;
     if (!br_function_bound(p->f, box, &value))
         return false;
-    p->value = p->begun ? (iv){fmin(p->value.low, value.low), fmax(p->value.high, value.high)}
-                        : value;
+    p->value =
+        p->begun ? (iv){fmin(p->value.low, value.low), fmax(p->value.high, value.high)} : value;
     p->begun = true;
     return true;
 }
@@ -216,8 +216,9 @@ enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, 
         p.left[p.count++] = p.whole;
     while (p.count && found == BR_FINITE) {
         found = divide(&p, p.left[--p.count]);
-        if (found == BR_FINITE && p.count && (++looked == (budget ? budget : MOST_BOXES) ||
-                                              p.count + 2 > sizeof p.left / sizeof *p.left))
+        if (found == BR_FINITE && p.count &&
+            (++looked == (budget ? budget : MOST_BOXES) ||
+             p.count + 2 > sizeof p.left / sizeof *p.left))
             found = BR_UNBOUNDED;
     }
     *value = p.value;
@@ -242,6 +243,15 @@ static size_t find_worst(const struct piece *piece, size_t count, double sign)
     return worst;
 }
 
+/* Without bound: everything. */
+static struct piece piece_of(const struct br_function *f, struct br_box box)
+{
+    struct piece p = {.box = box};
+    if (!br_function_bound(f, box, &p.value))
+        p.value = (iv){-INFINITY, INFINITY};
+    return p;
+}
+
 /* Halves piece i: one half takes its place, the other one the next. */
 static bool halve(const struct br_function *f, struct br_box whole, struct piece *piece, size_t i,
                   size_t next)
@@ -252,28 +262,20 @@ static bool halve(const struct br_function *f, struct br_box whole, struct piece
     if (!is_divisible(along_x ? box.x : box.t))
         return false;
     split(box, along_x ? BR_X : BR_T, half);
-    piece[i].box = half[0];
-    piece[next].box = half[1];
-    return br_function_bound(f, half[0], &piece[i].value) &&
-           br_function_bound(f, half[1], &piece[next].value);
+    piece[i] = piece_of(f, half[0]);
+    piece[next] = piece_of(f, half[1]);
+    return true;
 }
 
 bool br_enclose_values(const struct br_function *f, struct br_box box, size_t budget, iv *value,
                        struct br_box *peak)
 {
     enum { MOST = 500 };
-    struct piece piece[MOST] = {{.box = used_box(f, box)}};
+    struct piece piece[MOST] = {piece_of(f, used_box(f, box))};
     const size_t most = budget && budget < MOST ? budget : MOST;
     const struct br_box whole = piece[0].box;
     iv seen = {INFINITY, -INFINITY};
-    bool bounded = br_function_bound(f, whole, &piece[0].value);
-    *peak = (struct br_box){point(middle(whole.x)), point(middle(whole.t))};
-    *value = piece[0].value;
-    if (!bounded) { /* not at once */
-        struct br_box where;
-        return br_prove_bounded(f, box, budget, value, &where) == BR_FINITE;
-    }
-    for (size_t count = 1; bounded; count++) {
+    for (size_t count = 1;; count++) {
         const size_t top = find_worst(piece, count, 1), bottom = find_worst(piece, count, -1);
         *value = (iv){piece[bottom].value.low, piece[top].value.high};
         for (int k = 0; k < 2; k++) {
@@ -290,7 +292,9 @@ bool br_enclose_values(const struct br_function *f, struct br_box box, size_t bu
             !halve(f, whole, piece, above >= below ? top : bottom, count))
             break;
     }
-    return bounded;
+    struct br_box where; /* a limit that is filled in has a bound near it only */
+    return (isfinite(value->low) && isfinite(value->high)) ||
+           br_prove_bounded(f, box, 0, value, &where) == BR_FINITE;
 }
 
 /* Whether evaluation gives numbers at the neighbours of a point, in each variable. */
@@ -350,11 +354,11 @@ struct zero_search {
 
 static enum sign sign_of(bool bounded, iv a)
 {
-    return !bounded                      ? UNDECIDED
-           : a.low > 0                   ? POSITIVE
-           : a.high < 0                  ? NEGATIVE
-           : a.low == 0 && a.high == 0   ? ZERO
-                                         : UNDECIDED;
+    return !bounded                    ? UNDECIDED
+           : a.low > 0                 ? POSITIVE
+           : a.high < 0                ? NEGATIVE
+           : a.low == 0 && a.high == 0 ? ZERO
+                                       : UNDECIDED;
 }
 
 static enum sign sign_on(const struct zero_search *s, iv part)
@@ -503,8 +507,8 @@ static void merge(struct br_breaks *b)
 static enum br_status search(const struct br_function *guard, enum br_variable along,
                              struct br_box box, struct br_breaks *out, struct br_error *err)
 {
-    struct zero_search s = {.guard = guard, .along = along, .box = box, .out = out, .err = err,
-                       .before = UNDECIDED};
+    struct zero_search s = {
+        .guard = guard, .along = along, .box = box, .out = out, .err = err, .before = UNDECIDED};
     iv *all = side(&box, along);
     s.before = sign_on(&s, point(all->low)); /* so that zero from the start on is no break */
     locate(&s, *all);
@@ -555,8 +559,8 @@ static bool has_single_front(const struct br_function *g, struct br_box box, int
            has_single_front(g, half[1], depth - 1);
 }
 
-enum br_status br_front_times(const struct br_function *f, struct br_box box,
-                              struct br_breaks *out, bool *complete, struct br_error *err)
+enum br_status br_front_times(const struct br_function *f, struct br_box box, struct br_breaks *out,
+                              bool *complete, struct br_error *err)
 {
     enum { DEPTH = 12 };
     const struct br_function *g;
@@ -640,7 +644,8 @@ static void refine(struct mesher *m, iv cell)
     const bool flat = bounded && 4 * range <= tolerance;
     if (flat || (bounded && is_polynomial(m, box, cell)))
         add_cell(m, cell, false, range);
-    else if (bounded && (width(cell) * range <= tolerance * m->total || width(cell) < m->aim->least))
+    else if (bounded &&
+             (width(cell) * range <= tolerance * m->total || width(cell) < m->aim->least))
         add_cell(m, cell, true, range);
     else if (!is_divisible(cell)) {
         m->out->capacity = m->out->count; /* no further */
@@ -669,12 +674,16 @@ static void refine_between(struct mesher *m, const struct br_breaks *breaks)
 }
 
 enum br_status br_resolve(const struct br_function *f, enum br_variable along, struct br_box box,
-                          const struct br_mesh_aim *aim, struct br_mesh *out,
-                          struct br_error *err)
+                          const struct br_mesh_aim *aim, struct br_mesh *out, struct br_error *err)
 {
     const size_t most = aim->most ? aim->most : MOST_CELLS;
-    struct mesher m = {.f = f, .along = along, .box = box, .aim = aim, .out = out,
-                       .total = width(*side(&box, along)), .err = err};
+    struct mesher m = {.f = f,
+                       .along = along,
+                       .box = box,
+                       .aim = aim,
+                       .out = out,
+                       .total = width(*side(&box, along)),
+                       .err = err};
     struct br_breaks breaks = {0};
     *out = (struct br_mesh){br_allocate(most + 1, sizeof *out->at),
                             br_allocate(most, sizeof *out->rough), 0, most, 0};

@@ -15,7 +15,8 @@ enum br_finite {
 };
 
 /* Whether f is finite everywhere in the box. value: out, encloses all its values where it is,
- * perhaps by far; where: out where it is not. budget: how many boxes may be looked at, 0 for the usual number. */
+ * perhaps by far; where: out where it is not. budget: how many boxes may be looked at, 0 for the
+ * usual number. */
 enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, size_t budget,
                                 struct br_interval *value, struct br_box *where);
 
@@ -68,7 +69,8 @@ struct br_mesh {
     double *at;  /* count + 1; owned */
     bool *rough; /* count; owned */
     size_t count, capacity;
-    double missed; /* sum of width * (range of values) over the rough cells, f's unit times along's */
+    double
+        missed; /* sum of width * (range of values) over the rough cells, f's unit times along's */
 };
 void br_mesh_free(struct br_mesh *mesh);
 

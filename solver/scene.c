@@ -129,6 +129,7 @@ struct br_function *br_scene_function(struct br_scene *s, size_t i)
         &s->bending.velocity,     &s->bending.velocity_slope,
         &s->axial.tip_force,      &s->bending.tip_force,
         &s->bending.tip_moment,   &s->bending.stick_force,
+        &s->axial.given,          &s->bending.given,
     };
     const size_t singles = sizeof single / sizeof *single;
     if (i < singles)

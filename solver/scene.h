@@ -42,6 +42,7 @@ struct br_axial {
     struct br_function velocity;     /* v0(x), m/s */
     char *solution;                  /* owned; NULL, or u(x, t), m, from which load, tip force
                                         and initial data were derived (reference/mms) */
+    struct br_function given;        /* that solution */
 };
 
 /* The beam of (4), (9) and (11). Hermite interpolation of the initial data
@@ -56,6 +57,7 @@ struct br_bending {
     struct br_function displacement, displacement_slope; /* w0(x), m, and w0'(x), 1 */
     struct br_function velocity, velocity_slope;         /* m/s and 1/s */
     char *solution;                 /* owned; NULL, or w(x, t), m, as for the axial part */
+    struct br_function given;       /* that solution */
     struct br_function stick_force; /* of t, N: lambda of that solution while its tip rests */
 };
 

@@ -20,7 +20,7 @@
 #define BR_EXTREME_LIST(X)                                                              \
     X(BR_EXTREME_RIGHT, "right", "right")                                               \
     X(BR_EXTREME_WARNED, "inaccurate", "stable but inaccurate, and says so")            \
-    X(BR_EXTREME_UNWARNED, "inaccurate-unsaid", "stable but inaccurate, and is silent") \
+    X(BR_EXTREME_UNKNOWN, "not-known", "inaccurate, and says that its error is not known") \
     X(BR_EXTREME_UNSTABLE, "unstable", "unstable as predicted")                         \
     X(BR_EXTREME_REFUSED, "refused", "refused")                                         \
     X(BR_EXTREME_UNJUDGED, "unjudged", "given up by the map")                           \
@@ -42,7 +42,10 @@ const char *br_extreme_by_name(enum br_extreme_by by);
 struct br_extreme_verdict {
     enum br_extreme_class which;
     enum br_extreme_by by;
+    bool known;       /* the run states its error */
     double error;     /* of displacements, over the largest; NaN: not known */
+    double stated;    /* the most that the error is stated to be, of the field that is nearest to it
+                         or beyond; INFINITY: nothing is stated; NaN: not compared */
     double units;     /* the same between two systems of units; NaN: not compared */
     double round_off; /* predicted */
     unsigned warned;  /* bits: 1 << br_warning_kind */
@@ -53,6 +56,8 @@ struct br_extreme_verdict {
 struct br_extreme_court {
     int rounding; /* of the marches, as fesetround takes it */
     bool quick;   /* without the other units and the exact solution */
+    double boast; /* stated errors are taken for so many times smaller, so that tests see what is
+                     called wrong; 0: as stated */
 };
 
 /* Judges a case; *verdict (out). Fails with BR_NO_MEMORY. */

@@ -7,9 +7,8 @@
 #define FAR 0.45308992296933200
 
 const double br_load_place[BR_LOAD_PLACES] = {0.5 - FAR, 0.5 - NEAR, 0.5, 0.5 + NEAR, 0.5 + FAR};
-const double br_load_weight[BR_LOAD_PLACES] = {0.11846344252809454, 0.23931433524968324,
-                                               64.0 / 225, 0.23931433524968324,
-                                               0.11846344252809454};
+const double br_load_weight[BR_LOAD_PLACES] = {0.11846344252809454, 0.23931433524968324, 64.0 / 225,
+                                               0.23931433524968324, 0.11846344252809454};
 
 void br_load_values(const struct br_function *f, enum br_variable along, struct br_box box,
                     struct br_interval piece, double value[BR_LOAD_PLACES])
@@ -38,7 +37,7 @@ static double integral_of_size(const struct br_function *f, enum br_variable alo
 enum br_status br_load_mesh(const struct br_function *f, enum br_variable along, struct br_box box,
                             struct br_mesh *mesh, double *size, struct br_error *err)
 {
-    enum { DEGREE = 8, ROUNDS = 4 };
+    enum { DEGREE = 8, ROUNDS = 6 };
     const struct br_interval all = along == BR_X ? box.x : box.t;
     struct br_interval values;
     struct br_box peak;
@@ -52,9 +51,11 @@ enum br_status br_load_mesh(const struct br_function *f, enum br_variable along,
         br_mesh_free(mesh);
         status = br_resolve(f, along, box, &aim, mesh, err);
         *size = status ? 0 : integral_of_size(f, along, box, mesh);
-        if (aim.tolerance * width <= 0.01 * *size || most == 0)
-            break;
-        aim.tolerance = fmax(0.005 * *size / width, 1e-6 * aim.tolerance);
+        if ((aim.tolerance * width <= 0.01 * *size && mesh->missed <= 0.01 * *size) || most == 0)
+            return status;
+        aim.tolerance = fmin(fmax(0.005 * *size / width, 1e-6 * aim.tolerance), aim.tolerance / 8);
     }
-    return status;
+    if (!status)
+        br_mesh_free(mesh);
+    return status ? status : br_fail(err, BR_BAD_INPUT, "it cannot be resolved");
 }

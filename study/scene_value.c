@@ -150,9 +150,9 @@ static enum br_status read_solution(const struct br_scene_reader *r, const struc
                                     const yaml_node_t *node)
 {
     char text[MOST_TEXT];
-    struct br_function parsed = {0};
-    enum br_status status = read_expression(r, key, key->unit, node, &parsed);
-    br_function_free(&parsed);
+    const bool axial = key->offset == offsetof(struct br_scene, axial.solution);
+    enum br_status status = read_expression(
+        r, key, key->unit, node, axial ? &r->scene->axial.given : &r->scene->bending.given);
     if (!status)
         status = split_unit(r, key, key->unit, node, text);
     if (status)

@@ -86,8 +86,9 @@ static void pass_cell(struct passage *p, double from, double to)
 }
 
 /* Of a function with t; *known: out, whether it could be resolved. */
-static enum br_status measure(const struct br_function *f, double weight, const struct br_outlook *o,
-                              struct missed *m, bool *known, struct br_error *err)
+static enum br_status measure(const struct br_function *f, double weight,
+                              const struct br_outlook *o, struct missed *m, bool *known,
+                              struct br_error *err)
 {
     const double duration = o->scene->duration;
     struct br_box box = {{0, o->scene->length}, {0, duration}}, peak = box;

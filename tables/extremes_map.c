@@ -10,7 +10,7 @@
 static const char *const class_headings[BR_EXTREME_CLASSES] = {
     [BR_EXTREME_RIGHT] = "right",
     [BR_EXTREME_WARNED] = "inaccurate, said",
-    [BR_EXTREME_UNWARNED] = "inaccurate, not said",
+    [BR_EXTREME_UNKNOWN] = "inaccurate, error not known",
     [BR_EXTREME_UNSTABLE] = "unstable as predicted",
     [BR_EXTREME_REFUSED] = "refused",
     [BR_EXTREME_UNJUDGED] = "given up by the map",
@@ -180,10 +180,10 @@ static void say_counts(const void *self, const struct br_writer *w)
         br_say(w, "None of %zu cases is silently wrong.", m->cases);
     br_say(
         w,
-        "%zu are right, %zu are inaccurate and say so, %zu are inaccurate and do not say so, %zu are "
-        "unstable as predicted, %zu are refused, and %zu were given up by the map, since they or "
+        "%zu are right, %zu are inaccurate and say so, %zu are inaccurate and say that their error is not "
+        "known, %zu are unstable as predicted, %zu are refused, and %zu were given up by the map, since they or "
         "their judges take too long.",
-        n[BR_EXTREME_RIGHT], n[BR_EXTREME_WARNED], n[BR_EXTREME_UNWARNED], n[BR_EXTREME_UNSTABLE],
+        n[BR_EXTREME_RIGHT], n[BR_EXTREME_WARNED], n[BR_EXTREME_UNKNOWN], n[BR_EXTREME_UNSTABLE],
         n[BR_EXTREME_REFUSED], n[BR_EXTREME_UNJUDGED]);
 }
 

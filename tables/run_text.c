@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/quote.h"
 #include "tables/method_text.h"
-#include "tables/plain_text.h"
 #include "tables/run_page.h"
 
 enum { SHOWN_EVENTS = 20 };
@@ -18,14 +18,14 @@ static void head(FILE *out, const struct br_run_page *page)
 {
     const struct br_run_report *p = page->report;
     char method[BR_METHOD_TEXT];
-    br_print_plain(out, p->scene->title);
+    br_quote(out, &br_for_text, p->scene->title);
     fprintf(out, "\n");
-    br_print_plain(out, page->provenance->scene_path);
+    br_quote(out, &br_for_text, page->provenance->scene_path);
     fprintf(out, "\n%zu elements, h = %g m; %zu steps of k = %g s\n%s\n", p->n, p->h, p->steps,
             p->k, br_method_text(&p->marched, &p->method, method));
     if (p->failure.status) {
         fprintf(out, "\nSTOPPED: ");
-        br_print_plain(out, p->failure.message);
+        br_quote(out, &br_for_text, p->failure.message);
         fprintf(out, "\n");
     }
     if (p->contact_unstable)
@@ -39,18 +39,35 @@ static void discretisation(FILE *out, const struct br_prediction *p)
 {
     fprintf(out, "  discretisation error  ");
     if (p->known)
-        fprintf(out, "%.1e, between %.0e and %.0e: time %.1e, space %.1e\n", p->whole.error,
+        fprintf(out, "%.1e, between %.1e and %.1e: time %.1e, space %.1e\n", p->whole.error,
                 p->whole.low, p->whole.high, p->time.error, p->space.error);
     else if (p->bounded)
-        fprintf(out, "not known, between %.0e and %.0e: %s\n", p->whole.low, p->whole.high, p->why);
+        fprintf(out, "not known, between %.0e and %.0e: ", p->whole.low, p->whole.high);
     else
-        fprintf(out, "not known: %s\n", p->why);
+        fprintf(out, "not known: ");
+    if (!p->known) {
+        br_quote(out, &br_for_text, p->why);
+        fputc('\n', out);
+    }
+}
+
+/* Each field's own, where there are two. */
+static void fields(FILE *out, const struct br_run_page *page)
+{
+    static const char *const names[2] = {"axial", "bending"};
+    const struct br_prediction *p = page->prediction;
+    const struct br_scene *s = &page->report->marched;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (p->known && s->axial.modelled && s->bending.modelled)
+            fprintf(out, "    %-7s             %.1e, between %.1e and %.1e\n", names[kind],
+                    p->field[kind].error, p->field[kind].low, p->field[kind].high);
 }
 
 static void expected(FILE *out, const struct br_run_page *page)
 {
-    fprintf(out, "\nPredicted before the march, relative to the largest of the solution (L2)\n");
+    fprintf(out, "\nPredicted before the march, of each field relative to its largest (L2)\n");
     discretisation(out, page->prediction);
+    fields(out, page);
     fprintf(out, "  round-off             %.1e\n", page->prediction->round_off);
     for (size_t i = 0; i < page->warnings->count; i++) {
         const struct br_warning *w = &page->warnings->list[i];
@@ -372,7 +389,7 @@ void br_run_text(FILE *out, const struct br_run_page *page)
     cost(out, p);
     if (p->scene->remark) {
         fprintf(out, "\nRemark: ");
-        br_print_plain(out, p->scene->remark);
+        br_quote(out, &br_for_text, p->scene->remark);
         fprintf(out, "\n");
     }
     time_used(out, page);

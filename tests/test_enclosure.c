@@ -76,8 +76,7 @@ static bool decide(enum br_operation o, arb_t out, const arb_t a, const arb_t b,
 
 static void power(arb_t out, const arb_t a, const arb_t b)
 {
-    if (arb_is_exact(b) && arf_is_int(arb_midref(b)) &&
-        arf_cmpabs_2exp_si(arb_midref(b), 30) < 0) {
+    if (arb_is_exact(b) && arf_is_int(arb_midref(b)) && arf_cmpabs_2exp_si(arb_midref(b), 30) < 0) {
         fmpz_t n;
         fmpz_init(n);
         arf_get_fmpz(n, arb_midref(b), ARF_RND_NEAR);
@@ -184,7 +183,10 @@ static double any_point(struct br_test_random *r, iv a)
 {
     const size_t kind = br_test_index(r, 4);
     const double p = a.low + (a.high - a.low) * br_test_uniform(r, 0, 1);
-    return kind == 0 ? a.low : kind == 1 ? a.high : isfinite(p) ? fmin(fmax(p, a.low), a.high) : a.low;
+    return kind == 0     ? a.low
+           : kind == 1   ? a.high
+           : isfinite(p) ? fmin(fmax(p, a.low), a.high)
+                         : a.low;
 }
 
 static size_t cases(size_t usual)
@@ -245,7 +247,7 @@ static void test_tight(void **state)
     for (int o = BR_OP_NEGATE; o <= BR_OP_POW; o++)
         for (size_t i = 0; i < cases(400); i++) {
             const bool above = o == BR_OP_ACOSH, inverse = o >= BR_OP_ASIN && o <= BR_OP_ACOS;
-            const double x = above ? br_test_uniform(&r, 1.1, 9)
+            const double x = above                         ? br_test_uniform(&r, 1.1, 9)
                              : inverse || o == BR_OP_ATANH ? br_test_uniform(&r, 0.01, 0.9)
                                                            : br_test_uniform(&r, 0.01, 1.5),
                          y = br_test_uniform(&r, 0.1, 3), w = br_test_log_uniform(&r, 1e-17, 1e-2);
@@ -256,7 +258,8 @@ static void test_tight(void **state)
             const double slack = 12 * 2.3e-16 * fmax(fabs(f), fabs(g));
             if (!(bound.high - bound.low <= fabs(g - f) + slack))
                 fail_msg("%s at %.17g + %g: %.17g .. %.17g, but %.17g .. %.17g",
-                         br_operation_word((enum br_operation)o), x, w, bound.low, bound.high, f, g);
+                         br_operation_word((enum br_operation)o), x, w, bound.low, bound.high, f,
+                         g);
         }
 }
 
@@ -270,8 +273,9 @@ static unsigned any_tree(struct br_test_random *r, struct br_tree_builder *b, in
     if (kind < 3)
         return br_tree_node(b, kind == 1 ? BR_OP_X : BR_OP_T, 0, 0, 0);
     const enum br_operation o =
-        kind < 6 ? BR_OP_ADD + (enum br_operation)br_test_index(r, 4)
-                 : BR_OP_NEGATE + (enum br_operation)br_test_index(r, BR_OP_CHOOSE - BR_OP_NEGATE + 1);
+        kind < 6
+            ? BR_OP_ADD + (enum br_operation)br_test_index(r, 4)
+            : BR_OP_NEGATE + (enum br_operation)br_test_index(r, BR_OP_CHOOSE - BR_OP_NEGATE + 1);
     const unsigned a = any_tree(r, b, depth - 1), c = any_tree(r, b, depth - 1);
     return br_tree_node(b, o, a, br_test_index(r, 5) ? c : a, any_tree(r, b, depth - 1));
 }
@@ -356,7 +360,37 @@ static void test_trees(void **state)
     AT_MOST((double)cases(6000) / 2, (double)bounded);
 }
 
-/* Halved boxes are enclosed four times as tightly: the excess over the range falls quadratically. */
+/* Where abs, min and max turn inside of the box, or something is taken by one of them only. */
+static void test_kinks(void **state)
+{
+    (void)state;
+    static const char *const rows[] = {"abs(x) - x",          "abs(x - t) + x - t",
+                                       "max(x, t) - x",       "min(x, 2*t) + abs(t - x) - t",
+                                       "x*abs(x) - x*t",      "t - max(x, t, -x)",
+                                       "(x < t ? x : t) - x", "sign(x)*x - abs(x)"};
+    struct br_test_random r = {7};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_tree tree;
+        struct br_error err;
+        MUST(br_expression_parse(rows[i], &tree, &err));
+        struct br_function f = br_test_function(rows[i]);
+        for (size_t k = 0; k < cases(300); k++) {
+            const double x = br_test_uniform(&r, -1, 0.1), t = br_test_uniform(&r, -1, 0.1),
+                         w = br_test_log_uniform(&r, 1e-3, 2);
+            const struct br_box box = {{x, x + w}, {t, t + w}};
+            iv bound;
+            assert_true(br_function_bound(&f, box, &bound));
+            AT_MOST(bound.high - bound.low, 12 * w * (1 + w));
+            for (int j = 0; j < 4; j++)
+                check_tree(&tree, &f, box, bound, &r);
+        }
+        br_tree_clear(&tree);
+        br_function_free(&f);
+    }
+}
+
+/* Halved boxes are enclosed four times as tightly: the excess over the range falls quadratically.
+ */
 static void test_quadratic(void **state)
 {
     (void)state;
@@ -538,18 +572,29 @@ static void test_taylor(void **state)
         series *g;
         double shift;
     } rows[] = {
-        {"sin" U, arb_poly_sin_series, 0.3},   {"cos" U, arb_poly_cos_series, 0.3},
-        {"tan" U, arb_poly_tan_series, 0.3},   {"asin" U, arb_poly_asin_series, 0.3},
-        {"acos" U, arb_poly_acos_series, 0.3}, {"atan" U, arb_poly_atan_series, 0.3},
-        {"sinh" U, arb_poly_sinh_series, 0.3}, {"cosh" U, arb_poly_cosh_series, 0.3},
-        {"tanh" U, tangent_h, 0.3},            {"asinh" U, area_sine, 0.3},
-        {"acosh" U, area_cosine, 1.3},         {"atanh" U, area_tangent, 0.3},
-        {"exp" U, arb_poly_exp_series, 0.3},   {"expm1" U, exp_less_one, 0.3},
-        {"log" U, arb_poly_log_series, 0.3},   {"sqrt" U, arb_poly_sqrt_series, 0.3},
-        {U "^3", cube, -0.1},                  {U "^1.5", root_power, 0.4},
-        {"1/" U, inverse, 0.4},                {U "^-1", inverse, 0.4},
+        {"sin" U, arb_poly_sin_series, 0.3},
+        {"cos" U, arb_poly_cos_series, 0.3},
+        {"tan" U, arb_poly_tan_series, 0.3},
+        {"asin" U, arb_poly_asin_series, 0.3},
+        {"acos" U, arb_poly_acos_series, 0.3},
+        {"atan" U, arb_poly_atan_series, 0.3},
+        {"sinh" U, arb_poly_sinh_series, 0.3},
+        {"cosh" U, arb_poly_cosh_series, 0.3},
+        {"tanh" U, tangent_h, 0.3},
+        {"asinh" U, area_sine, 0.3},
+        {"acosh" U, area_cosine, 1.3},
+        {"atanh" U, area_tangent, 0.3},
+        {"exp" U, arb_poly_exp_series, 0.3},
+        {"expm1" U, exp_less_one, 0.3},
+        {"log" U, arb_poly_log_series, 0.3},
+        {"sqrt" U, arb_poly_sqrt_series, 0.3},
+        {U "^3", cube, -0.1},
+        {U "^1.5", root_power, 0.4},
+        {"1/" U, inverse, 0.4},
+        {U "^-1", inverse, 0.4},
         {"exp" U "*1", arb_poly_exp_series, 0.3},
-        {"abs" U, same, 0.3},                  {"max(-9," U ")", same, -0.3},
+        {"abs" U, same, 0.3},
+        {"max(-9," U ")", same, -0.3},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         check_series(rows[i].text, rows[i].g, rows[i].shift, &r);
@@ -560,9 +605,9 @@ static void test_taylor(void **state)
 static void test_not_smooth(void **state)
 {
     (void)state;
-    static const char *const rows[] = {"abs(t - 0.5)", "step(t - 0.5)", "t < 0.5",      "min(t, 0.5)",
-                                       "sqrt(t)",      "log(t)",        "t^1.5",        "1/t",
-                                       "asin(t)",      "acosh(1 + t)",  "tan(pi*t)",    "t > 0.5 ? t : 1"};
+    static const char *const rows[] = {
+        "abs(t - 0.5)", "step(t - 0.5)", "t < 0.5", "min(t, 0.5)",  "sqrt(t)",   "log(t)",
+        "t^1.5",        "1/t",           "asin(t)", "acosh(1 + t)", "tan(pi*t)", "t > 0.5 ? t : 1"};
     const struct br_box box = {{0, 1}, {0, 1}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct br_function f = br_test_function(rows[i]);
@@ -576,8 +621,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_operations), cmocka_unit_test(test_tight),
-        cmocka_unit_test(test_trees),      cmocka_unit_test(test_quadratic),
-        cmocka_unit_test(test_taylor),     cmocka_unit_test(test_not_smooth),
+        cmocka_unit_test(test_trees),      cmocka_unit_test(test_kinks),
+        cmocka_unit_test(test_quadratic),  cmocka_unit_test(test_taylor),
+        cmocka_unit_test(test_not_smooth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

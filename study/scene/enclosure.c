@@ -176,8 +176,8 @@ static void real_power_series(const struct recurrence *r, double n)
     for (size_t k = 1; k <= r->order; k++) {
         iv sum = {0, 0};
         for (size_t j = 1; j <= k; j++) {
-            const iv factor = br_interval_subtract(
-                multiply(br_point(n), br_point((double)j)), br_point((double)(k - j)));
+            const iv factor = br_interval_subtract(multiply(br_point(n), br_point((double)j)),
+                                                   br_point((double)(k - j)));
             sum = add(sum, multiply(factor, multiply(r->a[j], r->out[k - j])));
         }
         r->out[k] = br_interval_divide(sum, scale((double)k, r->a[0]));
@@ -195,7 +195,8 @@ static bool is_constant(size_t order, const iv *a)
 /* exp(b log a) */
 static void power_of_both(const struct recurrence *r)
 {
-    iv logarithm[BR_TREE_WORK] = {br_interval_apply(BR_OP_LOG, r->a, false)}, exponent[BR_TREE_WORK];
+    iv logarithm[BR_TREE_WORK] = {br_interval_apply(BR_OP_LOG, r->a, false)},
+       exponent[BR_TREE_WORK];
     integral_series(&(struct recurrence){r->order, r->a, NULL, logarithm}, r->a, 1);
     product_series(r->order, r->b, logarithm, exponent);
     exponential_series(&(struct recurrence){r->order, exponent, NULL, r->out});
@@ -454,12 +455,11 @@ static void mix(const struct form *a, const struct form *b, struct form *f)
 
 static bool is_constant_form(const struct form *f)
 {
-    return f->error == 0 && f->slope[0].low == 0 && f->slope[0].high == 0 &&
-           f->slope[1].low == 0 && f->slope[1].high == 0;
+    return f->error == 0 && f->slope[0].low == 0 && f->slope[0].high == 0 && f->slope[1].low == 0 &&
+           f->slope[1].high == 0;
 }
 
-static void differentiate(enum br_operation o, const struct form *const argument[3],
-                          struct form *f)
+static void differentiate(enum br_operation o, const struct form *const argument[3], struct form *f)
 {
     iv range[3], partial[2];
     const unsigned arguments = br_operation_arguments(o);
@@ -480,8 +480,8 @@ static void differentiate(enum br_operation o, const struct form *const argument
     }
     const bool exact = o == BR_OP_NEGATE || o == BR_OP_ABS || o == BR_OP_MIN || o == BR_OP_MAX;
     if (!exact) /* 2.5 units, and that these sums are rounded, too */
-        f->error = f->error * (1 + 8 * DBL_EPSILON) +
-                   3 * DBL_EPSILON * br_magnitude(f->range) + 8 * 0x1p-1074;
+        f->error = f->error * (1 + 8 * DBL_EPSILON) + 3 * DBL_EPSILON * br_magnitude(f->range) +
+                   8 * 0x1p-1074;
 }
 
 static void choose_form(const struct form *const argument[3], struct form *f)
@@ -500,9 +500,10 @@ static void choose_form(const struct form *const argument[3], struct form *f)
 /* Cuts the range with centre + slopes * (box - middle) +- error. */
 static void cut(struct br_box box, struct br_box middle, struct form *f)
 {
-    const iv mean = add(add(f->centre, multiply(f->slope[0], br_interval_subtract(box.x, middle.x))),
-                        add(multiply(f->slope[1], br_interval_subtract(box.t, middle.t)),
-                            (iv){-f->error, f->error}));
+    const iv mean =
+        add(add(f->centre, multiply(f->slope[0], br_interval_subtract(box.x, middle.x))),
+            add(multiply(f->slope[1], br_interval_subtract(box.t, middle.t)),
+                (iv){-f->error, f->error}));
     if (!br_is_finite(mean) || mean.low > f->range.high || mean.high < f->range.low)
         return;
     f->range = (iv){fmax(f->range.low, mean.low), fmin(f->range.high, mean.high)};
@@ -547,10 +548,10 @@ bool br_tree_bound(const struct br_tree *tree, iv *work, struct br_box box, iv *
         if (br_operation_arguments(n->operation))
             bound_node(n, forms, wide, box, middle, f);
         else
-            *f = (struct form){.range = variable_of(n, box),
-                               .centre = variable_of(n, middle),
-                               .slope = {br_point(n->operation == BR_OP_X),
-                                         br_point(n->operation == BR_OP_T)}};
+            *f = (struct form){
+                .range = variable_of(n, box),
+                .centre = variable_of(n, middle),
+                .slope = {br_point(n->operation == BR_OP_X), br_point(n->operation == BR_OP_T)}};
     }
     round_as_before(rounding);
     *value = forms[tree->count - 1].range;
@@ -634,16 +635,16 @@ static unsigned guard_node(struct br_tree_builder *b, const struct br_tree *tree
     const enum br_operation o = n->operation;
     const unsigned a = n->argument[k];
     const bool compares = o >= BR_OP_MIN && o <= BR_OP_NOT_EQUAL;
-    const bool itself = o == BR_OP_ABS || o == BR_OP_SIGN || o == BR_OP_STEP ||
-                        (!is_truth(tree->node[a].operation) &&
-                         (o == BR_OP_NOT || o == BR_OP_AND || o == BR_OP_OR ||
-                          (o == BR_OP_CHOOSE && k == 0)));
+    const bool itself =
+        o == BR_OP_ABS || o == BR_OP_SIGN || o == BR_OP_STEP ||
+        (!is_truth(tree->node[a].operation) &&
+         (o == BR_OP_NOT || o == BR_OP_AND || o == BR_OP_OR || (o == BR_OP_CHOOSE && k == 0)));
     if ((compares ? k > 0 : !itself) || !(n->uses_x || n->uses_t))
         return BR_NO_NODE;
     const unsigned first = br_tree_graft(b, tree, a);
-    return compares ? br_tree_node(b, BR_OP_SUBTRACT, first,
-                                   br_tree_graft(b, tree, n->argument[1]), 0)
-                    : first;
+    return compares
+               ? br_tree_node(b, BR_OP_SUBTRACT, first, br_tree_graft(b, tree, n->argument[1]), 0)
+               : first;
 }
 
 /* Appends the guard, if there is one, as a function. */

@@ -4,6 +4,7 @@
 #include <fenv.h>
 #include <string.h>
 
+#include "study/scene/derive.h"
 #include "study/scene/elementary.h"
 #include "study/scene/enclosure.h"
 
@@ -170,6 +171,15 @@ static void expression_evaluate(void *self, size_t count, const double *x, doubl
         fesetround(rounding);
 }
 
+static enum br_status expression_derive(const void *self, const struct br_derivation *what,
+                                        struct br_function *out, struct br_error *err)
+{
+    struct br_tree tree;
+    const enum br_status status =
+        br_tree_derivation(&((const struct expression *)self)->tree, what, &tree, err);
+    return status ? status : br_tree_function(&tree, out, err);
+}
+
 static bool expression_bound(const void *self, struct br_box box, struct br_interval *value)
 {
     const struct expression *e = self;
@@ -196,6 +206,7 @@ static const struct br_function_ops expression_ops = {
     .bound = expression_bound,
     .taylor = expression_taylor,
     .guard = expression_guard,
+    .derive = expression_derive,
 };
 
 enum br_status br_tree_function(struct br_tree *tree, struct br_function *f, struct br_error *err)

@@ -118,7 +118,8 @@ static iv hull_of_corners(const double value[4], const bool exact[4])
 
 iv br_interval_multiply(iv a, iv b)
 {
-    const double first[] = {a.low, a.low, a.high, a.high}, second[] = {b.low, b.high, b.low, b.high};
+    const double first[] = {a.low, a.low, a.high, a.high},
+                 second[] = {b.low, b.high, b.low, b.high};
     double value[4];
     bool exact[4];
     if (br_is_none(a) || br_is_none(b) || (br_has_zero(a) && !br_is_finite(b)) ||
@@ -133,7 +134,8 @@ iv br_interval_multiply(iv a, iv b)
 
 iv br_interval_divide(iv a, iv b)
 {
-    const double first[] = {a.low, a.low, a.high, a.high}, second[] = {b.low, b.high, b.low, b.high};
+    const double first[] = {a.low, a.low, a.high, a.high},
+                 second[] = {b.low, b.high, b.low, b.high};
     double value[4];
     bool exact[4];
     if (br_is_none(a) || br_is_none(b) || br_has_zero(b) || !(br_is_finite(a) || br_is_finite(b)))
@@ -148,7 +150,8 @@ iv br_interval_divide(iv a, iv b)
 
 iv br_interval_square(iv a)
 {
-    const double most = br_magnitude(a), least = br_has_zero(a) ? 0 : fmin(fabs(a.low), fabs(a.high));
+    const double most = br_magnitude(a),
+                 least = br_has_zero(a) ? 0 : fmin(fabs(a.low), fabs(a.high));
     const double low = least * least, high = most * most;
     if (br_is_none(a))
         return a;
@@ -158,14 +161,14 @@ iv br_interval_square(iv a)
 
 iv br_interval_hull(iv a, iv b)
 {
-    return br_is_none(a) || br_is_none(b)
-               ? br_no_interval
-               : (iv){fmin(a.low, b.low), fmax(a.high, b.high)};
+    return br_is_none(a) || br_is_none(b) ? br_no_interval
+                                          : (iv){fmin(a.low, b.low), fmax(a.high, b.high)};
 }
 
 /* ---- elementary functions ---- */
 
-/* The C library's functions are right to 2 units, SLEEF's to 1; and 1 where the exponent changes. */
+/* The C library's functions are right to 2 units, SLEEF's to 1; and 1 where the exponent changes.
+ */
 enum { NEIGHBOURS = 4 };
 
 /* f is exact where its argument is 0 (all that are asked for are 0 or 1 there), or `exact_at`. */
@@ -201,8 +204,8 @@ static iv wave(double (*f)(double), iv a, double top)
         return br_no_interval;
     if (br_magnitude(a) > 1e14 || a.high - a.low >= 2 * M_PI)
         return all_signs;
-    const iv ends = br_interval_hull(increasing(f, br_point(a.low), 0),
-                                     increasing(f, br_point(a.high), 0));
+    const iv ends =
+        br_interval_hull(increasing(f, br_point(a.low), 0), increasing(f, br_point(a.high), 0));
     return clip((iv){has_phase(a, top + M_PI, 2 * M_PI) ? -1 : ends.low,
                      has_phase(a, top, 2 * M_PI) ? 1 : ends.high},
                 -1, 1);
@@ -224,7 +227,8 @@ static iv absolute(iv a)
 
 static iv positive_power(iv a, iv b)
 {
-    const double first[] = {a.low, a.low, a.high, a.high}, second[] = {b.low, b.high, b.low, b.high};
+    const double first[] = {a.low, a.low, a.high, a.high},
+                 second[] = {b.low, b.high, b.low, b.high};
     iv out = {INFINITY, 0};
     for (int i = 0; i < 4; i++) {
         const double value = pow(first[i], second[i]);
@@ -290,9 +294,7 @@ static iv choose(iv condition, iv yes, iv no)
 {
     if (br_is_none(condition))
         return br_no_interval;
-    return !br_has_zero(condition)  ? yes
-           : br_is_point(condition) ? no
-                                    : br_interval_hull(yes, no);
+    return !br_has_zero(condition) ? yes : br_is_point(condition) ? no : br_interval_hull(yes, no);
 }
 
 /* ---- all ---- */
@@ -318,10 +320,9 @@ static iv unary(enum br_operation o, iv a)
     case BR_OP_ASIN:
         return within(asin, a, a.low >= -1 && a.high <= 1, 0);
     case BR_OP_ACOS:
-        return a.low >= -1 && a.high <= 1
-                   ? (iv){a.high == 1 ? 0 : lower(acos(a.high), NEIGHBOURS),
-                          upper(acos(a.low), NEIGHBOURS)}
-                   : br_no_interval;
+        return a.low >= -1 && a.high <= 1 ? (iv){a.high == 1 ? 0 : lower(acos(a.high), NEIGHBOURS),
+                                                 upper(acos(a.low), NEIGHBOURS)}
+                                          : br_no_interval;
     case BR_OP_ATAN:
         return increasing(atan, a, 0);
     case BR_OP_SINH:

@@ -33,7 +33,7 @@ struct br_interval br_interval_square(struct br_interval a);
 struct br_interval br_interval_hull(struct br_interval a, struct br_interval b);
 
 /* Any operation; `same`: its first and second argument are equal, not only their intervals. */
-struct br_interval br_interval_apply(enum br_operation operation, const struct br_interval *argument,
-                                     bool same);
+struct br_interval br_interval_apply(enum br_operation operation,
+                                     const struct br_interval *argument, bool same);
 
 #endif

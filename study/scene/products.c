@@ -182,6 +182,11 @@ enum br_status br_products(struct br_function *f, struct br_load *load, struct b
     w.one = br_tree_number(&w.builder, 1);
     const struct br_tree *tree = br_tree_of(f);
     const struct sum sum = split(&w, br_tree_graft(&w.builder, tree, (unsigned)tree->count - 1));
+    if (w.builder.status == BR_BAD_INPUT) { /* too long, multiplied out */
+        br_tree_clear(&w.builder.tree);
+        load->term[0] = (struct br_product){*f, one};
+        return BR_OK;
+    }
     enum br_status status = w.builder.status ? br_no_memory(err, "a load's products") : BR_OK;
     for (size_t i = 0; i < sum.count && !status; i++) {
         status = function_of(&w, sum.term[i].space, &load->term[i].space, err);
