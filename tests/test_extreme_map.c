@@ -136,6 +136,27 @@ static void test_counts(void **state)
     br_extreme_map_clear(&map);
 }
 
+/* 0 of n: 1 - 0.025^(1/n), which is 3.7/n; refused cases are no answers. */
+static void test_rate(void **state)
+{
+    (void)state;
+    struct br_extreme_verdict verdict[100] = {{.which = BR_EXTREME_RIGHT}};
+    struct br_extreme_map map = {.cases = 100, .verdict = verdict};
+    for (size_t i = 0; i < 100; i++)
+        verdict[i].which = i < 40 ? BR_EXTREME_REFUSED : BR_EXTREME_RIGHT;
+    for (size_t i = 0; i < 98; i++)
+        verdict[i].known = true;
+    struct br_extreme_rate r = br_extreme_rate(&map);
+    assert_int_equal(r.answers, 60);
+    assert_int_equal(r.unstated, 2);
+    CLOSE(r.high, 1 - pow(0.025, 1.0 / 60), 1e-12);
+    assert_true(r.low == 0);
+    map.count[BR_EXTREME_WRONG] = 3; /* of 60: 1.04 % to 13.92 %, as R's binom.test has it */
+    r = br_extreme_rate(&map);
+    CLOSE(r.low, 0.0104, 1e-4);
+    CLOSE(r.high, 0.1392, 1e-4);
+}
+
 /* A bundled scene is right; in other units it is the same scene. */
 static void test_other_units(void **state)
 {
@@ -236,7 +257,7 @@ int main(void)
         cmocka_unit_test(test_draws),       cmocka_unit_test(test_resumes),
         cmocka_unit_test(test_shrinks),     cmocka_unit_test(test_counts),
         cmocka_unit_test(test_other_units), cmocka_unit_test(test_sound_cases),
-        cmocka_unit_test(test_hard_cases),  cmocka_unit_test(test_boast),
+        cmocka_unit_test(test_rate),        cmocka_unit_test(test_hard_cases),  cmocka_unit_test(test_boast),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
