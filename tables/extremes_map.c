@@ -175,14 +175,16 @@ static void say_rate(const struct br_extreme_map *m, const struct br_writer *w)
     const struct br_extreme_rate r = br_extreme_rate(m);
     if (r.answers == 0)
         return;
-    br_say(w,
-           "Of %zu answers that were judged, %.2g %% are silently wrong, which tells a rate between "
-           "%.2g %% and %.2g %% (95 %%, Clopper and Pearson).",
-           r.answers, 100 * (double)r.wrong / (double)r.answers, 100 * r.low, 100 * r.high);
-    br_say(w,
-           "%zu of them, %.2g %%, say that their error is not known, %zu of these beyond the lagged "
-           "contact's limit; all others state it, with an interval.",
-           r.unstated, 100 * (double)r.unstated / (double)r.answers, r.unstated_unstable);
+    br_say(
+        w,
+        "Of %zu answers that were judged, %.2g %% are silently wrong, which tells a rate between "
+        "%.2g %% and %.2g %% (95 %%, Clopper and Pearson).",
+        r.answers, 100 * (double)r.wrong / (double)r.answers, 100 * r.low, 100 * r.high);
+    br_say(
+        w,
+        "%zu of them, %.2g %%, say that their error is not known, %zu of these beyond the lagged "
+        "contact's limit; all others state it, with an interval.",
+        r.unstated, 100 * (double)r.unstated / (double)r.answers, r.unstated_unstable);
 }
 
 static void say_counts(const void *self, const struct br_writer *w)
@@ -197,8 +199,8 @@ static void say_counts(const void *self, const struct br_writer *w)
            "%zu are right, %zu are inaccurate and say so, %zu are inaccurate and say that their "
            "error is not known, %zu are unstable as predicted, %zu are refused, and %zu were given "
            "up by the map, since they or their judges take too long.",
-           n[BR_EXTREME_RIGHT], n[BR_EXTREME_WARNED], n[BR_EXTREME_UNKNOWN],
-           n[BR_EXTREME_UNSTABLE], n[BR_EXTREME_REFUSED], n[BR_EXTREME_UNJUDGED]);
+           n[BR_EXTREME_RIGHT], n[BR_EXTREME_WARNED], n[BR_EXTREME_UNKNOWN], n[BR_EXTREME_UNSTABLE],
+           n[BR_EXTREME_REFUSED], n[BR_EXTREME_UNJUDGED]);
     say_rate(m, w);
 }
 

@@ -35,9 +35,10 @@ static void count_one(struct tally *t, const struct br_prediction *p, int kind, 
 
 static void show(const char *what, const struct tally *t)
 {
-    print_message("# %s: %d errors, %d known, of these %d within 3, %d within 10, %d below the upper "
-                  "bound, %d between the bounds\n",
-                  what, t->all, t->known, t->within_3, t->within_10, t->below, t->inside);
+    print_message(
+        "# %s: %d errors, %d known, of these %d within 3, %d within 10, %d below the upper "
+        "bound, %d between the bounds\n",
+        what, t->all, t->known, t->within_3, t->within_10, t->below, t->inside);
 }
 
 static const size_t meshes[] = {3, 16, 100}, steps[] = {1, 8, 40, 200};
