@@ -14,8 +14,8 @@ enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br
 enum br_status br_scene_read_text(const char *name, const char *text, struct br_scene *scene,
                                   struct br_error *err);
 
-/* The same from a file with what is expected of the scene: its `verify` part, or else the default.
- * The caller clears both. */
+/* The same from a file with what is expected of the scene: its `verify` part, or else the default. The caller
+ * clears both. */
 enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
                                     struct br_verify *verify, struct br_error *err);
 

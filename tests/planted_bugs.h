@@ -63,8 +63,7 @@ static const struct planted_bug planted_bugs[] = {
      "const double width = s->regularisation + s->bound * s->compliance;",
      "const double width = 2 * s->regularisation + s->bound * s->compliance;"},
     {"friction_in_one_direction_only", "solver/friction.c",
-     "return isless(lambda, -bound) ? -bound : lambda;",
-     "return isless(lambda, -bound) ? 0 : lambda;"},
+     "return isless(lambda, -bound) ? -bound : lambda;", "return isless(lambda, -bound) ? 0 : lambda;"},
     {"friction_without_bound_one_way", "solver/friction.c",
      "return isless(lambda, -bound) ? -bound : lambda;", "return lambda;"},
     {"coulomb_as_tresca", "solver/friction.c", "return scene->friction.coefficient * penetration;",
@@ -302,7 +301,8 @@ static const struct planted_bug planted_bugs[] = {
     {"stage_at_the_end_of_the_step", "solver/stages.c",
      "const double t = br_step_time(step, stage->time);", "const double t = step->to;"},
     {"adaptive_by_another_tolerance", "solver/adaptive.c",
-     "m->method.tolerance * fmax(trial->strain", "1e4 * m->method.tolerance * fmax(trial->strain"},
+     "m->method.tolerance * fmax(trial->strain",
+     "1e4 * m->method.tolerance * fmax(trial->strain"},
 
     /* ---- what is measured ---- */
     {"strain_rate_one_and_a_half_percent_off", "solver/modes.c",

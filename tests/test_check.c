@@ -200,10 +200,14 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sound),         cmocka_unit_test(test_wrong_expectation),
-        cmocka_unit_test(test_failing_march), cmocka_unit_test(test_unverifiable),
-        cmocka_unit_test(test_nothing_moves), cmocka_unit_test(test_one_mesh),
-        cmocka_unit_test(test_threads),       cmocka_unit_test(test_unstable_reference),
+        cmocka_unit_test(test_sound),
+        cmocka_unit_test(test_wrong_expectation),
+        cmocka_unit_test(test_failing_march),
+        cmocka_unit_test(test_unverifiable),
+        cmocka_unit_test(test_nothing_moves),
+        cmocka_unit_test(test_one_mesh),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_unstable_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
