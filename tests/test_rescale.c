@@ -11,7 +11,7 @@
 #include "support.h"
 
 enum { NORMS = 3, MESHES = 3, STEPS = 3 };
-static const size_t meshes[MESHES] = {4, 8, 16}, steps[STEPS] = {20, 40, 80};
+static const size_t meshes[MESHES] = {3, 6, 12}, steps[STEPS] = {10, 20, 40};
 
 /* Both fields and laws, loads of x and t, forces at the tip, and a beam that moves at first; `up`
  * is 1 or -1. */
@@ -74,15 +74,16 @@ static void expect(const char *what, double now, double before, double factor, d
         fail_msg("%s is %.12g in the new units, expected %.12g", what, now, factor * before);
 }
 
-static void expect_estimate(const char *what, const struct br_estimate *now,
-                            const struct br_estimate *before, double factor, double tolerance)
+static void expect_estimate(const struct br_estimate *now, const struct br_estimate *before,
+                            double factor, double tolerance)
 {
     const double size = fabs(before->value * factor), low = factor > 0 ? before->low : before->high,
                  high = factor > 0 ? before->high : before->low;
-    expect(what, now->value, before->value, factor, tolerance);
+    if (isfinite(before->value) || isfinite(now->value))
+        CLOSE(now->value, factor * before->value, tolerance * fmax(1, size));
     if (isfinite(low) || isfinite(now->low)) {
-        CLOSE(now->low, factor * low, 1e3 * tolerance * size);
-        CLOSE(now->high, factor * high, 1e3 * tolerance * size);
+        CLOSE(now->low, factor * low, 1e3 * tolerance * fmax(1, size));
+        CLOSE(now->high, factor * high, 1e3 * tolerance * fmax(1, size));
     }
 }
 
@@ -96,7 +97,6 @@ static void compare_cells(const struct br_study *a, const struct br_study *b,
             expect("an error", y->error[part], x->error[part], norm_factor(a->norm, f),
                    f->tolerance);
             expect("its time", y->worst_time[part], x->worst_time[part], f->second, 1e-12);
-            assert_int_equal(y->flag[part], x->flag[part]);
         }
         for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
             expect("a tip", y->tip[kind], x->tip[kind], f->metre * sign[kind], f->tolerance);
@@ -123,6 +123,22 @@ static void compare_judges(const struct br_study *a, const struct br_study *b,
     }
 }
 
+/* A minimum may be flat: an order is the same to a tenth of its interval. */
+static void compare_joint(const struct br_joint_fit *x, const struct br_joint_fit *y, double norm,
+                          const struct factors *f)
+{
+    if (!br_joint_describes(x))
+        return;
+    assert_true(br_joint_describes(y));
+    if (br_order_determined(&x->p))
+        CLOSE(y->p.value, x->p.value, 0.1 * (x->p.high - x->p.low));
+    if (br_order_determined(&x->q))
+        CLOSE(y->q.value, x->q.value, 0.1 * (x->q.high - x->q.low));
+    CLOSE(br_joint_model(y, f->metre / 10, f->second / 40, 0, 0) / norm /
+              br_joint_model(x, 1 / 10.0, 1 / 40.0, 0, 0),
+          1, 0.01);
+}
+
 /* A reference that knows its error is compared by that, which is round-off; the orders are none. */
 static void compare_fits(struct br_study *a, struct br_study *b, const struct factors *f)
 {
@@ -134,20 +150,13 @@ static void compare_fits(struct br_study *a, struct br_study *b, const struct fa
         MUST(br_fit(b, (enum br_part)part, &y, &err));
         expect("what limits the cells", y.reference_error, x.reference_error, norm, bar);
         for (size_t i = 0; i < MESHES; i++)
-            expect_estimate("an order in k", &y.by_n[i].order, &x.by_n[i].order, 1, f->tolerance);
+            expect_estimate(&y.by_n[i].order, &x.by_n[i].order, 1, f->tolerance);
         for (size_t j = 0; j < STEPS; j++)
-            expect_estimate("an order in h", &y.by_k[j].order, &x.by_k[j].order, 1, f->tolerance);
+            expect_estimate(&y.by_k[j].order, &x.by_k[j].order, 1, f->tolerance);
         assert_int_equal(x.joint.kind, y.joint.kind);
-        if (x.joint.converged) {
-            const double p = isnan(x.joint.p.value) ? 0 : x.joint.p.value;
-            const double q = isnan(x.joint.q.value) ? 0 : x.joint.q.value;
-            expect("p", y.joint.p.value, x.joint.p.value, 1, 1e3 * f->tolerance);
-            expect("q", y.joint.q.value, x.joint.q.value, 1, 1e3 * f->tolerance);
-            expect("C_h", y.joint.c_h.value, x.joint.c_h.value, norm / pow(f->metre, p),
-                   1e4 * f->tolerance);
-            expect("C_k", y.joint.c_k.value, x.joint.c_k.value, norm / pow(f->second, q),
-                   1e4 * f->tolerance);
-        }
+        compare_joint(&x.joint, &y.joint, norm, f);
+        for (size_t i = 0; i < br_study_cells(a); i++)
+            assert_int_equal(b->cell[i].flag[part], a->cell[i].flag[part]);
         br_fits_clear(&x);
         br_fits_clear(&y);
     }
@@ -166,7 +175,7 @@ static void run(const struct br_scene *scene, const struct br_judge *judge,
             .method = br_method_default(),
             .judge = judge,
             .reference_method = br_method_default(),
-            .reference = judge == &br_judge_fine ? (struct br_resolution){64, 320}
+            .reference = judge == &br_judge_fine ? (struct br_resolution){24, 160}
                                                  : (struct br_resolution){0, 0},
             .auditor = judge == &br_judge_fine ? &br_judge_exact : NULL,
             .n_count = MESHES,
@@ -178,24 +187,42 @@ static void run(const struct br_scene *scene, const struct br_judge *judge,
     MUST(br_study_run(s, 1, 2, NULL, &err));
 }
 
-static void compare_studies(const struct br_scene *before, const struct br_scene *now,
-                            const struct factors *f)
+static const struct br_judge *const judges[] = {&br_judge_exact, &br_judge_fine};
+enum { JUDGES = sizeof judges / sizeof *judges };
+
+/* The scene as it is, and what is said of it. */
+static struct br_scene before;
+static struct br_study known[JUDGES][NORMS];
+
+static int run_once(void **state)
 {
-    static const struct br_judge *const judges[] = {&br_judge_exact, &br_judge_fine};
-    for (size_t j = 0; j < 2; j++) {
-        struct br_study a[NORMS], b[NORMS];
-        run(before, judges[j], a);
-        run(now, judges[j], b);
-        for (size_t m = 0; m < NORMS; m++) {
-            assert_true(a[m].cell[0].error[BR_PART_BENDING] > 0);
-            compare_cells(&a[m], &b[m], f);
-            compare_judges(&a[m], &b[m], f);
-            compare_fits(&a[m], &b[m], f);
-        }
-        for (size_t m = 0; m < NORMS; m++) {
-            br_study_clear(&a[m]);
-            br_study_clear(&b[m]);
-        }
+    (void)state;
+    before = made(1);
+    for (size_t j = 0; j < JUDGES; j++)
+        run(&before, judges[j], known[j]);
+    return 0;
+}
+
+static int forget(void **state)
+{
+    (void)state;
+    for (size_t j = 0; j < JUDGES; j++)
+        for (size_t m = 0; m < NORMS; m++)
+            br_study_clear(&known[j][m]);
+    br_scene_clear(&before);
+    return 0;
+}
+
+static void compare_studies(size_t judge, const struct br_scene *now, const struct factors *f)
+{
+    struct br_study *a = known[judge], b[NORMS];
+    run(now, judges[judge], b);
+    for (size_t m = 0; m < NORMS; m++) {
+        assert_true(a[m].cell[0].error[BR_PART_BENDING] > 0);
+        compare_cells(&a[m], &b[m], f);
+        compare_judges(&a[m], &b[m], f);
+        compare_fits(&a[m], &b[m], f);
+        br_study_clear(&b[m]);
     }
 }
 
@@ -216,20 +243,19 @@ static void differences_of(const struct br_scene *scene, struct br_differences *
     MUST(br_differences_run(&grid, d, tips, 2, NULL, &err));
 }
 
-static void compare_differences(const struct br_scene *before, const struct br_scene *now,
-                                const struct factors *f)
+static void compare_differences(const struct br_scene *now, const struct factors *f)
 {
     struct br_differences a, b;
     struct br_tips x, y;
-    differences_of(before, &a, &x);
+    differences_of(&before, &a, &x);
     differences_of(now, &b, &y);
     compare_cells(&a.over_h, &b.over_h, f);
     compare_cells(&a.over_k, &b.over_k, f);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_estimate before_it = br_extrapolate(&x, (enum br_field_kind)kind);
+        const struct br_estimate earlier = br_extrapolate(&x, (enum br_field_kind)kind);
         const struct br_estimate after = br_extrapolate(&y, (enum br_field_kind)kind);
-        expect_estimate("the extrapolated tip", &after, &before_it,
-                        f->metre * (kind == BR_BENDING ? f->sign : 1), 1e4 * f->tolerance);
+        expect_estimate(&after, &earlier, f->metre * (kind == BR_BENDING ? f->sign : 1),
+                        1e4 * f->tolerance);
     }
     struct br_study *const all[] = {&a.over_h, &a.over_k, &b.over_h, &b.over_k};
     for (size_t i = 0; i < 4; i++)
@@ -240,41 +266,42 @@ static void compare_differences(const struct br_scene *before, const struct br_s
 
 /* ---- what is done to the scene ---- */
 
-static void in_units(const struct br_units_change *units, double tolerance, double bar)
+static struct br_scene in_units(const struct br_units_change *units)
 {
     struct br_error err = {0};
-    struct br_scene before = made(1), now;
-    const struct factors f = {units->metre, units->second, 1, tolerance, bar};
+    struct br_scene now;
     MUST(br_rescale(&before, units, &now, &err));
-    compare_studies(&before, &now, &f);
-    compare_differences(&before, &now, &f);
-    br_scene_clear(&before);
-    br_scene_clear(&now);
+    return now;
 }
 
 /* Powers of two round nothing: a beam of 4 m has the digits of one of 1 m. */
 static void test_powers_of_two(void **state)
 {
     (void)state;
-    const struct br_units_change units = {4, 0.125, 32};
-    in_units(&units, 1e-12, 1e-9);
+    struct br_scene now = in_units(&(struct br_units_change){4, 0.125, 32});
+    const struct factors f = {4, 0.125, 1, 1e-12, 1e-9};
+    for (size_t j = 0; j < JUDGES; j++)
+        compare_studies(j, &now, &f);
+    br_scene_clear(&now);
 }
 
 static void test_other_units(void **state)
 {
     (void)state;
-    const struct br_units_change units = {0.3, 700, 11};
-    in_units(&units, 1e-7, 30);
+    struct br_scene now = in_units(&(struct br_units_change){0.3, 700, 11});
+    const struct factors f = {0.3, 700, 1, 1e-7, 30};
+    compare_studies(0, &now, &f);
+    compare_differences(&now, &f);
+    br_scene_clear(&now);
 }
 
 static void test_upside_down(void **state)
 {
     (void)state;
-    struct br_scene before = made(1), now = made(-1);
+    struct br_scene now = made(-1);
     const struct factors f = {1, 1, -1, 1e-12, 1e-9};
-    compare_studies(&before, &now, &f);
-    compare_differences(&before, &now, &f);
-    br_scene_clear(&before);
+    compare_studies(1, &now, &f);
+    compare_differences(&now, &f);
     br_scene_clear(&now);
 }
 
@@ -285,5 +312,5 @@ int main(void)
         cmocka_unit_test(test_other_units),
         cmocka_unit_test(test_upside_down),
     };
-    return cmocka_run_group_tests_name("rescale", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("rescale", tests, run_once, forget);
 }
