@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/command.h"
 #include "cli/provenance.h"
@@ -11,6 +12,7 @@
 #include "study/quote.h"
 #include "study/ranks.h"
 #include "study/spread.h"
+#include "tables/json_value.h"
 
 extern const struct br_command br_command_check, br_command_completions, br_command_extremes,
     br_command_figures, br_command_plan, br_command_run, br_command_scenes, br_command_study,
@@ -60,6 +62,8 @@ static enum br_status check_stdout(struct br_error *err)
 {
     if (fflush(stdout) != 0 || ferror(stdout))
         return br_fail(err, BR_IO, "standard output could not be written");
+    if (br_json_lacked_memory())
+        return br_no_memory(err, "a JSON document");
     return BR_OK;
 }
 
@@ -121,7 +125,20 @@ static void complain(const char *message)
     fputc('\n', stderr);
 }
 
-int main(int argc, const char **argv)
+/* Libraries that have no memory, or no thread, end the program: popt, OpenMP. */
+static bool returned;
+
+static void name_the_end(int code, void *self)
+{
+    (void)self;
+    static const char message[] = "beamrate: out of memory or threads: a library gave up\n";
+    if (returned || code == 0)
+        return;
+    (void)!write(STDERR_FILENO, message, sizeof message - 1);
+    _exit(br_status_exit_code(BR_NO_MEMORY));
+}
+
+static int run_all(int argc, const char **argv)
 {
     struct br_error err = {0};
     enum br_status status = join_ranks(&err);
@@ -136,7 +153,20 @@ int main(int argc, const char **argv)
         fprintf(stderr, "beamrate: interrupted; no file is half written\n");
         br_signals_raise_again();
     }
+    if (!status && br_signals_caught()) { /* a script that runs many commands must hear of it */
+        fprintf(stderr, "beamrate: interrupted when all was written\n");
+        br_signals_raise_again();
+    }
     if (status)
         complain(err.message);
     return br_status_exit_code(status);
+}
+
+int main(int argc, const char **argv)
+{
+    on_exit(name_the_end, NULL);
+    br_json_lacked_memory(); /* from now on it remembers */
+    const int code = run_all(argc, argv);
+    returned = true;
+    return code;
 }

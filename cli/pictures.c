@@ -86,6 +86,7 @@ static enum br_status open_movie(struct br_pictures *p, struct br_error *err)
         status = split(p, folder, sizeof folder, err);
     if (!status)
         status = check_terminal(p, err);
+    p->output.stem = p->stem;
     if (!status && br_output_open(&p->output, folder, &inner))
         status = br_fail(err, inner.status, "--animate %s", inner.message + strlen("--out: "));
     return status;
@@ -158,18 +159,6 @@ static enum br_status write_file(const struct br_pictures *p, const struct br_mo
     return br_output_close(file, name, err);
 }
 
-/* Those of a longer movie that was there before. */
-static void remove_old_frames(const struct br_pictures *p, const struct br_movie *movie)
-{
-    char name[512], path[2048];
-    for (size_t i = p->record.looks;; i++) {
-        br_movie_file(movie, i, name, sizeof name);
-        snprintf(path, sizeof path, "%s/%s", p->request.animate, name);
-        if (unlink(path) != 0)
-            return;
-    }
-}
-
 static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
 {
     const struct br_movie movie = {p->request.scene, &p->record, p->format, p->stem};
@@ -187,8 +176,6 @@ static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
         status = br_fail(err, BR_INTERRUPTED, "interrupted");
     if (!status)
         status = br_output_commit(&p->output, err);
-    if (!status && p->format->frames)
-        remove_old_frames(p, &movie);
     return status;
 }
 

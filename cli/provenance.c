@@ -21,6 +21,11 @@ const char *br_commit(void)
     return BR_COMMIT;
 }
 
+const char *br_command_line(void)
+{
+    return command_line;
+}
+
 /* text += part, as a shell would read it. */
 static void append_quoted(const char *part)
 {

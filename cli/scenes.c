@@ -65,14 +65,14 @@ static enum br_status print_line(const char *name, size_t width, struct br_error
     enum br_status status = br_scene_find(name, path, sizeof path, err);
     if (!status)
         status = br_scene_read(path, &scene, err);
-    if (!status || status == BR_UNSUPPORTED) {
+    if (!status) {
         br_quote(stdout, &br_for_text, name);
         printf("%*s", (int)width + 2 - br_width_of(name), "");
         br_quote(stdout, &br_for_text, scene.title);
-        puts(status ? " (not in this build)" : "");
+        puts("");
     }
     br_scene_clear(&scene);
-    return status == BR_UNSUPPORTED ? BR_OK : status;
+    return status;
 }
 
 static enum br_status list(struct br_error *err)

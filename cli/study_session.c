@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "cli/progress.h"
-#include "cli/read_text.h"
 #include "cli/signals.h"
 #include "reference/printed.h"
 #include "solver/clock.h"
@@ -205,11 +204,8 @@ static enum br_status prepare(struct br_session *s, size_t i, const struct br_st
                               struct br_error *err)
 {
     struct br_work *w = &s->work[i];
-    enum br_status status = br_scene_find(job->scene, w->path, sizeof w->path, err);
-    if (!status)
-        status = br_scene_read(w->path, &w->scene, err);
-    if (!status)
-        status = br_read_text(w->path, &w->text, err);
+    enum br_status status =
+        br_scene_open(job->scene, w->path, sizeof w->path, &w->text, &w->scene, err);
     if (!status)
         status = make_grid(s, i, err);
     if (!status)

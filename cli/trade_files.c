@@ -6,7 +6,6 @@
 
 #include "cli/formats.h"
 #include "cli/provenance.h"
-#include "cli/read_text.h"
 #include "plots/trade.h"
 #include "study/scene_file.h"
 
@@ -34,11 +33,8 @@ static enum br_status read_printed(struct br_trade_item *item, struct br_error *
 enum br_status br_trade_item_read(struct br_trade_item *item, const char *scene,
                                   struct br_error *err)
 {
-    enum br_status status = br_scene_find(scene, item->path, sizeof item->path, err);
-    if (!status)
-        status = br_scene_read(item->path, &item->scene, err);
-    if (!status)
-        status = br_read_text(item->path, &item->text, err);
+    enum br_status status =
+        br_scene_open(scene, item->path, sizeof item->path, &item->text, &item->scene, err);
     if (!status)
         status = read_printed(item, err);
     if (!status)

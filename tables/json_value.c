@@ -2,9 +2,26 @@
 #include "tables/json_value.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
 #include "study/quote.h"
+
+static atomic_bool lacked;
+
+static void *remembering_malloc(size_t size)
+{
+    void *p = malloc(size);
+    if (!p)
+        atomic_store(&lacked, true);
+    return p;
+}
+
+bool br_json_lacked_memory(void)
+{
+    json_set_alloc_funcs(remembering_malloc, free);
+    return atomic_load(&lacked);
+}
 
 json_t *br_json_number(double value)
 {

@@ -363,8 +363,6 @@ static void test_all(void **state)
     if (br_test_quick())
         skip();
     cli_expect("check --all", NULL, 0, "0 FAIL, 0 INCONCLUSIVE");
-    if (!br_judge_find("mms"))
-        cli_expect("check --all", NULL, 0, "mms_slip      skipped: built without libmatheval");
     char path[512];
     cli_path("study", path);
     assert_int_equal(mkdir(path, 0777), 0);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/exact/interval.h"
+#include "reference/exact/subinterval.h"
 
 #include <math.h>
 
-enum br_status br_interval_init(struct br_interval *v, size_t count, struct br_error *err)
+enum br_status br_subinterval_init(struct br_subinterval *v, size_t count, struct br_error *err)
 {
     v->count = count;
     v->coupling = br_allocate(count + 1, sizeof *v->coupling);
@@ -17,16 +17,16 @@ enum br_status br_interval_init(struct br_interval *v, size_t count, struct br_e
     return BR_OK;
 }
 
-void br_interval_clear(struct br_interval *v)
+void br_subinterval_clear(struct br_subinterval *v)
 {
     free(v->coupling);
     free(v->r);
-    *v = (struct br_interval){0};
+    *v = (struct br_subinterval){0};
 }
 
 /* The recurrence of p_{k+1} in x = first + width xi, where a product with xi is the same
  * recurrence in l. Small coefficients keep their digits: they only come from each other. */
-void br_interval_move(struct br_interval *v, long double first, long double width)
+void br_subinterval_move(struct br_subinterval *v, long double first, long double width)
 {
     const size_t count = v->count;
     const long double *b = v->coupling;
