@@ -203,12 +203,14 @@ void br_march_accept(struct br_march *m, enum br_field_kind kind, const struct b
     come_back(&march);
 }
 
-/* Where the contact has a stiffness, its force tells it without the loss of a difference. */
+/* Where the contact has a stiffness, its force tells it without the loss of a difference. One
+ * without is no switch of the field's, and equal steps go on; but steps that end at switches end
+ * there, for the kink of Coulomb's bound. */
 static bool is_closed(const struct br_march *m)
 {
     const struct br_contact *contact = &m->scene->contact;
-    return contact->stiffness > 0 ? m->tip.contact_force > 0
-                                  : m->tip.displacement > contact->gap;
+    return contact->stiffness > 0 || !m->adaptive ? m->tip.contact_force > 0
+                                                  : m->tip.displacement > contact->gap;
 }
 
 enum br_regime br_march_regime(const struct br_march *m, enum br_field_kind kind)

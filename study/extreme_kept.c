@@ -15,9 +15,9 @@ static void head_of(const struct br_extreme_wish *w, char head[LINE])
 
 static void print(FILE *file, size_t index, const struct br_extreme_verdict *v)
 {
-    fprintf(file, "%zu %s %d %d %.17g %.17g %.17g %.17g %u;%s\n", index,
-            br_extreme_word(v->which), (int)v->by, (int)v->known, v->error, v->stated, v->units,
-            v->round_off, v->warned, v->why);
+    fprintf(file, "%zu %s %d %d %.17g %.17g %.17g %.17g %u;%s\n", index, br_extreme_word(v->which),
+            (int)v->by, (int)v->known, v->error, v->stated, v->units, v->round_off, v->warned,
+            v->why);
 }
 
 static bool find_class(const char *word, enum br_extreme_class *which)
@@ -36,8 +36,8 @@ static bool scan(const char *line, size_t *index, struct br_extreme_verdict *v)
     char word[32];
     int by, known, used = 0;
     *v = (struct br_extreme_verdict){0};
-    if (sscanf(line, "%zu %31s %d %d %lf %lf %lf %lf %u;%n", index, word, &by, &known,
-               &v->error, &v->stated, &v->units, &v->round_off, &v->warned, &used) != 9 ||
+    if (sscanf(line, "%zu %31s %d %d %lf %lf %lf %lf %u;%n", index, word, &by, &known, &v->error,
+               &v->stated, &v->units, &v->round_off, &v->warned, &used) != 9 ||
         used == 0 || by < BR_BY_NOBODY || by > BR_BY_REFINEMENT || !find_class(word, &v->which))
         return false;
     v->by = (enum br_extreme_by)by;

@@ -4,8 +4,9 @@
 #ifndef PLANTED_BUGS_H
 #define PLANTED_BUGS_H
 
-/* `beamrate COMMAND` ends with exit code 0 without the bug, and with 1 with it. The kind is what is
- * wrong: of each kind, and of each file, at least one is planted by default (see is_in_sample). */
+/* `beamrate COMMAND` ends with exit code 0 without the bug, and with 1 with it; or the command is a
+ * test program, tests/NAME, which fails with it. The kind is what is wrong: of each kind, and of
+ * each file, at least one is planted by default (see is_in_sample). */
 struct planted_bug {
     const char *name, *kind, *file, *command, *text, *instead;
 };

@@ -35,9 +35,10 @@ static void count_one(struct tally *t, const struct br_prediction *p, int kind, 
 
 static void show(const char *what, const struct tally *t)
 {
-    print_message("# %s: %d errors, %d known, of these %d within 3, %d within 10, %d below the upper "
-                  "bound, %d between the bounds\n",
-                  what, t->all, t->known, t->within_3, t->within_10, t->below, t->inside);
+    print_message(
+        "# %s: %d errors, %d known, of these %d within 3, %d within 10, %d below the upper "
+        "bound, %d between the bounds\n",
+        what, t->all, t->known, t->within_3, t->within_10, t->below, t->inside);
 }
 
 static const size_t meshes[] = {3, 16, 100}, steps[] = {1, 8, 40, 200};
@@ -369,7 +370,8 @@ static void test_short_blows(void **state)
         size_t steps;
         const char *said; /* NULL: nothing */
     } rows[] = {
-        {"exp(-((t - 0.31234567)/1e-9)^2)", 10, " 1e+02 % of its impulse, most of it near t = 0.35"},
+        {"exp(-((t - 0.31234567)/1e-9)^2)", 10,
+         " 1e+02 % of its impulse, most of it near t = 0.35"},
         {"exp(-((t - 0.31234567)/1e-9)^2)", 1000000, " 1e+02 % of its impulse"},
         {"exp(-((t - 0.31234567)/1e-9)^2)", 300000000, " 88 % of its impulse"},
         {"exp(-((t - 0.31234567)/1e-9)^2)", 4000000000, NULL},
@@ -385,7 +387,8 @@ static void test_short_blows(void **state)
     const struct br_method method = br_method_default();
     struct br_error err;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const struct br_outlook o = {&s, &method, 4000, rows[i].steps, NULL};
+        const struct br_outlook o = {
+            .scene = &s, .method = &method, .n = 4000, .steps = rows[i].steps};
         struct br_warnings w = {0};
         s.bending.load = br_test_load(rows[i].load);
         MUST(br_look_at_loads(&o, &w, &err));
@@ -418,11 +421,11 @@ static void test_list(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bundled),    cmocka_unit_test(test_random),
-        cmocka_unit_test(test_inaccurate), cmocka_unit_test(test_not_known),
-        cmocka_unit_test(test_warnings),   cmocka_unit_test(test_list),
-        cmocka_unit_test(test_blow),       cmocka_unit_test(test_short_blows),
-        cmocka_unit_test(test_layer),      cmocka_unit_test(test_extrapolated),
+        cmocka_unit_test(test_bundled),      cmocka_unit_test(test_random),
+        cmocka_unit_test(test_inaccurate),   cmocka_unit_test(test_not_known),
+        cmocka_unit_test(test_warnings),     cmocka_unit_test(test_list),
+        cmocka_unit_test(test_blow),         cmocka_unit_test(test_short_blows),
+        cmocka_unit_test(test_layer),        cmocka_unit_test(test_extrapolated),
         cmocka_unit_test(test_says_unknown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
