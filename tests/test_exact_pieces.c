@@ -182,7 +182,7 @@ static struct free_motion move_freely(double d, double w, double t)
  * a blow of 1 N s/m. The mean of two sums that end in either sign. */
 static double uniform_tip(const struct br_scene *s, double t, bool blow)
 {
-    enum { MODES = 10000 };
+    enum { MODES = 40000 };
     long double sum = 0, last = 0;
     for (int i = 0; i < MODES && t > 0; i++) {
         const double k = (i + 0.5) * acos(-1) / s->length, square = k * k / s->density;
