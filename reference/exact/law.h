@@ -8,8 +8,10 @@
 #include "solver/scene.h"
 
 struct br_law {
-    bool contact;                  /* (10), on the axial field; else (12), on the bending field */
-    double stiffness;              /* c_H, N/m; 0 without a contact */
+    bool contact;     /* (10), on the axial field; else (12), on the bending field */
+    double stiffness; /* c_H, N/m; 0 without a contact */
+    bool bounds;      /* the axial tip's way beyond the gap sets Coulomb's bound, with a
+                         contact force or without one */
     enum br_friction_law friction; /* of the bending field */
     double coefficient;            /* c_V */
     const struct br_track *axial;  /* whose tip sets Coulomb's bound; borrowed */

@@ -8,6 +8,7 @@ static struct br_law axial_law(const struct br_scene *scene)
     return (struct br_law){
         .contact = true,
         .stiffness = scene->contact.modelled ? scene->contact.stiffness : 0,
+        .bounds = scene->contact.modelled && scene->friction.law == BR_COULOMB,
     };
 }
 
