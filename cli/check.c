@@ -61,10 +61,6 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
     enum br_status status = br_scene_find(name, item->path, sizeof item->path, err);
     if (!status)
         status = br_scene_read_verify(item->path, &item->scene, &item->verify, err);
-    if (status == BR_UNSUPPORTED && r->options.all) {
-        r->skipped[r->skips++] = (struct br_skipped){name, "built without libmatheval"};
-        return BR_OK;
-    }
     if (status)
         return status;
     status = choose_method(r, item, err);

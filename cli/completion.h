@@ -50,7 +50,4 @@ extern const struct br_shell br_bash, br_zsh, br_fish;
 /* NULL-terminated. */
 extern const struct br_shell *const br_shells[];
 
-/* Text between single quotes, for any of the shells; a backslash becomes a blank. */
-void br_write_shell_quoted(FILE *out, const char *text);
-
 #endif

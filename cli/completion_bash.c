@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/completion.h"
+#include "study/quote.h"
 
 /* Bash splits a word at = (and :), so that --solver=x comes as three words. */
 static const char head[] =
@@ -49,7 +50,7 @@ static void write_value(FILE *out, const char *command, const struct br_help_opt
         return;
     fprintf(out, "    %s,--%s) %s", command, option->name, actions[kind]);
     if (*words)
-        br_write_shell_quoted(out, words);
+        br_quote(out, &br_for_completion, words);
     fprintf(out, " ;;\n");
 }
 

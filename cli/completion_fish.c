@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/completion.h"
+#include "study/quote.h"
 
 static void write_condition(FILE *out, const struct br_completion *one)
 {
@@ -24,7 +25,7 @@ static void write_option(FILE *out, const struct br_completion *one,
     else if (*option->argument)
         fprintf(out, " -x");
     fprintf(out, " -d ");
-    br_write_shell_quoted(out, option->help);
+    br_quote(out, &br_for_completion, option->help);
     fputc('\n', out);
 }
 
@@ -51,7 +52,7 @@ static void write_fish(FILE *out, const struct br_completions *all)
         const struct br_completion *one = &all->command[i];
         fprintf(out, "\ncomplete -c beamrate -n __fish_use_subcommand -a %s -d ",
                 one->command->name);
-        br_write_shell_quoted(out, one->command->title);
+        br_quote(out, &br_for_completion, one->command->title);
         fputc('\n', out);
         write_arguments(out, one);
         for (size_t j = 0; j < one->help.count; j++)

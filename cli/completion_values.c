@@ -104,11 +104,3 @@ void br_argument_words(const char *arguments, char *words, size_t size)
         if (*c == '|')
             *c = ' ';
 }
-
-void br_write_shell_quoted(FILE *out, const char *text)
-{
-    fputc('\'', out);
-    for (const char *c = text; *c; c++)
-        *c == '\'' ? fputs("'\\''", out) : fputc(*c == '\\' ? ' ' : *c, out);
-    fputc('\'', out);
-}

@@ -2,14 +2,14 @@
 #include <string.h>
 
 #include "cli/completion.h"
+#include "study/quote.h"
 
 /* "--name=[text]", in which _arguments would take brackets and colons for its own. */
 static void write_option(FILE *out, const struct br_help_option *option)
 {
-    fprintf(out, "            '--%s%s[", option->name, *option->argument ? "=" : "");
-    for (const char *c = option->help; *c; c++)
-        *c == '\'' ? fputs("'\\''", out) : fputc(strchr("\\[]:", *c) ? ' ' : *c, out);
-    fputc(']', out);
+    fprintf(out, "            '--%s%s['", option->name, *option->argument ? "=" : "");
+    br_quote(out, &br_for_zsh, option->help);
+    fputs("']", out);
     const char *words;
     const enum br_value_kind kind = br_option_values(option, &words);
     if (*option->argument)
@@ -61,7 +61,7 @@ static void write_zsh(FILE *out, const struct br_completions *all)
         snprintf(line, sizeof line, "%s:%s", all->command[i].command->name,
                  all->command[i].command->title);
         fprintf(out, "        ");
-        br_write_shell_quoted(out, line);
+        br_quote(out, &br_for_completion, line);
         fputc('\n', out);
     }
     fprintf(out,

@@ -4,6 +4,7 @@
 
 #include "cli/completion.h"
 #include "cli/parse.h"
+#include "study/quote.h"
 #include "study/scene_file.h"
 
 const struct br_shell *const br_shells[] = {&br_bash, &br_zsh, &br_fish, NULL};
@@ -51,7 +52,8 @@ static enum br_status collect_scenes(char *text, size_t size, struct br_error *e
     const enum br_status status = br_scene_list(&name, &count, err);
     text[0] = '\0';
     for (size_t i = 0; i < count && !status && used < size; i++)
-        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? " " : "", name[i]);
+        if (br_is_name(name[i]) && !strchr(name[i], ' ')) /* else no shell could complete it */
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? " " : "", name[i]);
     br_scene_list_free(name, count);
     return status;
 }

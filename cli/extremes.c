@@ -159,18 +159,14 @@ static enum br_status draw(struct work *w, size_t part, struct br_picture_files 
 static enum br_status write_all(struct work *w, struct br_error *err)
 {
     struct br_picture_files files = {.output = &w->output};
-    struct br_error rendering = {0};
     enum br_status status = BR_OK;
     for (size_t i = 0; i < w->options.parts && !status && !w->options.no_plots; i++)
         if (w->options.part[i]->draw)
             status = draw(w, i, &files, err);
     if (!status)
         status = write_pages(w, err);
-    if (br_picture_files_finish(&files, &rendering) && !status)
-        status = br_fail(err, rendering.status, "%s", rendering.message);
-    if (br_signals_caught()) /* Ctrl-C ends gnuplot, too: that is no failure of its own */
-        status = br_fail(err, BR_INTERRUPTED, "interrupted");
-    return status;
+    const enum br_status drawn = br_picture_files_finish(&files, status ? NULL : err);
+    return status ? status : drawn;
 }
 
 static enum br_status show(const struct work *w, struct br_error *err)
@@ -217,7 +213,7 @@ static enum br_status work(struct work *w, struct br_error *err)
     if (!status)
         status = remove_kept(w, err);
     if (!status && !w->options.quiet)
-        printf("Written to %s/\n", w->output.folder);
+        br_output_announce(&w->output);
     return status ? status : judge(w, err);
 }
 

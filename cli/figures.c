@@ -6,14 +6,12 @@
 
 #include "cli/command.h"
 #include "cli/number_option.h"
-#include "cli/output.h"
 #include "cli/parse.h"
+#include "cli/picture_files.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
-#include "cli/signals.h"
 #include "cli/warn_marches.h"
 #include "plots/figures.h"
-#include "plots/plots.h"
 #include "study/ranks.h"
 #include "tables/claims_emitter.h"
 
@@ -49,55 +47,20 @@ struct run {
     struct br_finding finding[BR_MOST_CLAIMS];
     struct br_output output;
     struct br_provenance provenance;
-    struct br_renderer renderer;
-    bool missing; /* gnuplot */
+    struct br_picture_files pictures;
 };
 
-/* What a file of a figure holds. */
-struct content {
-    const char *extension;
-    void (*write)(FILE *out, const struct run *r, const struct br_figure *f,
-                  const struct br_chart *chart);
-};
-
-static void write_data(FILE *out, const struct run *r, const struct br_figure *f,
-                       const struct br_chart *chart)
+static enum br_status write_caption(struct run *r, const struct br_figure *f, const char *stem,
+                                    struct br_error *err)
 {
-    (void)r, (void)f;
-    br_chart_write_data(out, chart);
-}
-
-static void write_script(FILE *out, const struct run *r, const struct br_figure *f,
-                         const struct br_chart *chart)
-{
-    (void)r, (void)f;
-    br_chart_write_script(out, chart);
-}
-
-static void write_caption(FILE *out, const struct run *r, const struct br_figure *f,
-                          const struct br_chart *chart)
-{
-    (void)chart;
-    br_figure_caption(out, f, &r->paper, r->finding);
-}
-
-static enum br_status write_files(struct run *r, const struct br_figure *f,
-                                  const struct br_chart *chart, struct br_error *err)
-{
-    static const struct content contents[] = {
-        {"dat", write_data}, {"gp", write_script}, {"txt", write_caption}};
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < sizeof contents / sizeof *contents && !status; i++) {
-        char name[128];
-        FILE *file;
-        snprintf(name, sizeof name, "%s.%s", chart->stem, contents[i].extension);
-        status = br_output_file(&r->output, name, &file, err);
-        if (status)
-            return status;
-        contents[i].write(file, r, f, chart);
-        status = br_output_close(file, name, err);
-    }
-    return status;
+    char name[160];
+    FILE *file;
+    snprintf(name, sizeof name, "%s.txt", stem);
+    const enum br_status status = br_output_file(&r->output, name, &file, err);
+    if (status)
+        return status;
+    br_figure_caption(file, f, &r->paper, r->finding);
+    return br_output_close(file, name, err);
 }
 
 static enum br_status write_figure(struct run *r, const struct br_figure *f, struct br_error *err)
@@ -105,15 +68,10 @@ static enum br_status write_figure(struct run *r, const struct br_figure *f, str
     struct br_chart chart;
     enum br_status status = br_figure_draw(f, &r->paper, &chart, err);
     if (!status)
-        status = write_files(r, f, &chart, err);
-    char script[BR_SCRIPT_NAME];
-    snprintf(script, sizeof script, "%s.gp", chart.stem);
+        status = br_picture_files_chart(&r->pictures, &chart, err);
+    if (!status)
+        status = write_caption(r, f, chart.stem, err);
     br_chart_clear(&chart);
-    if (!status && !r->missing) {
-        status = br_renderer_add(&r->renderer, r->output.staging, script, &r->missing, err);
-        if (r->missing)
-            status = BR_OK;
-    }
     return status;
 }
 
@@ -156,26 +114,21 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         .provenance = &r->provenance,
     };
     enum br_status status = BR_OK;
+    r->pictures.output = &r->output;
     for (const struct br_figure *const *f = br_figures; *f && !status; f++)
         status = write_figure(r, *f, err);
     if (!status)
         status = write_readme(r, err);
     if (!status)
         status = write_claims(r, &page, err);
-    struct br_error rendering = {0};
-    if (br_renderer_finish(&r->renderer, &rendering) && !status)
-        status = br_fail(err, rendering.status, "%s", rendering.message);
-    if (br_signals_caught()) /* Ctrl-C ends gnuplot, too: that is no failure of its own */
-        status = br_fail(err, BR_INTERRUPTED, "interrupted");
-    if (status)
-        return status;
-    if (r->missing)
-        fprintf(stderr, "beamrate: gnuplot is not installed: the figures are written as scripts "
-                        "(*.gp) and data, but not rendered\n");
-    status = br_output_commit(&r->output, err);
+    const enum br_status drawn = br_picture_files_finish(&r->pictures, status ? NULL : err);
+    if (!status)
+        status = drawn;
+    if (!status)
+        status = br_output_commit(&r->output, err);
     if (!status && !r->options->quiet) {
         br_claims_emitters[0]->emit(stdout, &page);
-        printf("Written to %s/\n", r->output.folder);
+        br_output_announce(&r->output);
     }
     return status;
 }

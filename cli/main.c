@@ -2,13 +2,17 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/command.h"
 #include "cli/provenance.h"
 #include "cli/signals.h"
 #include "cli/suggest.h"
+#include "plots/gnuplot.h"
+#include "study/quote.h"
 #include "study/ranks.h"
 #include "study/spread.h"
+#include "tables/json_value.h"
 
 extern const struct br_command br_command_check, br_command_completions, br_command_extremes,
     br_command_figures, br_command_plan, br_command_run, br_command_scenes, br_command_study,
@@ -58,6 +62,8 @@ static enum br_status check_stdout(struct br_error *err)
 {
     if (fflush(stdout) != 0 || ferror(stdout))
         return br_fail(err, BR_IO, "standard output could not be written");
+    if (br_json_lacked_memory())
+        return br_no_memory(err, "a JSON document");
     return BR_OK;
 }
 
@@ -103,6 +109,7 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     if (!command)
         return unknown(argv[1], err);
     br_signals_install();
+    br_gnuplot_stop_when(br_signals_caught);
     br_remember_command_line(argc, argv);
     static char name[64]; /* for the usage line */
     snprintf(name, sizeof name, "beamrate %s", command->name);
@@ -110,7 +117,28 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     return command->run(argc - 1, argv + 1, err);
 }
 
-int main(int argc, const char **argv)
+/* A message may repeat what a file says. */
+static void complain(const char *message)
+{
+    fputs("beamrate: ", stderr);
+    br_quote(stderr, &br_for_text, message);
+    fputc('\n', stderr);
+}
+
+/* Libraries that have no memory, or no thread, end the program: popt, OpenMP. */
+static bool returned;
+
+static void name_the_end(int code, void *self)
+{
+    (void)self;
+    static const char message[] = "beamrate: out of memory or threads: a library gave up\n";
+    if (returned || code == 0)
+        return;
+    (void)!write(STDERR_FILENO, message, sizeof message - 1);
+    _exit(br_status_exit_code(BR_NO_MEMORY));
+}
+
+static int run_all(int argc, const char **argv)
 {
     struct br_error err = {0};
     enum br_status status = join_ranks(&err);
@@ -125,7 +153,20 @@ int main(int argc, const char **argv)
         fprintf(stderr, "beamrate: interrupted; no file is half written\n");
         br_signals_raise_again();
     }
+    if (!status && br_signals_caught()) { /* a script that runs many commands must hear of it */
+        fprintf(stderr, "beamrate: interrupted when all was written\n");
+        br_signals_raise_again();
+    }
     if (status)
-        fprintf(stderr, "beamrate: %s\n", err.message);
+        complain(err.message);
     return br_status_exit_code(status);
+}
+
+int main(int argc, const char **argv)
+{
+    on_exit(name_the_end, NULL);
+    br_json_lacked_memory(); /* from now on it remembers */
+    const int code = run_all(argc, argv);
+    returned = true;
+    return code;
 }

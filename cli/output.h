@@ -1,38 +1,67 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A folder of results, written whole or not at all: files go to a hidden folder
- * inside it and are renamed into place at the end. */
+/* A set of results in a folder, put in place whole or not at all.
+ *
+ * Files are written in a hidden folder, .beamrate, which is locked: a second program that would
+ * write there is refused. To commit is to put a manifest (cli/manifest.h) into the hidden folder by
+ * one rename. From then on the set is decided:
+ *   1. the manifest of the old set is taken away: the folder has no set,
+ *   2. the files are renamed into place,
+ *   3. what the old manifest lists, the new one does not, and nobody has changed, is removed,
+ *   4. the new manifest is renamed into place: the folder has the new set.
+ * A program that is ended before that rename leaves the old set, and one that is ended after it
+ * leaves the rest to the next one that opens the folder. So a folder with a manifest has all of
+ * that set, at every moment. What neither manifest lists is never touched.
+ *
+ * A folder may have several sets, of several runs. A new one takes the place of those with which it
+ * shares a file's name, whatever the formats are; the others stay. */
 #ifndef BR_OUTPUT_H
 #define BR_OUTPUT_H
 
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "solver/status.h"
+#include "cli/manifest.h"
 
+/* Begins as zeros, or with a stem. */
 struct br_output {
-    char folder[1024];  /* where the results will be */
-    char staging[1088]; /* where they are being written */
-    int lock;           /* of the latter */
-    bool made;          /* the folder was not there before */
+    const char *stem;       /* of the set's files, where a folder has several sets; borrowed;
+                               its manifest is then <stem>.manifest.json. NULL: the only one */
+    char folder[1024];      /* where the results will be */
+    char staging[1400];     /* where they are being written; "": not open */
+    char run[BR_RUN_ID];    /* names the run */
+    char hidden[280];       /* the name of the hidden folder, */
+    char manifest[280];     /* and of the manifest */
+    int parent, descriptor; /* of the two folders, the latter with the lock */
+    bool made;              /* the folder was not there before */
 };
 
-/* Makes the folder (and its parents) and the hidden one; those that were left behind in it are
- * removed. Fails with BR_BAD_INPUT
- * where that cannot be written, so call it before a long computation. */
+/* Makes the folder (and its parents) and the hidden one; finishes or removes what others left
+ * behind. Fails with BR_BAD_INPUT where the folder cannot be written or is in use, or the place of
+ * the manifest is taken, so call it before a long computation; with BR_IO where what was left
+ * behind cannot be finished. */
 enum br_status br_output_open(struct br_output *output, const char *folder, struct br_error *err);
 
-/* Opens a file in the hidden folder for writing. */
+/* Opens a file in the hidden folder for writing. Its name must not begin with a dot. */
 enum br_status br_output_file(const struct br_output *output, const char *name, FILE **file,
                               struct br_error *err);
 
 /* Closes a written file: fails with BR_IO if any write did (a full disk). */
 enum br_status br_output_close(FILE *file, const char *name, struct br_error *err);
 
-/* Moves all files into place. */
+/* Puts the set in place of the old one. Where a file in the way is not of the old set (a scene, a
+ * person's own), the set is put into a folder beside it that is named after the run, and the call
+ * fails with BR_IO, as it does where the disk fails. Fails with BR_INTERRUPTED after a signal. */
 enum br_status br_output_commit(struct br_output *output, struct br_error *err);
 
-/* Removes what has not been moved, and the folder if it was made for nothing; does
+/* Says on the terminal where they are. */
+void br_output_announce(const struct br_output *output);
+
+/* Removes what has not been put in place, and the folder if it was made for nothing; does
  * nothing after a commit. */
 void br_output_discard(struct br_output *output);
+
+/* Removes or finishes what others left behind in an open folder. Fails with BR_IO, BR_BAD_INPUT or
+ * BR_NO_MEMORY where it cannot be finished. */
+enum br_status br_output_sweep(int folder, struct br_error *err);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/parse.h"
 
+#include <errno.h>
 #include <string.h>
 
 #include "cli/suggest.h"
@@ -39,13 +40,18 @@ static enum br_status read_words(poptContext context, const struct br_parse *p,
 
 enum br_status br_parse(int argc, const char **argv, const struct br_parse *p, struct br_error *err)
 {
+    errno = 0;
     poptContext context = poptGetContext("beamrate", argc, argv, p->table, 0);
-    if (!context)
+    if (!context || errno == ENOMEM) { /* without memory popt forgets words */
+        poptFreeContext(context);
         return br_no_memory(err, "the options");
+    }
     poptSetOtherOptionHelp(context, p->usage);
     enum br_status status = read_options(context, p, err);
     if (!status && !*p->help)
         status = read_words(context, p, err);
+    if (errno == ENOMEM)
+        status = br_no_memory(err, "the options");
     poptFreeContext(context);
     return status;
 }

@@ -1,30 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/pictures.h"
 
-#include <ctype.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/picture_files.h"
 #include "cli/signals.h"
 #include "plots/gnuplot.h"
+#include "study/quote.h"
 
 /* All frames are kept with all nodes: 120 MB at most. */
 enum { FRAMES = 120, MOST_ELEMENTS = 20000, ROWS = 2000, NARROW = 40, USUAL = 80, WIDE = 160 };
 
 /* ---- where the movie goes ---- */
-
-/* gnuplot reads the name in quotes, and as a format. */
-static bool is_stem(const char *stem)
-{
-    if (!isalnum((unsigned char)*stem) && *stem != '_')
-        return false;
-    for (const char *c = stem; *c; c++)
-        if (iscntrl((unsigned char)*c) || strchr("'\"\\%`", *c))
-            return false;
-    return true;
-}
 
 static bool is_folder(const char *path)
 {
@@ -47,11 +37,11 @@ static enum br_status split(struct br_pictures *p, char *folder, size_t size, st
     if (slash == file)
         snprintf(folder, size, "/");
     snprintf(p->stem, sizeof p->stem, "%.*s", length, name);
-    return is_stem(p->stem)
+    return br_is_name(p->stem)
                ? BR_OK
                : br_fail(err, BR_BAD_INPUT,
                          "--animate: found '%s', expected a file's name that begins with "
-                         "a letter or digit and has no quote, percent sign or backslash",
+                         "a letter or digit, with no others but blanks and _ . - +",
                          file);
 }
 
@@ -96,6 +86,7 @@ static enum br_status open_movie(struct br_pictures *p, struct br_error *err)
         status = split(p, folder, sizeof folder, err);
     if (!status)
         status = check_terminal(p, err);
+    p->output.stem = p->stem;
     if (!status && br_output_open(&p->output, folder, &inner))
         status = br_fail(err, inner.status, "--animate %s", inner.message + strlen("--out: "));
     return status;
@@ -168,18 +159,6 @@ static enum br_status write_file(const struct br_pictures *p, const struct br_mo
     return br_output_close(file, name, err);
 }
 
-/* Those of a longer movie that was there before. */
-static void remove_old_frames(const struct br_pictures *p, const struct br_movie *movie)
-{
-    char name[512], path[2048];
-    for (size_t i = p->record.looks;; i++) {
-        br_movie_file(movie, i, name, sizeof name);
-        snprintf(path, sizeof path, "%s/%s", p->request.animate, name);
-        if (unlink(path) != 0)
-            return;
-    }
-}
-
 static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
 {
     const struct br_movie movie = {p->request.scene, &p->record, p->format, p->stem};
@@ -197,8 +176,6 @@ static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
         status = br_fail(err, BR_INTERRUPTED, "interrupted");
     if (!status)
         status = br_output_commit(&p->output, err);
-    if (!status && p->format->frames)
-        remove_old_frames(p, &movie);
     return status;
 }
 
@@ -213,13 +190,13 @@ static int columns_of(FILE *letters)
 static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct br_error *err)
 {
     bool missing;
-    struct br_error inner = {0};
+    struct br_error why = {0};
     fflush(letters);
     if (!br_gnuplot_letters(letters, p->request.scene, &p->record, columns_of(letters), &missing,
-                            &inner))
+                            &why))
         return BR_OK;
     if (!missing)
-        return br_fail(err, inner.status, "%s", inner.message);
+        return br_picture_failed(&why, "--plot", err);
     fprintf(stderr, "beamrate: gnuplot is not installed: --plot shows nothing\n");
     return BR_OK;
 }

@@ -10,7 +10,6 @@
 #include "cli/plan_options.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
-#include "cli/read_text.h"
 #include "cli/signals.h"
 #include "cli/warn_marches.h"
 #include "study/ranks.h"
@@ -31,11 +30,8 @@ struct work {
 
 static enum br_status prepare(struct work *w, struct br_error *err)
 {
-    enum br_status status = br_scene_find(w->options.scene, w->path, sizeof w->path, err);
-    if (!status)
-        status = br_scene_read(w->path, &w->scene, err);
-    if (!status)
-        status = br_read_text(w->path, &w->text, err);
+    enum br_status status =
+        br_scene_open(w->options.scene, w->path, sizeof w->path, &w->text, &w->scene, err);
     if (status)
         return status;
     struct br_plan *p = &w->plan;
@@ -91,8 +87,10 @@ static enum br_status write_all(struct work *w, const struct br_plan_page *page,
             status = write_one(w, *e, page, err);
     if (!status)
         status = br_output_commit(&w->output, err);
-    if (!status && !w->options.study.quiet)
-        printf("\nWritten to %s/\n", w->output.folder);
+    if (!status && !w->options.study.quiet) {
+        putchar('\n');
+        br_output_announce(&w->output);
+    }
     return status;
 }
 

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "build_info.h"
+#include "study/quote.h"
 
 static char command_line[4096], machine[512], date[32];
 
@@ -20,13 +21,18 @@ const char *br_commit(void)
     return BR_COMMIT;
 }
 
-/* text += part, in single quotes where a shell would need them. */
+const char *br_command_line(void)
+{
+    return command_line;
+}
+
+/* text += part, as a shell would read it. */
 static void append_quoted(const char *part)
 {
     const size_t used = strlen(command_line);
-    const char *quote = *part && !part[strcspn(part, " \t\n'\"\\$*?;&|<>()[]{}#~`!")] ? "" : "'";
-    snprintf(command_line + used, sizeof command_line - used, "%s%s%s%s", used ? " " : "", quote,
-             part, quote);
+    snprintf(command_line + used, sizeof command_line - used, "%s", used ? " " : "");
+    const size_t blank = used > 0 && used + 1 < sizeof command_line;
+    br_quoted(command_line + used + blank, sizeof command_line - used - blank, &br_for_shell, part);
 }
 
 void br_remember_command_line(int argc, const char **argv)

@@ -9,6 +9,7 @@ const char *br_version(void);
 const char *br_commit(void);
 
 void br_remember_command_line(int argc, const char **argv);
+const char *br_command_line(void);
 
 /* Fills all but the scene. The strings are static, so one call a run. */
 void br_provenance_fill(struct br_provenance *provenance, int threads);

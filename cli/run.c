@@ -7,7 +7,6 @@
 #include "cli/pictures.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
-#include "cli/read_text.h"
 #include "cli/run_files.h"
 #include "cli/run_options.h"
 #include "cli/warn.h"
@@ -30,14 +29,6 @@ struct run {
     struct br_run_files files;
     struct br_pictures pictures;
 };
-
-static enum br_status read_scene(struct run *r, struct br_error *err)
-{
-    enum br_status status = br_scene_find(r->options.scene, r->path, sizeof r->path, err);
-    if (!status)
-        status = br_scene_read(r->path, &r->scene, err);
-    return status ? status : br_read_text(r->path, &r->text, err);
-}
 
 /* Whether two files have one name but for what follows its last dot. */
 static bool same_stem(const char *a, const char *b)
@@ -162,9 +153,10 @@ static enum br_status write_results(struct run *r, double start, struct br_error
         status = br_run_json(r->json.file, &page, err);
     if (!status && !r->options.quiet && r->json.file != stdout)
         br_run_text(stdout, &page);
+    FILE *letters = r->json.file == stdout ? NULL : stdout;
     if (!status)
-        status = br_pictures_finish(&r->pictures, r->json.file == stdout ? NULL : stdout, err);
-    return status ? status : br_whole_file_commit(&r->json, err);
+        status = br_whole_file_commit(&r->json, err);
+    return status ? status : br_pictures_finish(&r->pictures, letters, err);
 }
 
 /* Results are kept also where the march stopped, or a step is beyond its certificate's limits. */
@@ -182,7 +174,8 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
 static enum br_status run_scene(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
-    enum br_status status = read_scene(r, err);
+    enum br_status status =
+        br_scene_open(r->options.scene, r->path, sizeof r->path, &r->text, &r->scene, err);
     if (!status)
         status = br_run_plan_make(&r->options, &r->scene, &r->plan, err);
     if (!status)

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 enum br_status br_run_files_open(struct br_run_files *f, const char *folder,
                                  const struct br_fields_request *request, struct br_error *err)
@@ -92,18 +91,6 @@ static enum br_status write_json(const struct br_run_files *f, const struct br_r
     return status ? status : closed;
 }
 
-/* Of the two formats for the fields only one is that of this run. */
-static void remove_other_formats(const struct br_run_files *f)
-{
-    for (const struct br_fields_format *const *other = br_fields_formats; *other; other++) {
-        char path[2048];
-        if (*other == f->format)
-            continue;
-        snprintf(path, sizeof path, "%s/%s", f->output.folder, (*other)->file_name);
-        unlink(path);
-    }
-}
-
 enum br_status br_run_files_commit(struct br_run_files *f, const struct br_run_page *page,
                                    struct br_error *err)
 {
@@ -118,8 +105,6 @@ enum br_status br_run_files_commit(struct br_run_files *f, const struct br_run_p
         status = write_json(f, page, err);
     if (!status)
         status = br_output_commit(&f->output, err);
-    if (!status)
-        remove_other_formats(f);
     return status;
 }
 

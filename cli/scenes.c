@@ -9,9 +9,11 @@
 #include "cli/command.h"
 #include "cli/parse.h"
 #include "cli/whole_file.h"
+#include "study/quote.h"
 #include "study/ranks.h"
 #include "study/scene_file.h"
 #include "tables/scene_format.h"
+#include "tables/sentences.h"
 
 static const char usage[] =
     "[SCENE] [OPTION...]\n\nLists the bundled scenes, a line each; shows one; or begins a new "
@@ -63,10 +65,14 @@ static enum br_status print_line(const char *name, size_t width, struct br_error
     enum br_status status = br_scene_find(name, path, sizeof path, err);
     if (!status)
         status = br_scene_read(path, &scene, err);
-    if (!status || status == BR_UNSUPPORTED)
-        printf("%-*s  %s%s\n", (int)width, name, scene.title, status ? " (not in this build)" : "");
+    if (!status) {
+        br_quote(stdout, &br_for_text, name);
+        printf("%*s", (int)width + 2 - br_width_of(name), "");
+        br_quote(stdout, &br_for_text, scene.title);
+        puts("");
+    }
     br_scene_clear(&scene);
-    return status == BR_UNSUPPORTED ? BR_OK : status;
+    return status;
 }
 
 static enum br_status list(struct br_error *err)
@@ -84,17 +90,26 @@ static enum br_status list(struct br_error *err)
 
 /* ---- one scene ---- */
 
+/* The file to the byte, but on a terminal what can be seen of it. */
 static enum br_status show(const char *name, struct br_error *err)
 {
-    char path[1024], piece[4096];
+    const bool terminal = isatty(STDOUT_FILENO);
+    char path[1024], *line = NULL;
+    size_t size = 0;
     const enum br_status status = br_scene_find(name, path, sizeof path, err);
     if (status)
         return status;
     FILE *file = fopen(path, "r");
     if (!file)
         return br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno));
-    for (size_t got; (got = fread(piece, 1, sizeof piece, file)) > 0;)
-        fwrite(piece, 1, got, stdout);
+    for (ssize_t length; (length = getline(&line, &size, file)) > 0;)
+        if (terminal) {
+            line[strcspn(line, "\n")] = '\0';
+            br_quote(stdout, &br_for_text, line);
+            putchar('\n');
+        } else
+            fwrite(line, 1, (size_t)length, stdout);
+    free(line);
     const bool failed = ferror(file);
     fclose(file);
     return failed ? br_fail(err, BR_IO, "%s could not be read", path) : BR_OK;

@@ -5,12 +5,10 @@
 #include <string.h>
 
 #include "cli/formats.h"
-#include "cli/output.h"
+#include "cli/picture_files.h"
 #include "cli/provenance.h"
-#include "cli/signals.h"
 #include "cli/study_session.h"
 #include "cli/warn_marches.h"
-#include "plots/plots.h"
 #include "study/ranks.h"
 #include "study/resources.h"
 #include "tables/emitter.h"
@@ -21,8 +19,7 @@ struct run {
     struct br_session session;
     struct br_output output;
     struct br_provenance provenance;
-    struct br_renderer renderer;
-    bool missing; /* gnuplot */
+    struct br_picture_files pictures;
 };
 
 static void describe(struct run *r, size_t page)
@@ -54,12 +51,6 @@ static enum br_status write_tables(struct run *r, size_t i, struct br_error *err
     return BR_OK;
 }
 
-/* Ctrl-C ends gnuplot, too: that is no failure of its own. */
-static enum br_status check_signals(enum br_status status, struct br_error *err)
-{
-    return br_signals_caught() ? br_fail(err, BR_INTERRUPTED, "interrupted") : status;
-}
-
 static enum br_status write_plots(struct run *r, size_t i, struct br_error *err)
 {
     const struct br_report *report = &r->session.page[i].report;
@@ -71,38 +62,25 @@ static enum br_status write_plots(struct run *r, size_t i, struct br_error *err)
         status = br_plot_file(*p, report, "gp", script, sizeof script, err);
         if (!status)
             status = br_plot_write(*p, report, r->output.staging, err);
-        if (!status && !r->missing) {
-            status = br_renderer_add(&r->renderer, r->output.staging, script, &r->missing, err);
-            if (r->missing)
-                status = BR_OK;
-        }
+        if (!status)
+            status = br_picture_files_render(&r->pictures, script, err);
     }
-    return check_signals(status, err);
+    return status;
 }
 
 /* The plots first: they are rendered while the tables are written. */
-static enum br_status write_pages(struct run *r, struct br_error *err)
+static enum br_status write_all(struct run *r, struct br_error *err)
 {
     enum br_status status = BR_OK;
+    r->pictures.output = &r->output;
     for (size_t i = 0; i < r->session.pages && !status && !r->options->no_plots; i++)
         status = write_plots(r, i, err);
     for (size_t i = 0; i < r->session.pages && !status; i++)
         status = write_tables(r, i, err);
-    struct br_error rendering = {0};
-    if (br_renderer_finish(&r->renderer, &rendering) && !status)
-        status = br_fail(err, rendering.status, "%s", rendering.message);
-    return check_signals(status, err);
-}
-
-static enum br_status write_all(struct run *r, struct br_error *err)
-{
-    const enum br_status status = write_pages(r, err);
-    if (status)
-        return status;
-    if (r->missing)
-        fprintf(stderr, "beamrate: gnuplot is not installed: the plots are written as scripts "
-                        "(*.gp) and data, but not rendered\n");
-    return br_output_commit(&r->output, err);
+    const enum br_status drawn = br_picture_files_finish(&r->pictures, status ? NULL : err);
+    if (!status)
+        status = drawn;
+    return status ? status : br_output_commit(&r->output, err);
 }
 
 static enum br_status show(struct run *r, struct br_error *err)
@@ -169,7 +147,7 @@ enum br_status br_study_run_jobs(const struct br_study_job *jobs, size_t count,
     if (!status && writes)
         status = write_all(&r, err);
     if (!status && writes && !options->quiet)
-        printf("Written to %s/\n", r.output.folder);
+        br_output_announce(&r.output);
     if (!status)
         status = check_cells(&r.session, err);
     br_session_clear(&r.session);

@@ -6,9 +6,7 @@
 #include <string.h>
 
 #include "cli/progress.h"
-#include "cli/read_text.h"
 #include "cli/signals.h"
-#include "plots/plots.h"
 #include "reference/printed.h"
 #include "solver/clock.h"
 #include "study/differences.h"
@@ -180,9 +178,6 @@ static enum br_status start_report(struct br_session *s, const struct place *at,
         &s->page[(at->job * s->request.norms + at->norm) * variants + at->variant];
     const bool companion = variants == 1 && s->heads > s->jobs;
     name_page(s, at, job, page);
-    const enum br_status status = br_check_stem(page->name, err);
-    if (status)
-        return status;
     page->report = (struct br_report){
         .name = page->name,
         .caption = page->caption,
@@ -209,11 +204,8 @@ static enum br_status prepare(struct br_session *s, size_t i, const struct br_st
                               struct br_error *err)
 {
     struct br_work *w = &s->work[i];
-    enum br_status status = br_scene_find(job->scene, w->path, sizeof w->path, err);
-    if (!status)
-        status = br_scene_read(w->path, &w->scene, err);
-    if (!status)
-        status = br_read_text(w->path, &w->text, err);
+    enum br_status status =
+        br_scene_open(job->scene, w->path, sizeof w->path, &w->text, &w->scene, err);
     if (!status)
         status = make_grid(s, i, err);
     if (!status)

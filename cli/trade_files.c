@@ -6,8 +6,6 @@
 
 #include "cli/formats.h"
 #include "cli/provenance.h"
-#include "cli/read_text.h"
-#include "cli/signals.h"
 #include "plots/trade.h"
 #include "study/scene_file.h"
 
@@ -35,11 +33,8 @@ static enum br_status read_printed(struct br_trade_item *item, struct br_error *
 enum br_status br_trade_item_read(struct br_trade_item *item, const char *scene,
                                   struct br_error *err)
 {
-    enum br_status status = br_scene_find(scene, item->path, sizeof item->path, err);
-    if (!status)
-        status = br_scene_read(item->path, &item->scene, err);
-    if (!status)
-        status = br_read_text(item->path, &item->text, err);
+    enum br_status status =
+        br_scene_open(scene, item->path, sizeof item->path, &item->text, &item->scene, err);
     if (!status)
         status = read_printed(item, err);
     if (!status)
@@ -138,12 +133,7 @@ static enum br_status draw(struct br_trade_files *f, const struct br_trade_pictu
     enum br_status status = write_part(f, "dat", br_trade_picture_data, picture, &view, err);
     if (!status)
         status = write_part(f, "gp", br_trade_picture_script, picture, &view, err);
-    if (!status && !f->missing) {
-        status = br_renderer_add(&f->renderer, f->output.staging, script, &f->missing, err);
-        if (f->missing)
-            status = BR_OK;
-    }
-    return status;
+    return status ? status : br_picture_files_render(&f->pictures, script, err);
 }
 
 static enum br_status draw_all(struct br_trade_files *f, struct br_error *err)
@@ -171,25 +161,21 @@ static enum br_status show(const struct br_trade_files *f, struct br_error *err)
 /* The pictures first: they are rendered while the tables are written. */
 enum br_status br_trade_files_write(struct br_trade_files *f, struct br_error *err)
 {
-    struct br_error rendering = {0};
+    f->pictures.output = &f->output;
     enum br_status status = draw_all(f, err);
     if (!status)
         status = write_tables(f, err);
-    if (br_renderer_finish(&f->renderer, &rendering) && !status)
-        status = br_fail(err, rendering.status, "%s", rendering.message);
-    if (br_signals_caught()) /* Ctrl-C ends gnuplot, too: that is no failure of its own */
-        status = br_fail(err, BR_INTERRUPTED, "interrupted");
+    const enum br_status drawn = br_picture_files_finish(&f->pictures, status ? NULL : err);
+    if (!status)
+        status = drawn;
     if (status)
         return status;
-    if (f->missing)
-        fprintf(stderr, "beamrate: gnuplot is not installed: the plots are written as scripts "
-                        "(*.gp) and data, but not rendered\n");
     if (!f->options->quiet)
         status = show(f, err);
     if (!status)
         status = br_output_commit(&f->output, err);
     if (!status && !f->options->quiet)
-        printf("Written to %s/\n", f->output.folder);
+        br_output_announce(&f->output);
     return status;
 }
 

@@ -3,9 +3,8 @@
 #ifndef BR_TRADE_FILES_H
 #define BR_TRADE_FILES_H
 
-#include "cli/output.h"
+#include "cli/picture_files.h"
 #include "cli/study_options.h"
-#include "plots/plots.h"
 #include "tables/trade_emitter.h"
 
 /* A scene on its way; not to be moved once its trade is laid out. Begins as zeros. */
@@ -33,8 +32,7 @@ struct br_trade_files {
     const struct br_study_options *options; /* out, format, no_plots, quiet */
     struct br_trade_page *page;             /* items; owned */
     struct br_output output;
-    struct br_renderer renderer;
-    bool missing; /* gnuplot */
+    struct br_picture_files pictures;
 };
 
 /* Makes the folder, so call it before a long computation. Fails with BR_BAD_INPUT. Discard the

@@ -9,7 +9,6 @@
 #include "cli/picture_files.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
-#include "cli/read_text.h"
 #include "cli/signals.h"
 #include "cli/warn_marches.h"
 #include "plots/split.h"
@@ -35,14 +34,6 @@ struct work {
 };
 
 /* ---- options ---- */
-
-static enum br_status read_scene(struct work *w, struct br_error *err)
-{
-    enum br_status status = br_scene_find(w->options->scene[0], w->path, sizeof w->path, err);
-    if (!status)
-        status = br_scene_read(w->path, &w->scene, err);
-    return status ? status : br_read_text(w->path, &w->text, err);
-}
 
 /* Tolerances that no method heeds are refused. */
 static enum br_status check_heeded(const struct work *w, struct br_error *err)
@@ -209,7 +200,8 @@ static enum br_status run(struct work *w, struct br_error *err)
     const char *out = w->options->study.out;
     enum br_status status = read_lists(w, err);
     if (!status)
-        status = read_scene(w, err);
+        status =
+            br_scene_open(w->options->scene[0], w->path, sizeof w->path, &w->text, &w->scene, err);
     if (!status)
         status = lay_out(w, err);
     if (!status && writes)
@@ -228,8 +220,10 @@ static enum br_status run(struct work *w, struct br_error *err)
         status = br_split_emitters[0]->emit(stdout, &page, err);
     if (!status)
         status = write_all(w, &page, err);
-    if (!status && !w->options->study.quiet)
-        printf("\nWritten to %s/\n", w->output.folder);
+    if (!status && !w->options->study.quiet) {
+        putchar('\n');
+        br_output_announce(&w->output);
+    }
     return status;
 }
 

@@ -3,11 +3,16 @@
 
 #include <stdio.h>
 
+#include "study/quote.h"
+
 static void print(const char *scene, const struct br_warnings *warnings)
 {
     for (size_t i = 0; i < warnings->count; i++) {
         const struct br_warning *w = &warnings->list[i];
-        fprintf(stderr, "beamrate: warning: %s%s%s", scene, *scene ? ": " : "", w->text);
+        fputs("beamrate: warning: ", stderr);
+        br_quote(stderr, &br_for_text, scene);
+        fputs(*scene ? ": " : "", stderr);
+        br_quote(stderr, &br_for_text, w->text);
         if (w->more)
             fprintf(stderr, " (and so %zu more of these marches)", w->more);
         fprintf(stderr, "%s%s\n", w->remedy[0] ? "; remedy: " : "", w->remedy);

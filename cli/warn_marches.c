@@ -6,10 +6,18 @@
 #include "cli/warn.h"
 #include "study/paper.h"
 
+/* Keeps the one with most elements and steps. */
+static void keep_finest(const struct br_outlook *o, struct br_outlook *finest)
+{
+    if ((double)o->n * (double)o->steps > (double)finest->n * (double)finest->steps)
+        *finest = *o;
+}
+
 static enum br_status look_at_cells(const struct br_study *study, struct br_warnings *warnings,
                                     struct br_error *err)
 {
     enum br_status status = BR_OK;
+    struct br_outlook finest = {0};
     for (size_t i = 0; i < study->n_count; i++)
         for (size_t j = 0; j < study->k_count && !status; j++) {
             const struct br_outlook outlook = {.scene = study->scene,
@@ -17,8 +25,9 @@ static enum br_status look_at_cells(const struct br_study *study, struct br_warn
                                                .n = study->n[i],
                                                .steps = study->steps[j]};
             status = br_look_ahead_cheaply(&outlook, warnings, err);
+            keep_finest(&outlook, &finest);
         }
-    return status;
+    return status || !finest.n ? status : br_look_at_loads(&finest, warnings, err);
 }
 
 enum br_status br_warn_of_studies(const struct br_study *studies, size_t count,
@@ -36,6 +45,8 @@ enum br_status br_warn_of_studies(const struct br_study *studies, size_t count,
 static void look_at_check(const struct br_check *check, const struct br_verify_study *study,
                           struct br_warnings *warnings)
 {
+    struct br_outlook finest = {0};
+    struct br_error unsaid = {0};
     for (size_t i = 0; i < study->count; i++) {
         struct br_error refusal = {0};
         const struct br_outlook outlook = {.scene = check->scene,
@@ -43,7 +54,10 @@ static void look_at_check(const struct br_check *check, const struct br_verify_s
                                            .n = study->n[i],
                                            .steps = study->steps[i]};
         br_look_ahead_cheaply(&outlook, warnings, &refusal);
+        keep_finest(&outlook, &finest);
     }
+    if (finest.n)
+        br_look_at_loads(&finest, warnings, &unsaid);
 }
 
 void br_warn_of_checks(const struct br_check *checks, size_t count)
@@ -82,6 +96,7 @@ void br_warn_of_plan(const struct br_plan *plan)
                                        .n = t->at.n,
                                        .steps = t->at.steps};
     br_look_ahead_cheaply(&outlook, &warnings, &refusal);
+    br_look_at_loads(&outlook, &warnings, &refusal);
     br_print_warnings_of(plan->request.scene->name, &warnings);
 }
 

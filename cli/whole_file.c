@@ -2,25 +2,23 @@
 #include "cli/whole_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <libgen.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli/output.h"
+#include "cli/staging.h"
+#include "tables/json_value.h"
 
 static enum br_status refuse(const char *option, const char *path, const char *reason,
                              struct br_error *err)
 {
+    if (errno == ENOMEM)
+        return br_no_memory(err, path);
     return br_fail(err, BR_BAD_INPUT, "--%s: cannot write '%s': %s", option, path, reason);
-}
-
-/* The permissions that a new file would have had. */
-static void set_permissions(int descriptor, const struct stat *old)
-{
-    const mode_t mask = umask(0);
-    umask(mask);
-    (void)!fchmod(descriptor, old ? old->st_mode & 07777 : 0666 & ~mask);
 }
 
 /* The path of a file that is not there yet in its folder, which is; NULL with errno. */
@@ -41,20 +39,28 @@ static char *place_of_new(const char *path)
     return place;
 }
 
-static enum br_status open_staging(struct br_whole_file *w, const char *option,
-                                   const struct stat *old, struct br_error *err)
+/* The folder of an absolute path; to be freed; NULL without memory. */
+static char *folder_of(const char *place)
 {
-    if (old && access(w->place, W_OK) < 0)
-        return refuse(option, w->path, strerror(errno), err);
-    const int length = snprintf(w->staging, sizeof w->staging, "%s.XXXXXX", w->place);
-    const int descriptor = length < (int)sizeof w->staging ? mkstemp(w->staging) : -1;
-    if (descriptor < 0) {
-        w->staging[0] = '\0';
-        return refuse(option, w->path, strerror(errno), err);
-    }
-    set_permissions(descriptor, old);
-    w->file = fdopen(descriptor, "w");
-    return w->file ? BR_OK : refuse(option, w->path, strerror(errno), err);
+    const size_t length = (size_t)(strrchr(place, '/') - place);
+    return strndup(place, length ? length : 1);
+}
+
+/* The folder must take a new file, and an old one must not be protected. */
+static enum br_status open_in_memory(struct br_whole_file *w, const char *option, bool there,
+                                     struct br_error *err)
+{
+    char *folder = folder_of(w->place);
+    if (!folder)
+        return br_no_memory(err, w->path);
+    const bool writable = (!there || access(w->place, W_OK) == 0) && access(folder, W_OK) == 0;
+    const int reason = errno;
+    free(folder);
+    if (!writable)
+        return refuse(option, w->path, strerror(reason), err);
+    w->renamed = true;
+    w->file = open_memstream(&w->text, &w->size);
+    return w->file ? BR_OK : br_no_memory(err, w->path);
 }
 
 static bool is_standard_output(const char *path, const struct stat *there)
@@ -69,6 +75,7 @@ enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, c
                                   struct br_error *err)
 {
     *w = (struct br_whole_file){.path = path};
+    errno = 0;
     if (!path)
         return BR_OK;
     if (!*path)
@@ -83,7 +90,7 @@ enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, c
     if (!w->place)
         return refuse(option, path, strerror(errno), err);
     if (!there || S_ISREG(old.st_mode))
-        return open_staging(w, option, there ? &old : NULL, err);
+        return open_in_memory(w, option, there, err);
     w->file = fopen(path, "w"); /* a pipe, a terminal: nothing to rename; a folder fails */
     return w->file ? BR_OK : refuse(option, path, strerror(errno), err);
 }
@@ -101,7 +108,7 @@ bool br_whole_file_same(const struct br_whole_file *a, const struct br_whole_fil
 
 bool br_whole_file_replaces(const struct br_whole_file *w, const char *path)
 {
-    char *place = w->staging[0] ? realpath(path, NULL) : NULL;
+    char *place = w->renamed ? realpath(path, NULL) : NULL;
     const bool same = place && strcmp(place, w->place) == 0;
     free(place);
     return same;
@@ -128,7 +135,7 @@ static char *place_of_folder(const char *folder)
 
 bool br_whole_file_is_in(const struct br_whole_file *w, const char *folder)
 {
-    char *place = w->staging[0] ? place_of_folder(folder) : NULL;
+    char *place = w->renamed ? place_of_folder(folder) : NULL;
     const size_t length = place ? strlen(place) : 0;
     const bool inside = place && strncmp(w->place, place, length) == 0 &&
                         (w->place[length] == '\0' ||
@@ -137,34 +144,69 @@ bool br_whole_file_is_in(const struct br_whole_file *w, const char *folder)
     return inside;
 }
 
+/* The permissions of the old file, or those that a new one would have had. */
+static void set_permissions(int descriptor, const char *place)
+{
+    struct stat old;
+    const mode_t mask = umask(0);
+    umask(mask);
+    (void)!fchmod(descriptor, stat(place, &old) == 0 ? old.st_mode & 07777 : 0666 & ~mask);
+}
+
+/* Into a hidden file of the folder, which is then renamed. */
+static enum br_status write_out(const struct br_whole_file *w, int folder, const char *hidden,
+                                int descriptor, struct br_error *err)
+{
+    flock(descriptor, LOCK_EX | LOCK_NB); /* or the next program would sweep it away */
+    set_permissions(descriptor, w->place);
+    const bool written = br_write_whole(descriptor, w->text, w->size);
+    const char *slash = strrchr(w->place, '/');
+    if (written && renameat(folder, hidden, folder, slash + 1) == 0)
+        return BR_OK;
+    const int reason = errno;
+    unlinkat(folder, hidden, 0);
+    return br_fail(err, BR_IO, "%s could not be written whole: %s", w->path, strerror(reason));
+}
+
+static enum br_status write_beside(const struct br_whole_file *w, struct br_error *err)
+{
+    char *name = folder_of(w->place), *hidden = NULL;
+    const int folder = name ? open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    const bool named = name && asprintf(&hidden, "%s/%s-XXXXXX", name, BR_STAGING_PREFIX) >= 0;
+    free(name);
+    if (!named)
+        return br_no_memory(err, w->path);
+    enum br_status status = folder >= 0 ? br_output_sweep(folder, err) : BR_OK;
+    const int descriptor = folder >= 0 && !status ? mkostemp(hidden, O_CLOEXEC) : -1;
+    if (!status)
+        status = descriptor >= 0 ? write_out(w, folder, strrchr(hidden, '/') + 1, descriptor, err)
+                                 : br_fail(err, BR_IO, "%s: %s", w->path, strerror(errno));
+    if (descriptor >= 0)
+        close(descriptor);
+    if (folder >= 0)
+        close(folder);
+    free(hidden);
+    return status;
+}
+
 enum br_status br_whole_file_commit(struct br_whole_file *w, struct br_error *err)
 {
     if (!w->file || w->file == stdout)
         return BR_OK; /* main checks standard output at the end */
     FILE *file = w->file;
     w->file = NULL;
-    if (!w->staging[0]) {
-        const bool failed = ferror(file);
-        return fclose(file) != 0 || failed
-                   ? br_fail(err, BR_IO, "%s could not be written whole", w->path)
-                   : BR_OK;
-    }
-    enum br_status status = br_output_close(file, w->path, err);
-    if (!status && rename(w->staging, w->place) < 0)
-        status = br_fail(err, BR_IO, "%s: %s", w->path, strerror(errno));
-    if (!status)
-        w->staging[0] = '\0';
-    return status;
+    const bool failed = fflush(file) != 0 || ferror(file);
+    if (fclose(file) != 0 || failed || br_json_lacked_memory() || (w->renamed && !w->text))
+        return w->renamed ? br_no_memory(err, w->path)
+                          : br_fail(err, BR_IO, "%s could not be written whole", w->path);
+    return w->renamed ? write_beside(w, err) : BR_OK;
 }
 
 void br_whole_file_discard(struct br_whole_file *w)
 {
     if (w->file && w->file != stdout)
         fclose(w->file);
-    w->file = NULL;
-    if (w->staging[0])
-        unlink(w->staging);
-    w->staging[0] = '\0';
+    free(w->text);
     free(w->place);
-    w->place = NULL;
+    *w = (struct br_whole_file){.path = NULL};
 }

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 
 #include "plots/page.h"
+#include "study/quote.h"
 
 void br_chart_lay_out(struct br_chart *chart, size_t panels)
 {
@@ -121,7 +122,7 @@ static void write_range(FILE *out, const char *axis, double low, double high)
 static void write_label(FILE *out, const char *tag, const char *text)
 {
     fprintf(out, "set label %s", tag);
-    br_write_quoted(out, text);
+    br_quote(out, &br_for_gnuplot, text);
 }
 
 /* The axes' names are labels at fixed places, as in plots/frame.c. */
@@ -170,7 +171,7 @@ static void write_key(FILE *out, const struct br_panel *p)
 static void write_title(FILE *out, const struct br_chart *chart)
 {
     fputs("set label 4 ", out);
-    br_write_quoted(out, chart->title);
+    br_quote(out, &br_for_gnuplot, chart->title);
     fprintf(out, " noenhanced at screen 0.02,0.955 left font ',%d'\n", BR_PAGE_FONT + 2);
 }
 
@@ -206,25 +207,17 @@ static void write_panel(FILE *out, const struct br_chart *chart, size_t i, size_
         write_pen(out, p, j);
         fprintf(out, "%s", p->curve[j].title[0] ? " title " : " notitle");
         if (p->curve[j].title[0])
-            br_write_quoted(out, p->curve[j].title);
+            br_quote(out, &br_for_gnuplot, p->curve[j].title);
     }
     fputc('\n', out);
 }
 
 void br_chart_write_script(FILE *out, const struct br_chart *chart)
 {
-    fputs("# SPDX-License-Identifier: GPL-3.0-or-later\n# ", out);
-    br_write_comment(out, chart->title);
-    fprintf(out,
-            "# Draws %s.svg and %s.png from %s.dat;\n"
-            "# edit it, and draw them again, in this folder, with\n"
-            "#     gnuplot %s.gp\n\n"
-            "set encoding utf8\n"
-            "stem = '%s'\n"
-            "data = stem.'.dat'\n"
-            "set datafile missing 'NaN'\n"
-            "set style line 102 lw 1 lc rgb '#d0d0d0' # grid\n",
-            chart->stem, chart->stem, chart->stem, chart->stem, chart->stem);
+    br_write_script_head(out, chart->title, NULL, chart->stem);
+    fputs("set datafile missing 'NaN'\n"
+          "set style line 102 lw 1 lc rgb '#d0d0d0' # grid\n",
+          out);
     br_write_loop(out, BR_PAGE_WIDE, BR_PAGE_HEIGHT);
     fputs("set multiplot\n", out);
     size_t first = 0;

@@ -50,7 +50,7 @@ struct br_panel {
 };
 
 struct br_chart {
-    char stem[64];   /* of the files */
+    char stem[128];  /* of the files */
     char title[160]; /* plain */
     struct br_panel panel[BR_CHART_PANELS];
     size_t panels;

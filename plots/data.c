@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "study/quote.h"
+
 size_t br_next(const size_t *list, size_t count, size_t after)
 {
     size_t best = count;
@@ -73,13 +75,6 @@ static void write_number(FILE *out, double value)
         fputs(" NaN", out);
     else
         fprintf(out, " %.17g", value);
-}
-
-void br_write_comment(FILE *out, const char *text)
-{
-    for (; *text; text++)
-        fputc(*text == '\n' || *text == '\r' ? ' ' : *text, out);
-    fputc('\n', out);
 }
 
 void br_write_heading(FILE *out, const struct br_report *report, const struct br_plot *plot)

@@ -34,9 +34,6 @@ const size_t *br_axis_list(const struct br_report *report, enum br_axis axis, si
 /* h or k of an entry of that list, m or s. */
 double br_axis_value(const struct br_report *report, enum br_axis axis, size_t entry);
 
-/* Ends a comment line with a text; a line break in it must not end the comment. */
-void br_write_comment(FILE *out, const char *text);
-
 /* Comment lines at the top of a data file: the report and what stands in a block. */
 void br_write_heading(FILE *out, const struct br_report *report, const struct br_plot *plot);
 

@@ -9,8 +9,11 @@
 #include "solver/status.h"
 #include "study/history.h"
 
-/* Runs a script in its folder and waits. *missing (out): gnuplot is not installed, and the call
- * fails with BR_IO, as it does where gnuplot does. */
+/* What tells all that wait for gnuplot that they shall stop. NULL, as at first: nothing. */
+void br_gnuplot_stop_when(bool (*stop)(void));
+
+/* Runs a script in its folder and waits, as br_renderer_end_oldest. *missing (out): gnuplot is not
+ * installed, and the call fails with BR_IO, as it does where gnuplot does. */
 enum br_status br_gnuplot_run(const char *folder, const char *script, bool *missing,
                               struct br_error *err);
 

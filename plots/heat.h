@@ -29,7 +29,7 @@ struct br_heat_panel {
 };
 
 struct br_heat {
-    char stem[64];        /* of the files */
+    char stem[128];       /* of the files */
     char title[160];      /* plain */
     char value_label[96]; /* of the colour bar, enhanced, with its unit */
     double low, high;     /* of the colours; both equal: by the data */

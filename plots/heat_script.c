@@ -6,6 +6,7 @@
 
 #include "plots/heat.h"
 #include "plots/page.h"
+#include "study/quote.h"
 
 static const char *const viridis[] = {"#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c",
                                       "#28ae80", "#5ec962", "#addc30", "#fde725"};
@@ -131,7 +132,7 @@ static void write_key(FILE *out, const struct br_heat *heat, const struct key *k
     for (size_t k = 0; k < heat->kinds; k++) {
         fprintf(out, "%sNaN with boxes lc rgb '%s' fs solid 1 border title ", before,
                 kind_colour(heat, k));
-        br_write_quoted(out, heat->kind[k]);
+        br_quote(out, &br_for_gnuplot, heat->kind[k]);
         before = ", \\\n     ";
     }
     if (key->empty) {
@@ -142,7 +143,7 @@ static void write_key(FILE *out, const struct br_heat *heat, const struct key *k
         fprintf(out, "%sNaN with lines ", before);
         write_pen(out, i);
         fputs(" title ", out);
-        br_write_quoted(out, key->title[i]);
+        br_quote(out, &br_for_gnuplot, key->title[i]);
         before = ", \\\n     ";
     }
     fputs("\nset border; set tics\n", out);
@@ -153,7 +154,7 @@ static void write_key(FILE *out, const struct br_heat *heat, const struct key *k
 static void write_label(FILE *out, const char *text, double x, double y, const char *how, int font)
 {
     fputs("set label ", out);
-    br_write_quoted(out, text);
+    br_quote(out, &br_for_gnuplot, text);
     fprintf(out, " at screen %.4f,%.4f %s font ',%d'\n", x, y, how, font);
 }
 
@@ -246,7 +247,7 @@ static void write_panel(FILE *out, const struct br_heat *heat, size_t i, size_t 
     fputs("\nunset label\nunset logscale\nunset key\nunset colorbox\n", out);
     if (i == 0) {
         fputs("set label ", out);
-        br_write_quoted(out, heat->title);
+        br_quote(out, &br_for_gnuplot, heat->title);
         fprintf(out, " noenhanced at screen 0.02,%.4f left font ',%d'\n", 1 - 36.0 / l->height,
                 BR_PAGE_FONT + 2);
     }
@@ -261,17 +262,8 @@ static void write_panel(FILE *out, const struct br_heat *heat, size_t i, size_t 
 
 static void write_head(FILE *out, const struct br_heat *heat)
 {
-    fputs("# SPDX-License-Identifier: GPL-3.0-or-later\n# ", out);
-    br_write_comment(out, heat->title);
-    fprintf(out,
-            "# Draws %s.svg and %s.png from %s.dat;\n"
-            "# edit it, and draw them again, in this folder, with\n"
-            "#     gnuplot %s.gp\n\n"
-            "set encoding utf8\n"
-            "stem = '%s'\n"
-            "data = stem.'.dat'\n"
-            "set palette defined (",
-            heat->stem, heat->stem, heat->stem, heat->stem, heat->stem);
+    br_write_script_head(out, heat->title, NULL, heat->stem);
+    fputs("set palette defined (", out);
     for (int i = 0; i < COLOURS; i++)
         fprintf(out, "%s%d '%s'", i ? ", " : "", i, viridis[i]);
     fputs(")\n", out);

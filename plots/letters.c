@@ -10,8 +10,10 @@
 
 static const char script_name[] = "script.gp", output_name[] = "output";
 
+enum { FOLDER = 1024, PATH = FOLDER + 16 };
+
 struct workshop {
-    char folder[64];
+    char folder[FOLDER]; /* in $TMPDIR, or /tmp */
 };
 
 static enum br_status fail(const char *what, struct br_error *err)
@@ -21,9 +23,12 @@ static enum br_status fail(const char *what, struct br_error *err)
 
 static enum br_status open_workshop(struct workshop *w, FILE **script, struct br_error *err)
 {
-    char path[128];
-    snprintf(w->folder, sizeof w->folder, "/tmp/beamrate-XXXXXX");
-    if (!mkdtemp(w->folder)) {
+    char path[PATH];
+    const char *parent = getenv("TMPDIR");
+    const int length = snprintf(w->folder, sizeof w->folder, "%s/beamrate-XXXXXX",
+                                parent && *parent ? parent : "/tmp");
+    errno = ENAMETOOLONG;
+    if ((size_t)length >= sizeof w->folder || !mkdtemp(w->folder)) {
         w->folder[0] = '\0';
         return fail("a folder for gnuplot", err);
     }
@@ -36,7 +41,7 @@ static enum br_status open_workshop(struct workshop *w, FILE **script, struct br
 static enum br_status run_workshop(const struct workshop *w, FILE *script, FILE **output,
                                    bool *missing, struct br_error *err)
 {
-    char path[128];
+    char path[PATH];
     *output = NULL;
     const bool failed = ferror(script);
     if (fclose(script) != 0 || failed)
@@ -51,7 +56,7 @@ static enum br_status run_workshop(const struct workshop *w, FILE *script, FILE 
 
 static void close_workshop(const struct workshop *w, FILE *output)
 {
-    char path[128];
+    char path[PATH];
     if (output)
         fclose(output);
     if (!w->folder[0])

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "plots/page.h"
+#include "study/quote.h"
 
 static const struct br_movie_format gif = {".gif", "gif", "animated GIF", false};
 static const struct br_movie_format webp = {".webp", "webp", "animated WebP", false};
@@ -161,14 +162,18 @@ static void write_array(FILE *out, const char *name, const struct br_history_rec
 static void write_head(FILE *out, const struct br_movie *m)
 {
     const struct scales s = find_scales(m);
-    char file[512];
-    br_movie_file(m, 0, file, sizeof file);
+    char name[512], file[512], stem[512];
+    br_movie_file(m, 0, name, sizeof name);
+    br_quoted(file, sizeof file, &br_for_text, name);
+    br_quoted(stem, sizeof stem, &br_for_text, m->stem);
     fputs("# SPDX-License-Identifier: GPL-3.0-or-later\n# ", out);
     br_write_comment(out, m->scene->title);
     fprintf(out,
             "# Draws %s%s from %s.dat;\n# edit it, and draw again, in this folder, with\n"
-            "#     gnuplot %s.gp\n\nset encoding utf8\n",
-            file, m->format->frames ? " and so on" : "", m->stem, m->stem);
+            "#     gnuplot %s.gp\n\nset encoding utf8\nstem = ",
+            file, m->format->frames ? " and so on" : "", stem, stem);
+    br_quote(out, &br_for_gnuplot, m->stem);
+    fputc('\n', out);
     fprintf(
         out,
         "length = %.9g # m\ngap = %.9g # m\naxial_scale = %.9g\nbending_scale = %.9g\n"
@@ -198,7 +203,7 @@ static void write_terminal(FILE *out, const struct br_movie *m)
         fputs("set output ", out);
         char file[512];
         br_movie_file(m, 0, file, sizeof file);
-        br_write_quoted(out, file);
+        br_quote(out, &br_for_gnuplot, file);
         fputc('\n', out);
     }
     fprintf(out, "frames = %zu\n", frames);
@@ -207,7 +212,7 @@ static void write_terminal(FILE *out, const struct br_movie *m)
 static void write_stage(FILE *out, const struct br_movie *m)
 {
     fprintf(out, "set label 1 ");
-    br_write_quoted(out, m->scene->title);
+    br_quote(out, &br_for_gnuplot, m->scene->title);
     fprintf(
         out,
         " noenhanced at screen 0.03,0.95 left font ',17'\n"
@@ -268,10 +273,9 @@ void br_movie_write_script(FILE *out, const struct br_movie *m)
     write_stage(out, m);
     fputs("do for [i=1:frames] {\n", out);
     if (m->format->frames)
-        fprintf(out, "    set output sprintf('%s-%%04d.png', i)\n", m->stem);
+        fputs("    set output stem.sprintf('-%04d.png', i)\n", out);
     write_forces(out, m);
-    fprintf(out,
-            "    plot '%s.dat' index i - 1 using ($1 + axial_scale*$2):(bending_scale*$3):2 "
-            "with lines lw 8 lc palette\n}\nunset output\n",
-            m->stem);
+    fputs("    plot stem.'.dat' index i - 1 using ($1 + axial_scale*$2):(bending_scale*$3):2 "
+          "with lines lw 8 lc palette\n}\nunset output\n",
+          out);
 }

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/quote.h"
+
 enum { FONT = BR_PAGE_FONT };
 
 /* Plasma's dark two thirds: readable for the colour-blind, and in grey, since the
@@ -30,32 +32,30 @@ struct br_pen br_pen_of(size_t i, size_t count)
     };
 }
 
-void br_write_quoted(FILE *out, const char *text)
+void br_write_script_head(FILE *out, const char *caption, const char *title, const char *stem)
 {
-    fputc('\'', out);
-    for (; *text; text++) {
-        if (*text == '\'')
-            fputc('\'', out);
-        fputc(*text == '\n' || *text == '\r' ? ' ' : *text, out);
-    }
-    fputc('\'', out);
-}
-
-void br_write_head(FILE *out, const struct br_report *report, const struct br_plot *plot,
-                   const char *stem)
-{
+    char name[256];
+    br_quoted(name, sizeof name, &br_for_text, stem);
     fputs("# SPDX-License-Identifier: GPL-3.0-or-later\n# ", out);
-    br_write_comment(out, report->caption);
+    br_write_comment(out, caption);
+    if (title)
+        fprintf(out, "# %s\n", title);
     fprintf(out,
-            "# %s\n"
             "# Draws %s.svg and %s.png from %s.dat;\n"
             "# edit it, and draw them again, in this folder, with\n"
             "#     gnuplot %s.gp\n\n"
             "set encoding utf8\n"
             "stem = ",
-            plot->title, stem, stem, stem, stem);
-    br_write_quoted(out, stem);
-    fputs("\ndata = stem.'.dat'\n\n"
+            name, name, name, name);
+    br_quote(out, &br_for_gnuplot, stem);
+    fputs("\ndata = stem.'.dat'\n", out);
+}
+
+void br_write_head(FILE *out, const struct br_report *report, const struct br_plot *plot,
+                   const char *stem)
+{
+    br_write_script_head(out, report->caption, plot->title, stem);
+    fputs("\n"
           "# A cell with a flag, left out of the fits, has a hollow mark.\n"
           "mark(filled, flag) = flag eq '-' ? filled : filled - 1\n"
           "set style line 101 lw 2 lc rgb '#444444' # slopes\n"
@@ -103,7 +103,7 @@ static void write_caption_line(FILE *out, const char *text, int width, double si
 {
     const double fits = 0.96 * width / 0.6 / (double)(strlen(text) + 1);
     fputs("set label ", out);
-    br_write_quoted(out, text);
+    br_quote(out, &br_for_gnuplot, text);
     fprintf(out, " noenhanced at screen 0.02,%.3f left font ',%.0f'\n", y,
             floor(fmax(10, fmin(size, fits))));
 }

@@ -42,10 +42,11 @@ struct br_pen {
 };
 struct br_pen br_pen_of(size_t i, size_t count);
 
-/* A string in gnuplot's single quotes, in which nothing is special. */
-void br_write_quoted(FILE *out, const char *text);
+/* How every script begins: comments, and the variables `stem` and `data`, names of its files. What
+ * it draws says a caption, and a title where that is not NULL. */
+void br_write_script_head(FILE *out, const char *caption, const char *title, const char *stem);
 
-/* The script's head: comments, names, and the styles of slopes and grid. */
+/* The head of a report's script, with the styles of slopes and grid. */
 void br_write_head(FILE *out, const struct br_report *report, const struct br_plot *plot,
                    const char *stem);
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "plots/plots.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <string.h>
+
+#include "study/quote.h"
 
 const struct br_plot *const br_plots[] = {&br_plot_h, &br_plot_k, &br_plot_parts, &br_plot_printed,
                                           NULL};
@@ -16,33 +17,13 @@ const struct br_plot *br_plot_find(const char *name)
     return NULL;
 }
 
-/* gnuplot reads "<..." and "|..." as commands and "-..." as options. */
-static bool is_stem(const char *name)
-{
-    const unsigned char first = (unsigned char)name[0];
-    if (!(isalnum(first) || first == '_' || first >= 0x80))
-        return false;
-    for (const char *c = name; *c; c++)
-        if (*c == '/' || iscntrl((unsigned char)*c))
-            return false;
-    return true;
-}
-
-enum br_status br_check_stem(const char *name, struct br_error *err)
-{
-    return is_stem(name) ? BR_OK
-                         : br_fail(err, BR_BAD_INPUT,
-                                   "the report's name is \"%s\", expected the beginning of a file "
-                                   "name: a letter, digit or underscore, then no slash",
-                                   name);
-}
-
 enum br_status br_plot_file(const struct br_plot *plot, const struct br_report *report,
                             const char *extension, char *file, size_t size, struct br_error *err)
 {
-    const enum br_status status = br_check_stem(report->name, err);
-    if (status)
-        return status;
+    if (!br_is_name(report->name))
+        return br_fail(err, BR_BAD_INPUT,
+                       "the report's name is \"%s\", expected the beginning of a file name",
+                       report->name);
     const int length = snprintf(file, size, "%s-%s%s%s", report->name, plot->name,
                                 *extension ? "." : "", extension);
     if (length < 0 || (size_t)length >= size)

@@ -30,9 +30,6 @@ extern const struct br_plot *const br_plots[];
 /* The plot of that name, or NULL. */
 const struct br_plot *br_plot_find(const char *name);
 
-/* Refuses (BR_BAD_INPUT) a report's name that cannot begin the names of its files. */
-enum br_status br_check_stem(const char *name, struct br_error *err);
-
 /* Writes the name of a plot's file with that extension ("gp", "svg"...) into `file` (out,
  * size bytes). Fails with BR_BAD_INPUT where report->name makes no file name. */
 enum br_status br_plot_file(const struct br_plot *plot, const struct br_report *report,
@@ -50,7 +47,8 @@ struct br_renderer {
     struct br_rendering {
         char folder[4096], script[BR_SCRIPT_NAME];
         pid_t child;
-        int said; /* the end of a pipe: what gnuplot says */
+        int said;       /* the end of a pipe: what gnuplot says */
+        double started; /* s, by the monotonic clock */
     } at_work[BR_MOST_RENDERINGS];
 };
 
@@ -60,8 +58,13 @@ struct br_renderer {
 enum br_status br_renderer_add(struct br_renderer *renderer, const char *folder, const char *script,
                                bool *missing, struct br_error *err);
 
-/* Waits for all of them. Fails with BR_IO where gnuplot did, with the line in which the first one
- * says why, and where a picture is not complete (a full disk). */
+/* Waits for the first of them, of which there is one. Fails with BR_IO where gnuplot did, with the
+ * line in which it says why, where it took longer than a minute (or BEAMRATE_GNUPLOT_SECONDS), and
+ * where a picture is not complete (a full disk): then no picture of the script stays. Fails with
+ * BR_INTERRUPTED when the work is to stop. A gnuplot that has not ended is killed. */
+enum br_status br_renderer_end_oldest(struct br_renderer *renderer, struct br_error *err);
+
+/* Waits for all of them. Fails as the first one that failed. */
 enum br_status br_renderer_finish(struct br_renderer *renderer, struct br_error *err);
 
 /* Both for one script. */

@@ -2,16 +2,41 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
 #include <spawn.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "plots/gnuplot.h"
 #include "plots/plots.h"
 
 extern char **environ;
+
+static bool (*stops)(void);
+
+void br_gnuplot_stop_when(bool (*stop)(void))
+{
+    stops = stop;
+}
+
+/* In a process group of its own, so that it can be ended with all that it has started. */
+static int start_group(pid_t *child, const posix_spawn_file_actions_t *actions, char *const words[])
+{
+    posix_spawnattr_t attributes;
+    int failure = posix_spawnattr_init(&attributes);
+    if (failure)
+        return failure;
+    failure = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    if (!failure)
+        failure = posix_spawnp(child, words[0], actions, &attributes, words, environ);
+    posix_spawnattr_destroy(&attributes);
+    return failure;
+}
 
 /* Starts gnuplot without a shell; what it says goes to `saying`. Returns an errno. */
 static int start(const char *folder, const char *script, int saying, pid_t *child)
@@ -20,7 +45,7 @@ static int start(const char *folder, const char *script, int saying, pid_t *chil
     if (strlen(script) >= sizeof copy)
         return ENAMETOOLONG;
     strcpy(copy, script);
-    char *const arguments[] = {gnuplot, defaults, copy, NULL};
+    char *const words[] = {gnuplot, defaults, copy, NULL};
     posix_spawn_file_actions_t actions;
     int failure = posix_spawn_file_actions_init(&actions);
     if (failure)
@@ -33,26 +58,9 @@ static int start(const char *folder, const char *script, int saying, pid_t *chil
     if (!failure)
         failure = posix_spawn_file_actions_adddup2(&actions, saying, 2);
     if (!failure)
-        failure = posix_spawnp(child, gnuplot, &actions, NULL, arguments, environ);
+        failure = start_group(child, &actions, words);
     posix_spawn_file_actions_destroy(&actions);
     return failure;
-}
-
-/* Reads to the end, and keeps the beginning. */
-static void read_all(int from, char *text, size_t size)
-{
-    char rest[1024];
-    size_t length = 0;
-    for (;;) {
-        const bool full = length + 1 >= size;
-        const ssize_t got =
-            full ? read(from, rest, sizeof rest) : read(from, text + length, size - 1 - length);
-        if (got == 0 || (got < 0 && errno != EINTR))
-            break;
-        if (got > 0 && !full)
-            length += (size_t)got;
-    }
-    text[length] = '\0';
 }
 
 /* gnuplot repeats the command first; the line that says why begins with the script's
@@ -100,19 +108,49 @@ enum br_status br_picture_check(const char *path, struct br_error *err)
     return br_fail(err, BR_IO, "gnuplot wrote no complete %.900s; the disk may be full", path);
 }
 
-/* The pictures of a script. */
-static enum br_status check_pictures(const char *folder, const char *script, struct br_error *err)
+/* The i-th picture of a script; false: there are no more. */
+static bool picture(const char *folder, const char *script, size_t i, char *path, size_t size)
 {
     static const char *const extensions[] = {"svg", "png"};
-    char path[4096 + BR_SCRIPT_NAME + 8];
     const char *dot = strrchr(script, '.');
     const int stem = (int)(dot ? (size_t)(dot - script) : strlen(script));
+    if (i < sizeof extensions / sizeof *extensions)
+        snprintf(path, size, "%s/%.*s.%s", folder, stem, script, extensions[i]);
+    return i < sizeof extensions / sizeof *extensions;
+}
+
+enum { PATH = 4096 + BR_SCRIPT_NAME + 8 };
+
+static enum br_status check_pictures(const char *folder, const char *script, struct br_error *err)
+{
+    char path[PATH];
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < 2 && !status; i++) {
-        snprintf(path, sizeof path, "%s/%.*s.%s", folder, stem, script, extensions[i]);
+    for (size_t i = 0; !status && picture(folder, script, i, path, sizeof path); i++)
         status = br_picture_check(path, err);
-    }
     return status;
+}
+
+/* Half a picture is none. */
+static void remove_pictures(const struct br_rendering *r)
+{
+    char path[PATH];
+    for (size_t i = 0; picture(r->folder, r->script, i, path, sizeof path); i++)
+        unlink(path);
+}
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* How long gnuplot may take for one script, s. */
+static double time_limit(void)
+{
+    const char *text = getenv("BEAMRATE_GNUPLOT_SECONDS");
+    const double seconds = text ? strtod(text, NULL) : 0;
+    return seconds > 0 ? seconds : 60;
 }
 
 /* Starts gnuplot on a script. */
@@ -122,38 +160,83 @@ static enum br_status begin(struct br_rendering *r, bool *missing, struct br_err
     struct stat there;
     if (stat(r->folder, &there) != 0) /* else a missing folder looks like a missing gnuplot */
         return br_fail(err, BR_IO, "%s: %s", r->folder, strerror(errno));
-    if (pipe2(ends, O_CLOEXEC) != 0)
+    if (pipe2(ends, O_CLOEXEC) != 0 || fcntl(ends[0], F_SETFL, O_NONBLOCK) != 0)
         return br_fail(err, BR_IO, "no pipe for gnuplot: %s", strerror(errno));
     const int failure = start(r->folder, r->script, ends[1], &r->child);
     close(ends[1]);
     r->said = ends[0];
+    r->started = now();
     if (!failure)
         return BR_OK;
     close(ends[0]);
-    *missing = failure == ENOENT;
+    *missing = failure == ENOENT || failure == ENOTDIR; /* PATH may name what is no folder */
     return br_fail(err, BR_IO, "gnuplot cannot be run: %s",
                    *missing ? "it is not installed" : strerror(failure));
 }
 
-/* Waits for its end, and for nothing else. */
+/* What gnuplot says: the beginning of it. */
+struct saying {
+    char text[4096];
+    size_t length;
+};
+
+/* Reads on; whether there may be more to come. */
+static bool listen_on(const struct br_rendering *r, struct saying *said)
+{
+    char piece[1024];
+    const ssize_t got = read(r->said, piece, sizeof piece);
+    if (got <= 0)
+        return got < 0 && (errno == EINTR || errno == EAGAIN);
+    const size_t room = sizeof said->text - 1 - said->length;
+    const size_t kept = (size_t)got < room ? (size_t)got : room;
+    memcpy(said->text + said->length, piece, kept);
+    said->length += kept;
+    return true;
+}
+
+static enum br_status check_time(const struct br_rendering *r, struct br_error *err)
+{
+    if (stops && stops())
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (now() - r->started < time_limit())
+        return BR_OK;
+    return br_fail(err, BR_IO, "gnuplot did not end on %s within %g s (BEAMRATE_GNUPLOT_SECONDS)",
+                   r->script, time_limit());
+}
+
+/* Waits for its end, or makes it. */
 static enum br_status wait_for(const struct br_rendering *r, struct br_error *err)
 {
-    char said[4096];
+    enum { SOON = 50, AT_ONCE = 2 }; /* ms */
+    struct saying said = {.length = 0};
+    enum br_status status = BR_OK;
     int ending = 0;
-    read_all(r->said, said, sizeof said);
-    close(r->said);
-    while (waitpid(r->child, &ending, 0) < 0 && errno == EINTR)
+    bool open = true;
+    for (pid_t ended = 0; ended == 0 || (ended < 0 && errno == EINTR);) {
+        struct pollfd pipe = {.fd = open ? r->said : -1, .events = POLLIN};
+        if (!status && (status = check_time(r, err)))
+            kill(-r->child, SIGKILL);
+        if (poll(&pipe, 1, open ? SOON : AT_ONCE) > 0)
+            open = listen_on(r, &said);
+        ended = waitpid(r->child, &ending, WNOHANG);
+    }
+    while (open && (open = listen_on(r, &said) && errno != EAGAIN))
         ;
-    if (!(WIFEXITED(ending) && WEXITSTATUS(ending) == 0))
-        return br_fail(err, BR_IO, "gnuplot failed in %s: %s", r->folder, reason(said));
-    return BR_OK;
+    close(r->said);
+    if (!status && !(WIFEXITED(ending) && WEXITSTATUS(ending) == 0))
+        status = br_fail(err, BR_IO, "gnuplot failed on %s: %s", r->script, reason(said.text));
+    return status;
 }
 
 /* The same, and its pictures must be whole. */
 static enum br_status end(const struct br_rendering *r, struct br_error *err)
 {
-    const enum br_status status = wait_for(r, err);
-    return status ? status : check_pictures(r->folder, r->script, err);
+    enum br_status status = wait_for(r, err);
+    if (!status)
+        status = check_pictures(r->folder, r->script, err);
+    if (status)
+        remove_pictures(r);
+    return status;
 }
 
 enum br_status br_gnuplot_run(const char *folder, const char *script, bool *missing,
@@ -169,7 +252,7 @@ enum br_status br_gnuplot_run(const char *folder, const char *script, bool *miss
     return status ? status : wait_for(&r, err);
 }
 
-static enum br_status end_oldest(struct br_renderer *r, struct br_error *err)
+enum br_status br_renderer_end_oldest(struct br_renderer *r, struct br_error *err)
 {
     const enum br_status status = end(&r->at_work[0], err);
     memmove(r->at_work, r->at_work + 1, --r->count * sizeof *r->at_work);
@@ -181,7 +264,7 @@ enum br_status br_renderer_add(struct br_renderer *r, const char *folder, const 
 {
     *missing = false;
     if (r->count == BR_MOST_RENDERINGS) {
-        const enum br_status status = end_oldest(r, err);
+        const enum br_status status = br_renderer_end_oldest(r, err);
         if (status)
             return status;
     }
@@ -201,7 +284,7 @@ enum br_status br_renderer_finish(struct br_renderer *r, struct br_error *err)
     enum br_status status = BR_OK;
     while (r->count) {
         struct br_error failure = {0};
-        if (end_oldest(r, &failure) && !status)
+        if (br_renderer_end_oldest(r, &failure) && !status)
             status = br_fail(err, failure.status, "%s", failure.message);
     }
     return status;

@@ -150,7 +150,7 @@ static bool draw(const struct br_split *split, size_t count, struct line *line,
     const struct br_split *first[PANELS];
     const size_t panels = first_runs(split, count, first);
     br_chart_lay_out(chart, panels);
-    snprintf(chart->stem, sizeof chart->stem, "%.50s-split", split->scene->name);
+    snprintf(chart->stem, sizeof chart->stem, "%.100s-split", split->scene->name);
     snprintf(chart->title, sizeof chart->title, "Where the error comes from: %s",
              split->scene->title);
     bool drawn = true;

@@ -6,6 +6,7 @@
 
 #include "plots/page.h"
 #include "plots/trade_marks.h"
+#include "study/quote.h"
 
 /* ---- the registry ---- */
 

@@ -4,6 +4,7 @@
 
 #include "plots/page.h"
 #include "plots/trade_marks.h"
+#include "study/quote.h"
 
 static struct br_range range_of(const struct br_trade_picture *p, const struct br_trade *t,
                                 bool errors)
@@ -54,7 +55,7 @@ static void write_axes(FILE *out, const struct br_trade_picture *p, const struct
     write_range(out, "x", range_of(p, t, false), false);
     write_range(out, "y", range_of(p, t, true), true);
     fputs("set label 1 ", out);
-    br_write_quoted(out, p->label);
+    br_quote(out, &br_for_gnuplot, p->label);
     fprintf(out,
             " at screen %.3f,0.035 center font ',%d'\n"
             "set label 2 'relative %s' noenhanced at screen 0.022,0.5 center rotate font ',%d'\n"
@@ -68,7 +69,7 @@ static void write_caption(FILE *out, const struct br_trade_view *v)
     const size_t lost =
         br_trade_tally(v->trade, BR_TRIAL_FAILED) + br_trade_tally(v->trade, BR_TRIAL_OVER);
     fputs("set label 3 ", out);
-    br_write_quoted(out, v->caption);
+    br_quote(out, &br_for_gnuplot, v->caption);
     fprintf(out, " noenhanced at screen 0.02,0.96 left font ',%d'\n", BR_PAGE_FONT);
     if (lost)
         fprintf(out,
@@ -92,7 +93,7 @@ static void write_curves(FILE *out, const struct br_trade_picture *p, const stru
                 ", \\\n     data index %zu using 1:2 with linespoints lw 2 lc rgb '%s' dt %s pt %d "
                 "ps 1.5*size title ",
                 1 + BR_TRADE_MARKS + i, pen.colour, pen.dash, pen.mark - (int)(i / 6 % 2));
-        br_write_quoted(out, t->contenders.list[c].name);
+        br_quote(out, &br_for_gnuplot, t->contenders.list[c].name);
         i++;
     }
 }
@@ -105,7 +106,7 @@ static void write_plot(FILE *out, const struct br_trade_picture *p, const struct
         if (br_trade_count_marked(p, t, &br_trade_marks[m])) {
             fprintf(out, ", \\\n     data index %zu using 1:2 with points %s title ", 1 + m,
                     br_trade_marks[m].pen);
-            br_write_quoted(out, br_trade_marks[m].title);
+            br_quote(out, &br_for_gnuplot, br_trade_marks[m].title);
         }
     write_curves(out, p, t);
     fputc('\n', out);
@@ -114,15 +115,8 @@ static void write_plot(FILE *out, const struct br_trade_picture *p, const struct
 void br_trade_picture_script(FILE *out, const struct br_trade_picture *p,
                              const struct br_trade_view *v)
 {
-    fputs("# SPDX-License-Identifier: GPL-3.0-or-later\n# ", out);
-    br_write_comment(out, v->caption);
-    fprintf(out,
-            "# %s\n# Draws %s.svg and %s.png from %s.dat;\n"
-            "# edit it, and draw them again, in this folder, with\n#     gnuplot %s.gp\n\n"
-            "set encoding utf8\nstem = ",
-            p->title, v->stem, v->stem, v->stem, v->stem);
-    br_write_quoted(out, v->stem);
-    fputs("\ndata = stem.'.dat'\nset datafile missing 'NaN'\n"
+    br_write_script_head(out, v->caption, p->title, v->stem);
+    fputs("set datafile missing 'NaN'\n"
           "set style line 102 lw 1 lc rgb '#d0d0d0' # grid\n",
           out);
     br_write_loop(out, BR_PAGE_WIDE, BR_PAGE_HEIGHT);

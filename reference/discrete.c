@@ -143,7 +143,7 @@ void br_discrete_load(const struct br_discrete *d, enum br_field_kind kind, long
     const struct br_discrete_part *part = &d->part[kind];
     const size_t size = part->d * (part->n + 1);
     for (size_t i = 0; i < size; i++)
-        load[i] = part->modelled ? part->load.factor * part->field.load[i] : 0;
+        load[i] = part->modelled ? part->field.load[i] : 0;
     for (size_t c = 0; c < part->d && part->modelled; c++)
         load[size - part->d + c] += part->load.tip[c];
 }

@@ -176,9 +176,8 @@ static inline void solve(const struct br_discrete_field *f, size_t d, const long
     }
 }
 
-/* b = factor F + tip + M v/tau in f->nodal. */
-static inline void find_forces(struct br_discrete_field *f, size_t d, long double factor,
-                               const long double *tip)
+/* b = F + tip + M v/tau in f->nodal. */
+static inline void find_forces(struct br_discrete_field *f, size_t d, const long double *tip)
 {
     const long double mass = f->density * f->h / f->tau, *rate = f->state[0] + d * f->n;
     long double m[2 * MOST][2 * MOST], v[2 * MOST] = {0};
@@ -186,7 +185,7 @@ static inline void find_forces(struct br_discrete_field *f, size_t d, long doubl
         for (size_t c = 0; c < 2 * d; c++)
             m[a][c] = mass * br_discrete_mass(d, a, c);
     for (size_t i = 0; i < d * (f->n + 1); i++)
-        f->nodal[i] = factor * f->load[i];
+        f->nodal[i] = f->load[i];
     for (size_t i = 0; i < f->n; i++) {
         br_discrete_cross(d, v, rate + d * i, v + d);
         for (size_t a = 0; a < 2 * d; a++)
@@ -228,13 +227,13 @@ enum br_status br_discrete_field_set_step(struct br_discrete_field *f, long doub
     return BR_OK;
 }
 
-long double br_discrete_field_predict(struct br_discrete_field *f, long double factor,
+long double br_discrete_field_predict(struct br_discrete_field *f,
                                       const long double tip[BR_DISCRETE_MOST])
 {
     if (f->d == 1)
-        find_forces(f, 1, factor, tip);
+        find_forces(f, 1, tip);
     else
-        find_forces(f, 2, factor, tip);
+        find_forces(f, 2, tip);
     solve_field(f, f->state[0], f->free_rate);
     return tip_of(f, f->free_rate);
 }

@@ -42,7 +42,7 @@ struct br_discrete_field {
     long double compliance;                 /* its own at the tip, m/s per N */
     long double *free_rate;                 /* d n: without a force from the laws */
     long double *nodal;                     /* workspace, d (n + 1) */
-    long double *load;                      /* d (n + 1), N: for a factor of 1 */
+    long double *load;                      /* d (n + 1), N */
 };
 
 /* Makes room for a field at rest, without a load; `states`: 1, or BR_DISCRETE_STATES. Fails with
@@ -67,8 +67,8 @@ enum br_status br_discrete_field_set_step(struct br_discrete_field *f, long doub
                                           struct br_error *err);
 
 /* The tip's velocity, m/s, at the end of a step from state 0 without contact or friction, with the
- * load factor * load and forces on the tip's unknowns, N. */
-long double br_discrete_field_predict(struct br_discrete_field *f, long double factor,
+ * load and forces on the tip's unknowns, N. */
+long double br_discrete_field_predict(struct br_discrete_field *f,
                                       const long double tip[BR_DISCRETE_MOST]);
 
 /* Ends that step: a force, N, resists the tip. */

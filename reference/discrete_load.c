@@ -52,14 +52,14 @@ static enum br_status value_of(const struct br_function *f, double x, double t, 
                                  "an expression is %g at x = %.17g m, t = %.17g s", y, x, t);
 }
 
-/* field->load = int f(x, t) shape: of a function of t alone the rule is exact, too. */
-static enum br_status assemble(struct br_discrete_field *field, const struct br_function *f,
-                               double t, struct br_error *err)
+/* vector = int f(x, t) shape: of a function of t alone the rule is exact, too. */
+static enum br_status assemble(const struct br_discrete_field *field, const struct br_function *f,
+                               double t, long double *vector, struct br_error *err)
 {
     const size_t d = field->d;
     long double xi[POINTS], weight[POINTS], shape[2 * BR_DISCRETE_MOST];
     gauss(xi, weight);
-    memset(field->load, 0, d * (field->n + 1) * sizeof *field->load);
+    memset(vector, 0, d * (field->n + 1) * sizeof *vector);
     for (size_t q = 0; q < POINTS; q++) {
         shapes(d, xi[q], shape);
         for (size_t i = 0; i < field->n; i++) {
@@ -69,7 +69,7 @@ static enum br_status assemble(struct br_discrete_field *field, const struct br_
             if (status)
                 return status;
             for (size_t a = 0; a < 2 * d; a++)
-                field->load[d * i + a] += field->h * weight[q] * value * shape[a];
+                vector[d * i + a] += field->h * weight[q] * value * shape[a];
         }
     }
     return BR_OK;
@@ -83,15 +83,18 @@ enum br_status br_discrete_load_init(struct br_discrete_load *load, const struct
 {
     const bool axial = kind == BR_AXIAL;
     const struct br_load *along = axial ? &scene->axial.load : &scene->bending.load;
+    const size_t size = field->d * (field->n + 1);
     *load = (struct br_discrete_load){0};
-    load->absent = br_function_is_zero(&along->space) || br_function_is_zero(&along->time);
-    enum br_status status = BR_OK;
-    if (!load->absent) {
-        status = br_function_clone(&along->space, &load->load.space, err);
-        if (!status)
-            status = br_function_clone(&along->time, &load->load.time, err);
-        if (!status && !along->space.uses_t)
-            status = assemble(field, &load->load.space, 0, err);
+    enum br_status status = br_load_clone(along, &load->load, err);
+    for (size_t i = 0; i < BR_LOAD_TERMS && !status; i++) {
+        const struct br_product *p = &load->load.term[i];
+        if (br_product_is_zero(p))
+            continue;
+        load->vector[i] = br_allocate(size, sizeof *load->vector[i]);
+        if (!load->vector[i])
+            status = br_no_memory(err, "a load vector");
+        else if (!p->space.uses_t)
+            status = assemble(field, &p->space, 0, load->vector[i], err);
     }
     if (!status)
         status = br_function_clone(axial ? &scene->axial.tip_force : &scene->bending.tip_force,
@@ -103,8 +106,9 @@ enum br_status br_discrete_load_init(struct br_discrete_load *load, const struct
 
 void br_discrete_load_clear(struct br_discrete_load *load)
 {
-    br_function_free(&load->load.space);
-    br_function_free(&load->load.time);
+    br_load_clear(&load->load);
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
+        free(load->vector[i]);
     br_function_free(&load->tip_force);
     br_function_free(&load->tip_moment);
 }
@@ -114,10 +118,17 @@ enum br_status br_discrete_load_update(struct br_discrete_load *load,
                                        struct br_error *err)
 {
     enum br_status status = BR_OK;
-    if (!load->absent)
-        status = value_of(&load->load.time, 0, t, &load->factor, err);
-    if (!status && !load->absent && load->load.space.uses_t)
-        status = assemble(field, &load->load.space, t, err);
+    const size_t size = field->d * (field->n + 1);
+    memset(field->load, 0, size * sizeof *field->load);
+    for (size_t i = 0; i < BR_LOAD_TERMS && load->vector[i] && !status; i++) {
+        const struct br_product *p = &load->load.term[i];
+        long double factor = 0;
+        status = value_of(&p->time, 0, t, &factor, err);
+        if (!status && p->space.uses_t)
+            status = assemble(field, &p->space, t, load->vector[i], err);
+        for (size_t j = 0; j < size; j++)
+            field->load[j] += factor * load->vector[i][j];
+    }
     if (!status)
         status = value_of(&load->tip_force, 0, t, &load->tip[0], err);
     if (!status && field->d == 2) {

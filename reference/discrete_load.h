@@ -7,11 +7,10 @@
 
 /* The forces on a field, as functions of its own. */
 struct br_discrete_load {
-    struct br_load load;                       /* clones */
-    struct br_function tip_force, tip_moment;  /* clones */
-    bool absent;                               /* no load along the field */
-    long double factor, tip[BR_DISCRETE_MOST]; /* now: of the field's load vector; N on the tip's
-                                                  unknowns */
+    struct br_load load;                      /* clones */
+    struct br_function tip_force, tip_moment; /* clones */
+    long double *vector[BR_LOAD_TERMS];       /* of each term; NULL: there is none */
+    long double tip[BR_DISCRETE_MOST];        /* now: N on the tip's unknowns */
 };
 
 /* Fails with BR_NOT_FINITE, BR_NO_MEMORY; clear it even then. */

@@ -96,7 +96,7 @@ static enum br_status stage(struct br_discrete *d, enum br_field_kind kind, real
         status = br_discrete_load_update(&part->load, f, t, err);
     if (status)
         return status;
-    const real v = br_discrete_field_predict(f, part->load.factor, part->load.tip);
+    const real v = br_discrete_field_predict(f, part->load.tip);
     if (kind == BR_AXIAL)
         d->tip.contact_force = contact_force(d, br_discrete_field_tip(f, false), v);
     else {

@@ -12,11 +12,7 @@ const struct br_judge br_judge_none = {
 };
 
 const struct br_judge *const br_judges[] = {
-    &br_judge_exact, &br_judge_fine,
-#ifdef BR_HAVE_MATHEVAL
-    &br_judge_mms,
-#endif
-    &br_judge_none,  NULL,
+    &br_judge_exact, &br_judge_fine, &br_judge_mms, &br_judge_none, NULL,
 };
 
 const struct br_judge *br_judge_find(const char *name)
@@ -29,6 +25,5 @@ const struct br_judge *br_judge_find(const char *name)
 
 const struct br_judge *br_judge_best(const struct br_scene *scene)
 {
-    return scene->axial.solution || scene->bending.solution ? br_judge_find("mms")
-                                                            : &br_judge_exact;
+    return scene->axial.solution || scene->bending.solution ? &br_judge_mms : &br_judge_exact;
 }

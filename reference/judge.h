@@ -68,8 +68,7 @@ struct br_judge {
     void (*tell)(const void *self, FILE *out);
 };
 
-extern const struct br_judge br_judge_fine, br_judge_exact;
-extern const struct br_judge br_judge_mms; /* only where built with libmatheval */
+extern const struct br_judge br_judge_fine, br_judge_exact, br_judge_mms;
 
 /* No judge, a row all the same: its functions are NULL (study/differences.h). */
 extern const struct br_judge br_judge_none;
@@ -78,8 +77,7 @@ extern const struct br_judge br_judge_none;
 extern const struct br_judge *const br_judges[];
 const struct br_judge *br_judge_find(const char *name);
 
-/* Who knows the solution of a scene best: the one it was manufactured from, if any. NULL: it was,
- * but this build has no libmatheval. */
+/* Who knows the solution of a scene best: the one it was manufactured from, if any. */
 const struct br_judge *br_judge_best(const struct br_scene *scene);
 
 #endif

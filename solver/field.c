@@ -104,18 +104,26 @@ static void assemble_uniform(const struct br_field *field, double f, double *vec
             vector[i * unknowns + a] += field->h * f * mean[a];
 }
 
-/* vector += sum over Gauss points of h * weight * f(x) * shape(x). */
+/* vector = sum over Gauss points of h * weight * f(x) * shape(x), node by node. */
 static void assemble_quadrature(const struct br_field *field, const double *f, double *vector)
 {
-    const size_t unknowns = br_field_unknowns(field);
+    const size_t unknowns = br_field_unknowns(field), n = field->n;
+    double shape[GAUSS][4], weight[GAUSS];
     for (int q = 0; q < GAUSS; q++) {
-        double shape[4];
-        const size_t count = shape_values(field, gauss_x[q], shape);
-        for (size_t i = 0; i < field->n; i++)
-            for (size_t a = 0; a < count; a++)
-                vector[i * unknowns + a] +=
-                    field->h * gauss_weight[q] * f[i * GAUSS + (size_t)q] * shape[a];
+        shape_values(field, gauss_x[q], shape[q]);
+        weight[q] = field->h * gauss_weight[q];
     }
+    for (size_t i = 0; i <= n; i++)
+        for (size_t a = 0; a < unknowns; a++) {
+            double sum = 0;
+            for (int q = 0; q < GAUSS; q++) {
+                if (i > 0)
+                    sum += weight[q] * f[(i - 1) * GAUSS + (size_t)q] * shape[q][unknowns + a];
+                if (i < n)
+                    sum += weight[q] * f[i * GAUSS + (size_t)q] * shape[q][a];
+            }
+            vector[i * unknowns + a] = sum;
+        }
 }
 
 /* Values of f at the points x with a check that each is finite. */
@@ -139,9 +147,9 @@ enum br_status br_assemble_load(const struct br_field *field, const struct br_fu
     if (!x)
         return br_no_memory(err, "the quadrature points");
     double *f = x + count;
-    if (space->uses_x)
-        for (size_t i = 0; i < count; i++)
-            x[i] = field->h * ((double)(i / GAUSS) + gauss_x[i % GAUSS]);
+    for (size_t i = 0; i < field->n && space->uses_x; i++)
+        for (size_t q = 0; q < GAUSS; q++)
+            x[i * GAUSS + q] = field->h * ((double)i + gauss_x[q]);
     const enum br_status status = evaluate_finite(space, count, x, t, f, err);
     if (!status && space->uses_x)
         assemble_quadrature(field, f, vector);

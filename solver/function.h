@@ -21,11 +21,28 @@ struct br_box {
 
 enum br_variable { BR_X, BR_T };
 
+/* d^(x + t) f / dx^x dt^t */
+struct br_partial {
+    int x, t;
+};
+
+enum { BR_DERIVATION_TERMS = 3 };
+
+/* A sum of a function's derivatives, each with a factor. Those with the factor 0 cost nothing. */
+struct br_derivation {
+    size_t count;
+    struct {
+        double factor;
+        struct br_partial order;
+    } term[BR_DERIVATION_TERMS];
+    double x, t; /* m, s: where it is taken, whatever is asked for; NaN: as asked */
+};
+
 struct br_function;
 
 /* How a function is evaluated, copied, released, and enclosed. An instance may be used by one
  * thread at a time; clone it for another. Without bound, taylor or guard (NULL) nothing is proved
- * of it, and who needs a proof refuses it. */
+ * of it, and who needs a proof refuses it. Without derive it has no derivatives. */
 struct br_function_ops {
     /* x: in, m, count values; t: s; value: out, count values */
     void (*evaluate)(void *self, size_t count, const double *x, double t, double *value);
@@ -46,6 +63,11 @@ struct br_function_ops {
      * else, makes this function or a derivative of it jump. The argument of step, abs and sign, the
      * difference of what min, max and a comparison compare. */
     const struct br_function *(*guard)(const void *self, size_t i);
+
+    /* A sum of derivatives as a function (out), by rule; at a jump or a kink what it is beside it.
+     * Fails with BR_NO_MEMORY or BR_BAD_INPUT (it is too long). */
+    enum br_status (*derive)(const void *self, const struct br_derivation *what,
+                             struct br_function *out, struct br_error *err);
 };
 
 /* With ops == NULL it is the constant `constant`. */
@@ -73,5 +95,14 @@ bool br_function_bound(const struct br_function *f, struct br_box box, struct br
 bool br_function_taylor(const struct br_function *f, enum br_variable along, struct br_box box,
                         size_t order, struct br_interval *coefficient);
 const struct br_function *br_function_guard(const struct br_function *f, size_t i);
+
+/* A sum of derivatives of f; *out is zero where it fails (BR_NO_MEMORY; BR_BAD_INPUT: f has none).
+ */
+enum br_status br_function_derive(const struct br_function *f, const struct br_derivation *what,
+                                  struct br_function *out, struct br_error *err);
+
+/* One derivative; likewise. */
+enum br_status br_function_derivative(const struct br_function *f, struct br_partial order,
+                                      struct br_function *out, struct br_error *err);
 
 #endif

@@ -10,24 +10,16 @@ struct br_forces br_forces_of_scene(const struct br_scene *s, enum br_field_kind
     return (struct br_forces){&s->bending.load, &s->bending.tip_force, &s->bending.tip_moment};
 }
 
-static bool is_absent(const struct br_load *load)
-{
-    return br_function_is_zero(&load->space) || br_function_is_zero(&load->time);
-}
-
 static enum br_status clone_functions(struct br_step_load *load, const struct br_forces *forces,
                                       struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    if (!is_absent(forces->load)) {
-        status = br_function_clone(&forces->load->space, &load->functions.space, err);
-        if (!status)
-            status = br_function_clone(&forces->load->time, &load->functions.time, err);
-    }
+    enum br_status status = br_load_clone(forces->load, &load->functions, err);
     if (!status)
         status = br_function_clone(forces->tip_force, &load->tip_force, err);
     if (!status && forces->tip_moment)
         status = br_function_clone(forces->tip_moment, &load->tip_moment, err);
+    while (load->terms < BR_LOAD_TERMS && !br_product_is_zero(&load->functions.term[load->terms]))
+        load->terms++;
     return status;
 }
 
@@ -35,25 +27,32 @@ enum br_status br_step_load_init(struct br_step_load *load, const struct br_forc
                                  const struct br_field *field, struct br_error *err)
 {
     *load = (struct br_step_load){.drive = {.factor = 1, .changed = true}};
-    const enum br_status status = clone_functions(load, forces, err);
-    if (status || is_absent(forces->load))
-        return status;
-    load->space = br_allocate(br_field_size(field), sizeof *load->space);
-    if (!load->space)
-        return br_no_memory(err, "a load vector");
-    load->drive.vector = load->space;
-    if (!load->functions.space.uses_t)
-        return br_assemble_load(field, &load->functions.space, 0, load->space, err);
-    return BR_OK;
+    enum br_status status = clone_functions(load, forces, err);
+    for (size_t i = 0; i < load->terms && !status; i++) {
+        const struct br_function *space = &load->functions.term[i].space;
+        load->vector[i] = br_allocate(br_field_size(field), sizeof *load->vector[i]);
+        if (!load->vector[i])
+            status = br_no_memory(err, "a load vector");
+        else if (!space->uses_t)
+            status = br_assemble_load(field, space, 0, load->vector[i], err);
+    }
+    if (load->terms > 1 && !status) {
+        load->sum = br_allocate(br_field_size(field), sizeof *load->sum);
+        if (!load->sum)
+            status = br_no_memory(err, "a load vector");
+    }
+    load->drive.vector = load->terms > 1 ? load->sum : load->vector[0];
+    return status;
 }
 
 void br_step_load_clear(struct br_step_load *load)
 {
-    br_function_free(&load->functions.space);
-    br_function_free(&load->functions.time);
+    br_load_clear(&load->functions);
     br_function_free(&load->tip_force);
     br_function_free(&load->tip_moment);
-    free(load->space);
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
+        free(load->vector[i]);
+    free(load->sum);
     *load = (struct br_step_load){0};
 }
 
@@ -81,15 +80,37 @@ static enum br_status update_tip(struct br_step_load *load, const struct br_fiel
     return status;
 }
 
+/* sum = sum of factor_i * vector_i */
+static void add_up(struct br_step_load *load, const struct br_field *field)
+{
+    const size_t size = br_field_size(field);
+    for (size_t j = 0; j < size; j++)
+        load->sum[j] = load->factor[0] * load->vector[0][j];
+    for (size_t i = 1; i < load->terms; i++)
+        for (size_t j = 0; j < size; j++)
+            load->sum[j] += load->factor[i] * load->vector[i][j];
+}
+
 static enum br_status update(struct br_step_load *load, const struct br_field *field, double t,
                              struct br_error *err)
 {
     struct br_drive *drive = &load->drive;
     enum br_status status = BR_OK;
-    if (load->space)
-        status = evaluate(&load->functions.time, "load's time factor", t, &drive->factor, err);
-    if (!status && load->space && load->functions.space.uses_t) {
-        status = br_assemble_load(field, &load->functions.space, t, load->space, err);
+    bool other = false; /* than before, if it is a sum */
+    for (size_t i = 0; i < load->terms && !status; i++) {
+        const struct br_product *term = &load->functions.term[i];
+        const double before = load->factor[i];
+        status = evaluate(&term->time, "load's time factor", t, &load->factor[i], err);
+        other |= load->factor[i] != before;
+        if (!status && term->space.uses_t) {
+            status = br_assemble_load(field, &term->space, t, load->vector[i], err);
+            drive->changed = other = true;
+        }
+    }
+    if (load->terms == 1)
+        drive->factor = load->factor[0];
+    if (load->terms > 1 && other && !status) {
+        add_up(load, field);
         drive->changed = true;
     }
     if (!status &&

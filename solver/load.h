@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The load vector F_n of one field as a march steps through it. What a scene leaves
- * out costs nothing: a load F(x) G(t) is assembled once, one of f(x, t) every step. */
+ * out costs nothing: terms F(x) G(t) are assembled once and summed every step, where there is more
+ * than one; one of f(x, t) is assembled every step. */
 #ifndef BR_LOAD_H
 #define BR_LOAD_H
 
@@ -18,8 +19,11 @@ struct br_forces br_forces_of_scene(const struct br_scene *scene, enum br_field_
 
 struct br_step_load {
     struct br_drive drive;                    /* at the time of the last update */
-    double *space;                            /* private from here on: the vector; NULL: none */
-    struct br_load functions;                 /* clones */
+    struct br_load functions;                 /* clones, without terms that are zero */
+    size_t terms;                             /* private from here on: of them */
+    double *vector[BR_LOAD_TERMS];            /* of each term */
+    double factor[BR_LOAD_TERMS];             /* of each, at the last update */
+    double *sum;                              /* of more than one */
     struct br_function tip_force, tip_moment; /* clones */
 };
 

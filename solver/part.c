@@ -199,12 +199,15 @@ enum br_status br_part_start_stage(struct br_part *part, const struct br_stages 
 static long double lost_force(const struct br_part *part, double t)
 {
     enum { PLACES = 64 };
+    const struct br_step_load *load = &part->load;
     double x[PLACES], value[PLACES], most = 0;
     for (int i = 0; i < PLACES; i++)
         x[i] = (i + 0.5) / PLACES * (double)part->field.n * part->field.h;
-    br_function_evaluate(&part->load.functions.space, PLACES, x, t, value);
-    for (int i = 0; i < PLACES; i++)
-        most = fmax(most, fabs(value[i]));
+    for (size_t term = 0; term < load->terms; term++) {
+        br_function_evaluate(&load->functions.term[term].space, PLACES, x, t, value);
+        for (int i = 0; i < PLACES; i++) /* a sum has the factors in its vector */
+            most = fmax(most, fabs(value[i]) * (load->sum ? fabs(load->factor[term]) : 1));
+    }
     return (long double)most * part->field.h;
 }
 
@@ -214,8 +217,9 @@ static void see_load(struct br_part *part, double t)
     const struct br_drive *drive = &part->load.drive;
     if (drive->vector && drive->changed) {
         double most = 0;
-        for (size_t i = 0; i < br_field_size(&part->field); i++)
-            most = fmax(most, fabs(drive->vector[i]));
+        const size_t size = br_field_size(&part->field);
+        for (size_t i = 0; i < size; i++)
+            most = fabs(drive->vector[i]) > most ? fabs(drive->vector[i]) : most;
         part->load_size = most > 0 ? most : lost_force(part, t);
     }
     const long double load = part->load_size * fabs(drive->factor);

@@ -72,19 +72,81 @@ enum br_status br_scene_check(const struct br_scene *s, struct br_error *err)
     return status;
 }
 
-void br_scene_clear(struct br_scene *s)
+bool br_product_is_zero(const struct br_product *p)
 {
-    struct br_function *functions[] = {
-        &s->axial.load.space,     &s->axial.load.time,
+    return br_function_is_zero(&p->space) || br_function_is_zero(&p->time);
+}
+
+bool br_load_is_zero(const struct br_load *load)
+{
+    bool zero = true;
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
+        zero = zero && br_product_is_zero(&load->term[i]);
+    return zero;
+}
+
+double br_load_value(const struct br_load *load, double x, double t)
+{
+    double sum = 0;
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
+        double space, time;
+        br_function_evaluate(&load->term[i].space, 1, &x, t, &space);
+        br_function_evaluate(&load->term[i].time, 1, &x, t, &time);
+        sum += space * time;
+    }
+    return sum;
+}
+
+enum br_status br_load_clone(const struct br_load *load, struct br_load *out, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    struct br_product *to = out->term;
+    *out = (struct br_load){0};
+    for (size_t i = 0; i < BR_LOAD_TERMS && !status; i++) {
+        if (br_product_is_zero(&load->term[i]))
+            continue;
+        status = br_function_clone(&load->term[i].space, &to->space, err);
+        if (!status)
+            status = br_function_clone(&load->term[i].time, &to->time, err);
+        to++;
+    }
+    return status;
+}
+
+void br_load_clear(struct br_load *load)
+{
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
+        br_function_free(&load->term[i].space);
+        br_function_free(&load->term[i].time);
+    }
+}
+
+struct br_function *br_scene_function(struct br_scene *s, size_t i)
+{
+    struct br_function *const single[] = {
         &s->axial.displacement,   &s->axial.velocity,
-        &s->bending.load.space,   &s->bending.load.time,
         &s->bending.displacement, &s->bending.displacement_slope,
         &s->bending.velocity,     &s->bending.velocity_slope,
         &s->axial.tip_force,      &s->bending.tip_force,
         &s->bending.tip_moment,   &s->bending.stick_force,
+        &s->axial.given,          &s->bending.given,
     };
-    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
-        br_function_free(functions[i]);
+    const size_t singles = sizeof single / sizeof *single;
+    if (i < singles)
+        return single[i];
+    const size_t term = (i - singles) / 2;
+    if (term >= 2 * BR_LOAD_TERMS)
+        return NULL;
+    struct br_load *load = term < BR_LOAD_TERMS ? &s->axial.load : &s->bending.load;
+    struct br_product *product = &load->term[term % BR_LOAD_TERMS];
+    return (i - singles) % 2 ? &product->time : &product->space;
+}
+
+void br_scene_clear(struct br_scene *s)
+{
+    struct br_function *f;
+    for (size_t i = 0; (f = br_scene_function(s, i)); i++)
+        br_function_free(f);
     free(s->name);
     free(s->title);
     free(s->remark);

@@ -6,12 +6,30 @@
 
 #include "solver/function.h"
 
-/* A load per length, N/m: f(x, t) = space(x, t) * time(t). Where space does not
- * use t it is assembled once; where it does not use x either, without
- * quadrature. */
-struct br_load {
+/* space(x, t) * time(t), N/m. Where space does not use t it is assembled once; where it does not
+ * use x either, without quadrature. */
+struct br_product {
     struct br_function space, time;
 };
+
+enum { BR_LOAD_TERMS = 8 };
+
+/* A load per length, N/m: the sum of its terms. Those that are zero cost nothing. */
+struct br_load {
+    struct br_product term[BR_LOAD_TERMS];
+};
+
+/* Whether space or time is the constant zero. */
+bool br_product_is_zero(const struct br_product *product);
+bool br_load_is_zero(const struct br_load *load);
+
+/* The load at x, m, and t, s. */
+double br_load_value(const struct br_load *load, double x, double t);
+
+/* out becomes an independent copy, without terms that are zero; clear it even where this fails
+ * (BR_NO_MEMORY). */
+enum br_status br_load_clone(const struct br_load *load, struct br_load *out, struct br_error *err);
+void br_load_clear(struct br_load *load);
 
 /* The rod of (3) and (8). */
 struct br_axial {
@@ -24,6 +42,7 @@ struct br_axial {
     struct br_function velocity;     /* v0(x), m/s */
     char *solution;                  /* owned; NULL, or u(x, t), m, from which load, tip force
                                         and initial data were derived (reference/mms) */
+    struct br_function given;        /* that solution */
 };
 
 /* The beam of (4), (9) and (11). Hermite interpolation of the initial data
@@ -38,6 +57,7 @@ struct br_bending {
     struct br_function displacement, displacement_slope; /* w0(x), m, and w0'(x), 1 */
     struct br_function velocity, velocity_slope;         /* m/s and 1/s */
     char *solution;                 /* owned; NULL, or w(x, t), m, as for the axial part */
+    struct br_function given;       /* that solution */
     struct br_function stick_force; /* of t, N: lambda of that solution while its tip rests */
 };
 
@@ -73,6 +93,9 @@ struct br_scene {
 /* Refuses (BR_BAD_INPUT) numbers that are not finite or have a sign that makes
  * no sense, and combinations that mean nothing (Coulomb without contact). */
 enum br_status br_scene_check(const struct br_scene *scene, struct br_error *err);
+
+/* Function i of all that a scene has, borrowed; NULL from the last one on. */
+struct br_function *br_scene_function(struct br_scene *scene, size_t i);
 
 /* Releases what the scene owns; accepts a zeroed scene. */
 void br_scene_clear(struct br_scene *scene);

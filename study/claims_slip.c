@@ -122,10 +122,9 @@ static double exact_release(const struct br_example *e, double *own)
 /* Theory: with a load q(t) L the propped cantilever's reaction is 3/8 q L; the bound is c_V. */
 static double theory_release(const struct br_scene *scene)
 {
-    double q, x = scene->length / 2, time = scene->duration, space;
-    br_function_evaluate(&scene->bending.load.space, 1, &x, time, &space);
-    br_function_evaluate(&scene->bending.load.time, 1, &x, time, &q);
-    return scene->friction.coefficient / (0.375 * fabs(q * space) / time * scene->length);
+    const double time = scene->duration;
+    const double q = br_load_value(&scene->bending.load, scene->length / 2, time);
+    return scene->friction.coefficient / (0.375 * fabs(q) / time * scene->length);
 }
 
 static void measure_release(const struct br_paper *p, struct br_finding *f)

@@ -32,8 +32,12 @@ static enum br_status refuse(const char *name, const char *path, struct br_error
     return status;
 }
 
+static const char standard_input[] = "/dev/stdin";
+
 enum br_status br_scene_find(const char *name, char *path, size_t size, struct br_error *err)
 {
+    if (strcmp(name, "-") == 0)
+        name = standard_input;
     if (access(name, F_OK) == 0) {
         if ((size_t)snprintf(path, size, "%s", name) >= size)
             return br_fail(err, BR_BAD_INPUT, "the path '%s' is too long", name);
@@ -45,6 +49,61 @@ enum br_status br_scene_find(const char *name, char *path, size_t size, struct b
     if (access(path, R_OK) == 0)
         return BR_OK;
     return refuse(name, path, err);
+}
+
+/* The stream is read once, to its end: a pipe has no second time. */
+static enum br_status read_all(const char *path, FILE *file, char *text, struct br_error *err)
+{
+    errno = 0;
+    const size_t length = fread(text, 1, BR_LONGEST_SCENE + 1, file);
+    if (ferror(file))
+        return br_fail(err,
+                       errno == EINTR    ? BR_INTERRUPTED
+                       : errno == EISDIR ? BR_BAD_INPUT
+                                         : BR_IO,
+                       "%s: %s", path, strerror(errno));
+    if (length > BR_LONGEST_SCENE)
+        return br_fail(err, BR_BAD_INPUT, "%s: found more than %d bytes, expected a scene", path,
+                       BR_LONGEST_SCENE);
+    const char *zero = memchr(text, 0, length);
+    size_t line = 1;
+    for (const char *c = text; zero && c < zero; c++)
+        line += *c == '\n';
+    return zero ? br_fail(err, BR_BAD_INPUT, "%s:%zu: found a zero byte, expected text", path, line)
+                : BR_OK;
+}
+
+enum br_status br_scene_load(const char *path, char **text, struct br_error *err)
+{
+    *text = NULL;
+    FILE *file = strcmp(path, standard_input) == 0 ? stdin : fopen(path, "rb");
+    if (!file)
+        return br_fail(err,
+                       errno == EINTR    ? BR_INTERRUPTED
+                       : errno == ENOMEM ? BR_NO_MEMORY
+                                         : BR_BAD_INPUT,
+                       "%s: %s", path, strerror(errno));
+    *text = br_allocate(BR_LONGEST_SCENE + 2, 1);
+    enum br_status status =
+        *text ? read_all(path, file, *text, err) : br_no_memory(err, "the scene");
+    if (file != stdin)
+        fclose(file);
+    if (status) {
+        free(*text);
+        *text = NULL;
+    }
+    return status;
+}
+
+enum br_status br_scene_open(const char *name, char *path, size_t size, char **text,
+                             struct br_scene *scene, struct br_error *err)
+{
+    *text = NULL;
+    *scene = (struct br_scene){0};
+    enum br_status status = br_scene_find(name, path, size, err);
+    if (!status)
+        status = br_scene_load(path, text, err);
+    return status ? status : br_scene_read_text(path, *text, scene, err);
 }
 
 static int is_scene(const struct dirent *entry)
@@ -61,6 +120,8 @@ enum br_status br_scene_list(char ***names, size_t *count, struct br_error *err)
     *count = 0;
     br_data_path("study/scenes", folder, sizeof folder);
     const int found = scandir(folder, &entry, is_scene, alphasort);
+    if (found < 0 && errno == ENOMEM)
+        return br_no_memory(err, "the list of scenes");
     if (found < 0)
         return br_fail(err, BR_BAD_INPUT, "the bundled scenes: %s: %s", folder, strerror(errno));
     *names = br_allocate((size_t)found + 1, sizeof **names);

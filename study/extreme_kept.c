@@ -46,23 +46,42 @@ static bool scan(const char *line, size_t *index, struct br_extreme_verdict *v)
     return true;
 }
 
-static void read_kept(const struct br_extreme_wish *w, struct br_extreme_verdict *verdict,
-                      bool *done)
+/* Hours of work of another seed, program or kind of court are not thrown away. */
+static enum br_status check_head(const struct br_extreme_wish *w, const char *found,
+                                 struct br_error *err)
 {
-    char head[LINE], line[LINE];
-    FILE *file = fopen(w->kept, "r");
+    char head[LINE];
     head_of(w, head);
-    if (file && fgets(line, sizeof line, file) && strcmp(line, head) == 0)
-        while (fgets(line, sizeof line, file)) {
-            struct br_extreme_verdict v;
-            size_t index;
-            if (strchr(line, '\n') && scan(line, &index, &v) && index < w->cases) {
-                verdict[index] = v;
-                done[index] = true;
-            }
+    if (strcmp(found, head) == 0)
+        return BR_OK;
+    return br_fail(
+        err, BR_BAD_INPUT,
+        "%.300s: found the cases of '%.*s', expected those of '%.*s': repeat its options, "
+        "or remove the file to begin anew",
+        w->kept, (int)strcspn(found, "\n"), found, (int)strcspn(head, "\n"), head);
+}
+
+static enum br_status read_kept(const struct br_extreme_wish *w, struct br_extreme_verdict *verdict,
+                                bool *done, struct br_error *err)
+{
+    char line[LINE];
+    FILE *file = fopen(w->kept, "r");
+    if (!file)
+        return errno == ENOENT ? BR_OK
+                               : br_fail(err, BR_IO, "%.900s: %s", w->kept, strerror(errno));
+    enum br_status status = BR_OK;
+    if (fgets(line, sizeof line, file))
+        status = check_head(w, line, err);
+    while (!status && fgets(line, sizeof line, file)) {
+        struct br_extreme_verdict v;
+        size_t index;
+        if (strchr(line, '\n') && scan(line, &index, &v) && index < w->cases) {
+            verdict[index] = v;
+            done[index] = true;
         }
-    if (file)
-        fclose(file);
+    }
+    fclose(file);
+    return status;
 }
 
 /* Whole at every moment: under another name first. */
@@ -93,8 +112,9 @@ enum br_status br_kept_open(const struct br_extreme_wish *w, struct br_extreme_v
     *file = NULL;
     if (!w->kept)
         return BR_OK;
-    read_kept(w, verdict, done);
-    const enum br_status status = write_kept(w, verdict, done, err);
+    enum br_status status = read_kept(w, verdict, done, err);
+    if (!status)
+        status = write_kept(w, verdict, done, err);
     if (status)
         return status;
     *file = fopen(w->kept, "a");

@@ -8,9 +8,10 @@
 
 #include "study/extreme_map.h"
 
-/* Reads what is there of the wish's cases: verdict[i] and done[i] (out). A file of another head,
- * and a last line without an end, count as nothing; the file is then whole, and open for more
- * lines: *file (out), NULL where the wish keeps nothing. Fails with BR_IO or BR_NO_MEMORY. */
+/* Reads what is there of the wish's cases: verdict[i] and done[i] (out). A last
+ * line without an end counts as nothing; the file is then whole, and open for more lines: *file
+ * (out), NULL where the wish keeps nothing. Fails with BR_BAD_INPUT where it has the cases of other
+ * options, which the message names, and does not touch it; with BR_IO or BR_NO_MEMORY. */
 enum br_status br_kept_open(const struct br_extreme_wish *wish, struct br_extreme_verdict *verdict,
                             bool *done, FILE **file, struct br_error *err);
 

@@ -66,16 +66,11 @@ static void add_numbers(unsigned long long *hash, const struct br_scene *s)
 
 static void add_scene(unsigned long long *hash, const struct br_scene *s)
 {
-    const struct br_function *const function[] = {
-        &s->axial.load.space,     &s->axial.load.time,        &s->axial.tip_force,
-        &s->axial.displacement,   &s->axial.velocity,         &s->bending.load.space,
-        &s->bending.load.time,    &s->bending.tip_force,      &s->bending.tip_moment,
-        &s->bending.displacement, &s->bending.velocity,       &s->bending.displacement_slope,
-        &s->bending.stick_force,  &s->bending.velocity_slope,
-    };
+    struct br_scene borrowed = *s;
+    const struct br_function *f;
     add_numbers(hash, s);
-    for (size_t i = 0; i < sizeof function / sizeof *function; i++)
-        add_function(hash, function[i], s);
+    for (size_t i = 0; (f = br_scene_function(&borrowed, i)); i++)
+        add_function(hash, f, s);
 }
 
 static void add_method(unsigned long long *hash, const struct br_method *m)

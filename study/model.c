@@ -100,9 +100,31 @@ static void add_friction(struct rows *r)
         add(r, "friction", "friction", false, "it acts on the bending field, which is not marched");
 }
 
-static bool is_absent(const struct br_load *load)
+static void add_terms(struct rows *r, const char *key, const char *part, const struct br_load *load)
 {
-    return br_function_is_zero(&load->space) || br_function_is_zero(&load->time);
+    size_t moving = 0, quadrature = 0, products = 0, histories = 0;
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
+        const struct br_product *p = &load->term[i];
+        if (br_product_is_zero(p))
+            continue;
+        moving += p->space.uses_t;
+        products += !p->space.uses_t;
+        quadrature += p->space.uses_x && !p->space.uses_t;
+        histories += p->time.uses_t;
+    }
+    const char *how = quadrature ? "F(x) G(t): assembled once, by quadrature"
+                                 : "without x: assembled once, in closed form";
+    const char *history = histories ? "one evaluation of its history a step"
+                                    : "its history is constant: nothing a step";
+    if (moving)
+        add(r, key, part, true, "f(x, t): quadrature every step, %zu evaluations",
+            5 * moving * r->q->n);
+    else if (products > 1)
+        add(r, key, part, true,
+            "%zu products F(x) G(t): assembled once; their sum, with %zu histories, a step",
+            products, histories);
+    else
+        add(r, key, part, true, "%s; %s", how, history);
 }
 
 static void add_load(struct rows *r, enum br_field_kind kind)
@@ -112,18 +134,12 @@ static void add_load(struct rows *r, enum br_field_kind kind)
     const char *part = axial ? "axial load" : "bending load";
     const struct br_scene *s = r->q->marched;
     const struct br_load *load = axial ? &s->axial.load : &s->bending.load;
-    const char *history = load->time.uses_t ? "one evaluation of its history a step"
-                                            : "its history is constant: nothing a step";
     if (!(axial ? s->axial.modelled : s->bending.modelled))
         return;
-    if (is_absent(load))
+    if (br_load_is_zero(load))
         add(r, key, part, false, "the scene has none");
-    else if (load->space.uses_t)
-        add(r, key, part, true, "f(x, t): quadrature every step, %zu evaluations", 5 * r->q->n);
-    else if (load->space.uses_x)
-        add(r, key, part, true, "F(x) G(t): assembled once, by quadrature; %s", history);
     else
-        add(r, key, part, true, "without x: assembled once, in closed form; %s", history);
+        add_terms(r, key, part, load);
 }
 
 static void add_tip_loads(struct rows *r)

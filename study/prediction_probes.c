@@ -48,7 +48,10 @@ static double stages(const struct br_method *m)
 
 static bool is_evaluated(const struct br_load *load)
 {
-    return load->space.uses_x && load->space.uses_t;
+    bool anew = false;
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
+        anew |= load->term[i].space.uses_x && load->term[i].space.uses_t;
+    return anew;
 }
 
 /* A solve on so many elements. */

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "study/launcher.h"
+#include "study/quote.h"
 #include "study/ranks.h"
 
 /* What is being sent: a list, since nobody waits. */
@@ -131,8 +132,11 @@ void br_ranks_leave(void)
  * are ended by that soon, or, where the launcher was told to carry on, end by themselves. */
 void br_ranks_abort(const char *why)
 {
-    if (why)
-        fprintf(stderr, "beamrate: rank %d of %d: %s\n", ranks.rank, ranks.size, why);
+    if (why) {
+        fprintf(stderr, "beamrate: rank %d of %d: ", ranks.rank, ranks.size);
+        br_quote(stderr, &br_for_text, why);
+        fputc('\n', stderr);
+    }
     fflush(NULL);
     if (why && ranks.rank <= 1)
         MPI_Abort(MPI_COMM_WORLD, br_status_exit_code(BR_IO));

@@ -146,16 +146,20 @@ static void change_functions(struct change *c, struct br_scene *s)
         struct br_function *function;
         struct unit unit;
     } functions[] = {
-        {&s->axial.load.space, none},       {&s->axial.load.time, load},
         {&s->axial.tip_force, force},       {&s->axial.displacement, length},
-        {&s->axial.velocity, speed},        {&s->bending.load.space, none},
-        {&s->bending.load.time, load},      {&s->bending.tip_force, force},
+        {&s->axial.velocity, speed},        {&s->bending.tip_force, force},
         {&s->bending.tip_moment, moment},   {&s->bending.displacement, length},
         {&s->bending.velocity, speed},      {&s->bending.displacement_slope, none},
         {&s->bending.velocity_slope, rate}, {&s->bending.stick_force, force},
     };
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
         scale_function(c, functions[i].function, functions[i].unit);
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
+        scale_function(c, &s->axial.load.term[i].space, none);
+        scale_function(c, &s->axial.load.term[i].time, load);
+        scale_function(c, &s->bending.load.term[i].space, none);
+        scale_function(c, &s->bending.load.term[i].time, load);
+    }
 }
 
 static char *copy_text(const char *text, struct change *c)
@@ -170,18 +174,10 @@ static char *copy_text(const char *text, struct change *c)
 
 static void copy_functions(struct br_scene *s, struct change *c)
 {
-    struct br_function *const functions[] = {
-        &s->axial.load.space,     &s->axial.load.time,
-        &s->axial.displacement,   &s->axial.velocity,
-        &s->bending.load.space,   &s->bending.load.time,
-        &s->bending.displacement, &s->bending.displacement_slope,
-        &s->bending.velocity,     &s->bending.velocity_slope,
-        &s->axial.tip_force,      &s->bending.tip_force,
-        &s->bending.tip_moment,   &s->bending.stick_force,
-    };
-    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
-        const struct br_function old = *functions[i];
-        if (br_function_clone(&old, functions[i], c->err))
+    struct br_function *f;
+    for (size_t i = 0; (f = br_scene_function(s, i)); i++) {
+        const struct br_function old = *f;
+        if (br_function_clone(&old, f, c->err))
             c->status = BR_NO_MEMORY;
     }
 }
@@ -193,6 +189,7 @@ static enum br_status apply(const struct br_scene *scene, struct change *c, stru
     out->title = copy_text(scene->title, c);
     out->remark = NULL;
     out->axial.solution = out->bending.solution = NULL;
+    out->axial.given = out->bending.given = (struct br_function){0};
     copy_functions(out, c);
     change_numbers(c, out);
     change_functions(c, out);

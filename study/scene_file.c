@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/scene_file.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <yaml.h>
 
 #include "reference/mms/manufactured.h"
-#include "study/expression.h"
+#include "study/quote.h"
+#include "study/scene/products.h"
 #include "study/scene_scan.h"
 #include "study/scene_value.h"
 #include "study/verify_file.h"
@@ -121,25 +121,23 @@ static size_t solution_line(enum br_field_kind kind, const size_t seen[MOST_KEYS
 /* What a solution determines (reference/mms). */
 static enum br_status apply_solutions(const struct br_scene_reader *r, const size_t seen[MOST_KEYS])
 {
-    const char *const texts[2] = {r->scene->axial.solution, r->scene->bending.solution};
-    struct br_function parsed[2] = {{0}, {0}};
     struct br_error inner = {0};
     enum br_field_kind culprit = BR_AXIAL;
-    enum br_status status = BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        if (texts[kind])
-            status = br_expression(texts[kind], &parsed[kind], &inner);
-    if (!status)
-        status = br_manufactured_apply(r->scene, parsed, &culprit, &inner);
-    br_function_free(&parsed[BR_AXIAL]);
-    br_function_free(&parsed[BR_BENDING]);
-    if (status != BR_BAD_INPUT && status != BR_UNSUPPORTED)
-        return status ? br_fail(r->err, status, "%s", inner.message) : BR_OK;
-    br_scene_refuse(r, solution_line(culprit, seen), "solution", "%s", inner.message);
-    return r->err ? r->err->status = status : status;
+    enum br_status status = br_manufactured_apply(r->scene, &culprit, &inner);
+    if (status == BR_BAD_INPUT)
+        return br_scene_refuse(r, solution_line(culprit, seen), "solution", "%s", inner.message);
+    struct br_load *const load[] = {&r->scene->axial.load, &r->scene->bending.load};
+    const bool derived[] = {r->scene->axial.solution, r->scene->bending.solution};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        struct br_function whole = load[kind]->term[0].space;
+        if (derived[kind])
+            status = br_products(&whole, load[kind], &inner);
+    }
+    return status ? br_fail(r->err, status, "%s", inner.message) : BR_OK;
 }
 
-/* The scene's name is its file's, without folder and ending. */
+/* The scene's name is its file's, without folder and ending; the names of all files that are
+ * written for it begin with it. */
 static enum br_status set_name(const struct br_scene_reader *r)
 {
     const char *slash = strrchr(r->path, '/');
@@ -150,6 +148,7 @@ static enum br_status set_name(const struct br_scene_reader *r)
     if (!r->scene->name)
         return br_no_memory(r->err, "the scene");
     memcpy(r->scene->name, base, length);
+    br_make_name(r->scene->name);
     return BR_OK;
 }
 
@@ -222,8 +221,16 @@ static enum br_status read_document(const struct br_scene_reader *r, struct br_v
     return status;
 }
 
+/* Where libyaml's loader has no memory it fails, and says nothing. */
+static bool lacks_memory(const yaml_parser_t *parser)
+{
+    return parser->error == YAML_MEMORY_ERROR || parser->error == YAML_NO_ERROR;
+}
+
 static enum br_status not_yaml(const struct br_scene_reader *r, const yaml_parser_t *parser)
 {
+    if (lacks_memory(parser))
+        return br_no_memory(r->err, "the YAML parser");
     return br_fail(r->err, BR_BAD_INPUT, "%s:%zu: not YAML: %s", r->path,
                    parser->problem_mark.line + 1, parser->problem ? parser->problem : "unreadable");
 }
@@ -246,19 +253,50 @@ enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br
     return br_scene_read_verify(path, scene, NULL, err);
 }
 
-/* From a file, or where that is NULL from a text. */
-static enum br_status parse(const char *path, FILE *file, const char *text, struct br_scene *scene,
+/* Deeper ones take libyaml a time that grows with the square of the depth. */
+static enum br_status check_depth(const char *path, const char *text, struct br_error *err)
+{
+    enum { DEEPEST = 32 };
+    yaml_parser_t parser;
+    yaml_event_t event = {.type = YAML_NO_EVENT};
+    int depth = 0;
+    size_t line = 0;
+    if (!yaml_parser_initialize(&parser))
+        return br_no_memory(err, "the YAML parser");
+    yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
+    bool more = true, parsed = true;
+    while (more && depth <= DEEPEST && (parsed = yaml_parser_parse(&parser, &event))) {
+        line = event.start_mark.line + 1;
+        depth += event.type == YAML_SEQUENCE_START_EVENT || event.type == YAML_MAPPING_START_EVENT;
+        depth -= event.type == YAML_SEQUENCE_END_EVENT || event.type == YAML_MAPPING_END_EVENT;
+        more = event.type != YAML_STREAM_END_EVENT;
+        yaml_event_delete(&event);
+    }
+    const bool memory = !parsed && lacks_memory(&parser);
+    yaml_parser_delete(&parser);
+    if (memory)
+        return br_no_memory(err, "the YAML parser");
+    return depth <= DEEPEST ? BR_OK
+                            : br_fail(err, BR_BAD_INPUT,
+                                      "%s:%zu: scene: found lists or mappings nested more "
+                                      "than %d deep, expected a scene",
+                                      path, line, DEEPEST);
+}
+
+static enum br_status parse(const char *path, const char *text, struct br_scene *scene,
                             struct br_verify *verify, struct br_error *err)
 {
     yaml_parser_t parser;
     yaml_document_t document;
-    enum br_status status = BR_OK;
+    *scene = (struct br_scene){0};
+    if (verify)
+        *verify = (struct br_verify){0};
+    enum br_status status = check_depth(path, text, err);
+    if (status)
+        return status;
     if (!yaml_parser_initialize(&parser))
         return br_no_memory(err, "the YAML parser");
-    if (file)
-        yaml_parser_set_input_file(&parser, file);
-    else
-        yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
+    yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
     const struct br_scene_reader r = {path, &document, scene, err};
     if (!yaml_parser_load(&parser, &document))
         status = not_yaml(&r, &parser);
@@ -272,23 +310,24 @@ static enum br_status parse(const char *path, FILE *file, const char *text, stru
     return status;
 }
 
-enum br_status br_scene_read_text(const char *name, const char *text, struct br_scene *scene,
+enum br_status br_scene_read_text(const char *path, const char *text, struct br_scene *scene,
                                   struct br_error *err)
 {
-    *scene = (struct br_scene){0};
-    return parse(name, NULL, text, scene, NULL, err);
+    return parse(path, text, scene, NULL, err);
 }
 
 enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
                                     struct br_verify *verify, struct br_error *err)
 {
-    *scene = (struct br_scene){0};
-    if (verify)
-        *verify = (struct br_verify){0};
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno));
-    const enum br_status status = parse(path, file, NULL, scene, verify, err);
-    fclose(file);
+    char *text;
+    enum br_status status = br_scene_load(path, &text, err);
+    if (status) {
+        *scene = (struct br_scene){0};
+        if (verify)
+            *verify = (struct br_verify){0};
+        return status;
+    }
+    status = parse(path, text, scene, verify, err);
+    free(text);
     return status;
 }

@@ -14,13 +14,27 @@ enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br
 enum br_status br_scene_read_text(const char *name, const char *text, struct br_scene *scene,
                                   struct br_error *err);
 
-/* The same from a file with what is expected of the scene: its `verify` part, or else the default. The caller
- * clears both. */
+/* The same from a file with what is expected of the scene: its `verify` part, or else the default.
+ * The caller clears both. */
 enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
                                     struct br_verify *verify, struct br_error *err);
 
+enum { BR_LONGEST_SCENE = 1 << 20 }; /* bytes */
+
+/* Finds a scene, reads its file once, and the scene from that: path (out, size bytes), *text (out):
+ * the whole file; owned by the caller, as the scene is, even after a failure. Fails as
+ * br_scene_find, br_scene_load and br_scene_read do. */
+enum br_status br_scene_open(const char *name, char *path, size_t size, char **text,
+                             struct br_scene *scene, struct br_error *err);
+
+/* The whole text of a file, of standard input or a pipe, which can be read once; *text (out): owned
+ * by the caller. Fails with BR_BAD_INPUT where it is longer than BR_LONGEST_SCENE or no text; with
+ * BR_IO, BR_INTERRUPTED or BR_NO_MEMORY. */
+enum br_status br_scene_load(const char *path, char **text, struct br_error *err);
+
 /* Writes the path of a scene into `path` (out, size bytes): `name` itself where it
- * names a file, else the bundled scene of that name. Fails with BR_BAD_INPUT. */
+ * names a file, /dev/stdin where it is "-", else the bundled scene of that name. Fails with
+ * BR_BAD_INPUT. */
 enum br_status br_scene_find(const char *name, char *path, size_t size, struct br_error *err);
 
 /* The names of all bundled scenes, in the order of the alphabet; *names and each of them is owned

@@ -7,7 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/expression.h"
+#include "study/scene/expression.h"
+#include "study/scene/products.h"
 
 /* "path:line: key: ..." */
 enum br_status br_scene_refuse(const struct br_scene_reader *r, size_t line, const char *key,
@@ -149,9 +150,9 @@ static enum br_status read_solution(const struct br_scene_reader *r, const struc
                                     const yaml_node_t *node)
 {
     char text[MOST_TEXT];
-    struct br_function parsed = {0};
-    enum br_status status = read_expression(r, key, key->unit, node, &parsed);
-    br_function_free(&parsed);
+    const bool axial = key->offset == offsetof(struct br_scene, axial.solution);
+    enum br_status status = read_expression(
+        r, key, key->unit, node, axial ? &r->scene->axial.given : &r->scene->bending.given);
     if (!status)
         status = split_unit(r, key, key->unit, node, text);
     if (status)
@@ -184,7 +185,7 @@ static enum br_status read_product(const struct br_scene_reader *r, const struct
             return br_scene_refuse(r, br_yaml_line(name), key->name, "'%s' is given twice",
                                    br_yaml_text(name));
         seen[shape] = true;
-        struct br_function *f = shape ? &load->space : &load->time;
+        struct br_function *f = shape ? &load->term[0].space : &load->term[0].time;
         enum br_status status = read_expression(r, key, shape ? "1" : "N/m", value, f);
         if (!status)
             status = shape ? forbid(r, key, value, f->uses_t, "t")
@@ -197,7 +198,7 @@ static enum br_status read_product(const struct br_scene_reader *r, const struct
     return BR_OK;
 }
 
-/* A load: one expression, sorted into what depends on x and what on t alone. */
+/* A load: one expression, as the sum of products that it is. */
 static enum br_status read_load(const struct br_scene_reader *r, const struct br_scene_key *key,
                                 const yaml_node_t *node)
 {
@@ -208,10 +209,7 @@ static enum br_status read_load(const struct br_scene_reader *r, const struct br
     const enum br_status status = read_expression(r, key, "N/m", node, &f);
     if (status)
         return status;
-    const struct br_function one = {.constant = 1};
-    *load = f.uses_x ? (struct br_load){.space = f, .time = one}
-                     : (struct br_load){.space = one, .time = f};
-    return BR_OK;
+    return br_products(&f, load, r->err);
 }
 
 static enum br_status read_text(const struct br_scene_reader *r, const struct br_scene_key *key,

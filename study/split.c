@@ -306,9 +306,7 @@ static void add_up(struct br_split *split)
 
 static void clear_results(struct br_split *split)
 {
-    split->judge = split->scene->axial.solution || split->scene->bending.solution
-                       ? br_judge_find("mms")
-                       : &br_judge_exact;
+    split->judge = br_judge_best(split->scene);
     split->shares = 0;
     split->whole = (struct br_share){0};
     for (size_t m = 0; m < BR_MOST_NORMS; m++)
@@ -322,9 +320,6 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
 {
     struct chain c = {0};
     clear_results(split);
-    if (!split->judge)
-        return br_fail(err, BR_BAD_INPUT,
-                       "the scene has a manufactured solution, which this build does not read");
     if (split->at.n < 1 || split->at.steps < 1)
         return br_fail(err, BR_BAD_INPUT, "%s is 0, expected at least one",
                        split->at.n < 1 ? "n" : "the number of time steps");

@@ -65,7 +65,7 @@ static enum br_status try_scheme(struct br_stability_scheme *c, struct br_run_re
         .axial = {.modelled = true,
                   .stiffness = 1000,
                   .viscosity = br_stability_rods[0].viscosity,
-                  .load = {.space = {.constant = load}, .time = {.constant = 1}}},
+                  .load = {{{{.constant = load}, {.constant = 1}}}}},
         .contact = {.modelled = true},
     };
     enum br_status status = BR_OK;

@@ -59,8 +59,8 @@ static enum br_status press(struct br_stability_tip *tip, const struct br_scene 
             look(&w, march, i > TIP_STEPS * 3 / 4);
     }
     br_march_free(march);
-    const double free_tip = scene->axial.load.space.constant * scene->length * scene->length / 2 /
-                            scene->axial.stiffness;
+    const double free_tip = scene->axial.load.term[0].space.constant * scene->length *
+                            scene->length / 2 / scene->axial.stiffness;
     tip->swing = status ? NAN : (w.high - w.low) / free_tip;
     tip->farthest = status ? NAN : tip->farthest / free_tip;
     return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
@@ -71,8 +71,7 @@ enum br_status br_stability_tips(struct br_stability *s, struct br_error *err)
     s->tip_k = 1e-3;
     const struct br_field field = br_stability_field(&br_stability_rods[0], s->n, s->tip_k);
     struct br_scene scene = scene_of(&field, s->tip_k * TIP_STEPS);
-    scene.axial.load =
-        (struct br_load){.space = {.constant = field.stiffness}, .time = {.constant = 1}};
+    scene.axial.load = (struct br_load){{{{.constant = field.stiffness}, {.constant = 1}}}};
     enum br_status status = BR_OK;
     for (size_t i = 0; i < BR_STABILITY_TIPS && !status; i++) {
         struct br_stability_tip *tip = &s->tip[i];

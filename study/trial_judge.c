@@ -162,9 +162,9 @@ enum br_status br_trials_judge(struct br_trial *trial, size_t count,
                                const struct br_trial_request *request, struct br_error *err)
 {
     const struct br_judge *judge = request->judge ? request->judge : br_judge_best(request->scene);
-    if (!judge || !judge->create)
+    if (!judge->create)
         return br_fail(err, BR_BAD_INPUT, "there is no judge of this scene's errors: %s",
-                       judge ? judge->title : "this build has no libmatheval");
+                       judge->title);
     if (count == 0)
         return BR_OK;
     struct groups g = {.request = request};

@@ -20,8 +20,8 @@ struct block {
 };
 
 static const char expected_study[] =
-    "n, k, scheme, tolerance, solver, contact, friction, axial_degree, or a norm (l2, energy, tip) "
-    "and a part (axial, bending; without one: the total)";
+    "n, k, scheme, tolerance, solver, contact, friction, axial_degree, scaling, refinement, or a norm "
+    "(l2, energy, tip) and a part (axial, bending; without one: the total)";
 
 /* `inner` as a refusal at a line. */
 static enum br_status pass_on(const struct br_scene_reader *r, size_t line, const char *key,

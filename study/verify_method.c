@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/verify_method.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "solver/method.h"
@@ -40,9 +41,27 @@ static bool read_axial_degree(struct br_method *m, const char *text)
     return strcmp(text, "1") == 0 || strcmp(text, "2") == 0;
 }
 
+static bool read_scaling(struct br_method *m, const char *text)
+{
+    static const char *const names[] = {"none", "sum", "max"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(names[i], text) == 0) {
+            m->linear.scaling = names[i];
+            return true;
+        }
+    return false;
+}
+
+static bool read_refinement(struct br_method *m, const char *text)
+{
+    m->linear.refinement = atoi(text);
+    const size_t digits = strspn(text, "0123456789");
+    return digits > 0 && digits <= 3 && !text[digits] && m->linear.refinement <= 100;
+}
+
 static const char a_name[] = "a name that 'beamrate study --help' lists";
 
-enum { SCHEME, SOLVER, CONTACT, FRICTION, TOLERANCE, AXIAL_DEGREE, KEYS };
+enum { SCHEME, SOLVER, CONTACT, FRICTION, TOLERANCE, AXIAL_DEGREE, SCALING, REFINEMENT, KEYS };
 
 static const struct {
     const char *name;
@@ -55,6 +74,8 @@ static const struct {
     [FRICTION] = {"friction", read_friction, a_name},
     [TOLERANCE] = {"tolerance", read_tolerance, "a number above 1e-14 and below 1, like 1e-6"},
     [AXIAL_DEGREE] = {"axial_degree", read_axial_degree, "1 or 2"},
+    [SCALING] = {"scaling", read_scaling, "none, sum or max"},
+    [REFINEMENT] = {"refinement", read_refinement, "a count of steps, 100 at most"},
 };
 
 enum br_status br_verify_method_read(const struct br_scene_reader *r, const char *key,
@@ -77,6 +98,17 @@ enum br_status br_verify_method_read(const struct br_scene_reader *r, const char
     return BR_OK;
 }
 
+/* An option that is given, and that the solver does not heed. */
+static const char *unheeded(const struct br_verify_method *m)
+{
+    const struct br_linear_solver *solver = m->method.solver;
+    if (m->given & 1u << SCALING && !br_linear_solver_heeds(solver, "--scaling"))
+        return keys[SCALING].name;
+    if (m->given & 1u << REFINEMENT && !br_linear_solver_heeds(solver, "--refinement"))
+        return keys[REFINEMENT].name;
+    return NULL;
+}
+
 enum br_status br_verify_method_end(struct br_verify_method *m, struct br_error *err)
 {
     if (!(m->given & 1u << CONTACT))
@@ -84,5 +116,8 @@ enum br_status br_verify_method_end(struct br_verify_method *m, struct br_error 
     if (m->given & 1u << TOLERANCE && !m->method.scheme->adaptive)
         return br_fail(err, BR_BAD_INPUT, "tolerance: time scheme '%s' does not heed it",
                        m->method.scheme->name);
+    if (unheeded(m))
+        return br_fail(err, BR_BAD_INPUT, "%s: solver '%s' does not heed it", unheeded(m),
+                       m->method.solver->name);
     return br_method_check(&m->method, err);
 }

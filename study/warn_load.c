@@ -2,90 +2,177 @@
 /* Warns of loads that do something between the time levels. Over each step the impulse of a
  * function of time is compared with that of the straight line between its values at the levels,
  * which all that a scheme with few stages sees resembles: for smooth functions they differ by
- * O(k^2), for a blow that is shorter than the step by all of it. Of more than 50,000 steps 12,500
- * are looked at, all over the duration: there a load that changes within every step is told, a
- * single blow perhaps not. */
+ * O(k^2), for a blow that is shorter than the step by all of it. The impulse is that on a mesh on
+ * which the function is proved to be resolved (load_mesh.h); where one of its cells spans several
+ * steps, the difference is bounded by the second derivative instead: |c_2| k^3 / 6 a step. */
 #include <math.h>
 #include <stdio.h>
 
+#include "study/load_mesh.h"
 #include "study/warnings.h"
 
-enum { MOST_SAMPLES = 100000, LEAST_SAMPLES = 8192, USUAL = 8, LEAST = 2 };
-
-static const double somewhere = 0.618; /* of the length: where a function of x, too, is looked at */
-static const double large = 0.05;      /* of the impulse of the function's size */
+static const double large = 0.05; /* of the impulse of the function's size */
+enum { SEVERAL = 4 };             /* steps in one cell */
 
 struct missed {
     double impulse, size; /* that the levels do not see, and of |f|; both N s for a force */
     double worst, time;   /* the step that misses most, and its middle, s */
 };
 
-/* Which steps are looked at, and by how many samples each. */
-struct sampling {
-    size_t steps, looked_at, parts;
+/* A function of t on its way through the steps. */
+struct passage {
+    const struct br_function *f;
+    struct br_box box; /* the place, and all times */
+    double k;
+    size_t n;       /* the step */
+    double impulse; /* in it, so far */
+    double weight;
+    struct missed *missed;
 };
 
-static struct sampling sampling_of(size_t steps)
+static void miss(struct passage *p, double impulse, double time)
 {
-    if (steps > MOST_SAMPLES / LEAST)
-        return (struct sampling){steps, MOST_SAMPLES / USUAL, USUAL};
-    const size_t most = MOST_SAMPLES / steps, usual = LEAST_SAMPLES / steps + USUAL;
-    return (struct sampling){steps, steps, most < usual ? most : usual};
+    p->missed->impulse += p->weight * impulse;
+    if (p->weight * impulse > p->missed->worst) {
+        p->missed->worst = p->weight * impulse;
+        p->missed->time = time;
+    }
 }
 
-/* The midpoint rule on the parts of each step that is looked at. */
-static struct missed compare(const struct br_function *f, const struct br_scene *scene,
-                             const struct sampling *s)
+static void end_step(struct passage *p)
 {
-    struct missed m = {0};
-    const double x = somewhere * scene->length, k = scene->duration / (double)s->steps,
-                 weight = k / (double)s->parts;
-    const double stride = (double)s->steps / (double)s->looked_at;
-    double before, after, value;
-    for (size_t j = 0; j < s->looked_at; j++) {
-        const size_t n = (size_t)((double)j * stride) + 1;
-        double impulse = 0;
-        br_function_evaluate(f, 1, &x, (double)(n - 1) * k, &before);
-        br_function_evaluate(f, 1, &x, (double)n * k, &after);
-        for (size_t i = 0; i < s->parts; i++) {
-            const double t = ((double)(n - 1) + ((double)i + 0.5) / (double)s->parts) * k;
-            br_function_evaluate(f, 1, &x, t, &value);
-            impulse += weight * value;
-            m.size += weight * fabs(value);
+    double before, after;
+    br_function_evaluate(p->f, 1, &p->box.x.low, (double)p->n * p->k, &before);
+    br_function_evaluate(p->f, 1, &p->box.x.low, (double)(p->n + 1) * p->k, &after);
+    miss(p, fabs(p->impulse - p->k * (before + after) / 2), ((double)p->n + 0.5) * p->k);
+    p->n++;
+    p->impulse = 0;
+}
+
+/* Whole steps from the level n on in a cell. */
+static void pass_steps(struct passage *p, size_t steps)
+{
+    const double from = (double)p->n * p->k, to = (double)(p->n + steps) * p->k;
+    const struct br_box box = {p->box.x, {from, to}};
+    struct br_interval c[3], value = {0, 0};
+    double most = INFINITY; /* a step */
+    if (br_function_taylor(p->f, BR_T, box, 2, c))
+        most = fmax(fabs(c[2].low), fabs(c[2].high)) * p->k * p->k * p->k / 6;
+    if (br_function_bound(p->f, box, &value))
+        most = fmin(most, (value.high - value.low) * p->k);
+    miss(p, most, from + p->k / 2);
+    p->missed->impulse += p->weight * most * (double)(steps - 1);
+    p->n += steps;
+}
+
+static void pass_cell(struct passage *p, double from, double to)
+{
+    while (from < to) {
+        const double level = (double)p->n * p->k, next = (double)(p->n + 1) * p->k;
+        if (from <= level && to - level >= SEVERAL * p->k) {
+            pass_steps(p, (size_t)((to - level) / p->k));
+            from = (double)p->n * p->k;
+            continue;
         }
-        const double miss = fabs(impulse - k * (before + after) / 2);
-        m.impulse += miss;
-        if (miss > m.worst) {
-            m.worst = miss;
-            m.time = ((double)n - 0.5) * k;
-        }
+        const struct br_interval piece = {from, fmin(next, to)};
+        double value[BR_LOAD_PLACES];
+        br_load_values(p->f, BR_T, p->box, piece, value);
+        for (int i = 0; i < BR_LOAD_PLACES; i++)
+            p->impulse += (piece.high - from) * br_load_weight[i] * value[i];
+        if (piece.high >= next)
+            end_step(p);
+        from = piece.high;
     }
-    return m;
+}
+
+/* Of a function with t; *known: out, whether it could be resolved. */
+static enum br_status measure(const struct br_function *f, double weight,
+                              const struct br_outlook *o, struct missed *m, bool *known,
+                              struct br_error *err)
+{
+    const double duration = o->scene->duration;
+    struct br_box box = {{0, o->scene->length}, {0, duration}}, peak = box;
+    struct br_interval values;
+    struct br_mesh mesh = {0};
+    struct br_error failure;
+    double size = 0;
+    enum br_status status = BR_BAD_INPUT;
+    if (!f->ops->bound)
+        return BR_OK; /* of a solution that was given: nothing is proved of it */
+    if (br_enclose_values(f, box, 0, &values, &peak)) {
+        box.x = peak.x;
+        status = br_load_mesh(f, BR_T, box, &mesh, &size, &failure);
+    }
+    struct passage p = {f, box, duration / (double)o->steps, 0, 0, weight, m};
+    for (size_t i = 0; i < mesh.count; i++)
+        pass_cell(&p, mesh.at[i], mesh.at[i + 1]);
+    if (status == BR_BAD_INPUT) { /* without a mesh: one bound for all steps */
+        pass_steps(&p, o->steps);
+        size = fmax(fabs(values.low), fabs(values.high)) * duration / 4;
+    }
+    *known = *known && !status;
+    m->size += weight * size;
+    br_mesh_free(&mesh);
+    return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
+}
+
+static void tell(const char *name, const struct missed *m, bool known, const struct br_outlook *o,
+                 struct br_warnings *w)
+{
+    const double k = o->scene->duration / (double)o->steps;
+    if (m->impulse <= large * m->size)
+        return;
+    if (known)
+        br_warn(w, BR_WARN_LOAD_TIME, "time steps that are shorter than what happens there",
+                "%s does between the time levels what they do not see: with k = %.4g s %.2g %% of "
+                "its impulse, most of it near t = %.4g s",
+                name, k, 100 * m->impulse / m->size, m->time);
+    else
+        br_warn(w, BR_WARN_LOAD_TIME, "time steps that are shorter than what happens there",
+                "%s changes so often that it is not known how much of it happens between the time "
+                "levels, with k = %.4g s",
+                name, k);
 }
 
 static enum br_status look_at(const struct br_function *f, const char *name,
                               const struct br_outlook *o, struct br_warnings *w,
                               struct br_error *err)
 {
-    const double duration = o->scene->duration;
-    struct br_function own;
-    if (!f->uses_t)
-        return BR_OK;
-    const enum br_status status = br_function_clone(f, &own, err);
-    if (status)
-        return status;
-    const struct sampling sampling = sampling_of(o->steps);
-    const struct missed m = compare(&own, o->scene, &sampling);
-    br_function_free(&own);
-    if (!(m.impulse > large * m.size))
-        return BR_OK;
-    char remedy[100];
-    snprintf(remedy, sizeof remedy, "time steps that are shorter than what happens there");
-    br_warn(w, BR_WARN_LOAD_TIME, remedy,
-            "%s does between the time levels what they do not see: with k = %.4g s %.2g %% of its "
-            "impulse, most of it near t = %.4g s",
-            name, duration / (double)o->steps, 100 * m.impulse / m.size, m.time);
-    return BR_OK;
+    struct missed m = {0};
+    bool known = true;
+    const enum br_status status = f->uses_t ? measure(f, 1, o, &m, &known, err) : BR_OK;
+    if (!status)
+        tell(name, &m, known, o, w);
+    return status;
+}
+
+/* The terms of a load, each with the largest value of its other factor; one without t has an
+ * impulse, too. */
+static enum br_status look_at_load(const struct br_load *load, const char *name,
+                                   const struct br_outlook *o, struct br_warnings *w,
+                                   struct br_error *err)
+{
+    const struct br_box box = {{0, o->scene->length}, {0, o->scene->duration}};
+    struct missed m = {0};
+    bool known = true;
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < BR_LOAD_TERMS && !status; i++) {
+        const struct br_product *p = &load->term[i];
+        const struct br_function *changing = p->space.uses_t ? &p->space : &p->time,
+                                 *other = p->space.uses_t ? &p->time : &p->space;
+        struct br_interval values;
+        struct br_box peak;
+        if (br_product_is_zero(p) || !br_enclose_values(other, box, 0, &values, &peak))
+            continue;
+        const double weight = fmax(fabs(values.low), fabs(values.high));
+        if (changing->uses_t)
+            status = measure(changing, weight, o, &m, &known, err);
+        else
+            m.size += weight * fabs(changing->constant) * o->scene->duration;
+    }
+    if (!status)
+        tell(name, &m, known, o, w);
+    return status;
 }
 
 static enum br_status look(const struct br_outlook *o, struct br_warnings *w, struct br_error *err)
@@ -97,11 +184,7 @@ static enum br_status look(const struct br_outlook *o, struct br_warnings *w, st
         const char *name;
         bool modelled;
     } rows[] = {
-        {&a->load.time, "the axial load", a->modelled},
-        {&a->load.space, "the axial load", a->modelled},
         {&a->tip_force, "the axial tip force", a->modelled},
-        {&b->load.time, "the bending load", b->modelled},
-        {&b->load.space, "the bending load", b->modelled},
         {&b->tip_force, "the bending tip force", b->modelled},
         {&b->tip_moment, "the tip moment", b->modelled},
     };
@@ -109,6 +192,10 @@ static enum br_status look(const struct br_outlook *o, struct br_warnings *w, st
     for (size_t i = 0; i < sizeof rows / sizeof *rows && !status; i++)
         if (rows[i].modelled)
             status = look_at(rows[i].function, rows[i].name, o, w, err);
+    if (a->modelled && !status)
+        status = look_at_load(&a->load, "the axial load", o, w, err);
+    if (b->modelled && !status)
+        status = look_at_load(&b->load, "the bending load", o, w, err);
     return status;
 }
 

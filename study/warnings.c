@@ -79,22 +79,9 @@ enum br_status br_look_ahead_cheaply(const struct br_outlook *outlook, struct br
     return ask(outlook, true, w, err);
 }
 
-enum br_status br_look_ahead_grid(const struct br_outlook_grid *g, struct br_warnings *w,
-                                  struct br_error *err)
+enum br_status br_look_at_loads(const struct br_outlook *outlook, struct br_warnings *w,
+                                struct br_error *err)
 {
-    struct br_outlook finest = {.scene = g->scene, .method = g->method};
-    for (size_t i = 0; i < g->n_count; i++)
-        for (size_t j = 0; j < (g->path ? 1 : g->step_count); j++) {
-            struct br_outlook at = finest;
-            at.n = g->n[i];
-            at.steps = g->steps[g->path ? i : j];
-            const enum br_status status = ask(&at, true, w, err);
-            if (status)
-                return status;
-            if ((double)at.n * (double)at.steps > (double)finest.n * (double)finest.steps) {
-                finest.n = at.n;
-                finest.steps = at.steps;
-            }
-        }
-    return finest.n ? ask(&finest, false, w, err) : BR_OK;
+    const enum br_status status = br_warn_load.look(outlook, w, err);
+    return status ? status : br_warn_load_space.look(outlook, w, err);
 }

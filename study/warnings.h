@@ -61,8 +61,7 @@ struct br_outlook {
 /* A source of warnings: a row of the registry. */
 struct br_warning_source {
     const char *title; /* what it looks at, for a person */
-    bool every;        /* so cheap that each march of a study is looked at; else one a study,
-                          the finest */
+    bool every;        /* so cheap that each march of a study is looked at */
     /* Adds what it has to say. What it cannot tell is no failure. Fails with BR_BAD_INPUT or
      * BR_NO_MEMORY where the march is refused, the message with the figures. */
     enum br_status (*look)(const struct br_outlook *outlook, struct br_warnings *warnings,
@@ -81,17 +80,10 @@ enum br_status br_look_ahead(const struct br_outlook *outlook, struct br_warning
 enum br_status br_look_ahead_cheaply(const struct br_outlook *outlook, struct br_warnings *warnings,
                                      struct br_error *err);
 
-/* The marches of a study: a grid of n and steps, or, as a path, pairs of them. All borrowed. */
-struct br_outlook_grid {
-    const struct br_scene *scene;
-    const struct br_method *method;
-    const size_t *n, *steps;
-    size_t n_count, step_count;
-    bool path; /* (n[i], steps[i]) alone */
-};
-
-/* Asks about a grid: all sources about its finest march, those that are cheap about all. */
-enum br_status br_look_ahead_grid(const struct br_outlook_grid *grid, struct br_warnings *warnings,
-                                  struct br_error *err);
+/* Asks about the loads alone: what of them the time levels and the elements do not see. For the
+ * finest of many marches; that takes milliseconds, or a second for loads with thousands of jumps.
+ */
+enum br_status br_look_at_loads(const struct br_outlook *outlook, struct br_warnings *warnings,
+                                struct br_error *err);
 
 #endif

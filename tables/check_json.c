@@ -128,10 +128,11 @@ static enum br_status emit(FILE *out, const struct br_check_page *page, struct b
                           "differences", differences(page->comparison));
     if (!o)
         return br_no_memory(err, "the JSON document");
-    json_dumpf(o, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
+    const int failed =
+        json_dumpf(o, out, JSON_INDENT(1) | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(17));
     fputc('\n', out);
     json_decref(o);
-    return BR_OK;
+    return failed ? br_no_memory(err, "the JSON document") : BR_OK;
 }
 
 const struct br_check_emitter br_check_emit_json = {

@@ -2,35 +2,13 @@
 /* JUnit's XML as CI systems read it: a suite a scene, a test case an order. */
 #include <math.h>
 
+#include "study/quote.h"
 #include "tables/check_emitter.h"
-#include "tables/plain_text.h"
-
-/* Text or an attribute's value; bytes that XML forbids become '?'. */
-static void print_escaped(FILE *out, const char *text)
-{
-    const unsigned char *rest = (const unsigned char *)text;
-    while (*rest) {
-        const size_t length = br_utf8_length(rest);
-        if (*rest == '<')
-            fputs("&lt;", out);
-        else if (*rest == '>')
-            fputs("&gt;", out);
-        else if (*rest == '&')
-            fputs("&amp;", out);
-        else if (*rest == '"')
-            fputs("&quot;", out);
-        else if (length == 0)
-            fputc('?', out);
-        else
-            fwrite(rest, 1, length, out);
-        rest += length ? length : 1;
-    }
-}
 
 static void property(FILE *out, const char *name, const char *value)
 {
     fprintf(out, "        <property name=\"%s\" value=\"", name);
-    print_escaped(out, value);
+    br_quote(out, &br_for_xml, value);
     fputs("\"/>\n", out);
 }
 
@@ -44,7 +22,7 @@ static void number(FILE *out, const char *name, double value)
 
 static void line(void *self, const char *text)
 {
-    print_escaped(self, text);
+    br_quote(self, &br_for_xml, text);
     fputc('\n', self);
 }
 
@@ -52,9 +30,9 @@ static void print_case(FILE *out, const struct br_check *check, const struct br_
 {
     char name[64], order[64];
     fputs("    <testcase classname=\"beamrate.", out);
-    print_escaped(out, check->scene->name);
+    br_quote(out, &br_for_xml, check->scene->name);
     fprintf(out, "\" name=\"%s\" time=\"0\" file=\"", br_case_name(c, name, sizeof name));
-    print_escaped(out, check->path);
+    br_quote(out, &br_for_xml, check->path);
     fprintf(out, "\" line=\"%zu\">\n      <properties>\n", c->expected.line);
     number(out, "order", c->order.value);
     number(out, "low", c->order.low);
@@ -69,7 +47,7 @@ static void print_case(FILE *out, const struct br_check *check, const struct br_
     fputs("      </properties>\n", out);
     if (c->verdict != BR_PASS) {
         fprintf(out, "      <failure type=\"%s\" message=\"", br_verdict_names[c->verdict]);
-        print_escaped(out, c->reason);
+        br_quote(out, &br_for_xml, c->reason);
         fprintf(out, "\">observed order %s\n", br_order_text(&c->order, order, sizeof order));
         br_case_lines(c, line, out);
         fputs("</failure>\n", out);
@@ -85,9 +63,9 @@ static void print_case(FILE *out, const struct br_check *check, const struct br_
 static void print_error(FILE *out, const struct br_check *check)
 {
     fputs("    <testcase classname=\"beamrate.", out);
-    print_escaped(out, check->scene->name);
+    br_quote(out, &br_for_xml, check->scene->name);
     fputs("\" name=\"verify\" time=\"0\"><error type=\"bad input\" message=\"", out);
-    print_escaped(out, check->failure.message);
+    br_quote(out, &br_for_xml, check->failure.message);
     fputs("\"/></testcase>\n", out);
 }
 
@@ -96,7 +74,7 @@ static void print_suite(FILE *out, const struct br_check_page *page, const struc
     const size_t failed = check->count - br_check_tally(check, 1, BR_PASS);
     const int errors = check->failure.status ? 1 : 0;
     fputs("  <testsuite name=\"", out);
-    print_escaped(out, check->scene->name);
+    br_quote(out, &br_for_xml, check->scene->name);
     fprintf(out,
             "\" tests=\"%zu\" failures=\"%zu\" errors=\"%d\" skipped=\"0\" time=\"%.3f\" "
             "timestamp=\"%.19s\">\n",
@@ -117,9 +95,9 @@ static void print_skipped(FILE *out, const struct br_check_page *page)
         page->skips, page->skips);
     for (size_t i = 0; i < page->skips; i++) {
         fputs("    <testcase classname=\"beamrate\" name=\"", out);
-        print_escaped(out, page->skipped[i].scene);
+        br_quote(out, &br_for_xml, page->skipped[i].scene);
         fputs("\" time=\"0\"><skipped message=\"", out);
-        print_escaped(out, page->skipped[i].reason);
+        br_quote(out, &br_for_xml, page->skipped[i].reason);
         fputs("\"/></testcase>\n", out);
     }
     fputs("  </testsuite>\n", out);

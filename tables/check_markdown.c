@@ -2,8 +2,8 @@
 /* Markdown for the summary page of a CI job: what failed first, all orders folded away below. */
 #include <math.h>
 
+#include "study/quote.h"
 #include "tables/check_emitter.h"
-#include "tables/markdown_text.h"
 
 static void number(FILE *out, double value)
 {
@@ -17,7 +17,7 @@ static void print_case(FILE *out, const struct br_check *check, const struct br_
 {
     char name[64], band[64], order[64], range[64];
     fprintf(out, "| ");
-    br_print_markdown(out, check->scene->name);
+    br_quote(out, &br_for_markdown, check->scene->name);
     fprintf(out, " | %s | %s | %s |", br_case_name(c, name, sizeof name),
             br_case_band(c, band, sizeof band), br_order_text(&c->order, order, sizeof order));
     if (isfinite(c->margin))
@@ -40,9 +40,9 @@ static void print_table(FILE *out, const struct br_check_page *page)
             print_case(out, &page->checks[i], &page->checks[i].cases[c]);
     for (size_t i = 0; i < page->skips; i++) {
         fputs("| ", out);
-        br_print_markdown(out, page->skipped[i].scene);
+        br_quote(out, &br_for_markdown, page->skipped[i].scene);
         fputs(" | skipped: ", out);
-        br_print_markdown(out, page->skipped[i].reason);
+        br_quote(out, &br_for_markdown, page->skipped[i].reason);
         fputs(" | | | | | | |\n", out);
     }
 }
@@ -51,7 +51,7 @@ static void item(void *self, const char *text)
 {
     FILE *out = self;
     fputs("  - ", out);
-    br_print_markdown(out, text);
+    br_quote(out, &br_for_markdown, text);
     fputc('\n', out);
 }
 
@@ -60,7 +60,7 @@ static void print_reasons(FILE *out, const struct br_check_page *page)
     for (size_t i = 0; i < page->count; i++)
         if (page->checks[i].failure.status) {
             fprintf(out, "- **cannot be verified** ");
-            br_print_markdown(out, page->checks[i].failure.message);
+            br_quote(out, &br_for_markdown, page->checks[i].failure.message);
             fputc('\n', out);
         }
     for (size_t i = 0; i < page->count; i++)
@@ -70,7 +70,7 @@ static void print_reasons(FILE *out, const struct br_check_page *page)
             if (it->verdict == BR_PASS)
                 continue;
             fprintf(out, "- **%s** ", br_verdict_names[it->verdict]);
-            br_print_markdown(out, page->checks[i].scene->name);
+            br_quote(out, &br_for_markdown, page->checks[i].scene->name);
             fprintf(out, ", %s\n", br_case_name(it, name, sizeof name));
             br_case_lines(it, item, out);
         }
@@ -86,12 +86,12 @@ static void print_comparison(FILE *out, const struct br_comparison *c)
     for (size_t i = 0; i < c->count; i++) {
         const struct br_difference *d = &c->difference[i];
         fprintf(out, "| %s | ", br_severity_names[d->severity]);
-        br_print_markdown(out, d->subject);
+        br_quote(out, &br_for_markdown, d->subject);
         fputs(" |", out);
         number(out, d->before);
         number(out, d->now);
         fputc(' ', out);
-        br_print_markdown(out, d->remark);
+        br_quote(out, &br_for_markdown, d->remark);
         fputs(" |\n", out);
     }
 }

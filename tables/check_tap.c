@@ -1,23 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The Test Anything Protocol, version 13: a test an order, a diagnostic block below it. */
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
+#include "study/quote.h"
 #include "tables/check_emitter.h"
-#include "tables/plain_text.h"
-
-/* In a double-quoted YAML scalar. */
-static void print_quoted(FILE *out, const char *text)
-{
-    fputc('"', out);
-    for (; *text; text++)
-        if (*text == '"' || *text == '\\')
-            fprintf(out, "\\%c", *text);
-        else
-            fputc((unsigned char)*text < ' ' ? ' ' : *text, out);
-    fputc('"', out);
-}
 
 /* A number that is not there is null. */
 static void print_number(FILE *out, const char *key, double value)
@@ -32,20 +18,8 @@ static void item(void *self, const char *text)
 {
     FILE *out = self;
     fputs("    - ", out);
-    print_quoted(out, text);
+    br_quote(out, &br_for_yaml, text);
     fputc('\n', out);
-}
-
-/* A description without what TAP would take for a directive. */
-static void print_description(FILE *out, const char *text)
-{
-    for (const char *hash; (hash = strchr(text, '#')); text = hash + 1) {
-        char *part = strndup(text, (size_t)(hash - text));
-        br_print_plain(out, part ? part : "");
-        free(part);
-        fputc(' ', out);
-    }
-    br_print_plain(out, text);
 }
 
 static void print_case(FILE *out, size_t number, const struct br_check *check,
@@ -53,7 +27,7 @@ static void print_case(FILE *out, size_t number, const struct br_check *check,
 {
     char name[64], band[64], order[64];
     fprintf(out, "%s %zu - ", c->verdict == BR_PASS ? "ok" : "not ok", number);
-    print_description(out, check->scene->name);
+    br_quote(out, &br_for_tap, check->scene->name);
     fprintf(out, " %s: %s, expected %s: %s\n  ---\n", br_case_name(c, name, sizeof name),
             br_order_text(&c->order, order, sizeof order), br_case_band(c, band, sizeof band),
             br_verdict_names[c->verdict]);
@@ -80,9 +54,9 @@ static enum br_status emit(FILE *out, const struct br_check_page *page, struct b
     for (size_t i = 0; i < page->count; i++)
         if (page->checks[i].failure.status) {
             fprintf(out, "not ok %zu - ", ++number);
-            print_description(out, page->checks[i].scene->name);
+            br_quote(out, &br_for_tap, page->checks[i].scene->name);
             fprintf(out, "\n  ---\n  message: ");
-            print_quoted(out, page->checks[i].failure.message);
+            br_quote(out, &br_for_yaml, page->checks[i].failure.message);
             fprintf(out, "\n  ...\n");
         }
     for (size_t i = 0; i < page->count; i++)
@@ -90,9 +64,9 @@ static enum br_status emit(FILE *out, const struct br_check_page *page, struct b
             print_case(out, ++number, &page->checks[i], &page->checks[i].cases[c]);
     for (size_t i = 0; i < page->skips; i++) {
         fprintf(out, "ok %zu - ", ++number);
-        print_description(out, page->skipped[i].scene);
+        br_quote(out, &br_for_tap, page->skipped[i].scene);
         fprintf(out, " # SKIP ");
-        print_description(out, page->skipped[i].reason);
+        br_quote(out, &br_for_tap, page->skipped[i].reason);
         fputc('\n', out);
     }
     char summary[256];

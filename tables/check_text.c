@@ -3,12 +3,22 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/quote.h"
 #include "tables/check_emitter.h"
+#include "tables/sentences.h"
+
+/* The first column. */
+static void print_scene(FILE *out, const char *name)
+{
+    br_quote(out, &br_for_text, name);
+    fprintf(out, "%*s ", br_width_of(name) < 13 ? 13 - br_width_of(name) : 0, "");
+}
 
 static void print_case(FILE *out, const struct br_check *check, const struct br_case *c)
 {
     char name[64], band[64], order[64], range[64];
-    fprintf(out, "%-13s %-21s %-14s %-24s", check->scene->name, br_case_name(c, name, sizeof name),
+    print_scene(out, check->scene->name);
+    fprintf(out, "%-21s %-14s %-24s", br_case_name(c, name, sizeof name),
             br_case_band(c, band, sizeof band), br_order_text(&c->order, order, sizeof order));
     if (isfinite(c->constant))
         fprintf(out, " %9.3e", c->constant);
@@ -33,8 +43,8 @@ static void print_cells(FILE *out, const struct br_scene *scene, const struct br
 /* A scene that does not say what to expect: the defaults, as its file would have them. */
 static void print_default(FILE *out, const struct br_check *check)
 {
-    fprintf(out, "%s has no verify part; these are the defaults, to begin one with:\nverify:\n",
-            check->path);
+    br_quote(out, &br_for_text, check->path);
+    fputs(" has no verify part; these are the defaults, to begin one with:\nverify:\n", out);
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
         const struct br_verify_study *v = &check->verify->study[kind];
         fprintf(out, "  %s:\n", br_verify_names[kind]);
@@ -50,7 +60,9 @@ static void print_default(FILE *out, const struct br_check *check)
 
 static void indented(void *self, const char *text)
 {
-    fprintf(self, "    %s\n", text);
+    fputs("    ", self);
+    br_quote(self, &br_for_text, text);
+    fputc('\n', self);
 }
 
 static void explain(FILE *out, const struct br_check *check, const struct br_case *c)
@@ -58,8 +70,9 @@ static void explain(FILE *out, const struct br_check *check, const struct br_cas
     char name[64];
     if (c->verdict == BR_PASS && !c->note[0])
         return;
-    fprintf(out, "\n%s, %s: %s\n", check->scene->name, br_case_name(c, name, sizeof name),
-            br_verdict_names[c->verdict]);
+    fputc('\n', out);
+    br_quote(out, &br_for_text, check->scene->name);
+    fprintf(out, ", %s: %s\n", br_case_name(c, name, sizeof name), br_verdict_names[c->verdict]);
     if (c->verdict != BR_PASS)
         br_case_lines(c, indented, out);
     else
@@ -73,12 +86,15 @@ static void print_comparison(FILE *out, const struct br_comparison *c)
             c->tally[BR_SERIOUS], c->tally[BR_WARNING], c->tally[BR_NOTE], c->tally[BR_SAME]);
     for (size_t i = 0; i < c->count; i++) {
         const struct br_difference *d = &c->difference[i];
-        fprintf(out, "  %-8s %s", br_severity_names[d->severity], d->subject);
+        fprintf(out, "  %-8s ", br_severity_names[d->severity]);
+        br_quote(out, &br_for_text, d->subject);
         if (isfinite(d->before))
             fprintf(out, ", %.6g before", d->before);
         if (isfinite(d->now))
             fprintf(out, ", %.6g now", d->now);
-        fprintf(out, "%s%s%s\n", d->remark[0] ? " (" : "", d->remark, d->remark[0] ? ")" : "");
+        fputs(d->remark[0] ? " (" : "", out);
+        br_quote(out, &br_for_text, d->remark);
+        fputs(d->remark[0] ? ")\n" : "\n", out);
     }
 }
 
@@ -94,11 +110,17 @@ static enum br_status emit(FILE *out, const struct br_check_page *page, struct b
         for (size_t c = 0; c < page->checks[i].count; c++)
             print_case(out, &page->checks[i], &page->checks[i].cases[c]);
     for (size_t i = 0; i < page->count; i++)
-        if (page->checks[i].failure.status)
-            fprintf(out, "%-13s %s\n", page->checks[i].scene->name,
-                    page->checks[i].failure.message);
-    for (size_t i = 0; i < page->skips; i++)
-        fprintf(out, "%-13s skipped: %s\n", page->skipped[i].scene, page->skipped[i].reason);
+        if (page->checks[i].failure.status) {
+            print_scene(out, page->checks[i].scene->name);
+            br_quote(out, &br_for_text, page->checks[i].failure.message);
+            fputc('\n', out);
+        }
+    for (size_t i = 0; i < page->skips; i++) {
+        print_scene(out, page->skipped[i].scene);
+        fputs("skipped: ", out);
+        br_quote(out, &br_for_text, page->skipped[i].reason);
+        fputc('\n', out);
+    }
     for (size_t i = 0; i < page->count; i++)
         for (size_t c = 0; c < page->checks[i].count; c++)
             explain(out, &page->checks[i], &page->checks[i].cases[c]);

@@ -2,6 +2,7 @@
 /* One line a claim; a number that is not there is an empty field (RFC 4180). */
 #include <math.h>
 
+#include "study/quote.h"
 #include "tables/claims_emitter.h"
 
 static void number(FILE *out, double value)
@@ -13,13 +14,8 @@ static void number(FILE *out, double value)
 
 static void quoted(FILE *out, const char *text, char after)
 {
-    fputc('"', out);
-    for (; *text; text++) {
-        if (*text == '"')
-            fputc('"', out);
-        fputc(*text, out);
-    }
-    fprintf(out, "\"%c", after);
+    br_quote(out, &br_for_csv, text);
+    fputc(after, out);
 }
 
 static void emit(FILE *out, const struct br_claims_page *page)

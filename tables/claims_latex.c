@@ -2,12 +2,12 @@
 /* A LaTeX table to \input; it needs the booktabs and longtable packages. */
 #include <math.h>
 
+#include "study/quote.h"
 #include "tables/claims_emitter.h"
-#include "tables/latex_text.h"
 
 static void cell(FILE *out, const char *text)
 {
-    br_print_latex(out, text);
+    br_quote(out, &br_for_latex, text);
     fputs(" & ", out);
 }
 

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
+#include "study/quote.h"
 #include "tables/claims_emitter.h"
-#include "tables/markdown_text.h"
 
 static void cell(FILE *out, const char *text)
 {
-    br_print_markdown(out, text);
+    br_quote(out, &br_for_markdown, text);
     fputs(" | ", out);
 }
 
@@ -31,7 +31,7 @@ static void emit(FILE *out, const struct br_claims_page *page)
         cell(out, br_claim_value(f->value, f->error, c->unit, buffer, sizeof buffer));
         cell(out, br_claim_value(f->exact, NAN, c->unit, buffer, sizeof buffer));
         fprintf(out, "**%s** | ", br_agreement_name(f->agreement));
-        br_print_markdown(out, f->note);
+        br_quote(out, &br_for_markdown, f->note);
         fputs(" |\n", out);
     }
     fprintf(out, "\nbeamrate %s (%s), %s\n", page->provenance->version, page->provenance->commit,

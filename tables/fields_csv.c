@@ -4,8 +4,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "study/quote.h"
 #include "tables/fields_file.h"
-#include "tables/plain_text.h"
 
 struct br_fields_file {
     FILE *out;
@@ -58,7 +58,7 @@ static enum br_status close_csv(struct br_fields_file *f, const char *stopped, s
     bool failed = false;
     if (f->out && stopped) {
         fprintf(f->out, "# stopped: ");
-        br_print_plain(f->out, stopped);
+        br_quote(f->out, &br_for_text, stopped);
         fputc('\n', f->out);
     }
     if (f->out) {

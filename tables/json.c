@@ -185,7 +185,7 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
     json_t *o = document(r, p);
     if (!o)
         return br_no_memory(err, "the JSON document");
-    json_dumpf(o, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
+    json_dumpf(o, out, JSON_INDENT(1) | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(17));
     fputc('\n', out);
     json_decref(o);
     return BR_OK;

@@ -2,24 +2,39 @@
 #include "tables/json_value.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
+
+#include "study/quote.h"
+
+static atomic_bool lacked;
+
+static void *remembering_malloc(size_t size)
+{
+    void *p = malloc(size);
+    if (!p)
+        atomic_store(&lacked, true);
+    return p;
+}
+
+bool br_json_lacked_memory(void)
+{
+    json_set_alloc_funcs(remembering_malloc, free);
+    return atomic_load(&lacked);
+}
 
 json_t *br_json_number(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
 }
 
-/* A file's name need not be UTF-8, which JSON must be: other bytes become '?'. */
+/* A file's name need not be UTF-8, which JSON must be. */
 static json_t *not_utf8(const char *text)
 {
-    char *copy = strdup(text);
-    if (!copy)
-        return NULL;
-    for (char *c = copy; *c; c++)
-        if ((unsigned char)*c >= 0x80)
-            *c = '?';
-    json_t *o = json_string(copy);
-    free(copy);
+    const size_t size = 4 * strlen(text) + 1;
+    char *visible = br_allocate(size, 1);
+    json_t *o = visible ? json_string(br_quoted(visible, size, &br_for_text, text)) : NULL;
+    free(visible);
     return o;
 }
 

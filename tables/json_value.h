@@ -7,6 +7,11 @@
 
 #include "tables/emitter.h"
 
+/* jansson forgets a member that it has no memory for. From the first call on this remembers: false
+ * where no memory of jansson's has been refused. Call it before any document is made, and before
+ * one is put in place. */
+bool br_json_lacked_memory(void);
+
 json_t *br_json_number(double value);     /* what is not finite is null */
 json_t *br_json_string(const char *text); /* NULL is null; what is not UTF-8 gets '?' */
 json_t *br_json_estimate(const struct br_estimate *e);

@@ -3,14 +3,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/quote.h"
 #include "tables/emitter.h"
-#include "tables/latex_text.h"
 #include "tables/sentences.h"
 
 static void comment(void *self, const char *text)
 {
     FILE *out = self;
-    br_print_latex(out, text);
+    br_quote(out, &br_for_latex, text);
     fputs("\\par\n", out);
 }
 
@@ -32,7 +32,7 @@ static void open_table(FILE *out, const struct br_report *r, const char *title, 
 {
     const struct br_study *s = r->study;
     fprintf(out, "\n\\begin{table}\n\\centering\n\\caption{");
-    br_print_latex(out, r->caption);
+    br_quote(out, &br_for_latex, r->caption);
     fprintf(out, ": %s}\n\\begin{tabular}{r", title);
     for (size_t j = 0; j < s->k_count; j++)
         fputc('r', out);

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/quote.h"
 #include "tables/emitter.h"
-#include "tables/markdown_text.h"
 #include "tables/sentences.h"
 
 /* Paragraphs are set as list items. */
@@ -12,7 +12,7 @@ static void item(void *self, const char *text)
 {
     FILE *out = self;
     fputs("- ", out);
-    br_print_markdown(out, text);
+    br_quote(out, &br_for_markdown, text);
     fputc('\n', out);
 }
 
@@ -103,7 +103,7 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
     (void)err;
     const struct br_writer w = {item, out};
     fputs("# ", out);
-    br_print_markdown(out, r->caption);
+    br_quote(out, &br_for_markdown, r->caption);
     fputs("\n\n", out);
     br_say_method(r, &w);
     for (int part = 0; part < BR_PARTS; part++)

@@ -113,7 +113,7 @@ enum br_status br_plan_json(FILE *out, const struct br_plan_page *page, struct b
     put(root, "trials", trials);
     put(root, "models", models);
     put(root, "provenance", br_json_provenance(page->provenance));
-    char *text = json_dumps(root, JSON_INDENT(1));
+    char *text = json_dumps(root, JSON_INDENT(1) | JSON_ENSURE_ASCII);
     json_decref(root);
     if (!text)
         return br_no_memory(err, "the JSON text");

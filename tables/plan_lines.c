@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "study/quote.h"
 #include "tables/plan_emitter.h"
 
 __attribute__((format(printf, 2, 3))) static void append(char line[BR_PLAN_LINE],
@@ -16,19 +17,11 @@ __attribute__((format(printf, 2, 3))) static void append(char line[BR_PLAN_LINE]
     va_end(arguments);
 }
 
-/* A word that a shell would take apart is put in quotes. */
 static void append_word(char line[BR_PLAN_LINE], const char *word)
 {
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                "_-+./,:=@%";
-    if (*word && word[strspn(word, plain)] == '\0') {
-        append(line, " %s", word);
-        return;
-    }
-    append(line, " '");
-    for (const char *c = word; *c; c++)
-        append(line, *c == '\'' ? "'\\''" : "%c", *c);
-    append(line, "'");
+    const size_t used = strlen(line);
+    snprintf(line + used, BR_PLAN_LINE - used, " ");
+    br_quoted(line + used + 1, BR_PLAN_LINE - used - 1, &br_for_shell, word);
 }
 
 /* The words of a method that are not the defaults of `run`. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
-#include "tables/plain_text.h"
+#include "study/quote.h"
 #include "tables/run_page.h"
 
 void br_history_csv_head(FILE *out)
@@ -33,6 +33,6 @@ void br_history_csv_row(FILE *out, const struct br_history_row *row)
 void br_history_csv_stopped(FILE *out, const char *message)
 {
     fprintf(out, "# stopped: ");
-    br_print_plain(out, message);
+    br_quote(out, &br_for_text, message);
     fputc('\n', out);
 }

@@ -337,7 +337,8 @@ enum br_status br_run_json(FILE *out, const struct br_run_page *page, struct br_
     put(root, "cost", cost(p));
     put(root, "seconds", time_used(page));
     put(root, "provenance", br_json_provenance(page->provenance));
-    const int failed = json_dumpf(root, out, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    const int failed =
+        json_dumpf(root, out, JSON_INDENT(2) | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(17));
     json_decref(root);
     fputc('\n', out);
     return failed && !ferror(out) ? br_no_memory(err, "the summary") : BR_OK;

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/quote.h"
 #include "tables/method_text.h"
-#include "tables/plain_text.h"
 #include "tables/run_page.h"
 
 enum { SHOWN_EVENTS = 20 };
@@ -18,14 +18,14 @@ static void head(FILE *out, const struct br_run_page *page)
 {
     const struct br_run_report *p = page->report;
     char method[BR_METHOD_TEXT];
-    br_print_plain(out, p->scene->title);
+    br_quote(out, &br_for_text, p->scene->title);
     fprintf(out, "\n");
-    br_print_plain(out, page->provenance->scene_path);
+    br_quote(out, &br_for_text, page->provenance->scene_path);
     fprintf(out, "\n%zu elements, h = %g m; %zu steps of k = %g s\n%s\n", p->n, p->h, p->steps,
             p->k, br_method_text(&p->marched, &p->method, method));
     if (p->failure.status) {
         fprintf(out, "\nSTOPPED: ");
-        br_print_plain(out, p->failure.message);
+        br_quote(out, &br_for_text, p->failure.message);
         fprintf(out, "\n");
     }
     if (p->contact_unstable)
@@ -42,9 +42,13 @@ static void discretisation(FILE *out, const struct br_prediction *p)
         fprintf(out, "%.1e, between %.1e and %.1e: time %.1e, space %.1e\n", p->whole.error,
                 p->whole.low, p->whole.high, p->time.error, p->space.error);
     else if (p->bounded)
-        fprintf(out, "not known, between %.0e and %.0e: %s\n", p->whole.low, p->whole.high, p->why);
+        fprintf(out, "not known, between %.0e and %.0e: ", p->whole.low, p->whole.high);
     else
-        fprintf(out, "not known: %s\n", p->why);
+        fprintf(out, "not known: ");
+    if (!p->known) {
+        br_quote(out, &br_for_text, p->why);
+        fputc('\n', out);
+    }
 }
 
 /* Each field's own, where there are two. */
@@ -385,7 +389,7 @@ void br_run_text(FILE *out, const struct br_run_page *page)
     cost(out, p);
     if (p->scene->remark) {
         fprintf(out, "\nRemark: ");
-        br_print_plain(out, p->scene->remark);
+        br_quote(out, &br_for_text, p->scene->remark);
         fprintf(out, "\n");
     }
     time_used(out, page);

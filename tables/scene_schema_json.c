@@ -87,6 +87,11 @@ static void add_methods(json_t *properties)
                                   "^ *" NUMBER "$", "description", "of an adaptive scheme"));
     json_object_set_new(properties, "axial_degree",
                         json_pack("{s:[i, i, s, s]}", "enum", 1, 2, "1", "2"));
+    json_object_set_new(properties, "scaling",
+                        json_pack("{s:[s, s, s]}", "enum", "none", "sum", "max"));
+    json_object_set_new(properties, "refinement",
+                        json_pack("{s:[s, s], s:i, s:i, s:s}", "type", "integer", "string",
+                                  "minimum", 0, "maximum", 100, "pattern", "^[0-9]{1,3}$"));
     json_object_set_new(properties, "solver", json_pack("{s:o}", "enum", solver));
     json_object_set_new(properties, "contact", json_pack("{s:o}", "enum", contact));
     json_object_set_new(properties, "friction", json_pack("{s:o}", "enum", friction));
@@ -244,7 +249,7 @@ enum br_status br_scene_schema_write(FILE *out, struct br_error *err)
     json_t *scene = section("");
     const bool whole = o && scene && json_object_update(o, scene) == 0;
     if (whole) {
-        json_dumpf(o, out, JSON_INDENT(1));
+        json_dumpf(o, out, JSON_INDENT(1) | JSON_ENSURE_ASCII);
         fputc('\n', out);
     }
     json_decref(scene);

@@ -4,19 +4,8 @@
  * that is not there is an empty field (RFC 4180). Sentences are left to the other formats. */
 #include <string.h>
 
+#include "study/quote.h"
 #include "tables/sheet.h"
-
-static void print_field(FILE *out, const char *text)
-{
-    if (!strpbrk(text, ",\"\n\r")) {
-        fputs(text, out);
-        return;
-    }
-    fputc('"', out);
-    for (; *text; text++)
-        fprintf(out, *text == '"' ? "\"%c" : "%c", *text);
-    fputc('"', out);
-}
 
 static void print_table(FILE *out, const struct br_table *t)
 {
@@ -25,15 +14,15 @@ static void print_table(FILE *out, const struct br_table *t)
     fputs("table", out);
     for (size_t c = 0; c < t->columns; c++) {
         fputc(',', out);
-        print_field(out, t->heading(t->self, c, &number));
+        br_quote(out, &br_for_csv, t->heading(t->self, c, &number));
     }
     fputc('\n', out);
     for (size_t r = 0; r < t->rows; r++) {
-        print_field(out, t->name);
+        br_quote(out, &br_for_csv, t->name);
         for (size_t c = 0; c < t->columns; c++) {
             t->cell(t->self, r, c, text);
             fputc(',', out);
-            print_field(out, strcmp(text, "-") == 0 ? "" : text);
+            br_quote(out, &br_for_csv, strcmp(text, "-") == 0 ? "" : text);
         }
         fputc('\n', out);
     }

@@ -81,7 +81,7 @@ static enum br_status emit(FILE *out, const struct br_page *page, struct br_erro
     put(root, "tables", tables);
     put(root, "notes", sentences(page, page->say_notes));
     put(root, "provenance", br_json_provenance(page->provenance));
-    char *text = json_dumps(root, JSON_INDENT(1));
+    char *text = json_dumps(root, JSON_INDENT(1) | JSON_ENSURE_ASCII);
     json_decref(root);
     if (!text)
         return br_no_memory(err, "the JSON text");

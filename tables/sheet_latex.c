@@ -3,13 +3,13 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "tables/latex_text.h"
+#include "study/quote.h"
 #include "tables/sheet.h"
 
 static void paragraph(void *self, const char *text)
 {
     FILE *out = self;
-    br_print_latex(out, text);
+    br_quote(out, &br_for_latex, text);
     fputs("\\par\n", out);
 }
 
@@ -27,7 +27,7 @@ static void print_cell(FILE *out, char *text)
 {
     char *e = exponent_of(text);
     if (!e) {
-        br_print_latex(out, text);
+        br_quote(out, &br_for_latex, text);
         return;
     }
     char *start = e;
@@ -35,7 +35,7 @@ static void print_cell(FILE *out, char *text)
         start--;
     const char first = *start;
     *e = *start = '\0';
-    br_print_latex(out, text);
+    br_quote(out, &br_for_latex, text);
     *start = first;
     fprintf(out, "$%s\\cdot10^{%ld}$", start, strtol(e + 1, NULL, 10));
 }
@@ -49,9 +49,9 @@ static void print_head(FILE *out, const struct br_table *t, const char *caption)
         fputc(number ? 'r' : 'l', out);
     }
     fputs("}\n\\caption{", out);
-    br_print_latex(out, caption);
+    br_quote(out, &br_for_latex, caption);
     fputs(": ", out);
-    br_print_latex(out, t->title);
+    br_quote(out, &br_for_latex, t->title);
     fputs("}\\\\\n\\toprule\n", out);
     for (size_t c = 0; c < t->columns; c++) {
         char text[BR_CELL];

@@ -2,21 +2,21 @@
 /* GitHub-flavoured Markdown. */
 #include <string.h>
 
-#include "tables/markdown_text.h"
+#include "study/quote.h"
 #include "tables/sheet.h"
 
 static void item(void *self, const char *text)
 {
     FILE *out = self;
     fputs("- ", out);
-    br_print_markdown(out, text);
+    br_quote(out, &br_for_markdown, text);
     fputc('\n', out);
 }
 
 static void print_cell(FILE *out, const char *text)
 {
     fputc(' ', out);
-    br_print_markdown(out, text);
+    br_quote(out, &br_for_markdown, text);
     fputs(" |", out);
 }
 
@@ -25,7 +25,7 @@ static void print_table(FILE *out, const struct br_table *t)
     char text[BR_CELL];
     bool number;
     fputs("\n## ", out);
-    br_print_markdown(out, t->title);
+    br_quote(out, &br_for_markdown, t->title);
     fputs("\n\n|", out);
     for (size_t c = 0; c < t->columns; c++)
         print_cell(out, t->heading(t->self, c, &number));
@@ -49,18 +49,20 @@ static void print_notes(FILE *out, const struct br_page *page)
 {
     if (page->notes_title) {
         fputs("\n## ", out);
-        br_print_markdown(out, page->notes_title);
+        br_quote(out, &br_for_markdown, page->notes_title);
         fputc('\n', out);
     }
     fputc('\n', out);
     page->say_notes(page->self, &(struct br_writer){item, out});
 }
 
-/* In as many backticks as it takes (CommonMark). */
+/* Between backticks, unless it has one of its own. */
 static void print_code(FILE *out, const char *text)
 {
-    const char *ticks = strchr(text, '`') ? "``" : "`";
-    fprintf(out, strchr(text, '`') ? "%s %s %s" : "%s%s%s", ticks, text, ticks);
+    const bool plain = !strchr(text, '`');
+    fputs(plain ? "`" : "", out);
+    br_quote(out, plain ? &br_for_text : &br_for_markdown, text);
+    fputs(plain ? "`" : "", out);
 }
 
 static enum br_status emit(FILE *out, const struct br_page *page, struct br_error *err)
@@ -68,7 +70,7 @@ static enum br_status emit(FILE *out, const struct br_page *page, struct br_erro
     (void)err;
     const struct br_provenance *p = page->provenance;
     fputs("# ", out);
-    br_print_markdown(out, page->caption);
+    br_quote(out, &br_for_markdown, page->caption);
     fputc('\n', out);
     if (page->say) {
         fputc('\n', out);

@@ -2,34 +2,25 @@
 /* The page for a terminal and its .txt file. */
 #include <string.h>
 
-#include "tables/plain_text.h"
+#include "study/quote.h"
 #include "tables/sheet.h"
-
-/* Characters, not bytes. */
-static int width_of(const char *text)
-{
-    int width = 0;
-    for (; *text; text++)
-        width += ((unsigned char)*text & 0xc0) != 0x80;
-    return width;
-}
 
 static int column_width(const struct br_table *t, size_t column, bool *number)
 {
     char text[BR_CELL];
-    int widest = width_of(t->heading(t->self, column, number));
+    int widest = br_width_of(t->heading(t->self, column, number));
     for (size_t r = 0; r < t->rows; r++) {
         t->cell(t->self, r, column, text);
-        widest = width_of(text) > widest ? width_of(text) : widest;
+        widest = br_width_of(text) > widest ? br_width_of(text) : widest;
     }
     return widest;
 }
 
 static void print_cell(FILE *out, const char *text, bool number, int width, bool last)
 {
-    const int blanks = width - width_of(text);
+    const int blanks = width - br_width_of(text);
     fprintf(out, "%*s", number ? blanks : 0, "");
-    br_print_plain(out, text);
+    br_quote(out, &br_for_text, text);
     if (last)
         fputc('\n', out);
     else
@@ -61,15 +52,6 @@ static enum br_status print_table(FILE *out, const struct br_table *t, struct br
     return BR_OK;
 }
 
-static void print_caption(FILE *out, const char *caption)
-{
-    br_print_plain(out, caption);
-    fputc('\n', out);
-    for (int i = width_of(caption); i > 0; i--)
-        fputc('=', out);
-    fputc('\n', out);
-}
-
 /* Paragraphs, of which only the first ones are printed where `most` says so. */
 struct paragraphs {
     FILE *out;
@@ -97,7 +79,7 @@ static enum br_status print_page(FILE *out, const struct br_page *page, bool who
                                  struct br_error *err)
 {
     enum br_status status = BR_OK;
-    print_caption(out, page->caption);
+    br_print_caption(out, page->caption);
     if (page->say)
         page->say(page->self, &(struct br_writer){br_print_wrapped, out});
     for (size_t i = 0; i < page->tables && !status; i++)

@@ -111,7 +111,7 @@ static enum br_status emit(FILE *out, const struct br_split_page *page, struct b
     br_split_say_chain(page->split, &w);
     put(o, "runs", runs);
     put(o, "findings", said);
-    json_dumpf(o, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
+    json_dumpf(o, out, JSON_INDENT(1) | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(17));
     fputc('\n', out);
     json_decref(o);
     return BR_OK;

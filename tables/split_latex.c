@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* LaTeX tables to \input; they need the booktabs package. */
-#include "tables/latex_text.h"
+#include "study/quote.h"
 #include "tables/split_emitter.h"
 
 static void paragraph(void *self, const char *text)
 {
     FILE *out = self;
-    br_print_latex(out, text);
+    br_quote(out, &br_for_latex, text);
     fputs("\\par\n", out);
 }
 
 static void cell(FILE *out, const char *text)
 {
     fputs(" & ", out);
-    br_print_latex(out, text);
+    br_quote(out, &br_for_latex, text);
 }
 
 static void print_line(FILE *out, const struct br_split *s, size_t norm, size_t i)
@@ -22,10 +22,10 @@ static void print_line(FILE *out, const struct br_split *s, size_t norm, size_t 
     char text[32];
     if (i == s->shares)
         fputs("\\midrule\n", out);
-    br_print_latex(out, line.name);
+    br_quote(out, &br_for_latex, line.name);
     if (line.none) {
         fputs(" & \\multicolumn{6}{l}{none: ", out);
-        br_print_latex(out, line.none);
+        br_quote(out, &br_for_latex, line.none);
         fputs("} \\\\\n", out);
         return;
     }
@@ -41,11 +41,11 @@ static void print_table(FILE *out, const struct br_split *s, size_t norm)
 {
     char text[256];
     fputs("\n\\begin{table}\n\\centering\n\\caption{", out);
-    br_print_latex(out, s->scene->title);
+    br_quote(out, &br_for_latex, s->scene->title);
     fputs(": where the error comes from (", out);
-    br_print_latex(out, s->norm[norm]->name);
+    br_quote(out, &br_for_latex, s->norm[norm]->name);
     fprintf(out, ", %s); ", s->norm[norm]->unit_tex);
-    br_print_latex(out, br_split_run_text(s, text, sizeof text));
+    br_quote(out, &br_for_latex, br_split_run_text(s, text, sizeof text));
     fputs("}\n\\begin{tabular}{lrrrrrr}\n\\toprule\npart & total & axial & bending & of the sum & "
           "tip axial & tip bending \\\\\n\\midrule\n",
           out);

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* GitHub-flavoured Markdown. */
-#include "tables/markdown_text.h"
+#include "study/quote.h"
 #include "tables/split_emitter.h"
 
 static void item(void *self, const char *text)
 {
     FILE *out = self;
     fputs("- ", out);
-    br_print_markdown(out, text);
+    br_quote(out, &br_for_markdown, text);
     fputc('\n', out);
 }
 
 static void cell(FILE *out, const char *text)
 {
     fputc(' ', out);
-    br_print_markdown(out, text);
+    br_quote(out, &br_for_markdown, text);
     fputs(" |", out);
 }
 
@@ -37,7 +37,7 @@ static void print_run(FILE *out, const struct br_split *s)
     const struct br_writer w = {item, out};
     char text[256];
     fputs("\n## ", out);
-    br_print_markdown(out, br_split_run_text(s, text, sizeof text));
+    br_quote(out, &br_for_markdown, br_split_run_text(s, text, sizeof text));
     fputc('\n', out);
     for (size_t m = 0; m < s->norms; m++) {
         fprintf(out,
@@ -57,7 +57,7 @@ static enum br_status emit(FILE *out, const struct br_split_page *page, struct b
     const struct br_split *first = page->split;
     const struct br_writer w = {item, out};
     fputs("# Where the error comes from: ", out);
-    br_print_markdown(out, first->scene->title);
+    br_quote(out, &br_for_markdown, first->scene->title);
     fputs("\n\n", out);
     br_split_say_chain(first, &w);
     for (size_t i = 0; i < page->count; i++)

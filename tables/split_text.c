@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "tables/plain_text.h"
+#include "study/quote.h"
 #include "tables/split_emitter.h"
 
 /* The share of the sum as a bar of up to 20 characters. */
@@ -53,7 +53,7 @@ static enum br_status emit(FILE *out, const struct br_split_page *page, struct b
     const struct br_split *first = page->split;
     const struct br_writer w = {br_print_wrapped, out};
     fputs("Where the error comes from: ", out);
-    br_print_plain(out, first->scene->title);
+    br_quote(out, &br_for_text, first->scene->title);
     fputc('\n', out);
     br_split_say_chain(first, &w);
     for (size_t i = 0; i < page->count; i++) {

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "tables/emitter.h"
-#include "tables/plain_text.h"
 #include "tables/sentences.h"
 
 static char flag_letter(enum br_flag flag)
@@ -100,10 +99,7 @@ static enum br_status emit(FILE *out, const struct br_report *r, const struct br
 {
     (void)p, (void)err;
     const struct br_writer w = {br_print_wrapped, out};
-    fprintf(out, "%s\n", r->caption);
-    for (size_t i = 0; i < strlen(r->caption); i++)
-        fputc('=', out);
-    fputc('\n', out);
+    br_print_caption(out, r->caption);
     br_say_method(r, &w);
     for (int part = 0; part < BR_PARTS; part++)
         if (br_part_shown(r, (enum br_part)part))

@@ -2,6 +2,7 @@
 /* One line a trial; a number that is not there is an empty field (RFC 4180). */
 #include <math.h>
 
+#include "study/quote.h"
 #include "tables/trade_emitter.h"
 
 static void field(FILE *out, const char *format, double value)
@@ -9,14 +10,6 @@ static void field(FILE *out, const char *format, double value)
     fputc(',', out);
     if (isfinite(value))
         fprintf(out, format, value);
-}
-
-static void quoted(FILE *out, const char *text)
-{
-    fputs(",\"", out);
-    for (; *text; text++)
-        fprintf(out, *text == '"' ? "\"%c" : "%c", *text);
-    fputc('"', out);
 }
 
 static const char trial_heading[] =
@@ -43,7 +36,8 @@ static void print_trial(FILE *out, const struct br_trade *trade, size_t i)
     fprintf(out, ",%zu,%zu,%zu,%zu,%zu,%zu,%s,%d,%d", t->cost.repeats, c->steps, c->rejected,
             c->stages, c->iterations, c->set_ups, br_trial_end_name(t->end), trade->front[i],
             t->printed);
-    quoted(out, t->failure.message);
+    fputc(',', out);
+    br_quote(out, &br_for_csv, t->failure.message);
     fputc('\n', out);
 }
 
@@ -65,7 +59,8 @@ enum br_status br_trade_csv_summary(FILE *out, const struct br_trade_page *page,
     for (size_t p = 0; p < pages; p++)
         for (size_t d = 0; d < BR_TRADE_DIGITS; d++) {
             const struct br_trade *trade = page[p].trade;
-            fprintf(out, "%s,%.0e,", page[p].name, br_trade_target(d));
+            br_quote(out, &br_for_csv, page[p].name);
+            fprintf(out, ",%.0e,", br_trade_target(d));
             if (trade->best[d] < trade->count)
                 print_trial(out, trade, trade->best[d]);
             else

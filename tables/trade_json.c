@@ -115,7 +115,7 @@ static json_t *page_of(const struct br_trade_page *page)
 
 static enum br_status dump(FILE *out, json_t *root, struct br_error *err)
 {
-    char *text = json_dumps(root, JSON_INDENT(1));
+    char *text = json_dumps(root, JSON_INDENT(1) | JSON_ENSURE_ASCII);
     json_decref(root);
     if (!text)
         return br_no_memory(err, "the JSON text");

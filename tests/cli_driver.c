@@ -109,7 +109,7 @@ bool cli_is_there(const char *name)
     return stat(path, &info) == 0;
 }
 
-/* Files in a folder below the working one, hidden ones included. */
+/* Files in a folder below the working one: hidden ones too, but not the manifest. */
 size_t cli_count_files(const char *name)
 {
     char path[512];
@@ -119,7 +119,8 @@ size_t cli_count_files(const char *name)
         return 0;
     size_t count = 0;
     for (struct dirent *e; (e = readdir(d));)
-        count += strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0;
+        count += strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0 &&
+                 !strstr(e->d_name, "manifest.json");
     closedir(d);
     return count;
 }

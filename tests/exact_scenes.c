@@ -26,7 +26,8 @@ struct br_function formula_function(struct formula *formula)
 
 struct br_load formula_load(double amplitude, struct formula *time)
 {
-    return (struct br_load){.space = {.constant = amplitude}, .time = formula_function(time)};
+    return (struct br_load){.term[0].space = {.constant = amplitude},
+                            .term[0].time = formula_function(time)};
 }
 
 double f_expm1(const double *p, double x, double t)

@@ -16,8 +16,7 @@ void made_clear(struct made_check *m)
 {
     br_check_clear(&m->check);
     br_verify_clear(&m->verify);
-    br_function_free(&m->scene.axial.load.space);
-    br_function_free(&m->scene.axial.load.time);
+    br_load_clear(&m->scene.axial.load);
 }
 
 void made_run(struct made_check *m, int threads)

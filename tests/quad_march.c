@@ -134,8 +134,8 @@ static real constant_load(const struct br_load *load, double t)
 {
     double factor;
     const double x = 0;
-    br_function_evaluate(&load->time, 1, &x, t, &factor);
-    return (real)load->space.constant * factor;
+    br_function_evaluate(&load->term[0].time, 1, &x, t, &factor);
+    return (real)load->term[0].space.constant * factor;
 }
 
 /* f + M v / tau - K w, in f->rhs. */

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/expression.h"
+#include "study/scene/expression.h"
 #include "study/scene_file.h"
 
 void br_test_close(const char *what, double actual, double expected, double tolerance,
@@ -103,7 +103,8 @@ struct br_function br_test_function(const char *expression)
 
 struct br_load br_test_load(const char *expression)
 {
-    return (struct br_load){.space = br_test_function(expression), .time = {.constant = 1}};
+    return (struct br_load){.term[0].space = br_test_function(expression),
+                            .term[0].time = {.constant = 1}};
 }
 
 struct br_method br_test_method(const char *solver, const char *contact, const char *friction)

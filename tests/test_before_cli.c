@@ -24,7 +24,7 @@ static void test_refused(void **state)
         int code;
         const char *message;
     } rows[] = {
-        {"run tan.yaml --k 0.1", 2, "tan.yaml:8: load: it has a pole: found "},
+        {"run tan.yaml --k 0.1", 2, "tan.yaml:8: load: it has a pole at "},
         {"run pole.yaml --k 0.1", 2, "at t = 0.3333 s, expected a finite number everywhere"},
         {"run exmaple2", 2, "; did you mean 'example2'?"},
         {"study bounce", 2, "(looked for "},
@@ -46,17 +46,13 @@ static void test_refused(void **state)
     assert_false(cli_is_there("never"));
 }
 
-/* Before it prints anything of its results. */
+/* What may not stand in a file's name is replaced in those of the results. */
 static void test_name(void **state)
 {
     (void)state;
-    static struct cli_outcome out;
     cli_write_file("two\nlines.yaml", SCENE "  load: t [N/m]\n");
-    cli_run_line("study two\nlines.yaml --n 4,8 --k 0.1,0.05 --out s", NULL, &out);
-    assert_int_equal(out.exit_code, 2);
-    assert_non_null(strstr(out.output, "expected the beginning of a file name"));
-    assert_null(strstr(out.output, "Reference"));
-    assert_false(cli_is_there("s"));
+    cli_expect("study two\nlines.yaml --n 4,8 --k 0.1,0.05 --out s", NULL, 0, "Written to s/");
+    assert_true(cli_is_there("s/two_lines.json") && cli_is_there("s/two_lines-h.gp"));
 }
 
 static void test_warned(void **state)
@@ -69,15 +65,24 @@ static void test_warned(void **state)
                NULL, 0, "the lagged contact is beyond its stability limit");
     cli_expect("run mms_pressed --n 10 --contact lagged --quiet", NULL, 0,
                "the lagged contact may gain energy as it opens and closes");
+    /* run and study alike */
+    cli_write_file("blow.yaml", SCENE "  load: t + 3e5*exp(-((t - 0.1234567)/1e-5)^2) [N/m]\n");
+    cli_expect("run blow.yaml --n 4 --k 0.05", NULL, 0, "with k = 0.05 s 91 % of its impulse");
+    cli_expect("study blow.yaml --n 4,8 --k 0.1,0.05 --reference fine:16,0.025 --out blow", NULL, 0,
+               "with k = 0.05 s 91 % of its impulse, most of it near t = 0.125 s");
 }
 
-static void make_left_behind(const char *name, char path[512])
+/* owner: of the program that made it; "": it is no program's. */
+static void make_left_behind(const char *name, const char *owner, char path[512])
 {
     char file[512];
     cli_path(name, path);
     assert_int_equal(mkdir(path, 0700), 0);
     snprintf(file, sizeof file, "%s/half.csv", name);
     cli_write_file(file, "half");
+    snprintf(file, sizeof file, "%s/.owner", name);
+    if (*owner)
+        cli_write_file(file, owner);
 }
 
 /* A folder that a program left behind is removed by the next one; one that is in use is not. */
@@ -87,19 +92,20 @@ static void test_left_behind(void **state)
     char path[512], used[512], other[512];
     cli_path("left", path);
     assert_int_equal(mkdir(path, 0700), 0);
-    make_left_behind("left/.beamrate-abcdef", path);
-    make_left_behind("left/.beamrate-inuse1", used);
-    make_left_behind("left/.beamrate-mine", other);
+    make_left_behind("left/.beamrate-tip", "process 1", path);
+    make_left_behind("left/.beamrate", "process 7 on earth", used);
+    make_left_behind("left/.beamrate-mine", "", other);
     const int lock = open(used, O_RDONLY | O_DIRECTORY);
     assert_true(lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) == 0);
-    cli_expect("run example1 --n 4 --k 0.1 --quiet --out left", NULL, 0, "");
-    assert_true(cli_is_there("left/summary.txt"));
-    assert_false(cli_is_there("left/.beamrate-abcdef"));
-    assert_true(cli_is_there("left/.beamrate-inuse1/half.csv"));
+    cli_expect("run example1 --n 4 --k 0.1 --quiet --out left", NULL, 2,
+               "the folder is in use by process 7 on earth");
+    assert_false(cli_is_there("left/.beamrate-tip"));
+    assert_true(cli_is_there("left/.beamrate/half.csv"));
     assert_true(cli_is_there("left/.beamrate-mine/half.csv"));
     close(lock);
     cli_expect("run example1 --n 4 --k 0.1 --quiet --out left", NULL, 0, "");
-    assert_false(cli_is_there("left/.beamrate-inuse1"));
+    assert_false(cli_is_there("left/.beamrate"));
+    assert_true(cli_is_there("left/.beamrate-mine/half.csv"));
 }
 
 int main(void)

@@ -65,8 +65,8 @@ static void test_failing_march(void **state)
     (void)state;
     struct made_check m;
     made_create(&m);
-    br_function_free(&m.scene.axial.load.space);
-    m.scene.axial.load.space = br_test_function("1/(0.5 - t) + x");
+    br_function_free(&m.scene.axial.load.term[0].space);
+    m.scene.axial.load.term[0].space = br_test_function("1/(0.5 - t) + x");
     m.verify.study[BR_VERIFY_JOINT].count = 0;
     m.verify.study[BR_VERIFY_JOINT].expectations = 0;
     made_run(&m, 2);
@@ -107,8 +107,8 @@ static void test_unverifiable(void **state)
     struct br_error err = {0};
     made_create(&m);
     m.verify.study[BR_VERIFY_JOINT].line = 33;
-    br_function_free(&m.scene.axial.load.space);
-    m.scene.axial.load.space = br_test_function("step(x - 0.3)");
+    br_function_free(&m.scene.axial.load.term[0].space);
+    m.scene.axial.load.term[0].space = br_test_function("step(x - 0.3)");
     struct made_check sound;
     made_create(&sound);
     struct br_check both[] = {m.check, sound.check};
@@ -139,8 +139,7 @@ static void test_nothing_moves(void **state)
     (void)state;
     struct made_check m;
     made_create(&m);
-    br_function_free(&m.scene.axial.load.space);
-    br_function_free(&m.scene.axial.load.time);
+    br_load_clear(&m.scene.axial.load);
     m.scene.axial.load = (struct br_load){0};
     made_run(&m, 1);
     assert_int_equal(br_check_tally(&m.check, 1, BR_PASS), 0);
@@ -200,14 +199,10 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sound),
-        cmocka_unit_test(test_wrong_expectation),
-        cmocka_unit_test(test_failing_march),
-        cmocka_unit_test(test_unverifiable),
-        cmocka_unit_test(test_nothing_moves),
-        cmocka_unit_test(test_one_mesh),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_unstable_reference),
+        cmocka_unit_test(test_sound),         cmocka_unit_test(test_wrong_expectation),
+        cmocka_unit_test(test_failing_march), cmocka_unit_test(test_unverifiable),
+        cmocka_unit_test(test_nothing_moves), cmocka_unit_test(test_one_mesh),
+        cmocka_unit_test(test_threads),       cmocka_unit_test(test_unstable_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -250,7 +250,7 @@ static void test_touched(void **state)
 {
     (void)state;
     struct br_scene scene = pressed_scene(1, 1, 1e9);
-    scene.axial.load = (struct br_load){{.constant = 1}, {.constant = 1}};
+    scene.axial.load = (struct br_load){{{{.constant = 1}, {.constant = 1}}}};
     const struct br_method method = br_test_method(NULL, "lagged", NULL);
     for (int touching = 0; touching < 2; touching++) {
         scene.contact.gap = touching ? 0.1 : 10;

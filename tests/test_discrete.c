@@ -218,11 +218,11 @@ static void test_data(void **state)
     same_as_solver(&s, &method, 1e-12);
     s.axial.modelled = s.contact.modelled = false;
     same_as_solver(&s, &method, 1e-12);
-    br_function_free(&s.axial.load.space);
+    br_function_free(&s.axial.load.term[0].space);
     br_function_free(&s.axial.displacement);
     br_function_free(&s.axial.velocity);
     br_function_free(&s.axial.tip_force);
-    br_function_free(&s.bending.load.space);
+    br_function_free(&s.bending.load.term[0].space);
     br_function_free(&s.bending.displacement);
     br_function_free(&s.bending.displacement_slope);
     br_function_free(&s.bending.velocity);

@@ -94,18 +94,6 @@ static void close_scene(const char *name, const struct br_time_scheme *scheme, c
     finish(&m);
 }
 
-static bool is_read(const char *name)
-{
-    char path[4096];
-    struct br_scene scene;
-    struct br_error err = {0};
-    MUST(br_scene_find(name, path, sizeof path, &err));
-    if (br_scene_read(path, &scene, &err))
-        return false; /* manufactured, and built without libmatheval */
-    br_scene_clear(&scene);
-    return true;
-}
-
 static void test_bundled_scenes(void **state)
 {
     (void)state;
@@ -114,7 +102,7 @@ static void test_bundled_scenes(void **state)
     size_t count;
     MUST(br_scene_list(&names, &count, &err));
     for (size_t s = 0; s < count; s++)
-        for (size_t i = 0; is_read(names[s]) && staged(i); i++) {
+        for (size_t i = 0; staged(i); i++) {
             close_scene(names[s], staged(i), "riccati", 1, 30);
             close_scene(names[s], staged(i), "riccati", 9, 60);
             close_scene(names[s], staged(i), "plain", 40, 20);

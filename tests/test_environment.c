@@ -259,7 +259,7 @@ struct units {
 static struct br_load other_load(const struct br_load *load, double factor)
 {
     struct br_load other = *load;
-    other.space.constant *= factor;
+    other.term[0].space.constant *= factor;
     return other;
 }
 
@@ -295,9 +295,9 @@ static struct br_scene any_scene(struct br_test_random *r)
     s.axial.viscosity = br_test_index(r, 4) ? br_test_log_uniform(r, 1e-3, 1e3) : 0;
     s.bending.stiffness = br_test_log_uniform(r, 1e-3, 1e3);
     s.bending.viscosity = br_test_index(r, 4) ? br_test_log_uniform(r, 1e-3, 1e3) : 0;
-    s.axial.load.space.constant = br_test_uniform(r, -1, 3);
-    s.bending.load.space.constant = br_test_uniform(r, -3, 3);
-    s.axial.load.time.constant = s.bending.load.time.constant = 1;
+    s.axial.load.term[0].space.constant = br_test_uniform(r, -1, 3);
+    s.bending.load.term[0].space.constant = br_test_uniform(r, -3, 3);
+    s.axial.load.term[0].time.constant = s.bending.load.term[0].time.constant = 1;
     s.contact = (struct br_contact){true, br_test_index(r, 2) ? br_test_uniform(r, 0, 1e-2) : 0,
                                     s.axial.stiffness / s.length};
     s.friction.law = (enum br_friction_law)br_test_index(r, 3);

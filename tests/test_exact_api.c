@@ -150,7 +150,8 @@ static void test_refusals(void **unused)
     /* An undamped rod that hits an obstacle: a kink travels for ever. */
     s = (struct br_scene){.length = 1, .duration = 3, .density = 1};
     s.axial = (struct br_axial){.modelled = true, .stiffness = 1};
-    s.axial.load = (struct br_load){.space = {.constant = 1}, .time = {.constant = 1}};
+    s.axial.load =
+        (struct br_load){.term[0].space = {.constant = 1}, .term[0].time = {.constant = 1}};
     s.contact = (struct br_contact){true, 0.2, 5};
     refuses(&s, (struct br_exact_options){.max_modes = 60}, BR_NOT_FINITE, "no exact solution");
 

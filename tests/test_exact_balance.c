@@ -57,8 +57,8 @@ static double net_power(double t, void *data)
         br_exact_projection_apply(p->strain[i], p->exact, p->state, &mean, &rest);
         sum -= viscosity[i] * (mean * mean + rest);
         br_exact_projection_apply(p->rate[i], p->exact, p->state, &mean, &rest);
-        br_function_evaluate(&load[i]->time, 1, &t, t, &factor);
-        sum += factor * load[i]->space.constant * mean * sqrt(p->scene->length);
+        br_function_evaluate(&load[i]->term[0].time, 1, &t, t, &factor);
+        sum += factor * load[i]->term[0].space.constant * mean * sqrt(p->scene->length);
     }
     return sum;
 }
@@ -135,10 +135,10 @@ static double axial_form(double t, void *data)
     const struct br_scene *s = p->scene;
     double factor;
     br_exact_at(p->exact, t, p->state);
-    br_function_evaluate(&s->axial.load.time, 1, &t, t, &factor);
+    br_function_evaluate(&s->axial.load.term[0].time, 1, &t, t, &factor);
     return s->axial.stiffness * p->state->tip[0].displacement +
            s->length * p->state->contact_force -
-           factor * s->axial.load.space.constant * s->length * s->length / 2;
+           factor * s->axial.load.term[0].space.constant * s->length * s->length / 2;
 }
 
 /* The weak form of (4) with z = x^2: 2 a w_x(L) + L^2 lambda - integral of f x^2. */
@@ -149,10 +149,10 @@ static double bending_form(double t, void *data)
     const struct br_exact_part slope = {BR_EXACT_BENDING, false, 1};
     double factor;
     br_exact_at(p->exact, t, p->state);
-    br_function_evaluate(&s->bending.load.time, 1, &t, t, &factor);
+    br_function_evaluate(&s->bending.load.term[0].time, 1, &t, t, &factor);
     return 2 * s->bending.stiffness * value_of(p->exact, p->state, slope, s->length) +
            s->length * s->length * p->state->friction_force -
-           factor * s->bending.load.space.constant * gsl_pow_3(s->length) / 3;
+           factor * s->bending.load.term[0].space.constant * gsl_pow_3(s->length) / 3;
 }
 
 /* rho times the integral of the velocity times x^power */
@@ -254,7 +254,7 @@ static void test_mirror(void **unused)
     (void)unused;
     const struct br_scene up = lively_scene();
     struct br_scene down = up;
-    down.bending.load.space.constant *= -1;
+    down.bending.load.term[0].space.constant *= -1;
     struct br_exact *a = solve(&up, 1e-8), *b = solve(&down, 1e-8);
     compare(a, b, 1, 1, -1);
     br_exact_free(a);
@@ -273,10 +273,10 @@ static void test_units(void **unused)
     r.density *= m / l;
     r.axial.stiffness *= force;
     r.axial.viscosity *= force * t;
-    r.axial.load = formula_load(s.axial.load.space.constant * force / l, &slow_push);
+    r.axial.load = formula_load(s.axial.load.term[0].space.constant * force / l, &slow_push);
     r.bending.stiffness *= force * l * l;
     r.bending.viscosity *= force * l * l * t;
-    r.bending.load = formula_load(s.bending.load.space.constant * force / l, &slow_shake);
+    r.bending.load = formula_load(s.bending.load.term[0].space.constant * force / l, &slow_shake);
     r.contact.gap *= l;
     r.contact.stiffness *= force / l;
     r.friction.coefficient *= force / l;

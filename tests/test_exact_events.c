@@ -182,7 +182,8 @@ static void test_slip_to_rest(void **unused)
     (void)unused;
     struct br_scene s = {.length = 1, .duration = 100, .density = 0.1};
     s.bending = (struct br_bending){.modelled = true, .stiffness = 4, .viscosity = 3};
-    s.bending.load = (struct br_load){.space = {.constant = 8}, .time = {.constant = 1}};
+    s.bending.load =
+        (struct br_load){.term[0].space = {.constant = 8}, .term[0].time = {.constant = 1}};
     s.friction = (struct br_friction){BR_TRESCA, 1, 0};
     struct br_exact *exact = solve(&s, 1e-10);
     struct br_exact_state *state = new_state(exact);

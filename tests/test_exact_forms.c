@@ -190,7 +190,8 @@ static void test_closed_vibration(void **unused)
     const double k = 2, a = 3, load = 6, x = 0.7;
     struct br_scene s = {.length = 1, .duration = 4, .density = 2};
     s.axial = (struct br_axial){.modelled = true, .stiffness = a};
-    s.axial.load = (struct br_load){.space = {.constant = load}, .time = {.constant = 1}};
+    s.axial.load =
+        (struct br_load){.term[0].space = {.constant = load}, .term[0].time = {.constant = 1}};
     s.contact = (struct br_contact){true, 0.1, -a * k / tan(k)};
     const double c = s.contact.stiffness, bow = load / (2 * a);
     const double slope = (load + c * (bow + s.contact.gap)) / (a + c);
@@ -227,7 +228,7 @@ static void test_forced(void **unused)
     struct formula load = {f_forced,
                            {k, k * k * 2 - 0.3 * omega * omega, k * k * 0.1 * omega, omega}};
     struct formula velocity = {f_sine_shape, {omega, k}};
-    s.axial.load = (struct br_load){formula_function(&load), {.constant = 1}};
+    s.axial.load = (struct br_load){{{formula_function(&load), {.constant = 1}}}};
     s.axial.velocity = formula_function(&velocity);
     struct br_exact *exact = solve(&s, 1e-10);
     struct br_exact_state *state = new_state(exact);
@@ -256,7 +257,7 @@ static void test_pulse(void **unused)
     struct formula load = {f_pulse, {M_PI_2, 2, 0.1, 0.01}};
     struct br_scene s = {.length = 1, .duration = 2, .density = 1};
     s.axial = (struct br_axial){.modelled = true, .stiffness = 2, .viscosity = 0.1};
-    s.axial.load = (struct br_load){formula_function(&load), {.constant = 1}};
+    s.axial.load = (struct br_load){{{formula_function(&load), {.constant = 1}}}};
     struct br_exact *exact = solve(&s, 1e-9);
     struct br_exact_state *state = new_state(exact);
     const double allowed = br_exact_report(exact, BR_EXACT_AXIAL).error.displacement;
@@ -351,7 +352,8 @@ static void test_creep(void **unused)
     (void)unused;
     struct br_scene s = {.length = 2, .duration = 3};
     s.bending = (struct br_bending){.modelled = true, .stiffness = 5, .viscosity = 4};
-    s.bending.load = (struct br_load){.space = {.constant = 3}, .time = {.constant = 1}};
+    s.bending.load =
+        (struct br_load){.term[0].space = {.constant = 3}, .term[0].time = {.constant = 1}};
     s.friction = (struct br_friction){BR_TRESCA, 3, 0};
     struct br_exact *exact = solve(&s, 1e-10);
     struct br_exact_state *state = new_state(exact);

@@ -134,15 +134,23 @@ static void test_radau_stability(void **unused)
     }
 }
 
+static struct br_modes *modes_of(size_t count, double length, size_t degree)
+{
+    struct br_modes *modes = NULL;
+    struct br_pieces whole;
+    assert_int_equal(br_pieces_whole(&whole, length, count, NULL), BR_OK);
+    assert_int_equal(br_modes_create(&modes, &whole, degree, NULL), BR_OK);
+    br_pieces_clear(&whole);
+    return modes;
+}
+
 /* Frequencies of rods and beams: s_i = 1 / ((i - 1/2) pi), and 1 / beta_i^2. */
 static void test_modes(void **unused)
 {
     (void)unused;
     const double beta[] = {1.875104068711961166445, 4.694091132974174576436,
                            7.854757438237612564861, 10.99554073487546699067};
-    struct br_modes *rod = NULL, *beam = NULL;
-    assert_int_equal(br_modes_create(&rod, 30, 1, NULL), BR_OK);
-    assert_int_equal(br_modes_create(&beam, 30, 2, NULL), BR_OK);
+    struct br_modes *rod = modes_of(30, 1, 1), *beam = modes_of(30, 1, 2);
     for (size_t i = 0; i < 4; i++) {
         assert_near(rod->size[i], 1 / (((double)i + 0.5) * acos(-1)), 1e-15);
         assert_near(beam->size[i], 1 / (beta[i] * beta[i]), 1e-15);
@@ -157,18 +165,17 @@ static void test_modes(void **unused)
 /* Projections of a function that the modes can represent, (2 xi)^2. */
 static void check_projections(size_t m)
 {
-    struct br_modes *beam = NULL;
-    assert_int_equal(br_modes_create(&beam, m, 2, NULL), BR_OK);
+    struct br_modes *beam = modes_of(m, 2, 2);
     struct formula square = {f_power, {1, 2}}, slope = {f_power, {2, 1}};
     const struct br_function w = formula_function(&square), dw = formula_function(&slope);
     const double expected[] = {4.0 / 3, 4 / sqrt(12), 4 / sqrt(180)};
     double q[256], c[258];
     assert_true(m <= sizeof q / sizeof *q);
-    assert_int_equal(br_modes_project_energy(beam, &dw, 2, 2, q, NULL), BR_OK);
+    assert_int_equal(br_modes_project_energy(beam, &dw, 2, q, NULL), BR_OK);
     br_modes_expand(beam, 0, q, c);
     for (size_t k = 0; k < m + 2; k++)
         assert_near(c[k], k < 3 ? expected[k] : 0, 1e-12);
-    assert_int_equal(br_modes_project(beam, &w, 2, q, NULL), BR_OK);
+    assert_int_equal(br_modes_project(beam, &w, q, NULL), BR_OK);
     br_modes_expand(beam, 0, q, c);
     for (size_t k = 0; k < m + 2; k++)
         assert_near(c[k], k < 3 ? expected[k] : 0, 1e-12);

@@ -123,9 +123,9 @@ static void test_inertia(void **state)
         {axial_load, {0}}, {axial_tip, {0}}, {bending_load, {0}}, {bending_tip, {0}}};
     const struct br_function one = {.constant = 1};
     struct br_scene scene = bare_scene(density);
-    scene.axial.load = (struct br_load){formula_function(&f[0]), one};
+    scene.axial.load = (struct br_load){{{formula_function(&f[0]), one}}};
     scene.axial.tip_force = formula_function(&f[1]);
-    scene.bending.load = (struct br_load){formula_function(&f[2]), one};
+    scene.bending.load = (struct br_load){{{formula_function(&f[2]), one}}};
     scene.bending.tip_force = formula_function(&f[3]);
     scene.bending.tip_moment = formula_function(&f[1]); /* cos(L) times the stress, too */
     struct br_exact *exact = solve(&scene, 1e-10);

@@ -99,6 +99,30 @@ static void test_resumes(void **state)
     unlink(kept);
 }
 
+/* The cases of other options are neither taken for one's own nor thrown away. */
+static void test_other_kept(void **state)
+{
+    (void)state;
+    char kept[] = "/tmp/beamrate-map-XXXXXX", line[200] = "";
+    assert_true(close(mkstemp(kept)) == 0);
+    FILE *file = fopen(kept, "w");
+    fputs("beamrate extremes map 1, test, seed 99, rounding 0\n0 right 0 0.25 0 0 0;\n", file);
+    fclose(file);
+    struct br_error err = {0};
+    struct br_extreme_map map;
+    const struct br_extreme_wish wish = {
+        .seed = 98, .cases = 4, .kept = kept, .program = "test", .judge = planted};
+    REFUSED(br_extreme_map_run(&wish, &map, &err), BR_BAD_INPUT, "seed 99, rounding 0', expected");
+    assert_non_null(strstr(err.message, "seed 98, rounding 0'"));
+    br_extreme_map_clear(&map);
+    file = fopen(kept, "r");
+    assert_non_null(fgets(line, sizeof line, file));
+    assert_non_null(fgets(line, sizeof line, file));
+    fclose(file);
+    assert_string_equal(line, "0 right 0 0.25 0 0 0;\n");
+    unlink(kept);
+}
+
 /* What is left of a planted error is what was planted. */
 static void test_shrinks(void **state)
 {
@@ -257,10 +281,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_draws),       cmocka_unit_test(test_resumes),
-        cmocka_unit_test(test_shrinks),     cmocka_unit_test(test_counts),
-        cmocka_unit_test(test_other_units), cmocka_unit_test(test_sound_cases),
-        cmocka_unit_test(test_rate),        cmocka_unit_test(test_hard_cases),
-        cmocka_unit_test(test_boast),
+        cmocka_unit_test(test_other_kept),  cmocka_unit_test(test_shrinks),
+        cmocka_unit_test(test_counts),      cmocka_unit_test(test_other_units),
+        cmocka_unit_test(test_sound_cases), cmocka_unit_test(test_hard_cases),
+        cmocka_unit_test(test_rate),        cmocka_unit_test(test_boast),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,8 +59,8 @@ static struct br_load any_load(struct br_test_random *r, double size, double dur
         "1", "t/%.17g", "exp(t/%.17g)-1", "sin(30*t/%.17g)", "exp(-30*t/%.17g)", "t<0.3*%.17g?1:0"};
     char text[80];
     snprintf(text, sizeof text, times[br_test_index(r, 6)], duration);
-    struct br_load load = {.time = br_test_function(text)};
-    load.space.constant = br_test_index(r, 2) ? size : -size;
+    struct br_load load = {.term[0].time = br_test_function(text)};
+    load.term[0].space.constant = br_test_index(r, 2) ? size : -size;
     return load;
 }
 
@@ -196,7 +196,7 @@ static struct br_scene loaded(void)
     s.axial.stiffness = 11;
     s.bending.stiffness = 13;
     s.axial.load = s.bending.load = br_test_load("5");
-    s.bending.load.space = s.axial.load.space = (struct br_function){.constant = 5};
+    s.bending.load.term[0].space = s.axial.load.term[0].space = (struct br_function){.constant = 5};
     return s;
 }
 
@@ -230,8 +230,8 @@ static void test_jumps(void **state)
         struct br_scene s = loaded();
         const struct br_method method = method_of(solver, fixed_schemes(), 1, 0);
         s.axial.viscosity = solver % 2 ? 0 : 1e-20;
-        s.axial.load.time = br_test_function("t < 3.3 ? 1 : 0-2");
-        s.bending.load.time = br_test_function("t < 4.4 ? 1 : 3");
+        s.axial.load.term[0].time = br_test_function("t < 3.3 ? 1 : 0-2");
+        s.bending.load.term[0].time = br_test_function("t < 4.4 ? 1 : 3");
         struct br_march *march = br_test_march(&s, 20, 14, &method);
         for (size_t step = 1; step <= 14; step++) {
             br_test_advance(march, step);
@@ -410,14 +410,14 @@ static void test_beyond_double(void **state)
         struct br_scene s = loaded();
         /* An estimate of an error may say so first. */
         const char *const field = method.scheme->adaptive ? "" : "motion is lost to underflow";
-        s.axial.load.space.constant = 1e-310;
+        s.axial.load.term[0].space.constant = 1e-310;
         REFUSED(end_of(&s, &method, &err), BR_NOT_FINITE, field);
-        s.axial.load.space.constant = 1;
-        s.bending.load.space.constant = 1e-290;
+        s.axial.load.term[0].space.constant = 1;
+        s.bending.load.term[0].space.constant = 1e-290;
         REFUSED(end_of(&s, &method, &err), BR_NOT_FINITE, field);
-        s.bending.load.space.constant = 1e-200;
+        s.bending.load.term[0].space.constant = 1e-200;
         MUST(end_of(&s, &method, &err));
-        s.bending.load.space.constant = 1.7e308;
+        s.bending.load.term[0].space.constant = 1.7e308;
         REFUSED(end_of(&s, &method, &err), BR_NOT_FINITE, "bending load at t = ");
         br_scene_clear(&s);
     }

@@ -114,7 +114,7 @@ static void test_kinds(void **state)
     expect(text, " -1 -1 0\n");
     text = printed(br_heat_write_script);
     expect(text, "title 'right'");
-    expect(text, "title 'isn''t'");
+    expect(text, "title \"isn\\047t\"");
     expect(text, "title 'not told'");
     assert_null(strstr(text, "colorbox user"));
     br_heat_clear(&heat);

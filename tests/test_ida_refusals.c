@@ -72,8 +72,7 @@ static void fails(const char *load, double tolerance, const char *text)
         status = br_march_step(march, &err);
     REFUSED(status, BR_NOT_FINITE, text);
     br_march_free(march);
-    br_function_free(&scene.axial.load.space);
-    br_function_free(&scene.axial.load.time);
+    br_load_clear(&scene.axial.load);
 }
 
 static void test_failures(void **state)
@@ -98,8 +97,7 @@ static void test_thrown(void **state)
     scene.axial.load = br_test_load("t > 0.47 ? 1000 : 0");
     const struct br_test_end end = br_test_run(&scene, 100, 1, &m);
     CLOSE(end.u_tip, 500 * 0.53 * 0.53 * pow(scene.duration, 2) / scene.density, 0.05);
-    br_function_free(&scene.axial.load.space);
-    br_function_free(&scene.axial.load.time);
+    br_load_clear(&scene.axial.load);
 }
 
 int main(void)

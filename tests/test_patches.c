@@ -218,9 +218,9 @@ static void test_mirrored(void **state)
             struct br_march *march[2];
             for (int i = 0; i < 2; i++) {
                 scene[i] = br_test_bundled("example2");
-                br_function_free(&scene[i].bending.load.time);
-                scene[i].bending.load.time = br_test_function("2000*sin(9*t)");
-                scene[i].bending.load.space.constant = i ? -1 : 1;
+                br_function_free(&scene[i].bending.load.term[0].time);
+                scene[i].bending.load.term[0].time = br_test_function("2000*sin(9*t)");
+                scene[i].bending.load.term[0].space.constant = i ? -1 : 1;
                 scene[i].friction.regularisation = 1e-3;
                 march[i] = br_test_march(&scene[i], 17, 100, &method);
                 br_test_advance(march[i], 100);
@@ -254,10 +254,10 @@ static struct br_scene in_units(double metre, double second, double kilogram)
                      .coefficient = 1e4 * newton / metre,
                      .regularisation = 1e-10 * metre / second},
     };
-    s.axial.load.space.constant = 100 * newton / metre;
-    s.axial.load.time.constant = 1;
-    s.bending.load.space.constant = -1000 * newton / metre;
-    s.bending.load.time.constant = 1;
+    s.axial.load.term[0].space.constant = 100 * newton / metre;
+    s.axial.load.term[0].time.constant = 1;
+    s.bending.load.term[0].space.constant = -1000 * newton / metre;
+    s.bending.load.term[0].time.constant = 1;
     return s;
 }
 

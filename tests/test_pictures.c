@@ -95,7 +95,7 @@ static void test_bad_options(void **state)
                "n is 20001, expected at most 20000");
     cli_write_file("wall", "");
     cli_expect("run example2 --animate wall/x.gif", NULL, 2,
-               "--animate cannot write in the folder wall");
+               "--animate cannot make the folder wall");
     assert_false(cli_is_there("x.mp4"));
 }
 

@@ -254,10 +254,6 @@ static void test_own_error(void **state)
     (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("mms_slip");
-    if (!br_judge_best(&scene)) {
-        br_scene_clear(&scene);
-        skip(); /* no libmatheval */
-    }
     struct br_plan *plan = new_plan(&scene, 1e-5, NAN);
     MUST(br_plan_make(plan, &err));
     assert_int_equal(plan->end, BR_PLAN_MET);

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The check that judges everybody else is judged here: the solver is built with one planted bug
- * after the other, and `beamrate check --all`, or the certificate of a march, has to end with exit
- * code 1.
- * usage: test_planted [SHARD SHARDS], so that several can run side by side. */
+/* The check that judges everybody else is judged here: the program is built with one planted bug
+ * after the other, and a command that passes without the bug has to end with exit code 1. A check
+ * of one scene is a part of `beamrate check --all`, and cheaper. What no command can see, as where
+ * the judge itself is wrong, a test program has to see: it is built with the bug, and has to fail.
+ * By default a sample: the first bug of every file, and the first of every kind.
+ * usage: test_planted [SHARD SHARDS | NAME], so that several can run side by side, or one alone. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,11 +12,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/planted_marches.h"
+#include "tests/planted_bugs.h"
 #include "tests/support.h"
 
 static char folder[] = "/tmp/br_planted_XXXXXX";
-static char *commands; /* how ninja builds the program, a line each */
+static char *commands; /* how ninja builds the programs, a line each */
 
 static const char *environment(const char *name)
 {
@@ -102,6 +104,12 @@ static const char *compile(const struct planted_bug *bug, const char *from, int 
     return at + 1;
 }
 
+/* Whether a test program has to see the bug, and no command of the program. */
+static bool is_for_a_test(const struct planted_bug *bug)
+{
+    return strncmp(bug->command, "tests/", strlen("tests/")) == 0;
+}
+
 /* Every time the build compiles that source, for an instruction set each perhaps; and links the
  * objects before the libraries, so that they stand in for the sound ones. */
 static void build(const struct planted_bug *bug)
@@ -112,68 +120,90 @@ static void build(const struct planted_bug *bug)
         objects++;
     if (objects == 0)
         fail_msg("the build has no command for %s", bug->file);
-    char *link = command_with(commands, " -o cli/beamrate ");
-    char *rest = strstr(link, " -o cli/beamrate ");
+    char output[256];
+    snprintf(output, sizeof output, " -o %s ", is_for_a_test(bug) ? bug->command : "cli/beamrate");
+    char *link = command_with(commands, output), *rest = strstr(link, output);
     *rest = '\0';
-    rest += strlen(" -o cli/beamrate ");
-    if (run("cd '%s' && %s -o %s/beamrate %s/bug*.o %s >%s/log 2>&1", environment("BEAMRATE_BUILD"),
+    rest += strlen(output);
+    if (run("cd '%s' && %s -o %s/planted %s/bug*.o %s >%s/log 2>&1", environment("BEAMRATE_BUILD"),
             link, folder, folder, rest, folder) != 0)
         fail_msg("%s does not link: see %s/log", bug->name, folder);
     free(link);
 }
 
-/* The exit code of a whole check, that stops at the first scene that fails. */
-static int check(const char *program)
+/* The exit code of a command of a program; of one that takes too long it is none of its own. */
+static int run_beamrate(const char *program, const char *command)
 {
-    return run("BEAMRATE_DATA='%s' timeout 600 '%s' check --all --fail-fast --quiet --threads 1 "
-               ">%s/log 2>&1",
-               environment("BEAMRATE_SOURCE"), program, folder);
+    const bool takes_threads = strncmp(command, "run ", 4) != 0;
+    return run("BEAMRATE_DATA='%s' timeout 120 '%s' %s --quiet%s >%s/log 2>&1",
+               environment("BEAMRATE_SOURCE"), program, command,
+               takes_threads ? " --threads 1" : "", folder);
 }
 
-/* That of a march with its certificate. */
-static int certify(const char *program, const char *march)
+/* Once for each command. */
+static void sound_program_passes(const char *command)
 {
-    return run("BEAMRATE_DATA='%s' timeout 60 '%s' run %s --check --quiet >%s/log 2>&1",
-               environment("BEAMRATE_SOURCE"), program, march, folder);
+    static const char *passed[PLANTED_BUGS];
+    static size_t count;
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(passed[i], command) == 0)
+            return;
+    const int code = run_beamrate(environment("BEAMRATE"), command);
+    if (code != 0)
+        fail_msg("beamrate %s: exit code %d without a bug, expected 0", command, code);
+    passed[count++] = command;
 }
 
-static void sound_program_passes(void **state)
+static void a_command_sees(const struct planted_bug *bug)
 {
-    (void)state;
-    assert_int_equal(check(environment("BEAMRATE")), 0);
-    for (size_t i = 0; i < PLANTED_MARCHES; i++)
-        assert_int_equal(certify(environment("BEAMRATE"), planted_marches[i].run), 0);
-}
-
-static void catch (const struct planted_bug *bug, const char *march)
-{
-    if (br_test_quick())
-        skip();
-    plant(bug);
-    build(bug);
     char program[64];
-    snprintf(program, sizeof program, "%s/beamrate", folder);
-    const int code = march ? certify(program, march) : check(program);
+    snprintf(program, sizeof program, "%s/planted", folder);
+    sound_program_passes(bug->command);
+    const int code = run_beamrate(program, bug->command);
     if (code != 1)
-        fail_msg("%s: exit code %d, expected 1: a verdict failed", bug->name, code);
+        fail_msg("%s: beamrate %s: exit code %d, expected 1: a verdict failed", bug->name,
+                 bug->command, code);
+}
+
+/* Its exit code is the number of its tests that fail; one that takes too long has 124. That it
+ * passes without the bug is a test of its own. */
+static void a_test_sees(const struct planted_bug *bug)
+{
+    const int code = run("env -u BR_TEST_LONG timeout 120 %s/planted >%s/log 2>&1", folder, folder);
+    if (code < 1 || code >= 100)
+        fail_msg("%s: %s: exit code %d, expected some of its tests to fail", bug->name,
+                 bug->command, code);
 }
 
 static void bug_is_caught(void **state)
 {
-    catch (*state, NULL);
+    const struct planted_bug *bug = *state;
+    if (br_test_quick())
+        skip();
+    plant(bug);
+    build(bug);
+    if (is_for_a_test(bug))
+        a_test_sees(bug);
+    else
+        a_command_sees(bug);
 }
 
-static void march_is_caught(void **state)
+/* Whether it is the first of its file, or the first of its kind. */
+static bool is_in_sample(size_t bug)
 {
-    const struct planted_march *march = *state;
-    catch (&march->bug, march->run);
+    bool file = true, kind = true;
+    for (size_t i = 0; i < bug; i++) {
+        file = file && strcmp(planted_bugs[i].file, planted_bugs[bug].file) != 0;
+        kind = kind && strcmp(planted_bugs[i].kind, planted_bugs[bug].kind) != 0;
+    }
+    return file || kind;
 }
 
 static int read_commands(void **state)
 {
     (void)state;
     char command[4096];
-    snprintf(command, sizeof command, "'%s' -C '%s' -t commands cli/beamrate", environment("NINJA"),
+    snprintf(command, sizeof command, "'%s' -C '%s' -t commands", environment("NINJA"),
              environment("BEAMRATE_BUILD"));
     FILE *ninja = popen(command, "r");
     assert_non_null(ninja);
@@ -192,18 +222,15 @@ static int clean_up(void **state)
 
 int main(int argc, char **argv)
 {
+    const char *name = argc == 2 ? argv[1] : NULL;
     const size_t shard = argc == 3 ? strtoul(argv[1], NULL, 10) : 0;
     const size_t shards = argc == 3 ? strtoul(argv[2], NULL, 10) : 1;
-    static struct CMUnitTest tests[PLANTED_BUGS + PLANTED_MARCHES + 1];
-    size_t count = 0;
-    if (shard == 0)
-        tests[count++] =
-            (struct CMUnitTest){"sound_program_passes", sound_program_passes, NULL, NULL, NULL};
-    for (size_t i = shard; i < PLANTED_BUGS; i += shards)
-        tests[count++] = (struct CMUnitTest){planted_bugs[i].name, bug_is_caught, NULL, NULL,
-                                             (void *)&planted_bugs[i]};
-    for (size_t i = shard; i < PLANTED_MARCHES; i += shards)
-        tests[count++] = (struct CMUnitTest){planted_marches[i].bug.name, march_is_caught, NULL,
-                                             NULL, (void *)&planted_marches[i]};
+    static struct CMUnitTest tests[PLANTED_BUGS];
+    size_t count = 0, chosen = 0;
+    for (size_t i = 0; i < PLANTED_BUGS; i++)
+        if (name ? strcmp(planted_bugs[i].name, name) == 0
+                 : (br_test_long() || is_in_sample(i)) && chosen++ % shards == shard)
+            tests[count++] = (struct CMUnitTest){planted_bugs[i].name, bug_is_caught, NULL, NULL,
+                                                 (void *)&planted_bugs[i]};
     return _cmocka_run_group_tests("planted", tests, count, read_commands, clean_up);
 }

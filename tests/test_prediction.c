@@ -193,10 +193,8 @@ static void test_random(void **state)
             .reference = {n * (4 + 400 / n), k},
         };
         measure(&t, &scene, methods[br_test_index(&r, 5)], &shape, 0);
-        br_function_free(&scene.axial.load.space);
-        br_function_free(&scene.axial.load.time);
-        br_function_free(&scene.bending.load.space);
-        br_function_free(&scene.bending.load.time);
+        br_load_clear(&scene.axial.load);
+        br_load_clear(&scene.bending.load);
     }
     show("random scenes", &t);
     AT_MOST(0.8 * t.known, t.within_3);
@@ -258,8 +256,7 @@ static void test_inaccurate(void **state)
     assert_true(p.space.error > 0.05);
     p = predict(&s, &method, 3000, 100); /* now the waves are seen */
     assert_true(p.space.high < 0.05);
-    br_function_free(&s.axial.load.space);
-    br_function_free(&s.axial.load.time);
+    br_load_clear(&s.axial.load);
 }
 
 /* A solution that is zero is zero; beyond its limit a lagged contact has no error that is known. */
@@ -347,25 +344,60 @@ static void test_blow(void **state)
     assert_non_null(strstr(one->text, "near t = 0.455 s"));
     w = warnings_of(&s, &method, 20, 10000);
     assert_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
-    br_function_free(&s.axial.load.space);
-    br_function_free(&s.axial.load.time);
+    br_load_clear(&s.axial.load);
     s.axial.load = br_test_load("exp(-((t - 0.4567)/1e-5)^2)"); /* 2 samples a step */
     w = warnings_of(&s, &method, 3, 40000);
     assert_non_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
-    br_function_free(&s.axial.load.space);
-    br_function_free(&s.axial.load.time);
+    br_load_clear(&s.axial.load);
     s.axial.load = br_test_load("sin(2*3.14159265358979*130000.3*t)^2"); /* a sample of the steps */
     w = warnings_of(&s, &method, 1, 130000);
     assert_non_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
     w = warnings_of(&s, &method, 1, 20000000);
     assert_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
-    br_function_free(&s.axial.load.space);
-    br_function_free(&s.axial.load.time);
+    br_load_clear(&s.axial.load);
     s.axial.load = br_test_load("sin(3*t) + exp(t)");
     w = warnings_of(&s, &method, 20, 10);
     assert_null(br_warnings_find(&w, BR_WARN_LOAD_TIME));
-    br_function_free(&s.axial.load.space);
-    br_function_free(&s.axial.load.time);
+    br_load_clear(&s.axial.load);
+}
+
+/* However short it is, wherever it is, and however many steps there are; its share of all. */
+static void test_short_blows(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *load;
+        size_t steps;
+        const char *said; /* NULL: nothing */
+    } rows[] = {
+        {"exp(-((t - 0.31234567)/1e-9)^2)", 10,
+         " 1e+02 % of its impulse, most of it near t = 0.35"},
+        {"exp(-((t - 0.31234567)/1e-9)^2)", 1000000, " 1e+02 % of its impulse"},
+        {"exp(-((t - 0.31234567)/1e-9)^2)", 300000000, " 88 % of its impulse"},
+        {"exp(-((t - 0.31234567)/1e-9)^2)", 4000000000, NULL},
+        {"1 + 1e8/3.1415926^0.5*exp(-((t - 0.31234567)/1e-8)^2)", 60000, " 50 % of its impulse"},
+        {"1 + 1e6*exp(-((t - 0.31234567)/1e-8)^2)", 60000, NULL}, /* 2 % of it */
+        {"exp(-((x - 0.123)/1e-3)^2 - ((t - 0.456)/1e-6)^2)", 100, "near t = 0.455 s"},
+        {"x*1e3*(t > 0.70001 && t < 0.70002)", 200, "near t = 0.7025 s"},
+        {"t < 0.45 ? 0 : x", 3, " 9.1 % of its impulse"},
+        {"exp(-7 - x)*(t < 0.45)", 3, " 11 % of its impulse"},
+        {"t < 0.45 ? 0 : x", 30, NULL},
+    };
+    struct br_scene s = br_test_bare();
+    const struct br_method method = br_method_default();
+    struct br_error err;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const struct br_outlook o = {
+            .scene = &s, .method = &method, .n = 4000, .steps = rows[i].steps};
+        struct br_warnings w = {0};
+        s.bending.load = br_test_load(rows[i].load);
+        MUST(br_look_at_loads(&o, &w, &err));
+        const struct br_warning *one = br_warnings_find(&w, BR_WARN_LOAD_TIME);
+        if (rows[i].said ? !one || !strstr(one->text, rows[i].said) : one != NULL)
+            fail_msg("%s, %zu: %s", rows[i].load, rows[i].steps, one ? one->text : "no warning");
+        assert_null(br_warnings_find(&w, BR_WARN_LOAD_SPACE));
+        br_load_clear(&s.bending.load);
+    }
 }
 
 /* Of each kind the first is kept, the others are counted. */
@@ -389,11 +421,12 @@ static void test_list(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bundled),    cmocka_unit_test(test_random),
-        cmocka_unit_test(test_inaccurate), cmocka_unit_test(test_not_known),
-        cmocka_unit_test(test_warnings),   cmocka_unit_test(test_list),
-        cmocka_unit_test(test_blow),       cmocka_unit_test(test_extrapolated),
-        cmocka_unit_test(test_layer),      cmocka_unit_test(test_says_unknown),
+        cmocka_unit_test(test_bundled),      cmocka_unit_test(test_random),
+        cmocka_unit_test(test_inaccurate),   cmocka_unit_test(test_not_known),
+        cmocka_unit_test(test_warnings),     cmocka_unit_test(test_list),
+        cmocka_unit_test(test_blow),         cmocka_unit_test(test_short_blows),
+        cmocka_unit_test(test_layer),        cmocka_unit_test(test_extrapolated),
+        cmocka_unit_test(test_says_unknown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

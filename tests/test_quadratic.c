@@ -58,8 +58,8 @@ static void dense_load(const struct dense *d, double t, real load[MOST])
             const real xi = 0.5L + (q - 1) * sqrtl(0.15L);
             const double x = (double)(d->h * ((real)e + xi)), zero = 0;
             double space, time;
-            br_function_evaluate(&d->scene->axial.load.space, 1, &x, t, &space);
-            br_function_evaluate(&d->scene->axial.load.time, 1, &zero, t, &time);
+            br_function_evaluate(&d->scene->axial.load.term[0].space, 1, &x, t, &space);
+            br_function_evaluate(&d->scene->axial.load.term[0].time, 1, &zero, t, &time);
             const real force = d->h * weight[q] * space * time;
             load[2 * e] += force * (1 - xi) * (1 - 2 * xi);
             load[2 * e + 1] += force * 4 * xi * (1 - xi);

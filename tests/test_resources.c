@@ -59,10 +59,10 @@ static void test_memory(void **state)
                     method.axial_degree = scene.axial.modelled ? degree : 1;
                     compare(&scene, &method, N);
                 }
-    br_function_free(&scene.axial.load.time);
-    br_function_free(&scene.bending.load.time);
-    br_function_free(&scene.axial.load.space);
-    br_function_free(&scene.bending.load.space);
+    br_function_free(&scene.axial.load.term[0].time);
+    br_function_free(&scene.bending.load.term[0].time);
+    br_function_free(&scene.axial.load.term[0].space);
+    br_function_free(&scene.bending.load.term[0].space);
 }
 
 static void test_refused(void **state)

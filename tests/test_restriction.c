@@ -143,15 +143,15 @@ static void test_definition(void **unused)
     const size_t count = br_test_quick() ? 3 : sizeof elements / sizeof *elements;
     for (size_t i = 0; i < count; i++)
         for (size_t degree = 0; degree <= 3; degree++)
-            check_all(&(struct br_restriction_shape){21, elements[i], degree, 1.5});
+            check_all(&(struct br_restriction_shape){21, elements[i], degree, 1.5, 0, 1});
 }
 
 /* Elements that do not fill groups: the last one overlaps. */
 static void test_primes(void **unused)
 {
     (void)unused;
-    check_all(&(struct br_restriction_shape){20, 3203, 3, 1});
-    check_all(&(struct br_restriction_shape){19, 997, 1, 1});
+    check_all(&(struct br_restriction_shape){20, 3203, 3, 1, 0, 1});
+    check_all(&(struct br_restriction_shape){19, 997, 1, 1, 0, 1});
 }
 
 static void test_lengths(void **unused)
@@ -159,8 +159,8 @@ static void test_lengths(void **unused)
     (void)unused;
     static const size_t lengths[] = {1, 2, 3, 5, 60, 150};
     for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
-        check_all(&(struct br_restriction_shape){lengths[i], 13, 3, 1});
-        check_all(&(struct br_restriction_shape){lengths[i], 640, 1, 1});
+        check_all(&(struct br_restriction_shape){lengths[i], 13, 3, 1, 0, 1});
+        check_all(&(struct br_restriction_shape){lengths[i], 640, 1, 1, 0, 1});
     }
 }
 
@@ -171,7 +171,7 @@ static void test_nothing_left(void **unused)
     (void)unused;
     struct br_error err = {0};
     for (size_t degree = 0; degree <= 3; degree++) {
-        const struct br_restriction_shape shape = {25, 3200, degree, 1};
+        const struct br_restriction_shape shape = {25, 3200, degree, 1, 0, 1};
         struct br_restriction *r = NULL;
         double series[25] = {0}, rest = NAN;
         double *c = calloc(3200 * (degree + 1), sizeof *c);
@@ -194,7 +194,7 @@ static void test_not_finite(void **unused)
 {
     (void)unused;
     struct br_error err = {0};
-    const struct br_restriction_shape shape = {20, 3200, 3, 1};
+    const struct br_restriction_shape shape = {20, 3200, 3, 1, 0, 1};
     struct br_restriction *r = NULL;
     double *c = calloc(3200 * 4, sizeof *c);
     MUST(br_restriction_create(&r, &shape, &err));

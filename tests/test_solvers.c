@@ -269,8 +269,8 @@ static void test_not_finite(void **state)
         struct br_method method = br_method_default();
         method.solver = *s;
         struct br_scene scene = br_test_bare();
-        scene.bending.load =
-            (struct br_load){.space = {.constant = 1}, .time = br_test_function("sqrt(0.55 - t)")};
+        scene.bending.load = (struct br_load){.term[0].space = {.constant = 1},
+                                              .term[0].time = br_test_function("sqrt(0.55 - t)")};
         struct br_march *march = br_test_march(&scene, 3, 10, &method);
         br_test_advance(march, 5);
         REFUSED(br_march_step(march, &err), BR_NOT_FINITE, "t = 0.59999999999999998 s");

@@ -375,7 +375,7 @@ static void test_plots(void **state)
     }
     char *path = strdup(getenv("PATH"));
     bool missing = false;
-    setenv("PATH", "/nonexistent", 1);
+    setenv("PATH", "/dev/null", 1);
     REFUSED(br_plot_render(folder, "sample-h.gp", &missing, &err), BR_IO, "gnuplot");
     setenv("PATH", path, 1);
     free(path);

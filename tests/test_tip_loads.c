@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/expression.h"
+#include "study/scene/expression.h"
 #include "tests/support.h"
 
 enum { N = 7, STEPS = 30 };
@@ -76,8 +76,8 @@ static void test_superposition(void **state)
     double w[3][2 * (N + 1)];
     for (int which = 1; which <= 3; which++) {
         struct br_scene scene = creeping_scene();
-        assert_int_equal(br_expression("2*t", &scene.bending.load.time, NULL), BR_OK);
-        scene.bending.load.space.constant = which & 1 ? 5 : 0;
+        assert_int_equal(br_expression("2*t", &scene.bending.load.term[0].time, NULL), BR_OK);
+        scene.bending.load.term[0].space.constant = which & 1 ? 5 : 0;
         if (which & 2)
             assert_int_equal(br_expression("sin(3*t)", &scene.bending.tip_force, NULL), BR_OK);
         const struct br_method method = br_method_default();

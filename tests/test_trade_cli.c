@@ -142,7 +142,7 @@ static void test_rules(void **state)
                "--tolerances");
     cli_expect("trade example2 --methods bdf2,bdf2+umfpack,euler --n 10 --k 0.1,0.05 --repeats 1 "
                "--format csv --out r",
-               &(struct cli_circumstances){.path = "/nonexistent"}, 0, "gnuplot is not installed");
+               &(struct cli_circumstances){.path = "/dev/null"}, 0, "gnuplot is not installed");
     assert_true(cli_file_contains("r/example2-rules.gp", "'bdf2+umfpack'"));
     assert_true(cli_file_contains("r/example2-rules.gp", "'bdf2'"));
     assert_false(cli_file_contains("r/example2-rules.gp", "'euler'"));
@@ -159,7 +159,7 @@ static void test_over_the_limit(void **state)
                "--repeats 1 --out l --no-plots",
                NULL, 0, "over limit: over the time limit of 0.01 s");
     assert_true(cli_file_contains("l/example2.txt", "over limit: 1"));
-    assert_true(cli_file_contains("l/example2.csv", "over limit,0,0,\"over the time limit"));
+    assert_true(cli_file_contains("l/example2.csv", "over limit,0,0,over the time limit"));
     assert_true(has_row(cli_read("l/example2.txt"),
                         "euler+implicit 50 1e-08 - - - - - - - - - over limit"));
     cli_expect("trade example2 --methods euler+implicit --n 50 --k 1e-8 --time-limit 0.01 "

@@ -7,11 +7,13 @@
  * the worse one, but hardly by less than that. */
 static const double safety = 2;
 
-/* After an event velocity and force are not compared for this part of T. */
+/* After an event, a jump of the data or a blow that is as short, velocity and force are not
+ * compared for this part of T. */
 static const double layer = 1e-6;
 
 /* One field of two solutions, with room for their values at one time. */
 struct pair {
+    const struct br_outline *outline;
     const struct br_field *field[2];
     const struct br_law *law[2];
     const struct br_track *track[2];
@@ -31,7 +33,7 @@ static enum br_status pair_init(struct pair *p, const struct br_solution *a,
         const size_t m = p->field[i]->modes->count;
         p->q[i] = br_allocate(m, sizeof(double));
         p->v[i] = br_allocate(m, sizeof(double));
-        p->series[i] = br_allocate(m + 2, sizeof(double));
+        p->series[i] = br_allocate(br_modes_length(p->field[i]->modes, 0), sizeof(double));
         done = done && p->q[i] && p->v[i] && p->series[i];
     }
     return done ? BR_OK : br_no_memory(err, "the comparison of two solutions");
@@ -46,20 +48,30 @@ static void pair_clear(struct pair *p)
     }
 }
 
-/* Root mean square over the beam of the difference of two fields, derived `order` times
- * in x / L. */
+/* Element e's coefficients of solution i, derived `order` times; *terms of them. */
+static const double *series_on(const struct pair *p, size_t i, size_t order, size_t e,
+                               size_t *terms)
+{
+    const struct br_modes *modes = p->field[i]->modes;
+    *terms = modes->pieces.terms[e] + modes->degree - order;
+    return p->series[i] + br_pieces_at(&modes->pieces, e, modes->degree - order);
+}
+
+/* Root mean square over the beam of the difference of two fields on the same elements, derived
+ * `order` times in x / L. */
 static double distance(struct pair *p, double *const q[2], size_t order)
 {
-    size_t length[2];
-    for (size_t i = 0; i < 2; i++) {
+    for (size_t i = 0; i < 2; i++)
         br_modes_expand(p->field[i]->modes, order, q[i], p->series[i]);
-        length[i] = br_modes_length(p->field[i]->modes, order);
-    }
     double sum = 0;
-    for (size_t k = 0; k < length[0] || k < length[1]; k++) {
-        const double a = k < length[0] ? p->series[0][k] : 0;
-        const double b = k < length[1] ? p->series[1][k] : 0;
-        sum += (a - b) * (a - b);
+    for (size_t e = 0; e < p->field[0]->modes->pieces.count; e++) {
+        size_t length[2];
+        const double *const c[2] = {series_on(p, 0, order, e, &length[0]),
+                                    series_on(p, 1, order, e, &length[1])};
+        for (size_t k = 0; k < length[0] || k < length[1]; k++) {
+            const double a = k < length[0] ? c[0][k] : 0, b = k < length[1] ? c[1][k] : 0;
+            sum += (a - b) * (a - b);
+        }
     }
     return sqrt(sum);
 }
@@ -142,13 +154,15 @@ static void compare_field(struct pair *p, double duration, struct br_exact_repor
                 const struct br_tip *tip = &p->track[i]->tip[n];
                 const double t = tip->start + inside[j] * tip->length;
                 const bool smooth = !in_layer(p->track[0], t, layer * duration) &&
-                                    !in_layer(p->track[1], t, layer * duration);
+                                    !in_layer(p->track[1], t, layer * duration) &&
+                                    !br_outline_is_sharp(p->outline, t, layer * duration);
                 compare_at(p, t, smooth, report);
             }
     compare_at(p, duration, true, report);
 }
 
 enum br_status br_exact_compare(struct br_exact *exact, const struct br_solution *other,
+                                const struct br_outline outline[BR_EXACT_FIELDS],
                                 struct br_error *err)
 {
     enum br_status status = BR_OK;
@@ -157,7 +171,7 @@ enum br_status br_exact_compare(struct br_exact *exact, const struct br_solution
         *report = (struct br_exact_report){0};
         if (!exact->solution->track[which])
             continue;
-        struct pair p = {0};
+        struct pair p = {.outline = &outline[which]};
         report->modes = exact->solution->field[which]->modes->count;
         report->steps = exact->solution->track[which]->steps;
         exact->noise[which] = 1e-13 * exact->solution->track[which]->free_velocity;

@@ -4,9 +4,13 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
+#include "reference/exact/outline.h"
 #include "reference/exact/solution.h"
 
 enum { FIRST_MODES = 12, LEAST_MODES = 18 };
+
+/* Some 20 seconds of a core, see effort.h. */
+static const double most_work = 2e7;
 
 static struct br_exact_options with_defaults(const struct br_exact_options *options)
 {
@@ -55,8 +59,6 @@ static struct br_fineness fineness(const struct br_exact_options *o, double dura
     return (struct br_fineness){
         .modes = modes,
         .max_steps = o->max_steps,
-        .stop = o->stop,
-        .stop_self = o->stop_self,
         .tolerance = o->tolerance * (finer ? 0.1 : 0.4),
         .first_step = duration * (finer ? 2e-13 : 1e-12),
     };
@@ -79,6 +81,23 @@ static double badness(const struct br_exact *exact, const struct br_exact_option
     return worst;
 }
 
+static void scale_size(struct br_exact_size *size, double factor)
+{
+    size->displacement *= factor;
+    size->velocity *= factor;
+    size->force *= factor;
+    size->strain_rate *= factor;
+}
+
+/* size += share * of */
+static void add_to_size(struct br_exact_size *size, double share, const struct br_exact_size *of)
+{
+    size->displacement += share * of->displacement;
+    size->velocity += share * of->velocity;
+    size->force += share * of->force;
+    size->strain_rate += share * of->strain_rate;
+}
+
 static enum br_status refuse(const struct br_exact *exact, double worst,
                              const struct br_error *cause, struct br_error *err)
 {
@@ -93,45 +112,153 @@ static enum br_status refuse(const struct br_exact *exact, double worst,
                    exact->report[0].modes, exact->report[1].modes, worst);
 }
 
-/* The next solution, and how far it is from the last one: *worst, infinite where
- * that cannot be said because of `cause`. */
-static enum br_status next_round(struct br_exact *exact, struct br_solution **before,
-                                 const struct br_scene *scene, const struct br_fineness *fine,
-                                 struct br_error *cause)
+/* The search for two solutions that agree. */
+struct search {
+    struct br_exact *exact;
+    const struct br_scene *scene;
+    const struct br_exact_options *o;
+    struct br_outline outline[BR_EXACT_FIELDS];
+    struct br_effort effort;
+    struct br_solution *before;
+    double missed;              /* the largest of the outlines */
+    double worst, worst_before; /* of the last two pairs, infinite where that cannot be said */
+    double round_work;          /* of the last round */
+    struct br_error cause;      /* why not */
+};
+
+/* The next solution, and how far it is from the last one. Where it fails, more modes may help;
+ * where no work is left the last pair stays. */
+static enum br_status next_round(struct search *s, const struct br_fineness *fine)
 {
-    br_solution_free(*before);
-    *before = exact->solution;
-    *cause = (struct br_error){0};
-    const enum br_status status = br_solution_create(&exact->solution, scene, fine, cause);
-    if (!status && *before)
-        return br_exact_compare(exact, *before, cause);
-    return status == BR_NOT_FINITE ? BR_OK : status; /* more modes may help */
+    struct br_exact *exact = s->exact;
+    struct br_solution *next = NULL;
+    const double done = s->effort.done;
+    s->cause = (struct br_error){0};
+    enum br_status status =
+        br_solution_create(&next, s->scene, s->outline, fine, &s->effort, &s->cause);
+    s->round_work = s->effort.done - done;
+    if (status == BR_NOT_FINITE)
+        return BR_OK;
+    if (status)
+        return status;
+    br_solution_free(s->before);
+    s->before = exact->solution;
+    exact->solution = next;
+    if (!s->before)
+        return BR_OK;
+    status = br_exact_compare(exact, s->before, s->outline, &s->cause);
+    s->worst_before = s->worst;
+    s->worst = badness(exact, s->o);
+    return status;
+}
+
+/* Whether the work that was allowed is done. */
+static bool is_spent(const struct search *s)
+{
+    return s->effort.done > s->effort.most;
+}
+
+static size_t count_modes(const struct search *s, size_t which, size_t modes)
+{
+    size_t count = 0;
+    for (size_t e = 0; e + 1 < s->outline[which].end.count; e++)
+        count += br_outline_terms(&s->outline[which], e, modes);
+    return count;
+}
+
+/* Modes of a next round, 0 if it may not be: elements multiply what is allowed for one by four. */
+static size_t next_modes(const struct search *s, size_t modes)
+{
+    const size_t most = s->o->max_modes, more = modes * 3 / 2;
+    const size_t next = !modes ? FIRST_MODES : more < most ? more : most;
+    for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
+        if (count_modes(s, which, next) > 4 * most)
+            return 0;
+    return modes == most || is_spent(s) ? 0 : next;
+}
+
+/* Whether the last pair is all but what was wished for, and more modes do not help: the steps' own
+ * errors are left. */
+static bool is_stuck(const struct search *s)
+{
+    return s->worst <= fmin(10, s->o->acceptable / s->o->tolerance) &&
+           s->worst > 0.5 * s->worst_before && s->worst < 2 * s->worst_before;
+}
+
+/* Whether the last pair will do though it is not what was wished for: either it is all but that, or
+ * the distances shrink, and what is to come is added to the estimate. */
+static bool will_do(struct search *s)
+{
+    const double near = 100, slow = 0.8, ratio = s->worst / s->worst_before;
+    if (!(s->worst <= s->o->acceptable / s->o->tolerance) || (s->cause.status && !is_spent(s)))
+        return false;
+    if (s->worst <= near)
+        return true;
+    for (size_t i = 0; i < BR_EXACT_FIELDS && ratio <= slow; i++)
+        scale_size(&s->exact->report[i].error, 1 / (1 - ratio));
+    return ratio <= slow;
 }
 
 /* Makes solutions with more and more modes until two agree. */
-static enum br_status refine(struct br_exact *exact, const struct br_scene *scene,
+static enum br_status refine(struct search *s, struct br_error *err)
+{
+    const double enough = fmax(1, s->missed / s->o->tolerance);
+    enum br_status status = BR_OK;
+    size_t modes = next_modes(s, 0);
+    if (!modes)
+        return br_fail(err, BR_NOT_FINITE,
+                       "no exact solution: the loads and initial data ask for %zu and %zu elements",
+                       s->outline[0].end.count, s->outline[1].end.count);
+    for (size_t round = 0; !status && modes && !(s->worst <= enough) && !is_stuck(s); round++) {
+        const struct br_fineness fine = fineness(s->o, s->exact->duration, round, modes);
+        status = next_round(s, &fine);
+        modes = next_modes(s, modes);
+    }
+    if (status)
+        return br_fail(err, status, "%s", s->cause.message);
+    if (!(s->worst <= enough) && !will_do(s))
+        return refuse(s->exact, s->worst, &s->cause, err);
+    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
+        add_to_size(&s->exact->report[i].error, s->missed, &s->exact->report[i].largest);
+    return br_exact_list_events(s->exact, s->before, err);
+}
+
+static enum br_status outline(struct search *s, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t which = 0; which < BR_EXACT_FIELDS && !status; which++) {
+        const bool axial = which == BR_EXACT_AXIAL;
+        if (!(axial ? s->scene->axial.modelled : s->scene->bending.modelled))
+            continue;
+        status = br_outline_init(&s->outline[which], s->scene, axial ? 1 : 2, err);
+        s->missed = fmax(s->missed, s->outline[which].missed);
+    }
+    if (!status && !(s->missed <= s->o->acceptable))
+        status =
+            br_fail(err, BR_NOT_FINITE,
+                    "no exact solution: %.2g of a load may be in places that are too narrow to "
+                    "be looked into",
+                    s->missed);
+    return status;
+}
+
+static enum br_status search(struct br_exact *exact, const struct br_scene *scene,
                              const struct br_exact_options *o, struct br_error *err)
 {
-    struct br_solution *before = NULL;
-    struct br_error cause;
-    double worst = INFINITY;
-    enum br_status status = BR_OK;
-    size_t modes = FIRST_MODES;
-    for (size_t round = 0; !status && !(worst <= 1); round++) {
-        const struct br_fineness fine = fineness(o, exact->duration, round, modes);
-        status = next_round(exact, &before, scene, &fine, &cause);
-        worst = before && exact->solution ? badness(exact, o) : INFINITY;
-        if (status)
-            br_fail(err, status, "%s", cause.message);
-        else if (modes == o->max_modes && worst <= o->acceptable / o->tolerance)
-            break;
-        else if (modes == o->max_modes && !(worst <= 1))
-            status = refuse(exact, worst, &cause, err);
-        modes = modes * 3 / 2 < o->max_modes ? modes * 3 / 2 : o->max_modes;
-    }
+    struct search s = {
+        .exact = exact,
+        .scene = scene,
+        .o = o,
+        .effort = {0, most_work, o->stop, o->stop_self, o->progress, o->stop_self},
+        .worst = INFINITY,
+        .worst_before = INFINITY,
+    };
+    enum br_status status = outline(&s, err);
     if (!status)
-        status = br_exact_list_events(exact, before, err);
-    br_solution_free(before);
+        status = refine(&s, err);
+    br_solution_free(s.before);
+    for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
+        br_outline_clear(&s.outline[which]);
     return status;
 }
 
@@ -148,7 +275,7 @@ enum br_status br_exact_create(struct br_exact **out, const struct br_scene *sce
         return br_no_memory(err, "the exact solution");
     gsl_set_error_handler_off(); /* it would end the program */
     exact->duration = scene->duration;
-    status = refine(exact, scene, &o, err);
+    status = search(exact, scene, &o, err);
     if (status)
         br_exact_free(exact);
     else

@@ -24,10 +24,13 @@ struct br_exact_options {
     double acceptable;     /* the tolerance: up to this, 1e-3 at most, will do where max_modes are
                               not enough for the tolerance; the report tells what was reached */
     double rate_tolerance; /* ten times tolerance, and at least that: of velocities and forces */
-    size_t max_modes;      /* 256 per field, 18 to 1000 */
+    size_t max_modes;      /* 256 per field, 18 to 1000; on several elements four times as many in
+                              all */
     size_t max_steps;      /* 20000 per field */
     bool (*stop)(void *self); /* asked every step; true: give up, with BR_INTERRUPTED */
     void *stop_self;
+    /* told every step the share of the most work that is done, 0 to 1; self is stop_self */
+    void (*progress)(void *self, double share);
 };
 
 /* Solves the scene (only read, and not needed afterwards) twice or more, each

@@ -91,7 +91,7 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
     e->axial_degree = r->axial_degree;
     e->length = r->scene->length;
     e->duration = r->scene->duration;
-    struct br_exact_options options = {.acceptable = 1e-8};
+    struct br_exact_options options = {.acceptable = 1e-5};
     if (r->modest)
         options.max_modes = 64;
     options.stop = r->stop;

@@ -74,7 +74,7 @@ static double step_error(const struct march *m, const struct scale *scale)
     const double before = br_field_norm(s->field, s->series + S - 2, S);
     const double velocity = larger(last, before / 8);
     const double force = larger(fabs(s->tip.force[S - 1]), fabs(s->tip.force[S - 2]) / 8);
-    const double noise = 10 * DBL_EPSILON * s->free_size / m->options->tolerance;
+    const double noise = 10 * (DBL_EPSILON * s->free_size + s->load_noise) / m->options->tolerance;
     double error =
         ratio(velocity * s->tip.length, scale->displacement + (velocity + noise) * s->tip.length);
     error = larger(error, ratio(velocity, scale->velocity + noise));
@@ -212,13 +212,46 @@ static void end_phase(struct march *m, size_t i)
     enter(m, br_law_next(&over), error);
 }
 
-/* One step towards `limit`, where the law may change. */
+/* How long a step may be, lest it overlook something that the data do. */
+static double reach(const struct march *m)
+{
+    double most = INFINITY;
+    for (size_t i = 0; i < 2; i++)
+        if (m->options->outline[i])
+            most = fmin(most, br_outline_reach(m->options->outline[i], m->s->time));
+    return fmax(most, m->options->first_step);
+}
+
+/* What half a unit in the last place of t does to a load that changes within its cells. */
+static double blur(const struct march *m, double h)
+{
+    const double t = m->s->time + h / 2;
+    double cell = INFINITY;
+    for (size_t i = 0; i < 2; i++)
+        if (m->options->outline[i])
+            cell = fmin(cell, br_outline_cell(m->options->outline[i], t));
+    return DBL_EPSILON * t / cell;
+}
+
+/* A step of h, or a little less, that ends on a number, so that steps leave nothing out between
+ * them. */
+static double exact_step(const struct br_stepper *s, double h)
+{
+    double end = s->time + h;
+    if (end - s->time > h)
+        end = nextafter(end, s->time);
+    return end > s->time ? end - s->time : h;
+}
+
+/* One step towards `limit`, where the law or the load may change. */
 static void step(struct march *m, double limit)
 {
     struct br_stepper *s = m->s;
-    const double left = limit - s->time;
-    const bool last = m->h >= left;
-    const double h = last ? left : fmin(m->h, fmax(left / 2, m->options->first_step));
+    const double left = limit - s->time, wish = fmin(m->h, reach(m));
+    const bool last = wish >= left;
+    const double h =
+        last ? left : exact_step(s, fmin(wish, fmax(left / 2, m->options->first_step)));
+    s->blur = blur(m, h);
     m->status = br_stepper_try(s, h, m->err);
     if (m->status)
         return;
@@ -247,28 +280,85 @@ static void step(struct march *m, double limit)
 static void march_to(struct march *m, double limit)
 {
     while (!m->status && m->s->time < limit) {
-        if (m->options->stop && m->options->stop(m->options->stop_self))
-            m->status = br_fail(m->err, BR_INTERRUPTED, "interrupted");
-        else if (m->track->steps >= m->options->max_steps)
+        if (m->track->steps >= m->options->max_steps)
             m->status = br_fail(m->err, BR_NOT_FINITE, "more than %zu time steps until %.17g s",
                                 m->options->max_steps, m->s->time);
         else
             step(m, limit);
+        if (!m->status)
+            m->status = br_effort_spend(m->options->effort, m->s->work, m->err);
+        m->s->work = 0;
     }
 }
 
-static void march(struct march *m)
+/* A time at which the law or the load may change, and how well it is known. */
+struct change {
+    struct br_interval at;
+    double error;
+};
+
+static int by_time(const void *a, const void *b)
+{
+    const struct change *x = a, *y = b;
+    return (x->at.low > y->at.low) - (x->at.low < y->at.low);
+}
+
+/* change (out): t = 0, jumps of the load, and phases of the field that this one depends on, in
+ * order of time; those that no step fits between are one. Returns their number. */
+static size_t list_changes(const struct march *m, struct change *change)
+{
+    const struct br_breaks *jump = &m->options->outline[0]->jump;
+    const struct br_track *axial = m->s->law->axial;
+    size_t count = 1, kept = 0;
+    change[0] = (struct change){{0, 0}, 0};
+    for (size_t i = 0; i < jump->count; i++)
+        change[count++] = (struct change){jump->at[i], 0};
+    for (size_t i = 1; axial && i < axial->entries; i++)
+        change[count++] =
+            (struct change){{axial->entry[i].time, axial->entry[i].time}, axial->entry[i].error};
+    qsort(change, count, sizeof *change, by_time);
+    for (size_t i = 1; i < count; i++) {
+        struct change *last = &change[kept];
+        if (change[i].at.low - last->at.high > 4 * DBL_EPSILON * last->at.high) {
+            change[++kept] = change[i];
+            continue;
+        }
+        last->at.high = fmax(last->at.high, change[i].at.high);
+        last->error = fmax(last->error, change[i].error);
+    }
+    return kept + 1;
+}
+
+/* The phase in which the march goes on after a change. */
+static enum br_phase phase_now(const struct march *m)
+{
+    const struct br_stepper *s = m->s;
+    if (s->law->contact && s->time > 0) /* a jump of the load moves nothing */
+        return s->phase;
+    return br_law_phase(s->law, s->time, s->phase, s->tip_displacement, s->tip_velocity);
+}
+
+static void march(struct march *m, const struct change *change, size_t count)
+{
+    for (size_t i = 0; i < count && !m->status; i++) {
+        const bool last = i + 1 == count;
+        m->s->from = change[i].at.high;
+        m->s->to = last ? m->options->duration : change[i + 1].at.low;
+        enter(m, phase_now(m), change[i].error);
+        march_to(m, last ? m->options->duration : change[i + 1].at.high);
+    }
+}
+
+static void march_all(struct march *m)
 {
     const struct br_track *axial = m->s->law->axial;
-    const size_t breaks = axial ? axial->entries : 1; /* the first is t = 0 */
-    for (size_t i = 0; i < breaks && !m->status; i++) {
-        const bool last = i + 1 == breaks;
-        enter(m,
-              br_law_phase(m->s->law, m->s->time, m->s->phase, m->s->tip_displacement,
-                           m->s->tip_velocity),
-              i ? axial->entry[i].error : 0);
-        march_to(m, last ? m->options->duration : axial->entry[i + 1].time);
-    }
+    const size_t most = 1 + m->options->outline[0]->jump.count + (axial ? axial->entries : 0);
+    struct change *change = br_allocate(most, sizeof *change);
+    if (change)
+        march(m, change, list_changes(m, change));
+    else
+        m->status = br_no_memory(m->err, "the exact solution");
+    free(change);
 }
 
 enum br_status br_march(const struct br_field *field, const struct br_law *law,
@@ -281,7 +371,7 @@ enum br_status br_march(const struct br_field *field, const struct br_law *law,
     if (!m.status)
         m.status = br_track_create(&m.track, field->modes->count, options->gap, err);
     if (!m.status)
-        march(&m);
+        march_all(&m);
     br_stepper_free(m.s);
     if (m.status)
         br_track_free(m.track);

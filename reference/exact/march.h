@@ -3,17 +3,20 @@
 #ifndef BR_MARCH_H
 #define BR_MARCH_H
 
+#include "reference/exact/effort.h"
 #include "reference/exact/field.h"
 #include "reference/exact/law.h"
+#include "reference/exact/outline.h"
 
 struct br_march_options {
-    double duration;   /* T, s */
-    double gap;        /* of the contact, m; 0 for friction */
+    double duration;                     /* T, s */
+    const struct br_outline *outline[2]; /* of this field, and NULL or the one that it depends on:
+                                            the steps that they ask for */
+    double gap;                          /* of the contact, m; 0 for friction */
     double tolerance;  /* what the last coefficients of a step may be of the largest value */
     double first_step; /* s: length of the first step of a phase, always accepted */
     size_t max_steps;
-    bool (*stop)(void *self); /* true: give up; NULL: never */
-    void *stop_self;
+    struct br_effort *effort;
 };
 
 /* *out (owned by the caller): the history of the field under the law, both of

@@ -2,8 +2,8 @@
 #include <math.h>
 
 #include "reference/exact/combine.h"
+#include "reference/exact/piecewise.h"
 #include "reference/exact/query.h"
-#include "reference/exact/restriction.h"
 
 struct br_exact_projection {
     struct br_exact_part part;
@@ -11,7 +11,7 @@ struct br_exact_projection {
     br_combine *combine;
     double *expand; /* modes x length: each mode's series */
     double *series; /* length, workspace */
-    struct br_restriction *restriction;
+    struct br_piecewise *piecewise;
 };
 
 /* The series of every mode. */
@@ -19,7 +19,7 @@ static enum br_status fill(struct br_exact_projection *p, const struct br_field 
                            struct br_error *err)
 {
     double *q = br_allocate(p->modes, sizeof *q);
-    double *c = br_allocate(field->modes->count + field->modes->degree, sizeof *c);
+    double *c = br_allocate(br_modes_length(field->modes, 0), sizeof *c);
     const double scale = pow(field->length, -(double)p->part.order);
     for (size_t i = 0; i < p->modes && q && c; i++) {
         q[i] = 1;
@@ -44,10 +44,10 @@ static enum br_status init(struct br_exact_projection *p, const struct br_field 
     p->series = br_allocate(p->length, sizeof *p->series);
     if (!p->expand || !p->series)
         return br_no_memory(err, "a projection");
-    const struct br_restriction_shape shape = {p->length, mesh->elements, mesh->degree,
-                                               sqrt(field->length)};
     const enum br_status status = fill(p, field, err);
-    return status ? status : br_restriction_create(&p->restriction, &shape, err);
+    return status ? status
+                  : br_piecewise_create(&p->piecewise, &field->modes->pieces,
+                                        field->modes->degree - p->part.order, mesh, err);
 }
 
 enum br_status br_exact_projection_create(struct br_exact_projection **out,
@@ -79,7 +79,7 @@ void br_exact_projection_free(struct br_exact_projection *p)
 {
     if (!p)
         return;
-    br_restriction_free(p->restriction);
+    br_piecewise_free(p->piecewise);
     free(p->expand);
     free(p->series);
     free(p);
@@ -91,5 +91,5 @@ void br_exact_projection_apply(struct br_exact_projection *p, const struct br_ex
     (void)exact;
     p->combine(p->modes, state->mode[p->part.field][p->part.velocity], p->length, p->expand,
                p->series);
-    br_restriction_apply(p->restriction, p->series, c, rest);
+    br_piecewise_apply(p->piecewise, p->series, c, rest);
 }

@@ -94,8 +94,8 @@ enum br_status br_exact_check_part(const struct br_exact *exact, const struct br
     return BR_OK;
 }
 
-size_t br_exact_series(const struct br_exact *exact, const struct br_exact_state *state,
-                       const struct br_exact_part *part, double *c)
+void br_exact_series(const struct br_exact *exact, const struct br_exact_state *state,
+                     const struct br_exact_part *part, double *c)
 {
     const struct br_field *field = exact->solution->field[part->field];
     const size_t degree = field->modes->degree;
@@ -103,7 +103,6 @@ size_t br_exact_series(const struct br_exact *exact, const struct br_exact_state
     const size_t length = br_modes_length(field->modes, order);
     br_modes_expand(field->modes, order, state->mode[part->field][part->velocity], c);
     cblas_dscal((int)length, pow(field->length, -(double)part->order), c, 1);
-    return length;
 }
 
 enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_exact_state *state,
@@ -114,16 +113,22 @@ enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_e
     if (status)
         return status;
     const struct br_field *field = exact->solution->field[part->field];
-    const size_t room = field->modes->count + field->modes->degree;
-    const bool derive = part->order > field->modes->degree;
+    const struct br_pieces *pieces = &field->modes->pieces;
+    const size_t room = br_modes_length(field->modes, 0), degree = field->modes->degree;
+    const bool derive = part->order > degree;
+    const size_t extra = derive ? 0 : degree - part->order;
     double *c = br_allocate(3 * room, sizeof *c);
     if (!c)
         return br_no_memory(err, "a series");
     double *p = c + room, *dp = p + room;
-    const size_t length = br_exact_series(exact, state, part, c);
+    br_exact_series(exact, state, part, c);
     for (size_t i = 0; i < count; i++) {
-        br_legendre_derivative(length, x[i] / field->length, p, dp);
-        value[i] = cblas_ddot((int)length, c, 1, derive ? dp : p, 1);
+        const size_t e = br_pieces_find(pieces, x[i]), terms = pieces->terms[e] + extra;
+        const double h = br_pieces_width(pieces, e), *here = &c[br_pieces_at(pieces, e, extra)];
+        br_legendre_derivative(terms, (x[i] - pieces->end[e]) / (h * field->length), p, dp);
+        value[i] = cblas_ddot((int)terms, here, 1, derive ? dp : p, 1) / sqrt(h);
+        if (derive)
+            value[i] /= h;
     }
     free(c);
     return BR_OK;

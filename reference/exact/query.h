@@ -10,10 +10,9 @@
 enum br_status br_exact_check_part(const struct br_exact *exact, const struct br_exact_part *part,
                                    size_t extra, struct br_error *err);
 
-/* c (out, modes + 2): coefficients of the part's series in p_k(x / L); for an
- * order above the field's, of the series that is yet to be derived once, by
- * x / L. Returns their number. */
-size_t br_exact_series(const struct br_exact *exact, const struct br_exact_state *state,
-                       const struct br_exact_part *part, double *c);
+/* c (out, br_modes_length(0)): coefficients of the part's series (pieces.h); for an order above the
+ * field's, of the series that is yet to be derived once, by x / L. */
+void br_exact_series(const struct br_exact *exact, const struct br_exact_state *state,
+                     const struct br_exact_part *part, double *c);
 
 #endif

@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "reference/exact/combine.h"
-#include "reference/exact/interval.h"
 #include "reference/exact/remainder.h"
+#include "reference/exact/subinterval.h"
 
 /* Local coefficients are left out of the tables where the root of the sum of their squares is
  * below this part of the series, and out of a sum at this part of what they are added to. */
@@ -31,7 +31,7 @@ struct br_restriction {
 /* The norm of a function on an element whose coefficients have the norm 1 on [0, 1]. */
 static double scale(const struct br_restriction *r)
 {
-    return r->shape.scale / sqrt((double)r->shape.elements);
+    return r->shape.scale * sqrt((double)r->shape.width / (double)r->shape.elements);
 }
 
 /* ---- the choice of groups ---- */
@@ -40,7 +40,7 @@ static double scale(const struct br_restriction *r)
  * where phi spans 2 sqrt(h). */
 static double likely_terms(const struct br_restriction_shape *s, size_t group)
 {
-    const double h = (double)group / (double)s->elements;
+    const double h = (double)group / (double)s->elements * (double)s->width;
     return fmin((double)s->length, 8 + 2 * (double)s->length * sqrt(h));
 }
 
@@ -70,23 +70,24 @@ static size_t first_element(const struct br_restriction *r, size_t g)
 }
 
 /* The series on group g. */
-static void move_to(const struct br_restriction *r, size_t g, struct br_interval *series)
+static void move_to(const struct br_restriction *r, size_t g, struct br_subinterval *series)
 {
-    const long double n = (long double)r->shape.elements;
-    br_interval_move(series, (long double)first_element(r, g) / n, (long double)r->group / n);
+    const long double h = r->shape.width / (long double)r->shape.elements;
+    br_subinterval_move(series, r->shape.first + h * (long double)first_element(r, g),
+                        h * (long double)r->group);
 }
 
 /* A group's series, of r->terms, on its element j. */
-static void move_inside(const struct br_restriction *r, size_t j, struct br_interval *local)
+static void move_inside(const struct br_restriction *r, size_t j, struct br_subinterval *local)
 {
-    br_interval_move(local, (long double)j / (long double)r->group, 1 / (long double)r->group);
+    br_subinterval_move(local, (long double)j / (long double)r->group, 1 / (long double)r->group);
 }
 
 /* ---- what is left out ---- */
 
 /* |R_0 c|^2 is what the group's elements from `first` on leave out of its series c. */
 static enum br_status reduce_group(const struct br_restriction *r, size_t first,
-                                   struct br_interval *local, struct br_remainder *group,
+                                   struct br_subinterval *local, struct br_remainder *group,
                                    struct br_error *err)
 {
     const size_t terms = local->count, kept = r->shape.degree + 1;
@@ -103,8 +104,9 @@ static enum br_status reduce_group(const struct br_restriction *r, size_t first,
 }
 
 /* Adds R_0 times the series on a group. */
-static enum br_status add_group(const struct br_remainder *group, const struct br_interval *series,
-                                struct br_remainder *all, struct br_error *err)
+static enum br_status add_group(const struct br_remainder *group,
+                                const struct br_subinterval *series, struct br_remainder *all,
+                                struct br_error *err)
 {
     for (size_t k = 0; k < series->count; k++)
         for (size_t i = 0; i < group->columns; i++) {
@@ -118,7 +120,7 @@ static enum br_status add_group(const struct br_remainder *group, const struct b
 
 /* Groups first to last - 1, of which the elements before `skipped` do not count. */
 static enum br_status add_groups(struct br_restriction *r, const size_t range[2], size_t skipped,
-                                 struct br_interval *series, struct br_interval *local,
+                                 struct br_subinterval *series, struct br_subinterval *local,
                                  struct br_remainder *all, struct br_error *err)
 {
     struct br_remainder group;
@@ -131,8 +133,8 @@ static enum br_status add_groups(struct br_restriction *r, const size_t range[2]
     return status;
 }
 
-static enum br_status fill_rest(struct br_restriction *r, struct br_interval *series,
-                                struct br_interval *local, struct br_error *err)
+static enum br_status fill_rest(struct br_restriction *r, struct br_subinterval *series,
+                                struct br_subinterval *local, struct br_error *err)
 {
     const size_t length = r->shape.length, last = r->groups - 1;
     const size_t skipped = last * r->group - first_element(r, last);
@@ -152,11 +154,11 @@ static enum br_status fill_rest(struct br_restriction *r, struct br_interval *se
 
 /* The number of local coefficients that count in any series of norm 1. square: length x length,
  * workspace. */
-static size_t count_terms(const struct br_restriction *r, struct br_interval *series,
+static size_t count_terms(const struct br_restriction *r, struct br_subinterval *series,
                           double *square)
 {
     const size_t length = r->shape.length;
-    const double h = (double)r->group / (double)r->shape.elements;
+    const double h = (double)r->group / (double)r->shape.elements * (double)r->shape.width;
     memset(square, 0, length * length * sizeof *square);
     for (size_t g = 0; g < r->groups; g++) {
         move_to(r, g, series);
@@ -173,7 +175,7 @@ static size_t count_terms(const struct br_restriction *r, struct br_interval *se
     return terms;
 }
 
-static void fill_coarse(struct br_restriction *r, struct br_interval *series)
+static void fill_coarse(struct br_restriction *r, struct br_subinterval *series)
 {
     const size_t length = r->shape.length;
     const double factor = r->fine ? 1 : scale(r);
@@ -186,7 +188,7 @@ static void fill_coarse(struct br_restriction *r, struct br_interval *series)
     }
 }
 
-static void fill_fine(struct br_restriction *r, struct br_interval *local)
+static void fill_fine(struct br_restriction *r, struct br_subinterval *local)
 {
     const size_t kept = r->shape.degree + 1;
     for (size_t j = 0; j < r->group; j++) {
@@ -211,11 +213,11 @@ static enum br_status allocate(struct br_restriction *r, struct br_error *err)
     return done ? BR_OK : br_no_memory(err, "a projection");
 }
 
-static enum br_status fill(struct br_restriction *r, struct br_interval *series,
-                           struct br_interval *local, struct br_error *err)
+static enum br_status fill(struct br_restriction *r, struct br_subinterval *series,
+                           struct br_subinterval *local, struct br_error *err)
 {
     const size_t length = r->shape.length;
-    enum br_status status = br_interval_init(series, length, err);
+    enum br_status status = br_subinterval_init(series, length, err);
     r->rest = br_allocate(length * length, sizeof *r->rest);
     if (status || !r->rest)
         return br_no_memory(err, "a projection");
@@ -223,7 +225,7 @@ static enum br_status fill(struct br_restriction *r, struct br_interval *series,
     r->terms = r->group == 1 ? r->shape.degree + 1 : terms;
     status = allocate(r, err);
     if (!status)
-        status = br_interval_init(local, terms, err);
+        status = br_subinterval_init(local, terms, err);
     if (status)
         return status;
     fill_coarse(r, series);
@@ -243,10 +245,10 @@ enum br_status br_restriction_create(struct br_restriction **out,
     r->combine = br_combine_best();
     r->group = choose_group(shape);
     r->groups = (shape->elements + r->group - 1) / r->group;
-    struct br_interval series = {0}, local = {0};
+    struct br_subinterval series = {0}, local = {0};
     const enum br_status status = fill(r, &series, &local, err);
-    br_interval_clear(&series);
-    br_interval_clear(&local);
+    br_subinterval_clear(&series);
+    br_subinterval_clear(&local);
     if (status) {
         br_restriction_free(r);
         *out = NULL;

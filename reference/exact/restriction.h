@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The L2 projection of a Legendre series on [0, 1] on piecewise polynomials on equal elements. */
+/* The L2 projection of a Legendre series on [0, 1] on piecewise polynomials on equal elements that
+ * fill a part of it. */
 #ifndef BR_RESTRICTION_H
 #define BR_RESTRICTION_H
 
@@ -14,6 +15,7 @@ struct br_restriction_shape {
     size_t elements; /* 1 or more */
     size_t degree;   /* on each of them */
     double scale;    /* all results are times this; for a beam of length L, sqrt(L) */
+    long double first, width; /* the part: [first, first + width]; 0 and 1 for all */
 };
 
 /* *out (owned by the caller). Fails with BR_NO_MEMORY or BR_SINGULAR. */
@@ -23,8 +25,8 @@ enum br_status br_restriction_create(struct br_restriction **out,
 void br_restriction_free(struct br_restriction *restriction);
 
 /* c (out, elements x (degree + 1)): coefficients of the Legendre polynomials that are
- * orthonormal on each element. *rest (out): the square of the L2 norm of what these leave out,
- * found without a difference. series: length, in. For one thread at a time. */
+ * orthonormal on each element. *rest (out): the square of the L2 norm of what these leave out of
+ * the part, found without a difference. series: length, in. For one thread at a time. */
 void br_restriction_apply(struct br_restriction *restriction, const double *series, double *c,
                           double *rest);
 

@@ -3,6 +3,7 @@
 #ifndef BR_EXACT_SOLUTION_H
 #define BR_EXACT_SOLUTION_H
 
+#include "reference/exact/effort.h"
 #include "reference/exact/exact.h"
 #include "reference/exact/field.h"
 #include "reference/exact/law.h"
@@ -28,17 +29,19 @@ struct br_exact {
 struct br_fineness {
     size_t modes, max_steps;
     double tolerance, first_step; /* see br_march_options */
-    bool (*stop)(void *self);
-    void *stop_self;
 };
 
+/* outline: of each field. */
 enum br_status br_solution_create(struct br_solution **out, const struct br_scene *scene,
-                                  const struct br_fineness *fineness, struct br_error *err);
+                                  const struct br_outline outline[BR_EXACT_FIELDS],
+                                  const struct br_fineness *fineness, struct br_effort *effort,
+                                  struct br_error *err);
 void br_solution_free(struct br_solution *solution);
 
 /* Fills exact->report with the size of exact->solution and its distance to
  * another, infinite where their events differ. Fails with BR_NO_MEMORY. */
 enum br_status br_exact_compare(struct br_exact *exact, const struct br_solution *other,
+                                const struct br_outline outline[BR_EXACT_FIELDS],
                                 struct br_error *err);
 
 /* Fills exact->event from exact->solution, with error bars from another that

@@ -2,7 +2,9 @@
 #include "reference/exact/step.h"
 
 #include <cblas.h>
+#include <float.h>
 #include <lapacke.h>
+#include <math.h>
 #include <string.h>
 
 enum { S = BR_STAGES };
@@ -17,6 +19,7 @@ enum br_status br_stepper_create(struct br_stepper **out, const struct br_field 
         return br_no_memory(err, "a time step");
     s->field = field;
     s->law = law;
+    s->to = INFINITY;
     s->tip_displacement = field->tip_displacement - gap;
     s->tip_velocity = field->tip_velocity;
     s->q = br_allocate(m, sizeof *s->q);
@@ -77,6 +80,7 @@ static enum br_status respond(struct br_stepper *s, double h, struct br_error *e
         return BR_OK;
     const struct br_field *f = s->field;
     double *z = &s->tip_response[0][0];
+    double square = 0;
     memset(z, 0, sizeof s->tip_response);
     s->length = h;
     for (size_t i = 0; i < f->modes->count; i++) {
@@ -86,7 +90,10 @@ static enum br_status respond(struct br_stepper *s, double h, struct br_error *e
             return status;
         for (size_t k = 0; k < S * S; k++)
             z[k] += f->modes->tip[i] * f->modes->tip[i] * r[k];
+        const double size = f->modes->size[i], gain = size * size * r[0];
+        square += gain * gain;
     }
+    s->noise_response = sqrt(f->length * square);
     return BR_OK;
 }
 
@@ -136,14 +143,36 @@ static void move(struct br_stepper *s)
     memcpy(s->tip.velocity, tip, sizeof tip);
 }
 
+/* The velocity that the largest of the stages' loads alone give in the step, in L2. */
+static double impulse(const struct br_stepper *s)
+{
+    const size_t m = s->field->modes->count;
+    double sum = 0;
+    for (size_t i = 0; i < m; i++) {
+        double most = 0;
+        for (size_t j = 0; j < S; j++)
+            most = fmax(most, fabs(s->load[j * m + i]));
+        const double part = s->field->modes->size[i] * s->response[i * S * S] * most;
+        sum += part * part;
+    }
+    return sqrt(s->field->length * sum);
+}
+
 enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *err)
 {
     const size_t m = s->field->modes->count;
     enum br_status status = respond(s, h, err);
-    for (size_t j = 0; j < S && !status; j++)
-        status = br_field_load(s->field, s->time + s->radau.node[j] * h, &s->load[j * m], err);
+    s->work += br_field_work(s->field);
+    s->load_noise = 0;
+    for (size_t j = 0; j < S && !status; j++) {
+        double size;
+        const double t = fmin(fmax(s->time + s->radau.node[j] * h, s->from), s->to);
+        status = br_field_load(s->field, t, &s->load[j * m], &size, err);
+        s->load_noise = fmax(s->load_noise, DBL_EPSILON * size * s->noise_response);
+    }
     if (status)
         return status;
+    s->load_noise += s->blur * impulse(s);
     s->tip = (struct br_tip){
         .start = s->time, .length = h, .phase = s->phase, .displacement = s->tip_displacement};
     move(s); /* as if the tip were free */

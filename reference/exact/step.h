@@ -14,7 +14,9 @@ struct br_stepper {
     const struct br_law *law;
     struct br_radau radau;
 
-    double time; /* s */
+    double time;     /* s */
+    double from, to; /* s: the load is taken between these, where it does not jump */
+    double blur;     /* of the load: what the rounding of t does to it, relative */
     enum br_phase phase;
     double *q, *v;                         /* modes: m, m/s */
     double tip_displacement, tip_velocity; /* less the gap, m, m/s */
@@ -24,10 +26,14 @@ struct br_stepper {
     double free_size;  /* m^(3/2)/s: mean velocity in L2 as if the tip were free: where a tip
                           force cancels it, its round-off is what remains */
 
+    double work; /* of the trial steps, see effort.h; whoever reads it sets it to zero */
+
     double length;    /* s, of the step that the responses are for */
     double *response; /* modes x BR_STAGES x BR_STAGES: velocity over force, m/(N s) */
     double tip_response[BR_STAGES][BR_STAGES];
-    double *load; /* BR_STAGES x modes, workspace, N */
+    double *load;          /* BR_STAGES x modes, workspace, N */
+    double load_noise;     /* m^(3/2)/s: what a load's round-off may do to the velocity, in L2 */
+    double noise_response; /* the same of a load of 1 N of every shape */
 };
 
 /* Field and law are borrowed; gap in m. Starts at t = 0. Fails with BR_NO_MEMORY. */

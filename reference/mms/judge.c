@@ -10,7 +10,7 @@
 
 struct mms_judge {
     struct br_projection **projection[2][BR_MEASURES]; /* by br_field_kind, then by mesh */
-    struct br_derivative *tip[2];                      /* the solution itself */
+    struct br_function tip[2];                         /* the solution itself */
     char *solution[2];                                 /* NULL: not modelled */
     size_t meshes, levels;
     int axial_degree;
@@ -32,7 +32,7 @@ static void mms_free(void *self)
                 br_projection_free(projection[i]);
             free(projection);
         }
-        br_derivative_free(j->tip[kind]);
+        br_function_free(&j->tip[kind]);
         free(j->solution[kind]);
     }
     free(j);
@@ -56,7 +56,7 @@ static enum br_status create_projections(struct mms_judge *j, enum br_field_kind
     enum br_status status = BR_OK;
     for (size_t i = 0; i < r->mesh_count && !status; i++) {
         const struct br_projection_mesh mesh = {r->scene->length, r->mesh[i]};
-        status = br_projection_create(&projection[i], j->solution[kind], &what, &mesh, err);
+        status = br_projection_create(&projection[i], &j->tip[kind], &what, &mesh, err);
     }
     return status;
 }
@@ -71,7 +71,8 @@ static enum br_status create_part(struct mms_judge *j, enum br_field_kind kind,
     if (!j->solution[kind])
         return br_no_memory(err, "the manufactured solution");
     strcpy(j->solution[kind], text);
-    enum br_status status = br_derivative_create(&j->tip[kind], text, (struct br_order){0, 0}, err);
+    enum br_status status = br_function_clone(
+        kind == BR_AXIAL ? &r->scene->axial.given : &r->scene->bending.given, &j->tip[kind], err);
     for (int measure = 0; measure < BR_TIP && !status; measure++)
         if (r->measured[kind][measure])
             status = create_projections(j, kind, (enum br_measure)measure, r, err);
@@ -117,7 +118,7 @@ static void mms_look(void *self, const struct br_look_at *at, struct br_view *vi
     struct br_projection_rest sums = {0};
     if (at->measure == BR_TIP) {
         br_view_modes(view, 0);
-        *view->values = br_derivative_at(j->tip[at->kind], j->length, j->time[at->kind]);
+        br_function_evaluate(&j->tip[at->kind], 1, &j->length, j->time[at->kind], view->values);
     } else {
         br_view_modes(view,
                       br_mode_count((struct br_elements){at->kind, j->axial_degree}, at->measure));
@@ -153,7 +154,7 @@ const struct br_judge br_judge_mms = {
     .name = "mms",
     .syntax = "mms",
     .title = "the solution that a scene was manufactured from",
-    .citation = "Roache 2002; derivatives by GNU libmatheval, checked by quadrature",
+    .citation = "Roache 2002; derivatives by rule",
     .create = mms_create,
     .free = mms_free,
     .advance = mms_advance,

@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "reference/mms/check.h"
-#include "reference/mms/sum.h"
 #include "reference/mms/tip.h"
 
 /* ---- what the solution determines must not be given ---- */
@@ -27,8 +26,8 @@ static enum br_status refuse_given(const struct given *given, size_t count, stru
 static enum br_status check_axial_free(const struct br_axial *a, struct br_error *err)
 {
     const struct given given[] = {
-        {"load", &a->load.space},     {"load", &a->load.time},
-        {"tip_force", &a->tip_force}, {"displacement", &a->displacement},
+        {"load", &a->load.term[0].space}, {"load", &a->load.term[0].time},
+        {"tip_force", &a->tip_force},     {"displacement", &a->displacement},
         {"velocity", &a->velocity},
     };
     return refuse_given(given, sizeof given / sizeof *given, err);
@@ -37,7 +36,7 @@ static enum br_status check_axial_free(const struct br_axial *a, struct br_error
 static enum br_status check_bending_free(const struct br_bending *b, struct br_error *err)
 {
     const struct given given[] = {
-        {"load", &b->load.space},           {"load", &b->load.time},
+        {"load", &b->load.term[0].space},   {"load", &b->load.term[0].time},
         {"tip_force", &b->tip_force},       {"tip_moment", &b->tip_moment},
         {"displacement", &b->displacement}, {"displacement_slope", &b->displacement_slope},
         {"velocity", &b->velocity},         {"velocity_slope", &b->velocity_slope},
@@ -47,34 +46,37 @@ static enum br_status check_bending_free(const struct br_bending *b, struct br_e
 
 /* ---- the data of each field ---- */
 
-static const struct br_order value = {0, 0}, slope = {1, 0};
-static const struct br_order rate = {0, 1}, slope_rate = {1, 1};
+static const struct br_partial value = {0, 0}, slope = {1, 0};
+static const struct br_partial rate = {0, 1}, slope_rate = {1, 1};
 
-/* d^order of the text, at x and t (NaN: free), times a factor */
-static enum br_status one_term(double factor, struct br_order order, const char *text, double x,
-                               double t, struct br_function *f, struct br_error *err)
+/* d^order of the solution, at x and t (NaN: free), times a factor */
+static enum br_status one_term(double factor, struct br_partial order,
+                               const struct br_function *solution, double x, double t,
+                               struct br_function *f, struct br_error *err)
 {
-    const struct br_sum sum = {1, {{factor, order}}, x, t};
-    return br_sum_function(&sum, text, f, err);
+    const struct br_derivation sum = {1, {{factor, order}}, x, t};
+    return br_function_derive(solution, &sum, f, err);
 }
 
 /* a d^order + c d/dt d^order at x = L: a stress with the signs of its factors */
-static enum br_status stress_at_tip(const struct br_scene *s, const char *text, double elastic,
-                                    double viscous, int order, struct br_function *f,
-                                    struct br_error *err)
+static enum br_status stress_at_tip(const struct br_scene *s, const struct br_function *solution,
+                                    double elastic, double viscous, int order,
+                                    struct br_function *f, struct br_error *err)
 {
-    const struct br_sum sum = {2, {{elastic, {order, 0}}, {viscous, {order, 1}}}, s->length, NAN};
-    return br_sum_function(&sum, text, f, err);
+    const struct br_derivation sum = {
+        2, {{elastic, {order, 0}}, {viscous, {order, 1}}}, s->length, NAN};
+    return br_function_derive(solution, &sum, f, err);
 }
 
 /* f_H = rho u_tt - (a1 u_xx + c1 u_xxt), f_V = rho w_tt + a2 w_xxxx + c2 w_xxxxt */
-static enum br_status make_load(const char *text, double density, double elastic, double viscous,
-                                int order, struct br_load *load, struct br_error *err)
+static enum br_status make_load(const struct br_function *solution, double density, double elastic,
+                                double viscous, int order, struct br_load *load,
+                                struct br_error *err)
 {
-    const struct br_sum sum = {
+    const struct br_derivation sum = {
         3, {{density, {0, 2}}, {elastic, {order, 0}}, {viscous, {order, 1}}}, NAN, NAN};
-    load->time = (struct br_function){.constant = 1};
-    return br_sum_function(&sum, text, &load->space, err);
+    load->term[0].time = (struct br_function){.constant = 1};
+    return br_function_derive(solution, &sum, &load->term[0].space, err);
 }
 
 /* a1 u_x + c1 u_xt + c_H (u - g)_+ at x = L, from (8) and (10) */
@@ -82,12 +84,12 @@ static enum br_status make_axial_tip(struct br_scene *s, struct br_error *err)
 {
     struct br_axial *a = &s->axial;
     if (!s->contact.modelled)
-        return stress_at_tip(s, a->solution, a->stiffness, a->viscosity, 1, &a->tip_force, err);
+        return stress_at_tip(s, &a->given, a->stiffness, a->viscosity, 1, &a->tip_force, err);
     struct br_tip_parts parts = {.contact = s->contact};
     enum br_status status =
-        stress_at_tip(s, a->solution, a->stiffness, a->viscosity, 1, &parts.stress, err);
+        stress_at_tip(s, &a->given, a->stiffness, a->viscosity, 1, &parts.stress, err);
     if (!status)
-        status = one_term(1, value, a->solution, s->length, NAN, &parts.u, err);
+        status = one_term(1, value, &a->given, s->length, NAN, &parts.u, err);
     if (!status)
         return br_tip_axial(&parts, &a->tip_force, err);
     br_tip_parts_clear(&parts);
@@ -101,9 +103,9 @@ static enum br_status make_friction_parts(const struct br_scene *s, struct br_ti
     parts->contact = s->contact;
     parts->friction = s->friction;
     enum br_status status =
-        one_term(1, rate, s->bending.solution, s->length, NAN, &parts->velocity, err);
+        one_term(1, rate, &s->bending.given, s->length, NAN, &parts->velocity, err);
     if (!status && s->friction.law == BR_COULOMB)
-        status = one_term(1, value, s->axial.solution, s->length, NAN, &parts->u, err);
+        status = one_term(1, value, &s->axial.given, s->length, NAN, &parts->u, err);
     if (!status)
         status = br_stick_check(s, &parts->u, &parts->velocity, err);
     if (!status)
@@ -116,10 +118,10 @@ static enum br_status make_bending_tip(struct br_scene *s, struct br_error *err)
 {
     struct br_bending *b = &s->bending;
     if (s->friction.law == BR_FRICTIONLESS)
-        return stress_at_tip(s, b->solution, -b->stiffness, -b->viscosity, 3, &b->tip_force, err);
+        return stress_at_tip(s, &b->given, -b->stiffness, -b->viscosity, 3, &b->tip_force, err);
     struct br_tip_parts parts = {0};
     enum br_status status =
-        stress_at_tip(s, b->solution, -b->stiffness, -b->viscosity, 3, &parts.stress, err);
+        stress_at_tip(s, &b->given, -b->stiffness, -b->viscosity, 3, &parts.stress, err);
     if (!status)
         status = make_friction_parts(s, &parts, err);
     if (!status)
@@ -133,13 +135,13 @@ static enum br_status make_axial(struct br_scene *s, struct br_error *err)
 {
     struct br_axial *a = &s->axial;
     enum br_status status =
-        make_load(a->solution, s->density, -a->stiffness, -a->viscosity, 2, &a->load, err);
+        make_load(&a->given, s->density, -a->stiffness, -a->viscosity, 2, &a->load, err);
     if (!status)
         status = make_axial_tip(s, err);
     if (!status)
-        status = one_term(1, value, a->solution, NAN, 0, &a->displacement, err);
+        status = one_term(1, value, &a->given, NAN, 0, &a->displacement, err);
     if (!status && s->density > 0)
-        status = one_term(1, rate, a->solution, NAN, 0, &a->velocity, err);
+        status = one_term(1, rate, &a->given, NAN, 0, &a->velocity, err);
     return status;
 }
 
@@ -147,27 +149,27 @@ static enum br_status make_bending(struct br_scene *s, struct br_error *err)
 {
     struct br_bending *b = &s->bending;
     enum br_status status =
-        make_load(b->solution, s->density, b->stiffness, b->viscosity, 4, &b->load, err);
+        make_load(&b->given, s->density, b->stiffness, b->viscosity, 4, &b->load, err);
     if (!status)
         status = make_bending_tip(s, err);
     if (!status)
-        status = stress_at_tip(s, b->solution, b->stiffness, b->viscosity, 2, &b->tip_moment, err);
+        status = stress_at_tip(s, &b->given, b->stiffness, b->viscosity, 2, &b->tip_moment, err);
     if (!status)
-        status = one_term(1, value, b->solution, NAN, 0, &b->displacement, err);
+        status = one_term(1, value, &b->given, NAN, 0, &b->displacement, err);
     if (!status)
-        status = one_term(1, slope, b->solution, NAN, 0, &b->displacement_slope, err);
+        status = one_term(1, slope, &b->given, NAN, 0, &b->displacement_slope, err);
     if (!status && s->density > 0)
-        status = one_term(1, rate, b->solution, NAN, 0, &b->velocity, err);
+        status = one_term(1, rate, &b->given, NAN, 0, &b->velocity, err);
     if (!status && s->density > 0)
-        status = one_term(1, slope_rate, b->solution, NAN, 0, &b->velocity_slope, err);
+        status = one_term(1, slope_rate, &b->given, NAN, 0, &b->velocity_slope, err);
     return status;
 }
 
 /* ---- both ---- */
 
-static const char *solution_of(const struct br_scene *s, enum br_field_kind kind)
+static const struct br_function *solution_of(const struct br_scene *s, enum br_field_kind kind)
 {
-    return kind == BR_AXIAL ? s->axial.solution : s->bending.solution;
+    return kind == BR_AXIAL ? &s->axial.given : &s->bending.given;
 }
 
 /* Every part that is modelled has a solution, and nothing beside it. */
@@ -186,25 +188,18 @@ static enum br_status check_parts(const struct br_scene *s, enum br_field_kind *
     return check_bending_free(&s->bending, err);
 }
 
-static enum br_status check_solution(const struct br_scene *s, enum br_field_kind kind,
-                                     const struct br_function *parsed, struct br_error *err)
-{
-    const struct br_solution solution = {solution_of(s, kind), kind, s->length, s->duration};
-    const enum br_status status =
-        br_derivative_check_text(solution.text, parsed, s->length, s->duration, err);
-    return status ? status : br_solution_check(&solution, err);
-}
-
-enum br_status br_manufactured_apply(struct br_scene *s, const struct br_function parsed[2],
-                                     enum br_field_kind *culprit, struct br_error *err)
+enum br_status br_manufactured_apply(struct br_scene *s, enum br_field_kind *culprit,
+                                     struct br_error *err)
 {
     if (!s->axial.solution && !s->bending.solution)
         return BR_OK;
     enum br_status status = check_parts(s, culprit, err);
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
         *culprit = (enum br_field_kind)kind;
-        if (solution_of(s, *culprit))
-            status = check_solution(s, *culprit, &parsed[kind], err);
+        const struct br_solution solution = {solution_of(s, *culprit), *culprit, s->length,
+                                             s->duration};
+        if (kind == BR_AXIAL ? s->axial.solution : s->bending.solution)
+            status = br_solution_check(&solution, err);
     }
     if (status)
         return status;

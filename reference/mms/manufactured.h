@@ -8,12 +8,11 @@
 
 /* Fills the loads, tip forces and initial data of a scene whose axial.solution or
  * bending.solution is given, so that these solve (1)-(12); a scene without one stays as it
- * is. parsed: by br_field_kind, the functions of the same texts by the parser that reads
- * all other expressions, for comparison. Refuses (BR_BAD_INPUT) a scene of which only one
+ * is. A load is left as one term f(x, t). Refuses (BR_BAD_INPUT) a scene of which only one
  * modelled part has a solution, a solution beside what it determines, and what check.h
  * refuses; *culprit is then the part whose solution it is about. Fails with BR_NO_MEMORY;
  * br_scene_clear releases what was made until then. */
-enum br_status br_manufactured_apply(struct br_scene *scene, const struct br_function parsed[2],
-                                     enum br_field_kind *culprit, struct br_error *err);
+enum br_status br_manufactured_apply(struct br_scene *scene, enum br_field_kind *culprit,
+                                     struct br_error *err);
 
 #endif

@@ -11,7 +11,7 @@
 enum { POINTS = 12, MODES = 11, TAIL = 2 };
 
 struct br_projection {
-    struct br_derivative *derivative;
+    struct br_function derivative;
     size_t kept, n;
     double h;                     /* m */
     double weight[POINTS][MODES]; /* Gauss weight times mode */
@@ -37,18 +37,18 @@ static enum br_status fill_points(struct br_projection *p, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status set_up(struct br_projection *p, const char *text, struct br_order order,
-                             struct br_error *err)
+static enum br_status set_up(struct br_projection *p, const struct br_function *solution,
+                             struct br_partial order, struct br_error *err)
 {
     p->x = br_allocate(2 * p->n * POINTS, sizeof *p->x);
     if (!p->x)
         return br_no_memory(err, "a projection");
     p->value = p->x + p->n * POINTS;
     const enum br_status status = fill_points(p, err);
-    return status ? status : br_derivative_create(&p->derivative, text, order, err);
+    return status ? status : br_function_derivative(solution, order, &p->derivative, err);
 }
 
-enum br_status br_projection_create(struct br_projection **out, const char *text,
+enum br_status br_projection_create(struct br_projection **out, const struct br_function *solution,
                                     const struct br_projected *what,
                                     const struct br_projection_mesh *mesh, struct br_error *err)
 {
@@ -62,7 +62,7 @@ enum br_status br_projection_create(struct br_projection **out, const char *text
     p->kept = what->kept;
     p->n = mesh->n;
     p->h = mesh->length / (double)mesh->n;
-    const enum br_status status = set_up(p, text, what->order, err);
+    const enum br_status status = set_up(p, solution, what->order, err);
     if (status) {
         br_projection_free(p);
         return status;
@@ -75,7 +75,7 @@ void br_projection_free(struct br_projection *p)
 {
     if (!p)
         return;
-    br_derivative_free(p->derivative);
+    br_function_free(&p->derivative);
     free(p->x);
     free(p);
 }
@@ -92,7 +92,7 @@ static void element_modes(const struct br_projection *p, const double *value, do
 struct br_projection_rest br_projection_apply(struct br_projection *p, double t, double *modes)
 {
     struct br_projection_rest sums = {0};
-    br_derivative_values(p->derivative, p->n * POINTS, p->x, t, p->value);
+    br_function_evaluate(&p->derivative, p->n * POINTS, p->x, t, p->value);
     for (size_t e = 0; e < p->n; e++) {
         double mode[MODES];
         element_modes(p, p->value + e * POINTS, mode);

@@ -3,14 +3,14 @@
 #ifndef BR_MMS_PROJECTION_H
 #define BR_MMS_PROJECTION_H
 
-#include "reference/mms/derivative.h"
+#include "solver/function.h"
 
 enum { BR_PROJECTION_MOST_KEPT = 8 };
 
 /* What is projected: d^x/dx^x of the displacement, or of the velocity, and how many modes
  * of an element are kept, at most BR_PROJECTION_MOST_KEPT. */
 struct br_projected {
-    struct br_order order; /* t: 0 displacement, 1 velocity */
+    struct br_partial order; /* t: 0 displacement, 1 velocity */
     size_t kept;
 };
 
@@ -28,9 +28,10 @@ struct br_projection_mesh {
 
 struct br_projection;
 
-/* Of the solution `text`. Fails with BR_BAD_INPUT (not kept <= BR_PROJECTION_MOST_KEPT, or
- * as br_derivative_create) or BR_NO_MEMORY; *projection is then NULL. */
-enum br_status br_projection_create(struct br_projection **projection, const char *text,
+/* Of a solution. Fails with BR_BAD_INPUT (not kept <= BR_PROJECTION_MOST_KEPT, or as
+ * br_function_derive) or BR_NO_MEMORY; *projection is then NULL. */
+enum br_status br_projection_create(struct br_projection **projection,
+                                    const struct br_function *solution,
                                     const struct br_projected *what,
                                     const struct br_projection_mesh *mesh, struct br_error *err);
 void br_projection_free(struct br_projection *projection); /* accepts NULL */

@@ -121,6 +121,7 @@ void bench_accuracy(void **state);
 void bench_machine(void **state);
 void bench_speed(void **state);
 void bench_loads(void **state);
+void bench_expressions(void **state);
 void bench_models(void **state);
 void bench_peers(void **state);
 void bench_errors(void **state);

@@ -60,10 +60,10 @@ int main(int argc, const char **argv)
         return report(err.status, &err);
     br_remember_command_line(argc, argv);
     const struct CMUnitTest sections[] = {
-        cmocka_unit_test(bench_accuracy), cmocka_unit_test(bench_machine),
-        cmocka_unit_test(bench_speed),    cmocka_unit_test(bench_loads),
-        cmocka_unit_test(bench_models),   cmocka_unit_test(bench_peers),
-        cmocka_unit_test(bench_errors),
+        cmocka_unit_test(bench_accuracy),    cmocka_unit_test(bench_machine),
+        cmocka_unit_test(bench_speed),       cmocka_unit_test(bench_loads),
+        cmocka_unit_test(bench_expressions), cmocka_unit_test(bench_models),
+        cmocka_unit_test(bench_peers),       cmocka_unit_test(bench_errors),
     };
     const int failed = cmocka_run_group_tests(sections, set_up, NULL);
     const enum br_status status = write_to(path, &err);

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "study/expression.h"
+#include "study/scene/expression.h"
 #include "tests/bench/bench.h"
 
 static const size_t sizes[] = {100, 400, 3200, 12800, 100000, 1000000};
@@ -161,14 +161,66 @@ void bench_loads(void **state)
            n);
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         struct br_scene scene = br_test_bare();
-        scene.axial.load.space = br_test_function(kinds[i].space);
-        scene.axial.load.time = br_test_function(kinds[i].time);
-        scene.bending.load.space = br_test_function(kinds[i].space);
-        scene.bending.load.time = br_test_function(kinds[i].time);
+        scene.axial.load.term[0].space = br_test_function(kinds[i].space);
+        scene.axial.load.term[0].time = br_test_function(kinds[i].time);
+        scene.bending.load.term[0].space = br_test_function(kinds[i].space);
+        scene.bending.load.term[0].time = br_test_function(kinds[i].time);
         const struct bench_march march = {&scene, &method, n, 0};
         const struct bench_time t = bench_march(&march).step;
         printf("  %-12s %9.2f %9.2f %9.2f\n", kinds[i].name, t.median, t.least, t.most);
         bench_record(*state, "ns/element-step", &t, "load %s n=%zu", kinds[i].name, n);
         br_scene_clear(&scene);
+    }
+}
+
+/* ---- expressions ---- */
+
+enum { PLACES = 16000 };
+
+struct evaluated {
+    struct br_function function;
+    double (*library)(double); /* the C library's, in a loop */
+    double x[PLACES], value[PLACES];
+};
+
+static void evaluate(void *self)
+{
+    struct evaluated *e = self;
+    br_function_evaluate(&e->function, PLACES, e->x, 0.7, e->value);
+}
+
+static void loop(void *self)
+{
+    struct evaluated *e = self;
+    for (size_t i = 0; i < PLACES; i++)
+        e->value[i] = e->library(e->x[i]);
+}
+
+/* Many places at a time, beside the C library's function one by one. */
+void bench_expressions(void **state)
+{
+    static const struct {
+        const char *text;
+        double (*library)(double);
+    } rows[] = {
+        {"sin(x)", sin},        {"exp(x)", exp},
+        {"tanh(x)", tanh},      {"log(x)", log},
+        {"x^1.5", NULL},        {"sin(x*t)", NULL},
+        {"x*x+t", NULL},        {"exp(-((x-t)/0.1)^2)", NULL},
+        {"asinh(x)", asinh},    {"step(x-t)", NULL},
+        {"x<t?1:exp(x)", NULL},
+    };
+    struct evaluated e;
+    for (size_t i = 0; i < PLACES; i++)
+        e.x[i] = 1e-3 * ((double)i + 0.5);
+    printf("\nExpressions, ns a place, %d places; the C library in a loop\n", PLACES);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        e.function = br_test_function(rows[i].text);
+        e.library = rows[i].library;
+        const struct bench_time t = bench_time(evaluate, &e, PLACES);
+        const double one = e.library ? bench_time(loop, &e, PLACES).median : NAN;
+        printf("  %-22s %9.2f %9.2f %9.2f %9.2f\n", rows[i].text, t.median, t.least, t.most, one);
+        bench_record(*state, "ns/place", &t, "expression %s", rows[i].text);
+        br_function_free(&e.function);
     }
 }

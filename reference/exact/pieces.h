@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Elements of a beam, and functions that are a Legendre series on each of them.
+ *
+ * On element e, of width h in units of L, a function is the sum over k of c_k p_k(xi) / sqrt(h),
+ * xi in [0, 1]: these are orthonormal in x / L. A series has terms[e] + extra coefficients there,
+ * where `extra` counts how often functions of terms[e] coefficients were integrated. */
+#ifndef BR_PIECES_H
+#define BR_PIECES_H
+
+#include <stddef.h>
+
+#include "solver/status.h"
+
+struct br_pieces {
+    double length; /* L, m */
+    size_t count;  /* elements, 1 or more */
+    double *end;   /* count + 1, m: 0 = end[0] < ... < end[count] = L */
+    size_t *terms; /* count, each 1 or more */
+    size_t *first; /* count + 1: sum of the terms before */
+};
+
+/* Copies end and terms. Clear it even after a failure, which is BR_NO_MEMORY. */
+enum br_status br_pieces_init(struct br_pieces *pieces, double length, size_t count,
+                              const double *end, const size_t *terms, struct br_error *err);
+
+/* One element. */
+enum br_status br_pieces_whole(struct br_pieces *pieces, double length, size_t terms,
+                               struct br_error *err);
+void br_pieces_clear(struct br_pieces *pieces);
+
+/* Where element e's coefficients begin; with e = count, their number. */
+static inline size_t br_pieces_at(const struct br_pieces *p, size_t e, size_t extra)
+{
+    return p->first[e] + e * extra;
+}
+
+/* h of element e, in units of L. */
+static inline double br_pieces_width(const struct br_pieces *p, size_t e)
+{
+    return (p->end[e + 1] - p->end[e]) / p->length;
+}
+
+/* The element that holds x, m; where two meet the left one. */
+size_t br_pieces_find(const struct br_pieces *pieces, double x);
+
+/* Integral over all x / L of a series. */
+double br_pieces_integral(const struct br_pieces *pieces, size_t extra, const double *c);
+
+/* c: in, a series with `extra`; out, its integral from x = 0 in x / L, with extra + 1. */
+void br_pieces_integrate(const struct br_pieces *pieces, size_t extra, double *c);
+
+#endif

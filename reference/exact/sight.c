@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reference/exact/sight.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- lists ---- */
+
+void br_list_free(struct br_list *list)
+{
+    free(list->at);
+    *list = (struct br_list){0};
+}
+
+enum br_status br_list_add(struct br_list *list, double value, struct br_error *err)
+{
+    if (list->count == list->room) {
+        const size_t room = 2 * list->room + 32;
+        double *bigger = br_allocate(room, sizeof *bigger);
+        if (!bigger)
+            return br_no_memory(err, "a mesh");
+        if (list->count)
+            memcpy(bigger, list->at, list->count * sizeof *bigger);
+        free(list->at);
+        list->at = bigger;
+        list->room = room;
+    }
+    list->at[list->count++] = value;
+    return BR_OK;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+void br_list_sort(struct br_list *list, double least)
+{
+    size_t kept = 0;
+    if (list->count)
+        qsort(list->at, list->count, sizeof *list->at, ascending);
+    for (size_t i = 0; i < list->count; i++)
+        if (!kept || list->at[i] - list->at[kept - 1] > least)
+            list->at[kept++] = list->at[i];
+    list->count = kept;
+}
+
+/* ---- boxes ---- */
+
+static double magnitude(struct br_interval v)
+{
+    return fmax(fabs(v.low), fabs(v.high));
+}
+
+static struct br_interval *side(struct br_box *box, enum br_variable along)
+{
+    return along == BR_X ? &box->x : &box->t;
+}
+
+double br_sight_error(const struct br_function *f, enum br_variable along, struct br_box box,
+                      size_t degree)
+{
+    struct br_interval coefficient[17];
+    const struct br_interval here = *side(&box, along);
+    if (!br_function_taylor(f, along, box, degree + 1, coefficient))
+        return INFINITY;
+    const double error = 2 * magnitude(coefficient[degree + 1]) *
+                         pow((here.high - here.low) / 4, (double)degree + 1);
+    return isnan(error) ? INFINITY : error;
+}
+
+/* ---- the mean ---- */
+
+/* Halves of halves, of which the one is halved whose share is least known. */
+struct share {
+    struct br_box box;
+    double low, high; /* of the integral of |f| over it */
+};
+
+static double measure(struct br_box box)
+{
+    const double x = box.x.high - box.x.low, t = box.t.high - box.t.low;
+    return (x > 0 ? x : 1) * (t > 0 ? t : 1);
+}
+
+static struct share share_of(const struct br_function *f, struct br_box box)
+{
+    struct br_interval v;
+    if (!br_function_bound(f, box, &v))
+        return (struct share){box, 0, INFINITY};
+    const double least = v.low > 0 ? v.low : v.high < 0 ? -v.high : 0;
+    return (struct share){box, measure(box) * least, measure(box) * magnitude(v)};
+}
+
+double br_sight_mean(const struct br_function *f, struct br_box whole)
+{
+    enum { MOST = 400 };
+    struct share share[MOST];
+    size_t count = 1;
+    share[0] = share_of(f, whole);
+    for (;;) {
+        double low = 0, high = 0;
+        size_t worst = 0;
+        for (size_t i = 0; i < count; i++) {
+            low += share[i].low;
+            high += share[i].high;
+            if (share[i].high - share[i].low > share[worst].high - share[worst].low)
+                worst = i;
+        }
+        if (count == MOST || low >= high / 2)
+            return (low > 0 ? low : high) / measure(whole);
+        const struct br_box box = share[worst].box;
+        const double x = box.x.high - box.x.low, t = box.t.high - box.t.low;
+        const bool along_x =
+            x > 0 && !(t / (whole.t.high - whole.t.low) > x / (whole.x.high - whole.x.low));
+        struct br_box half[2] = {box, box};
+        const struct br_interval cut = along_x ? box.x : box.t;
+        side(&half[0], along_x ? BR_X : BR_T)->high = cut.low + (cut.high - cut.low) / 2;
+        side(&half[1], along_x ? BR_X : BR_T)->low = cut.low + (cut.high - cut.low) / 2;
+        share[worst] = share_of(f, half[0]);
+        share[count++] = share_of(f, half[1]);
+    }
+}
+
+/* ---- one variable ---- */
+
+struct survey {
+    struct br_sight *sight;
+    enum br_variable along;
+    double end; /* of the whole box */
+    struct br_list *ends;
+    struct br_error *err;
+};
+
+static enum br_status too_fine(const struct survey *s, double place)
+{
+    const char *name = s->along == BR_X ? "x" : "t", *unit = s->along == BR_X ? "m" : "s";
+    return br_fail(s->err, BR_NOT_FINITE,
+                   "no exact solution: the data have details that are too fine near %s = %g %s",
+                   name, place, unit);
+}
+
+static enum br_status survey(const struct survey *s, struct br_box box)
+{
+    struct br_sight *sight = s->sight;
+    struct br_interval value = {0, 0}, here = *side(&box, s->along);
+    const double width = here.high - here.low, middle = here.low + width / 2;
+    const bool bounded = br_function_bound(sight->f, box, &value);
+    const double size = fmax(magnitude(value), sight->mean);
+    const double unseen = width * (value.high - value.low);
+    const bool narrow = !(width > sight->least && here.low < middle && middle < here.high);
+    if (narrow && !bounded)
+        return br_must_be_finite(sight->f, box, s->err);
+    if (!bounded || !(br_sight_error(sight->f, s->along, box, sight->degree[s->along]) <=
+                      BR_SIGHT_TOLERANCE * size)) {
+        if (!narrow && !(bounded && unseen <= sight->most_missed)) {
+            struct br_box half[2] = {box, box};
+            side(&half[0], s->along)->high = side(&half[1], s->along)->low = middle;
+            const enum br_status status = survey(s, half[0]);
+            return status ? status : survey(s, half[1]);
+        }
+        sight->missed += unseen;
+    }
+    if (s->ends->count >= sight->most)
+        return too_fine(s, middle);
+    return here.high < s->end ? br_list_add(s->ends, here.high, s->err) : BR_OK;
+}
+
+enum br_status br_sight_along(struct br_sight *sight, enum br_variable along, struct br_box box,
+                              struct br_list *ends, struct br_error *err)
+{
+    const struct survey s = {sight, along, side(&box, along)->high, ends, err};
+    return survey(&s, box);
+}

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is proved of a function over a box of x and t by its enclosures (function.h): that it is
+ * finite, where it breaks, and a mesh on which polynomials stand for it. Nothing is sampled: what
+ * cannot be proved is refused. A function without bound (NULL in its ops) is refused. */
+#ifndef BR_PROOF_H
+#define BR_PROOF_H
+
+#include "solver/function.h"
+
+enum br_finite {
+    BR_FINITE,     /* everywhere in the box */
+    BR_NOT_NUMBER, /* evaluate gives no finite number at `where`, which is one point */
+    BR_POLE,       /* it grows without bounds towards `where`, at most neighbouring numbers wide */
+    BR_UNBOUNDED,  /* it may have no bound in `where`, or the budget is used up there */
+};
+
+/* Whether f is finite everywhere in the box. value: out, encloses all its values where it is,
+ * perhaps by far; where: out where it is not. budget: how many boxes may be looked at, 0 for the
+ * usual number. */
+enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, size_t budget,
+                                struct br_interval *value, struct br_box *where);
+
+/* Encloses the values of a function that is finite, about as tightly as a twentieth of their range,
+ * or as `budget` boxes allow (0: the usual number). peak: out, a point where it is about as large
+ * as anywhere. False: it has no bound. */
+bool br_enclose_values(const struct br_function *f, struct br_box box, size_t budget,
+                       struct br_interval *value, struct br_box *peak);
+
+/* The same as br_prove_bounded as a status: BR_BAD_INPUT with what was found and where. */
+enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,
+                                 struct br_error *err);
+
+/* Places along one variable, ascending and disjoint. Each is neighbouring numbers wide or one
+ * number, where more could not be told (like at a touched zero) wider. */
+struct br_breaks {
+    struct br_interval *at; /* count; owned */
+    size_t count, capacity;
+    bool moving; /* a guard that depends on both variables changes sign at places of the one that
+                    depend on the other: these are not listed */
+};
+void br_breaks_free(struct br_breaks *breaks);
+
+/* Adds all places of the box along one variable at which a guard of f changes sign or touches zero:
+ * between them f is smooth, but for roots and the like at zero. Where the other variable is one
+ * point, or for guards without it, none is missed. *breaks: in/out, zeroed at first; of several
+ * functions one after the other. The box's ends are no breaks. Fails with BR_BAD_INPUT where they
+ * are too many (20,000) or cannot be told apart, naming where, or BR_NO_MEMORY. */
+enum br_status br_breaks_add(const struct br_function *f, enum br_variable along, struct br_box box,
+                             struct br_breaks *breaks, struct br_error *err);
+
+/* Adds the times at which a guard that depends on x and t, such as x - c t, is zero at an end of
+ * the box in x: where a front enters or leaves. *complete: out, whether no front can come or go
+ * elsewhere: none turns back or is born inside of the box. Fails as br_breaks_add. */
+enum br_status br_front_times(const struct br_function *f, struct br_box box,
+                              struct br_breaks *breaks, bool *complete, struct br_error *err);
+
+/* What polynomials are to stand for a function. */
+struct br_mesh_aim {
+    size_t degree;    /* of the interpolant at a cell's Chebyshev nodes, 1 to 15 */
+    double tolerance; /* of |f - interpolant|, absolute, in f's unit */
+    double least;     /* cells that are narrower than this need no proof: 0 for what follows */
+    size_t most;      /* cells; 0: 20,000 */
+};
+
+/* Cells between count + 1 places, ascending. In a rough cell the function is bounded, but no
+ * polynomial was proved: width * (range of values) is at most tolerance * (width of the box), or
+ * it is narrower than `least`. Jumps and roots are there. */
+struct br_mesh {
+    double *at;  /* count + 1; owned */
+    bool *rough; /* count; owned */
+    size_t count, capacity;
+    double
+        missed; /* sum of width * (range of values) over the rough cells, f's unit times along's */
+};
+void br_mesh_free(struct br_mesh *mesh);
+
+/* Meshes the box along one variable so that in each cell, for all values of the other variable in
+ * the box, the function is proved to lie within the tolerance of its interpolant at the Chebyshev
+ * nodes, by |error| <= |f^(d+1) / (d+1)!| 2 (width / 4)^(d+1); or the cell is rough. Breaks are
+ * ends of cells. *mesh: out. Fails with BR_BAD_INPUT where the cells are too many, naming where, or
+ * BR_NO_MEMORY. */
+enum br_status br_resolve(const struct br_function *f, enum br_variable along, struct br_box box,
+                          const struct br_mesh_aim *aim, struct br_mesh *mesh,
+                          struct br_error *err);
+
+#endif

@@ -1,0 +1,397 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/scene/interval.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+typedef struct br_interval iv;
+
+const iv br_no_interval = {NAN, NAN};
+static const iv all_signs = {-1, 1}, either = {0, 1};
+
+bool br_is_none(iv a)
+{
+    return isnan(a.low) || isnan(a.high);
+}
+
+bool br_is_finite(iv a)
+{
+    return isfinite(a.low) && isfinite(a.high);
+}
+
+bool br_is_point(iv a)
+{
+    return a.low == a.high;
+}
+
+bool br_has_zero(iv a)
+{
+    return a.low <= 0 && a.high >= 0;
+}
+
+double br_magnitude(iv a)
+{
+    return fmax(fabs(a.low), fabs(a.high));
+}
+
+/* ---- rounding outward ---- */
+
+double br_next_up(double a)
+{
+    if (a == 0)
+        return 0x1p-1074;
+    if (isnan(a) || a == INFINITY)
+        return a;
+    uint64_t bits;
+    memcpy(&bits, &a, sizeof bits);
+    bits += a > 0 ? 1 : (uint64_t)-1;
+    memcpy(&a, &bits, sizeof bits);
+    return a;
+}
+
+double br_next_down(double a)
+{
+    return -br_next_up(-a);
+}
+
+/* By so many neighbours, but not through zero: the value's sign is right. */
+static double lower(double a, int neighbours)
+{
+    const bool positive = !signbit(a);
+    for (int i = 0; i < neighbours && !(positive && a == 0); i++)
+        a = br_next_down(a);
+    return a;
+}
+
+static double upper(double a, int neighbours)
+{
+    return -lower(-a, neighbours);
+}
+
+/* ---- arithmetic ---- */
+
+/* Whether s = a + b without error (Knuth). */
+static bool is_sum(double s, double a, double b)
+{
+    const double other = s - a;
+    return (a - (s - other)) + (b - other) == 0;
+}
+
+/* Whether p = a b without error; underflow is one. */
+static bool is_product(double p, double a, double b)
+{
+    return a == 0 || b == 0 || (fabs(p) > 1e-290 && fma(a, b, -p) == 0);
+}
+
+iv br_interval_add(iv a, iv b)
+{
+    const double low = a.low + b.low, high = a.high + b.high;
+    if (br_is_none(a) || br_is_none(b) || a.low + b.high != a.low + b.high ||
+        a.high + b.low != a.high + b.low)
+        return br_no_interval; /* infinity less infinity, too */
+    return (iv){is_sum(low, a.low, b.low) ? low : br_next_down(low),
+                is_sum(high, a.high, b.high) ? high : br_next_up(high)};
+}
+
+static iv negate(iv a)
+{
+    return (iv){-a.high, -a.low};
+}
+
+iv br_interval_subtract(iv a, iv b)
+{
+    return br_interval_add(a, negate(b));
+}
+
+/* Of a times or by b at the four corners. Their values: in, rounded. */
+static iv hull_of_corners(const double value[4], const bool exact[4])
+{
+    iv out = {INFINITY, -INFINITY};
+    for (int i = 0; i < 4; i++) {
+        out.low = fmin(out.low, exact[i] ? value[i] : lower(value[i], 1));
+        out.high = fmax(out.high, exact[i] ? value[i] : upper(value[i], 1));
+    }
+    return out;
+}
+
+iv br_interval_multiply(iv a, iv b)
+{
+    const double first[] = {a.low, a.low, a.high, a.high},
+                 second[] = {b.low, b.high, b.low, b.high};
+    double value[4];
+    bool exact[4];
+    if (br_is_none(a) || br_is_none(b) || (br_has_zero(a) && !br_is_finite(b)) ||
+        (br_has_zero(b) && !br_is_finite(a)))
+        return br_no_interval;
+    for (int i = 0; i < 4; i++) {
+        value[i] = first[i] * second[i];
+        exact[i] = is_product(value[i], first[i], second[i]);
+    }
+    return hull_of_corners(value, exact);
+}
+
+iv br_interval_divide(iv a, iv b)
+{
+    const double first[] = {a.low, a.low, a.high, a.high},
+                 second[] = {b.low, b.high, b.low, b.high};
+    double value[4];
+    bool exact[4];
+    if (br_is_none(a) || br_is_none(b) || br_has_zero(b) || !(br_is_finite(a) || br_is_finite(b)))
+        return br_no_interval;
+    for (int i = 0; i < 4; i++) {
+        value[i] = first[i] / second[i];
+        exact[i] = first[i] == 0 || (fabs(first[i]) > 1e-290 && value[i] != 0 &&
+                                     is_product(first[i], value[i], second[i]));
+    }
+    return hull_of_corners(value, exact);
+}
+
+iv br_interval_square(iv a)
+{
+    const double most = br_magnitude(a),
+                 least = br_has_zero(a) ? 0 : fmin(fabs(a.low), fabs(a.high));
+    const double low = least * least, high = most * most;
+    if (br_is_none(a))
+        return a;
+    return (iv){is_product(low, least, least) ? low : lower(low, 1),
+                is_product(high, most, most) ? high : upper(high, 1)};
+}
+
+iv br_interval_hull(iv a, iv b)
+{
+    return br_is_none(a) || br_is_none(b) ? br_no_interval
+                                          : (iv){fmin(a.low, b.low), fmax(a.high, b.high)};
+}
+
+/* ---- elementary functions ---- */
+
+/* The C library's functions are right to 2 units, SLEEF's to 1; and 1 where the exponent changes.
+ */
+enum { NEIGHBOURS = 4 };
+
+/* f is exact where its argument is 0 (all that are asked for are 0 or 1 there), or `exact_at`. */
+static iv increasing(double (*f)(double), iv a, double exact_at)
+{
+    const double low = f(a.low), high = f(a.high);
+    return (iv){a.low == exact_at ? low : lower(low, NEIGHBOURS),
+                a.high == exact_at ? high : upper(high, NEIGHBOURS)};
+}
+
+static iv clip(iv a, double low, double high)
+{
+    return (iv){fmax(a.low, low), fmin(a.high, high)};
+}
+
+static iv within(double (*f)(double), iv a, bool inside, double exact_at)
+{
+    return inside ? increasing(f, a, exact_at) : br_no_interval;
+}
+
+/* Whether phase + k period may be in a, for an integer k. */
+static bool has_phase(iv a, double phase, double period)
+{
+    const double slack = 4 * DBL_EPSILON * (br_magnitude(a) + 1);
+    const double k = ceil((a.low - slack - phase) / period);
+    return phase + k * period <= a.high + slack;
+}
+
+/* sin or cos, which is 1 at `top` and -1 half a turn later. */
+static iv wave(double (*f)(double), iv a, double top)
+{
+    if (!br_is_finite(a))
+        return br_no_interval;
+    if (br_magnitude(a) > 1e14 || a.high - a.low >= 2 * M_PI)
+        return all_signs;
+    const iv ends =
+        br_interval_hull(increasing(f, br_point(a.low), 0), increasing(f, br_point(a.high), 0));
+    return clip((iv){has_phase(a, top + M_PI, 2 * M_PI) ? -1 : ends.low,
+                     has_phase(a, top, 2 * M_PI) ? 1 : ends.high},
+                -1, 1);
+}
+
+static iv tangent(iv a)
+{
+    const bool pole = !br_is_finite(a) || br_magnitude(a) > 1e14 || a.high - a.low >= M_PI ||
+                      has_phase(a, M_PI / 2, M_PI);
+    return pole ? br_no_interval : increasing(tan, a, 0);
+}
+
+static iv absolute(iv a)
+{
+    return br_has_zero(a) ? (iv){0, br_magnitude(a)} : a.low > 0 ? a : negate(a);
+}
+
+/* ---- powers ---- */
+
+static iv positive_power(iv a, iv b)
+{
+    const double first[] = {a.low, a.low, a.high, a.high},
+                 second[] = {b.low, b.high, b.low, b.high};
+    iv out = {INFINITY, 0};
+    for (int i = 0; i < 4; i++) {
+        const double value = pow(first[i], second[i]);
+        const bool exact = first[i] == 0 || first[i] == 1 || second[i] == 0 || second[i] == 1;
+        out.low = fmin(out.low, exact ? value : lower(value, NEIGHBOURS));
+        out.high = fmax(out.high, exact ? value : upper(value, NEIGHBOURS));
+    }
+    return out;
+}
+
+static iv whole_power(iv a, double n)
+{
+    if (n == 0)
+        return br_point(1);
+    if (n < 0 && br_has_zero(a))
+        return br_no_interval;
+    if (n == 2)
+        return br_interval_square(a);
+    if (fmod(n, 2) == 0 || a.low >= 0)
+        return positive_power(absolute(a), br_point(n));
+    if (a.high <= 0)
+        return negate(positive_power(negate(a), br_point(n)));
+    return (iv){-positive_power(br_point(-a.low), br_point(n)).high,
+                positive_power(br_point(a.high), br_point(n)).high};
+}
+
+static iv power(iv a, iv b)
+{
+    if (!br_is_finite(a) || !br_is_finite(b))
+        return br_no_interval;
+    if (br_is_point(b) && trunc(b.low) == b.low)
+        return whole_power(a, b.low);
+    return a.low > 0 || (a.low == 0 && b.low >= 0) ? positive_power(a, b) : br_no_interval;
+}
+
+/* ---- truths ---- */
+
+static iv truth(bool certain, bool impossible)
+{
+    return certain ? br_point(1) : impossible ? br_point(0) : either;
+}
+
+static iv compare(enum br_operation o, iv a, iv b, bool same)
+{
+    switch (o) {
+    case BR_OP_GREATER:
+        return compare(BR_OP_LESS, b, a, same);
+    case BR_OP_GREATER_EQUAL:
+        return compare(BR_OP_LESS_EQUAL, b, a, same);
+    case BR_OP_LESS:
+        return truth(a.high < b.low && !same, a.low >= b.high || same);
+    case BR_OP_LESS_EQUAL:
+        return truth(a.high <= b.low || same, a.low > b.high && !same);
+    default: {
+        const bool apart = (a.high < b.low || a.low > b.high) && !same,
+                   equal = (br_is_point(a) && br_is_point(b) && a.low == b.low) || same;
+        return o == BR_OP_EQUAL ? truth(equal, apart) : truth(apart, equal);
+    }
+    }
+}
+
+static iv choose(iv condition, iv yes, iv no)
+{
+    if (br_is_none(condition))
+        return br_no_interval;
+    return !br_has_zero(condition) ? yes : br_is_point(condition) ? no : br_interval_hull(yes, no);
+}
+
+/* ---- all ---- */
+
+static bool is_zero(iv a)
+{
+    return a.low == 0 && a.high == 0;
+}
+
+static iv unary(enum br_operation o, iv a)
+{
+    switch (o) {
+    case BR_OP_NEGATE:
+        return negate(a);
+    case BR_OP_NOT:
+        return truth(is_zero(a), !br_has_zero(a));
+    case BR_OP_SIN:
+        return wave(sin, a, M_PI / 2);
+    case BR_OP_COS:
+        return wave(cos, a, 0);
+    case BR_OP_TAN:
+        return tangent(a);
+    case BR_OP_ASIN:
+        return within(asin, a, a.low >= -1 && a.high <= 1, 0);
+    case BR_OP_ACOS:
+        return a.low >= -1 && a.high <= 1 ? (iv){a.high == 1 ? 0 : lower(acos(a.high), NEIGHBOURS),
+                                                 upper(acos(a.low), NEIGHBOURS)}
+                                          : br_no_interval;
+    case BR_OP_ATAN:
+        return increasing(atan, a, 0);
+    case BR_OP_SINH:
+        return increasing(sinh, a, 0);
+    case BR_OP_COSH:
+        return clip(increasing(cosh, absolute(a), 0), 1 - DBL_EPSILON, INFINITY);
+    case BR_OP_TANH:
+        return clip(increasing(tanh, a, 0), -1, 1);
+    case BR_OP_ASINH:
+        return increasing(asinh, a, 0);
+    case BR_OP_ACOSH:
+        return within(acosh, a, a.low >= 1, 1);
+    case BR_OP_ATANH:
+        return within(atanh, a, a.low > -1 && a.high < 1, 0);
+    case BR_OP_EXP:
+        return increasing(exp, a, 0);
+    case BR_OP_EXPM1:
+        return clip(increasing(expm1, a, 0), -1, INFINITY);
+    case BR_OP_LOG:
+        return within(log, a, a.low > 0, 1);
+    case BR_OP_LOG2:
+        return within(log2, a, a.low > 0, 1);
+    case BR_OP_LOG10:
+        return within(log10, a, a.low > 0, 1);
+    case BR_OP_SQRT:
+        return a.low >= 0 ? (iv){lower(sqrt(a.low), 1), upper(sqrt(a.high), a.high != 0)}
+                          : br_no_interval;
+    case BR_OP_ABS:
+        return absolute(a);
+    case BR_OP_SIGN:
+        return (iv){a.low > 0 ? 1 : a.low < 0 ? -1 : 0, a.high > 0 ? 1 : a.high < 0 ? -1 : 0};
+    default:
+        return truth(a.low >= 0, a.high < 0); /* step */
+    }
+}
+
+static iv binary(enum br_operation o, iv a, iv b, bool same)
+{
+    switch (o) {
+    case BR_OP_ADD:
+        return br_interval_add(a, b);
+    case BR_OP_SUBTRACT:
+        return same && br_is_finite(a) ? br_point(0) : br_interval_subtract(a, b);
+    case BR_OP_MULTIPLY:
+        return same ? br_interval_square(a) : br_interval_multiply(a, b);
+    case BR_OP_DIVIDE:
+        return same && br_is_finite(a) && !br_has_zero(a) ? br_point(1) : br_interval_divide(a, b);
+    case BR_OP_POW:
+        return power(a, b);
+    case BR_OP_MIN:
+        return (iv){fmin(a.low, b.low), fmin(a.high, b.high)};
+    case BR_OP_MAX:
+        return (iv){fmax(a.low, b.low), fmax(a.high, b.high)};
+    case BR_OP_AND:
+        return truth(!br_has_zero(a) && !br_has_zero(b), is_zero(a) || is_zero(b));
+    case BR_OP_OR:
+        return truth(!br_has_zero(a) || !br_has_zero(b), is_zero(a) && is_zero(b));
+    default:
+        return compare(o, a, b, same);
+    }
+}
+
+iv br_interval_apply(enum br_operation o, const iv *a, bool same)
+{
+    if (o == BR_OP_CHOOSE)
+        return choose(a[0], a[1], a[2]);
+    const unsigned arguments = br_operation_arguments(o);
+    for (unsigned i = 0; i < arguments; i++)
+        if (br_is_none(a[i]))
+            return br_no_interval;
+    return arguments == 1 ? unary(o, a[0]) : binary(o, a[0], a[1], same);
+}

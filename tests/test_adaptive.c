@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the adaptive scheme goes by: its estimate of a step's error. Where that is wrong the answer
+ * may still be right, and the work is not: so steps are counted, too. */
+#include <math.h>
+
+#include "reference/textbook.h"
+#include "support.h"
+
+/* ---- the estimate, by the tables as they are printed ---- */
+
+enum { ROWS = BR_TEXTBOOK_ROWS };
+
+/* Second ends of third order: Hairer and Wanner's Table IV.6.5, and Kennedy and Carpenter's
+ * ARK4(3)6L[2]SA. */
+static const long double second_end[2][ROWS] = {
+    {59 / 48.0L, -17 / 96.0L, 225 / 32.0L, -85 / 12.0L, 0},
+    {4586570599 / 29645900160.0L, 0, 178811875 / 945068544.0L, 814220225 / 1159782912.0L,
+     -3700637 / 11593932.0L, 61727 / 225920.0L}};
+
+/* The conditions of order 3 that a second end has to meet, and one of order 4 that it does not. */
+static void test_second_ends(void **state)
+{
+    (void)state;
+    for (size_t since = 0; since < 2; since++) {
+        const struct br_textbook *book = br_textbook_step("adaptive", since);
+        const long double *b = second_end[since];
+        long double sum[5] = {0};
+        for (int i = 0; i < book->rows; i++) {
+            long double inner = 0;
+            for (int j = 0; j <= i; j++)
+                inner += book->a[i][j] * book->c[j];
+            sum[0] += b[i];
+            sum[1] += b[i] * book->c[i];
+            sum[2] += b[i] * book->c[i] * book->c[i];
+            sum[3] += b[i] * inner;
+            sum[4] += b[i] * book->c[i] * book->c[i] * book->c[i];
+        }
+        CLOSE((double)sum[0], 1, 1e-15);
+        CLOSE((double)sum[1], 1.0 / 2, 1e-15);
+        CLOSE((double)sum[2], 1.0 / 3, 1e-15);
+        CLOSE((double)sum[3], 1.0 / 6, 1e-15);
+        assert_true(fabsl(sum[4] - 0.25L) > 1e-4L);
+    }
+}
+
+/* y' = lambda y + cos(t), which has stages of one solve each: the scheme's own weights, from
+ * states. history: y and tau y' at the step's start. */
+static double estimate_by_scheme(size_t since, double lambda, double y, double k)
+{
+    struct br_stages s;
+    br_time_scheme_find("adaptive")->stages(since, &s);
+    double known[BR_KNOWN] = {[BR_NOW] = y}, sum = 0;
+    for (int i = 0; i < s.count; i++) {
+        const double tau = s.stage[i].gamma * k;
+        double z = 0;
+        known[BR_RATE] = tau * (lambda * y + 1);
+        for (int j = 0; j < BR_KNOWN; j++)
+            z += s.stage[i].weight[j] * known[j];
+        known[BR_STAGE + i] = (z + tau * cos(s.stage[i].time * k)) / (1 - tau * lambda);
+    }
+    for (int j = 0; j < BR_KNOWN; j++)
+        sum += s.error[j] * known[j];
+    return sum;
+}
+
+/* The same by Y'_i = lambda Y_i + cos(c_i k), row by row; the first end is the last row. */
+static long double estimate_by_book(size_t since, long double lambda, long double y, long double k)
+{
+    const struct br_textbook *book = br_textbook_step("adaptive", since);
+    long double rate[ROWS], sum = 0;
+    for (int i = 0; i < book->rows; i++) {
+        long double at = y;
+        for (int j = 0; j < i; j++)
+            at += k * book->a[i][j] * rate[j];
+        rate[i] = (lambda * at + cosl(book->c[i] * k)) / (1 - k * book->a[i][i] * lambda);
+    }
+    for (int i = 0; i < book->rows; i++)
+        sum += k * (book->a[book->rows - 1][i] - second_end[since][i]) * rate[i];
+    return sum;
+}
+
+static void test_estimate(void **state)
+{
+    (void)state;
+    for (size_t since = 0; since < 2; since++)
+        for (double k = 1; k > 0.03; k /= 2) {
+            const long double book = estimate_by_book(since, -1.3L, 0.7L, k);
+            CLOSE(estimate_by_scheme(since, -1.3, 0.7, k), (double)book, 1e-13);
+        }
+}
+
+/* ---- steps ---- */
+
+static struct br_counts counts_of(const struct br_scene *scene, const char *solver, size_t n,
+                                  double tolerance)
+{
+    struct br_method method = br_test_method(solver, "implicit", NULL);
+    method.scheme = br_time_scheme_find("adaptive");
+    method.tolerance = tolerance;
+    struct br_march *march = br_test_march(scene, n, 4, &method);
+    br_test_advance(march, 4);
+    const struct br_counts counts = br_march_counts(march);
+    br_march_free(march);
+    return counts;
+}
+
+/* Solvers differ in round-off: an estimate of the same state is the same, and so are the steps, to
+ * a few. Some meshes leave lanes of the vectors without an element. */
+static void test_same_steps(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"chatter", "release", "smoothed"};
+    static const size_t meshes[] = {1, 3, 8, 10, 21};
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
+        for (size_t j = 0; j < sizeof meshes / sizeof *meshes; j++) {
+            struct br_scene scene = br_test_bundled(scenes[i]);
+            const struct br_counts riccati = counts_of(&scene, "riccati", meshes[j], 1e-6);
+            const struct br_counts plain = counts_of(&scene, "plain", meshes[j], 1e-6);
+            const struct br_counts assembled = counts_of(&scene, "umfpack", meshes[j], 1e-6);
+            const double most = 1 + 0.01 * (double)plain.steps;
+            CLOSE((double)riccati.steps, (double)plain.steps, most);
+            CLOSE((double)assembled.steps, (double)plain.steps, most);
+            br_scene_clear(&scene);
+        }
+}
+
+/* A step's error is of order 4, so that steps shorten by 10^(1/4) with a tolerance of a tenth. */
+static void test_steps_of_tolerance(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bare();
+    scene.duration = 20;
+    scene.axial.load = br_test_load("sin(2*t)^5");
+    scene.bending.load = br_test_load("3*sin(2*t)^5");
+    const double many = (double)counts_of(&scene, NULL, 6, 1e-9).steps;
+    const double few = (double)counts_of(&scene, NULL, 6, 1e-5).steps;
+    CLOSE(log10(many / few) / 4, 0.25, 0.04);
+    br_scene_clear(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_second_ends),
+        cmocka_unit_test(test_estimate),
+        cmocka_unit_test(test_same_steps),
+        cmocka_unit_test(test_steps_of_tolerance),
+    };
+    return cmocka_run_group_tests_name("adaptive", tests, NULL, NULL);
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The n-th allocation of the whole process fails, also in libraries: exit code 3 and its name, or
+ * the same results. muParser and HDF5 are left out, which end the program. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli_driver.h"
+#include "support.h"
+
+static struct cli_outcome out;
+
+/* What a command writes, without its numbers: jansson would forget members. */
+static void take_results(char results[CLI_MOST_OUTPUT])
+{
+    char command[600];
+    snprintf(command, sizeof command,
+             "cd '%s' && cat set/*.csv set.json 2>/dev/null | sed -E 's/[0-9.e+-]*[0-9]//g'",
+             cli_folder());
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    results[fread(results, 1, CLI_MOST_OUTPUT - 1, pipe)] = '\0';
+    pclose(pipe);
+}
+
+static bool is_named(const char *said)
+{
+    return strstr(said, "out of memory") || strstr(said, "Cannot allocate memory") ||
+           strstr(said, "(-1010)"); /* LAPACK's name of it */
+}
+
+/* The n-th fails, n = first, first + every...; how many did. */
+static size_t sweep(const char *line, long first, long every)
+{
+    static char expected[CLI_MOST_OUTPUT], results[CLI_MOST_OUTPUT];
+    char fault[64], record[512], clear[600];
+    size_t failures = 0;
+    cli_path("reached", record);
+    setenv("BR_FAULT_LOG", record, 1);
+    setenv("OMP_NUM_THREADS", "2", 1);
+    snprintf(clear, sizeof clear, "cd '%s' && rm -rf set set.json reached", cli_folder());
+    assert_int_equal(system(clear), 0);
+    cli_expect(line, NULL, 0, "");
+    take_results(expected);
+    for (long n = first;; n += every) {
+        assert_int_equal(system(clear), 0);
+        snprintf(fault, sizeof fault, "memory %ld fail", n);
+        setenv("BR_FAULT", fault, 1);
+        cli_run_line(line, NULL, &out);
+        unsetenv("BR_FAULT");
+        if (!cli_is_there("reached"))
+            break;
+        take_results(results);
+        failures += out.exit_code == 3;
+        if (out.exit_code == 0 ? strcmp(results, expected) != 0
+                               : out.exit_code != 3 || !is_named(out.output))
+            fail_msg("beamrate %s: allocation %ld: exit code %d: %s\n%s", line, n, out.exit_code,
+                     out.output, out.exit_code ? "" : results);
+    }
+    assert_true(failures > 0);
+    return failures;
+}
+
+static const char small[] =
+    "title: small\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\naxial:\n  stiffness: 1 N\n"
+    "  viscosity: 1 N s\n  load: t [N/m]\nverify:\n  space:\n    n: 2, 4, 8, 16, 32\n    k: 0.1 s\n"
+    "    l2: 2 +- 0.9\n";
+
+static void test_sweep(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line;
+        long every; /* by default; 0: only where everything is tested */
+    } runs[] = {
+        {"scenes --new set.json", 1},
+        {"run small.yaml --n 4 --k 0.1 --quiet --json set.json", 23},
+        {"study small.yaml --n 2,4 --k 0.1,0.05 --no-plots --quiet --out set", 37},
+        {"check small.yaml --quiet --json set.json", 37},
+        {"tables --n 2,4 --k 0.5,0.25 --reference fine:8,0.25 --no-plots --quiet --out set", 0},
+    };
+    cli_write_file("small.yaml", small);
+    for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
+        if (!runs[i].every && !br_test_long())
+            continue;
+        const size_t failures = sweep(runs[i].line, 1, br_test_long() ? 1 : runs[i].every);
+        print_message("%s: %zu failures\n", runs[i].line, failures);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sweep)};
+    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
+}

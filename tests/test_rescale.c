@@ -1,0 +1,316 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The same scene in other units, and with the beam upside down: all that a study reports, by every
+ * judge and in every norm, is the same, in its own unit. What is relative to a wrong length, or
+ * squared by mistake, is not. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "study/differences.h"
+#include "study/rescale.h"
+#include "support.h"
+
+enum { NORMS = 3, MESHES = 3, STEPS = 3 };
+static const size_t meshes[MESHES] = {3, 6, 12}, steps[STEPS] = {10, 20, 40};
+
+/* Both fields and laws, loads of x and t, forces at the tip, and a beam that moves at first; `up`
+ * is 1 or -1. */
+static struct br_scene made(int up)
+{
+    struct br_scene scene = br_test_bare();
+    const char *const load[] = {"-60*sin(2.7*t+0.3)*(1+x)", "60*sin(2.7*t+0.3)*(1+x)"};
+    const char *const force[] = {"-3*sin(t)", "3*sin(t)"};
+    const char *const velocity[] = {"-0.2*x^2", "0.2*x^2"}, *const slope[] = {"-0.4*x", "0.4*x"};
+    scene.density = 0.5;
+    scene.axial.stiffness = 100;
+    scene.axial.viscosity = 20;
+    scene.axial.load = br_test_load("100*sin(pi*t)+20*x");
+    scene.axial.tip_force = br_test_function("5*t");
+    scene.bending.stiffness = 20;
+    scene.bending.viscosity = 5;
+    scene.bending.load = br_test_load(load[up > 0]);
+    scene.bending.tip_force = br_test_function(force[up > 0]);
+    scene.bending.velocity = br_test_function(velocity[up > 0]);
+    scene.bending.velocity_slope = br_test_function(slope[up > 0]);
+    scene.contact = (struct br_contact){.modelled = true, .gap = 0.1, .stiffness = 1000};
+    scene.friction = (struct br_friction){.law = BR_COULOMB, .coefficient = 30};
+    return scene;
+}
+
+/* ---- one set of units against another ---- */
+
+/* How many new units an old one is. */
+struct factors {
+    double metre, second;
+    double sign;      /* of the bending field */
+    double tolerance; /* relative to the largest of its kind */
+    double bar;       /* the same, of a judge's own error, which is round-off */
+};
+
+static double norm_factor(const struct br_norm *norm, const struct factors *f)
+{
+    if (norm == &br_norm_tip)
+        return f->metre;
+    const double root = f->metre * sqrt(f->metre); /* of an L2 norm of metres */
+    return norm == &br_norm_energy ? root / f->second : root;
+}
+
+static double measure_factor(enum br_field_kind kind, int measure, const struct factors *f)
+{
+    const double root = sqrt(f->metre);
+    const double factor[BR_MEASURES] = {
+        [BR_DISPLACEMENT] = f->metre * root,
+        [BR_VELOCITY] = f->metre * root / f->second,
+        [BR_STRAIN_RATE] = (kind == BR_AXIAL ? root : root / f->metre) / f->second,
+        [BR_TIP] = f->metre,
+    };
+    return factor[measure];
+}
+
+static void expect(const char *what, double now, double before, double factor, double tolerance)
+{
+    if (!(fabs(now - factor * before) <= tolerance * fabs(factor * before)) &&
+        !(isnan(now) && isnan(before)))
+        fail_msg("%s is %.12g in the new units, expected %.12g", what, now, factor * before);
+}
+
+static void expect_estimate(const struct br_estimate *now, const struct br_estimate *before,
+                            double factor, double tolerance)
+{
+    const double size = fabs(before->value * factor), low = factor > 0 ? before->low : before->high,
+                 high = factor > 0 ? before->high : before->low;
+    if (isfinite(before->value) || isfinite(now->value))
+        CLOSE(now->value, factor * before->value, tolerance * fmax(1, size));
+    if (isfinite(low) || isfinite(now->low)) {
+        CLOSE(now->low, factor * low, 1e3 * tolerance * fmax(1, size));
+        CLOSE(now->high, factor * high, 1e3 * tolerance * fmax(1, size));
+    }
+}
+
+static void compare_cells(const struct br_study *a, const struct br_study *b,
+                          const struct factors *f)
+{
+    const double sign[2] = {1, f->sign};
+    for (size_t i = 0; i < br_study_cells(a); i++) {
+        const struct br_cell *x = &a->cell[i], *y = &b->cell[i];
+        for (int part = 0; part < BR_PARTS; part++) {
+            expect("an error", y->error[part], x->error[part], norm_factor(a->norm, f),
+                   f->tolerance);
+            expect("its time", y->worst_time[part], x->worst_time[part], f->second, 1e-12);
+        }
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+            expect("a tip", y->tip[kind], x->tip[kind], f->metre * sign[kind], f->tolerance);
+        assert_int_equal(y->unstable, x->unstable);
+    }
+}
+
+static void compare_judges(const struct br_study *a, const struct br_study *b,
+                           const struct factors *f)
+{
+    const double sign[2] = {1, f->sign};
+    for (int part = 0; part < BR_PARTS; part++)
+        expect("the reference's audited error", b->reference_error[part], a->reference_error[part],
+               norm_factor(a->norm, f), f->tolerance);
+    expect("the reference's size", b->reference_scale, a->reference_scale, norm_factor(a->norm, f),
+           f->tolerance);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        expect("the reference's tip", b->reference_tip[kind], a->reference_tip[kind],
+               f->metre * sign[kind], f->tolerance);
+        for (int m = 0; m < BR_MEASURES; m++)
+            expect("the judge's own error", b->judged_by.own_error[kind][m],
+                   a->judged_by.own_error[kind][m], measure_factor((enum br_field_kind)kind, m, f),
+                   f->bar);
+    }
+}
+
+/* A minimum may be flat: an order is the same to a tenth of its interval. */
+static void compare_joint(const struct br_joint_fit *x, const struct br_joint_fit *y, double norm,
+                          const struct factors *f)
+{
+    if (!br_joint_describes(x))
+        return;
+    assert_true(br_joint_describes(y));
+    if (br_order_determined(&x->p))
+        CLOSE(y->p.value, x->p.value, 0.1 * (x->p.high - x->p.low));
+    if (br_order_determined(&x->q))
+        CLOSE(y->q.value, x->q.value, 0.1 * (x->q.high - x->q.low));
+    CLOSE(br_joint_model(y, f->metre / 10, f->second / 40, 0, 0) / norm /
+              br_joint_model(x, 1 / 10.0, 1 / 40.0, 0, 0),
+          1, 0.01);
+}
+
+/* A reference that knows its error is compared by that, which is round-off; the orders are none. */
+static void compare_fits(struct br_study *a, struct br_study *b, const struct factors *f)
+{
+    for (int part = 0; part < BR_PARTS; part++) {
+        struct br_error err = {0};
+        struct br_fits x, y;
+        const double norm = norm_factor(a->norm, f), bar = a->auditor ? f->tolerance : f->bar;
+        MUST(br_fit(a, (enum br_part)part, &x, &err));
+        MUST(br_fit(b, (enum br_part)part, &y, &err));
+        expect("what limits the cells", y.reference_error, x.reference_error, norm, bar);
+        for (size_t i = 0; i < MESHES; i++)
+            expect_estimate(&y.by_n[i].order, &x.by_n[i].order, 1, f->tolerance);
+        for (size_t j = 0; j < STEPS; j++)
+            expect_estimate(&y.by_k[j].order, &x.by_k[j].order, 1, f->tolerance);
+        assert_int_equal(x.joint.kind, y.joint.kind);
+        compare_joint(&x.joint, &y.joint, norm, f);
+        for (size_t i = 0; i < br_study_cells(a); i++)
+            assert_int_equal(b->cell[i].flag[part], a->cell[i].flag[part]);
+        br_fits_clear(&x);
+        br_fits_clear(&y);
+    }
+}
+
+/* ---- studies ---- */
+
+static void run(const struct br_scene *scene, const struct br_judge *judge,
+                struct br_study s[NORMS])
+{
+    struct br_error err = {0};
+    for (size_t m = 0; m < NORMS; m++)
+        s[m] = (struct br_study){
+            .scene = scene,
+            .norm = br_norms[m],
+            .method = br_method_default(),
+            .judge = judge,
+            .reference_method = br_method_default(),
+            .reference = judge == &br_judge_fine ? (struct br_resolution){24, 160}
+                                                 : (struct br_resolution){0, 0},
+            .auditor = judge == &br_judge_fine ? &br_judge_exact : NULL,
+            .n_count = MESHES,
+            .k_count = STEPS,
+            .n = meshes,
+            .steps = steps,
+            .next_norm = m + 1 < NORMS ? &s[m + 1] : NULL,
+        };
+    MUST(br_study_run(s, 1, 2, NULL, &err));
+}
+
+static const struct br_judge *const judges[] = {&br_judge_exact, &br_judge_fine};
+enum { JUDGES = sizeof judges / sizeof *judges };
+
+/* The scene as it is, and what is said of it. */
+static struct br_scene before;
+static struct br_study known[JUDGES][NORMS];
+
+static int run_once(void **state)
+{
+    (void)state;
+    before = made(1);
+    for (size_t j = 0; j < JUDGES; j++)
+        run(&before, judges[j], known[j]);
+    return 0;
+}
+
+static int forget(void **state)
+{
+    (void)state;
+    for (size_t j = 0; j < JUDGES; j++)
+        for (size_t m = 0; m < NORMS; m++)
+            br_study_clear(&known[j][m]);
+    br_scene_clear(&before);
+    return 0;
+}
+
+static void compare_studies(size_t judge, const struct br_scene *now, const struct factors *f)
+{
+    struct br_study *a = known[judge], b[NORMS];
+    run(now, judges[judge], b);
+    for (size_t m = 0; m < NORMS; m++) {
+        assert_true(a[m].cell[0].error[BR_PART_BENDING] > 0);
+        compare_cells(&a[m], &b[m], f);
+        compare_judges(&a[m], &b[m], f);
+        compare_fits(&a[m], &b[m], f);
+        br_study_clear(&b[m]);
+    }
+}
+
+/* What successive grids say without a judge. */
+static void differences_of(const struct br_scene *scene, struct br_differences *d,
+                           struct br_tips *tips)
+{
+    struct br_error err = {0};
+    const struct br_study grid = {
+        .scene = scene,
+        .norm = &br_norm_energy,
+        .method = br_method_default(),
+        .n_count = MESHES,
+        .k_count = STEPS,
+        .n = meshes,
+        .steps = steps,
+    };
+    MUST(br_differences_run(&grid, d, tips, 2, NULL, &err));
+}
+
+static void compare_differences(const struct br_scene *now, const struct factors *f)
+{
+    struct br_differences a, b;
+    struct br_tips x, y;
+    differences_of(&before, &a, &x);
+    differences_of(now, &b, &y);
+    compare_cells(&a.over_h, &b.over_h, f);
+    compare_cells(&a.over_k, &b.over_k, f);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_estimate earlier = br_extrapolate(&x, (enum br_field_kind)kind);
+        const struct br_estimate after = br_extrapolate(&y, (enum br_field_kind)kind);
+        expect_estimate(&after, &earlier, f->metre * (kind == BR_BENDING ? f->sign : 1),
+                        1e4 * f->tolerance);
+    }
+    struct br_study *const all[] = {&a.over_h, &a.over_k, &b.over_h, &b.over_k};
+    for (size_t i = 0; i < 4; i++)
+        br_study_clear(all[i]);
+    br_tips_clear(&x);
+    br_tips_clear(&y);
+}
+
+/* ---- what is done to the scene ---- */
+
+static struct br_scene in_units(const struct br_units_change *units)
+{
+    struct br_error err = {0};
+    struct br_scene now;
+    MUST(br_rescale(&before, units, &now, &err));
+    return now;
+}
+
+/* Powers of two round nothing: a beam of 4 m has the digits of one of 1 m. */
+static void test_powers_of_two(void **state)
+{
+    (void)state;
+    struct br_scene now = in_units(&(struct br_units_change){4, 0.125, 32});
+    const struct factors f = {4, 0.125, 1, 1e-12, 1e-9};
+    for (size_t j = 0; j < JUDGES; j++)
+        compare_studies(j, &now, &f);
+    br_scene_clear(&now);
+}
+
+static void test_other_units(void **state)
+{
+    (void)state;
+    struct br_scene now = in_units(&(struct br_units_change){0.3, 700, 11});
+    const struct factors f = {0.3, 700, 1, 1e-7, 30};
+    compare_studies(0, &now, &f);
+    compare_differences(&now, &f);
+    br_scene_clear(&now);
+}
+
+static void test_upside_down(void **state)
+{
+    (void)state;
+    struct br_scene now = made(-1);
+    const struct factors f = {1, 1, -1, 1e-12, 1e-9};
+    compare_studies(1, &now, &f);
+    compare_differences(&now, &f);
+    br_scene_clear(&now);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_powers_of_two),
+        cmocka_unit_test(test_other_units),
+        cmocka_unit_test(test_upside_down),
+    };
+    return cmocka_run_group_tests_name("rescale", tests, run_once, forget);
+}

@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scenes from strangers: names of files, titles and remarks that would be commands, markup or
+ * control characters, through every command that takes a scene. Nothing is run, nothing reaches a
+ * terminal or a text raw, and what is written is well formed. And gnuplot, which may fail or hang,
+ * costs no table. */
+#include <ctype.h>
+#include <ftw.h>
+#include <jansson.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli_driver.h"
+#include "solver/clock.h"
+#include "support.h"
+
+/* name: of the file, as bytes; text: within YAML's double quotes. */
+static const struct stranger {
+    const char *name, *text;
+} strangers[] = {
+    {"'.system('touch MARK').'", "5'' beam"},
+    {"'; system(\"touch MARK\"); '", "'; system(\\\"touch MARK\\\"); '"},
+    {"<touch MARK", "''; system(\\\"touch MARK\\\"); ''"},
+    {"|touch MARK", "' ''' '''' }} ; system('touch MARK'); # {"},
+    {"`touch MARK`", "`touch MARK` \\\"`touch MARK`\\\" @stem \\\\"},
+    {"$(touch MARK)", "a\\nsystem('touch MARK')\\n#\\n! touch MARK\\n\\\\"},
+    {"\\input{MARK}", "\\\\input{/etc/passwd} \\\\write18{touch MARK} $x_1^2$ 5% & # ~"},
+    {"<td><script>", "</td><script>alert(1)</script> <img src=x onerror=y> [a](b) | c"},
+    {"]]>&amp;", "]]> <!-- &lt; &#x1b; <![CDATA["},
+    {"=1+1", "=cmd|' /C calc'!A0"},
+    {"-@+x", "--out=MARK @SUM(1) +1,\\\"2\\\""},
+    {"a\nb\x1b[2J\xe2\x80\xae\xc2\x9b\x7f", "\\e[31m\\u202eabc\\u2066\\x85\\x9b\\a\\r\\x7f\\u200f"},
+    {"100%s%n%d", "%s%n%d %99999d {/Symbol a}_b^c"},
+    {"latin \xe4\xff", "Tr\xc3\xa4ger"},
+};
+enum { STRANGERS = sizeof strangers / sizeof *strangers };
+
+static void write_scene(const struct stranger *s)
+{
+    char file[300], scene[4096];
+    snprintf(file, sizeof file, "%s.yaml", s->name);
+    snprintf(scene, sizeof scene,
+             "title: \"%s\"\nremark: \"%s\"\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
+             "axial:\n  stiffness: 1 N\n  viscosity: 1 N s\n  solution: t*x*(2 - x) [m]\n"
+             "verify:\n  space:\n    n: 2, 4, 8, 16, 32\n    k: 0.5 s\n    l2: 1 +- 0.1\n",
+             s->text, s->text);
+    cli_write_file(file, scene);
+}
+
+/* ---- what is looked for ---- */
+
+/* A byte or character that a terminal obeys; NULL: there is none. */
+static const char *obeyed(const char *text)
+{
+    static const char *const marks[] = {"\xe2\x80\xae", "\xe2\x81\xa6", "\xe2\x80\x8f", "\xc2\x85",
+                                        "\xc2\x9b",     "\xe4",         "\xff"};
+    for (const char *c = text; *c; c++)
+        if ((iscntrl((unsigned char)*c) && *c != '\n') || *c == '\x7f')
+            return c;
+    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
+        if (strstr(text, marks[i]))
+            return strstr(text, marks[i]);
+    return NULL;
+}
+
+static bool ends_with(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), size = strlen(ending);
+    return length >= size && strcmp(path + length - size, ending) == 0;
+}
+
+static const char *contents(const char *path)
+{
+    static char text[1 << 18];
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    return text;
+}
+
+/* HTML of a title; in Markdown it is none behind a backslash, or between backticks. */
+static bool has_markup(const char *text)
+{
+    for (const char *c = strchr(text, '<'); c; c = strchr(c + 1, '<'))
+        if ((strncmp(c, "</td", 4) == 0 || strncmp(c, "<img", 4) == 0) &&
+            (c == text || c[-1] != '\\'))
+            return true;
+    return false;
+}
+
+static size_t files_seen;
+
+static int look_at_file(const char *path, const struct stat *info, int kind, struct FTW *place)
+{
+    static const char *const binary[] = {".png", ".svg", ".h5", ".yaml"};
+    (void)info;
+    if (strncmp(path + place->base, "MARK", 4) == 0)
+        fail_msg("%s: something was run", path);
+    if (kind != FTW_F)
+        return 0;
+    for (size_t i = 0; i < sizeof binary / sizeof *binary; i++)
+        if (ends_with(path, binary[i]))
+            return 0;
+    files_seen++;
+    const char *text = contents(path), *bad = obeyed(text);
+    json_error_t problem;
+    json_t *json = NULL;
+    if (bad && !ends_with(path, ".json"))
+        fail_msg("%s: byte %zu is 0x%02x", path, (size_t)(bad - text), (unsigned char)*bad);
+    if (ends_with(path, ".json") && !(json = json_loads(text, 0, &problem)))
+        fail_msg("%s: %s", path, problem.text);
+    json_decref(json);
+    if (ends_with(path, ".tex"))
+        assert_true(!strstr(text, "\\input") && !strstr(text, "\\write"));
+    if (ends_with(path, ".md") || ends_with(path, ".xml"))
+        assert_false(has_markup(text));
+    return 0;
+}
+
+static void look_at_all(void)
+{
+    assert_int_equal(nftw(cli_folder(), look_at_file, 8, FTW_PHYS), 0);
+}
+
+/* ---- every command ---- */
+
+/* SCENE stands for its file. */
+static const struct {
+    const char *line;
+    int exit_code;
+} commands[] = {
+    {"run SCENE --n 2 --k 0.5 --out run --json run.json", 0},
+    {"study SCENE --n 2,4 --k 0.5,0.25 --reference mms --out study", 0},
+    {"check SCENE --junit c.xml --json c.json --tap c.tap --markdown c.md", 1},
+    {"trade SCENE --methods euler --n 2 --k 0.5,0.25 --reference mms --repeats 1 --out trade", 0},
+    {"trade SCENE --split --methods euler --n 2 --k 0.5,0.25 --out split", 0},
+    {"scenes SCENE", 0},
+    {"run SCENE --n 2 --k 3", 2},
+    {"study SCENE.no", 2},
+    /* takes long */
+    {"plan SCENE --error 0.3 --methods euler --reference mms --repeats 1 --out plan", 0},
+};
+
+#define COMMANDS (sizeof commands / sizeof *commands)
+
+static void run_command(const struct stranger *s, size_t command, const char *path)
+{
+    const char *line = commands[command].line;
+    static struct cli_outcome out;
+    char copy[256], file[300];
+    const char *word[CLI_MOST_WORDS + 1];
+    int count = 0;
+    snprintf(copy, sizeof copy, "%s", line);
+    snprintf(file, sizeof file, "./%s.yaml%s", s->name, strstr(line, "SCENE.no") ? ".no" : "");
+    for (char *w = strtok(copy, " "); w; w = strtok(NULL, " "))
+        word[count++] = strncmp(w, "SCENE", 5) == 0 ? file : w;
+    word[count] = NULL;
+    cli_run(word, &(struct cli_circumstances){.path = path}, &out);
+    if (out.exit_code != commands[command].exit_code)
+        fail_msg("%s of '%s': exit code %d: %s", line, s->name, out.exit_code, out.output);
+    const char *bad = obeyed(out.output);
+    if (bad)
+        fail_msg("%s of '%s': byte 0x%02x in: %s", line, s->name, (unsigned char)*bad, out.output);
+    assert_null(strstr(out.output, "is not drawn"));
+    look_at_all();
+}
+
+static bool has_gnuplot(void)
+{
+    return getenv("GNUPLOT") != NULL;
+}
+
+/* Pictures and plans take most of the time: in the short test some scenes go without. */
+static void test_every_command(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < STRANGERS; i++) {
+        const bool drawn = i < 1 || br_test_long(), planned = i % 5 == 0 || br_test_long();
+        write_scene(&strangers[i]);
+        for (size_t c = 0; c < COMMANDS - (size_t)!planned; c++)
+            run_command(&strangers[i], c, drawn ? NULL : "/nonexistent");
+    }
+    assert_true(files_seen > 100);
+    if (system("command -v xmllint >/dev/null") == 0) {
+        char path[512], command[600];
+        cli_path("c.xml", path);
+        snprintf(command, sizeof command, "xmllint --noout '%s'", path);
+        assert_int_equal(system(command), 0);
+    }
+}
+
+/* Every script that was left is one that gnuplot takes; as SVG alone, which is quick. */
+static int draw_script(const char *path, const struct stat *info, int kind, struct FTW *place)
+{
+    (void)info, (void)place;
+    char command[2048], folder[1024];
+    if (kind != FTW_F || !ends_with(path, ".gp"))
+        return 0;
+    char *name = strrchr(strcpy(folder, path), '/');
+    *name++ = '\0';
+    if (strstr(name, "-h.") || strstr(name, "-work.")) /* as -k, and as -schemes */
+        return 0;
+    snprintf(command, sizeof command,
+             "cd '%s' && sed \"s/'svg png'/'svg'/\" '%s' | '%s' --default-settings 2>&1", folder,
+             name, getenv("GNUPLOT"));
+    FILE *pipe = popen(command, "r");
+    char said[256] = "";
+    assert_non_null(pipe);
+    fread(said, 1, sizeof said - 1, pipe);
+    if (pclose(pipe) != 0 || *said)
+        fail_msg("%s: %s", path, said);
+    return 0;
+}
+
+static void test_scripts(void **state)
+{
+    (void)state;
+    if (!has_gnuplot())
+        skip();
+    assert_int_equal(nftw(cli_folder(), draw_script, 8, FTW_PHYS), 0);
+    look_at_all();
+}
+
+/* A name as long as a file's may be: what is written for it has names that the disk takes. */
+static void test_long(void **state)
+{
+    (void)state;
+    char name[256], title[1200];
+    memset(name, 'n', 240);
+    memset(title, '\'', 1100);
+    name[240] = title[1100] = '\0';
+    const struct stranger s = {name, title};
+    write_scene(&s);
+    for (size_t c = 0; c < 5; c++)
+        run_command(&s, c, c == 1 ? NULL : "/nonexistent");
+}
+
+/* ---- gnuplot fails, or hangs ---- */
+
+/* A gnuplot that is a shell script; its PATH. */
+static const char *make_gnuplot(const char *script)
+{
+    static char path[1024];
+    char program[512];
+    cli_path("bin", program);
+    mkdir(program, 0777);
+    snprintf(path, sizeof path, "%s:/usr/bin:/bin", program);
+    cli_write_file("bin/gnuplot", script);
+    cli_path("bin/gnuplot", program);
+    assert_int_equal(chmod(program, 0755), 0);
+    return path;
+}
+
+#define STUDY "study example2 --n 2,4 --k 0.5,0.25 --reference exact --quiet --out "
+
+static void test_failing_gnuplot(void **state)
+{
+    (void)state;
+    const struct cli_circumstances failing = {
+        .path = make_gnuplot("#!/bin/sh\ntouch example2-h.svg half.svg\necho '\"x\" line 3: no "
+                             "\033[31m' >&2\nexit 1\n")};
+    cli_expect(STUDY "failing", &failing, 0,
+               "warning: example2-h.gp is not drawn: gnuplot failed on example2-h.gp: \"x\" line "
+               "3: no \\x1b[31m");
+    assert_true(cli_is_there("failing/example2.json") && cli_is_there("failing/example2-h.gp"));
+    assert_false(cli_is_there("failing/example2-h.svg")); /* half a picture is none */
+    cli_expect("trade example2 --split --methods euler --n 2 --k 0.5,0.25 --out failing", &failing,
+               0, "warning: example2-split.gp is not drawn");
+    assert_true(cli_is_there("failing/example2-split.json"));
+    cli_expect("trade example2 --methods euler --n 2 --k 0.5 --repeats 1 --out failing", &failing,
+               0, "warning: example2-schemes.gp is not drawn");
+    cli_expect("run example2 --n 2 --k 0.5 --plot --out failing", &failing, 0,
+               "warning: --plot is not drawn");
+    assert_true(cli_is_there("failing/summary.json"));
+}
+
+static bool is_alive(void)
+{
+    return system("ps -eo args | grep -q '^sleep 98.7654$'") == 0;
+}
+
+static void test_hanging_gnuplot(void **state)
+{
+    (void)state;
+    struct cli_circumstances hanging = {.path = make_gnuplot("#!/bin/sh\nsleep 98.7654\n")};
+    const double start = br_seconds();
+    assert_int_equal(setenv("BEAMRATE_GNUPLOT_SECONDS", "0.5", 1), 0);
+    cli_expect(STUDY "hung", &hanging, 0, "gnuplot did not end on example2-h.gp within 0.5 s");
+    assert_true(cli_is_there("hung/example2.json"));
+    assert_false(is_alive());
+    assert_int_equal(unsetenv("BEAMRATE_GNUPLOT_SECONDS"), 0);
+    hanging.interrupt_after = 1500;
+    cli_expect(STUDY "stopped", &hanging, -SIGINT, "interrupted; no file is half written");
+    assert_false(is_alive());
+    assert_int_equal(cli_count_files("stopped"), 0);
+    assert_true(br_seconds() - start < 30); /* of 60 that it may take, and 98 that it wants */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_command),
+        cmocka_unit_test(test_scripts),
+        cmocka_unit_test(test_long),
+        cmocka_unit_test(test_failing_gnuplot),
+        cmocka_unit_test(test_hanging_gnuplot),
+    };
+    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
+}

@@ -1,0 +1,310 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A set of results is the old one or the new one, wherever the program is ended. */
+#include <errno.h>
+#include <fcntl.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cli/output.h"
+#include "cli_driver.h"
+#include "support.h"
+
+static struct cli_outcome out;
+
+/* Two commands whose sets share some names, and not all. */
+static const char old_line[] = "study summary.yaml --n 4 --k 0.1 --no-plots --quiet --out set",
+                  new_line[] = "run example1 --n 4 --k 0.1 --quiet --out set";
+
+/* Runs a line with a fault; whether the call was reached. */
+static bool run_with(const char *line, const char *kind, long n, const char *what)
+{
+    char fault[64], record[512];
+    cli_path("reached", record);
+    unlink(record);
+    snprintf(fault, sizeof fault, "%s %ld %s", kind, n, what);
+    setenv("BR_FAULT", fault, 1);
+    setenv("BR_FAULT_LOG", record, 1);
+    cli_run_line(line, NULL, &out);
+    unsetenv("BR_FAULT");
+    return cli_is_there("reached");
+}
+
+static void shell(const char *line)
+{
+    char command[1200];
+    snprintf(command, sizeof command, "cd '%s' && %s", cli_folder(), line);
+    assert_int_equal(system(command), 0);
+}
+
+static void clear_set(void)
+{
+    shell("rm -rf set && mkdir set");
+}
+
+/* ---- what a reader does ---- */
+
+/* The sums of the folder's files, by a program that is not ours: lines of sum, blanks, name. */
+static const char *sums(void)
+{
+    static char lines[8192];
+    char command[600], path[512];
+    cli_path("set", path);
+    snprintf(command, sizeof command, "cd '%s' && sha256sum -- *", path);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    lines[fread(lines, 1, sizeof lines - 1, pipe)] = '\0';
+    assert_int_equal(pclose(pipe), 0);
+    return lines;
+}
+
+/* The command of the set that is there, whole and with nothing else; '-': no set. */
+static char set_that_is_there(void)
+{
+    char path[512];
+    cli_path("set/manifest.json", path);
+    json_t *manifest = json_load_file(path, 0, NULL);
+    if (!manifest)
+        return '-';
+    const json_t *set = json_array_get(json_object_get(manifest, "sets"), 0);
+    const json_t *files = json_object_get(set, "files");
+    assert_int_equal(json_array_size(json_object_get(manifest, "sets")), 1);
+    const size_t count = json_array_size(files);
+    assert_true(count > 0);
+    const char *lines = sums();
+    for (size_t i = 0; i < count; i++) {
+        const json_t *file = json_array_get(files, i);
+        char line[400];
+        snprintf(line, sizeof line, "%s  %s\n", json_string_value(json_object_get(file, "sha256")),
+                 json_string_value(json_object_get(file, "name")));
+        if (!strstr(lines, line))
+            fail_msg("not as the manifest says: %s", line);
+    }
+    const char *command = json_string_value(json_object_get(set, "command"));
+    const char which = strstr(command, " study ") ? 's' : 'r';
+    const size_t hidden = cli_is_there("set/.beamrate");
+    assert_int_equal(cli_count_files("set"), count + hidden);
+    json_decref(manifest);
+    return which;
+}
+
+/* What the next command does first. */
+static enum br_status sweep(void)
+{
+    struct br_error err;
+    char path[512];
+    cli_path("set", path);
+    const int folder = open(path, O_RDONLY | O_DIRECTORY);
+    assert_true(folder >= 0);
+    const enum br_status status = br_output_sweep(folder, &err);
+    close(folder);
+    return status;
+}
+
+/* ---- ended anywhere ---- */
+
+static void make_old(void)
+{
+    if (cli_is_there("old")) {
+        shell("rm -rf set && cp -r old set");
+        return;
+    }
+    clear_set();
+    cli_expect(old_line, NULL, 0, "");
+    assert_int_equal(set_that_is_there(), 's');
+    shell("cp -r set old");
+}
+
+/* For n = 1, 1 + every... until the call is not reached: the old set, the new one, or none; and
+ * after the sweep the new one wherever it was decided. */
+static size_t try_everywhere(const char *what, long every)
+{
+    size_t sets[3] = {0};
+    long n = 1;
+    for (;; n += every) {
+        make_old();
+        if (!run_with(new_line, "disk", n, what))
+            break;
+        const char before = set_that_is_there();
+        const bool decided = cli_is_there("set/.beamrate/.manifest");
+        assert_int_equal(sweep(), BR_OK);
+        const char after = set_that_is_there();
+        if (after != (decided || before == 'r' ? 'r' : 's') || (before == '-' && !decided))
+            fail_msg("disk %ld %s: %c, then %c: %s", n, what, before, after, out.output);
+        if (strcmp(what, "kill") != 0 && out.exit_code == 0 && after != 'r')
+            fail_msg("disk %ld %s: exit code 0 without the new set", n, what);
+        if (strcmp(what, "kill") != 0 && out.exit_code != 0 && out.exit_code != 3 &&
+            out.exit_code != 2)
+            fail_msg("disk %ld %s: exit code %d: %s", n, what, out.exit_code, out.output);
+        assert_false(cli_is_there("set/.beamrate"));
+        sets[before == 's' ? 0 : before == 'r' ? 1 : 2]++;
+    }
+    assert_int_equal(set_that_is_there(), 'r');
+    print_message("%s, %ld calls: %zu left the old set, %zu the new one, %zu the decision\n", what,
+                  n - 1, sets[0], sets[1], sets[2]);
+    return sets[0] * sets[1] * sets[2];
+}
+
+static void test_killed(void **state)
+{
+    (void)state;
+    assert_true(try_everywhere("kill", 1) > 0); /* each of the three was seen */
+}
+
+static void test_broken_disk(void **state)
+{
+    (void)state;
+    assert_true(try_everywhere("fail", br_test_long() ? 1 : 3) > 0);
+}
+
+/* The disk fails for good, then is mended. */
+static void test_dead_disk(void **state)
+{
+    (void)state;
+    assert_true(try_everywhere("from", br_test_long() ? 1 : 4) > 0);
+}
+
+/* ---- two at once ---- */
+
+static pid_t start_slow(const char *line)
+{
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child)
+        return child;
+    run_with(line, "disk", 0, "slow");
+    _exit(out.exit_code);
+}
+
+static void test_two_at_once(void **state)
+{
+    (void)state;
+    int ending;
+    make_old();
+    const pid_t first = start_slow(new_line);
+    for (int i = 0; i < 1000 && !cli_is_there("set/.beamrate/.owner"); i++)
+        usleep(5000);
+    usleep(20000); /* until its words are in the file */
+    cli_expect(new_line, NULL, 2, "in use by process");
+    assert_int_equal(waitpid(first, &ending, 0), first);
+    assert_int_equal(ending, 0);
+    assert_int_equal(set_that_is_there(), 'r');
+    assert_false(cli_is_there("set/.beamrate"));
+}
+
+/* Whatever the order: of those that begin together one at least ends well, and its set is whole. */
+static void test_many_at_once(void **state)
+{
+    (void)state;
+    enum { PROGRAMS = 4 };
+    pid_t child[PROGRAMS];
+    clear_set();
+    for (int i = 0; i < PROGRAMS; i++)
+        child[i] = start_slow(i % 2 ? old_line : new_line);
+    int done = 0;
+    for (int i = 0; i < PROGRAMS; i++) {
+        int ending;
+        assert_int_equal(waitpid(child[i], &ending, 0), child[i]);
+        assert_true(WIFEXITED(ending) && (WEXITSTATUS(ending) == 0 || WEXITSTATUS(ending) == 2));
+        done += WEXITSTATUS(ending) == 0;
+    }
+    assert_true(done >= 1);
+    assert_true(set_that_is_there() != '-');
+}
+
+/* ---- what is not ours ---- */
+
+static void test_foreign(void **state)
+{
+    (void)state;
+    make_old();
+    cli_write_file("set/notes.txt", "mine");
+    cli_expect(new_line, NULL, 0, "");
+    assert_string_equal(cli_read("set/notes.txt"), "mine");
+    assert_false(cli_is_there("set/summary.csv")); /* of the old set */
+    cli_write_file("set/history.csv", "changed");
+    cli_expect(old_line, NULL, 0, "history.csv is of an earlier run and was changed since");
+    assert_string_equal(cli_read("set/history.csv"), "changed");
+    cli_expect(new_line, NULL, 3, "history.csv was not written by an earlier run");
+    assert_string_equal(cli_read("set/history.csv"), "changed");
+    assert_true(cli_is_there("set/summary.csv"));
+    assert_false(cli_is_there("set/.beamrate"));
+}
+
+/* Nothing is lost: the results are beside it. */
+static void test_scene_in_the_way(void **state)
+{
+    (void)state;
+    char path[512];
+    clear_set();
+    cli_run_line("scenes example1", NULL, &out);
+    cli_write_file("set/summary.txt", out.output);
+    cli_run_line("run set/summary.txt --n 4 --k 0.1 --quiet --out set", NULL, &out);
+    assert_int_equal(out.exit_code, 3);
+    const char *there = strstr(out.output, "set/set-");
+    assert_non_null(there);
+    snprintf(path, sizeof path, "%.*s/summary.json", (int)strcspn(there, " "), there);
+    assert_true(cli_is_there(path));
+    assert_true(cli_file_contains("set/summary.txt", "sticks"));
+    cli_write_file("set/manifest.json", "{\"name\": \"somebody else's\"}");
+    cli_expect(new_line, NULL, 2, "manifest.json is not a manifest of this program");
+    assert_true(cli_file_contains("set/manifest.json", "somebody"));
+}
+
+/* Sets that share no name live side by side; one of other formats takes the old one's place. */
+static void test_several_sets(void **state)
+{
+    (void)state;
+    clear_set();
+    cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set", NULL, 0, "");
+    cli_expect("study example2 --n 4 --k 0.1 --no-plots --quiet --out set", NULL, 0, "");
+    assert_int_equal(cli_count_files("set"), 10);
+    cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --norm tip", NULL, 0, "");
+    assert_int_equal(cli_count_files("set"), 15);
+    assert_true(cli_file_contains("set/manifest.json", "study example2"));
+    cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --format csv", NULL, 0,
+               "");
+    assert_int_equal(cli_count_files("set"), 11);
+    cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --format json", NULL, 0,
+               "");
+    assert_true(cli_is_there("set/example1.json") && !cli_is_there("set/example1.csv"));
+    assert_int_equal(cli_count_files("set"), 11);
+}
+
+/* A movie's set and the other one do not disturb one another. */
+static void test_two_sets(void **state)
+{
+    (void)state;
+    clear_set();
+    cli_expect("run example1 --n 4 --k 0.1 --quiet --out set --animate set/tip.gif", NULL, 0, "");
+    assert_true(cli_is_there("set/manifest.json"));
+    assert_true(cli_is_there("set/tip.manifest.json"));
+    cli_expect(old_line, NULL, 0, "");
+    assert_true(cli_is_there("set/tip.gp"));
+    assert_false(cli_is_there("set/history.csv"));
+}
+
+static int make_folder(void **state)
+{
+    if (cli_make_folder(state))
+        return -1;
+    cli_run_line("scenes example1", NULL, &out);
+    cli_write_file("summary.yaml", out.output);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_killed),           cmocka_unit_test(test_broken_disk),
+        cmocka_unit_test(test_dead_disk),        cmocka_unit_test(test_two_at_once),
+        cmocka_unit_test(test_many_at_once),     cmocka_unit_test(test_foreign),
+        cmocka_unit_test(test_scene_in_the_way), cmocka_unit_test(test_two_sets),
+        cmocka_unit_test(test_several_sets),
+    };
+    return cmocka_run_group_tests(tests, make_folder, cli_remove_folder);
+}
