@@ -68,6 +68,8 @@ static enum br_status march_finer(struct br_extreme_trial *t, size_t finer, doub
     const bool chosen = fine.scheme->adaptive || fine.scheme->integrator;
     fine.solver = br_linear_solvers[0];
     fine.contact = implicit_contact();
+    if (fine.friction->iterates) /* what an iteration leaves adds up over many steps */
+        fine.friction = br_friction_rules[0];
     fine.scheme = br_time_scheme_find(chosen ? "adaptive" : "esdirk3");
     fine.tolerance = fmax(1e-11, fine.tolerance / (100 * times));
     fine.most_steps = 4 * BR_EXTREME_PATIENCE;
