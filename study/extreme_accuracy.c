@@ -124,8 +124,8 @@ static bool is_stated(const struct br_extreme_trial *t)
 static void decide_accuracy(struct br_extreme_trial *t)
 {
     const struct br_extreme_verdict *v = t->verdict;
-    const unsigned helps =
-        1u << BR_WARN_LOAD_TIME | 1u << BR_WARN_LOAD_SPACE | 1u << BR_WARN_BOUNCE;
+    const unsigned helps = 1u << BR_WARN_LOAD_TIME | 1u << BR_WARN_LOAD_SPACE |
+                           1u << BR_WARN_INITIAL | 1u << BR_WARN_BOUNCE;
     if (v->by == BR_BY_NOBODY)
         br_extreme_decide(t, BR_EXTREME_UNJUDGED, "nobody can judge it: %.150s",
                           t->other->failure.message);

@@ -6,17 +6,12 @@
 
 #include "study/warn_contact.h"
 
-extern const struct br_warning_source br_warn_bounce, br_warn_load, br_warn_load_space,
-    br_warn_prediction, br_warn_resources;
+extern const struct br_warning_source br_warn_bounce, br_warn_initial, br_warn_load,
+    br_warn_load_space, br_warn_prediction, br_warn_resources;
 
 const struct br_warning_source *const br_warning_sources[] = {
-    &br_warn_resources,
-    &br_warn_contact,
-    &br_warn_bounce,
-    &br_warn_load,
-    &br_warn_load_space,
-    &br_warn_prediction,
-    NULL,
+    &br_warn_resources,  &br_warn_contact, &br_warn_bounce,     &br_warn_load,
+    &br_warn_load_space, &br_warn_initial, &br_warn_prediction, NULL,
 };
 
 const char *br_warning_word(enum br_warning_kind kind)
@@ -82,6 +77,7 @@ enum br_status br_look_ahead_cheaply(const struct br_outlook *outlook, struct br
 enum br_status br_look_at_loads(const struct br_outlook *outlook, struct br_warnings *w,
                                 struct br_error *err)
 {
-    const enum br_status status = br_warn_load.look(outlook, w, err);
-    return status ? status : br_warn_load_space.look(outlook, w, err);
+    enum br_status status = br_warn_load.look(outlook, w, err);
+    status = status ? status : br_warn_load_space.look(outlook, w, err);
+    return status ? status : br_warn_initial.look(outlook, w, err);
 }

@@ -15,6 +15,7 @@
     X(BR_WARN_UNKNOWN, "error-not-known")  /* the discretisation error is not known */ \
     X(BR_WARN_LOAD_TIME, "load-in-time")   /* the time levels miss some of a load */   \
     X(BR_WARN_LOAD_SPACE, "load-in-space") /* the elements' quadrature misses some */  \
+    X(BR_WARN_INITIAL, "initial-data")     /* initial data between the nodes */        \
     X(BR_WARN_LONG, "long")                /* the march takes days */
 
 enum br_warning_kind {
@@ -80,8 +81,9 @@ enum br_status br_look_ahead(const struct br_outlook *outlook, struct br_warning
 enum br_status br_look_ahead_cheaply(const struct br_outlook *outlook, struct br_warnings *warnings,
                                      struct br_error *err);
 
-/* Asks about the loads alone: what of them the time levels and the elements do not see. For the
- * finest of many marches; that takes milliseconds, or a second for loads with thousands of jumps.
+/* Asks about the loads and initial data alone: what of them the time levels and the elements do
+ * not see. For the finest of many marches; that takes milliseconds, or a second for loads with
+ * thousands of jumps.
  */
 enum br_status br_look_at_loads(const struct br_outlook *outlook, struct br_warnings *warnings,
                                 struct br_error *err);

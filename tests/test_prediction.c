@@ -401,6 +401,51 @@ static void test_short_blows(void **state)
     }
 }
 
+static struct br_prediction told(const char *text, struct br_warnings *w)
+{
+    struct br_scene s;
+    struct br_prediction p;
+    struct br_error err = {0};
+    const struct br_method method = br_method_default();
+    const struct br_outlook o = {
+        .scene = &s, .method = &method, .n = 10, .steps = 800, .prediction = &p};
+    char scene[1000];
+    snprintf(scene, sizeof scene,
+             "title: t\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\naxial:\n  stiffness: 1 N\n"
+             "  viscosity: 1 N s\nbending:\n  stiffness: 1 N m^2\n  viscosity: 1 N m^2 s\n%s\n",
+             text);
+    MUST(br_scene_read_text("told", scene, &s, &err));
+    *w = (struct br_warnings){0};
+    MUST(br_look_ahead(&o, w, &err));
+    br_scene_clear(&s);
+    return p;
+}
+
+/* What no march of a prediction sees makes it not known, with that reason. */
+static void test_unseen(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *why;
+        enum br_warning_kind kind;
+    } rows[] = {
+        {"  tip_force: '1 + 1e7*exp(-((t - 0.1234567)/1e-8)^2) [N]'", "a load", BR_WARN_LOAD_TIME},
+        {"  load: '1e4*exp(-((x - 0.3333)/1e-5)^2) [N/m]'", "a load", BR_WARN_LOAD_SPACE},
+        {"  velocity: 'x^2 + 1e4*exp(-((x - 0.3333)/1e-6)^2) [m/s]'\n"
+         "  velocity_slope: '2*x - 2e16*(x - 0.3333)*exp(-((x - 0.3333)/1e-6)^2) [1/s]'",
+         "the initial data", BR_WARN_INITIAL},
+    };
+    struct br_warnings w;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const struct br_prediction p = told(rows[i].text, &w);
+        if (p.known || !strstr(p.why, rows[i].why) || !br_warnings_find(&w, rows[i].kind) ||
+            !br_warnings_find(&w, BR_WARN_UNKNOWN))
+            fail_msg("%s: known %d, %s", rows[i].text, p.known, p.why);
+    }
+    assert_true(told("  velocity: x^2 [m/s]\n  velocity_slope: 2*x [1/s]", &w).known);
+    assert_null(br_warnings_find(&w, BR_WARN_INITIAL));
+}
+
 /* Of each kind the first is kept, the others are counted. */
 static void test_list(void **state)
 {
@@ -427,7 +472,7 @@ int main(void)
         cmocka_unit_test(test_warnings),     cmocka_unit_test(test_list),
         cmocka_unit_test(test_blow),         cmocka_unit_test(test_short_blows),
         cmocka_unit_test(test_layer),        cmocka_unit_test(test_extrapolated),
-        cmocka_unit_test(test_says_unknown),
+        cmocka_unit_test(test_says_unknown), cmocka_unit_test(test_unseen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
