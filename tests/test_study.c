@@ -353,14 +353,18 @@ static void test_audit(void **state)
         struct br_scene scene = br_test_bundled(names[i]);
         struct br_study fine = study_of(&scene, (struct br_resolution){20, 50}, 1, &n, 1, &steps);
         fine.auditor = &br_judge_exact;
+        fine.norm = br_norms[i % 3];
         MUST(br_study_run(&fine, 1, 1, NULL, &err));
         assert_non_null(fine.auditor); /* it did not give up */
         struct br_study exact = study_of(&scene, (struct br_resolution){0}, 1, &n, 1, &steps);
         exact.judge = &br_judge_exact;
+        exact.norm = fine.norm;
         MUST(br_study_run(&exact, 1, 1, NULL, &err));
         for (int part = 0; part < BR_PARTS; part++)
             CLOSE(fine.reference_error[part], exact.cell[0].error[part],
                   1e-9 * exact.cell[0].error[BR_PART_TOTAL]);
+        CLOSE(fine.reference_scale, exact.reference_scale,
+              (1 + 1e-9) * exact.cell[0].error[BR_PART_TOTAL]);
         br_study_clear(&fine);
         br_study_clear(&exact);
         br_scene_clear(&scene);
