@@ -70,6 +70,8 @@ struct br_step {
     double (*largest)[BR_SCALES];
     double speed[2]; /* the largest by br_field_kind in the steps that this one's states were found
                         from, m/s; 0: the step counts alone */
+    double size[2];  /* the same of the norms of the equation's terms, as `size_now` told them */
+    double *size_now; /* out, by br_field_kind: the sum of these norms; NULL: nobody asks */
 };
 
 struct br_certificate br_certify(const struct br_step *step);

@@ -8,6 +8,9 @@
 /* Branches of a law: contact has two, open and closed; friction three, stick, slip up and down. */
 enum { BR_CONTACT_BRANCHES = 2, BR_FRICTION_BRANCHES = 3, BR_MOST_BRANCHES = 3 };
 
+/* A scheme's weights are up to 8, and its steps grow by 5. */
+enum { BR_MOST_WEIGHT = 64 };
+
 /* Nodal unknowns of a field's elements. */
 static inline size_t br_step_unknowns(const struct br_method *method, enum br_field_kind kind)
 {

@@ -120,9 +120,6 @@ static double tip_displacement_error(const struct br_step *s)
                          magnitude(u, size_of(s, BR_AXIAL)));
 }
 
-/* A scheme's weights are up to 8, and its steps grow by 5. */
-static const double most_weight = 64;
-
 /* Velocities are sums of increments: what those that a step starts from were rounded to remains in
  * its own, m/s. */
 static double stillness(const struct br_step *s, enum br_field_kind kind)
@@ -131,7 +128,7 @@ static double stillness(const struct br_step *s, enum br_field_kind kind)
     const struct br_step_field *f = &s->field[kind];
     const double own =
         br_worse_of(magnitude(f->velocity, size), magnitude(f->velocity_before, size));
-    return most_weight * DBL_EPSILON * br_worse_of(own, s->speed[kind]);
+    return BR_MOST_WEIGHT * DBL_EPSILON * br_worse_of(own, s->speed[kind]);
 }
 
 /* c_H (u - g) for a depth of any sign, less what rounding leaves of velocities. */

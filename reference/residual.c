@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The residual of (27) and (28), in the norm of certificate.h. */
+#include <float.h>
 #include <math.h>
 
 #include "reference/certificate_parts.h"
@@ -165,6 +166,14 @@ static void add_load(struct balance *b, size_t node)
     add_node(b, RESIDUAL, force, -1);
 }
 
+/* A residual, less what rounding leaves of states that were larger: where motion and load cross zero
+ * at once, all terms are small, but a velocity is still a sum of larger ones. */
+static double beyond_rounding(const struct br_step *s, enum br_field_kind kind, double residual)
+{
+    const double inherited = BR_MOST_WEIGHT * DBL_EPSILON * s->size[kind];
+    return br_worse_of(residual - inherited, 0);
+}
+
 static double relative_residual(struct balance *b, double tip_force)
 {
     const real tip[2] = {tip_force, 0};
@@ -183,8 +192,11 @@ static double relative_residual(struct balance *b, double tip_force)
     real size = 0;
     for (int t = 0; t < RESIDUAL; t++)
         size += sqrtl(b->term[t].square);
-    const real residual = sqrtl(b->term[RESIDUAL].square);
-    return br_over_scale(b->step, b->kind, BR_SCALE_RESIDUAL, (double)residual, (double)size);
+    const double residual = (double)sqrtl(b->term[RESIDUAL].square);
+    if (b->step->size_now)
+        b->step->size_now[b->kind] = (double)size;
+    return br_over_scale(b->step, b->kind, BR_SCALE_RESIDUAL,
+                         beyond_rounding(b->step, b->kind, residual), (double)size);
 }
 
 double br_step_residual(const struct br_step *s, enum br_field_kind kind)

@@ -26,6 +26,7 @@ struct br_witness {
     struct br_certificate worst;  /* since the last call */
     double largest[2][BR_SCALES]; /* so far */
     double speed[2][REMEMBERED];  /* the largest of each of the last steps, m/s */
+    double size[2][REMEMBERED];   /* the same of the norms of the equation's terms */
     struct br_certificate limits; /* as predicted when the march began */
     bool any;
 };
@@ -104,11 +105,11 @@ static void remember(struct br_witness *w, enum br_field_kind kind)
     }
 }
 
-static double largest_speed(const struct br_witness *w, enum br_field_kind kind)
+static double largest_of(const double remembered[REMEMBERED])
 {
     double most = 0;
     for (int i = 0; i < REMEMBERED; i++)
-        most = br_worse_of(w->speed[kind][i], most);
+        most = br_worse_of(remembered[i], most);
     return most;
 }
 
@@ -148,6 +149,7 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
                                      const double *axial_tip)
 {
     const struct br_watched *seen = &w->seen;
+    double size_now[2] = {0, 0};
     struct br_step step = {.scene = seen->scene,
                            .method = seen->method,
                            .n = seen->n,
@@ -157,13 +159,19 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
                            .axial_tip = axial_tip,
                            .tip = *br_march_tip(w->march),
                            .largest = w->largest,
-                           .speed = {largest_speed(w, BR_AXIAL), largest_speed(w, BR_BENDING)}};
+                           .speed = {largest_of(w->speed[BR_AXIAL]),
+                                     largest_of(w->speed[BR_BENDING])},
+                           .size = {largest_of(w->size[BR_AXIAL]),
+                                    largest_of(w->size[BR_BENDING])},
+                           .size_now = size_now};
     step.field[told->kind] = around(&seen->field[told->kind]);
     /* The axial field lends its size to the bound's round-off. */
     if (told->kind == BR_BENDING)
         step.field[BR_AXIAL] = lately(&seen->field[BR_AXIAL]);
     const struct br_certificate excess = excess_of(w, told->kind);
     struct br_certificate c = br_certify_field(&step, told->kind);
+    double *size = &w->size[told->kind][seen->field[told->kind].steps % REMEMBERED];
+    *size = br_worse_of(size_now[told->kind], *size);
     divide(&c, &excess);
     double distance[BR_MOST_BRANCHES];
     const int branches =
@@ -207,6 +215,7 @@ static void watch_step(void *self, enum br_field_kind kind, bool switched)
     struct br_witness *w = self;
     br_watched_step(&w->seen, kind, switched);
     w->speed[kind][w->seen.field[kind].steps % REMEMBERED] = 0;
+    w->size[kind][w->seen.field[kind].steps % REMEMBERED] = 0;
     br_certificate_merge(&w->worst, &w->trial[kind].worst);
     w->any = true;
 }

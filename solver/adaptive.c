@@ -68,11 +68,14 @@ struct trial {
     double strain[2];
 };
 
-/* Whether a field's law has branches that a step can hold. */
+/* Whether a field's law has branches that a step can hold. A contact without stiffness has no
+ * force, but Coulomb's bound has a kink where the tip passes the gap. */
 static bool has_branches(const struct br_march *m, enum br_field_kind kind)
 {
+    const struct br_contact *contact = &m->scene->contact;
     if (kind == BR_AXIAL)
-        return m->scene->contact.modelled && m->scene->contact.stiffness > 0;
+        return contact->modelled &&
+               (contact->stiffness > 0 || m->scene->friction.law == BR_COULOMB);
     return m->scene->friction.law != BR_FRICTIONLESS && !m->method.friction->needs_regularisation;
 }
 

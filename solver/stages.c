@@ -203,11 +203,21 @@ void br_march_accept(struct br_march *m, enum br_field_kind kind, const struct b
     come_back(&march);
 }
 
+/* Where the contact has a stiffness, its force tells it without the loss of a difference. One
+ * without is no switch of the field's, and equal steps go on; but steps that end at switches end
+ * there, for the kink of Coulomb's bound. */
+static bool is_closed(const struct br_march *m)
+{
+    const struct br_contact *contact = &m->scene->contact;
+    return contact->stiffness > 0 || !m->adaptive ? m->tip.contact_force > 0
+                                                  : m->tip.displacement > contact->gap;
+}
+
 enum br_regime br_march_regime(const struct br_march *m, enum br_field_kind kind)
 {
     const struct br_tip *tip = &m->tip;
     if (kind == BR_AXIAL && m->scene->contact.modelled)
-        return tip->contact_force > 0 ? BR_REGIME_CLOSED : BR_REGIME_OPEN;
+        return is_closed(m) ? BR_REGIME_CLOSED : BR_REGIME_OPEN;
     if (kind == BR_AXIAL || m->scene->friction.law == BR_FRICTIONLESS || !(tip->friction_bound > 0))
         return BR_REGIME_NONE;
     if (fabs(tip->friction_force) < tip->friction_bound)

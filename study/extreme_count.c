@@ -2,6 +2,7 @@
 #include "study/extreme_count.h"
 
 #include <ctype.h>
+#include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -111,6 +112,25 @@ void br_extreme_counts_clear(struct br_extreme_counts *counts)
     free(counts->tally);
     free(counts->reason);
     *counts = (struct br_extreme_counts){0};
+}
+
+/* ---- rates ---- */
+
+struct br_extreme_rate br_extreme_rate(const struct br_extreme_map *m)
+{
+    struct br_extreme_rate r = {.wrong = m->count[BR_EXTREME_WRONG]};
+    for (size_t i = 0; i < m->cases; i++) {
+        const enum br_extreme_class which = m->verdict[i].which;
+        if (which == BR_EXTREME_REFUSED || which == BR_EXTREME_UNJUDGED)
+            continue;
+        r.answers++;
+        r.unstated += !m->verdict[i].known;
+        r.unstated_unstable += !m->verdict[i].known && which == BR_EXTREME_UNSTABLE;
+    }
+    const double x = (double)r.wrong, rest = (double)(r.answers - r.wrong);
+    r.low = x > 0 ? gsl_cdf_beta_Pinv(0.025, x, rest + 1) : 0;
+    r.high = rest > 0 ? gsl_cdf_beta_Pinv(0.975, x + 1, rest) : 1;
+    return r;
 }
 
 /* ---- planes ---- */

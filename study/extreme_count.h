@@ -41,6 +41,15 @@ enum br_status br_extreme_count(const struct br_extreme_map *map, struct br_extr
                                 struct br_error *err);
 void br_extreme_counts_clear(struct br_extreme_counts *counts);
 
+/* Answers: cases that were marched and judged; and what they state. */
+struct br_extreme_rate {
+    size_t answers, wrong;
+    double low, high; /* of the share that is silently wrong: 95 %, Clopper and Pearson 1934 */
+    size_t unstated;  /* whose error is said to be not known */
+    size_t unstated_unstable; /* of these, beyond the lagged contact's limit */
+};
+struct br_extreme_rate br_extreme_rate(const struct br_extreme_map *map);
+
 /* A number of a case: a coordinate of a plane. */
 struct br_extreme_coordinate {
     const char *title;                               /* enhanced */

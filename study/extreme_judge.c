@@ -52,9 +52,12 @@ void br_extreme_decide(struct br_extreme_trial *t, enum br_extreme_class which, 
     t->done = true;
 }
 
-static bool warned_of(const struct br_extreme_trial *t, enum br_warning_kind kind)
+/* Whether it was said before the march that no digit may be right. */
+static bool warned(const struct br_extreme_trial *t)
 {
-    return br_warnings_find(&t->warnings, kind) != NULL;
+    return br_warnings_find(&t->warnings, BR_WARN_ROUND_OFF) ||
+           br_warnings_find(&t->warnings, BR_WARN_INACCURATE) ||
+           br_warnings_find(&t->warnings, BR_WARN_UNKNOWN);
 }
 
 struct br_track_request br_extreme_request(const struct br_extreme_trial *t)
@@ -91,12 +94,16 @@ static enum br_status read_case(struct br_extreme_trial *t, struct br_error *err
         status = br_model_select(&t->scene, t->one->wanted, &t->marched, &said);
     if (!status)
         status = br_method_check(&t->method, &said);
-    const struct br_outlook outlook = {
-        .scene = &t->marched, .method = &t->method, .n = t->one->n, .steps = t->one->steps};
+    const struct br_outlook outlook = {.scene = &t->marched,
+                                       .method = &t->method,
+                                       .n = t->one->n,
+                                       .steps = t->one->steps,
+                                       .prediction = &t->prediction};
     if (!status)
         status = br_look_ahead(&outlook, &t->warnings, &said);
     for (size_t i = 0; i < t->warnings.count; i++)
         t->verdict->warned |= 1u << t->warnings.list[i].kind;
+    t->verdict->known = t->prediction.known;
     return status ? refuse(t, status, &said, err) : BR_OK;
 }
 
@@ -120,7 +127,7 @@ static enum br_status march(struct br_extreme_trial *t, struct br_error *err)
         br_extreme_decide(t, BR_EXTREME_WRONG, "certificate: %.160s", own->report.verdict.message);
     else if (!own->finite)
         br_extreme_decide(t, BR_EXTREME_WRONG, "values that are not finite");
-    else if (!(own->report.round_off < no_digit) && !warned_of(t, BR_WARN_ROUND_OFF))
+    else if (!(own->report.round_off < no_digit) && !warned(t))
         br_extreme_decide(t, BR_EXTREME_WRONG,
                           "no digit is left (round-off %.2g), and nothing is said",
                           own->report.round_off);
@@ -146,7 +153,7 @@ enum br_status br_extreme_judge(const struct br_extreme_case *one,
                                 const struct br_extreme_court *court,
                                 struct br_extreme_verdict *verdict, struct br_error *err)
 {
-    *verdict = (struct br_extreme_verdict){.error = NAN, .units = NAN, .round_off = NAN};
+    *verdict = (struct br_extreme_verdict){.error = NAN, .stated = NAN, .units = NAN, .round_off = NAN};
     struct br_extreme_trial t = {
         .one = one, .court = court, .verdict = verdict, .method = one->method};
     t.method.most_steps = BR_EXTREME_PATIENCE;

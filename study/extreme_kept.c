@@ -9,14 +9,15 @@ enum { LINE = 512 };
 
 static void head_of(const struct br_extreme_wish *w, char head[LINE])
 {
-    snprintf(head, LINE, "beamrate extremes map 1, %.300s, seed %llu, rounding %d%s\n", w->program,
+    snprintf(head, LINE, "beamrate extremes map 2, %.300s, seed %llu, rounding %d%s\n", w->program,
              (unsigned long long)w->seed, w->court.rounding, w->court.quick ? ", quick" : "");
 }
 
 static void print(FILE *file, size_t index, const struct br_extreme_verdict *v)
 {
-    fprintf(file, "%zu %s %d %.17g %.17g %.17g %u;%s\n", index, br_extreme_word(v->which),
-            (int)v->by, v->error, v->units, v->round_off, v->warned, v->why);
+    fprintf(file, "%zu %s %d %d %.17g %.17g %.17g %.17g %u;%s\n", index, br_extreme_word(v->which),
+            (int)v->by, (int)v->known, v->error, v->stated, v->units, v->round_off, v->warned,
+            v->why);
 }
 
 static bool find_class(const char *word, enum br_extreme_class *which)
@@ -33,13 +34,14 @@ static bool find_class(const char *word, enum br_extreme_class *which)
 static bool scan(const char *line, size_t *index, struct br_extreme_verdict *v)
 {
     char word[32];
-    int by, used = 0;
+    int by, known, used = 0;
     *v = (struct br_extreme_verdict){0};
-    if (sscanf(line, "%zu %31s %d %lf %lf %lf %u;%n", index, word, &by, &v->error, &v->units,
-               &v->round_off, &v->warned, &used) != 7 ||
+    if (sscanf(line, "%zu %31s %d %d %lf %lf %lf %lf %u;%n", index, word, &by, &known, &v->error,
+               &v->stated, &v->units, &v->round_off, &v->warned, &used) != 9 ||
         used == 0 || by < BR_BY_NOBODY || by > BR_BY_REFINEMENT || !find_class(word, &v->which))
         return false;
     v->by = (enum br_extreme_by)by;
+    v->known = known != 0;
     snprintf(v->why, sizeof v->why, "%.*s", (int)strcspn(line + used, "\n"), line + used);
     return true;
 }

@@ -145,23 +145,30 @@ void br_extreme_scene(const struct br_extreme_case *c, char text[BR_EXTREME_TEXT
         add(&t, "  regularisation: %.17g m/s\n", c->regularisation);
 }
 
+static bool heeds(const struct br_method *m, const char *option)
+{
+    return br_linear_solver_heeds(m->solver, option);
+}
+
+/* What the program takes: no option that the method does not heed, and every number to its last
+ * bit. */
 void br_extreme_command(const struct br_extreme_case *c, const char *name,
                         char text[BR_EXTREME_COMMAND])
 {
     struct text t = {text, BR_EXTREME_COMMAND};
     const struct br_method *m = &c->method;
-    add(&t,
-        "beamrate run %s --check --n %zu --k %.17g --scheme %s --solver %s --contact %s "
-        "--friction %s",
-        name, c->n, c->duration / (double)c->steps, m->scheme->name, m->solver->name,
-        m->contact->name, m->friction->name);
-    if (m->axial_degree != 1)
+    const bool chosen = m->scheme->adaptive || m->scheme->integrator;
+    add(&t, "beamrate run %s%s --n %zu --k %.17g --scheme %s --solver %s --contact %s", name,
+        m->scheme->integrator ? "" : " --check", c->n, c->duration / (double)c->steps,
+        m->scheme->name, m->solver->name, m->contact->name);
+    add(&t, " --friction %s", m->friction->name);
+    if (m->axial_degree != 1 && c->part[BR_AXIAL].modelled)
         add(&t, " --axial-degree %d", m->axial_degree);
-    if (m->scheme->adaptive)
-        add(&t, " --tolerance %.3g", m->tolerance);
-    if (m->linear.refinement)
+    if (chosen)
+        add(&t, " --tolerance %.17g", m->tolerance);
+    if (m->linear.refinement && heeds(m, "--refinement"))
         add(&t, " --refinement %d", m->linear.refinement);
-    if (m->linear.scaling && strcmp(m->linear.scaling, "none") != 0)
+    if (m->linear.scaling && heeds(m, "--scaling"))
         add(&t, " --scaling %s", m->linear.scaling);
     if (c->wanted)
         add(&t, " --fields axial,bending");

@@ -3,16 +3,30 @@
 
 #include <math.h>
 
+/* Even ones of `count`, then ever nearer to the tip, which is the last. */
+static size_t choose_places(size_t count, size_t place[BR_TRACK_POINTS])
+{
+    const size_t even = count < BR_TRACK_EVEN ? count : BR_TRACK_EVEN;
+    size_t points = 0;
+    for (size_t i = 0; i + 1 < even; i++)
+        place[points++] = (i + 1) * count / even;
+    for (size_t from_tip = count / (2 * BR_TRACK_EVEN);
+         from_tip > 0 && points + 1 < BR_TRACK_POINTS; from_tip /= 2)
+        place[points++] = count - from_tip;
+    place[points++] = count;
+    return points;
+}
+
 struct br_track_places br_track_places(size_t n, size_t steps)
 {
-    struct br_track_places p = {.n = n, .steps = steps};
+    struct br_track_places p = {.n = n, .steps = steps, .parts = 1};
     const size_t parts = steps < BR_TRACK_LEVELS ? steps : BR_TRACK_LEVELS;
+    while (n * p.parts < BR_TRACK_EVEN)
+        p.parts *= 2;
     p.levels = parts + 1;
-    p.points = n < BR_TRACK_POINTS ? n : BR_TRACK_POINTS;
+    p.points = choose_places(n * p.parts, p.place);
     for (size_t i = 0; i < p.levels; i++)
         p.level[i] = i * steps / parts;
-    for (size_t i = 0; i < p.points; i++)
-        p.node[i] = (i + 1) * n / p.points;
     return p;
 }
 
@@ -31,6 +45,19 @@ static void keep_slope(struct br_track *t, size_t point, double slope)
     t->largest[BR_BENDING] = fmax(t->largest[BR_BENDING], fabs(slope));
 }
 
+/* A displacement at xi, 0 to 1, in the element whose nodes' unknowns begin there, and of a beam h w_x
+ * (out). Rods: u, and, where they are quadratic, the bulge's b; beams: w and h w_x. */
+static double interpolate(const double *at, size_t unknowns, enum br_field_kind kind, double xi,
+                          double *slope)
+{
+    const double *end = at + unknowns, r = 1 - xi;
+    if (kind == BR_AXIAL)
+        return at[0] * r + end[0] * xi - (unknowns == 2 ? end[1] * xi * r : 0);
+    *slope = 6 * xi * r * (end[0] - at[0]) + r * (1 - 3 * xi) * at[1] - xi * (2 - 3 * xi) * end[1];
+    return (1 + 2 * xi) * r * r * at[0] + xi * r * r * at[1] + xi * xi * (3 - 2 * xi) * end[0] -
+           xi * xi * r * end[1];
+}
+
 static void look_at(struct looker *l, const struct br_march *march, enum br_field_kind kind)
 {
     struct br_track *t = l->track;
@@ -45,10 +72,14 @@ static void look_at(struct looker *l, const struct br_march *march, enum br_fiel
     for (size_t i = 0; i < size; i += unknowns)
         t->largest[kind] = fmax(t->largest[kind], fabs(l->nodal[i]));
     for (size_t p = 0; p < t->places.points; p++) {
-        const double *node = l->nodal + l->request->finer * t->places.node[p] * unknowns;
-        t->value[kind][t->seen][p] = node[0];
+        const size_t part = l->request->finer * t->places.place[p], parts = t->places.parts;
+        const size_t element = (part - 1) / parts; /* that the place ends, or is in */
+        const double xi = (double)(part - element * parts) / (double)parts;
+        double slope;
+        t->value[kind][t->seen][p] =
+            interpolate(l->nodal + element * unknowns, unknowns, kind, xi, &slope);
         if (kind == BR_BENDING)
-            keep_slope(t, p, node[1] * (double)f->n / 4);
+            keep_slope(t, p, slope * (double)f->n / 4);
     }
 }
 
@@ -74,6 +105,11 @@ static enum br_status watch_size(void *self, const struct br_march *march,
 {
     struct br_track *t = ((struct looker *)self)->track;
     (void)err;
+    const double force[2] = {row->contact_force, row->friction_force};
+    const double k = t->report.k;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && row->step > 0; kind++)
+        t->held[kind] +=
+            k * fabs(force[kind]) * br_march_compliance(march, (enum br_field_kind)kind);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         t->speed[kind] = fmax(t->speed[kind], fabs(row->velocity[kind]));
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
@@ -134,7 +170,8 @@ static enum br_status evaluate(const struct br_exact *exact, struct br_track *t,
 {
     double x[BR_TRACK_POINTS];
     for (size_t p = 0; p < t->places.points; p++)
-        x[p] = length * (double)t->places.node[p] / (double)t->places.n;
+        x[p] = length * (double)t->places.place[p] /
+               (double)(t->places.n * t->places.parts);
     return br_exact_evaluate(exact, state, part, t->places.points, x, value, &t->failure);
 }
 
@@ -147,8 +184,9 @@ static enum br_status read_exact(const struct br_exact *exact, struct br_track *
     enum br_status status = evaluate(exact, t, &part, length, state, value);
     for (size_t p = 0; p < t->places.points && !status; p++)
         t->largest[kind] = fmax(t->largest[kind], fabs(value[p]));
-    t->largest[kind] =
-        fmax(t->largest[kind], br_exact_report(exact, part.field).largest.displacement);
+    const struct br_exact_report report = br_exact_report(exact, part.field);
+    t->largest[kind] = fmax(t->largest[kind], report.largest.displacement);
+    t->own_error[kind] = report.error.displacement;
     part.order = 1;
     if (!status && kind == BR_BENDING)
         status = evaluate(exact, t, &part, length, state, slope);
@@ -221,4 +259,64 @@ double br_track_distance(const struct br_track *track, const struct br_track *re
         most = isnan(slope) || slope > most ? slope : most;
     }
     return most == 0 ? 0 : most / (size[kind] > 0 ? size[kind] : size[1 - kind]);
+}
+
+/* ---- errors ---- */
+
+/* The mean square of a field less another's, or alone, at a level: by trapezes from the clamped
+ * end, where nothing moves. */
+static double square(const struct br_track *a, const struct br_track *b, int value, size_t level)
+{
+    const struct br_track_places *at = &a->places;
+    double sum = 0;
+    for (size_t p = 0; p < at->points; p++) {
+        const double d = a->value[value][level][p] - (b ? b->value[value][level][p] : 0);
+        const size_t before = p > 0 ? at->place[p - 1] : 0;
+        const size_t after = p + 1 < at->points ? at->place[p + 1] : at->n * at->parts;
+        sum += d * d * (double)(after - before) / 2;
+    }
+    return sum / (double)(at->n * at->parts);
+}
+
+static double largest_mean(const struct br_track *a, const struct br_track *b,
+                           enum br_field_kind kind)
+{
+    double most = 0;
+    for (size_t i = 0; i < a->places.levels; i++) {
+        const double mean = square(a, b, kind, i);
+        most = isnan(mean) || mean > most ? mean : most;
+    }
+    return sqrt(most);
+}
+
+/* The largest of the values that are looked at; of a beam also of the bulge, as in `largest`. */
+static double largest_seen(const struct br_track *t, enum br_field_kind kind)
+{
+    const int last = kind == BR_BENDING ? BR_TRACK_SLOPE : (int)kind;
+    double most = 0;
+    for (int value = kind; value <= last; value++)
+        for (size_t i = 0; i < t->places.levels; i++)
+            for (size_t p = 0; p < t->places.points; p++)
+                most = fmax(most, fabs(t->value[value][i][p]));
+    return most;
+}
+
+/* Of the mean at all times: as much larger as what the track has seen at other times. */
+static double mean_size(const struct br_track *t, enum br_field_kind kind)
+{
+    const double mean = largest_mean(t, NULL, kind), seen = largest_seen(t, kind);
+    return seen > 0 ? mean * fmax(1, t->largest[kind] / seen) : 0;
+}
+
+double br_track_error(const struct br_track *track, const struct br_track *reference,
+                      enum br_field_kind kind, double *sure_to)
+{
+    *sure_to = 0;
+    if (track->seen < track->places.levels || reference->seen < track->places.levels)
+        return NAN;
+    const double own = mean_size(reference, kind);
+    const double size = own > 0 ? own : mean_size(reference, (enum br_field_kind)(1 - kind));
+    const double error = largest_mean(track, reference, kind);
+    *sure_to = reference->own_error[kind] == 0 ? 0 : reference->own_error[kind] / size;
+    return error == 0 ? 0 : error / size;
 }

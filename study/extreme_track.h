@@ -7,14 +7,21 @@
 #include "reference/exact/exact.h"
 #include "study/run.h"
 
-enum { BR_TRACK_LEVELS = 8, BR_TRACK_POINTS = 16, BR_TRACK_SLOPE = 2, BR_TRACK_VALUES };
+enum {
+    BR_TRACK_LEVELS = 8,
+    BR_TRACK_EVEN = 16,   /* places at equal distances */
+    BR_TRACK_POINTS = 24, /* and others near the tip, where layers are */
+    BR_TRACK_SLOPE = 2,
+    BR_TRACK_VALUES
+};
 
-/* Where is looked: levels of `steps`, nodes of n elements, each ascending, the last being the end;
- * the first level is 0, whose values count as sizes. */
+/* Where is looked: levels of `steps`, and places on n elements of `parts` parts each, counted in
+ * parts; each ascending, the last being the end; the first level is 0, whose values count as sizes.
+ */
 struct br_track_places {
-    size_t n, steps;
+    size_t n, steps, parts;
     size_t level[BR_TRACK_LEVELS + 1], levels;
-    size_t node[BR_TRACK_POINTS], points;
+    size_t place[BR_TRACK_POINTS], points;
 };
 struct br_track_places br_track_places(size_t n, size_t steps);
 
@@ -26,7 +33,10 @@ struct br_track {
     size_t seen;                 /* levels */
     bool finite;                 /* all nodal values there */
     double largest[2];           /* of all nodal displacements there, m */
+    double own_error[2];         /* what an exact solution says that it is off by, m */
     double speed[2];             /* of the nodes there, and of the tip at every step, m/s */
+    double held[2];              /* ways that the tip would have gone without the laws' forces, from
+                                    step to step, m: its own are differences from these */
     struct br_run_report report; /* its scenes are gone */
     struct br_error failure;     /* BR_OK; why it did not begin, or stopped */
     bool begun;
@@ -58,5 +68,10 @@ enum br_status br_track_exact(const struct br_scene *modelled, const struct br_t
  * the track's. 0 where there is no difference, NAN where a value is not finite or missing. */
 double br_track_distance(const struct br_track *track, const struct br_track *reference,
                          enum br_field_kind kind, double unit);
+
+/* The error of a field: the largest root of the mean square over x, by the places, at a level, over
+ * the largest of `reference`, as br_track_distance. *sure_to (out): what the reference says of itself, relative to the same. */
+double br_track_error(const struct br_track *track, const struct br_track *reference,
+                      enum br_field_kind kind, double *sure_to);
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "study/extreme_judge.h"
 #include "study/extreme_track.h"
+#include "study/prediction.h"
 
 enum { BR_EXTREME_PATIENCE = 2500 }; /* steps of the exact solution, and of adaptive schemes */
 
@@ -16,7 +17,10 @@ struct br_extreme_trial {
     struct br_method method;
     struct br_track_places places;
     struct br_track *own, *other;
-    double size[2]; /* of the solution by those who judge, by br_field_kind, m */
+    struct br_prediction prediction;
+    double judge_error[2]; /* of those who judge, by br_field_kind, relative; 0: not known */
+    double beyond;         /* an error over what is stated, where it is more; 0: it is not */
+    double error;          /* that error, or the largest */
     struct br_warnings warnings;
     bool done;
 };
@@ -29,7 +33,8 @@ __attribute__((format(printf, 3, 4))) void br_extreme_decide(struct br_extreme_t
 /* What is marched where nothing is changed. */
 struct br_track_request br_extreme_request(const struct br_extreme_trial *trial);
 
-/* How accurate the march is, by the exact solution or by refinement; decides. Fails with
+/* How accurate the march is, by the exact solution or by refinement, against what is stated;
+ * decides. Fails with
  * BR_NO_MEMORY. */
 enum br_status br_extreme_judge_accuracy(struct br_extreme_trial *trial, struct br_error *err);
 

@@ -59,21 +59,36 @@ static enum br_status march_with_noise(struct br_extreme_trial *t, double *most,
     return BR_OK;
 }
 
+/* Where a scheme takes a step or not by comparisons that a last bit decides, marches agree as well
+ * as each is right: as is stated, and within so many times the tolerance. */
+static const double of_tolerance = 100;
+
+static double control(const struct br_extreme_trial *t)
+{
+    if (!t->method.scheme->adaptive && !t->method.scheme->integrator)
+        return 0;
+    double stated = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        stated = fmax(stated, br_predicted_most(&t->prediction, (enum br_field_kind)kind));
+    return fmin(stated, of_tolerance * t->method.tolerance);
+}
+
 /* What rounding may do to the displacements, relative to the largest: what is predicted, in either
  * units, since assembled matrices are rounded otherwise in others; what an iteration leaves; the
- * velocities' own, since displacements are sums of them; and what an integrator of its own is asked
- * for, since it takes a step or not by comparisons that a last bit decides. */
+ * velocities' own, since displacements are sums of them, and those that the tip would have without
+ * the laws' forces, since its own are differences from these; and what steps that are chosen
+ * differ by. */
 static double allowed(const struct br_extreme_trial *t)
 {
     const double k = t->marched.duration / (double)t->one->steps;
     double ways = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (t->own->largest[kind] > 0)
-            ways = fmax(ways, k * t->own->speed[kind] / t->own->largest[kind]);
+            ways = fmax(ways, (k * t->own->speed[kind] + t->own->held[kind]) /
+                                  t->own->largest[kind]);
     const double iteration = t->method.friction->iterates ? t->method.iteration.tolerance : 0;
     const double predicted = fmax(t->verdict->round_off, t->other->report.round_off);
-    const double control = t->method.scheme->integrator ? t->method.tolerance : 0;
-    return 16 * (predicted + DBL_EPSILON * ways) + 4 * iteration + control;
+    return 16 * (predicted + DBL_EPSILON * ways) + 4 * iteration + control(t);
 }
 
 enum br_status br_extreme_judge_units(struct br_extreme_trial *t, struct br_error *err)

@@ -175,8 +175,11 @@ void br_lockstep_conclude(struct br_lockstep *l)
         s->auditor = l->study->auditor;
         s->judged_by = l->reference.judge->report(l->reference.self);
         s->reference_scale = br_norm_value(s->norm, &l->scale_sum[m], BR_PART_TOTAL);
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+            const enum br_part part = kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING;
+            s->reference_size[kind] = br_norm_value(s->norm, &l->scale_sum[m], part);
             s->reference_tip[kind] = l->study->reference_tip[kind];
+        }
         for (int part = 0; part < BR_PARTS; part++)
             s->reference_error[part] =
                 s->auditor ? br_norm_value(s->norm, &l->audit_sum[m], (enum br_part)part) : NAN;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Warnings of errors that are predicted: round-off above the discretisation error, and a
- * discretisation error that is large. */
+/* Warnings of errors that are predicted: round-off above the discretisation error, a discretisation
+ * error that is large, and one that is not known. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,6 +9,7 @@
 #include "study/study.h"
 
 static const double large = 0.05;       /* relative to the solution */
+static const double doubtful = 0.2;     /* the same of an upper bound */
 static const double aim = 0.02;         /* what a remedy is to reach */
 static const double negligible = 1e-12; /* round-off that nobody minds */
 
@@ -43,7 +44,9 @@ static void warn_of_round_off(const struct br_outlook *o, const struct br_predic
                               struct br_warnings *w)
 {
     char remedy[400];
-    const double error = p->known ? p->whole.error : p->whole.high;
+    /* Of marches without that round-off. */
+    const double parts = p->time.error + p->space.error;
+    const double error = p->known ? fmin(p->whole.error, parts) : p->whole.high;
     if (p->round_off <= fmax(p->bounded ? error : aim, negligible))
         return;
     round_off_remedy(o, p->round_off, remedy);
@@ -114,7 +117,8 @@ static void warn_of_inaccuracy(const struct br_outlook *o, const struct br_predi
                                struct br_warnings *w)
 {
     char remedy[400];
-    if (!p->bounded || !(p->known ? p->whole.error > large : p->whole.low > large))
+    const bool likely = p->whole.error > large || p->whole.high > doubtful;
+    if (!p->bounded || !(p->known ? likely : p->whole.low > large))
         return;
     accuracy_remedy(o, p, remedy);
     br_warn(w, BR_WARN_INACCURATE, remedy,
@@ -122,6 +126,19 @@ static void warn_of_inaccuracy(const struct br_outlook *o, const struct br_predi
             "(between %.2g and %.2g; of time %.2g, of space %.2g)",
             o->n, br_time_step(o->scene, o->steps), p->whole.error, p->whole.low, p->whole.high,
             p->time.error, p->space.error);
+}
+
+static void warn_of_ignorance(const struct br_outlook *o, const struct br_prediction *p,
+                              struct br_warnings *w)
+{
+    char most[80] = "";
+    if (p->known)
+        return;
+    if (p->bounded)
+        snprintf(most, sizeof most, ", and may be %.2g of the solution", p->whole.high);
+    br_warn(w, BR_WARN_UNKNOWN, "",
+            "the discretisation error at n = %zu, k = %.4g s is not known%s: %s", o->n,
+            br_time_step(o->scene, o->steps), most, p->why);
 }
 
 static enum br_status look(const struct br_outlook *o, struct br_warnings *w, struct br_error *err)
@@ -132,6 +149,7 @@ static enum br_status look(const struct br_outlook *o, struct br_warnings *w, st
         return status;
     warn_of_round_off(o, &p, w);
     warn_of_inaccuracy(o, &p, w);
+    warn_of_ignorance(o, &p, w);
     if (o->prediction)
         *o->prediction = p;
     return BR_OK;

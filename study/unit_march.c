@@ -96,7 +96,7 @@ static void clear_group(struct group *g)
 struct told {
     bool audited;
     struct br_judge_report judged_by;
-    double reference_scale, reference_error[BR_PARTS], reference_tip[2];
+    double reference_scale, reference_size[2], reference_error[BR_PARTS], reference_tip[2];
     struct br_error failure;
     size_t events; /* bytes that follow; 0: NULL */
 };
@@ -108,6 +108,7 @@ static void pack(FILE *out, const struct br_study *s, const size_t *owner, size_
     told.audited = s->auditor != NULL;
     told.judged_by = s->judged_by;
     told.reference_scale = s->reference_scale;
+    memcpy(told.reference_size, s->reference_size, sizeof told.reference_size);
     memcpy(told.reference_error, s->reference_error, sizeof told.reference_error);
     memcpy(told.reference_tip, s->reference_tip, sizeof told.reference_tip);
     told.failure = s->failure;
@@ -173,6 +174,7 @@ static enum br_status unpack_told(struct br_study *s, bool first, struct br_parc
     s->auditor = told.audited ? s->auditor : NULL;
     s->judged_by = told.judged_by;
     s->reference_scale = told.reference_scale;
+    memcpy(s->reference_size, told.reference_size, sizeof told.reference_size);
     memcpy(s->reference_error, told.reference_error, sizeof told.reference_error);
     memcpy(s->reference_tip, told.reference_tip, sizeof told.reference_tip);
     if (told.events && !(s->events = strndup(events, told.events)))

@@ -7,13 +7,14 @@
 #include "solver/method.h"
 
 /* X(name, word for programs). Of each kind a list keeps the first; others are counted. */
-#define BR_WARNING_LIST(X)                                                            \
-    X(BR_WARN_UNSTABLE, "unstable")        /* lagged contact beyond its limit */      \
-    X(BR_WARN_BOUNCE, "bounce")            /* lagged contact that may gain energy */  \
-    X(BR_WARN_ROUND_OFF, "round-off")      /* above the discretisation error */       \
-    X(BR_WARN_INACCURATE, "inaccurate")    /* the discretisation error is large */    \
-    X(BR_WARN_LOAD_TIME, "load-in-time")   /* the time levels miss some of a load */  \
-    X(BR_WARN_LOAD_SPACE, "load-in-space") /* the elements' quadrature misses some */ \
+#define BR_WARNING_LIST(X)                                                             \
+    X(BR_WARN_UNSTABLE, "unstable")        /* lagged contact beyond its limit */       \
+    X(BR_WARN_BOUNCE, "bounce")            /* lagged contact that may gain energy */   \
+    X(BR_WARN_ROUND_OFF, "round-off")      /* above the discretisation error */        \
+    X(BR_WARN_INACCURATE, "inaccurate")    /* the discretisation error is large */     \
+    X(BR_WARN_UNKNOWN, "error-not-known")  /* the discretisation error is not known */ \
+    X(BR_WARN_LOAD_TIME, "load-in-time")   /* the time levels miss some of a load */   \
+    X(BR_WARN_LOAD_SPACE, "load-in-space") /* the elements' quadrature misses some */  \
     X(BR_WARN_LONG, "long")                /* the march takes days */
 
 enum br_warning_kind {
@@ -54,6 +55,7 @@ struct br_outlook {
     const struct br_method *method;
     size_t n, steps;
     struct br_prediction *prediction; /* out: the errors to expect; NULL: nobody asks */
+    double budget; /* elements times solves that a prediction may take; 0: as prediction.h says */
 };
 
 /* A source of warnings: a row of the registry. */

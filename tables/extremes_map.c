@@ -10,7 +10,7 @@
 static const char *const class_headings[BR_EXTREME_CLASSES] = {
     [BR_EXTREME_RIGHT] = "right",
     [BR_EXTREME_WARNED] = "inaccurate, said",
-    [BR_EXTREME_UNWARNED] = "inaccurate, not said",
+    [BR_EXTREME_UNKNOWN] = "inaccurate, error not known",
     [BR_EXTREME_UNSTABLE] = "unstable as predicted",
     [BR_EXTREME_REFUSED] = "refused",
     [BR_EXTREME_UNJUDGED] = "given up by the map",
@@ -170,6 +170,23 @@ static void case_cell(const void *self, size_t row, size_t column, char text[BR_
 
 /* ---- in words ---- */
 
+static void say_rate(const struct br_extreme_map *m, const struct br_writer *w)
+{
+    const struct br_extreme_rate r = br_extreme_rate(m);
+    if (r.answers == 0)
+        return;
+    br_say(
+        w,
+        "Of %zu answers that were judged, %.2g %% are silently wrong, which tells a rate between "
+        "%.2g %% and %.2g %% (95 %%, Clopper and Pearson).",
+        r.answers, 100 * (double)r.wrong / (double)r.answers, 100 * r.low, 100 * r.high);
+    br_say(
+        w,
+        "%zu of them, %.2g %%, say that their error is not known, %zu of these beyond the lagged "
+        "contact's limit; all others state it, with an interval.",
+        r.unstated, 100 * (double)r.unstated / (double)r.answers, r.unstated_unstable);
+}
+
 static void say_counts(const void *self, const struct br_writer *w)
 {
     const struct br_extreme_map *m = ((const struct br_extremes_map_page *)self)->map;
@@ -178,13 +195,13 @@ static void say_counts(const void *self, const struct br_writer *w)
         br_say(w, "%zu of %zu cases are silently wrong.", n[BR_EXTREME_WRONG], m->cases);
     else
         br_say(w, "None of %zu cases is silently wrong.", m->cases);
-    br_say(
-        w,
-        "%zu are right, %zu are inaccurate and say so, %zu are inaccurate and do not say so, %zu are "
-        "unstable as predicted, %zu are refused, and %zu were given up by the map, since they or "
-        "their judges take too long.",
-        n[BR_EXTREME_RIGHT], n[BR_EXTREME_WARNED], n[BR_EXTREME_UNWARNED], n[BR_EXTREME_UNSTABLE],
-        n[BR_EXTREME_REFUSED], n[BR_EXTREME_UNJUDGED]);
+    br_say(w,
+           "%zu are right, %zu are inaccurate and say so, %zu are inaccurate and say that their "
+           "error is not known, %zu are unstable as predicted, %zu are refused, and %zu were given "
+           "up by the map, since they or their judges take too long.",
+           n[BR_EXTREME_RIGHT], n[BR_EXTREME_WARNED], n[BR_EXTREME_UNKNOWN], n[BR_EXTREME_UNSTABLE],
+           n[BR_EXTREME_REFUSED], n[BR_EXTREME_UNJUDGED]);
+    say_rate(m, w);
 }
 
 static size_t judged_by(const struct br_extreme_map *m, enum br_extreme_by by)
@@ -215,10 +232,13 @@ static void say_how(const void *self, const struct br_writer *w)
     br_say(
         w,
         "Cases are drawn from seed %" PRIu64
-        ". Right means: read, looked ahead at and marched with "
-        "the certificate of every step, and displacements within 5 %% of their largest at eight "
-        "times and sixteen places, judged by the exact solution (%zu cases) or by the same scheme on "
-        "twice the elements with up to 64 times the steps (%zu).",
+        ". Silently wrong is an answer that is further from the truth than the error that it "
+        "states, with its interval and round-off, or than 5 %% where it states none and no warning "
+        "says so; and one that breaks an equation or a law. Right means: marched with the certificate "
+        "of every step, within what is stated, and within 5 %% (each field relative to its largest, "
+        "mean squares at eight times and up to 24 places), judged by the exact solution (%zu cases) "
+        "or by another scheme on two to eight times the elements with up to 32 times the steps "
+        "(%zu), and once more by a finer one before anything is called wrong.",
         m->seed, judged_by(m, BR_BY_EXACT), judged_by(m, BR_BY_REFINEMENT));
     br_say(
         w,

@@ -242,13 +242,28 @@ static json_t *predicted(bool known, const struct br_predicted *e)
     return o;
 }
 
-/* Relative to the solution. */
-static json_t *prediction(const struct br_prediction *p)
+/* A field's error, and the most that it is stated to be, with round-off. */
+static json_t *predicted_field(const struct br_run_page *page, enum br_field_kind kind)
 {
+    const struct br_prediction *p = page->prediction;
+    const struct br_scene *s = &page->report->marched;
+    if (kind == BR_AXIAL ? !s->axial.modelled : !s->bending.modelled)
+        return json_null();
+    json_t *o = predicted(p->bounded, &p->field[kind]);
+    put(o, "most", if_marched(p->known, br_predicted_most(p, kind)));
+    return o;
+}
+
+/* Relative to the solution of the field. */
+static json_t *prediction(const struct br_run_page *page)
+{
+    const struct br_prediction *p = page->prediction;
     json_t *o = json_object();
     put(o, "known", json_boolean(p->known));
     put(o, "why_not", p->known ? json_null() : br_json_string(p->why));
     put(o, "discretisation", predicted(p->bounded, &p->whole));
+    put(o, "axial", predicted_field(page, BR_AXIAL));
+    put(o, "bending", predicted_field(page, BR_BENDING));
     put(o, "time", predicted(p->bounded, &p->time));
     put(o, "space", predicted(p->bounded, &p->space));
     put_number(o, "round_off", p->round_off);
@@ -311,7 +326,7 @@ enum br_status br_run_json(FILE *out, const struct br_run_page *page, struct br_
     put(root, "method", br_json_method(&p->method));
     put(root, "stopped", p->failure.status ? br_json_string(p->failure.message) : json_null());
     put(root, "contact_beyond_stability_limit", json_boolean(p->contact_unstable));
-    put(root, "prediction", prediction(page->prediction));
+    put(root, "prediction", prediction(page));
     put(root, "warnings", warnings(page->warnings));
     put(root, "tip", tip(p));
     put(root, "events", events(p));

@@ -39,7 +39,7 @@ static void discretisation(FILE *out, const struct br_prediction *p)
 {
     fprintf(out, "  discretisation error  ");
     if (p->known)
-        fprintf(out, "%.1e, between %.0e and %.0e: time %.1e, space %.1e\n", p->whole.error,
+        fprintf(out, "%.1e, between %.1e and %.1e: time %.1e, space %.1e\n", p->whole.error,
                 p->whole.low, p->whole.high, p->time.error, p->space.error);
     else if (p->bounded)
         fprintf(out, "not known, between %.0e and %.0e: ", p->whole.low, p->whole.high);
@@ -51,10 +51,23 @@ static void discretisation(FILE *out, const struct br_prediction *p)
     }
 }
 
+/* Each field's own, where there are two. */
+static void fields(FILE *out, const struct br_run_page *page)
+{
+    static const char *const names[2] = {"axial", "bending"};
+    const struct br_prediction *p = page->prediction;
+    const struct br_scene *s = &page->report->marched;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (p->known && s->axial.modelled && s->bending.modelled)
+            fprintf(out, "    %-7s             %.1e, between %.1e and %.1e\n", names[kind],
+                    p->field[kind].error, p->field[kind].low, p->field[kind].high);
+}
+
 static void expected(FILE *out, const struct br_run_page *page)
 {
-    fprintf(out, "\nPredicted before the march, relative to the largest of the solution (L2)\n");
+    fprintf(out, "\nPredicted before the march, of each field relative to its largest (L2)\n");
     discretisation(out, page->prediction);
+    fields(out, page);
     fprintf(out, "  round-off             %.1e\n", page->prediction->round_off);
     for (size_t i = 0; i < page->warnings->count; i++) {
         const struct br_warning *w = &page->warnings->list[i];

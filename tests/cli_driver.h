@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <sys/resource.h>
 
-enum { CLI_MOST_OUTPUT = 1 << 16, CLI_MOST_WORDS = 24 };
+enum { CLI_MOST_OUTPUT = 1 << 16, CLI_MOST_WORDS = 32 };
 
 /* How the program is run besides its words. */
 struct cli_circumstances {

@@ -190,7 +190,7 @@ static bool warns(const struct br_scene *scene, size_t n, size_t steps,
 {
     struct br_error err = {0};
     struct br_warnings warnings = {0};
-    const struct br_outlook outlook = {scene, method, n, steps, NULL};
+    const struct br_outlook outlook = {.scene = scene, .method = method, .n = n, .steps = steps};
     MUST(br_warn_contact.look(&outlook, &warnings, &err));
     if (warnings.count)
         *first = warnings.list[0];

@@ -8,43 +8,70 @@
 #include <string.h>
 
 #include "study/contender.h"
+#include "study/scene_file.h"
 #include "study/study.h"
 #include "support.h"
 
 /* ---- predicted over measured ---- */
 
 struct tally {
-    int all, known, within_3, within_10, inside, far_too_low, far_too_high;
+    int all, known, within_3, within_10, below, inside, far_too_low;
 };
 
-static void count_one(struct tally *t, const struct br_prediction *p, double actual)
+static void count_one(struct tally *t, const struct br_prediction *p, int kind, double actual)
 {
-    const double ratio = p->whole.error / actual;
+    const struct br_predicted *e = &p->field[kind];
+    const double ratio = e->error / actual;
     t->all++;
     if (!p->known)
         return;
     t->known++;
     t->within_3 += ratio >= 1.0 / 3 && ratio <= 3;
     t->within_10 += ratio >= 0.1 && ratio <= 10;
-    t->inside += actual >= p->whole.low && actual <= p->whole.high;
+    t->below += actual <= br_predicted_most(p, (enum br_field_kind)kind);
+    t->inside += actual >= e->low && actual <= e->high;
     t->far_too_low += !(ratio >= 0.01);
-    t->far_too_high += !(ratio <= 100);
 }
 
 static void show(const char *what, const struct tally *t)
 {
-    print_message("# %s: %d errors, %d known, of these %d within 3, %d within 10, %d between the "
-                  "bounds\n",
-                  what, t->all, t->known, t->within_3, t->within_10, t->inside);
+    print_message(
+        "# %s: %d errors, %d known, of these %d within 3, %d within 10, %d below the upper "
+        "bound, %d between the bounds\n",
+        what, t->all, t->known, t->within_3, t->within_10, t->below, t->inside);
 }
 
 static const size_t meshes[] = {3, 16, 100}, steps[] = {1, 8, 40, 200};
 enum { MESHES = sizeof meshes / sizeof *meshes, STEPS = sizeof steps / sizeof *steps };
 
+/* Adds what a cell shows of each field whose error the judge can tell. */
+static void count_cell(struct tally *t, const struct br_study *s, const struct br_cell *cell,
+                       double budget)
+{
+    static const enum br_part parts[2] = {BR_PART_AXIAL, BR_PART_BENDING};
+    struct br_error err = {0};
+    struct br_prediction p;
+    const struct br_outlook o = {.scene = s->scene,
+                                 .method = &s->method,
+                                 .n = cell->at.n,
+                                 .steps = cell->at.steps,
+                                 .budget = budget};
+    if (cell->failure.status || cell->unstable)
+        return;
+    MUST(br_predict(&o, &p, &err));
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const double error = cell->error[parts[kind]];
+        const double own =
+            br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, parts[kind]);
+        if (s->reference_size[kind] > 0 && !(error <= 10 * own))
+            count_one(t, &p, kind, error / s->reference_size[kind]);
+    }
+}
+
 /* Marches a scene by one method at the resolutions (n[i], steps[i]) and adds what it shows. A
  * scene that the exact reference refuses is left out. */
 static void measure(struct tally *t, const struct br_scene *scene, const char *name,
-                    const struct br_study *shape)
+                    const struct br_study *shape, double budget)
 {
     struct br_contender c;
     struct br_error err = {0};
@@ -56,23 +83,14 @@ static void measure(struct tally *t, const struct br_scene *scene, const char *n
     if (!s.judge)
         s.judge = &br_judge_exact;
     MUST(br_study_run_each(&s, 1, 0, NULL, &err));
-    for (size_t i = 0; !s.failure.status && i < br_study_cells(&s); i++) {
-        const struct br_cell *cell = &s.cell[i];
-        const double own = br_norm_of_constant(s.norm, scene, s.judged_by.own_error, BR_PART_TOTAL);
-        const double error = cell->error[BR_PART_TOTAL];
-        struct br_prediction p;
-        if (cell->failure.status || cell->unstable || error <= 10 * own)
-            continue;
-        const struct br_outlook o = {scene, &c.method, cell->at.n, cell->at.steps, NULL};
-        MUST(br_predict(&o, &p, &err));
-        count_one(t, &p, error / s.reference_scale);
-    }
+    for (size_t i = 0; !s.failure.status && i < br_study_cells(&s); i++)
+        count_cell(t, &s, &s.cell[i], budget);
     br_study_clear(&s);
 }
 
-static void test_bundled(void **state)
+/* Bundled scenes against the exact solution; budget: as in struct br_outlook. */
+static struct tally measure_bundled(double budget, const char *what)
 {
-    (void)state;
     static const char *const scenes[] = {"example1", "example2", "example3", "example4",
                                          "reversal", "release",  "smoothed", "close_bound"};
     static const char *const methods[] = {"euler+lagged", "euler+implicit", "bdf2"};
@@ -82,17 +100,38 @@ static void test_bundled(void **state)
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i += br_test_quick() ? 4 : 1) {
         struct br_scene scene = br_test_bundled(scenes[i]);
         for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
-            measure(&t, &scene, methods[m], &shape);
+            if (br_test_long() || (i + m) % 3 == 0)
+                measure(&t, &scene, methods[m], &shape, budget);
         br_scene_clear(&scene);
     }
-    show("bundled scenes", &t);
-    assert_true(t.all >= (br_test_quick() ? 30 : 100));
+    show(what, &t);
+    return t;
+}
+
+/* The interval is honest: what is stated as the most is more. */
+static void test_bundled(void **state)
+{
+    (void)state;
+    const struct tally t = measure_bundled(0, "bundled scenes");
+    assert_true(t.all >= (br_test_quick() ? 10 : 60));
+    AT_MOST(0.95 * t.all, t.known);
+    AT_MOST(0.9 * t.known, t.within_3);
+    AT_MOST(0.97 * t.known, t.within_10);
+    AT_MOST(0.9 * t.known, t.inside);
+    assert_int_equal(t.below, t.known);
+}
+
+/* The same where the run itself is too dear to be marched beforehand. */
+static void test_extrapolated(void **state)
+{
+    (void)state;
+    const struct tally t = measure_bundled(1e6, "bundled scenes, extrapolated");
+    assert_true(t.all >= (br_test_quick() ? 10 : 60));
     AT_MOST(0.85 * t.all, t.known);
-    AT_MOST(0.88 * t.known, t.within_3);
+    AT_MOST(0.75 * t.known, t.within_3);
     AT_MOST(0.95 * t.known, t.within_10);
-    AT_MOST(0.96 * t.known, t.inside);
+    AT_MOST(0.98 * t.known, t.below);
     assert_int_equal(t.far_too_low, 0);
-    assert_int_equal(t.far_too_high, 0);
 }
 
 /* ---- scenes drawn at random, against a march by a tolerance ---- */
@@ -153,15 +192,39 @@ static void test_random(void **state)
             .reference_method = adaptive.method,
             .reference = {n * (4 + 400 / n), k},
         };
-        measure(&t, &scene, methods[br_test_index(&r, 5)], &shape);
+        measure(&t, &scene, methods[br_test_index(&r, 5)], &shape, 0);
         br_load_clear(&scene.axial.load);
         br_load_clear(&scene.bending.load);
     }
     show("random scenes", &t);
     AT_MOST(0.8 * t.known, t.within_3);
     AT_MOST(0.95 * t.known, t.within_10);
-    AT_MOST(0.95 * t.known, t.inside);
+    AT_MOST(0.98 * t.known, t.below);
     assert_int_equal(t.far_too_low, 0);
+}
+
+/* What dies away in a hundredth of a step, and leaves the tip elsewhere: equal steps that are 16
+ * times smaller do not see it either. */
+static void test_layer(void **state)
+{
+    (void)state;
+    static const char text[] = "title: A blow against viscosity\nlength: 1 m\nduration: 1 s\n"
+                               "density: 1 kg/m\nbending:\n  stiffness: 0.001 N m^2\n"
+                               "  viscosity: 200 N m^2 s\n  velocity: 0.01*x^2 [m/s]\n"
+                               "  velocity_slope: 0.02*x [1/s]\n";
+    struct br_scene s;
+    struct br_error err = {0};
+    struct tally t = {0};
+    MUST(br_scene_read_text("layer", text, &s, &err));
+    static const size_t few[] = {8, 32}, some[] = {1, 4, 16};
+    const struct br_study shape = {.n_count = 2, .k_count = 3, .n = few, .steps = some};
+    measure(&t, &s, "euler+implicit", &shape, 0);
+    show("a layer", &t);
+    assert_int_equal(t.all, 6);
+    assert_int_equal(t.known, 6);
+    assert_int_equal(t.below, 6);
+    assert_int_equal(t.within_3, 6);
+    br_scene_clear(&s);
 }
 
 /* ---- what is plainly inaccurate, or not known ---- */
@@ -169,7 +232,7 @@ static void test_random(void **state)
 static struct br_prediction predict(const struct br_scene *scene, const struct br_method *method,
                                     size_t n, size_t k)
 {
-    const struct br_outlook o = {scene, method, n, k, NULL};
+    const struct br_outlook o = {.scene = scene, .method = method, .n = n, .steps = k};
     struct br_error err = {0};
     struct br_prediction p;
     MUST(br_predict(&o, &p, &err));
@@ -196,18 +259,19 @@ static void test_inaccurate(void **state)
     br_load_clear(&s.axial.load);
 }
 
+/* A solution that is zero is zero; beyond its limit a lagged contact has no error that is known. */
 static void test_not_known(void **state)
 {
     (void)state;
     struct br_scene s = br_test_bare();
     struct br_method method = br_method_default();
     struct br_prediction p = predict(&s, &method, 10, 10);
-    assert_false(p.known || p.bounded);
-    assert_non_null(strstr(p.why, "a solution that is zero"));
+    assert_true(p.known && p.bounded && p.whole.high == 0);
     s = br_test_bundled("example2");
     s.contact.stiffness = 1e9;
     p = predict(&s, &method, 10, 10);
     assert_false(p.known || p.bounded);
+    assert_true(isinf(br_predicted_most(&p, BR_AXIAL)));
     assert_non_null(strstr(p.why, "stability limit"));
     method.contact = br_contact_rule_find("implicit");
     p = predict(&s, &method, 10, 10);
@@ -220,11 +284,26 @@ static void test_not_known(void **state)
 static struct br_warnings warnings_of(const struct br_scene *scene, const struct br_method *method,
                                       size_t n, size_t k)
 {
-    const struct br_outlook o = {scene, method, n, k, NULL};
+    const struct br_outlook o = {.scene = scene, .method = method, .n = n, .steps = k};
     struct br_warnings w = {0};
     struct br_error err = {0};
     MUST(br_look_ahead(&o, &w, &err));
     return w;
+}
+
+/* What is not known is said to be so, with the reason. */
+static void test_says_unknown(void **state)
+{
+    (void)state;
+    struct br_scene s = br_test_bundled("example2");
+    const struct br_method method = br_method_default();
+    s.contact.stiffness = 1e9;
+    const struct br_warnings w = warnings_of(&s, &method, 10, 10);
+    const struct br_warning *one = br_warnings_find(&w, BR_WARN_UNKNOWN);
+    assert_non_null(one);
+    assert_non_null(strstr(one->text, "is not known"));
+    assert_non_null(strstr(one->text, "stability limit"));
+    br_scene_clear(&s);
 }
 
 static void test_warnings(void **state)
@@ -291,7 +370,8 @@ static void test_short_blows(void **state)
         size_t steps;
         const char *said; /* NULL: nothing */
     } rows[] = {
-        {"exp(-((t - 0.31234567)/1e-9)^2)", 10, " 1e+02 % of its impulse, most of it near t = 0.35"},
+        {"exp(-((t - 0.31234567)/1e-9)^2)", 10,
+         " 1e+02 % of its impulse, most of it near t = 0.35"},
         {"exp(-((t - 0.31234567)/1e-9)^2)", 1000000, " 1e+02 % of its impulse"},
         {"exp(-((t - 0.31234567)/1e-9)^2)", 300000000, " 88 % of its impulse"},
         {"exp(-((t - 0.31234567)/1e-9)^2)", 4000000000, NULL},
@@ -307,7 +387,8 @@ static void test_short_blows(void **state)
     const struct br_method method = br_method_default();
     struct br_error err;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const struct br_outlook o = {&s, &method, 4000, rows[i].steps, NULL};
+        const struct br_outlook o = {
+            .scene = &s, .method = &method, .n = 4000, .steps = rows[i].steps};
         struct br_warnings w = {0};
         s.bending.load = br_test_load(rows[i].load);
         MUST(br_look_at_loads(&o, &w, &err));
@@ -340,10 +421,12 @@ static void test_list(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bundled),    cmocka_unit_test(test_random),
-        cmocka_unit_test(test_inaccurate), cmocka_unit_test(test_not_known),
-        cmocka_unit_test(test_warnings),   cmocka_unit_test(test_list),
-        cmocka_unit_test(test_blow),       cmocka_unit_test(test_short_blows),
+        cmocka_unit_test(test_bundled),      cmocka_unit_test(test_random),
+        cmocka_unit_test(test_inaccurate),   cmocka_unit_test(test_not_known),
+        cmocka_unit_test(test_warnings),     cmocka_unit_test(test_list),
+        cmocka_unit_test(test_blow),         cmocka_unit_test(test_short_blows),
+        cmocka_unit_test(test_layer),        cmocka_unit_test(test_extrapolated),
+        cmocka_unit_test(test_says_unknown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

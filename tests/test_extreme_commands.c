@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The commands that the map prints: each reproduces its case, whatever the verdict. $BEAMRATE is the
+ * program. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli_driver.h"
+#include "study/extreme_judge.h"
+#include "support.h"
+
+enum { FIRST_OF_EACH = 4, CASES = 60 };
+
+/* Words of a refusal's reason that a scene's name, which stands before it, does not change. */
+static bool says(const char *output, const char *why)
+{
+    const char *after = strstr(why, ": ");
+    char part[60];
+    snprintf(part, sizeof part, "%.50s", after ? after + 2 : why);
+    return strstr(output, part) != NULL;
+}
+
+/* What is refused is refused with the same words; what was marched is marched, and states its error
+ * or says that it is not known, as it was judged. */
+static void repeat(const struct br_extreme_case *one, const struct br_extreme_verdict *verdict)
+{
+    static struct cli_outcome out;
+    char text[BR_EXTREME_TEXT], command[BR_EXTREME_COMMAND];
+    br_extreme_scene(one, text);
+    cli_write_file("case.yaml", text);
+    br_extreme_command(one, "case.yaml", command);
+    assert_int_equal(strncmp(command, "beamrate ", 9), 0);
+    cli_run_line(command + 9, NULL, &out);
+    const bool refused = verdict->which == BR_EXTREME_REFUSED;
+    const char *stated = strstr(out.output, "discretisation error  ");
+    bool same = refused ? out.exit_code == 2 || out.exit_code == 3 : out.exit_code == 0;
+    if (refused)
+        same = same && says(out.output, verdict->why);
+    else
+        same = same && stated &&
+               verdict->known == (strncmp(stated, "discretisation error  not known", 31) != 0);
+    if (!same)
+        fail_msg("case %zu was judged %s (%s)\n%s\nexit code %d\n%s", one->index,
+                 br_extreme_word(verdict->which), verdict->why, command, out.exit_code,
+                 out.output);
+}
+
+static void test_commands(void **state)
+{
+    (void)state;
+    const struct br_extreme_court court = {.quick = true};
+    size_t seen[BR_EXTREME_CLASSES] = {0};
+    const size_t cases = br_test_long() ? 5 * CASES : CASES;
+    for (size_t i = 0; i < cases; i++) {
+        struct br_extreme_case one;
+        struct br_extreme_verdict verdict;
+        struct br_error err = {0};
+        br_extreme_draw(6, i, &one);
+        assert_int_equal(br_extreme_judge(&one, &court, &verdict, &err), BR_OK);
+        /* What the map's patience ends goes on for a user. */
+        if (verdict.which == BR_EXTREME_UNJUDGED ||
+            (!br_test_long() && seen[verdict.which] == FIRST_OF_EACH))
+            continue;
+        seen[verdict.which]++;
+        repeat(&one, &verdict);
+    }
+    assert_true(seen[BR_EXTREME_RIGHT] && seen[BR_EXTREME_WARNED] && seen[BR_EXTREME_REFUSED] &&
+                seen[BR_EXTREME_UNSTABLE] && seen[BR_EXTREME_UNKNOWN]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_commands)};
+    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
+}
