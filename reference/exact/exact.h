@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The exact reference: the continuous problem (3)-(12), solved to nearly all
- * digits by spectral modes in space and Radau IIA between the events at the tip,
+ * digits by spectral elements in space and Radau IIA between the events at the tip,
  * with an estimate of what is left of the error. It shares the scene with the
  * finite element solver and nothing else.
  *
- * Loads must be smooth in t and analytic in x. The regularisation of friction
- * is ignored: the law is (12) itself. GSL's error handler is switched off. */
+ * What is proved of the loads and initial data (solver/proof.h) says where elements and steps end:
+ * where they jump or bend, and wherever a polynomial would miss something of them. Where fronts of
+ * a load f(x, t) move, integrals are cut at them. A function of which nothing can be proved is taken
+ * for smooth. The regularisation of friction is ignored: the law is (12) itself. GSL's error
+ * handler is switched off. */
 #ifndef BR_EXACT_H
 #define BR_EXACT_H
 
@@ -37,7 +40,7 @@ struct br_exact_options {
  * time with more modes and other steps, until two solutions agree; *out (owned
  * by the caller) is then the last one. Fails with BR_BAD_INPUT, BR_NO_MEMORY,
  * BR_SINGULAR, BR_INTERRUPTED, or BR_NOT_FINITE: the tolerance cannot be
- * promised, and why. */
+ * promised, and why; at the latest after some 20 s of a core, counted and not measured. */
 enum br_status br_exact_create(struct br_exact **out, const struct br_scene *scene,
                                const struct br_exact_options *options, struct br_error *err);
 void br_exact_free(struct br_exact *exact);
@@ -58,7 +61,8 @@ struct br_exact_report {
     struct br_exact_size largest; /* over time */
     struct br_exact_size error;   /* estimate, over time. Velocity, its strain and force have layers
                                      after an event, force like (t - t*)^(1/4): theirs leave out
-                                     what is within 1e-6 T of it */
+                                     what is within 1e-6 T of it, of a jump of the data, or of a
+                                     blow that is shorter than that */
     size_t modes, steps;
 };
 struct br_exact_report br_exact_report(const struct br_exact *exact, enum br_exact_field field);

@@ -33,6 +33,8 @@ enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now
                            double displacement, double velocity)
 {
     if (law->contact) {
+        if (!law->obstacle)
+            return BR_FREE;
         return displacement > 0 || (displacement == 0 && velocity >= 0) ? BR_CLOSED : BR_OPEN;
     }
     if (!friction_acts(law, t))

@@ -9,6 +9,7 @@
 
 struct br_law {
     bool contact;                  /* (10), on the axial field; else (12), on the bending field */
+    bool obstacle;                 /* whether there is one to be in contact with */
     double stiffness;              /* c_H, N/m; 0 without a contact */
     enum br_friction_law friction; /* of the bending field */
     double coefficient;            /* c_V */

@@ -7,6 +7,7 @@ static struct br_law axial_law(const struct br_scene *scene)
 {
     return (struct br_law){
         .contact = true,
+        .obstacle = scene->contact.modelled,
         .stiffness = scene->contact.modelled ? scene->contact.stiffness : 0,
     };
 }
