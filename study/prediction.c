@@ -12,7 +12,7 @@ static const double doubt = 3;
 
 /* The same of a distance from a reference that is surer than that: the norm sees it at levels and
  * in elements of the run alone. */
-static const double measured_doubt = 1.5;
+static const double measured_doubt = 2;
 
 /* A reference of order one is off by at most so many times what its check differs from it. */
 static const double of_check = 1.5;
@@ -35,8 +35,9 @@ static const double least_order = 0.5;
 
 static const enum br_part part_of[2] = {BR_PART_AXIAL, BR_PART_BENDING};
 
-/* How large a field becomes: at least, and at most, by the marches that go to the end; a coarse mesh
- * may sway far more than a fine one. Where the field rests in one of them, the other field's. */
+/* How large a field becomes: at least, and at most, by the marches that go to the end; a coarse
+ * mesh may sway far more than a fine one. Where the field rests in one of them, the other field's.
+ */
 struct size {
     double least, most;
 };
@@ -106,8 +107,8 @@ static double reference_error(double coarse, double a, double finer, double b)
     return of_check * finer / (pow(b, low) - 1);
 }
 
-/* The same of the run's own reference: in time by its check's steps and the run's, in space by three
- * meshes. */
+/* The same of the run's own reference: in time by its check's steps and the run's, in space by
+ * three meshes. */
 static double whole_reference_error(const struct br_probe *p, int kind)
 {
     const double steps = cell_error(p, BR_WHOLE_STEPS, kind);
@@ -169,10 +170,8 @@ static double order_in_time(const struct br_outlook *o)
 /* A distance of the run's own steps or elements from a reference that may be off by so much. */
 static struct br_predicted around(double e, double unsure)
 {
-    return (struct br_predicted){.error = e,
-                                 .low = fmax(0, e - unsure) / doubt,
-                                 .high = doubt * (e + unsure),
-                                 .order = NAN};
+    return (struct br_predicted){
+        .error = e, .low = fmax(0, e - unsure) / doubt, .high = doubt * (e + unsure), .order = NAN};
 }
 
 static struct br_predicted measured_time(const struct br_probe *p, int kind)

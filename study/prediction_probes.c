@@ -14,9 +14,16 @@ static const double chosen_work = 6e7; /* where the run chooses its steps */
 static const double chosen_stages = 12;
 static const double time_share = 0.5, start_share = 0.2, space_share = 0.3;
 
-enum { SPACE_N = 128, TIME_N = 32, MOST_REFINED = 32, FINE_N = 32, MANY_N = 1000,
-       TOLERANCE_LEVELS = 24, LEAST_CHOSEN = 40,
-       FIRST_STEPS = 4 };
+enum {
+    SPACE_N = 128,
+    TIME_N = 32,
+    MOST_REFINED = 32,
+    FINE_N = 32,
+    MANY_N = 1000,
+    TOLERANCE_LEVELS = 24,
+    LEAST_CHOSEN = 40,
+    FIRST_STEPS = 4
+};
 
 /* A reference is sure enough where its check differs from it by so much of the run's error, or of
  * the solution. */
@@ -202,8 +209,7 @@ static void set_tight(struct br_probe *p, const struct br_outlook *o)
     struct br_method check = tight_method(o->method, sqrt(tighter));
     struct br_method reference = tight_method(o->method, tighter);
     check.most_steps = reference.most_steps = most;
-    p->steps[BR_WHOLE_RUN] =
-        by_tolerance(o->method) ? least(o->steps, TOLERANCE_LEVELS) : o->steps;
+    p->steps[BR_WHOLE_RUN] = by_tolerance(o->method) ? least(o->steps, TOLERANCE_LEVELS) : o->steps;
     if (p->steps[BR_WHOLE_RUN] + LEAST_CHOSEN <= most)
         set_whole_cells(p, o, &check, &reference, (struct finer){finer, 1});
 }
@@ -293,8 +299,7 @@ static void set_start(struct br_probe *p, const struct br_outlook *o, bool equal
     p->scene.duration *= (double)p->steps[0] / (double)o->steps;
     p->measured = true;
     p->ratio = 3;
-    set_study(p, o->method, &fine,
-              (struct br_resolution){p->n[0], (equal ? 3 : 1) * p->steps[0]});
+    set_study(p, o->method, &fine, (struct br_resolution){p->n[0], (equal ? 3 : 1) * p->steps[0]});
 }
 
 /* ---- space ---- */
