@@ -371,6 +371,26 @@ static void test_audit(void **state)
     }
 }
 
+/* Lagged contact is stable below k = c / (c_H L - a) * 2 = 4.4 ms here: a fine run says of itself
+ * whether it was. */
+static void test_unstable_reference(void **state)
+{
+    (void)state;
+    static const size_t steps[] = {20, 2000};
+    const size_t n = 4;
+    struct br_scene scene = br_test_bundled("chatter");
+    for (int stable = 0; stable < 2; stable++) {
+        struct br_error err = {0};
+        struct br_study s =
+            study_of(&scene, (struct br_resolution){n, steps[stable]}, 1, &n, 1, &steps[stable]);
+        MUST(br_study_run(&s, 1, 1, NULL, &err));
+        assert_int_equal(s.judged_by.unstable, !stable);
+        assert_int_equal(s.cell[0].unstable, !stable);
+        br_study_clear(&s);
+    }
+    br_scene_clear(&scene);
+}
+
 /* The reference failing fails the call. */
 static void test_failing_reference(void **state)
 {
@@ -450,6 +470,7 @@ int main(void)
         cmocka_unit_test(test_observer),
         cmocka_unit_test(test_contact_limit),
         cmocka_unit_test(test_audit),
+        cmocka_unit_test(test_unstable_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
