@@ -53,7 +53,8 @@ static void end_step(struct passage *p)
 static void pass_steps(struct passage *p, size_t steps)
 {
     const double from = (double)p->n * p->k, to = (double)(p->n + steps) * p->k;
-    const struct br_box box = {p->box.x, {from, to}};
+    /* Inside of the cell: it ends where the function jumps, at one point, which has no impulse. */
+    const struct br_box box = {p->box.x, {nextafter(from, to), nextafter(to, from)}};
     struct br_interval c[3], value = {0, 0};
     double most = INFINITY; /* a step */
     if (br_function_taylor(p->f, BR_T, box, 2, c))

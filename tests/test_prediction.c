@@ -382,6 +382,7 @@ static void test_short_blows(void **state)
         {"t < 0.45 ? 0 : x", 3, " 9.1 % of its impulse"},
         {"exp(-7 - x)*(t < 0.45)", 3, " 11 % of its impulse"},
         {"t < 0.45 ? 0 : x", 30, NULL},
+        {"1 + 2*(t - 0.4)^2*step(t - 0.4)", 100, NULL}, /* a kink at the end of a smooth piece */
     };
     struct br_scene s = br_test_bare();
     const struct br_method method = br_method_default();
