@@ -566,7 +566,7 @@ static const struct planted_bug planted_bugs[] = {
      "ladder->rung[ladder->order[i - 1]].n > ladder->rung[r].n"},
     {"ladder_loss_once", "coefficient", "study/ladder_loops.c", "tests/test_ladder",
      "return total(modes, loss) / 2;", "return total(modes, loss);"},
-    {"audit_of_every_second_level", "index", "study/lockstep_measure.c", "tests/test_rescale",
+    {"audit_of_the_last_level_alone", "index", "study/lockstep_measure.c", "tests/test_study",
      "index % l->audit_every == 0 || index + 1 == l->level_count",
      "index % l->audit_every == 0 && index + 1 == l->level_count"},
     {"share_of_time_twice", "time level", "study/lockstep_measure.c", "tests/test_study",
