@@ -107,17 +107,20 @@ static double reference_error(double coarse, double a, double finer, double b)
     return of_check * finer / (pow(b, low) - 1);
 }
 
+/* What steps by a tolerance gather, in tolerances, where no switch is in the way. */
+static const double gathered = 10;
+
 /* The same of the run's own reference: in time by its check's steps and the run's, in space by
  * three meshes. Two tolerances may choose the same steps, which differ by nothing: so one is not
- * surer than its tolerance. */
+ * surer than what it may gather. */
 static double whole_reference_error(const struct br_probe *p, int kind)
 {
     const double steps = cell_error(p, BR_WHOLE_STEPS, kind);
     const double shorter = (double)p->study.reference.steps / (double)p->steps[BR_WHOLE_RUN];
-    const double tolerance = p->study.reference_method.tolerance * p->study.reference_size[kind];
+    const double tolerance = p->study.reference_method.tolerance;
     const double in_time =
         p->study.reference_method.scheme->adaptive
-            ? fmax(of_check * steps, tolerance)
+            ? fmax(of_check * steps, gathered * tolerance * p->study.reference_size[kind])
             : reference_error(cell_error(p, BR_WHOLE_TIME, kind), shorter, steps, 2);
     const double finer = fmax(0, cell_error(p, BR_WHOLE_CHECK, kind) - steps);
     const double coarse = fmax(0, cell_error(p, BR_WHOLE_SPACE, kind) - steps);
