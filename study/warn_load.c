@@ -121,7 +121,7 @@ static void tell(const char *name, const struct missed *m, bool known, const str
                  struct br_warnings *w)
 {
     const double k = o->scene->duration / (double)o->steps;
-    if (m->impulse <= large * m->size)
+    if (m->impulse <= (o->share > 0 ? o->share : large) * m->size)
         return;
     if (known)
         br_warn(w, BR_WARN_LOAD_TIME, "time steps that are shorter than what happens there",

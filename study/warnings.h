@@ -56,6 +56,7 @@ struct br_outlook {
     size_t n, steps;
     struct br_prediction *prediction; /* out: the errors to expect; NULL: nobody asks */
     double budget; /* elements times solves that a prediction may take; 0: as prediction.h says */
+    double share;  /* of a load that is warned of if it is not seen; 0: as the sources say */
 };
 
 /* A source of warnings: a row of the registry. */
