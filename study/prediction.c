@@ -33,8 +33,8 @@ static const double by_tolerance[] = {0.6, 0.9, 1.2};
 /* Orders below are no convergence. */
 static const double least_order = 0.5;
 
-/* What a run is compared with sees loads as so many times its levels and elements do; what is less
- * than this share of a load is no loss. */
+/* What a run is compared with sees loads and initial data as so many times its levels and elements
+ * do; what is less than this share of one is no loss. */
 enum { FINER_LEVELS = 64, FINER_ELEMENTS = 4 };
 static const double least_share = 1e-3;
 
@@ -323,8 +323,8 @@ double br_predict_round_off(const struct br_outlook *o)
     return largest;
 }
 
-/* Whether no load is so short that even what the run is compared with steps over it. */
-static bool loads_are_seen(const struct br_outlook *o)
+/* Whether nothing is so short that even what the run is compared with steps over it. */
+static bool all_is_seen(const struct br_outlook *o)
 {
     struct br_outlook finer = *o;
     struct br_warnings unseen = {0};
@@ -332,7 +332,8 @@ static bool loads_are_seen(const struct br_outlook *o)
     finer.steps *= FINER_LEVELS;
     finer.n *= FINER_ELEMENTS;
     finer.share = least_share;
-    return !br_look_at_loads(&finer, &unseen, &err) && unseen.count == 0;
+    return !br_look_at_loads(&finer, &unseen, &err) && unseen.count == 0 &&
+           br_initial_data_are_seen(&finer);
 }
 
 enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction *p,
@@ -344,9 +345,10 @@ enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction
     const enum br_status status = br_probes_hold(&set, outlook, err);
     if (!status)
         judge(p, &set);
-    if (!status && p->known && !loads_are_seen(outlook)) {
+    if (!status && p->known && !all_is_seen(outlook)) {
         p->known = p->bounded = false;
-        snprintf(p->why, sizeof p->why, "a load is too short for what it is compared with");
+        snprintf(p->why, sizeof p->why,
+                 "a load or initial value is too short for what it is compared with");
     }
     br_probes_clear(&set);
     p->seconds = br_seconds() - begun;

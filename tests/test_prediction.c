@@ -284,6 +284,10 @@ static void test_not_known(void **state)
     p = predict(&s, &method, 10, 800);
     assert_false(p.known || p.bounded);
     assert_non_null(strstr(p.why, "too short"));
+    br_function_free(&s.axial.tip_force);
+    s.axial.displacement = br_test_function("0.1*x + exp(-((x - 0.3333)/1e-4)^2)");
+    p = predict(&s, &method, 10, 800);
+    assert_false(p.known || p.bounded);
     br_scene_clear(&s);
 }
 
