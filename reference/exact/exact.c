@@ -166,13 +166,13 @@ static size_t count_modes(const struct search *s, size_t which, size_t modes)
     return count;
 }
 
-/* Modes of a next round, 0 if it may not be: elements multiply what is allowed for one by four. */
+/* Modes of a next round, 0 if it may not be: elements multiply what is allowed for one by six. */
 static size_t next_modes(const struct search *s, size_t modes)
 {
     const size_t most = s->o->max_modes, more = modes * 3 / 2;
     const size_t next = !modes ? FIRST_MODES : more < most ? more : most;
     for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
-        if (count_modes(s, which, next) > 4 * most)
+        if (count_modes(s, which, next) > 6 * most)
             return 0;
     return modes == most || is_spent(s) ? 0 : next;
 }

@@ -27,7 +27,7 @@ struct br_exact_options {
     double acceptable;     /* the tolerance: up to this, 1e-3 at most, will do where max_modes are
                               not enough for the tolerance; the report tells what was reached */
     double rate_tolerance; /* ten times tolerance, and at least that: of velocities and forces */
-    size_t max_modes;      /* 256 per field, 18 to 1000; on several elements four times as many in
+    size_t max_modes;      /* 256 per field, 18 to 1000; on several elements six times as many in
                               all */
     size_t max_steps;      /* 20000 per field */
     bool (*stop)(void *self); /* asked every step; true: give up, with BR_INTERRUPTED */
