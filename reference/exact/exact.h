@@ -6,8 +6,8 @@
  *
  * What is proved of the loads and initial data (solver/proof.h) says where elements and steps end:
  * where they jump or bend, and wherever a polynomial would miss something of them. Where fronts of
- * a load f(x, t) move, integrals are cut at them. A function of which nothing can be proved is taken
- * for smooth. The regularisation of friction is ignored: the law is (12) itself. GSL's error
+ * a load f(x, t) move, integrals are cut at them. A function of which nothing can be proved is
+ * taken for smooth. The regularisation of friction is ignored: the law is (12) itself. GSL's error
  * handler is switched off. */
 #ifndef BR_EXACT_H
 #define BR_EXACT_H

@@ -397,6 +397,41 @@ static enum br_status find_layers(struct work *w)
     return !status && has_spread_load(d->load) ? grade(w, false, layer) : status;
 }
 
+/* ---- what is proved ---- */
+
+/* Adds to what may be missed how far polynomials of the highest degree may be from a function in
+ * the cells: Radau's and Gauss's rules integrate these. */
+static void count_proved(struct work *w, const struct subject *s, enum br_variable along,
+                         const struct br_list *ends)
+{
+    double sum = 0;
+    const double all = along == BR_X ? w->length : w->duration;
+    for (size_t i = 0; i + 1 < ends->count; i++) {
+        const struct br_interval cell = {ends->at[i] * (1 + apart), ends->at[i + 1] * (1 - apart)};
+        struct br_box box = {{0, 0}, {0, 0}};
+        *(along == BR_X ? &box.x : &box.t) = cell;
+        struct br_interval value;
+        if (!(cell.low < cell.high && br_function_bound(s->f, box, &value)))
+            continue;
+        const double error = br_sight_error(s->f, along, box, 15);
+        sum += (cell.high - cell.low) / all * fmin(error, value.high - value.low);
+    }
+    if (sum > 0)
+        w->o->proved += sum / br_sight_mean(s->f, box_of(w, s));
+}
+
+static void count_all_proved(struct work *w)
+{
+    for (size_t i = 0; i < w->spaces; i++)
+        if (is_known(w->space[i].f) && inseparable(&w->space[i]))
+            w->o->proved += BR_SIGHT_TOLERANCE;
+        else if (is_known(w->space[i].f))
+            count_proved(w, &w->space[i], BR_X, &w->o->end);
+    for (size_t i = 0; i < w->times; i++)
+        if (is_known(w->time[i].f))
+            count_proved(w, &w->time[i], BR_T, &w->o->cell[w->o->cells - w->times + i]);
+}
+
 static enum br_status look(struct work *w)
 {
     w->o->cell = br_allocate(MOST, sizeof *w->o->cell);
@@ -419,6 +454,8 @@ static enum br_status look(struct work *w)
         status = find_crossings(w);
     for (size_t i = 0; i < w->o->cells; i++)
         br_list_sort(&w->o->cell[i], 0);
+    if (!status)
+        count_all_proved(w);
     return status;
 }
 
