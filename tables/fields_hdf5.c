@@ -132,7 +132,7 @@ static bool describe(const struct br_fields_file *f, const struct br_fields_requ
     return text_attribute(f->file, "program", "beamrate") &&
            text_attribute(f->file, "version", p->version) &&
            text_attribute(f->file, "commit", p->commit) &&
-           text_attribute(f->file, "command_line", p->command_line) &&
+           text_anyhow(f->file, "command_line", p->command_line) &&
            text_attribute(f->file, "scene_name", q->scene->name) &&
            number_attribute(f->file, "n", (double)q->n) &&
            number_attribute(f->file, "k", q->scene->duration / (double)q->steps) &&

@@ -391,6 +391,36 @@ static void test_all(void **state)
                "no order was checked");
 }
 
+/* ---- provenance ---- */
+
+/* It is kept whole, however long. */
+static void test_long_command_line(void **state)
+{
+    (void)state;
+    enum { SCENES = 6 };
+    static struct cli_outcome out;
+    char name[SCENES][900], path[512];
+    const char *word[CLI_MOST_WORDS] = {"check", "--json", "long.json"};
+    char expected[SCENES * sizeof name[0] + 100] = "";
+    for (int i = 0; i < SCENES; i++) {
+        for (size_t j = 0; j < sizeof name[i] - 20; j += 2)
+            strcpy(name[i] + j, "./");
+        sprintf(name[i] + strlen(name[i]), "long%d.yaml", i);
+        cli_write_file(strrchr(name[i], '/') + 1, SCENE SPACE "    l2: 2 +- 0.1\n");
+        word[3 + i] = name[i];
+        strcat(strcat(expected, " "), name[i]);
+    }
+    cli_run(word, NULL, &out);
+    assert_int_equal(out.exit_code, 0);
+    cli_path("long.json", path);
+    json_t *root = json_load_file(path, 0, NULL);
+    const char *line =
+        json_string_value(json_object_get(json_object_get(root, "provenance"), "command_line"));
+    assert_non_null(line);
+    assert_string_equal(line + strlen(line) - strlen(expected), expected);
+    json_decref(root);
+}
+
 /* ---- a terminal ---- */
 
 struct terminal {
@@ -439,6 +469,7 @@ static void test_waiting(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_long_command_line),
         cmocka_unit_test(test_waiting),
         cmocka_unit_test(test_verdicts),
         cmocka_unit_test(test_rounding),
