@@ -357,6 +357,11 @@ static void test_compare(void **state)
     cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n    tip: 2 +- 0.5\n");
     cli_expect("check good.yaml --json old.json", NULL, 0, "2 PASS");
     cli_expect("check good.yaml --compare old.json", NULL, 0, "0 serious");
+    cli_expect("check good.yaml --solver umfpack --json other.json", NULL, 0, "2 PASS");
+    cli_expect("check good.yaml --solver umfpack --scaling sum --refinement 2 --compare other.json",
+               NULL, 0, "scaling none before, sum now");
+    cli_expect("check good.yaml --solver umfpack --scaling sum --refinement 2 --compare other.json",
+               NULL, 0, "refinement 0 before, 2 now");
     /* twice the load: the orders stay, the constants double */
     cli_write_file("good.yaml", "title: T\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
                                 "axial:\n  stiffness: 1 N\n  viscosity: 1 N s\n"
