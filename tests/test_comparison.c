@@ -23,7 +23,7 @@ static struct br_old_check as_old(const struct made_check *m)
     };
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
         old.costs[0].method[kind] =
-            (struct br_old_method){true, "euler", "riccati", "lagged", "exact", NAN, 1};
+            (struct br_old_method){true, "euler", "riccati", "lagged", "exact", NAN, 1, 0, "none"};
     for (size_t i = 0; i < old.count; i++) {
         const struct br_case *c = &m->check.cases[i];
         struct br_old_case *o = &old.cases[i];
@@ -152,12 +152,17 @@ static void test_methods(void **state)
     struct br_old_method *method = &old.costs[0].method[BR_VERIFY_TIME];
     const struct br_old_method same = *method,
                                others[] = {
-                                   {true, "bdf2", "riccati", "lagged", "exact", NAN, 1},
-                                   {true, "euler", "plain", "lagged", "exact", NAN, 1},
-                                   {true, "euler", "riccati", "implicit", "exact", NAN, 1},
-                                   {true, "euler", "riccati", "lagged", "regularised", NAN, 1},
-                                   {true, "euler", "riccati", "lagged", "exact", 1e-6, 1},
-                                   {true, "euler", "riccati", "lagged", "exact", NAN, 2},
+                                   {true, "bdf2", "riccati", "lagged", "exact", NAN, 1, 0, "none"},
+                                   {true, "euler", "plain", "lagged", "exact", NAN, 1, 0, "none"},
+                                   {true, "euler", "riccati", "implicit", "exact", NAN, 1, 0,
+                                    "none"},
+                                   {true, "euler", "riccati", "lagged", "regularised", NAN, 1, 0,
+                                    "none"},
+                                   {true, "euler", "riccati", "lagged", "exact", 1e-6, 1, 0,
+                                    "none"},
+                                   {true, "euler", "riccati", "lagged", "exact", NAN, 2, 0, "none"},
+                                   {true, "euler", "riccati", "lagged", "exact", NAN, 1, 1, "none"},
+                                   {true, "euler", "riccati", "lagged", "exact", NAN, 1, 0, "max"},
                                };
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         *method = others[i];

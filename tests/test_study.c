@@ -434,7 +434,7 @@ static void test_observer(void **state)
     for (int threads = 1; threads <= 3; threads++) {
         struct br_error err = {0};
         struct watcher w = {.stop_after = 1000000};
-        const struct br_observer observer = {progress, stop, &w};
+        const struct br_observer observer = {.progress = progress, .stop = stop, .self = &w};
         struct br_study s = study_of(&scene, (struct br_resolution){8, 500}, 1, &n, 1, &steps);
         MUST(br_study_run(&s, 1, threads, &observer, &err));
         assert_true(w.last == 1 && w.calls > 3);
