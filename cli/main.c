@@ -110,7 +110,9 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
         return unknown(argv[1], err);
     br_signals_install();
     br_gnuplot_stop_when(br_signals_caught);
-    br_remember_command_line(argc, argv);
+    const enum br_status status = br_remember_command_line(argc, argv, err);
+    if (status)
+        return status;
     static char name[64]; /* for the usage line */
     snprintf(name, sizeof name, "beamrate %s", command->name);
     argv[1] = name;

@@ -118,6 +118,16 @@ enum br_status br_manifest_compare(int folder, const struct br_manifest_file *li
 
 /* ---- as JSON ---- */
 
+/* An object that has so many members, or NULL: json_pack forgets those that it has no memory for.
+ */
+static json_t *whole(json_t *object, size_t members)
+{
+    if (json_object_size(object) == members)
+        return object;
+    json_decref(object);
+    return NULL;
+}
+
 /* A name, or where it is not UTF-8, which JSON must be, "name_hex": its bytes. */
 static json_t *json_of_file(const struct br_manifest_file *f)
 {
@@ -125,8 +135,10 @@ static json_t *json_of_file(const struct br_manifest_file *f)
     char hex[2 * 256 + 1] = "";
     for (size_t i = 0; !name && f->name[i] && i < 256; i++)
         snprintf(hex + 2 * i, 3, "%02x", (unsigned char)f->name[i]);
-    return json_pack("{s:o, s:I, s:s}", name ? "name" : "name_hex", name ? name : json_string(hex),
-                     "size", (json_int_t)f->size, "sha256", f->sha256);
+    json_t *file =
+        json_pack("{s:o, s:I, s:s}", name ? "name" : "name_hex", name ? name : json_string(hex),
+                  "size", (json_int_t)f->size, "sha256", f->sha256);
+    return whole(file, 3);
 }
 
 /* The set of the files in m, all of them. */
@@ -139,8 +151,10 @@ static json_t *json_of(const struct br_manifest *m, const char *run)
             return NULL;
         }
     }
-    return json_pack("{s:s, s:s, s:s, s:o, s:o}", "run", run, "version", br_version(), "commit",
-                     br_commit(), "command", br_json_string(br_command_line()), "files", files);
+    json_t *set =
+        json_pack("{s:s, s:s, s:s, s:o, s:o}", "run", run, "version", br_version(), "commit",
+                  br_commit(), "command", br_json_string(br_command_line()), "files", files);
+    return whole(set, 5);
 }
 
 bool br_write_whole(int file, const char *text, size_t length)
@@ -174,7 +188,7 @@ static enum br_status write_text(int folder, const char *name, const char *text,
 enum br_status br_manifest_write(int folder, const char *name, const struct br_manifest *m,
                                  struct br_error *err)
 {
-    json_t *json = json_pack("{s:s, s:O}", "format", format, "sets", m->sets);
+    json_t *json = whole(json_pack("{s:s, s:O}", "format", format, "sets", m->sets), 2);
     char *text = json ? json_dumps(json, JSON_INDENT(2)) : NULL;
     json_decref(json);
     const enum br_status status =
@@ -269,9 +283,11 @@ enum br_status br_manifest_read(int folder, const char *name, struct br_manifest
     json_t *json = plain ? json_loadfd(file, 0, &why) : NULL;
     const bool memory = errno == ENOMEM || json_error_code(&why) == json_error_out_of_memory;
     close(file);
-    if (!json && plain && memory)
-        return br_no_memory(err, "a manifest");
-    const enum br_status status = read_json(json, name, m, err);
+    enum br_status status;
+    if (plain && memory) /* jansson forgets members that it has no memory for */
+        status = br_no_memory(err, "a manifest");
+    else
+        status = read_json(json, name, m, err);
     json_decref(json);
     return status;
 }

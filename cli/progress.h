@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Long work shows itself on stderr: a bar with the time left on a terminal, a
- * plain line every tenth, but no more than one a second, elsewhere, nothing when quiet. */
+ * plain line every tenth, but no more than one a second, elsewhere, nothing when quiet. So does the
+ * wait for an exact reference, once a second elsewhere. */
 #ifndef BR_PROGRESS_H
 #define BR_PROGRESS_H
 

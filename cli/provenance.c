@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/provenance.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <sys/utsname.h>
 #include <time.h>
@@ -9,7 +10,7 @@
 #include "build_info.h"
 #include "study/quote.h"
 
-static char command_line[4096], machine[512], date[32];
+static char *command_line, machine[512], date[32];
 
 const char *br_version(void)
 {
@@ -23,23 +24,24 @@ const char *br_commit(void)
 
 const char *br_command_line(void)
 {
-    return command_line;
+    return command_line ? command_line : "";
 }
 
-/* text += part, as a shell would read it. */
-static void append_quoted(const char *part)
+/* As a shell would read it. */
+enum br_status br_remember_command_line(int argc, const char **argv, struct br_error *err)
 {
-    const size_t used = strlen(command_line);
-    snprintf(command_line + used, sizeof command_line - used, "%s", used ? " " : "");
-    const size_t blank = used > 0 && used + 1 < sizeof command_line;
-    br_quoted(command_line + used + blank, sizeof command_line - used - blank, &br_for_shell, part);
-}
-
-void br_remember_command_line(int argc, const char **argv)
-{
-    command_line[0] = '\0';
-    for (int i = 0; i < argc; i++)
-        append_quoted(argv[i]);
+    size_t size;
+    free(command_line);
+    command_line = NULL;
+    FILE *text = open_memstream(&command_line, &size);
+    for (int i = 0; text && i < argc; i++) {
+        fputs(i ? " " : "", text);
+        br_quote(text, &br_for_shell, argv[i]);
+    }
+    const bool bad = !text || ferror(text);
+    if (bad | (text && fclose(text)))
+        return br_no_memory(err, "the command line");
+    return BR_OK;
 }
 
 /* The processor's name as Linux tells it, or "". */
@@ -83,7 +85,7 @@ void br_provenance_fill(struct br_provenance *p, int threads)
         .commit = BR_COMMIT,
         .compiler = BR_COMPILER,
         .flags = BR_FLAGS,
-        .command_line = command_line,
+        .command_line = br_command_line(),
         .machine = machine,
         .date = date,
         .threads = threads,

@@ -8,7 +8,10 @@
 const char *br_version(void);
 const char *br_commit(void);
 
-void br_remember_command_line(int argc, const char **argv);
+/* Fails with BR_NO_MEMORY. */
+enum br_status br_remember_command_line(int argc, const char **argv, struct br_error *err);
+
+/* The whole of it, as a shell would read it. */
 const char *br_command_line(void);
 
 /* Fills all but the scene. The strings are static, so one call a run. */

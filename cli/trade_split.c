@@ -130,6 +130,13 @@ static void progress(void *self, double fraction)
         o->inner->progress(o->inner->self, ((double)o->done + fraction) / (double)o->all);
 }
 
+static void preparing(void *self, double share)
+{
+    const struct overall *o = self;
+    if (o->inner->preparing)
+        o->inner->preparing(o->inner->self, share);
+}
+
 static bool stop(void *self)
 {
     const struct overall *o = self;
@@ -141,7 +148,7 @@ static enum br_status split_all(struct work *w, struct br_error *err)
     struct overall o = {
         .inner = br_progress_start("splitting", w->options->study.quiet || !br_ranks_first()),
         .all = w->splits};
-    const struct br_observer observer = {progress, stop, &o};
+    const struct br_observer observer = {progress, stop, &o, preparing};
     enum br_status status = BR_OK;
     for (; o.done < o.all && !status; o.done++)
         status = br_split_run(&w->split[o.done], w->request.threads, &observer, err);

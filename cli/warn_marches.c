@@ -74,13 +74,17 @@ void br_warn_of_trade(const struct br_trade *trade)
 {
     const struct br_scene *scene = trade->request.scene;
     struct br_warnings warnings = {0};
+    struct br_outlook finest = {0};
+    struct br_error refusal = {0};
     for (size_t i = 0; i < trade->count; i++) {
         const struct br_trial *t = &trade->trial[i];
-        struct br_error refusal = {0};
         const struct br_outlook outlook = {
             .scene = scene, .method = &t->contender->method, .n = t->at.n, .steps = t->at.steps};
         br_look_ahead_cheaply(&outlook, &warnings, &refusal);
+        keep_finest(&outlook, &finest);
     }
+    if (finest.n)
+        br_look_at_loads(&finest, &warnings, &refusal);
     br_print_warnings_of(scene->name, &warnings);
 }
 
@@ -103,13 +107,17 @@ void br_warn_of_plan(const struct br_plan *plan)
 enum br_status br_warn_of_splits(const struct br_split *splits, size_t count, struct br_error *err)
 {
     struct br_warnings warnings = {0};
+    struct br_outlook finest = {0};
     enum br_status status = BR_OK;
     for (size_t i = 0; i < count && !status; i++) {
         const struct br_split *s = &splits[i];
         const struct br_outlook outlook = {
             .scene = s->scene, .method = &s->method, .n = s->at.n, .steps = s->at.steps};
         status = br_look_ahead_cheaply(&outlook, &warnings, err);
+        keep_finest(&outlook, &finest);
     }
+    if (!status && finest.n)
+        status = br_look_at_loads(&finest, &warnings, err);
     if (count)
         br_print_warnings_of(splits[0].scene->name, &warnings);
     return status;

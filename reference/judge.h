@@ -22,6 +22,8 @@ struct br_judge_request {
     const size_t *mesh;            /* mesh_count, elements; borrowed during create */
     bool (*stop)(void *self);      /* true: give up soon, with BR_INTERRUPTED; may be NULL */
     void *stop_self;
+    void (*preparing)(void *self, double share); /* exact only: told the share of the most work
+                                                    that it may take; self: stop_self; may be NULL */
 };
 
 /* What a judge knows of itself. */

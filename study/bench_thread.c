@@ -39,7 +39,7 @@ static void set_state(struct br_work_bench *bench, enum br_bench_state state)
 static void *work(void *self)
 {
     struct br_work_bench *bench = self;
-    const struct br_observer observer = {keep_fraction, is_stopped, bench};
+    const struct br_observer observer = {.progress = keep_fraction, .stop = is_stopped, .self = bench};
     pthread_setname_np(pthread_self(), "march"); /* tells it from MPI's own threads */
     while (wait_for_work(bench)) {
         br_group_march(bench->studies, bench->units, bench->group, bench->threads, &observer,

@@ -203,6 +203,7 @@ static void compare_method(struct br_comparison *out, const struct br_check *che
         {"solver", old->solver, m->solver->name},
         {"contact", old->contact, m->contact->name},
         {"friction", old->friction, m->friction->name},
+        {"scaling", old->scaling, m->linear.scaling},
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         snprintf(d.remark, sizeof d.remark, "%s %s before, %s now", words[i][0], words[i][1],
@@ -213,10 +214,20 @@ static void compare_method(struct br_comparison *out, const struct br_check *che
     snprintf(d.remark, sizeof d.remark, "tolerance %g before, %g now", old->tolerance, tolerance);
     if (factor(old->tolerance, tolerance) != 1)
         add(out, &d);
-    snprintf(d.remark, sizeof d.remark, "axial degree %g before, %d now", old->axial_degree,
-             m->axial_degree);
-    if (old->axial_degree != m->axial_degree)
-        add(out, &d);
+    const struct {
+        const char *name;
+        double before;
+        int now;
+    } numbers[] = {
+        {"axial degree", old->axial_degree, m->axial_degree},
+        {"refinement", old->refinement, m->linear.refinement},
+    };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        snprintf(d.remark, sizeof d.remark, "%s %g before, %d now", numbers[i].name,
+                 numbers[i].before, numbers[i].now);
+        if (numbers[i].before != numbers[i].now)
+            add(out, &d);
+    }
 }
 
 static void compare_methods(struct br_comparison *out, const struct br_check *check,

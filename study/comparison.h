@@ -27,7 +27,8 @@ struct br_old_method {
     bool known; /* the study was made */
     char scheme[32], solver[32], contact[32], friction[32];
     double tolerance; /* of an adaptive scheme; NaN: it is none */
-    double axial_degree;
+    double axial_degree, refinement;
+    char scaling[32];
 };
 
 /* And what one of its scenes cost. */

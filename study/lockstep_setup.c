@@ -215,6 +215,7 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
         .mesh = l->root,
         .stop = l->observer ? l->observer->stop : NULL,
         .stop_self = l->observer ? l->observer->self : NULL,
+        .preparing = l->observer ? l->observer->preparing : NULL,
     };
     for (int measure = 0; measure < BR_MEASURES; measure++) {
         const enum br_measure m = (enum br_measure)measure;

@@ -2,6 +2,7 @@
 #include "study/prediction_probes.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 
 /* A solve costs as much as so many elements more than it has; an element whose load must be
@@ -323,7 +324,9 @@ static void set_space(struct br_probe *p, const struct br_outlook *o)
     const double a_step =
         (solve(o, (double)finest) + solve(o, (double)p->n[0]) + solve(o, (double)p->n[1])) *
         stages(&best);
-    p->steps[0] = least(o->steps, (size_t)(space_share * budget(o) / a_step) + 1);
+    /* Where a tolerance chooses, the levels say nothing of the steps that are needed. */
+    p->steps[0] = least(by_tolerance(o->method) ? SIZE_MAX : o->steps,
+                        (size_t)(space_share * budget(o) / a_step) + 1);
     set_study(p, &best, &best, (struct br_resolution){finest, p->steps[0]});
     p->study.n_count = 2;
 }

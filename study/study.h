@@ -71,6 +71,8 @@ struct br_observer {
     void (*progress)(void *self, double fraction); /* of the whole work, 0 to 1 */
     bool (*stop)(void *self);                      /* true: give up soon */
     void *self;
+    /* of the most work that an exact reference may take, while it is made; may be NULL */
+    void (*preparing)(void *self, double share);
 };
 
 /* Runs studies on `threads` threads (0: all cores), all at once: the reference and

@@ -64,6 +64,12 @@ static void tell_share(void *self, double fraction)
     share->whole->progress(share->whole->self, share->from + share->length * fraction);
 }
 
+static void tell_preparing(void *self, double fraction)
+{
+    const struct share *share = self;
+    share->whole->preparing(share->whole->self, fraction);
+}
+
 static bool stop_share(void *self)
 {
     const struct share *share = self;
@@ -79,6 +85,7 @@ enum br_status br_trials_hold(struct br_trial *trial, size_t count,
         .progress = request->observer && request->observer->progress ? tell_share : NULL,
         .stop = stop_share,
         .self = &share,
+        .preparing = request->observer && request->observer->preparing ? tell_preparing : NULL,
     };
     struct br_trial_request own = *request;
     own.observer = request->observer ? &part : NULL;

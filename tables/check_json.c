@@ -197,13 +197,22 @@ static bool read_method(const json_t *o, struct br_old_method *m)
     const struct br_method method = br_method_default();
     const json_t *scheme = json_object_get(o, "scheme"),
                  *degree = json_object_get(o, "axial_degree"),
-                 *tolerance = json_object_get(o, "tolerance");
-    *m = (struct br_old_method){.known = o != NULL, .tolerance = NAN, .axial_degree = 1};
+                 *tolerance = json_object_get(o, "tolerance"),
+                 *scaling = json_object_get(o, "scaling"),
+                 *refinement = json_object_get(o, "refinement");
+    *m = (struct br_old_method){.known = o != NULL,
+                                .tolerance = NAN,
+                                .axial_degree = 1,
+
+                                .refinement = method.linear.refinement};
     strcpy(m->scheme, method.scheme->name);
+    strcpy(m->scaling, method.linear.scaling);
     return !m->known ||
            ((!scheme || read_word(scheme, m->scheme, sizeof m->scheme)) &&
             (!tolerance || read_number(tolerance, 0, &m->tolerance)) &&
             (!degree || read_number(degree, 1, &m->axial_degree)) &&
+            (!scaling || read_word(scaling, m->scaling, sizeof m->scaling)) &&
+            (!refinement || read_number(refinement, 0, &m->refinement)) &&
             read_word(json_object_get(o, "solver"), m->solver, sizeof m->solver) &&
             read_word(json_object_get(o, "contact"), m->contact, sizeof m->contact) &&
             read_word(json_object_get(o, "friction"), m->friction, sizeof m->friction));

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* HDF5: x (nodes), t (times) and each variable (times, nodes) with `unit` and `meaning` as
  * attributes; the scene's text, version, n, k and, where it is so, `stopped` at the root. */
+#include <errno.h>
 #include <hdf5.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "tables/fields_file.h"
 
@@ -14,6 +17,67 @@ struct br_fields_file {
     size_t variables;
     double *work; /* values, then workspace */
 };
+
+/* ---- memory ---- */
+
+static bool without_memory; /* why HDF5 has failed */
+
+static herr_t look_at_error(unsigned depth, const H5E_error2_t *error, void *self)
+{
+    (void)depth, (void)self;
+    without_memory |= error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC;
+    return 0;
+}
+
+/* HDF5 prints nothing: what fails is told by us. */
+static herr_t note_error(hid_t stack, void *self)
+{
+    without_memory |= errno == ENOMEM;
+    return H5Ewalk2(stack, H5E_WALK_UPWARD, look_at_error, self);
+}
+
+static void give_up(void)
+{
+    static const char message[] = "beamrate: out of memory: HDF5 gave up\n";
+    (void)!write(STDERR_FILENO, message, sizeof message - 1);
+    _exit(br_status_exit_code(BR_NO_MEMORY));
+}
+
+static void meet_signal(int number)
+{
+    if (errno == ENOMEM)
+        give_up();
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+/* HDF5 1.10 does not survive a failed allocation: it calls itself until the stack is full, follows
+ * null pointers, or leaves a heap that nobody may free. So the program ends there, by its own
+ * words; what it leaves in the folder is swept by the next one. */
+struct guard {
+    stack_t stack;
+    struct sigaction action[2];
+};
+
+static void guard_begin(struct guard *g)
+{
+    static char place[1 << 16];
+    const struct sigaction meet = {.sa_handler = meet_signal, .sa_flags = SA_ONSTACK};
+    sigaltstack(&(stack_t){.ss_sp = place, .ss_size = sizeof place}, &g->stack);
+    sigaction(SIGSEGV, &meet, &g->action[0]);
+    sigaction(SIGABRT, &meet, &g->action[1]);
+    errno = 0;
+}
+
+static enum br_status guard_end(const struct guard *g, enum br_status status)
+{
+    if (status && without_memory)
+        give_up();
+    sigaction(SIGSEGV, &g->action[0], NULL);
+    sigaction(SIGABRT, &g->action[1], NULL);
+    sigaltstack(&g->stack, NULL);
+    return status;
+}
 
 static enum br_status fail(const struct br_fields_file *f, const char *what, struct br_error *err)
 {
@@ -132,7 +196,7 @@ static bool describe(const struct br_fields_file *f, const struct br_fields_requ
     return text_attribute(f->file, "program", "beamrate") &&
            text_attribute(f->file, "version", p->version) &&
            text_attribute(f->file, "commit", p->commit) &&
-           text_attribute(f->file, "command_line", p->command_line) &&
+           text_anyhow(f->file, "command_line", p->command_line) &&
            text_attribute(f->file, "scene_name", q->scene->name) &&
            number_attribute(f->file, "n", (double)q->n) &&
            number_attribute(f->file, "k", q->scene->duration / (double)q->steps) &&
@@ -141,23 +205,14 @@ static bool describe(const struct br_fields_file *f, const struct br_fields_requ
 
 /* ---- the format ---- */
 
-static enum br_status open_hdf5(struct br_fields_file **out, const struct br_fields_request *q,
-                                struct br_error *err)
+static enum br_status create_file(struct br_fields_file *f, const struct br_fields_request *q,
+                                  struct br_error *err)
 {
-    struct br_fields_file *f = *out = br_allocate(1, sizeof *f);
-    if (!f)
-        return br_no_memory(err, "the fields' file");
     H5dont_atexit(); /* where a file could not be closed, HDF5 1.10 crashes at exit */
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* what fails is told by us */
-    snprintf(f->path, sizeof f->path, "%s", q->path);
-    f->file = f->t = H5I_INVALID_HID;
-    for (int v = 0; v < BR_FIELD_VARIABLES; v++)
-        f->variable[v] = H5I_INVALID_HID;
-    f->nodes = q->n + 1;
-    f->variables = br_field_variable_count(q->axial_degree);
-    f->work = br_allocate((size_t)(BR_FIELD_VARIABLES + 4) * f->nodes, sizeof *f->work);
-    if (!f->work)
-        return br_no_memory(err, "the fields' file");
+    if (H5Eset_auto2(H5E_DEFAULT, note_error, NULL) < 0) {
+        without_memory |= errno == ENOMEM;
+        return fail(f, "anything", err);
+    }
     f->file = H5Fcreate(q->path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     if (f->file < 0)
         return fail(f, "the file", err);
@@ -168,11 +223,29 @@ static enum br_status open_hdf5(struct br_fields_file **out, const struct br_fie
     return BR_OK;
 }
 
-static enum br_status look_hdf5(struct br_fields_file *f, const struct br_march *march,
-                                const struct br_history_row *row, struct br_error *err)
+static enum br_status open_hdf5(struct br_fields_file **out, const struct br_fields_request *q,
+                                struct br_error *err)
 {
-    br_field_values(march, f->work, f->work + BR_FIELD_VARIABLES * f->nodes);
-    if (!append(f, f->t, 0, &row->time))
+    struct br_fields_file *f = *out = br_allocate(1, sizeof *f);
+    if (!f)
+        return br_no_memory(err, "the fields' file");
+    snprintf(f->path, sizeof f->path, "%s", q->path);
+    f->file = f->t = H5I_INVALID_HID;
+    for (int v = 0; v < BR_FIELD_VARIABLES; v++)
+        f->variable[v] = H5I_INVALID_HID;
+    f->nodes = q->n + 1;
+    f->variables = br_field_variable_count(q->axial_degree);
+    f->work = br_allocate((size_t)(BR_FIELD_VARIABLES + 4) * f->nodes, sizeof *f->work);
+    if (!f->work)
+        return br_no_memory(err, "the fields' file");
+    struct guard guard;
+    guard_begin(&guard);
+    return guard_end(&guard, create_file(f, q, err));
+}
+
+static enum br_status append_all(struct br_fields_file *f, double time, struct br_error *err)
+{
+    if (!append(f, f->t, 0, &time))
         return fail(f, "t", err);
     for (size_t v = 0; v < f->variables; v++)
         if (!append(f, f->variable[v], f->nodes, f->work + v * f->nodes))
@@ -181,12 +254,23 @@ static enum br_status look_hdf5(struct br_fields_file *f, const struct br_march 
     return BR_OK;
 }
 
+static enum br_status look_hdf5(struct br_fields_file *f, const struct br_march *march,
+                                const struct br_history_row *row, struct br_error *err)
+{
+    struct guard guard;
+    br_field_values(march, f->work, f->work + BR_FIELD_VARIABLES * f->nodes);
+    guard_begin(&guard);
+    return guard_end(&guard, append_all(f, row->time, err));
+}
+
 static enum br_status close_hdf5(struct br_fields_file *f, const char *stopped,
                                  struct br_error *err)
 {
     if (!f)
         return BR_OK;
     bool good = true;
+    struct guard guard;
+    guard_begin(&guard);
     if (stopped && f->file >= 0)
         good = text_attribute(f->file, "stopped", stopped);
     for (int v = 0; v < BR_FIELD_VARIABLES; v++)
@@ -196,7 +280,7 @@ static enum br_status close_hdf5(struct br_fields_file *f, const char *stopped,
         good = H5Dclose(f->t) >= 0 && good;
     if (f->file >= 0)
         good = H5Fclose(f->file) >= 0 && good;
-    const enum br_status status = good ? BR_OK : fail(f, "the file whole", err);
+    const enum br_status status = guard_end(&guard, good ? BR_OK : fail(f, "the file whole", err));
     free(f->work);
     free(f);
     return status;

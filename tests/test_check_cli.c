@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate check as a CI job meets it: exit codes, messages, reports. */
+#include <fcntl.h>
 #include <jansson.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,6 +30,21 @@
     "  space:\n"                   \
     "    n: 10, 20, 40, 80, 160\n" \
     "    k: 0.1 s\n"
+
+#define SLOW                              \
+    "title: slow\n"                       \
+    "length: 2 m\n"                       \
+    "duration: 1 s\n"                     \
+    "density: 1 kg/m\n"                   \
+    "axial:\n"                            \
+    "  stiffness: 1 N\n"                  \
+    "  viscosity: 0.1 N s\n"              \
+    "  load: sin(50*t*x) [N/m]\n"         \
+    "verify:\n"                           \
+    "  joint:\n"                          \
+    "    n: 2, 4, 8, 16\n"                \
+    "    k: 0.1, 0.05, 0.025, 0.0125 s\n" \
+    "    l2: 1 +- 0.9\n"
 
 static void test_verdicts(void **state)
 {
@@ -340,6 +357,11 @@ static void test_compare(void **state)
     cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n    tip: 2 +- 0.5\n");
     cli_expect("check good.yaml --json old.json", NULL, 0, "2 PASS");
     cli_expect("check good.yaml --compare old.json", NULL, 0, "0 serious");
+    cli_expect("check good.yaml --solver umfpack --json other.json", NULL, 0, "2 PASS");
+    cli_expect("check good.yaml --solver umfpack --scaling sum --refinement 2 --compare other.json",
+               NULL, 0, "scaling none before, sum now");
+    cli_expect("check good.yaml --solver umfpack --scaling sum --refinement 2 --compare other.json",
+               NULL, 0, "refinement 0 before, 2 now");
     /* twice the load: the orders stay, the constants double */
     cli_write_file("good.yaml", "title: T\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
                                 "axial:\n  stiffness: 1 N\n  viscosity: 1 N s\n"
@@ -374,14 +396,96 @@ static void test_all(void **state)
                "no order was checked");
 }
 
+/* ---- provenance ---- */
+
+/* It is kept whole, however long. */
+static void test_long_command_line(void **state)
+{
+    (void)state;
+    enum { SCENES = 6 };
+    static struct cli_outcome out;
+    char name[SCENES][900], path[512];
+    const char *word[CLI_MOST_WORDS] = {"check", "--json", "long.json"};
+    char expected[SCENES * sizeof name[0] + 100] = "";
+    for (int i = 0; i < SCENES; i++) {
+        for (size_t j = 0; j < sizeof name[i] - 20; j += 2)
+            strcpy(name[i] + j, "./");
+        sprintf(name[i] + strlen(name[i]), "long%d.yaml", i);
+        cli_write_file(strrchr(name[i], '/') + 1, SCENE SPACE "    l2: 2 +- 0.1\n");
+        word[3 + i] = name[i];
+        strcat(strcat(expected, " "), name[i]);
+    }
+    cli_run(word, NULL, &out);
+    assert_int_equal(out.exit_code, 0);
+    cli_path("long.json", path);
+    json_t *root = json_load_file(path, 0, NULL);
+    const char *line =
+        json_string_value(json_object_get(json_object_get(root, "provenance"), "command_line"));
+    assert_non_null(line);
+    assert_string_equal(line + strlen(line) - strlen(expected), expected);
+    json_decref(root);
+}
+
+/* ---- a terminal ---- */
+
+struct terminal {
+    int end;
+    char shown[1 << 16];
+};
+
+/* Keeps what a terminal shows, until nobody writes to it any more. */
+static void *watch_terminal(void *self)
+{
+    struct terminal *t = self;
+    size_t used = 0;
+    for (ssize_t got; (got = read(t->end, t->shown + used, sizeof t->shown - 1 - used)) > 0;)
+        used += (size_t)got;
+    return NULL;
+}
+
+/* The load is one of x and t, which the exact reference approximates first, for long. */
+static void test_waiting(void **state)
+{
+    (void)state;
+    static struct terminal terminal;
+    static struct cli_outcome out;
+    static const char what[] =
+        "checking [........................................]   0 %, waits for "
+        "an exact reference, ";
+    char name[64];
+    pthread_t reader;
+    cli_write_file("slow.yaml", SLOW);
+    terminal.end = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+    assert_true(terminal.end >= 0 && grantpt(terminal.end) == 0 && unlockpt(terminal.end) == 0);
+    assert_int_equal(ptsname_r(terminal.end, name, sizeof name), 0);
+    const int open_meanwhile = open(name, O_RDWR | O_NOCTTY | O_CLOEXEC);
+    assert_int_equal(pthread_create(&reader, NULL, watch_terminal, &terminal), 0);
+    cli_run_line("check slow.yaml", &(struct cli_circumstances){.errors = name}, &out);
+    close(open_meanwhile);
+    assert_int_equal(pthread_join(reader, NULL), 0);
+    close(terminal.end);
+    const char *first = strstr(terminal.shown, what);
+    assert_non_null(first);
+    const char *second = strstr(first + 1, what);
+    if (!second || !(atof(second + strlen(what)) > atof(first + strlen(what))))
+        fail_msg("nothing moves: %s", terminal.shown);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_verdicts),    cmocka_unit_test(test_rounding),
-        cmocka_unit_test(test_refusals),    cmocka_unit_test(test_strange_baselines),
-        cmocka_unit_test(test_reports),     cmocka_unit_test(test_standard_output),
-        cmocka_unit_test(test_whole_files), cmocka_unit_test(test_compare),
-        cmocka_unit_test(test_links),       cmocka_unit_test(test_all),
+        cmocka_unit_test(test_long_command_line),
+        cmocka_unit_test(test_waiting),
+        cmocka_unit_test(test_verdicts),
+        cmocka_unit_test(test_rounding),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_strange_baselines),
+        cmocka_unit_test(test_reports),
+        cmocka_unit_test(test_standard_output),
+        cmocka_unit_test(test_whole_files),
+        cmocka_unit_test(test_compare),
+        cmocka_unit_test(test_links),
+        cmocka_unit_test(test_all),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

@@ -23,7 +23,7 @@ static struct br_old_check as_old(const struct made_check *m)
     };
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
         old.costs[0].method[kind] =
-            (struct br_old_method){true, "euler", "riccati", "lagged", "exact", NAN, 1};
+            (struct br_old_method){true, "euler", "riccati", "lagged", "exact", NAN, 1, 0, "none"};
     for (size_t i = 0; i < old.count; i++) {
         const struct br_case *c = &m->check.cases[i];
         struct br_old_case *o = &old.cases[i];
@@ -104,6 +104,19 @@ static void test_comparison(void **state)
     old.cases[0].ceiling = 1; /* there is none now */
     compare(&m, &old, BR_WARNING, "made space l2 axial: expectation");
     old.cases[0] = sound;
+    struct br_expectation *now = &m.check.cases[0].expected;
+    const struct br_expectation expected = *now;
+    old.cases[0].floor = 1e-9;
+    old.cases[0].ceiling = 1e9;
+    *now = expected;
+    now->floor = 1e-10;
+    now->ceiling = 1e9;
+    compare(&m, &old, BR_WARNING, "made space l2 axial: expectation");
+    now->floor = 1e-8; /* narrower at both ends */
+    now->ceiling = 1e8;
+    compare(&m, &old, BR_SAME, "");
+    *now = expected;
+    old.cases[0] = sound;
     old.costs[0].seconds = NAN;
     compare(&m, &old, BR_SAME, "");
     old.costs[0].seconds = m.check.seconds;
@@ -139,12 +152,17 @@ static void test_methods(void **state)
     struct br_old_method *method = &old.costs[0].method[BR_VERIFY_TIME];
     const struct br_old_method same = *method,
                                others[] = {
-                                   {true, "bdf2", "riccati", "lagged", "exact", NAN, 1},
-                                   {true, "euler", "plain", "lagged", "exact", NAN, 1},
-                                   {true, "euler", "riccati", "implicit", "exact", NAN, 1},
-                                   {true, "euler", "riccati", "lagged", "regularised", NAN, 1},
-                                   {true, "euler", "riccati", "lagged", "exact", 1e-6, 1},
-                                   {true, "euler", "riccati", "lagged", "exact", NAN, 2},
+                                   {true, "bdf2", "riccati", "lagged", "exact", NAN, 1, 0, "none"},
+                                   {true, "euler", "plain", "lagged", "exact", NAN, 1, 0, "none"},
+                                   {true, "euler", "riccati", "implicit", "exact", NAN, 1, 0,
+                                    "none"},
+                                   {true, "euler", "riccati", "lagged", "regularised", NAN, 1, 0,
+                                    "none"},
+                                   {true, "euler", "riccati", "lagged", "exact", 1e-6, 1, 0,
+                                    "none"},
+                                   {true, "euler", "riccati", "lagged", "exact", NAN, 2, 0, "none"},
+                                   {true, "euler", "riccati", "lagged", "exact", NAN, 1, 1, "none"},
+                                   {true, "euler", "riccati", "lagged", "exact", NAN, 1, 0, "max"},
                                };
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         *method = others[i];

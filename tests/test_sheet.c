@@ -131,7 +131,7 @@ static void test_markdown(void **state)
     expect(text, "| 50 % \\& a\\_b #1 {x} $y$ a^b \\\\ ~ | 1000000 | - |\n");
     expect(text, "| a\\|b \\*c\\* \\`d\\` \\<e\\> | -7 | nan |\n");
     expect(text, "\n## Notes\n\n- first\\_note\n- second\\_note\n");
-    expect(text, "\nbeamrate 1 (c), today: `` beamrate extremes 'a`b' ``\n");
+    expect(text, "\nbeamrate 1 (c), today: beamrate extremes 'a\\`b'\n");
 }
 
 static void test_latex(void **state)

@@ -268,6 +268,13 @@ static void test_failing_gnuplot(void **state)
                "3: no \\x1b[31m");
     assert_true(cli_is_there("failing/example2.json") && cli_is_there("failing/example2-h.gp"));
     assert_false(cli_is_there("failing/example2-h.svg")); /* half a picture is none */
+    if (has_gnuplot()) { /* nor does an earlier run's stay beside new tables */
+        cli_expect(STUDY "failing", NULL, 0, "");
+        assert_true(cli_is_there("failing/example2-h.svg"));
+        cli_expect(STUDY "failing", &failing, 0, "is not drawn");
+        assert_false(cli_is_there("failing/example2-h.svg"));
+        assert_false(cli_file_contains("failing/manifest.json", "example2-h.svg"));
+    }
     cli_expect("trade example2 --split --methods euler --n 2 --k 0.5,0.25 --out failing", &failing,
                0, "warning: example2-split.gp is not drawn");
     assert_true(cli_is_there("failing/example2-split.json"));

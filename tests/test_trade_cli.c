@@ -53,6 +53,22 @@ static void test_bad_input(void **state)
     assert_false(cli_is_there("trade"));
 }
 
+/* What the finest march does not see of a load is told before, whichever way it is marched. */
+static void test_loads(void **state)
+{
+    (void)state;
+    static const char unseen[] = "blow: the axial load does between the time levels what they do "
+                                 "not see";
+    cli_write_file("blow.yaml", "title: blow\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\naxial:\n"
+                                "  stiffness: 1 N\n  viscosity: 1 N s\n"
+                                "  load: t + 100 * exp(-((t - 0.333) / 1e-3)^2) [N/m]\n");
+    cli_expect("trade blow.yaml --methods euler --n 2 --k 0.1,0.05 --repeats 1 --out blow "
+               "--no-plots",
+               NULL, 0, unseen);
+    cli_expect("trade blow.yaml --split --methods euler --n 2 --k 0.1,0.05 --out blow --no-plots",
+               NULL, 0, unseen);
+}
+
 static json_t *load(const char *name)
 {
     char path[512];
@@ -231,10 +247,11 @@ static void test_interrupt(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_input),      cmocka_unit_test(test_formats_agree),
-        cmocka_unit_test(test_rules),          cmocka_unit_test(test_over_the_limit),
-        cmocka_unit_test(test_unstable),       cmocka_unit_test(test_zero_solution),
-        cmocka_unit_test(test_several_scenes), cmocka_unit_test(test_interrupt),
+        cmocka_unit_test(test_loads),          cmocka_unit_test(test_bad_input),
+        cmocka_unit_test(test_formats_agree),  cmocka_unit_test(test_rules),
+        cmocka_unit_test(test_over_the_limit), cmocka_unit_test(test_unstable),
+        cmocka_unit_test(test_zero_solution),  cmocka_unit_test(test_several_scenes),
+        cmocka_unit_test(test_interrupt),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

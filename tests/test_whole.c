@@ -144,7 +144,7 @@ static size_t try_everywhere(const char *what, long every)
         sets[before == 's' ? 0 : before == 'r' ? 1 : 2]++;
     }
     assert_int_equal(set_that_is_there(), 'r');
-    print_message("%s, %ld calls: %zu left the old set, %zu the new one, %zu the decision\n", what,
+    print_message("# %s, %ld calls: %zu left the old set, %zu the new one, %zu the decision\n", what,
                   n - 1, sets[0], sets[1], sets[2]);
     return sets[0] * sets[1] * sets[2];
 }

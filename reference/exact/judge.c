@@ -96,6 +96,9 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
         options.max_modes = 64;
     options.stop = r->stop;
     options.stop_self = r->stop_self;
+    options.progress = r->preparing;
+    if (r->preparing)
+        r->preparing(r->stop_self, 0); /* the loads are looked at first */
     enum br_status status = br_exact_borrow(&e->exact, r->scene, &options, err);
     if (!status)
         status = br_exact_state_create(&e->state, e->exact, err);

@@ -104,6 +104,8 @@ static enum br_status solve(double a[S][S], double x[S], struct br_error *err)
 {
     lapack_int pivot[S];
     const lapack_int info = LAPACKE_dgesv(LAPACK_ROW_MAJOR, S, 1, &a[0][0], S, pivot, x, 1);
+    if (info == LAPACK_TRANSPOSE_MEMORY_ERROR || info == LAPACK_WORK_MEMORY_ERROR)
+        return br_no_memory(err, "the tip's force");
     if (info < 0) /* LAPACKE looks for NaN */
         return br_fail(err, BR_NOT_FINITE, "the tip's force is not finite");
     return info ? br_fail(err, BR_SINGULAR, "the tip's force is not determined") : BR_OK;

@@ -36,9 +36,11 @@ static enum br_status decompose(struct br_modes *modes, struct br_error *err)
         LAPACKE_dgesdd(LAPACK_COL_MAJOR, 'S', (lapack_int)rows, (lapack_int)m, b, (lapack_int)rows,
                        modes->size, modes->shape, (lapack_int)rows, modes->curve, (lapack_int)m);
     free(b);
+    if (info == LAPACK_WORK_MEMORY_ERROR)
+        return br_no_memory(err, "the modes");
     if (info)
-        return br_fail(err, info == LAPACK_WORK_MEMORY_ERROR ? BR_NO_MEMORY : BR_SINGULAR,
-                       "the decomposition into %zu modes failed (%d)", m, (int)info);
+        return br_fail(err, BR_SINGULAR, "the decomposition into %zu modes failed (%d)", m,
+                       (int)info);
     transpose(m, modes->curve); /* LAPACK gives U' */
     return BR_OK;
 }

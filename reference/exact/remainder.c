@@ -39,8 +39,8 @@ enum br_status br_remainder_add(struct br_remainder *m, struct br_error *err)
                                            (lapack_int)m->columns, m->a, (lapack_int)rows, m->tau);
     for (size_t k = 0; k < m->columns; k++) /* the reflectors below the diagonal are not needed */
         memset(br_remainder_r(m, k + 1, k), 0, (rows - k - 1) * sizeof(double));
-    if (!info)
-        return BR_OK;
-    return br_fail(err, info == LAPACK_WORK_MEMORY_ERROR ? BR_NO_MEMORY : BR_SINGULAR,
-                   "a projection's remainder failed (%d)", (int)info);
+    if (info == LAPACK_WORK_MEMORY_ERROR)
+        return br_no_memory(err, "a projection's remainder");
+    return info ? br_fail(err, BR_SINGULAR, "a projection's remainder failed (%d)", (int)info)
+                : BR_OK;
 }

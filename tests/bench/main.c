@@ -58,7 +58,8 @@ int main(int argc, const char **argv)
     const char *path = variable && *variable ? variable : argc == 2 ? argv[1] : NULL;
     if (check_path(path, &err))
         return report(err.status, &err);
-    br_remember_command_line(argc, argv);
+    if (br_remember_command_line(argc, argv, &err))
+        return report(err.status, &err);
     const struct CMUnitTest sections[] = {
         cmocka_unit_test(bench_accuracy),    cmocka_unit_test(bench_machine),
         cmocka_unit_test(bench_speed),       cmocka_unit_test(bench_loads),
