@@ -323,8 +323,8 @@ double br_predict_round_off(const struct br_outlook *o)
     return largest;
 }
 
-/* Whether nothing is so short that even what the run is compared with steps over it. */
-static bool all_is_seen(const struct br_outlook *o)
+/* What is so short that even what the run is compared with steps over it; NULL: nothing. */
+static const char *too_short(const struct br_outlook *o)
 {
     struct br_outlook finer = *o;
     struct br_warnings unseen = {0};
@@ -332,8 +332,9 @@ static bool all_is_seen(const struct br_outlook *o)
     finer.steps *= FINER_LEVELS;
     finer.n *= FINER_ELEMENTS;
     finer.share = least_share;
-    return !br_look_at_loads(&finer, &unseen, &err) && unseen.count == 0 &&
-           br_initial_data_are_seen(&finer);
+    if (!br_look_at_loads(&finer, &unseen, &err) && unseen.count == 0)
+        return NULL;
+    return br_warnings_find(&unseen, BR_WARN_INITIAL) ? "the initial data are" : "a load is";
 }
 
 enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction *p,
@@ -345,10 +346,10 @@ enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction
     const enum br_status status = br_probes_hold(&set, outlook, err);
     if (!status)
         judge(p, &set);
-    if (!status && p->known && !all_is_seen(outlook)) {
+    const char *unseen = !status && p->known ? too_short(outlook) : NULL;
+    if (unseen) {
         p->known = p->bounded = false;
-        snprintf(p->why, sizeof p->why,
-                 "a load or initial value is too short for what it is compared with");
+        snprintf(p->why, sizeof p->why, "%s too short for what it is compared with", unseen);
     }
     br_probes_clear(&set);
     p->seconds = br_seconds() - begun;

@@ -141,30 +141,12 @@ static void warn_of_ignorance(const struct br_outlook *o, const struct br_predic
             br_time_step(o->scene, o->steps), most, p->why);
 }
 
-/* The marches that a prediction compares may all pass by what a warning tells. */
-static void doubt_what_is_unseen(const struct br_warnings *w, struct br_prediction *p)
-{
-    static const struct {
-        enum br_warning_kind kind;
-        const char *what;
-    } rows[] = {{BR_WARN_LOAD_TIME, "a load"},
-                {BR_WARN_LOAD_SPACE, "a load"},
-                {BR_WARN_INITIAL, "the initial data"}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (br_warnings_find(w, rows[i].kind)) {
-            p->known = p->bounded = false;
-            snprintf(p->why, sizeof p->why, "the march does not see all of %s, as a warning says",
-                     rows[i].what);
-        }
-}
-
 static enum br_status look(const struct br_outlook *o, struct br_warnings *w, struct br_error *err)
 {
     struct br_prediction p;
     const enum br_status status = br_predict(o, &p, err);
     if (status)
         return status;
-    doubt_what_is_unseen(w, &p);
     warn_of_round_off(o, &p, w);
     warn_of_inaccuracy(o, &p, w);
     warn_of_ignorance(o, &p, w);

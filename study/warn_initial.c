@@ -104,7 +104,8 @@ static enum br_status measure(const struct data *d, double square[2], struct br_
     return most > 0 ? br_fail(err, BR_BAD_INPUT, "it cannot be resolved") : BR_OK;
 }
 
-static enum br_status look_at(const struct data *d, struct br_warnings *w, struct br_error *err)
+static enum br_status look_at(const struct data *d, double share, struct br_warnings *w,
+                              struct br_error *err)
 {
     double square[2] = {0};
     if (!d->value->uses_x || (d->value->ops && !d->value->ops->bound))
@@ -116,7 +117,7 @@ static enum br_status look_at(const struct data *d, struct br_warnings *w, struc
                 "%s changes so often that it is not known how much of it lies between the nodes, "
                 "with n = %zu",
                 d->name, d->n);
-    else if (!status && !(missed <= large * size))
+    else if (!status && !(missed <= share * size))
         br_warn(w, BR_WARN_INITIAL, "more elements, as short as what happens there",
                 "%s does between the nodes what they do not see: with n = %zu %.2g %% of its norm",
                 d->name, d->n, 100 * missed / size);
@@ -137,7 +138,7 @@ static enum br_status look(const struct br_outlook *o, struct br_warnings *w, st
     enum br_status status = BR_OK;
     for (size_t i = 0; i < sizeof rows / sizeof *rows && !status; i++)
         if (i < 2 ? a->modelled : b->modelled)
-            status = look_at(&rows[i], w, err);
+            status = look_at(&rows[i], o->share > 0 ? o->share : large, w, err);
     return status;
 }
 

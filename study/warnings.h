@@ -89,8 +89,4 @@ enum br_status br_look_ahead_cheaply(const struct br_outlook *outlook, struct br
 enum br_status br_look_at_loads(const struct br_outlook *outlook, struct br_warnings *warnings,
                                 struct br_error *err);
 
-/* Whether straight lines between the nodes have the outlook's share of what the initial data are:
- * the integrals of what they miss. */
-bool br_initial_data_are_seen(const struct br_outlook *outlook);
-
 #endif
