@@ -166,8 +166,8 @@ static void add_load(struct balance *b, size_t node)
     add_node(b, RESIDUAL, force, -1);
 }
 
-/* A residual, less what rounding leaves of states that were larger: where motion and load cross zero
- * at once, all terms are small, but a velocity is still a sum of larger ones. */
+/* A residual, less what rounding leaves of states that were larger: where motion and load cross
+ * zero at once, all terms are small, but a velocity is still a sum of larger ones. */
 static double beyond_rounding(const struct br_step *s, enum br_field_kind kind, double residual)
 {
     const double inherited = BR_MOST_WEIGHT * DBL_EPSILON * s->size[kind];

@@ -150,20 +150,19 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
 {
     const struct br_watched *seen = &w->seen;
     double size_now[2] = {0, 0};
-    struct br_step step = {.scene = seen->scene,
-                           .method = seen->method,
-                           .n = seen->n,
-                           .k = told->tau,
-                           .compliance = {br_march_compliance(w->march, BR_AXIAL),
-                                          br_march_compliance(w->march, BR_BENDING)},
-                           .axial_tip = axial_tip,
-                           .tip = *br_march_tip(w->march),
-                           .largest = w->largest,
-                           .speed = {largest_of(w->speed[BR_AXIAL]),
-                                     largest_of(w->speed[BR_BENDING])},
-                           .size = {largest_of(w->size[BR_AXIAL]),
-                                    largest_of(w->size[BR_BENDING])},
-                           .size_now = size_now};
+    struct br_step step = {
+        .scene = seen->scene,
+        .method = seen->method,
+        .n = seen->n,
+        .k = told->tau,
+        .compliance = {br_march_compliance(w->march, BR_AXIAL),
+                       br_march_compliance(w->march, BR_BENDING)},
+        .axial_tip = axial_tip,
+        .tip = *br_march_tip(w->march),
+        .largest = w->largest,
+        .speed = {largest_of(w->speed[BR_AXIAL]), largest_of(w->speed[BR_BENDING])},
+        .size = {largest_of(w->size[BR_AXIAL]), largest_of(w->size[BR_BENDING])},
+        .size_now = size_now};
     step.field[told->kind] = around(&seen->field[told->kind]);
     /* The axial field lends its size to the bound's round-off. */
     if (told->kind == BR_BENDING)

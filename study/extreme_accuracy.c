@@ -17,8 +17,7 @@ static void compare(struct br_extreme_trial *t)
         double sure;
         const double e = br_track_error(t->own, t->other, (enum br_field_kind)kind, &sure);
         const double boast = t->court->boast > 0 ? t->court->boast : 1;
-        const double stated =
-            br_predicted_most(&t->prediction, (enum br_field_kind)kind) / boast;
+        const double stated = br_predicted_most(&t->prediction, (enum br_field_kind)kind) / boast;
         const double slack = fmax(sure, of_distance * t->judge_error[kind]);
         const double beyond = e <= slack + stated ? 0 : (e - slack) / fmax(stated, 1e-300);
         if (isnan(beyond) || beyond > t->beyond || (beyond == t->beyond && !(e <= t->error))) {
@@ -69,12 +68,15 @@ static enum br_status march_finer(struct br_extreme_trial *t, size_t finer, doub
     const bool chosen = fine.scheme->adaptive || fine.scheme->integrator;
     fine.solver = br_linear_solvers[0];
     fine.contact = implicit_contact();
+    if (fine.friction->iterates) /* what an iteration leaves adds up over many steps */
+        fine.friction = br_friction_rules[0];
     fine.scheme = br_time_scheme_find(chosen ? "adaptive" : "esdirk3");
     fine.tolerance = fmax(1e-11, fine.tolerance / (100 * times));
     fine.most_steps = 4 * BR_EXTREME_PATIENCE;
     request.method = &fine;
     request.finer = finer;
-    const double solves = (double)t->one->n * (double)t->one->steps * br_time_scheme_stages(fine.scheme);
+    const double solves =
+        (double)t->one->n * (double)t->one->steps * br_time_scheme_stages(fine.scheme);
     const double room = refined_work / ((double)finer * solves);
     request.shorter = chosen ? 1 : (size_t)(times * floor(fmin(32, fmax(2, room))));
     return br_track_march(&request, track, err);
@@ -105,8 +107,7 @@ static enum br_status ask_again(struct br_extreme_trial *t, struct br_error *err
     if (!status && !finest->failure.status) {
         double sure;
         for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-            t->judge_error[kind] =
-                br_track_error(other, finest, (enum br_field_kind)kind, &sure);
+            t->judge_error[kind] = br_track_error(other, finest, (enum br_field_kind)kind, &sure);
         t->other = finest;
         compare(t);
         t->other = other;
@@ -138,9 +139,8 @@ static void decide_accuracy(struct br_extreme_trial *t)
     else if (t->beyond <= 0 || v->warned & helps)
         br_extreme_decide(t, BR_EXTREME_WARNED, "error %.2g, and says so", v->error);
     else
-        br_extreme_decide(t, BR_EXTREME_WRONG,
-                          "error %.2g by %s, stated to be at most %.2g", t->error,
-                          br_extreme_by_name(v->by), v->stated);
+        br_extreme_decide(t, BR_EXTREME_WRONG, "error %.2g by %s, stated to be at most %.2g",
+                          t->error, br_extreme_by_name(v->by), v->stated);
 }
 
 enum br_status br_extreme_judge_accuracy(struct br_extreme_trial *t, struct br_error *err)

@@ -153,7 +153,8 @@ enum br_status br_extreme_judge(const struct br_extreme_case *one,
                                 const struct br_extreme_court *court,
                                 struct br_extreme_verdict *verdict, struct br_error *err)
 {
-    *verdict = (struct br_extreme_verdict){.error = NAN, .stated = NAN, .units = NAN, .round_off = NAN};
+    *verdict =
+        (struct br_extreme_verdict){.error = NAN, .stated = NAN, .units = NAN, .round_off = NAN};
     struct br_extreme_trial t = {
         .one = one, .court = court, .verdict = verdict, .method = one->method};
     t.method.most_steps = BR_EXTREME_PATIENCE;

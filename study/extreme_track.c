@@ -21,7 +21,7 @@ struct br_track_places br_track_places(size_t n, size_t steps)
 {
     struct br_track_places p = {.n = n, .steps = steps, .parts = 1};
     const size_t parts = steps < BR_TRACK_LEVELS ? steps : BR_TRACK_LEVELS;
-    while (n * p.parts < BR_TRACK_EVEN)
+    while (n * p.parts < 64 * BR_TRACK_EVEN) /* room for those near the tip */
         p.parts *= 2;
     p.levels = parts + 1;
     p.points = choose_places(n * p.parts, p.place);
@@ -45,8 +45,8 @@ static void keep_slope(struct br_track *t, size_t point, double slope)
     t->largest[BR_BENDING] = fmax(t->largest[BR_BENDING], fabs(slope));
 }
 
-/* A displacement at xi, 0 to 1, in the element whose nodes' unknowns begin there, and of a beam h w_x
- * (out). Rods: u, and, where they are quadratic, the bulge's b; beams: w and h w_x. */
+/* A displacement at xi, 0 to 1, in the element whose nodes' unknowns begin there, and of a beam h
+ * w_x (out). Rods: u, and, where they are quadratic, the bulge's b; beams: w and h w_x. */
 static double interpolate(const double *at, size_t unknowns, enum br_field_kind kind, double xi,
                           double *slope)
 {
@@ -170,8 +170,7 @@ static enum br_status evaluate(const struct br_exact *exact, struct br_track *t,
 {
     double x[BR_TRACK_POINTS];
     for (size_t p = 0; p < t->places.points; p++)
-        x[p] = length * (double)t->places.place[p] /
-               (double)(t->places.n * t->places.parts);
+        x[p] = length * (double)t->places.place[p] / (double)(t->places.n * t->places.parts);
     return br_exact_evaluate(exact, state, part, t->places.points, x, value, &t->failure);
 }
 

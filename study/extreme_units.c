@@ -84,8 +84,8 @@ static double allowed(const struct br_extreme_trial *t)
     double ways = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (t->own->largest[kind] > 0)
-            ways = fmax(ways, (k * t->own->speed[kind] + t->own->held[kind]) /
-                                  t->own->largest[kind]);
+            ways =
+                fmax(ways, (k * t->own->speed[kind] + t->own->held[kind]) / t->own->largest[kind]);
     const double iteration = t->method.friction->iterates ? t->method.iteration.tolerance : 0;
     const double predicted = fmax(t->verdict->round_off, t->other->report.round_off);
     return 16 * (predicted + DBL_EPSILON * ways) + 4 * iteration + control(t);

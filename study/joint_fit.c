@@ -288,8 +288,7 @@ static void widen_by_jackknife(const struct problem *problem, struct attempt *a,
     }
 }
 
-/* Akaike's criterion with its correction for few points. */
-static double akaike(double sum, size_t count, size_t unknowns)
+double br_akaike(double sum, size_t count, size_t unknowns)
 {
     const double n = (double)count, u = (double)unknowns + 1; /* the variance is one too */
     if (!(n > u + 1))
@@ -407,7 +406,7 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
         if (!enough(&problem))
             continue;
         struct attempt a = best_attempt(&problem);
-        const double criterion = akaike(a.sum, count, kinds[kind].count);
+        const double criterion = br_akaike(a.sum, count, kinds[kind].count);
         if (!isfinite(a.sum) || !(criterion < best))
             continue;
         if (kind != BR_JOINT_TIME)

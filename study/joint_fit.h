@@ -21,4 +21,8 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
 /* value -+ half width of the 95 % interval: t quantile times the deviation. */
 struct br_estimate br_estimate_of(double value, double deviation, size_t freedom);
 
+/* Akaike's criterion with Hurvich and Tsai's correction for few points, of `count` residuals with
+ * that sum of squares; infinite where there are too few. */
+double br_akaike(double sum, size_t count, size_t unknowns);
+
 #endif

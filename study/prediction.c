@@ -12,7 +12,7 @@ static const double doubt = 3;
 
 /* The same of a distance from a reference that is surer than that: the norm sees it at levels and
  * in elements of the run alone. */
-static const double measured_doubt = 1.5;
+static const double measured_doubt = 2;
 
 /* A reference of order one is off by at most so many times what its check differs from it. */
 static const double of_check = 1.5;
@@ -33,10 +33,16 @@ static const double by_tolerance[] = {0.6, 0.9, 1.2};
 /* Orders below are no convergence. */
 static const double least_order = 0.5;
 
+/* What a run is compared with sees loads and initial data as so many times its levels and elements
+ * do; what is less than this share of one is no loss. */
+enum { FINER_LEVELS = 64, FINER_ELEMENTS = 4 };
+static const double least_share = 1e-3;
+
 static const enum br_part part_of[2] = {BR_PART_AXIAL, BR_PART_BENDING};
 
-/* How large a field becomes: at least, and at most, by the marches that go to the end; a coarse mesh
- * may sway far more than a fine one. Where the field rests in one of them, the other field's. */
+/* How large a field becomes: at least, and at most, by the marches that go to the end; a coarse
+ * mesh may sway far more than a fine one. Where the field rests in one of them, the other field's.
+ */
 struct size {
     double least, most;
 };
@@ -106,15 +112,20 @@ static double reference_error(double coarse, double a, double finer, double b)
     return of_check * finer / (pow(b, low) - 1);
 }
 
-/* The same of the run's own reference: in time by its check's steps and the run's, in space by three
- * meshes. */
+/* What steps by a tolerance gather, in tolerances, where no switch is in the way. */
+static const double gathered = 10;
+
+/* The same of the run's own reference: in time by its check's steps and the run's, in space by
+ * three meshes. Two tolerances may choose the same steps, which differ by nothing: so one is not
+ * surer than what it may gather. */
 static double whole_reference_error(const struct br_probe *p, int kind)
 {
     const double steps = cell_error(p, BR_WHOLE_STEPS, kind);
     const double shorter = (double)p->study.reference.steps / (double)p->steps[BR_WHOLE_RUN];
+    const double tolerance = p->study.reference_method.tolerance;
     const double in_time =
         p->study.reference_method.scheme->adaptive
-            ? of_check * steps
+            ? fmax(of_check * steps, gathered * tolerance * p->study.reference_size[kind])
             : reference_error(cell_error(p, BR_WHOLE_TIME, kind), shorter, steps, 2);
     const double finer = fmax(0, cell_error(p, BR_WHOLE_CHECK, kind) - steps);
     const double coarse = fmax(0, cell_error(p, BR_WHOLE_SPACE, kind) - steps);
@@ -169,10 +180,8 @@ static double order_in_time(const struct br_outlook *o)
 /* A distance of the run's own steps or elements from a reference that may be off by so much. */
 static struct br_predicted around(double e, double unsure)
 {
-    return (struct br_predicted){.error = e,
-                                 .low = fmax(0, e - unsure) / doubt,
-                                 .high = doubt * (e + unsure),
-                                 .order = NAN};
+    return (struct br_predicted){
+        .error = e, .low = fmax(0, e - unsure) / doubt, .high = doubt * (e + unsure), .order = NAN};
 }
 
 static struct br_predicted measured_time(const struct br_probe *p, int kind)
@@ -314,6 +323,19 @@ double br_predict_round_off(const struct br_outlook *o)
     return largest;
 }
 
+/* Whether nothing is so short that even what the run is compared with steps over it. */
+static bool all_is_seen(const struct br_outlook *o)
+{
+    struct br_outlook finer = *o;
+    struct br_warnings unseen = {0};
+    struct br_error err;
+    finer.steps *= FINER_LEVELS;
+    finer.n *= FINER_ELEMENTS;
+    finer.share = least_share;
+    return !br_look_at_loads(&finer, &unseen, &err) && unseen.count == 0 &&
+           br_initial_data_are_seen(&finer);
+}
+
 enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction *p,
                           struct br_error *err)
 {
@@ -323,6 +345,11 @@ enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction
     const enum br_status status = br_probes_hold(&set, outlook, err);
     if (!status)
         judge(p, &set);
+    if (!status && p->known && !all_is_seen(outlook)) {
+        p->known = p->bounded = false;
+        snprintf(p->why, sizeof p->why,
+                 "a load or initial value is too short for what it is compared with");
+    }
     br_probes_clear(&set);
     p->seconds = br_seconds() - begun;
     return status;

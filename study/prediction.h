@@ -3,13 +3,13 @@
  * relative to the largest of that field's solution.
  *
  * A run that is short is marched twice: as it is, and by the most accurate method on a finer mesh
- * with smaller steps. Their distance is the error; what a reference of half that mesh and half those
- * steps differs from the first tells how sure it is, and widens the interval. Where the run takes
- * long, cheaper marches tell it: so many steps as are cheap, on a coarse mesh; the run's first
- * steps, of their own length, for what happens at t = 0; and the run's own mesh, or one of 128
- * elements, at few steps. What lies beyond is extrapolated by the order that was observed where that
- * makes sense, else by theory's. That switching (stick and slip, contact) spoils orders above one
- * is not seen by coarse marches: the upper bound then takes order one.
+ * with smaller steps. Their distance is the error; what a reference of half that mesh and half
+ * those steps differs from the first tells how sure it is, and widens the interval. Where the run
+ * takes long, cheaper marches tell it: so many steps as are cheap, on a coarse mesh; the run's
+ * first steps, of their own length, for what happens at t = 0; and the run's own mesh, or one of
+ * 128 elements, at few steps. What lies beyond is extrapolated by the order that was observed where
+ * that makes sense, else by theory's. That switching (stick and slip, contact) spoils orders above
+ * one is not seen by coarse marches: the upper bound then takes order one.
  *
  * Tests hold it against the exact solution (tests/test_prediction.c), and so does each case of
  * `extremes map`. */

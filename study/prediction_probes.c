@@ -2,6 +2,7 @@
 #include "study/prediction_probes.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 
 /* A solve costs as much as so many elements more than it has; an element whose load must be
@@ -14,9 +15,16 @@ static const double chosen_work = 6e7; /* where the run chooses its steps */
 static const double chosen_stages = 12;
 static const double time_share = 0.5, start_share = 0.2, space_share = 0.3;
 
-enum { SPACE_N = 128, TIME_N = 32, MOST_REFINED = 32, FINE_N = 32, MANY_N = 1000,
-       TOLERANCE_LEVELS = 24, LEAST_CHOSEN = 40,
-       FIRST_STEPS = 4 };
+enum {
+    SPACE_N = 128,
+    TIME_N = 32,
+    MOST_REFINED = 32,
+    FINE_N = 32,
+    MANY_N = 1000,
+    TOLERANCE_LEVELS = 24,
+    LEAST_CHOSEN = 40,
+    FIRST_STEPS = 4
+};
 
 /* A reference is sure enough where its check differs from it by so much of the run's error, or of
  * the solution. */
@@ -202,8 +210,7 @@ static void set_tight(struct br_probe *p, const struct br_outlook *o)
     struct br_method check = tight_method(o->method, sqrt(tighter));
     struct br_method reference = tight_method(o->method, tighter);
     check.most_steps = reference.most_steps = most;
-    p->steps[BR_WHOLE_RUN] =
-        by_tolerance(o->method) ? least(o->steps, TOLERANCE_LEVELS) : o->steps;
+    p->steps[BR_WHOLE_RUN] = by_tolerance(o->method) ? least(o->steps, TOLERANCE_LEVELS) : o->steps;
     if (p->steps[BR_WHOLE_RUN] + LEAST_CHOSEN <= most)
         set_whole_cells(p, o, &check, &reference, (struct finer){finer, 1});
 }
@@ -293,8 +300,7 @@ static void set_start(struct br_probe *p, const struct br_outlook *o, bool equal
     p->scene.duration *= (double)p->steps[0] / (double)o->steps;
     p->measured = true;
     p->ratio = 3;
-    set_study(p, o->method, &fine,
-              (struct br_resolution){p->n[0], (equal ? 3 : 1) * p->steps[0]});
+    set_study(p, o->method, &fine, (struct br_resolution){p->n[0], (equal ? 3 : 1) * p->steps[0]});
 }
 
 /* ---- space ---- */
@@ -318,7 +324,9 @@ static void set_space(struct br_probe *p, const struct br_outlook *o)
     const double a_step =
         (solve(o, (double)finest) + solve(o, (double)p->n[0]) + solve(o, (double)p->n[1])) *
         stages(&best);
-    p->steps[0] = least(o->steps, (size_t)(space_share * budget(o) / a_step) + 1);
+    /* Where a tolerance chooses, the levels say nothing of the steps that are needed. */
+    p->steps[0] = least(by_tolerance(o->method) ? SIZE_MAX : o->steps,
+                        (size_t)(space_share * budget(o) / a_step) + 1);
     set_study(p, &best, &best, (struct br_resolution){finest, p->steps[0]});
     p->study.n_count = 2;
 }

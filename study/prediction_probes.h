@@ -46,7 +46,8 @@ struct br_probe_set {
 
 /* Marches them. Where BR_PROBE_TIGHT or BR_PROBE_WHOLE is held and has not failed, it is about the
  * run itself, and neither BR_PROBE_TIME nor BR_PROBE_SPACE is held. How much is
- * counted, not timed, so that a prediction is the same on any machine. What fails is left in the studies. Fails with BR_NO_MEMORY. Clear them even then. */
+ * counted, not timed, so that a prediction is the same on any machine. What fails is left in the
+ * studies. Fails with BR_NO_MEMORY. Clear them even then. */
 enum br_status br_probes_hold(struct br_probe_set *set, const struct br_outlook *outlook,
                               struct br_error *err);
 void br_probes_clear(struct br_probe_set *set);

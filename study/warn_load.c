@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Warns of loads that do something between the time levels. Over each step the impulse of a
- * function of time is compared with that of the straight line between its values at the levels,
- * which all that a scheme with few stages sees resembles: for smooth functions they differ by
- * O(k^2), for a blow that is shorter than the step by all of it. The impulse is that on a mesh on
- * which the function is proved to be resolved (load_mesh.h); where one of its cells spans several
- * steps, the difference is bounded by the second derivative instead: |c_2| k^3 / 6 a step. */
+/* Warns of loads that do something between the time levels, and looks at initial data likewise.
+ * Over each step the impulse of a function of time is compared with that of the straight line
+ * between its values at the levels, which all that a scheme with few stages sees resembles: for
+ * smooth functions they differ by O(k^2), for a blow that is shorter than the step by all of it.
+ * The impulse is that on a mesh on which the function is proved to be resolved (load_mesh.h); where
+ * one of its cells spans several steps, the difference is bounded by the second derivative instead:
+ * |c_2| k^3 / 6 a step. */
 #include <math.h>
 #include <stdio.h>
 
@@ -19,10 +20,11 @@ struct missed {
     double worst, time;   /* the step that misses most, and its middle, s */
 };
 
-/* A function of t on its way through the steps. */
+/* A function on its way through the steps; of x: through the elements. */
 struct passage {
     const struct br_function *f;
-    struct br_box box; /* the place, and all times */
+    enum br_variable along;
+    struct br_box box; /* all times, and the place; or all places, at t = 0 */
     double k;
     size_t n;       /* the step */
     double impulse; /* in it, so far */
@@ -39,11 +41,23 @@ static void miss(struct passage *p, double impulse, double time)
     }
 }
 
+static double value_at(const struct passage *p, double at)
+{
+    const double x = p->along == BR_X ? at : p->box.x.low, t = p->along == BR_T ? at : 0;
+    double value;
+    br_function_evaluate(p->f, 1, &x, t, &value);
+    return value;
+}
+
+static struct br_box part_of(const struct passage *p, struct br_interval along)
+{
+    return p->along == BR_X ? (struct br_box){along, p->box.t} : (struct br_box){p->box.x, along};
+}
+
 static void end_step(struct passage *p)
 {
-    double before, after;
-    br_function_evaluate(p->f, 1, &p->box.x.low, (double)p->n * p->k, &before);
-    br_function_evaluate(p->f, 1, &p->box.x.low, (double)(p->n + 1) * p->k, &after);
+    const double before = value_at(p, (double)p->n * p->k);
+    const double after = value_at(p, (double)(p->n + 1) * p->k);
     miss(p, fabs(p->impulse - p->k * (before + after) / 2), ((double)p->n + 0.5) * p->k);
     p->n++;
     p->impulse = 0;
@@ -53,10 +67,12 @@ static void end_step(struct passage *p)
 static void pass_steps(struct passage *p, size_t steps)
 {
     const double from = (double)p->n * p->k, to = (double)(p->n + steps) * p->k;
-    const struct br_box box = {p->box.x, {from, to}};
+    /* Inside of the cell: it ends where the function jumps, at one point, which has no impulse. */
+    const struct br_interval inside = {nextafter(from, to), nextafter(to, from)};
+    const struct br_box box = part_of(p, inside);
     struct br_interval c[3], value = {0, 0};
     double most = INFINITY; /* a step */
-    if (br_function_taylor(p->f, BR_T, box, 2, c))
+    if (br_function_taylor(p->f, p->along, box, 2, c))
         most = fmax(fabs(c[2].low), fabs(c[2].high)) * p->k * p->k * p->k / 6;
     if (br_function_bound(p->f, box, &value))
         most = fmin(most, (value.high - value.low) * p->k);
@@ -76,7 +92,7 @@ static void pass_cell(struct passage *p, double from, double to)
         }
         const struct br_interval piece = {from, fmin(next, to)};
         double value[BR_LOAD_PLACES];
-        br_load_values(p->f, BR_T, p->box, piece, value);
+        br_load_values(p->f, p->along, p->box, piece, value);
         for (int i = 0; i < BR_LOAD_PLACES; i++)
             p->impulse += (piece.high - from) * br_load_weight[i] * value[i];
         if (piece.high >= next)
@@ -103,7 +119,7 @@ static enum br_status measure(const struct br_function *f, double weight,
         box.x = peak.x;
         status = br_load_mesh(f, BR_T, box, &mesh, &size, &failure);
     }
-    struct passage p = {f, box, duration / (double)o->steps, 0, 0, weight, m};
+    struct passage p = {f, BR_T, box, duration / (double)o->steps, 0, 0, weight, m};
     for (size_t i = 0; i < mesh.count; i++)
         pass_cell(&p, mesh.at[i], mesh.at[i + 1]);
     if (status == BR_BAD_INPUT) { /* without a mesh: one bound for all steps */
@@ -120,7 +136,7 @@ static void tell(const char *name, const struct missed *m, bool known, const str
                  struct br_warnings *w)
 {
     const double k = o->scene->duration / (double)o->steps;
-    if (m->impulse <= large * m->size)
+    if (m->impulse <= (o->share > 0 ? o->share : large) * m->size)
         return;
     if (known)
         br_warn(w, BR_WARN_LOAD_TIME, "time steps that are shorter than what happens there",
@@ -197,6 +213,32 @@ static enum br_status look(const struct br_outlook *o, struct br_warnings *w, st
     if (b->modelled && !status)
         status = look_at_load(&b->load, "the bending load", o, w, err);
     return status;
+}
+
+/* Of a function of x at t = 0 alone: what straight lines between the nodes do not see. */
+static bool is_seen(const struct br_function *f, const struct br_outlook *o)
+{
+    const struct br_box box = {{0, o->scene->length}, {0, 0}};
+    struct missed m = {0};
+    struct passage p = {f, BR_X, box, o->scene->length / (double)o->n, 0, 0, 1, &m};
+    struct br_mesh mesh = {0};
+    struct br_error err;
+    if (!f->ops || !f->ops->bound)
+        return true; /* a constant, or what a test brings */
+    if (br_load_mesh(f, BR_X, box, &mesh, &m.size, &err))
+        return false;
+    for (size_t i = 0; i < mesh.count; i++)
+        pass_cell(&p, mesh.at[i], mesh.at[i + 1]);
+    br_mesh_free(&mesh);
+    return m.impulse <= o->share * m.size;
+}
+
+bool br_initial_data_are_seen(const struct br_outlook *o)
+{
+    const struct br_axial *a = &o->scene->axial;
+    const struct br_bending *b = &o->scene->bending;
+    return (!a->modelled || (is_seen(&a->displacement, o) && is_seen(&a->velocity, o))) &&
+           (!b->modelled || (is_seen(&b->displacement, o) && is_seen(&b->velocity, o)));
 }
 
 const struct br_warning_source br_warn_load = {

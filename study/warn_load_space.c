@@ -113,7 +113,7 @@ static enum br_status measure(struct sight *s, const struct br_product *p, struc
     return status;
 }
 
-static void tell(const char *name, const struct sight *s, struct br_warnings *w)
+static void tell(const char *name, const struct sight *s, double share, struct br_warnings *w)
 {
     const struct missed *m = &s->missed;
     if (!s->known)
@@ -121,7 +121,7 @@ static void tell(const char *name, const struct sight *s, struct br_warnings *w)
                 "%s changes so often in x that it is not known how much of it the elements' "
                 "quadrature sees, with n = %zu",
                 name, s->field.n);
-    else if (!(m->force <= large * m->size))
+    else if (!(m->force <= share * m->size))
         br_warn(w, BR_WARN_LOAD_SPACE, "more elements, as short as what happens there",
                 "%s does inside of elements what their quadrature does not see: with n = %zu %.2g "
                 "%% of it, most of it near x = %.4g m",
@@ -145,7 +145,7 @@ static enum br_status look_at(const struct br_load *load, const char *name,
             status = measure(&s, &load->term[i], err);
     free(s.vector);
     if (!status)
-        tell(name, &s, w);
+        tell(name, &s, o->share > 0 ? o->share : large, w);
     return status;
 }
 

@@ -56,6 +56,7 @@ struct br_outlook {
     size_t n, steps;
     struct br_prediction *prediction; /* out: the errors to expect; NULL: nobody asks */
     double budget; /* elements times solves that a prediction may take; 0: as prediction.h says */
+    double share;  /* of a load that is warned of if it is not seen; 0: as the sources say */
 };
 
 /* A source of warnings: a row of the registry. */
@@ -85,5 +86,9 @@ enum br_status br_look_ahead_cheaply(const struct br_outlook *outlook, struct br
  */
 enum br_status br_look_at_loads(const struct br_outlook *outlook, struct br_warnings *warnings,
                                 struct br_error *err);
+
+/* Whether straight lines between the nodes have the outlook's share of what the initial data are:
+ * the integrals of what they miss. */
+bool br_initial_data_are_seen(const struct br_outlook *outlook);
 
 #endif

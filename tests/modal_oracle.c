@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The sum over the modes, and what those add that are left out. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -23,6 +24,7 @@ struct solver {
     real *time, *shift; /* at the panels' nodes */
     real *drive;        /* one mode's, where the load moves */
     real *rest[2];      /* the sums' rests: at the nodes where the load moves, else one */
+    real round_off[2];  /* of one rest */
     real (*slow)[4];    /* by times: y, z, G, G' of a G(t) that does not move */
     real (*state)[2];   /* one mode's */
     struct oracle_tip *sum;
@@ -142,6 +144,8 @@ static void finish(const struct solver *s, struct oracle_tip *tip)
             tail_terms(s->problem, slow[k], power, value);
             tip[k].displacement += rest * value[0];
             tip[k].velocity += rest * value[1];
+            tip[k].displacement_error += s->round_off[power - 1] * fabsl(value[0]);
+            tip[k].velocity_error += s->round_off[power - 1] * fabsl(value[1]);
         }
     }
     if (s->term->moving)
@@ -160,6 +164,8 @@ static void begin(struct solver *s)
             *rest = part(s, &w);
         for (size_t i = 0; i < (s->term->moving ? s->panels.count * NODES : 1); i++)
             rest[i] *= factor;
+        if (!s->term->moving) /* modes are taken away from it until little is left */
+            s->round_off[power - 1] = 4 * LDBL_EPSILON * fabsl(*rest);
     }
     if (!s->term->moving)
         slow_response(s, s->time, s->slow);
@@ -196,12 +202,14 @@ static bool settled(size_t times, const struct oracle_tip *before, struct oracle
 {
     real most[2] = {0, 0}, error[2] = {0, 0};
     for (size_t k = 0; k < times; k++) {
-        tip[k].displacement_error = fabsl(tip[k].displacement - before[k].displacement);
-        tip[k].velocity_error = fabsl(tip[k].velocity - before[k].velocity);
+        const real change[] = {fabsl(tip[k].displacement - before[k].displacement),
+                               fabsl(tip[k].velocity - before[k].velocity)};
+        tip[k].displacement_error += change[0];
+        tip[k].velocity_error += change[1];
         most[0] = fmaxl(most[0], fabsl(tip[k].displacement));
         most[1] = fmaxl(most[1], fabsl(tip[k].velocity));
-        error[0] = fmaxl(error[0], tip[k].displacement_error);
-        error[1] = fmaxl(error[1], tip[k].velocity_error);
+        error[0] = fmaxl(error[0], change[0]);
+        error[1] = fmaxl(error[1], change[1]);
     }
     return error[0] <= 1e-13L * most[0] && error[1] <= 1e-11L * most[1];
 }

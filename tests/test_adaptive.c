@@ -124,27 +124,94 @@ static void test_same_steps(void **state)
         }
 }
 
+/* Without laws at the tip. */
+static struct br_scene smooth_scene(const char *axial, const char *bending)
+{
+    struct br_scene scene = br_test_bare();
+    scene.duration = 20;
+    scene.axial.load = br_test_load(axial);
+    scene.bending.load = br_test_load(bending);
+    return scene;
+}
+
 /* A step's error is of order 4, so that steps shorten by 10^(1/4) with a tolerance of a tenth. */
 static void test_steps_of_tolerance(void **state)
 {
     (void)state;
-    struct br_scene scene = br_test_bare();
-    scene.duration = 20;
-    scene.axial.load = br_test_load("sin(2*t)^5");
-    scene.bending.load = br_test_load("3*sin(2*t)^5");
+    struct br_scene scene = smooth_scene("sin(2*t)^5", "3*sin(2*t)^5");
     const double many = (double)counts_of(&scene, NULL, 6, 1e-9).steps;
     const double few = (double)counts_of(&scene, NULL, 6, 1e-5).steps;
     CLOSE(log10(many / few) / 4, 0.25, 0.04);
     br_scene_clear(&scene);
 }
 
+/* Errors are relative: a load whose squares are no doubles has the same steps. */
+static void test_small_load(void **state)
+{
+    (void)state;
+    struct br_scene scene = smooth_scene("sin(2*t)^5", "3*sin(2*t)^5");
+    struct br_scene small = smooth_scene("1e-150*sin(2*t)^5", "3e-150*sin(2*t)^5");
+    const double usual = (double)counts_of(&scene, "riccati", 6, 1e-6).steps;
+    CLOSE((double)counts_of(&small, "riccati", 6, 1e-6).steps, usual, 2);
+    CLOSE((double)counts_of(&small, "plain", 6, 1e-6).steps, usual, 2);
+    br_scene_clear(&scene);
+    br_scene_clear(&small);
+}
+
+/* ---- what a step begins with ---- */
+
+struct seen {
+    const struct br_march *march;
+    struct br_tip accepted;
+    size_t trials, steps;
+};
+
+static void see_stage(void *self, const struct br_march_stage *told)
+{
+    struct seen *seen = self;
+    const struct br_tip *tip = br_march_tip(seen->march);
+    if (told->kind != BR_AXIAL || told->index != 0)
+        return;
+    seen->trials++;
+    CLOSE(tip->velocity[BR_BENDING], seen->accepted.velocity[BR_BENDING], 0);
+    CLOSE(tip->friction_force, seen->accepted.friction_force, 0);
+    CLOSE(tip->friction_bound, seen->accepted.friction_bound, 0);
+}
+
+static void see_step(void *self, enum br_field_kind kind, bool switched)
+{
+    struct seen *seen = self;
+    (void)switched;
+    seen->accepted = *br_march_tip(seen->march);
+    seen->steps += kind == BR_BENDING;
+}
+
+/* When the first stage of the rod has ended, the beam's tip is still what the last accepted step
+ * left, whatever was tried and taken back since. */
+static void test_taken_back(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("chatter");
+    struct br_method method = br_test_method(NULL, "implicit", NULL);
+    method.scheme = br_time_scheme_find("adaptive");
+    method.tolerance = 1e-4;
+    struct br_march *march = br_test_march(&scene, 4, 10, &method);
+    struct seen seen = {.march = march, .accepted = *br_march_tip(march)};
+    assert_true(br_march_watch(march, &(struct br_march_watcher){&seen, see_stage, see_step}));
+    br_test_advance(march, 10);
+    assert_true(br_march_counts(march).rejected > 0);
+    assert_true(seen.trials > seen.steps && seen.steps == br_march_counts(march).steps);
+    br_march_free(march);
+    br_scene_clear(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_second_ends),
-        cmocka_unit_test(test_estimate),
-        cmocka_unit_test(test_same_steps),
+        cmocka_unit_test(test_taken_back),         cmocka_unit_test(test_second_ends),
+        cmocka_unit_test(test_estimate),           cmocka_unit_test(test_same_steps),
         cmocka_unit_test(test_steps_of_tolerance),
+        cmocka_unit_test(test_small_load),
     };
     return cmocka_run_group_tests_name("adaptive", tests, NULL, NULL);
 }

@@ -107,8 +107,7 @@ static void test_unverifiable(void **state)
     struct br_error err = {0};
     made_create(&m);
     m.verify.study[BR_VERIFY_JOINT].line = 33;
-    br_function_free(&m.scene.axial.load.term[0].space);
-    m.scene.axial.load.term[0].space = br_test_function("step(x - 0.3)");
+    m.scene.density = m.scene.axial.viscosity = 0; /* the velocity is not determined */
     struct made_check sound;
     made_create(&sound);
     struct br_check both[] = {m.check, sound.check};

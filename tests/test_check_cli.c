@@ -105,8 +105,8 @@ static void test_refusals(void **state)
     cli_write_file("bdf2.yaml", SCENE SPACE "    scheme: bdf2\n    l2: 2 +- 0.1\n");
     cli_write_file("contradiction.yaml", SCENE SPACE "    l2: 2 +- 2\n");
     cli_write_file("beyond.yaml",
-                   "title: T\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
-                   "axial:\n  stiffness: 1 N\n  viscosity: 1 N s\n  load: step(x - 0.3) [N/m]\n"
+                   "title: T\nlength: 1 m\nduration: 1 s\ndensity: 0 kg/m\n"
+                   "axial:\n  stiffness: 1 N\n  viscosity: 0 N s\n  load: x [N/m]\n"
                    "verify:\n  joint:\n    n: 10, 20, 40, 80\n"
                    "    k: 0.5, 0.25, 0.125, 0.0625 s\n    l2: 1 +- .1\n");
     static const struct {

@@ -104,6 +104,19 @@ static void test_comparison(void **state)
     old.cases[0].ceiling = 1; /* there is none now */
     compare(&m, &old, BR_WARNING, "made space l2 axial: expectation");
     old.cases[0] = sound;
+    struct br_expectation *now = &m.check.cases[0].expected;
+    const struct br_expectation expected = *now;
+    old.cases[0].floor = 1e-9;
+    old.cases[0].ceiling = 1e9;
+    *now = expected;
+    now->floor = 1e-10;
+    now->ceiling = 1e9;
+    compare(&m, &old, BR_WARNING, "made space l2 axial: expectation");
+    now->floor = 1e-8; /* narrower at both ends */
+    now->ceiling = 1e8;
+    compare(&m, &old, BR_SAME, "");
+    *now = expected;
+    old.cases[0] = sound;
     old.costs[0].seconds = NAN;
     compare(&m, &old, BR_SAME, "");
     old.costs[0].seconds = m.check.seconds;

@@ -11,6 +11,8 @@
 
 #include "reference/exact/legendre.h"
 #include "reference/exact/modes.h"
+#include "reference/exact/piecewise.h"
+#include "reference/exact/quadrature.h"
 #include "reference/exact/radau.h"
 #include "tests/exact_scenes.h"
 
@@ -189,13 +191,84 @@ static void test_projections(void **unused)
     check_projections(150);
 }
 
+/* ---- a beam of 2.5 m in three pieces, and x^2 on it ---- */
+
+enum { TERMS = 4, PIECES = 3, MOST = PIECES * (TERMS + 1) };
+static const double beam = 2.5;
+
+/* Its series, c; cut at a front or not, it is the same. */
+static void project_square(struct br_pieces *pieces, size_t fronts, double c[MOST])
+{
+    static const double end[] = {0, 0.4, 1.7, 2.5}, front[] = {1.1};
+    static const size_t terms[] = {TERMS, TERMS, TERMS};
+    struct formula square = {f_power, {1, 2}};
+    struct br_error err;
+    struct br_quadrature q;
+    assert_int_equal(br_pieces_init(pieces, beam, PIECES, end, terms, &err), BR_OK);
+    assert_int_equal(br_quadrature_init(&q, pieces, 0, &err), BR_OK);
+    const struct br_function f = formula_function(&square);
+    assert_int_equal(br_quadrature_project(&q, &f, 0, (struct br_places){fronts, front}, c, &err),
+                     BR_OK);
+    br_quadrature_clear(&q);
+}
+
+static double squares(size_t count, const double *c)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += c[i] * c[i];
+    return sum;
+}
+
+/* int x^4 d(x/L) = L^4 / 5; with F = x^3 / (3 L), int F^2 d(x/L) = L^4 / 63. */
+static void test_pieces(void **unused)
+{
+    (void)unused;
+    for (size_t fronts = 0; fronts < 2; fronts++) {
+        struct br_pieces pieces;
+        double c[MOST];
+        project_square(&pieces, fronts, c);
+        assert_near(squares(PIECES * TERMS, c), pow(beam, 4) / 5, 1e-13);
+        assert_near(br_pieces_integral(&pieces, 0, c), beam * beam / 3, 1e-13);
+        br_pieces_integrate(&pieces, 0, c);
+        assert_near(squares(MOST, c), pow(beam, 4) / 63, 1e-13);
+        assert_near(br_pieces_integral(&pieces, 1, c), beam * beam / 12, 1e-13);
+        br_pieces_clear(&pieces);
+    }
+}
+
+/* On elements that do not meet the pieces' ends, parabolas are x^2, and lines leave something out;
+ * the squares of both add up to int x^4 dx = L^5 / 5. */
+static void test_projected_pieces(void **unused)
+{
+    (void)unused;
+    for (size_t degree = 1; degree <= 2; degree++)
+        for (size_t n = 1; n <= 20; n++) {
+            const struct br_exact_mesh mesh = {n, degree};
+            struct br_pieces pieces;
+            struct br_piecewise *w;
+            struct br_error err;
+            double c[MOST], modes[20 * 3] = {0}, rest = NAN;
+            project_square(&pieces, 0, c);
+            assert_int_equal(br_piecewise_create(&w, &pieces, 0, &mesh, &err), BR_OK);
+            br_piecewise_apply(w, c, modes, &rest);
+            const double all = pow(beam, 5) / 5, h = beam / (double)n;
+            assert_near(squares(n * (degree + 1), modes) + rest, all, 1e-12);
+            /* of x^2 the second Legendre polynomial has h^2 / 6, its square h / 5 */
+            assert_near(rest, degree == 2 ? 0 : (double)n * pow(h, 5) / 180, 1e-12);
+            br_piecewise_free(w);
+            br_pieces_clear(&pieces);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_legendre),           cmocka_unit_test(test_legendre_tables),
         cmocka_unit_test(test_legendre_integrals), cmocka_unit_test(test_radau_tables),
         cmocka_unit_test(test_radau_stability),    cmocka_unit_test(test_modes),
-        cmocka_unit_test(test_projections),
+        cmocka_unit_test(test_projections),        cmocka_unit_test(test_pieces),
+        cmocka_unit_test(test_projected_pieces),
     };
     return cmocka_run_group_tests_name("exact: parts", tests, NULL, NULL);
 }

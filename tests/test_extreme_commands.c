@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The commands that the map prints: each reproduces its case, whatever the verdict. $BEAMRATE is the
- * program. */
+/* The commands that the map prints: each reproduces its case, whatever the verdict. $BEAMRATE is
+ * the program. */
 #include <stdio.h>
 #include <string.h>
 
@@ -40,8 +40,7 @@ static void repeat(const struct br_extreme_case *one, const struct br_extreme_ve
                verdict->known == (strncmp(stated, "discretisation error  not known", 31) != 0);
     if (!same)
         fail_msg("case %zu was judged %s (%s)\n%s\nexit code %d\n%s", one->index,
-                 br_extreme_word(verdict->which), verdict->why, command, out.exit_code,
-                 out.output);
+                 br_extreme_word(verdict->which), verdict->why, command, out.exit_code, out.output);
 }
 
 static void test_commands(void **state)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "study/fit.h"
+#include "study/joint_fit.h"
 #include "support.h"
 
 enum { ROWS = 6, COLUMNS = 6, CELLS = ROWS * COLUMNS };
@@ -267,6 +268,47 @@ static void test_flags(void **state)
     br_fits_clear(&fits);
 }
 
+/* A solver's round-off is its field's own: errors just above that of the one are flagged in the
+ * other and in the total, which have more of it. */
+static void test_round_off(void **state)
+{
+    (void)state;
+    struct grid g;
+    grid_init(&g, false);
+    g.study.method.solver = &br_umfpack;
+    for (size_t i = 0; i < CELLS; i++) {
+        const struct br_cell *c = &g.cell[i];
+        const double k = br_time_step(&g.scene, c->at.steps);
+        double limit[2];
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+            const struct br_field field =
+                br_field_of_scene(&g.scene, (enum br_field_kind)kind, c->at.n, k);
+            limit[kind] = 3 * br_umfpack.round_off(&field, &g.study.method.linear);
+        }
+        assert_true(limit[BR_BENDING] > 4 * limit[BR_AXIAL]);
+        for (int part = 0; part < BR_PARTS; part++)
+            g.cell[i].error[part] = 2 * limit[BR_AXIAL];
+    }
+    br_flag_beside(&g.study);
+    for (size_t i = 0; i < CELLS; i++) {
+        assert_int_equal(g.cell[i].flag[BR_PART_AXIAL], BR_FLAG_NONE);
+        assert_int_equal(g.cell[i].flag[BR_PART_BENDING], BR_FLAG_ROUND_OFF);
+        assert_int_equal(g.cell[i].flag[BR_PART_TOTAL], BR_FLAG_ROUND_OFF);
+    }
+}
+
+/* Hurvich and Tsai's criterion, by hand: n log(S / n) + 2 u n / (n - u - 1) with u unknowns, of
+ * which the variance is one. */
+static void test_few_points(void **state)
+{
+    (void)state;
+    CLOSE(br_akaike(9, 9, 5), 54, 1e-12);
+    CLOSE(br_akaike(9, 9, 2), 10.8, 1e-12);
+    CLOSE(br_akaike(36 * exp(-7), 36, 5), -36 * 7 + 12 * 36 / 29.0, 1e-12);
+    assert_true(isinf(br_akaike(1, 7, 5))); /* seven points tell nothing of six unknowns */
+    assert_true(isfinite(br_akaike(1, 8, 5)));
+}
+
 static void test_noise_is_no_order(void **state)
 {
     (void)state;
@@ -355,6 +397,8 @@ int main(void)
         cmocka_unit_test(test_opposed),
         cmocka_unit_test(test_left_out),
         cmocka_unit_test(test_flags),
+        cmocka_unit_test(test_round_off),
+        cmocka_unit_test(test_few_points),
         cmocka_unit_test(test_slope),
         cmocka_unit_test(test_noise_is_no_order),
         cmocka_unit_test(test_nan_passes_nothing),

@@ -22,6 +22,7 @@ static void test_dip(void **state)
     const struct br_margins stages = of(4, (double[]){1, -1, -2, 1});
     const struct br_margins end = of(4, (double[]){1, 0.5, 0.7, -0.1});
     const struct br_margins between = of(4, (double[]){0.28025, 0.03025, 0.03025, 0.78025});
+    const struct br_margins before = of(4, (double[]){0.03025, 0.28025, 0.03025, 1.53025});
     const struct br_margins start = of(4, (double[]){-1e-9, 0.5, 0.25, 1});
     CLOSE(br_margins_dip(&inside), 0, 0);
     CLOSE(br_margins_dip(&stages), 0.25, 0);
@@ -29,6 +30,7 @@ static void test_dip(void **state)
     CLOSE(br_margins_dip(&start), 0, 0);
     CLOSE(br_margins_dip(&(struct br_margins){0}), 0, 0);
     CLOSE(br_margins_dip(&between), 0.375, 1.0 / 64); /* 2 (t - 3/8)^2 - 0.001 */
+    CLOSE(br_margins_dip(&before), 0.125, 1.0 / 64);  /* 2 (t - 1/8)^2 - 0.001 */
 }
 
 static struct br_method adaptive(double tolerance)
@@ -41,7 +43,8 @@ static struct br_method adaptive(double tolerance)
 
 /* The reaction of a propped tip, 3/8 q L = 37.5 sin t N at its largest, is above the bound by 3e-5
  * of itself, for 0.015 of 10 s: far less than a step. The tip must slip by 22 um. The value is that
- * of esdirk3 with 300,000 steps; a tolerance of 1e-11 differs from it by 1e-13 m. */
+ * of esdirk3 with 300,000 steps; a tolerance of 1e-11 differs from it by 1e-13 m. With many
+ * tolerances it falls on many places of a step, before its first stage, too. */
 static void test_short_slip(void **state)
 {
     (void)state;
@@ -53,7 +56,7 @@ static void test_short_slip(void **state)
     scene.bending.viscosity = 0.02;
     scene.bending.load = br_test_load("100*sin(t)");
     scene.friction = (struct br_friction){.law = BR_TRESCA, .coefficient = 37.499};
-    for (double tolerance = 1e-4; tolerance > 1e-9; tolerance /= 100) {
+    for (double tolerance = 1e-4; tolerance > 1e-9; tolerance *= 0.7) {
         const struct br_method method = adaptive(tolerance);
         const struct br_test_end end = br_test_run(&scene, 4, 10, &method);
         CLOSE(end.w_tip, 2.2204315e-5, fmin(1e-6, 20 * tolerance));

@@ -259,7 +259,8 @@ static void test_inaccurate(void **state)
     br_load_clear(&s.axial.load);
 }
 
-/* A solution that is zero is zero; beyond its limit a lagged contact has no error that is known. */
+/* A solution that is zero is zero; beyond its limit a lagged contact has no error that is known,
+ * nor has a march that steps over a blow. */
 static void test_not_known(void **state)
 {
     (void)state;
@@ -276,6 +277,17 @@ static void test_not_known(void **state)
     method.contact = br_contact_rule_find("implicit");
     p = predict(&s, &method, 10, 10);
     assert_true(p.known);
+    br_scene_clear(&s);
+    s = br_test_bundled("example1"); /* a blow that all marches step over */
+    br_load_clear(&s.axial.load);
+    s.axial.tip_force = br_test_function("t + 1e7*exp(-((t - 0.1234567)/1e-8)^2)");
+    p = predict(&s, &method, 10, 800);
+    assert_false(p.known || p.bounded);
+    assert_non_null(strstr(p.why, "too short"));
+    br_function_free(&s.axial.tip_force);
+    s.axial.displacement = br_test_function("0.1*x + exp(-((x - 0.3333)/1e-4)^2)");
+    p = predict(&s, &method, 10, 800);
+    assert_false(p.known || p.bounded);
     br_scene_clear(&s);
 }
 
@@ -382,6 +394,7 @@ static void test_short_blows(void **state)
         {"t < 0.45 ? 0 : x", 3, " 9.1 % of its impulse"},
         {"exp(-7 - x)*(t < 0.45)", 3, " 11 % of its impulse"},
         {"t < 0.45 ? 0 : x", 30, NULL},
+        {"1 + 2*(t - 0.4)^2*step(t - 0.4)", 100, NULL}, /* a kink at the end of a smooth piece */
     };
     struct br_scene s = br_test_bare();
     const struct br_method method = br_method_default();

@@ -277,6 +277,9 @@ static void test_warnings(void **state)
     assert_true(json_is_true(json_object_get(p, "known")));
     const json_t *whole = json_object_get(p, "discretisation");
     AT_MOST(0.05, json_real_value(json_object_get(whole, "error")));
+    const json_t *bending = json_object_get(p, "bending");
+    AT_MOST(json_real_value(json_object_get(bending, "error")),
+            json_real_value(json_object_get(bending, "most")));
     json_decref(root);
 
     cli_run_line("run example2 --n 3200 --k 0.001 --solver banded", &apart, &out);
@@ -286,7 +289,7 @@ static void test_warnings(void **state)
     cli_run_line("run example2", &apart, &out);
     assert_int_equal(out.exit_code, 0);
     assert_false(cli_file_contains("errors.txt", "warning"));
-    assert_non_null(strstr(out.output, "discretisation error  9.8e-04, between "));
+    assert_non_null(strstr(out.output, "discretisation error  1.4e-03, between "));
     assert_non_null(strstr(out.output, "round-off             2.0e-12"));
 }
 
@@ -318,6 +321,14 @@ static void test_contact_limit(void **state)
         cli_expect(lines[i], NULL, 0, "the lagged contact is beyond its stability limit");
         cli_expect(lines[i], NULL, 0, "remedy: --contact implicit has no limit; or time steps of");
     }
+    cli_expect("run stiff.yaml --n 4 --k 0.1 --quiet --json unknown.json", NULL, 0,
+               "the discretisation error at n = 4, k = 0.1 s is not known: the lagged contact is "
+               "beyond its stability limit");
+    json_t *root = json_loads(cli_read("unknown.json"), 0, NULL);
+    const json_t *p = json_object_get(root, "prediction");
+    assert_false(json_is_true(json_object_get(p, "known")));
+    assert_non_null(strstr(json_string_value(json_object_get(p, "why_not")), "stability limit"));
+    json_decref(root);
     cli_run_line(lines[0], NULL, &out);
     const char *k = strstr(out.output, "--k ");
     assert_non_null(k);

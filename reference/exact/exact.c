@@ -166,13 +166,13 @@ static size_t count_modes(const struct search *s, size_t which, size_t modes)
     return count;
 }
 
-/* Modes of a next round, 0 if it may not be: elements multiply what is allowed for one by four. */
+/* Modes of a next round, 0 if it may not be: elements multiply what is allowed for one by six. */
 static size_t next_modes(const struct search *s, size_t modes)
 {
     const size_t most = s->o->max_modes, more = modes * 3 / 2;
     const size_t next = !modes ? FIRST_MODES : more < most ? more : most;
     for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
-        if (count_modes(s, which, next) > 4 * most)
+        if (count_modes(s, which, next) > 6 * most)
             return 0;
     return modes == most || is_spent(s) ? 0 : next;
 }
@@ -199,6 +199,19 @@ static bool will_do(struct search *s)
     return ratio <= slow;
 }
 
+/* What no two solutions show, relative: places that nobody can look into, proofs' remainders, and
+ * the rounding of the stages' times, independent of each other, where the load changes fast. */
+static double unproved(const struct search *s, size_t which)
+{
+    const struct br_track *track = s->exact->solution->track[which];
+    const double rounding = 0.29, change = 0.25; /* rms of a unit; of a load over a cell */
+    const double blurred =
+        track && track->impulse > 0
+            ? rounding * change * sqrt(track->blurred / BR_STAGES) / track->impulse
+            : 0;
+    return s->missed + s->outline[which].proved + blurred;
+}
+
 /* Makes solutions with more and more modes until two agree. */
 static enum br_status refine(struct search *s, struct br_error *err)
 {
@@ -219,7 +232,7 @@ static enum br_status refine(struct search *s, struct br_error *err)
     if (!(s->worst <= enough) && !will_do(s))
         return refuse(s->exact, s->worst, &s->cause, err);
     for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
-        add_to_size(&s->exact->report[i].error, s->missed, &s->exact->report[i].largest);
+        add_to_size(&s->exact->report[i].error, unproved(s, i), &s->exact->report[i].largest);
     return br_exact_list_events(s->exact, s->before, err);
 }
 

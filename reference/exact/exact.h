@@ -6,8 +6,8 @@
  *
  * What is proved of the loads and initial data (solver/proof.h) says where elements and steps end:
  * where they jump or bend, and wherever a polynomial would miss something of them. Where fronts of
- * a load f(x, t) move, integrals are cut at them. A function of which nothing can be proved is taken
- * for smooth. The regularisation of friction is ignored: the law is (12) itself. GSL's error
+ * a load f(x, t) move, integrals are cut at them. A function of which nothing can be proved is
+ * taken for smooth. The regularisation of friction is ignored: the law is (12) itself. GSL's error
  * handler is switched off. */
 #ifndef BR_EXACT_H
 #define BR_EXACT_H
@@ -27,7 +27,7 @@ struct br_exact_options {
     double acceptable;     /* the tolerance: up to this, 1e-3 at most, will do where max_modes are
                               not enough for the tolerance; the report tells what was reached */
     double rate_tolerance; /* ten times tolerance, and at least that: of velocities and forces */
-    size_t max_modes;      /* 256 per field, 18 to 1000; on several elements four times as many in
+    size_t max_modes;      /* 256 per field, 18 to 1000; on several elements six times as many in
                               all */
     size_t max_steps;      /* 20000 per field */
     bool (*stop)(void *self); /* asked every step; true: give up, with BR_INTERRUPTED */

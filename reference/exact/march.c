@@ -174,6 +174,8 @@ static void accept(struct march *m, double time)
     m->scale = trial_scale(m);
     m->track->free_velocity =
         larger(m->track->free_velocity, s->free_size / sqrt(s->field->length));
+    m->track->impulse += s->impulse;
+    m->track->blurred += gsl_pow_2(s->blur * s->impulse);
     br_stepper_accept(m->s, time);
     m->scale.displacement = larger(m->scale.displacement, br_field_norm(s->field, s->q, 1));
     m->fresh = false;

@@ -17,7 +17,9 @@ struct subject {
 
 struct work {
     struct br_outline *o;
-    double length, duration;
+    const struct br_field_data *data;
+    size_t degree;
+    double length, duration, density;
     struct subject space[MOST], time[MOST];
     size_t spaces, times;
     struct br_breaks bend; /* places where functions of x jump or bend, m */
@@ -107,18 +109,26 @@ static struct br_interval part(const struct br_breaks *breaks, size_t i, double 
                                 i < breaks->count ? breaks->at[i].low * (1 - apart) : all};
 }
 
-/* A part between jumps that is no wider than round-off, but not empty, cannot be integrated over.
- */
-static enum br_status check_parts(const struct br_breaks *breaks, double all, const char *unit,
-                                  struct br_error *err)
+/* What is this narrow, of all, lies within one place, or in an end. */
+static const double narrow = 1e-13;
+
+/* Places with nothing but round-off between them are one; what happens in it is counted by
+ * count_hidden. */
+static void join_breaks(struct br_breaks *breaks, double all)
 {
-    for (size_t i = 1; i < breaks->count; i++)
-        if (!(breaks->at[i].low - breaks->at[i - 1].high > 1e-13 * all))
-            return br_fail(err, BR_NOT_FINITE,
-                           "no exact solution: the data jump twice within %.2g %s at %.17g %s",
-                           breaks->at[i].low - breaks->at[i - 1].high, unit, breaks->at[i].low,
-                           unit);
-    return BR_OK;
+    size_t kept = 0;
+    for (size_t i = 0; i < breaks->count; i++) {
+        struct br_interval at = breaks->at[i];
+        if (at.low <= narrow * all)
+            at.low = 0;
+        if (at.high >= (1 - narrow) * all)
+            at.high = all;
+        if (kept && at.low - breaks->at[kept - 1].high <= narrow * all)
+            breaks->at[kept - 1].high = at.high;
+        else
+            breaks->at[kept++] = at;
+    }
+    breaks->count = kept;
 }
 
 /* The ends of [0, all] and of the parts. */
@@ -128,8 +138,10 @@ static enum br_status add_parts(struct br_list *list, const struct br_breaks *br
     enum br_status status = br_list_add(list, 0, err);
     for (size_t i = 0; i < breaks->count && !status; i++) {
         const struct br_interval at = breaks->at[i];
-        status = br_list_add(list, at.high, err);
-        if (!status && at.high - at.low > 1e-13 * all) /* no more could be told */
+        const bool wide = at.high - at.low > narrow * all; /* no more could be told */
+        if (at.high < all && (wide || at.low > 0))
+            status = br_list_add(list, at.high, err);
+        if (!status && at.low > 0 && (wide || at.high == all))
             status = br_list_add(list, at.low, err);
     }
     return status ? status : br_list_add(list, all, err);
@@ -142,7 +154,8 @@ static enum br_status find_bends(struct work *w)
         if (is_known(w->space[i].f))
             status = br_breaks_add(w->space[i].f, BR_X, box_of(w, &w->space[i]), &w->bend, w->err);
     w->o->fronts = w->bend.moving;
-    return status ? status : check_parts(&w->bend, w->length, "m", w->err);
+    join_breaks(&w->bend, w->length);
+    return status;
 }
 
 /* ---- meshes ---- */
@@ -282,7 +295,42 @@ static enum br_status find_jumps(struct work *w)
         if (!status)
             status = br_front_times(s->f, box_of(w, s), jump, &complete, w->err);
     }
-    return status ? status : check_parts(jump, w->duration, "s", w->err);
+    join_breaks(jump, w->duration);
+    return status;
+}
+
+/* What a function may do within places that are more than neighbouring numbers wide. */
+static enum br_status count_hidden(struct work *w, const struct subject *s, enum br_variable along)
+{
+    const struct br_breaks *breaks = along == BR_X ? &w->bend : &w->o->jump;
+    const double all = along == BR_X ? w->length : w->duration;
+    for (size_t i = 0; i < breaks->count; i++) {
+        const struct br_interval at = breaks->at[i];
+        struct br_box box = box_of(w, s), where;
+        struct br_interval value;
+        if (!is_known(s->f) || !(at.high - at.low > 4 * DBL_EPSILON * at.high))
+            continue;
+        *(along == BR_X ? &box.x : &box.t) = at;
+        if (br_prove_bounded(s->f, box, 0, &value, &where))
+            return br_must_be_finite(s->f, box, w->err);
+        const double share = (at.high - at.low) / all * (value.high - value.low);
+        if (share > 0)
+            w->o->missed = fmax(w->o->missed, share / br_sight_mean(s->f, box_of(w, s)));
+    }
+    return BR_OK;
+}
+
+static enum br_status count_all_hidden(struct work *w)
+{
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < w->spaces && !status; i++) {
+        status = count_hidden(w, &w->space[i], BR_X);
+        if (!status && inseparable(&w->space[i]))
+            status = count_hidden(w, &w->space[i], BR_T);
+    }
+    for (size_t i = 0; i < w->times && !status; i++)
+        status = count_hidden(w, &w->time[i], BR_T);
+    return status;
 }
 
 /* Fronts that pass from one element to the next. */
@@ -299,6 +347,91 @@ static enum br_status find_crossings(struct work *w)
     return status;
 }
 
+/* ---- layers ---- */
+
+/* How short the data's changes are that leave layers behind: jumps after t = 0 and short cells; no
+ * less than what estimates leave out (compare.c). Infinite for none. */
+static double shortest_change(const struct work *w)
+{
+    const double least = 1e-6 * w->duration, most = 1e-3 * w->duration;
+    double width = w->o->jump.count ? least : INFINITY;
+    for (size_t i = 0; i < w->o->cells; i++)
+        for (size_t j = 1; j < w->o->cell[i].count; j++)
+            width = fmin(width, w->o->cell[i].at[j] - w->o->cell[i].at[j - 1]);
+    return width < most ? fmax(width, least) : INFINITY;
+}
+
+/* Elements that grow from one end of the beam as a layer there does: velocities diffuse. */
+static enum br_status grade(struct work *w, bool tip, double layer)
+{
+    const double growth = 3;
+    const struct br_list *end = &w->o->end;
+    const double first = tip ? w->length - end->at[end->count - 2] : end->at[1];
+    enum br_status status = BR_OK;
+    for (double d = layer; growth * d < first && !status; d *= growth)
+        status = br_list_add(&w->o->end, tip ? w->length - d : d, w->err);
+    br_list_sort(&w->o->end, 0);
+    return status;
+}
+
+static bool has_spread_load(const struct br_load *load)
+{
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
+        if (!br_product_is_zero(&load->term[i]))
+            return true;
+    return false;
+}
+
+static enum br_status find_layers(struct work *w)
+{
+    const struct br_field_data *d = w->data;
+    const double layer =
+        pow(d->viscosity / w->density * shortest_change(w), 0.5 / (double)w->degree);
+    const bool tip = !br_function_is_zero(d->tip_force) ||
+                     (d->tip_moment && !br_function_is_zero(d->tip_moment));
+    enum br_status status = BR_OK;
+    if (!(layer > narrow * w->length))
+        return BR_OK;
+    if (tip)
+        status = grade(w, true, layer);
+    return !status && has_spread_load(d->load) ? grade(w, false, layer) : status;
+}
+
+/* ---- what is proved ---- */
+
+/* Adds to what may be missed how far polynomials of the highest degree may be from a function in
+ * the cells: Radau's and Gauss's rules integrate these. */
+static void count_proved(struct work *w, const struct subject *s, enum br_variable along,
+                         const struct br_list *ends)
+{
+    double sum = 0;
+    const double all = along == BR_X ? w->length : w->duration;
+    for (size_t i = 0; i + 1 < ends->count; i++) {
+        const struct br_interval cell = {ends->at[i] * (1 + apart), ends->at[i + 1] * (1 - apart)};
+        struct br_box box = {{0, 0}, {0, 0}};
+        *(along == BR_X ? &box.x : &box.t) = cell;
+        struct br_interval value;
+        if (!(cell.low < cell.high && br_function_bound(s->f, box, &value)))
+            continue;
+        const double error = br_sight_error(s->f, along, box, 15);
+        sum += (cell.high - cell.low) / all * fmin(error, value.high - value.low);
+    }
+    if (sum > 0)
+        w->o->proved += sum / br_sight_mean(s->f, box_of(w, s));
+}
+
+static void count_all_proved(struct work *w)
+{
+    for (size_t i = 0; i < w->spaces; i++)
+        if (is_known(w->space[i].f) && inseparable(&w->space[i]))
+            w->o->proved += BR_SIGHT_TOLERANCE;
+        else if (is_known(w->space[i].f))
+            count_proved(w, &w->space[i], BR_X, &w->o->end);
+    for (size_t i = 0; i < w->times; i++)
+        if (is_known(w->time[i].f))
+            count_proved(w, &w->time[i], BR_T, &w->o->cell[w->o->cells - w->times + i]);
+}
+
 static enum br_status look(struct work *w)
 {
     w->o->cell = br_allocate(MOST, sizeof *w->o->cell);
@@ -308,15 +441,21 @@ static enum br_status look(struct work *w)
     if (!status)
         status = find_jumps(w);
     if (!status)
+        status = count_all_hidden(w);
+    if (!status)
         status = find_elements(w);
     if (!status)
         join_elements(w);
-    if (!status)
-        status = find_crossings(w);
     for (size_t i = 0; i < w->times && !status; i++)
         status = mesh_time(w, &w->time[i]);
+    if (!status)
+        status = find_layers(w);
+    if (!status)
+        status = find_crossings(w);
     for (size_t i = 0; i < w->o->cells; i++)
         br_list_sort(&w->o->cell[i], 0);
+    if (!status)
+        count_all_proved(w);
     return status;
 }
 
@@ -324,7 +463,15 @@ enum br_status br_outline_init(struct br_outline *o, const struct br_scene *scen
                                struct br_error *err)
 {
     const struct br_field_data data = br_field_data(scene, degree);
-    struct work w = {.o = o, .length = scene->length, .duration = scene->duration, .err = err};
+    struct work w = {
+        .o = o,
+        .data = &data,
+        .degree = degree,
+        .length = scene->length,
+        .duration = scene->duration,
+        .density = scene->density,
+        .err = err,
+    };
     *o = (struct br_outline){0};
     list_subjects(&w, &data);
     const enum br_status status = look(&w);

@@ -25,6 +25,7 @@ struct br_outline {
     size_t cells;
     bool fronts;   /* places where the load jumps move */
     double missed; /* of the load's integral: what proofs could not exclude */
+    double proved; /* likewise, what polynomials were proved to be away from the data */
 };
 
 /* Clear it even after a failure: BR_NOT_FINITE, the data have details that are too fine,

@@ -172,7 +172,8 @@ enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *e
     }
     if (status)
         return status;
-    s->load_noise += s->blur * impulse(s);
+    s->impulse = impulse(s);
+    s->load_noise += s->blur * s->impulse;
     s->tip = (struct br_tip){
         .start = s->time, .length = h, .phase = s->phase, .displacement = s->tip_displacement};
     move(s); /* as if the tip were free */

@@ -33,6 +33,7 @@ struct br_stepper {
     double tip_response[BR_STAGES][BR_STAGES];
     double *load;          /* BR_STAGES x modes, workspace, N */
     double load_noise;     /* m^(3/2)/s: what a load's round-off may do to the velocity, in L2 */
+    double impulse;        /* m^(3/2)/s: velocity that the loads alone give in the step, in L2 */
     double noise_response; /* the same of a load of 1 N of every shape */
 };
 

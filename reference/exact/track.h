@@ -29,6 +29,8 @@ struct br_track {
     double gap;           /* m */
     double free_velocity; /* largest root mean square over the beam of a step's mean velocity,
                              had the tip been let go for that step, m/s */
+    double impulse;       /* sum over the steps of the velocity that their loads alone give, L2 */
+    double blurred;       /* sum of squares of what the rounding of t may do to it */
     size_t steps, step_room;
     struct br_tip *tip;   /* steps */
     double *displacement; /* steps x modes: at each step's start, m */

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference/mms/tip.h"
 
+#include <math.h>
+
 #include "solver/contact.h"
 #include "solver/friction.h"
 
@@ -24,9 +26,12 @@ static double axial_force(const struct br_tip_parts *p, double t)
            p->contact.stiffness * br_penetration(&p->contact, value_of(&p->u, t));
 }
 
+/* Where the tip begins to slip, as from there on: as step is 1 from zero on. */
 static double friction_force(const struct br_tip_parts *p, double t)
 {
-    const double velocity = value_of(&p->velocity, t);
+    double velocity = value_of(&p->velocity, t);
+    if (velocity == 0)
+        velocity = value_of(&p->velocity, nextafter(t, INFINITY));
     if (velocity == 0)
         return value_of(&p->stick, t);
     const double bound = br_tip_bound(&p->contact, &p->friction, value_of(&p->u, t));
