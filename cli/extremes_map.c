@@ -56,7 +56,7 @@ static enum br_status draw(const void *result, size_t i, struct br_extremes_pict
                            struct br_error *err)
 {
     const struct result *r = result;
-    *picture = (struct br_extremes_picture){NULL};
+    *picture = (struct br_extremes_picture){0};
     if (i > 0)
         return BR_OK;
     picture->heat = br_allocate(1, sizeof *picture->heat);

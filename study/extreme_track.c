@@ -252,7 +252,7 @@ double br_track_distance(const struct br_track *track, const struct br_track *re
     const double *size = reference->largest;
     if (track->seen < track->places.levels || reference->seen < track->places.levels)
         return NAN;
-    double most = difference(track, reference, kind, unit);
+    double most = difference(track, reference, (int)kind, unit);
     if (kind == BR_BENDING) {
         const double slope = difference(track, reference, BR_TRACK_SLOPE, unit);
         most = isnan(slope) || slope > most ? slope : most;
@@ -282,7 +282,7 @@ static double largest_mean(const struct br_track *a, const struct br_track *b,
 {
     double most = 0;
     for (size_t i = 0; i < a->places.levels; i++) {
-        const double mean = square(a, b, kind, i);
+        const double mean = square(a, b, (int)kind, i);
         most = isnan(mean) || mean > most ? mean : most;
     }
     return sqrt(most);
@@ -293,7 +293,7 @@ static double largest_seen(const struct br_track *t, enum br_field_kind kind)
 {
     const int last = kind == BR_BENDING ? BR_TRACK_SLOPE : (int)kind;
     double most = 0;
-    for (int value = kind; value <= last; value++)
+    for (int value = (int)kind; value <= last; value++)
         for (size_t i = 0; i < t->places.levels; i++)
             for (size_t p = 0; p < t->places.points; p++)
                 most = fmax(most, fabs(t->value[value][i][p]));

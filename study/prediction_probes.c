@@ -382,7 +382,7 @@ static enum br_status try_probe(struct br_probe_set *set, enum br_probe_kind kin
 {
     char why[200];
     struct br_probe *p = &set->probe[kind];
-    const enum br_status status = march(set, kind, kind, err);
+    const enum br_status status = march(set, (int)kind, (int)kind, err);
     if (!status && br_probe_failed(p, why))
         forget(p);
     return status;

@@ -200,7 +200,7 @@ static double unit_of(const struct hard_load *c, const struct oracle_term *term)
 static void draw_place(struct hard_load *c, struct oracle_term *term)
 {
     const size_t places = c->problem.bending ? 3 : 2;
-    term->place = (int)(coin(c) ? 0 : br_test_index(&c->random, places));
+    term->place = (enum oracle_place)(coin(c) ? 0 : br_test_index(&c->random, places));
 }
 
 static void add_smooth(struct hard_load *c, char load[3][HARD_TEXT])

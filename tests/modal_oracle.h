@@ -33,7 +33,7 @@ struct oracle_factor {
 
 /* amplitude space(x - s0(t)) time(t) in N/m, or amplitude time(t) at the tip, in N or N m. */
 struct oracle_term {
-    enum { ORACLE_SPREAD, ORACLE_FORCE, ORACLE_MOMENT } place;
+    enum oracle_place { ORACLE_SPREAD, ORACLE_FORCE, ORACLE_MOMENT } place;
     double amplitude;
     struct oracle_factor space, time;
     bool moving;         /* s0 = start + speed t + swing sin(rate t); else 0 */

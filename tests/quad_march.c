@@ -254,9 +254,9 @@ static void follow_stage(void *self, const struct br_march_stage *told)
     q->method.scheme->stages(f->since, &stages);
     const struct br_stage *stage = &stages.stage[told->index];
     const size_t tip = f->order - f->u;
-    factorise(q, told->kind, told->tau);
+    factorise(q, (int)told->kind, told->tau);
     start(f, stage);
-    form_rhs(q, told->kind, told->time);
+    form_rhs(q, (int)told->kind, told->time);
     memcpy(f->free, f->rhs, f->order * sizeof *f->rhs);
     solve(f, f->free);
     real *to = f->state[BR_STAGE + told->index], force;
