@@ -24,13 +24,16 @@ static enum br_status march_changed(struct br_extreme_trial *t, const struct br_
     return status;
 }
 
-static enum br_status march_in_other_units(struct br_extreme_trial *t, struct br_error *err)
+/* *exist: out, whether the scene's numbers are numbers in those units. */
+static enum br_status march_in_other_units(struct br_extreme_trial *t, bool *exist,
+                                           struct br_error *err)
 {
     struct br_random r = br_random_of(t->one->seed ^ 0x5ca1e, t->one->index);
     const struct br_units_change units = {
         br_random_decades(&r, -3, 3), br_random_decades(&r, -3, 3), br_random_decades(&r, -3, 3)};
     struct br_scene changed = {0};
     enum br_status status = br_rescale(&t->scene, &units, &changed, err);
+    *exist = !status;
     if (!status)
         status = march_changed(t, &changed, units.metre, &t->verdict->units, err);
     br_scene_clear(&changed);
@@ -94,9 +97,12 @@ static double allowed(const struct br_extreme_trial *t)
 enum br_status br_extreme_judge_units(struct br_extreme_trial *t, struct br_error *err)
 {
     double by_noise;
-    enum br_status status = march_in_other_units(t, err);
+    bool exist;
+    enum br_status status = march_in_other_units(t, &exist, err);
+    if (status || !exist)
+        return status;
     const double units = t->verdict->units, limit = allowed(t);
-    if (status || units <= limit || (isnan(units) && !t->other->begun))
+    if (units <= limit || (isnan(units) && !t->other->begun))
         return status;
     char why[120];
     snprintf(why, sizeof why, "%.110s", t->other->failure.message);

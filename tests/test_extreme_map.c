@@ -241,17 +241,18 @@ static void test_sound_cases(void **state)
  * 45), where steps are longer than a vibration's period (3, 20), where a coarse mesh sways more
  * than a fine one (5, 229), and where Coulomb's bound begins at a gap without contact stiffness,
  * which the exact solution missed, too (3, 101; 1, 212), where two tolerances choose the same
- * steps (2, 284; 4, 71), and where chosen steps have few levels (4, 145). Those that take long are
+ * steps (2, 284; 4, 71), where chosen steps have few levels (4,
+ * 145), and where a gap is no number in other units (11, 108). Those that take long are
  * for long tests.
  */
 static void test_hard_cases(void **state)
 {
     (void)state;
-    static const struct named hard[] = {{3, 20},  {3, 101}, {1, 212}, {2, 284}, {4, 71},
-                                        {4, 145}, {5, 229}, {3, 26},  {4, 175}, {5, 45},
-                                        {3, 186}, {3, 889}, {3, 1883}};
+    static const struct named hard[] = {{3, 20},  {3, 101},  {1, 212}, {2, 284}, {4, 71},
+                                        {4, 145}, {11, 108}, {5, 229}, {3, 26},  {4, 175},
+                                        {5, 45},  {3, 186},  {3, 889}, {3, 1883}};
     const struct br_extreme_court court = {0};
-    const size_t count = br_test_long() ? sizeof hard / sizeof *hard : 8;
+    const size_t count = br_test_long() ? sizeof hard / sizeof *hard : 9;
     for (size_t i = 0; i < count; i++) {
         const struct br_extreme_verdict verdict = judge(hard[i], &court);
         if (verdict.which == BR_EXTREME_WRONG)
