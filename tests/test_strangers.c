@@ -261,8 +261,9 @@ static void test_failing_gnuplot(void **state)
 {
     (void)state;
     const struct cli_circumstances failing = {
-        .path = make_gnuplot("#!/bin/sh\ntouch example2-h.svg half.svg\necho '\"x\" line 3: no "
-                             "\033[31m' >&2\nexit 1\n")};
+        .path = make_gnuplot(
+            "#!/bin/sh\nfor s; do :; done\ntouch \"${s%.gp}.svg\"\necho '\"x\" line 3: no "
+            "\033[31m' >&2\nexit 1\n")};
     cli_expect(STUDY "failing", &failing, 0,
                "warning: example2-h.gp is not drawn: gnuplot failed on example2-h.gp: \"x\" line "
                "3: no \\x1b[31m");
