@@ -11,8 +11,8 @@
 #include "cli/warn_marches.h"
 #include "cli/whole_file.h"
 #include "solver/clock.h"
-#include "study/ranks.h"
-#include "study/scene_file.h"
+#include "study/ranks/ranks.h"
+#include "study/scene/file.h"
 #include "tables/check_emitter.h"
 
 /* A scene on its way; checks and skips point into it. */

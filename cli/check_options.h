@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The command line of `check`. */
-#ifndef BR_CHECK_OPTIONS_H
-#define BR_CHECK_OPTIONS_H
+#ifndef BR_CLI_CHECK_OPTIONS_H
+#define BR_CLI_CHECK_OPTIONS_H
 
 #include "cli/method_options.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Commands: one const record and one file each. */
-#ifndef BR_COMMAND_H
-#define BR_COMMAND_H
+#ifndef BR_CLI_COMMAND_H
+#define BR_CLI_COMMAND_H
 
 #include "solver/status.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options of a command, as its own help lists them: popt's tables live in the commands. */
-#ifndef BR_COMMAND_HELP_H
-#define BR_COMMAND_HELP_H
+#ifndef BR_CLI_COMMAND_HELP_H
+#define BR_CLI_COMMAND_HELP_H
 
 #include "cli/command.h"
 

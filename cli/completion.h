@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a shell may complete, from the registries, and the shells: one const record and one file
  * each. */
-#ifndef BR_COMPLETION_H
-#define BR_COMPLETION_H
+#ifndef BR_CLI_COMPLETION_H
+#define BR_CLI_COMPLETION_H
 
 #include <stdbool.h>
 #include <stdio.h>

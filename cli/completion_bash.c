@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/completion.h"
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 /* Bash splits a word at = (and :), so that --solver=x comes as three words. */
 static const char head[] =

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/completion.h"
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 static void write_condition(FILE *out, const struct br_completion *one)
 {

@@ -4,7 +4,7 @@
 #include "cli/completion.h"
 #include "cli/extremes_part.h"
 #include "cli/rounding_option.h"
-#include "study/study.h"
+#include "study/grid/study.h"
 #include "tables/emitter.h"
 
 enum { MOST_WORDS = 256 };

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "cli/completion.h"
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 /* "--name=[text]", in which _arguments would take brackets and colons for its own. */
 static void write_option(FILE *out, const struct br_help_option *option)

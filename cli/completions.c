@@ -4,8 +4,8 @@
 
 #include "cli/completion.h"
 #include "cli/parse.h"
-#include "study/quote.h"
-#include "study/scene_file.h"
+#include "study/scene/file.h"
+#include "study/scene/quote.h"
 
 const struct br_shell *const br_shells[] = {&br_bash, &br_zsh, &br_fish, NULL};
 

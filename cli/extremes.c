@@ -13,7 +13,7 @@
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/signals.h"
-#include "study/ranks.h"
+#include "study/ranks/ranks.h"
 
 struct work {
     struct br_extremes_options options;

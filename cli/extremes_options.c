@@ -10,7 +10,7 @@
 #include "cli/parse.h"
 #include "cli/rounding_option.h"
 #include "cli/suggest.h"
-#include "study/number_list.h"
+#include "study/scene/number_list.h"
 
 static const char usage[] =
     "[PART...] [OPTION...]\n\nWhere does it break, and does it say so? Each part goes to one kind "

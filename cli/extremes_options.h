@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options of `extremes`. */
-#ifndef BR_EXTREMES_OPTIONS_H
-#define BR_EXTREMES_OPTIONS_H
+#ifndef BR_CLI_EXTREMES_OPTIONS_H
+#define BR_CLI_EXTREMES_OPTIONS_H
 
 #include "cli/extremes_part.h"
 

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The parts of `beamrate extremes`: a registry. A part computes by a module of study/, says what it
  * has found by one of tables/, and draws it by plots/. */
-#ifndef BR_EXTREMES_PART_H
-#define BR_EXTREMES_PART_H
+#ifndef BR_CLI_EXTREMES_PART_H
+#define BR_CLI_EXTREMES_PART_H
 
 #include <stdint.h>
 
 #include "plots/chart.h"
 #include "plots/heat.h"
-#include "study/study.h"
+#include "study/grid/observer.h"
+#include "study/grid/study.h"
 #include "tables/sheet.h"
 
 /* What is asked for. All borrowed; 0 or NULL: the part's own choice. */

@@ -12,7 +12,7 @@
 #include "cli/provenance.h"
 #include "cli/warn_marches.h"
 #include "plots/figures.h"
-#include "study/ranks.h"
+#include "study/ranks/ranks.h"
 #include "tables/claims_emitter.h"
 
 static const char usage[] =

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* --format LIST: names of the rows of tables/emitter.h, which those of other results share. */
-#ifndef BR_FORMATS_H
-#define BR_FORMATS_H
+#ifndef BR_CLI_FORMATS_H
+#define BR_CLI_FORMATS_H
 
 #include <stdbool.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* --kernel: what every command with --solver makes of it. */
-#ifndef BR_KERNEL_OPTION_H
-#define BR_KERNEL_OPTION_H
+#ifndef BR_CLI_KERNEL_OPTION_H
+#define BR_CLI_KERNEL_OPTION_H
 
 #include <stdio.h>
 

@@ -9,9 +9,9 @@
 #include "cli/signals.h"
 #include "cli/suggest.h"
 #include "plots/gnuplot.h"
-#include "study/quote.h"
-#include "study/ranks.h"
-#include "study/spread.h"
+#include "study/ranks/ranks.h"
+#include "study/ranks/spread.h"
+#include "study/scene/quote.h"
 #include "tables/json_value.h"
 
 extern const struct br_command br_command_check, br_command_completions, br_command_extremes,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The list of the sets of results in a folder: manifest.json names for each set the run that wrote
  * it, and each file with its size and SHA-256. */
-#ifndef BR_MANIFEST_H
-#define BR_MANIFEST_H
+#ifndef BR_CLI_MANIFEST_H
+#define BR_CLI_MANIFEST_H
 
 #include <jansson.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options that choose a method, the same in every command that marches. */
-#ifndef BR_METHOD_OPTIONS_H
-#define BR_METHOD_OPTIONS_H
+#ifndef BR_CLI_METHOD_OPTIONS_H
+#define BR_CLI_METHOD_OPTIONS_H
 
 #include <popt.h>
 #include <stdio.h>

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/names.h"
 
-#include "study/contender.h"
-#include "study/norm.h"
+#include "study/grid/norm.h"
+#include "study/trade/contender.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include "study/study.h"
+#include "study/grid/study.h"
 #include "tables/emitter.h"
 
 /* The names of a registry as "a, b", for help and messages. */

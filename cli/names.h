@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The names of a registry's rows as "a, b", for help and messages. Static strings. */
-#ifndef BR_NAMES_H
-#define BR_NAMES_H
+#ifndef BR_CLI_NAMES_H
+#define BR_CLI_NAMES_H
 
 #include <stdio.h>
 

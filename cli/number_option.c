@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "study/number_list.h"
+#include "study/scene/number_list.h"
 
 enum br_status br_read_count_option(const char *option, const char *text, int most, int *value,
                                     struct br_error *err)

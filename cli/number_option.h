@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef BR_NUMBER_OPTION_H
-#define BR_NUMBER_OPTION_H
+#ifndef BR_CLI_NUMBER_OPTION_H
+#define BR_CLI_NUMBER_OPTION_H
 
 #include "solver/status.h"
 

@@ -10,7 +10,7 @@
 
 #include "cli/signals.h"
 #include "cli/staging.h"
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/json_value.h"
 
 /* Of the hidden folder: the manifests of the new set, which decides it, and of the old one. */

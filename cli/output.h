@@ -14,8 +14,8 @@
  *
  * A folder may have several sets, of several runs. A new one takes the place of those with which it
  * shares a file's name, whatever the formats are; the others stay. */
-#ifndef BR_OUTPUT_H
-#define BR_OUTPUT_H
+#ifndef BR_CLI_OUTPUT_H
+#define BR_CLI_OUTPUT_H
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The frame of every command's options: popt's loop, the help, and what is refused. */
-#ifndef BR_PARSE_H
-#define BR_PARSE_H
+#ifndef BR_CLI_PARSE_H
+#define BR_CLI_PARSE_H
 
 #include <popt.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #include "cli/picture_files.h"
 
 #include "cli/signals.h"
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 enum { NAME = 160 };
 

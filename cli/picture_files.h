@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pictures in a folder of results: scripts and data, rendered while other files are written. A
  * picture that fails costs no table and no exit code: a warning says which, and why. */
-#ifndef BR_PICTURE_FILES_H
-#define BR_PICTURE_FILES_H
+#ifndef BR_CLI_PICTURE_FILES_H
+#define BR_CLI_PICTURE_FILES_H
 
 #include "cli/output.h"
 #include "plots/chart.h"

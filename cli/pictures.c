@@ -9,7 +9,7 @@
 #include "cli/picture_files.h"
 #include "cli/signals.h"
 #include "plots/gnuplot.h"
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 /* All frames are kept with all nodes: 120 MB at most. */
 enum { FRAMES = 120, MOST_ELEMENTS = 20000, ROWS = 2000, NARROW = 40, USUAL = 80, WIDE = 160 };

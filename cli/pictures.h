@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What `run` shows of a march: a moving picture (--animate), and the tip's history in letters
  * (--plot). */
-#ifndef BR_PICTURES_H
-#define BR_PICTURES_H
+#ifndef BR_CLI_PICTURES_H
+#define BR_CLI_PICTURES_H
 
 #include "cli/output.h"
 #include "plots/movie.h"

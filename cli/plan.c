@@ -12,8 +12,8 @@
 #include "cli/provenance.h"
 #include "cli/signals.h"
 #include "cli/warn_marches.h"
-#include "study/ranks.h"
-#include "study/scene_file.h"
+#include "study/ranks/ranks.h"
+#include "study/scene/file.h"
 #include "tables/plan_emitter.h"
 
 struct work {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options of `plan`. */
-#ifndef BR_PLAN_OPTIONS_H
-#define BR_PLAN_OPTIONS_H
+#ifndef BR_CLI_PLAN_OPTIONS_H
+#define BR_CLI_PLAN_OPTIONS_H
 
 #include "cli/study_options.h"
-#include "study/plan.h"
+#include "study/trade/plan.h"
 
 struct br_plan_options {
     struct br_study_options study; /* reference, norm, format, threads, out, quiet, help */

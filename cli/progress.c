@@ -7,6 +7,7 @@
 
 #include "cli/signals.h"
 #include "solver/clock.h"
+#include "study/grid/observer.h"
 
 enum { BAR = 40 };
 
@@ -84,9 +85,8 @@ const struct br_observer *br_progress_start(const char *what, bool quiet)
     progress.last = progress.terminal ? 0 : progress.start; /* a terminal shows it at once */
     progress.fraction = 0;
     progress.tenths = 0;
-    observer = (struct br_observer){.progress = quiet ? NULL : show,
-                                    .stop = stop,
-                                    .preparing = quiet ? NULL : show_waiting};
+    observer = (struct br_observer){
+        .progress = quiet ? NULL : show, .stop = stop, .preparing = quiet ? NULL : show_waiting};
     return &observer;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The option --rounding, the same in every command that has it. */
-#ifndef BR_ROUNDING_OPTION_H
-#define BR_ROUNDING_OPTION_H
+#ifndef BR_CLI_ROUNDING_OPTION_H
+#define BR_CLI_ROUNDING_OPTION_H
 
 #include "solver/status.h"
 

@@ -12,8 +12,8 @@
 #include "cli/warn.h"
 #include "cli/whole_file.h"
 #include "solver/clock.h"
-#include "study/ranks.h"
-#include "study/scene_file.h"
+#include "study/ranks/ranks.h"
+#include "study/scene/file.h"
 
 struct run {
     struct br_run_options options;

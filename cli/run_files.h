@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The files of a run in --out: the tip's history and the fields, written while it marches, and its
  * summary. They are put in place together, also where a march stopped early. */
-#ifndef BR_RUN_FILES_H
-#define BR_RUN_FILES_H
+#ifndef BR_CLI_RUN_FILES_H
+#define BR_CLI_RUN_FILES_H
 
 #include "cli/output.h"
 #include "tables/fields_file.h"

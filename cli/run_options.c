@@ -7,9 +7,9 @@
 
 #include "cli/number_option.h"
 #include "cli/parse.h"
-#include "study/history.h"
-#include "study/model.h"
-#include "study/number_list.h"
+#include "study/run/history.h"
+#include "study/run/model.h"
+#include "study/scene/number_list.h"
 
 static const char usage[] =
     "SCENE [OPTION...]\n\nMarches one scene and says what happened at its tip: displacements, "

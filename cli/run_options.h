@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The command line of `run`. */
-#ifndef BR_RUN_OPTIONS_H
-#define BR_RUN_OPTIONS_H
+#ifndef BR_CLI_RUN_OPTIONS_H
+#define BR_CLI_RUN_OPTIONS_H
 
 #include "cli/study_options.h"
 
@@ -17,7 +17,7 @@ struct br_run_options {
 struct br_run_plan {
     struct br_method method;
     size_t n, steps, stride;
-    unsigned wanted; /* see study/model.h */
+    unsigned wanted; /* see study/run/model.h */
     size_t *level;   /* levels, ascending; owned; the output times */
     size_t levels;
 };

@@ -9,9 +9,9 @@
 #include "cli/command.h"
 #include "cli/parse.h"
 #include "cli/whole_file.h"
-#include "study/quote.h"
-#include "study/ranks.h"
-#include "study/scene_file.h"
+#include "study/ranks/ranks.h"
+#include "study/scene/file.h"
+#include "study/scene/quote.h"
 #include "tables/scene_format.h"
 #include "tables/sentences.h"
 

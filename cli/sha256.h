@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef BR_SHA256_H
-#define BR_SHA256_H
+#ifndef BR_CLI_SHA256_H
+#define BR_CLI_SHA256_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Ctrl-C and the like end a run cleanly: marches stop, nothing is left behind. */
-#ifndef BR_SIGNALS_H
-#define BR_SIGNALS_H
+#ifndef BR_CLI_SIGNALS_H
+#define BR_CLI_SIGNALS_H
 
 #include <stdbool.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The hidden folder that results are written in before they are put in place. Who writes in it has
  * locked it; the lock ends with its program, however that ends. Its own files begin with a dot. */
-#ifndef BR_STAGING_H
-#define BR_STAGING_H
+#ifndef BR_CLI_STAGING_H
+#define BR_CLI_STAGING_H
 
 #include <stdbool.h>
 

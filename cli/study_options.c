@@ -9,7 +9,7 @@
 #include "cli/names.h"
 #include "cli/number_option.h"
 #include "cli/parse.h"
-#include "study/number_list.h"
+#include "study/scene/number_list.h"
 #include "tables/emitter.h"
 
 /* One line a row of each registry, below the options. */

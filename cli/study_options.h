@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options that `study` and `tables` share. */
-#ifndef BR_STUDY_OPTIONS_H
-#define BR_STUDY_OPTIONS_H
+#ifndef BR_CLI_STUDY_OPTIONS_H
+#define BR_CLI_STUDY_OPTIONS_H
 
 #include <popt.h>
 #include <stdio.h>
 
 #include "cli/method_options.h"
-#include "study/study.h"
+#include "study/grid/study.h"
 
 /* As given, before they are checked; NULL: not given. */
 struct br_study_options {

@@ -9,8 +9,8 @@
 #include "cli/provenance.h"
 #include "cli/study_session.h"
 #include "cli/warn_marches.h"
-#include "study/ranks.h"
-#include "study/resources.h"
+#include "study/foresee/resources.h"
+#include "study/ranks/ranks.h"
 #include "tables/emitter.h"
 
 /* A run on its way to its files. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What `study` and `tables` share: run studies at once, show and write their reports. */
-#ifndef BR_STUDY_RUN_H
-#define BR_STUDY_RUN_H
+#ifndef BR_CLI_STUDY_RUN_H
+#define BR_CLI_STUDY_RUN_H
 
 #include "cli/study_options.h"
 

@@ -9,8 +9,9 @@
 #include "cli/signals.h"
 #include "reference/printed.h"
 #include "solver/clock.h"
-#include "study/differences.h"
-#include "study/scene_file.h"
+#include "study/grid/differences.h"
+#include "study/grid/sweep.h"
+#include "study/scene/file.h"
 
 /* ---- the grid ---- */
 

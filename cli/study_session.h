@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The studies behind `study` and `tables`: from jobs and options to finished reports. */
-#ifndef BR_STUDY_SESSION_H
-#define BR_STUDY_SESSION_H
+#ifndef BR_CLI_STUDY_SESSION_H
+#define BR_CLI_STUDY_SESSION_H
 
 #include "cli/study_options.h"
 #include "cli/study_run.h"
-#include "study/report.h"
+#include "study/fit/report.h"
 
 /* A job on its way. */
 struct br_work {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What option somebody may have meant who mistyped it. */
-#ifndef BR_SUGGEST_H
-#define BR_SUGGEST_H
+#ifndef BR_CLI_SUGGEST_H
+#define BR_CLI_SUGGEST_H
 
 #include <popt.h>
 #include <stddef.h>
 
 #include "solver/status.h"
-#include "study/nearest.h"
+#include "study/scene/nearest.h"
 
 /* Refuses (BR_BAD_INPUT) an option that popt has refused with `code`, and names the nearest one of
  * the table. */

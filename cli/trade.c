@@ -11,7 +11,7 @@
 #include "cli/trade_options.h"
 #include "cli/trade_split.h"
 #include "cli/warn_marches.h"
-#include "study/ranks.h"
+#include "study/ranks/ranks.h"
 
 struct run {
     struct br_trade_options options;

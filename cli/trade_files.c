@@ -7,7 +7,7 @@
 #include "cli/formats.h"
 #include "cli/provenance.h"
 #include "plots/trade.h"
-#include "study/scene_file.h"
+#include "study/scene/file.h"
 
 /* ---- scenes ---- */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scenes of a trade, and the files that come of it. */
-#ifndef BR_TRADE_FILES_H
-#define BR_TRADE_FILES_H
+#ifndef BR_CLI_TRADE_FILES_H
+#define BR_CLI_TRADE_FILES_H
 
 #include "cli/picture_files.h"
 #include "cli/study_options.h"

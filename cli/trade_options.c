@@ -8,7 +8,7 @@
 #include "cli/names.h"
 #include "cli/number_option.h"
 #include "cli/parse.h"
-#include "study/number_list.h"
+#include "study/scene/number_list.h"
 #include "tables/sheet.h"
 
 static const char usage[] =

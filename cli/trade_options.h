@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options of `trade`. */
-#ifndef BR_TRADE_OPTIONS_H
-#define BR_TRADE_OPTIONS_H
+#ifndef BR_CLI_TRADE_OPTIONS_H
+#define BR_CLI_TRADE_OPTIONS_H
 
 #include "cli/study_options.h"
-#include "study/contender.h"
+#include "study/trade/contender.h"
 
 struct br_trade_options {
     struct br_study_options study; /* n, k, reference, norm, format, threads, out and the like */

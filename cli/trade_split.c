@@ -12,10 +12,11 @@
 #include "cli/signals.h"
 #include "cli/warn_marches.h"
 #include "plots/split.h"
-#include "study/contender.h"
-#include "study/number_list.h"
-#include "study/ranks.h"
-#include "study/scene_file.h"
+#include "study/grid/observer.h"
+#include "study/ranks/ranks.h"
+#include "study/scene/file.h"
+#include "study/scene/number_list.h"
+#include "study/trade/contender.h"
 #include "tables/split_emitter.h"
 
 struct work {

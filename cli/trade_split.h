@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate trade SCENE --split: where the error of each of some runs comes from. */
-#ifndef BR_TRADE_SPLIT_H
-#define BR_TRADE_SPLIT_H
+#ifndef BR_CLI_TRADE_SPLIT_H
+#define BR_CLI_TRADE_SPLIT_H
 
 #include "cli/trade_options.h"
 

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 static void print(const char *scene, const struct br_warnings *warnings)
 {

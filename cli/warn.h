@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Warnings on the terminal, before a march begins. */
-#ifndef BR_WARN_H
-#define BR_WARN_H
+#ifndef BR_CLI_WARN_H
+#define BR_CLI_WARN_H
 
-#include "study/warnings.h"
+#include "study/foresee/warnings.h"
 
 /* Prints them to standard error, a line each: "beamrate: warning: ...; ...". */
 void br_print_warnings(const struct br_warnings *warnings);

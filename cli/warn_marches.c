@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "cli/warn.h"
-#include "study/paper.h"
+#include "study/paper/paper.h"
 
 /* Keeps the one with most elements and steps. */
 static void keep_finest(const struct br_outlook *o, struct br_outlook *finest)

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Warnings of the many marches of a command, scene by scene, before they begin: what is cheap to
  * tell of each. On standard error. */
-#ifndef BR_WARN_MARCHES_H
-#define BR_WARN_MARCHES_H
+#ifndef BR_CLI_WARN_MARCHES_H
+#define BR_CLI_WARN_MARCHES_H
 
-#include "study/check.h"
-#include "study/plan.h"
-#include "study/split.h"
-#include "study/trade.h"
+#include "study/trade/plan.h"
+#include "study/trade/split.h"
+#include "study/trade/trade.h"
+#include "study/verify/check.h"
 
 /* The cells of studies. Fails with BR_BAD_INPUT or BR_NO_MEMORY where one is refused. */
 enum br_status br_warn_of_studies(const struct br_study *studies, size_t count,

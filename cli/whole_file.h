@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A file that is written whole or not at all: in memory, then to the disk under a hidden name
  * beside its place, then renamed into it. */
-#ifndef BR_WHOLE_FILE_H
-#define BR_WHOLE_FILE_H
+#ifndef BR_CLI_WHOLE_FILE_H
+#define BR_CLI_WHOLE_FILE_H
 
 #include <stdbool.h>
 #include <stdio.h>

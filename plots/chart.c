@@ -5,7 +5,7 @@
 #include <stdarg.h>
 
 #include "plots/page.h"
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 void br_chart_lay_out(struct br_chart *chart, size_t panels)
 {

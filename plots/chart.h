@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A picture of curves in panels, as data; written as a gnuplot script and its data file. */
-#ifndef BR_CHART_H
-#define BR_CHART_H
+#ifndef BR_PLOTS_CHART_H
+#define BR_PLOTS_CHART_H
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 size_t br_next(const size_t *list, size_t count, size_t after)
 {

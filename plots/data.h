@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A report as curves: error over h at fixed k, or over k at fixed n. */
-#ifndef BR_PLOT_DATA_H
-#define BR_PLOT_DATA_H
+#ifndef BR_PLOTS_DATA_H
+#define BR_PLOTS_DATA_H
 
 #include "plots/plots.h"
 

@@ -4,7 +4,7 @@
 #define BR_PLOTS_EXTREMES_MAP_H
 
 #include "plots/heat.h"
-#include "study/extreme_count.h"
+#include "study/extremes/count.h"
 
 /* Fills the heat map (out; clear it even after a failure). Fails with BR_NO_MEMORY. */
 enum br_status br_extremes_map_draw(const struct br_extreme_map *map, struct br_heat *heat,

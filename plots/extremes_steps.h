@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What steps gather against their number. */
-#ifndef BR_PLOT_STEPS_H
-#define BR_PLOT_STEPS_H
+#ifndef BR_PLOTS_EXTREMES_STEPS_H
+#define BR_PLOTS_EXTREMES_STEPS_H
 
 #include "plots/chart.h"
-#include "study/steps.h"
+#include "study/extremes/steps.h"
 
 /* The chart (out) of the default linear solver, a panel a scene; to be cleared. Fails with
  * BR_NO_MEMORY. */

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures 2 to 10 of the paper: a registry. Each draws what study/paper.h has marched, and computes
- * nothing.
+/* Figures 2 to 10 of the paper: a registry. Each draws what study/paper/paper.h has marched, and
+ * computes nothing.
  *
  * To add a figure: a draw function in figures_axial.c, figures_bending.c or figures_sweep.c, and
  * one row in figures.c. */
-#ifndef BR_FIGURES_H
-#define BR_FIGURES_H
+#ifndef BR_PLOTS_FIGURES_H
+#define BR_PLOTS_FIGURES_H
 
 #include "plots/chart.h"
-#include "study/claims.h"
+#include "study/paper/claims.h"
 
 struct br_figure {
     int number;         /* of the paper */

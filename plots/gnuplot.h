@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gnuplot for what is not a picture in SVG and PNG. */
-#ifndef BR_GNUPLOT_H
-#define BR_GNUPLOT_H
+#ifndef BR_PLOTS_GNUPLOT_H
+#define BR_PLOTS_GNUPLOT_H
 
 #include <stdbool.h>
 #include <stdio.h>
 
 #include "solver/status.h"
-#include "study/history.h"
+#include "study/run/history.h"
 
 /* What tells all that wait for gnuplot that they shall stop. NULL, as at first: nothing. */
 void br_gnuplot_stop_when(bool (*stop)(void));

@@ -5,7 +5,7 @@
 #include <stdarg.h>
 
 #include "plots/data.h"
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 enum br_status br_heat_panel_init(struct br_heat_panel *panel, size_t columns, size_t rows,
                                   struct br_error *err)

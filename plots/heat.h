@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A heat map: one value, or one kind, a cell of a plane, with lines across it; as data, written as
  * a gnuplot script and its data file. */
-#ifndef BR_HEAT_H
-#define BR_HEAT_H
+#ifndef BR_PLOTS_HEAT_H
+#define BR_PLOTS_HEAT_H
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 
 #include "plots/heat.h"
 #include "plots/page.h"
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 static const char *const viridis[] = {"#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c",
                                       "#28ae80", "#5ec962", "#addc30", "#fde725"};

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "plots/page.h"
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 static const struct br_movie_format gif = {".gif", "gif", "animated GIF", false};
 static const struct br_movie_format webp = {".webp", "webp", "animated WebP", false};

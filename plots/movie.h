@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A moving picture of a recorded march: beam, obstacle, and the forces at the tip. Nothing is
  * computed here but scales. */
-#ifndef BR_MOVIE_H
-#define BR_MOVIE_H
+#ifndef BR_PLOTS_MOVIE_H
+#define BR_PLOTS_MOVIE_H
 
 #include <stdio.h>
 
-#include "study/history.h"
+#include "study/run/history.h"
 
 /* A row of the registry. */
 struct br_movie_format {

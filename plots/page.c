@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 enum { FONT = BR_PAGE_FONT };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What all the scripts share: pens, captions, frames and slopes to compare with. */
-#ifndef BR_PLOT_PAGE_H
-#define BR_PLOT_PAGE_H
+#ifndef BR_PLOTS_PAGE_H
+#define BR_PLOTS_PAGE_H
 
 #include "plots/data.h"
 

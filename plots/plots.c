@@ -4,7 +4,7 @@
 #include <errno.h>
 #include <string.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 const struct br_plot *const br_plots[] = {&br_plot_h, &br_plot_k, &br_plot_parts, &br_plot_printed,
                                           NULL};

@@ -3,13 +3,13 @@
  * made to be read, edited and run again; nothing is computed here.
  *
  * To add a plot: one file that defines a `const struct br_plot`, and one row in plots.c. */
-#ifndef BR_PLOTS_H
-#define BR_PLOTS_H
+#ifndef BR_PLOTS_PLOTS_H
+#define BR_PLOTS_PLOTS_H
 
 #include <stdio.h>
 #include <sys/types.h>
 
-#include "study/report.h"
+#include "study/fit/report.h"
 
 /* A row of the registry. Its files are <report->name>-<name>.dat, .gp, .svg and .png. */
 struct br_plot {

@@ -6,7 +6,7 @@
 
 #include "plots/page.h"
 #include "plots/trade_marks.h"
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 /* ---- the registry ---- */
 

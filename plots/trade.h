@@ -3,12 +3,12 @@
  * nothing is computed here.
  *
  * A contender's curve joins the trials that none of its own beats; dots are the others. */
-#ifndef BR_PLOT_TRADE_H
-#define BR_PLOT_TRADE_H
+#ifndef BR_PLOTS_TRADE_H
+#define BR_PLOTS_TRADE_H
 
 #include <stdio.h>
 
-#include "study/trade.h"
+#include "study/trade/trade.h"
 
 struct br_trade_picture {
     const char *name;  /* of the files: <scene>-<name>.gp, .dat, .svg, .png */

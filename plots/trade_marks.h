@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the data and the script of a work-precision diagram share. */
-#ifndef BR_PLOT_TRADE_MARKS_H
-#define BR_PLOT_TRADE_MARKS_H
+#ifndef BR_PLOTS_TRADE_MARKS_H
+#define BR_PLOTS_TRADE_MARKS_H
 
 #include "plots/trade.h"
 

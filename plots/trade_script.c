@@ -4,7 +4,7 @@
 
 #include "plots/page.h"
 #include "plots/trade_marks.h"
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 static struct br_range range_of(const struct br_trade_picture *p, const struct br_trade *t,
                                 bool errors)

@@ -18,8 +18,8 @@
  * it is the normal force. A residual is given relative to the sum of the same norms of
  * the terms of the equation. Rounded nodal values then cost about 2^-53 n^2 in bending
  * and 2^-53 n in axial, and no solver can do better in these numbers. */
-#ifndef BR_CERTIFICATE_H
-#define BR_CERTIFICATE_H
+#ifndef BR_REFERENCE_CERTIFICATE_H
+#define BR_REFERENCE_CERTIFICATE_H
 
 #include "solver/march.h"
 
@@ -68,9 +68,9 @@ struct br_step {
      * below their last bit counts as nothing: down there are numbers that underflow. NULL: the
      * step counts alone. */
     double (*largest)[BR_SCALES];
-    double speed[2]; /* the largest by br_field_kind in the steps that this one's states were found
-                        from, m/s; 0: the step counts alone */
-    double size[2];  /* the same of the norms of the equation's terms, as `size_now` told them */
+    double speed[2];  /* the largest by br_field_kind in the steps that this one's states were found
+                         from, m/s; 0: the step counts alone */
+    double size[2];   /* the same of the norms of the equation's terms, as `size_now` told them */
     double *size_now; /* out, by br_field_kind: the sum of these norms; NULL: nobody asks */
 };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a certificate is made of, for certificate.c and witness.c alone. */
-#ifndef BR_CERTIFICATE_PARTS_H
-#define BR_CERTIFICATE_PARTS_H
+#ifndef BR_REFERENCE_CERTIFICATE_PARTS_H
+#define BR_REFERENCE_CERTIFICATE_PARTS_H
 
 #include "reference/certificate.h"
 

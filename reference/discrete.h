@@ -10,8 +10,8 @@
  *
  * Its own round-off, against the same source in quadruple precision (x86-64, 64 bits): see
  * discrete.c. Where long double has no more digits than double, it judges nothing. */
-#ifndef BR_DISCRETE_H
-#define BR_DISCRETE_H
+#ifndef BR_REFERENCE_DISCRETE_H
+#define BR_REFERENCE_DISCRETE_H
 
 #include "solver/march.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One element of the exact discrete solution: its matrices and what deforms it; for
  * discrete_field.c and discrete_gain.c alone. */
-#ifndef BR_DISCRETE_ELEMENT_H
-#define BR_DISCRETE_ELEMENT_H
+#ifndef BR_REFERENCE_DISCRETE_ELEMENT_H
+#define BR_REFERENCE_DISCRETE_ELEMENT_H
 
 #include "reference/discrete_field.h"
 

@@ -9,8 +9,8 @@
  * b = F + M v/tau. The value of all elements from node i to the tip is a quadratic function of y_i,
  * 1/2 y'P y - p'y, found from the free end (dynamic programming; Bellman 1957). Its unknowns are
  * strains: what a stiffness matrix of condition n^4 would lose is never there. */
-#ifndef BR_DISCRETE_FIELD_H
-#define BR_DISCRETE_FIELD_H
+#ifndef BR_REFERENCE_DISCRETE_FIELD_H
+#define BR_REFERENCE_DISCRETE_FIELD_H
 
 #include "solver/field.h"
 

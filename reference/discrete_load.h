@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The load vector and the initial data of the exact discrete solution; for discrete.c alone. */
-#ifndef BR_DISCRETE_LOAD_H
-#define BR_DISCRETE_LOAD_H
+#ifndef BR_REFERENCE_DISCRETE_LOAD_H
+#define BR_REFERENCE_DISCRETE_LOAD_H
 
 #include "reference/discrete_field.h"
 

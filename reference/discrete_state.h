@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What discrete.c looks after and discrete_step.c steps with; for these alone. */
-#ifndef BR_DISCRETE_STATE_H
-#define BR_DISCRETE_STATE_H
+#ifndef BR_REFERENCE_DISCRETE_STATE_H
+#define BR_REFERENCE_DISCRETE_STATE_H
 
 #include "reference/discrete.h"
 #include "reference/discrete_load.h"

@@ -20,8 +20,8 @@
  * trapezoidal rule, and D_scheme is what the balance leaves, with that rule's error in it. Nothing
  * is then checked by it.
  */
-#ifndef BR_ENERGY_H
-#define BR_ENERGY_H
+#ifndef BR_REFERENCE_ENERGY_H
+#define BR_REFERENCE_ENERGY_H
 
 #include "solver/march.h"
 
@@ -75,8 +75,9 @@ enum br_status br_energy_look(const struct br_march *march, const struct br_scen
  * terms, given the predicted relative round-off of the solver's displacements (br_march_round_off):
  * nodal values are rounded, which costs 2^-53 where forces are smooth, and 2^-53 n^2 squared in the
  * energy of their noise; and what the certificate allows residuals to do. The terms are those
- * of the balance and, stage by stage, those that a residual is relative to, times k and the velocity
- * they work on. At most 1e-3: where round-off alone may be more, no balance is called good. */
+ * of the balance and, stage by stage, those that a residual is relative to, times k and the
+ * velocity they work on. At most 1e-3: where round-off alone may be more, no balance is called
+ * good. */
 double br_energy_limit(size_t n, double round_off);
 
 /* Sums the works of a march. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Products of nodal values, and what a meter is made of; for energy*.c alone. */
-#ifndef BR_ENERGY_FORMS_H
-#define BR_ENERGY_FORMS_H
+#ifndef BR_REFERENCE_ENERGY_FORMS_H
+#define BR_REFERENCE_ENERGY_FORMS_H
 
 #include "reference/energy.h"
 #include "reference/watched.h"

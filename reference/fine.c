@@ -76,7 +76,7 @@ static void fine_look(void *self, const struct br_look_at *at, struct br_view *v
     br_look(f->march[at->kind], at->kind, at->measure, view);
 }
 
-/* At the end, beside the largest displacement of all times: as cells are held to (study/fit.c).
+/* At the end, beside the largest displacement of all times: as cells are held to (study/fit/fit.c).
  * What the march says of itself holds in its first steps, too. */
 static double round_off(const struct fine *f)
 {

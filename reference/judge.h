@@ -2,8 +2,8 @@
 /* What cells are judged by: a registry. A judge knows the solution at the time
  * levels t_i = i T / levels and gives it in the measures of solver/modes.h that it was
  * asked for, on its meshes. */
-#ifndef BR_JUDGE_H
-#define BR_JUDGE_H
+#ifndef BR_REFERENCE_JUDGE_H
+#define BR_REFERENCE_JUDGE_H
 
 #include <stdio.h>
 
@@ -22,8 +22,9 @@ struct br_judge_request {
     const size_t *mesh;            /* mesh_count, elements; borrowed during create */
     bool (*stop)(void *self);      /* true: give up soon, with BR_INTERRUPTED; may be NULL */
     void *stop_self;
-    void (*preparing)(void *self, double share); /* exact only: told the share of the most work
-                                                    that it may take; self: stop_self; may be NULL */
+    void (*preparing)(void *self,
+                      double share); /* exact only: told the share of the most work
+                                        that it may take; self: stop_self; may be NULL */
 };
 
 /* What a judge knows of itself. */
@@ -72,7 +73,7 @@ struct br_judge {
 
 extern const struct br_judge br_judge_fine, br_judge_exact, br_judge_mms;
 
-/* No judge, a row all the same: its functions are NULL (study/differences.h). */
+/* No judge, a row all the same: its functions are NULL (study/grid/differences.h). */
 extern const struct br_judge br_judge_none;
 
 /* NULL-terminated. */

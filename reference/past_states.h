@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a witness has seen, and where the literature lets a stage start from it. */
-#ifndef BR_PAST_STATES_H
-#define BR_PAST_STATES_H
+#ifndef BR_REFERENCE_PAST_STATES_H
+#define BR_REFERENCE_PAST_STATES_H
 
 #include "reference/textbook.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The paper's printed tables, as data: reference/printed/table1.csv and table2.csv. */
-#ifndef BR_PRINTED_H
-#define BR_PRINTED_H
+#ifndef BR_REFERENCE_PRINTED_H
+#define BR_REFERENCE_PRINTED_H
 
 #include "solver/status.h"
 

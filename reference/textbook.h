@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Time schemes as the literature prints them, written down apart from solver/scheme.c, for the
  * certificate to judge it by. */
-#ifndef BR_TEXTBOOK_H
-#define BR_TEXTBOOK_H
+#ifndef BR_REFERENCE_TEXTBOOK_H
+#define BR_REFERENCE_TEXTBOOK_H
 
 #include <stddef.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A march as somebody sees it who looks at each stage (br_march_watch) and knows the scheme from
  * textbook.h: the states of the step so far, and which row of the textbook each of them is. */
-#ifndef BR_WATCHED_H
-#define BR_WATCHED_H
+#ifndef BR_REFERENCE_WATCHED_H
+#define BR_REFERENCE_WATCHED_H
 
 #include "reference/past_states.h"
 #include "solver/march.h"

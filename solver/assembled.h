@@ -4,8 +4,8 @@
  * factorised once by a library and solved once a step. The libraries differ in the factorisation
  * alone: each is a br_factoriser, and its row of the registry is made of the functions below.
  * A's condition number grows like h^-4 for bending: see each solver's round_off. */
-#ifndef BR_ASSEMBLED_H
-#define BR_ASSEMBLED_H
+#ifndef BR_SOLVER_ASSEMBLED_H
+#define BR_SOLVER_ASSEMBLED_H
 
 #include "solver/linear_solver.h"
 

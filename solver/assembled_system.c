@@ -126,8 +126,8 @@ enum br_status br_system_loss(struct br_system *s, const double *rhs, const doub
 }
 
 /* Before a march: upper estimates of what was measured for n = 100 to 100,000 and k = 1e-2 to 1e-6
- * in the paper's examples and a vibration of little damping (study/floors.h). For bending first
- * like the condition number, n^4, and from n = 1100 like n^3. A march measures its own. */
+ * in the paper's examples and a vibration of little damping (study/extremes/floors.h). For bending
+ * first like the condition number, n^4, and from n = 1100 like n^3. A march measures its own. */
 static double without_refinement(const struct br_field *f)
 {
     const double n = (double)f->n;

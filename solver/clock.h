@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Time on the wall, and of one thread, for reports of cost. */
-#ifndef BR_CLOCK_H
-#define BR_CLOCK_H
+#ifndef BR_SOLVER_CLOCK_H
+#define BR_SOLVER_CLOCK_H
 
 #include <time.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* When normal compliance (10) takes its penetration: a registry of two rules. */
-#ifndef BR_CONTACT_H
-#define BR_CONTACT_H
+#ifndef BR_SOLVER_CONTACT_H
+#define BR_SOLVER_CONTACT_H
 
 #include "solver/scene.h"
 

@@ -22,8 +22,8 @@
  * with the contact's own do not grow, whatever the tip does, as long as
  *     c_H <= min over v of (2/k v'Cv + v'Kv) / v_tip^2 = (a + 2c/k)/L,
  * the limit without inertia. Between the two an impact may gain energy. */
-#ifndef BR_CONTACT_LIMIT_H
-#define BR_CONTACT_LIMIT_H
+#ifndef BR_SOLVER_CONTACT_LIMIT_H
+#define BR_SOLVER_CONTACT_LIMIT_H
 
 #include "solver/field.h"
 

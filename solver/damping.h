@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Schemes that need damping: how much, for the vibration that a mesh has at a step. */
-#ifndef BR_DAMPING_H
-#define BR_DAMPING_H
+#ifndef BR_SOLVER_DAMPING_H
+#define BR_SOLVER_DAMPING_H
 
 #include "solver/method.h"
 

@@ -8,8 +8,8 @@
  *     u = (1 - xi) u0 + xi u1 - xi (1 - xi) b,    h u_x = (u1 - u0) + (2 xi - 1) b,
  * so that u is the nodes' chord, less b/4 in the middle. (Szabo and Babuska 1991: the bubble is an
  * integrated Legendre polynomial, orthogonal to the chord in energy.) */
-#ifndef BR_FIELD_H
-#define BR_FIELD_H
+#ifndef BR_SOLVER_FIELD_H
+#define BR_SOLVER_FIELD_H
 
 #include "solver/scene.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The friction law (12) at the tip, one scalar problem a step: a registry. */
-#ifndef BR_FRICTION_H
-#define BR_FRICTION_H
+#ifndef BR_SOLVER_FRICTION_H
+#define BR_SOLVER_FRICTION_H
 
 #include "solver/scene.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The rules of friction.h's registry that iterate. */
-#ifndef BR_FRICTION_ITERATION_H
-#define BR_FRICTION_ITERATION_H
+#ifndef BR_SOLVER_FRICTION_ITERATION_H
+#define BR_SOLVER_FRICTION_ITERATION_H
 
 #include "solver/friction.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A function of x and t: how it is evaluated, and what can be proved of it. */
-#ifndef BR_FUNCTION_H
-#define BR_FUNCTION_H
+#ifndef BR_SOLVER_FUNCTION_H
+#define BR_SOLVER_FUNCTION_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact and friction at the tip for IDA: what the branches that are held carry, and how far each
  * is from being the wrong one. */
-#ifndef BR_IDA_LAWS_H
-#define BR_IDA_LAWS_H
+#ifndef BR_SOLVER_IDA_LAWS_H
+#define BR_SOLVER_IDA_LAWS_H
 
 #include "solver/ida_system.h"
 

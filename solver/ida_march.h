@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* IDA at work: from one switch of the laws to the next. */
-#ifndef BR_IDA_MARCH_H
-#define BR_IDA_MARCH_H
+#ifndef BR_SOLVER_IDA_MARCH_H
+#define BR_SOLVER_IDA_MARCH_H
 
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>

@@ -3,8 +3,8 @@
  * velocities) has a scale, its largest value at any node so far. A start from rest has none yet, so
  * a scale is at least a thousandth of what the largest of the loads would do at rest, for
  * velocities that over the duration. */
-#ifndef BR_IDA_SCALE_H
-#define BR_IDA_SCALE_H
+#ifndef BR_SOLVER_IDA_SCALE_H
+#define BR_SOLVER_IDA_SCALE_H
 
 #include "solver/ida_system.h"
 

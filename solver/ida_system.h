@@ -8,8 +8,8 @@
  * slips with lambda = h(t) or -h(t), or sticks. A tip that sticks has v = 0 in place of its
  * row of the equations, and that row tells lambda; so nothing is of a higher index than 1. With
  * the regularised law (29), "stick" is |v| <= mu, where lambda = h v / mu. */
-#ifndef BR_IDA_SYSTEM_H
-#define BR_IDA_SYSTEM_H
+#ifndef BR_SOLVER_IDA_SYSTEM_H
+#define BR_SOLVER_IDA_SYSTEM_H
 
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_matrix.h>

@@ -2,8 +2,8 @@
 /* Loops in the vector extension of GCC and Clang are written once and compiled for each of these
  * instruction sets as BR_SET (solver/meson.build); the program takes the first that the processor
  * has (-DBR_NO_FMA: the portable one). */
-#ifndef BR_INSTRUCTION_SET_H
-#define BR_INSTRUCTION_SET_H
+#ifndef BR_SOLVER_INSTRUCTION_SET_H
+#define BR_SOLVER_INSTRUCTION_SET_H
 
 #include <stdbool.h>
 

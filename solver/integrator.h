@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A time scheme that is not made of Euler steps (scheme.h) and marches a scene by itself. */
-#ifndef BR_INTEGRATOR_H
-#define BR_INTEGRATOR_H
+#ifndef BR_SOLVER_INTEGRATOR_H
+#define BR_SOLVER_INTEGRATOR_H
 
 #include "solver/march.h"
 

@@ -10,8 +10,8 @@
  *
  * To add a solver: one file that defines a `const struct br_linear_solver`, and
  * one row in linear_solver.c. */
-#ifndef BR_LINEAR_SOLVER_H
-#define BR_LINEAR_SOLVER_H
+#ifndef BR_SOLVER_LINEAR_SOLVER_H
+#define BR_SOLVER_LINEAR_SOLVER_H
 
 #include "solver/field.h"
 #include "solver/sweep_kernel.h"

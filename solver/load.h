@@ -2,8 +2,8 @@
 /* The load vector F_n of one field as a march steps through it. What a scene leaves
  * out costs nothing: terms F(x) G(t) are assembled once and summed every step, where there is more
  * than one; one of f(x, t) is assembled every step. */
-#ifndef BR_LOAD_H
-#define BR_LOAD_H
+#ifndef BR_SOLVER_LOAD_H
+#define BR_SOLVER_LOAD_H
 
 #include "solver/linear_solver.h"
 

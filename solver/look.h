@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A march, seen in one of the measures of modes.h. */
-#ifndef BR_LOOK_H
-#define BR_LOOK_H
+#ifndef BR_SOLVER_LOOK_H
+#define BR_SOLVER_LOOK_H
 
 #include "solver/march.h"
 #include "solver/modes.h"

@@ -2,8 +2,8 @@
 /* One Euler step of either field as the linear-quadratic problem of plain.h, in long double: what
  * the fast sweeps compute their tables from. Bending's second curvature is divided by sqrt(3) here,
  * so that R is a number; costates, P and loads are divided by it, so that it is 1. */
-#ifndef BR_LQ_H
-#define BR_LQ_H
+#ifndef BR_SOLVER_LQ_H
+#define BR_SOLVER_LQ_H
 
 #include "solver/field.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The fully discrete problem VP^hk, equations (16) and (17): implicit Euler in
  * velocity form on n equal elements and `steps` equal steps of k = T/steps. */
-#ifndef BR_MARCH_H
-#define BR_MARCH_H
+#ifndef BR_SOLVER_MARCH_H
+#define BR_SOLVER_MARCH_H
 
 #include "solver/method.h"
 

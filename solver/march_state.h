@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What march.c steps through fixed steps and adaptive.c through its own; for these alone. */
-#ifndef BR_MARCH_STATE_H
-#define BR_MARCH_STATE_H
+#ifndef BR_SOLVER_MARCH_STATE_H
+#define BR_SOLVER_MARCH_STATE_H
 
 #include "solver/integrator.h"
 #include "solver/margins.h"

@@ -2,8 +2,8 @@
 /* How far a field's tip is from leaving the branch of its law that a step holds, over that step: at
  * its start, its stages and its end, and by their polynomial in between. A tip may leave its branch
  * and be back on it at the end of the step. */
-#ifndef BR_MARGINS_H
-#define BR_MARGINS_H
+#ifndef BR_SOLVER_MARGINS_H
+#define BR_SOLVER_MARGINS_H
 
 #include "solver/scheme.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A method: a row of each registry, and what goes together. */
-#ifndef BR_METHOD_H
-#define BR_METHOD_H
+#ifndef BR_SOLVER_METHOD_H
+#define BR_SOLVER_METHOD_H
 
 #include "solver/contact.h"
 #include "solver/friction.h"

@@ -2,8 +2,8 @@
 /* What errors are measured in, and a finite element function in Legendre polynomials
  * that are orthonormal on each element, its modes: the squared L2 norm is the sum of the
  * squared modes. */
-#ifndef BR_MODES_H
-#define BR_MODES_H
+#ifndef BR_SOLVER_MODES_H
+#define BR_SOLVER_MODES_H
 
 #include "solver/field.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pairs of doubles and 2 by 2 matrices for the sweeps, in the vector extension
  * that GCC and Clang share: + - * act entry by entry. */
-#ifndef BR_PAIR_H
-#define BR_PAIR_H
+#ifndef BR_SOLVER_PAIR_H
+#define BR_SOLVER_PAIR_H
 
 typedef double br_pair __attribute__((vector_size(16)));
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One field of a march: its solver, its load, and the states that its time scheme looks back to. */
-#ifndef BR_PART_H
-#define BR_PART_H
+#ifndef BR_SOLVER_PART_H
+#define BR_SOLVER_PART_H
 
 #include "solver/load.h"
 #include "solver/march.h"

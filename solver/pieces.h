@@ -15,8 +15,8 @@
  * A step is a pass over the joins (predict), which tells the tip's velocity, and one over the
  * elements (finish), which also sums z and q for the next step. What the tip gathers from
  * increments drifts; it is read off the field every few steps. */
-#ifndef BR_PIECES_H
-#define BR_PIECES_H
+#ifndef BR_SOLVER_PIECES_H
+#define BR_SOLVER_PIECES_H
 
 #include "solver/linear_solver.h"
 

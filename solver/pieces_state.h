@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What pieces.c marches, pieces_layout.c lays out, pieces_tables.c tabulates
  * and pieces_load.c loads; for these alone. The mathematics is in pieces.h. */
-#ifndef BR_PIECES_STATE_H
-#define BR_PIECES_STATE_H
+#ifndef BR_SOLVER_PIECES_STATE_H
+#define BR_SOLVER_PIECES_STATE_H
 
 #include "solver/lq.h"
 #include "solver/pieces.h"

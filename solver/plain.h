@@ -27,8 +27,8 @@
  *     delta*_tip = -sum_i zeta_i's_i      and      z_tip = sum_i zeta_i'S zeta_i:
  * the tip's free velocity is known when the backward sweep ends, the laws find
  * r, and the forward sweep already carries it. */
-#ifndef BR_PLAIN_H
-#define BR_PLAIN_H
+#ifndef BR_SOLVER_PLAIN_H
+#define BR_SOLVER_PLAIN_H
 
 #include "solver/linear_solver.h"
 

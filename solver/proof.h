@@ -2,8 +2,8 @@
 /* What is proved of a function over a box of x and t by its enclosures (function.h): that it is
  * finite, where it breaks, and a mesh on which polynomials stand for it. Nothing is sampled: what
  * cannot be proved is refused. A function without bound (NULL in its ops) is refused. */
-#ifndef BR_PROOF_H
-#define BR_PROOF_H
+#ifndef BR_SOLVER_PROOF_H
+#define BR_SOLVER_PROOF_H
 
 #include "solver/function.h"
 

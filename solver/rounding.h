@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The rounding mode of a march. It belongs to a thread; threads of OpenMP do not hand it on. */
-#ifndef BR_ROUNDING_H
-#define BR_ROUNDING_H
+#ifndef BR_SOLVER_ROUNDING_H
+#define BR_SOLVER_ROUNDING_H
 
 #include <fenv.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A scene: all the data of problem (1)-(12), and nothing of how it is solved.
  * A part that is not modelled costs nothing. */
-#ifndef BR_SCENE_H
-#define BR_SCENE_H
+#ifndef BR_SOLVER_SCENE_H
+#define BR_SOLVER_SCENE_H
 
 #include "solver/function.h"
 

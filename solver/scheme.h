@@ -8,8 +8,8 @@
  * schemes differ in gamma and in the weights of Z alone, and the laws are the same scalar problem
  * (contact.h, friction.h), enforced exactly at every stage. The last stage of every scheme here is
  * the step's end. */
-#ifndef BR_SCHEME_H
-#define BR_SCHEME_H
+#ifndef BR_SOLVER_SCHEME_H
+#define BR_SOLVER_SCHEME_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* States of a field as rows of numbers, for schemes that keep several (scheme.h). */
-#ifndef BR_STATES_H
-#define BR_STATES_H
+#ifndef BR_SOLVER_STATES_H
+#define BR_SOLVER_STATES_H
 
 #include "solver/status.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Outcomes: one list, expanded into the enum, the names and the exit codes. */
-#ifndef BR_STATUS_H
-#define BR_STATUS_H
+#ifndef BR_SOLVER_STATUS_H
+#define BR_SOLVER_STATUS_H
 
 #include <stdlib.h>
 

@@ -3,8 +3,8 @@
  * benchmark, which holds their time against the machine's limits. To be counted anew when the loops
  * change: element_left, element_right, element_state, strain, pass_on and the weights. Instructions
  * that only move values are not counted, nor are the joins. */
-#ifndef BR_SWEEP_COST_H
-#define BR_SWEEP_COST_H
+#ifndef BR_SOLVER_SWEEP_COST_H
+#define BR_SOLVER_SWEEP_COST_H
 
 struct br_sweep_cost {
     int fma, multiply, add; /* instructions on vectors of BR_LANES */

@@ -4,8 +4,8 @@
  * All arrays go from the left end to the right one and hold BR_LANES values for each entry, tables
  * one for all lanes. d is the number of unknowns a node: 1 axial, 2 bending. The mathematics is in
  * pieces.h. */
-#ifndef BR_SWEEP_KERNEL_H
-#define BR_SWEEP_KERNEL_H
+#ifndef BR_SOLVER_SWEEP_KERNEL_H
+#define BR_SOLVER_SWEEP_KERNEL_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -2,8 +2,8 @@
 /* What sweep_march.c and sweep_ends.c share: the lanes of a strip in vectors. For these alone,
  * which are compiled once for each instruction set, BR_SET (instruction_set.h), and contracted. Two
  * vectors side by side hide the latency of the recursions. */
-#ifndef BR_SWEEP_LANES_H
-#define BR_SWEEP_LANES_H
+#ifndef BR_SOLVER_SWEEP_LANES_H
+#define BR_SOLVER_SWEEP_LANES_H
 
 #include "solver/sweep_kernel.h"
 #include "solver/vectors.h"

@@ -2,8 +2,8 @@
 /* Traps for what no sound march does: an invalid operation, a division by zero, an overflow. On in
  * builds with -Dtraps (debug ones), where they stop the program at the operation; else nothing is
  * done here. They belong to the thread that sets them. */
-#ifndef BR_TRAPS_H
-#define BR_TRAPS_H
+#ifndef BR_SOLVER_TRAPS_H
+#define BR_SOLVER_TRAPS_H
 
 #include <fenv.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The vectors of the instruction set BR_SET in the extension of GCC and Clang, for files that are
  * compiled for each (instruction_set.h). */
-#ifndef BR_VECTORS_H
-#define BR_VECTORS_H
+#ifndef BR_SOLVER_VECTORS_H
+#define BR_SOLVER_VECTORS_H
 
 #include <string.h>
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The verdicts of a check as text: one const record a format. Emitters compute nothing. */
-#ifndef BR_CHECK_EMITTER_H
-#define BR_CHECK_EMITTER_H
+#ifndef BR_TABLES_CHECK_EMITTER_H
+#define BR_TABLES_CHECK_EMITTER_H
 
-#include "study/comparison.h"
+#include "study/verify/comparison.h"
 #include "tables/emitter.h"
 
 /* A scene that this build cannot check, and why. Borrowed. */

@@ -2,7 +2,7 @@
 /* JUnit's XML as CI systems read it: a suite a scene, a test case an order. */
 #include <math.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/check_emitter.h"
 
 static void property(FILE *out, const char *name, const char *value)

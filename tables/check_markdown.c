@@ -2,7 +2,7 @@
 /* Markdown for the summary page of a CI job: what failed first, all orders folded away below. */
 #include <math.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/check_emitter.h"
 
 static void number(FILE *out, double value)

@@ -2,7 +2,7 @@
 /* The Test Anything Protocol, version 13: a test an order, a diagnostic block below it. */
 #include <math.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/check_emitter.h"
 
 /* A number that is not there is null. */

@@ -2,7 +2,7 @@
 /* One line a claim; a number that is not there is an empty field (RFC 4180). */
 #include <math.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/claims_emitter.h"
 
 static void number(FILE *out, double value)

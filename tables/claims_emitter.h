@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The claims of section 3.2 with what was found: one const record a format. */
-#ifndef BR_CLAIMS_EMITTER_H
-#define BR_CLAIMS_EMITTER_H
+#ifndef BR_TABLES_CLAIMS_EMITTER_H
+#define BR_TABLES_CLAIMS_EMITTER_H
 
-#include "study/claims.h"
+#include "study/paper/claims.h"
 #include "tables/emitter.h"
 
 struct br_claims_page {

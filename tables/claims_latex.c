@@ -2,7 +2,7 @@
 /* A LaTeX table to \input; it needs the booktabs and longtable packages. */
 #include <math.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/claims_emitter.h"
 
 static void cell(FILE *out, const char *text)

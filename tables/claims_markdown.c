@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/claims_emitter.h"
 
 static void cell(FILE *out, const char *text)

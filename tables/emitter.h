@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables as text: one const record a format. Emitters compute nothing. */
-#ifndef BR_EMITTER_H
-#define BR_EMITTER_H
+#ifndef BR_TABLES_EMITTER_H
+#define BR_TABLES_EMITTER_H
 
 #include <stdio.h>
 
-#include "study/report.h"
+#include "study/fit/report.h"
 
 /* All that is needed to repeat a run. Strings are borrowed. */
 struct br_provenance {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page of study/energy_behaviour.h. */
-#ifndef BR_EXTREMES_ENERGY_TABLES_H
-#define BR_EXTREMES_ENERGY_TABLES_H
+/* The page of study/extremes/energy_behaviour.h. */
+#ifndef BR_TABLES_EXTREMES_ENERGY_H
+#define BR_TABLES_EXTREMES_ENERGY_H
 
-#include "study/energy_behaviour.h"
+#include "study/extremes/energy_behaviour.h"
 #include "tables/sheet.h"
 
 /* Fills caption, tables and sentences, which borrow the behaviour. */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What floors and steps have found, as pages. */
-#ifndef BR_EXTREMES_FLOORS_H
-#define BR_EXTREMES_FLOORS_H
+#ifndef BR_TABLES_EXTREMES_FLOORS_H
+#define BR_TABLES_EXTREMES_FLOORS_H
 
-#include "study/floors.h"
+#include "study/extremes/floors.h"
 #include "tables/sheet.h"
 
 /* Fills caption, tables and sentences, which borrow the floors. */

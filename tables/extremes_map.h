@@ -3,7 +3,7 @@
 #ifndef BR_TABLES_EXTREMES_MAP_H
 #define BR_TABLES_EXTREMES_MAP_H
 
-#include "study/extreme_count.h"
+#include "study/extremes/count.h"
 #include "tables/sheet.h"
 
 struct br_extremes_map_page {

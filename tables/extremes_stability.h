@@ -3,7 +3,7 @@
 #ifndef BR_TABLES_EXTREMES_STABILITY_H
 #define BR_TABLES_EXTREMES_STABILITY_H
 
-#include "study/stability.h"
+#include "study/extremes/stability.h"
 #include "tables/sheet.h"
 
 /* Fills the page (out) but for its name and provenance; it borrows from the stability. */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What steps gather, as a page. */
-#ifndef BR_EXTREMES_STEPS_H
-#define BR_EXTREMES_STEPS_H
+#ifndef BR_TABLES_EXTREMES_STEPS_H
+#define BR_TABLES_EXTREMES_STEPS_H
 
-#include "study/steps.h"
+#include "study/extremes/steps.h"
 #include "tables/sheet.h"
 
 /* Fills caption, tables and sentences, which borrow the drifts. */

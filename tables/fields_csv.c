@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/fields_file.h"
 
 struct br_fields_file {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The fields at the output times in a file: HDF5 where the build has it, CSV otherwise. One const
  * record a format; they are written look by look, so that no more than one is in memory. */
-#ifndef BR_FIELDS_FILE_H
-#define BR_FIELDS_FILE_H
+#ifndef BR_TABLES_FIELDS_FILE_H
+#define BR_TABLES_FIELDS_FILE_H
 
-#include "study/run.h"
+#include "study/run/run.h"
 #include "tables/emitter.h"
 
 /* What is being written. Borrowed. */

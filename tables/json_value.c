@@ -5,7 +5,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 
 static atomic_bool lacked;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the JSON formats share; each returns a new reference, or NULL without memory. */
-#ifndef BR_JSON_VALUE_H
-#define BR_JSON_VALUE_H
+#ifndef BR_TABLES_JSON_VALUE_H
+#define BR_TABLES_JSON_VALUE_H
 
 #include <jansson.h>
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/emitter.h"
 #include "tables/sentences.h"
 

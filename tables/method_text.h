@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A method in words. */
-#ifndef BR_METHOD_TEXT_H
-#define BR_METHOD_TEXT_H
+#ifndef BR_TABLES_METHOD_TEXT_H
+#define BR_TABLES_METHOD_TEXT_H
 
 #include "solver/march.h"
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Plans (study/plan.h) as text. Nothing is computed here. */
-#ifndef BR_PLAN_EMITTER_H
-#define BR_PLAN_EMITTER_H
+/* Plans (study/trade/plan.h) as text. Nothing is computed here. */
+#ifndef BR_TABLES_PLAN_EMITTER_H
+#define BR_TABLES_PLAN_EMITTER_H
 
-#include "study/plan.h"
+#include "study/trade/plan.h"
 #include "tables/sheet.h"
 
 /* All borrowed. */

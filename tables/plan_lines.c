@@ -4,7 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/plan_emitter.h"
 
 __attribute__((format(printf, 2, 3))) static void append(char line[BR_PLAN_LINE],

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A run of one scene as text and as files. Nothing is computed here. */
-#ifndef BR_RUN_PAGE_H
-#define BR_RUN_PAGE_H
+#ifndef BR_TABLES_RUN_PAGE_H
+#define BR_TABLES_RUN_PAGE_H
 
-#include "study/prediction.h"
-#include "study/run.h"
+#include "study/foresee/prediction.h"
+#include "study/run/run.h"
 #include "tables/emitter.h"
 
 /* All that a run's summary is made of. Borrowed. */

@@ -2,8 +2,8 @@
 #include <jansson.h>
 #include <string.h>
 
-#include "study/scene_schema.h"
-#include "study/verify.h"
+#include "study/scene/schema.h"
+#include "study/verify/verify.h"
 #include "tables/scene_format.h"
 
 /* Regular expressions as JSON Schema has them (ECMA 262). */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "study/scene_schema.h"
-#include "study/verify.h"
+#include "study/scene/schema.h"
+#include "study/verify/verify.h"
 #include "tables/scene_format.h"
 
 enum { COLUMN = 46 }; /* where comments begin */

@@ -5,7 +5,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/method_text.h"
 
 enum { PARAGRAPH = 4096, WIDTH = 100 };

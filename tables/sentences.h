@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a table says in words, the same in every format: plain ASCII lines. */
-#ifndef BR_SENTENCES_H
-#define BR_SENTENCES_H
+#ifndef BR_TABLES_SENTENCES_H
+#define BR_TABLES_SENTENCES_H
 
 #include <stdio.h>
 
-#include "study/report.h"
+#include "study/fit/report.h"
 
 /* Where the sentences go: one call a paragraph, without a line end. */
 struct br_writer {

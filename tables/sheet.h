@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pages of tables and sentences, whatever they are of: what is said stands here once, and every
  * format prints it in its own way. Emitters compute nothing. */
-#ifndef BR_SHEET_H
-#define BR_SHEET_H
+#ifndef BR_TABLES_SHEET_H
+#define BR_TABLES_SHEET_H
 
 #include "tables/emitter.h"
 #include "tables/sentences.h"

@@ -4,7 +4,7 @@
  * that is not there is an empty field (RFC 4180). Sentences are left to the other formats. */
 #include <string.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/sheet.h"
 
 static void print_table(FILE *out, const struct br_table *t)

@@ -4,7 +4,7 @@
 #include <jansson.h>
 #include <string.h>
 
-#include "study/number_list.h"
+#include "study/scene/number_list.h"
 #include "tables/json_value.h"
 #include "tables/sheet.h"
 

@@ -3,7 +3,7 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/sheet.h"
 
 static void paragraph(void *self, const char *text)

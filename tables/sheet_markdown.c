@@ -2,7 +2,7 @@
 /* GitHub-flavoured Markdown. */
 #include <string.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/sheet.h"
 
 static void item(void *self, const char *text)

@@ -2,7 +2,7 @@
 /* The page for a terminal and its .txt file. */
 #include <string.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/sheet.h"
 
 static int column_width(const struct br_table *t, size_t column, bool *number)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where errors come from (study/split.h), as text: one const record a format. */
-#ifndef BR_SPLIT_EMITTER_H
-#define BR_SPLIT_EMITTER_H
+/* Where errors come from (study/trade/split.h), as text: one const record a format. */
+#ifndef BR_TABLES_SPLIT_EMITTER_H
+#define BR_TABLES_SPLIT_EMITTER_H
 
-#include "study/split.h"
+#include "study/trade/split.h"
 #include "tables/emitter.h"
 #include "tables/sentences.h"
 

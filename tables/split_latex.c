@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* LaTeX tables to \input; they need the booktabs package. */
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/split_emitter.h"
 
 static void paragraph(void *self, const char *text)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* GitHub-flavoured Markdown. */
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/split_emitter.h"
 
 static void item(void *self, const char *text)

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/split_emitter.h"
 
 /* The share of the sum as a bar of up to 20 characters. */

@@ -2,7 +2,7 @@
 /* One line a trial; a number that is not there is an empty field (RFC 4180). */
 #include <math.h>
 
-#include "study/quote.h"
+#include "study/scene/quote.h"
 #include "tables/trade_emitter.h"
 
 static void field(FILE *out, const char *format, double value)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trades in the formats of tables/sheet.h; CSV and JSON have what a trade has to tell programs.
  * Nothing is computed here. */
-#ifndef BR_TRADE_EMITTER_H
-#define BR_TRADE_EMITTER_H
+#ifndef BR_TABLES_TRADE_EMITTER_H
+#define BR_TABLES_TRADE_EMITTER_H
 
 #include "tables/trade_page.h"
 

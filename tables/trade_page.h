@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a trade says, as pages of text cells, so that all formats say the same. */
-#ifndef BR_TRADE_PAGE_H
-#define BR_TRADE_PAGE_H
+#ifndef BR_TABLES_TRADE_PAGE_H
+#define BR_TABLES_TRADE_PAGE_H
 
-#include "study/trade.h"
+#include "study/trade/trade.h"
 #include "tables/sheet.h"
 
 /* One scene's trade, with what is needed to repeat it. All borrowed. */

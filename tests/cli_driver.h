@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs the program as a user does, in a folder of its own. $BEAMRATE is its path. */
-#ifndef BR_TEST_CLI_DRIVER_H
-#define BR_TEST_CLI_DRIVER_H
+#ifndef BR_TESTS_CLI_DRIVER_H
+#define BR_TESTS_CLI_DRIVER_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes and small helpers for the tests of the exact reference. */
-#ifndef BR_EXACT_SCENES_H
-#define BR_EXACT_SCENES_H
+#ifndef BR_TESTS_EXACT_SCENES_H
+#define BR_TESTS_EXACT_SCENES_H
 
 #include "reference/exact/exact.h"
 

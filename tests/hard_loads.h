@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random scenes under loads that sampling does not see, with the oracle's description of them. */
-#ifndef BR_HARD_LOADS_H
-#define BR_HARD_LOADS_H
+#ifndef BR_TESTS_HARD_LOADS_H
+#define BR_TESTS_HARD_LOADS_H
 
 #include "tests/modal_oracle.h"
 #include "tests/support.h"

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A small scene of its own with the default expectations, and its check. */
-#ifndef BR_TEST_MADE_CHECK_H
-#define BR_TEST_MADE_CHECK_H
+#ifndef BR_TESTS_MADE_CHECK_H
+#define BR_TESTS_MADE_CHECK_H
 
-#include "study/check.h"
+#include "study/verify/check.h"
 #include "support.h"
 
 struct made_check {

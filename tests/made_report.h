@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A report that was never computed: every number in it is another one, so that a table or
  * a plot that takes the wrong one is caught. */
-#ifndef BR_TEST_MADE_REPORT_H
-#define BR_TEST_MADE_REPORT_H
+#ifndef BR_TESTS_MADE_REPORT_H
+#define BR_TESTS_MADE_REPORT_H
 
-#include "study/report.h"
+#include "study/fit/report.h"
 #include "support.h"
 
 enum { BR_MADE_N = 3, BR_MADE_K = 4, BR_MADE_CELLS = BR_MADE_N * BR_MADE_K };

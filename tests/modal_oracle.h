@@ -7,8 +7,8 @@
  * whose impulse response is elementary. The oracle knows where each of its loads begins, ends,
  * jumps or is narrow, since it is given the parameters and not an expression: it integrates between
  * these places, and never looks for them. */
-#ifndef BR_MODAL_ORACLE_H
-#define BR_MODAL_ORACLE_H
+#ifndef BR_TESTS_MODAL_ORACLE_H
+#define BR_TESTS_MODAL_ORACLE_H
 
 #include <stdbool.h>
 #include <stddef.h>

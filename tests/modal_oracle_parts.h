@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The parts of the oracle, in long double: the loads in space, and the responses in time. */
-#ifndef BR_MODAL_ORACLE_PARTS_H
-#define BR_MODAL_ORACLE_PARTS_H
+#ifndef BR_TESTS_MODAL_ORACLE_PARTS_H
+#define BR_TESTS_MODAL_ORACLE_PARTS_H
 
 #include "tests/modal_oracle.h"
 

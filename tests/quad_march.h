@@ -3,8 +3,8 @@
  * meshes so small that its condition does not matter: what a march of any linear solver is compared
  * with. It follows a march stage by stage, with the weights of its scheme and loads, contact and
  * friction of its own, and starts anew where the march does. */
-#ifndef BR_QUAD_MARCH_H
-#define BR_QUAD_MARCH_H
+#ifndef BR_TESTS_QUAD_MARCH_H
+#define BR_TESTS_QUAD_MARCH_H
 
 #include "solver/march.h"
 

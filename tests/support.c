@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "study/scene/expression.h"
-#include "study/scene_file.h"
+#include "study/scene/file.h"
 
 void br_test_close(const char *what, double actual, double expected, double tolerance,
                    const char *file, int line)

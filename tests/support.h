@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the test programs share. A check that fails ends its test with a message; none
  * of them lets a NaN through. */
-#ifndef BR_TEST_SUPPORT_H
-#define BR_TEST_SUPPORT_H
+#ifndef BR_TESTS_SUPPORT_H
+#define BR_TESTS_SUPPORT_H
 
 /* cmocka.h wants these before it. */
 #include <setjmp.h>

@@ -5,10 +5,11 @@
 #include <stdlib.h>
 
 #include "reference/certificate.h"
-#include "study/ladder.h"
-#include "study/run.h"
-#include "study/scene_file.h"
-#include "study/study.h"
+#include "study/grid/ladder.h"
+#include "study/grid/study.h"
+#include "study/grid/sweep.h"
+#include "study/run/run.h"
+#include "study/scene/file.h"
 #include "support.h"
 
 /* Fails every allocation in turn until the attempt succeeds; at least `least` of them.

@@ -11,7 +11,7 @@
 #include <time.h>
 
 #include "reference/exact/exact.h"
-#include "study/scene_file.h"
+#include "study/scene/file.h"
 #include "support.h"
 #include "tests/hard_loads.h"
 

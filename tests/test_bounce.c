@@ -4,9 +4,9 @@
 #include <stdio.h>
 
 #include "reference/energy.h"
-#include "study/model.h"
-#include "study/scene_file.h"
-#include "study/warnings.h"
+#include "study/foresee/warnings.h"
+#include "study/run/model.h"
+#include "study/scene/file.h"
 #include "support.h"
 
 /* The share of what was put into the axial field that a march of it has added at its most. */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "made_check.h"
-#include "study/scene_file.h"
+#include "study/scene/file.h"
 #include "support.h"
 
 static const struct br_case *case_of(const struct made_check *m, enum br_verify_kind kind)

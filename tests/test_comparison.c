@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "made_check.h"
-#include "study/comparison.h"
+#include "study/verify/comparison.h"
 #include "support.h"
 
 /* What the check itself would have left behind. */

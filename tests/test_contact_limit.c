@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "solver/contact_limit.h"
-#include "study/warn_contact.h"
+#include "study/foresee/warn_contact.h"
 #include "support.h"
 
 /* A rod that stays pressed against its obstacle. */

@@ -4,7 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "study/differences.h"
+#include "study/grid/differences.h"
+#include "study/grid/sweep.h"
 #include "support.h"
 
 /* ---- differences ---- */

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "reference/energy.h"
-#include "study/scene_file.h"
+#include "study/scene/file.h"
 #include "support.h"
 
 /* A march and its meter. */

@@ -4,9 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/amplification.h"
-#include "study/beam_mode.h"
-#include "study/energy_behaviour.h"
+#include "study/extremes/amplification.h"
+#include "study/extremes/beam_mode.h"
+#include "study/extremes/energy_behaviour.h"
+#include "study/grid/observer.h"
 #include "support.h"
 
 /* e^z to the scheme's order; Euler's is 1/(1 - z). */

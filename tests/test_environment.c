@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "reference/certificate.h"
-#include "study/scene_file.h"
+#include "study/scene/file.h"
 #include "support.h"
 
 enum { MOST = 2 * 100 };

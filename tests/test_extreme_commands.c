@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cli_driver.h"
-#include "study/extreme_judge.h"
+#include "study/extremes/judge.h"
 #include "support.h"
 
 enum { FIRST_OF_EACH = 4, CASES = 60 };

@@ -5,10 +5,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/extreme_count.h"
-#include "study/rescale.h"
-#include "study/scene_file.h"
-#include "study/shrink.h"
+#include "study/extremes/count.h"
+#include "study/extremes/shrink.h"
+#include "study/scene/file.h"
+#include "study/scene/rescale.h"
 #include "tests/support.h"
 
 /* Wrong wherever a stiff contact is in a scene with friction; right elsewhere. */

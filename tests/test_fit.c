@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "study/fit.h"
-#include "study/joint_fit.h"
+#include "study/fit/fit.h"
+#include "study/fit/joint_fit.h"
 #include "support.h"
 
 enum { ROWS = 6, COLUMNS = 6, CELLS = ROWS * COLUMNS };

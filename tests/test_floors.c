@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/floors.h"
-#include "study/steps.h"
+#include "study/extremes/floors.h"
+#include "study/extremes/steps.h"
 #include "support.h"
 
 static void test_floors(void **state)

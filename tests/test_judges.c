@@ -5,7 +5,8 @@
 #include <math.h>
 
 #include "reference/exact/exact.h"
-#include "study/extrapolation.h"
+#include "study/fit/extrapolation.h"
+#include "study/grid/sweep.h"
 #include "support.h"
 
 /* A scene and the coarsest of its time steps: small enough that the cells see what happens

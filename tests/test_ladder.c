@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "solver/modes.h"
-#include "study/ladder.h"
+#include "study/grid/ladder.h"
 #include "support.h"
 
 static const double length = 1.75;

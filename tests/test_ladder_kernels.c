@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/ladder.h"
-#include "study/ladder_kernel.h"
+#include "study/grid/ladder.h"
+#include "study/grid/ladder_kernel.h"
 #include "support.h"
 
 typedef long double real;

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/scene_file.h"
-#include "study/warnings.h"
+#include "study/foresee/warnings.h"
+#include "study/scene/file.h"
 #include "support.h"
 
 extern const struct br_warning_source br_warn_load_space;

@@ -8,8 +8,9 @@
 #include <unistd.h>
 
 #include "reference/mms/projection.h"
-#include "study/scene_file.h"
-#include "study/study.h"
+#include "study/grid/study.h"
+#include "study/grid/sweep.h"
+#include "study/scene/file.h"
 #include "support.h"
 
 /* ---- scenes ---- */

@@ -5,7 +5,8 @@
  * scheme approximates, or (friction) its error works against the velocity's error. */
 #include <math.h>
 
-#include "study/fit.h"
+#include "study/fit/fit.h"
+#include "study/grid/sweep.h"
 #include "support.h"
 
 static const char *const scenes[] = {"mms_smooth", "mms_closing",  "mms_opening",

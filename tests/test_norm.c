@@ -6,7 +6,8 @@
 #include <string.h>
 
 #include "reference/exact/exact.h"
-#include "study/study.h"
+#include "study/grid/study.h"
+#include "study/grid/sweep.h"
 #include "support.h"
 
 /* ---- by hand ---- */

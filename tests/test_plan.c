@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/plan_steps.h"
+#include "study/trade/plan_steps.h"
 #include "support.h"
 
 /* ---- models, on made-up data ---- */

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Predicted errors against those that the exact reference measures. */
-#include "study/prediction.h"
+#include "study/foresee/prediction.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/contender.h"
-#include "study/scene_file.h"
-#include "study/study.h"
+#include "study/grid/study.h"
+#include "study/grid/sweep.h"
+#include "study/scene/file.h"
+#include "study/trade/contender.h"
 #include "support.h"
 
 /* ---- predicted over measured ---- */

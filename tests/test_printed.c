@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "reference/printed.h"
-#include "study/scene_file.h"
+#include "study/scene/file.h"
 #include "support.h"
 
 static char path[] = "/tmp/beamrate-printed-XXXXXX";

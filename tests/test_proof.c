@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/scene_file.h"
+#include "study/scene/file.h"
 #include "support.h"
 
 static const struct br_box unit = {{0, 1}, {0, 1}};

@@ -5,8 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/extrapolation.h"
-#include "study/history.h"
+#include "study/fit/extrapolation.h"
+#include "study/grid/sweep.h"
+#include "study/run/history.h"
 #include "support.h"
 
 static struct br_method method_of(const char *contact)

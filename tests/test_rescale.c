@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/differences.h"
-#include "study/rescale.h"
+#include "study/grid/differences.h"
+#include "study/grid/sweep.h"
+#include "study/scene/rescale.h"
 #include "support.h"
 
 enum { NORMS = 3, MESHES = 3, STEPS = 3 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A march that is watched: rows and looks, events, energies, what is modelled. */
-#include "study/run.h"
+#include "study/run/run.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -127,11 +127,10 @@ static void test_every_term(void **state)
     const struct br_run_report p = run(&scene, 20, 500, "lagged");
     AT_MOST(fabs(br_energy_imbalance(&p.energy_start, &p.energy_now, &p.work)), 1e-12);
     const size_t offsets[] = {
-        offsetof(struct br_work, loads[0]),      offsetof(struct br_work, loads[1]),
-        offsetof(struct br_work, viscous[0]),    offsetof(struct br_work, viscous[1]),
-        offsetof(struct br_work, friction),      offsetof(struct br_work, scheme[0]),
-        offsetof(struct br_work, scheme[1]),
-        offsetof(struct br_work, scheme_contact)};
+        offsetof(struct br_work, loads[0]),   offsetof(struct br_work, loads[1]),
+        offsetof(struct br_work, viscous[0]), offsetof(struct br_work, viscous[1]),
+        offsetof(struct br_work, friction),   offsetof(struct br_work, scheme[0]),
+        offsetof(struct br_work, scheme[1]),  offsetof(struct br_work, scheme_contact)};
     for (size_t i = 0; i < sizeof offsets / sizeof *offsets; i++) {
         struct br_work spoilt = p.work;
         *(double *)((char *)&spoilt + offsets[i]) = 0;

@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "study/scene/expression.h"
-#include "study/scene_file.h"
-#include "study/scene_schema.h"
+#include "study/scene/file.h"
+#include "study/scene/schema.h"
 #include "support.h"
 
 static char path[] = "/tmp/br_test_scene_XXXXXX.yaml";

@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "cli_driver.h"
-#include "study/scene_file.h"
-#include "study/scene_schema.h"
+#include "study/scene/file.h"
+#include "study/scene/schema.h"
 #include "support.h"
 
 static struct cli_outcome out;

@@ -7,8 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/order_fit.h"
-#include "study/study.h"
+#include "study/fit/order_fit.h"
+#include "study/grid/study.h"
+#include "study/grid/sweep.h"
 #include "support.h"
 
 enum { N = 6, SIZE = 2 * (N + 1), LADDER = 6 };

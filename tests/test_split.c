@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/split.h"
+#include "study/grid/sweep.h"
+#include "study/trade/split.h"
 #include "support.h"
 
 static struct br_split split_of(const struct br_scene *scene, size_t n, size_t steps,

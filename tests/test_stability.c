@@ -7,7 +7,8 @@
 
 #include "plots/extremes_stability.h"
 #include "solver/contact_limit.h"
-#include "study/step_matrix.h"
+#include "study/extremes/step_matrix.h"
+#include "study/grid/observer.h"
 #include "support.h"
 #include "tables/extremes_stability.h"
 

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/study.h"
+#include "study/grid/study.h"
+#include "study/grid/sweep.h"
 #include "support.h"
 
 static struct br_study study_of(const struct br_scene *scene, struct br_resolution reference,

@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/trade.h"
+#include "study/grid/sweep.h"
+#include "study/trade/trade.h"
 #include "support.h"
 
 /* ---- choosing, on made-up trials ---- */

@@ -6,7 +6,8 @@
 #include <string.h>
 
 #include "reference/printed.h"
-#include "study/report.h"
+#include "study/fit/report.h"
+#include "study/grid/sweep.h"
 #include "support.h"
 
 enum { CELLS = 9 };

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/fingerprint.h"
-#include "study/launcher.h"
-#include "study/lockstep.h"
-#include "study/unit_march.h"
+#include "study/grid/lockstep.h"
+#include "study/ranks/fingerprint.h"
+#include "study/ranks/launcher.h"
+#include "study/ranks/unit_march.h"
 #include "support.h"
 
 static const size_t grid_n[] = {10, 20, 30, 40}, grid_steps[] = {20, 50, 100, 200};

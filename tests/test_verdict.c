@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/verdict.h"
+#include "study/verify/verdict.h"
 #include "support.h"
 
 enum { MOST = 12 };

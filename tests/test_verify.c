@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/scene_file.h"
+#include "study/scene/file.h"
 #include "support.h"
 
 static char path[] = "/tmp/br_verify_XXXXXX";

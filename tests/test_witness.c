@@ -8,7 +8,7 @@
 
 #include "reference/certificate.h"
 #include "reference/textbook.h"
-#include "study/scene_file.h"
+#include "study/scene/file.h"
 #include "support.h"
 
 /* ---- the tables ---- */

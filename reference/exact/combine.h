@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sums of rows of a table, which is what a projection consists of. */
-#ifndef BR_COMBINE_H
-#define BR_COMBINE_H
+#ifndef BR_REFERENCE_EXACT_COMBINE_H
+#define BR_REFERENCE_EXACT_COMBINE_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How much work an exact solution may take, who may end it, and who is told. */
-#ifndef BR_EFFORT_H
-#define BR_EFFORT_H
+#ifndef BR_REFERENCE_EXACT_EFFORT_H
+#define BR_REFERENCE_EXACT_EFFORT_H
 
 #include <stdbool.h>
 

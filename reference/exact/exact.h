@@ -9,8 +9,8 @@
  * a load f(x, t) move, integrals are cut at them. A function of which nothing can be proved is
  * taken for smooth. The regularisation of friction is ignored: the law is (12) itself. GSL's error
  * handler is switched off. */
-#ifndef BR_EXACT_H
-#define BR_EXACT_H
+#ifndef BR_REFERENCE_EXACT_EXACT_H
+#define BR_REFERENCE_EXACT_EXACT_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -2,8 +2,8 @@
 /* One field of the beam, axial or bending, as independent damped oscillators
  *     mass_i q_i'' + damping q_i' + stiffness q_i = load_i(t) - tip_i force,
  * held together only by the force at the tip: equations (3), (4), (8), (9), (11). */
-#ifndef BR_FIELD_H
-#define BR_FIELD_H
+#ifndef BR_REFERENCE_EXACT_FIELD_H
+#define BR_REFERENCE_EXACT_FIELD_H
 
 #include "reference/exact/modes.h"
 #include "reference/exact/outline.h"

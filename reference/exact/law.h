@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The laws at the tip, (10) and (12), one phase at a time. In each phase the law
  * is linear and a guard tells how far the phase is from its end. */
-#ifndef BR_LAW_H
-#define BR_LAW_H
+#ifndef BR_REFERENCE_EXACT_LAW_H
+#define BR_REFERENCE_EXACT_LAW_H
 
 #include "reference/exact/track.h"
 #include "solver/scene.h"

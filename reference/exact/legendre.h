@@ -3,8 +3,8 @@
  *
  * Both directions of the exact reference live on these: the beam's modes are
  * repeated integrals of p_k(x / L), a time step is a polynomial in p_k((t - t0) / h). */
-#ifndef BR_LEGENDRE_H
-#define BR_LEGENDRE_H
+#ifndef BR_REFERENCE_EXACT_LEGENDRE_H
+#define BR_REFERENCE_EXACT_LEGENDRE_H
 
 #include <stddef.h>
 

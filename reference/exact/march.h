@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The march of one field through all phases of its tip. */
-#ifndef BR_MARCH_H
-#define BR_MARCH_H
+#ifndef BR_REFERENCE_EXACT_MARCH_H
+#define BR_REFERENCE_EXACT_MARCH_H
 
 #include "reference/exact/effort.h"
 #include "reference/exact/field.h"

@@ -8,8 +8,8 @@
  * singular value decomposition B = Y diag(s) U' gives modes that are orthogonal
  * in the mass and in the energy: mode i is s_i times the unit function with the
  * coefficients Y_i, and its derivative of order `degree` has the coefficients U_i. */
-#ifndef BR_MODES_H
-#define BR_MODES_H
+#ifndef BR_REFERENCE_EXACT_MODES_H
+#define BR_REFERENCE_EXACT_MODES_H
 
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is known of a field's data before it is solved: on which elements, and at which steps. */
-#ifndef BR_OUTLINE_H
-#define BR_OUTLINE_H
+#ifndef BR_REFERENCE_EXACT_OUTLINE_H
+#define BR_REFERENCE_EXACT_OUTLINE_H
 
 #include "reference/exact/sight.h"
 #include "solver/scene.h"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the tip does. A contact is open or closed; with friction the tip sticks,
  * or slips up (towards positive w) or down; where no law acts it is free. */
-#ifndef BR_PHASE_H
-#define BR_PHASE_H
+#ifndef BR_REFERENCE_EXACT_PHASE_H
+#define BR_REFERENCE_EXACT_PHASE_H
 
 /* X(name, what happens when it begins) */
 #define BR_PHASE_LIST(X)           \

@@ -4,8 +4,8 @@
  * On element e, of width h in units of L, a function is the sum over k of c_k p_k(xi) / sqrt(h),
  * xi in [0, 1]: these are orthonormal in x / L. A series has terms[e] + extra coefficients there,
  * where `extra` counts how often functions of terms[e] coefficients were integrated. */
-#ifndef BR_PIECES_H
-#define BR_PIECES_H
+#ifndef BR_REFERENCE_EXACT_PIECES_H
+#define BR_REFERENCE_EXACT_PIECES_H
 
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The L2 projection of a series on the elements of pieces.h on polynomials on equal elements. */
-#ifndef BR_PIECEWISE_H
-#define BR_PIECEWISE_H
+#ifndef BR_REFERENCE_EXACT_PIECEWISE_H
+#define BR_REFERENCE_EXACT_PIECEWISE_H
 
 #include "reference/exact/exact.h"
 #include "reference/exact/pieces.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Integrals of functions of x against the polynomials of elements, by Gauss's rule on each. */
-#ifndef BR_QUADRATURE_H
-#define BR_QUADRATURE_H
+#ifndef BR_REFERENCE_EXACT_QUADRATURE_H
+#define BR_REFERENCE_EXACT_QUADRATURE_H
 
 #include "reference/exact/combine.h"
 #include "reference/exact/pieces.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Inside of the exact reference: parts of a state as Legendre series. */
-#ifndef BR_EXACT_QUERY_H
-#define BR_EXACT_QUERY_H
+#ifndef BR_REFERENCE_EXACT_QUERY_H
+#define BR_REFERENCE_EXACT_QUERY_H
 
 #include "reference/exact/solution.h"
 

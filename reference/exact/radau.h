@@ -3,8 +3,8 @@
  * coefficients: a step's velocity is the polynomial sum_k v_k p_k(theta), and
  * collocation means that `integral` replaces integration over the step.
  * 9 stages: order 17 at the step's end, 9 inside the step, L-stable. */
-#ifndef BR_RADAU_H
-#define BR_RADAU_H
+#ifndef BR_REFERENCE_EXACT_RADAU_H
+#define BR_REFERENCE_EXACT_RADAU_H
 
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* |A c|^2 for a tall matrix A that comes in blocks, as |R c|^2 with a triangle: A = Q R. */
-#ifndef BR_REMAINDER_H
-#define BR_REMAINDER_H
+#ifndef BR_REFERENCE_EXACT_REMAINDER_H
+#define BR_REFERENCE_EXACT_REMAINDER_H
 
 #include "solver/status.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The L2 projection of a Legendre series on [0, 1] on piecewise polynomials on equal elements that
  * fill a part of it. */
-#ifndef BR_RESTRICTION_H
-#define BR_RESTRICTION_H
+#ifndef BR_REFERENCE_EXACT_RESTRICTION_H
+#define BR_REFERENCE_EXACT_RESTRICTION_H
 
 #include <stddef.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One exact solution for all who ask for a scene's while somebody has it: a fine run's auditor
  * and the exact reference beside it need the same one. */
-#ifndef BR_EXACT_SHARED_H
-#define BR_EXACT_SHARED_H
+#ifndef BR_REFERENCE_EXACT_SHARED_H
+#define BR_REFERENCE_EXACT_SHARED_H
 
 #include "reference/exact/exact.h"
 

@@ -2,8 +2,8 @@
 /* What is proved of a scene's functions (solver/proof.h), as the exact reference needs it: where
  * they jump, and meshes on whose cells polynomials stand for them, in proportion to their size
  * nearby. A function of which nothing is proved is taken for smooth. */
-#ifndef BR_SIGHT_H
-#define BR_SIGHT_H
+#ifndef BR_REFERENCE_EXACT_SIGHT_H
+#define BR_REFERENCE_EXACT_SIGHT_H
 
 #include "solver/proof.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Inside of the exact reference: one solution of a scene, and a pair compared. */
-#ifndef BR_EXACT_SOLUTION_H
-#define BR_EXACT_SOLUTION_H
+#ifndef BR_REFERENCE_EXACT_SOLUTION_H
+#define BR_REFERENCE_EXACT_SOLUTION_H
 
 #include "reference/exact/effort.h"
 #include "reference/exact/exact.h"

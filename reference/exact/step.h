@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One Radau IIA step of a field and its tip, within one phase. */
-#ifndef BR_STEP_H
-#define BR_STEP_H
+#ifndef BR_REFERENCE_EXACT_STEP_H
+#define BR_REFERENCE_EXACT_STEP_H
 
 #include "reference/exact/field.h"
 #include "reference/exact/law.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Legendre series on [0, 1] as series on an interval of it. */
-#ifndef BR_SUBINTERVAL_H
-#define BR_SUBINTERVAL_H
+#ifndef BR_REFERENCE_EXACT_SUBINTERVAL_H
+#define BR_REFERENCE_EXACT_SUBINTERVAL_H
 
 #include "solver/status.h"
 

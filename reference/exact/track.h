@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The history of one field: the steps' polynomials, and the phases of its tip. */
-#ifndef BR_TRACK_H
-#define BR_TRACK_H
+#ifndef BR_REFERENCE_EXACT_TRACK_H
+#define BR_REFERENCE_EXACT_TRACK_H
 
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a given solution must fulfil before data are derived from it. */
-#ifndef BR_MMS_CHECK_H
-#define BR_MMS_CHECK_H
+#ifndef BR_REFERENCE_MMS_CHECK_H
+#define BR_REFERENCE_MMS_CHECK_H
 
 #include "solver/field.h"
 

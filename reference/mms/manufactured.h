@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The method of manufactured solutions: a scene whose loads, tip forces and initial data
  * are derived from a solution that is given (Roache 2002; Oberkampf and Roy 2010). */
-#ifndef BR_MMS_MANUFACTURED_H
-#define BR_MMS_MANUFACTURED_H
+#ifndef BR_REFERENCE_MMS_MANUFACTURED_H
+#define BR_REFERENCE_MMS_MANUFACTURED_H
 
 #include "solver/field.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A derivative of a given solution in the orthonormal Legendre modes of solver/modes.h. */
-#ifndef BR_MMS_PROJECTION_H
-#define BR_MMS_PROJECTION_H
+#ifndef BR_REFERENCE_MMS_PROJECTION_H
+#define BR_REFERENCE_MMS_PROJECTION_H
 
 #include "solver/function.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The tip forces that make a given solution fulfil the laws (8), (10), (11), (12). */
-#ifndef BR_MMS_TIP_H
-#define BR_MMS_TIP_H
+#ifndef BR_REFERENCE_MMS_TIP_H
+#define BR_REFERENCE_MMS_TIP_H
 
 #include "solver/scene.h"
 

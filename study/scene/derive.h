@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Derivatives of expressions as expressions. */
-#ifndef BR_DERIVE_H
-#define BR_DERIVE_H
+#ifndef BR_STUDY_SCENE_DERIVE_H
+#define BR_STUDY_SCENE_DERIVE_H
 
 #include "study/scene/tree.h"
 

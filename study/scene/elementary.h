@@ -4,8 +4,8 @@
  * place from the truth, and 2 for sinh and cosh beyond 709 and asinh and acosh beyond 1e150, where
  * the C library stands in. A power of 1, 2, 3, 4 or -1 is products or a quotient. Everything else
  * is correctly rounded. All of it needs rounding to nearest. */
-#ifndef BR_ELEMENTARY_H
-#define BR_ELEMENTARY_H
+#ifndef BR_STUDY_SCENE_ELEMENTARY_H
+#define BR_STUDY_SCENE_ELEMENTARY_H
 
 #include "solver/instruction_set.h"
 #include "study/scene/tree.h"

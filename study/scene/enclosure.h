@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is proved of a tree over a box of x and t, by interval arithmetic (interval.h). */
-#ifndef BR_ENCLOSURE_H
-#define BR_ENCLOSURE_H
+#ifndef BR_STUDY_SCENE_ENCLOSURE_H
+#define BR_STUDY_SCENE_ENCLOSURE_H
 
 #include "study/scene/tree.h"
 

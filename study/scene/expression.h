@@ -7,8 +7,8 @@
  * cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp expm1 ln log (both natural) log2
  * log10 sqrt abs sign step (0 below zero, 1 from zero on), and min max of two or more. Constants:
  * pi, e. A decimal point is a point in any locale. A comparison is 1 or 0, and not zero is true. */
-#ifndef BR_EXPRESSION_H
-#define BR_EXPRESSION_H
+#ifndef BR_STUDY_SCENE_EXPRESSION_H
+#define BR_STUDY_SCENE_EXPRESSION_H
 
 #include "study/scene/tree.h"
 

@@ -3,8 +3,8 @@
  * so that it encloses what exact arithmetic gives and what evaluation gives (elementary.h), both.
  * No number ("none", NaN at both ends) is where the operation may have no value or a pole; an end
  * may be infinite where it may overflow. All of it needs rounding to nearest. */
-#ifndef BR_INTERVAL_H
-#define BR_INTERVAL_H
+#ifndef BR_STUDY_SCENE_INTERVAL_H
+#define BR_STUDY_SCENE_INTERVAL_H
 
 #include "study/scene/tree.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A load as a sum of products F(x) G(t), which a march assembles once. */
-#ifndef BR_PRODUCTS_H
-#define BR_PRODUCTS_H
+#ifndef BR_STUDY_SCENE_PRODUCTS_H
+#define BR_STUDY_SCENE_PRODUCTS_H
 
 #include "solver/scene.h"
 #include "study/scene/tree.h"

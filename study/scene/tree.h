@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What an expression is, between its text (expression.h) and those who evaluate, derive and bound
  * it: a list of nodes in which each stands behind its arguments. Equal nodes stand once. */
-#ifndef BR_TREE_H
-#define BR_TREE_H
+#ifndef BR_STUDY_SCENE_TREE_H
+#define BR_STUDY_SCENE_TREE_H
 
 #include "solver/function.h"
 

@@ -5,7 +5,8 @@
 #include <stdio.h>
 
 #include "solver/clock.h"
-#include "study/study.h"
+#include "study/grid/study.h"
+#include "study/grid/sweep.h"
 #include "tests/bench/bench.h"
 
 enum { MESHES = 6, STEPS = 6, REPEATS = 3 };

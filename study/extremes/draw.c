@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/extremes/case.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "study/extremes/random.h"
+
+const char *br_extreme_trick_name(enum br_extreme_trick trick)
+{
+    static const char *const names[BR_TRICKS] = {
+        [BR_TRICK_NONE] = "none",
+        [BR_TRICK_AT_LIMIT] = "c_H at the stability limit",
+        [BR_TRICK_AT_REACTION] = "bound equal to the reaction",
+        [BR_TRICK_REVERSAL] = "slip reverses within a step",
+        [BR_TRICK_GRAZING] = "tip grazes the foundation",
+        [BR_TRICK_DENORMAL] = "denormal loads",
+        [BR_TRICK_ZEROS] = "numbers that are 0",
+    };
+    return names[trick];
+}
+
+/* ---- forces ---- */
+
+static void draw_form(struct br_random *r, struct br_extreme_force *f)
+{
+    f->shape = br_random_once_in(r, 2) ? BR_SHAPE_FLAT
+                                       : (enum br_extreme_shape)br_random_index(r, BR_SHAPES);
+    f->history = (enum br_extreme_history)br_random_index(r, BR_HISTORIES);
+    f->rate = round(br_random_decades(r, 0, 1.5)) + 0.25;
+}
+
+/* A load of about that size, and now and then forces at the tip; total: N. */
+static void draw_forces(struct br_random *r, struct br_extreme_case *c, enum br_field_kind kind,
+                        double total)
+{
+    struct br_extreme_part *p = &c->part[kind];
+    draw_form(r, &p->load);
+    draw_form(r, &p->tip_force);
+    draw_form(r, &p->tip_moment);
+    const double sign = kind == BR_BENDING && br_random_once_in(r, 2) ? -1 : 1;
+    if (!br_random_once_in(r, 6))
+        p->load.size = sign * total / c->length * br_random_uniform(r, 0.5, 1);
+    if (br_random_once_in(r, 3))
+        p->tip_force.size = sign * total * br_random_uniform(r, -0.5, 1);
+    if (kind == BR_BENDING && br_random_once_in(r, 4))
+        p->tip_moment.size = total * c->length * br_random_uniform(r, -0.5, 0.5);
+}
+
+/* Displacements of about `way`, m; velocities over `time`, s. */
+static void draw_start(struct br_random *r, struct br_extreme_part *p, double way, double time,
+                       double density)
+{
+    const double size = way * br_random_uniform(r, -1, 1);
+    if (br_random_once_in(r, 4))
+        p->displacement = (struct br_extreme_start){size, br_random_once_in(r, 4)};
+    if (br_random_once_in(r, 5) && density > 0)
+        p->velocity = (struct br_extreme_start){size / time, br_random_once_in(r, 4)};
+}
+
+/* ---- numbers that belong together ---- */
+
+/* A part by its relaxation time c/a over T, and the tip's static way over L. */
+static void draw_natural_part(struct br_random *r, struct br_extreme_case *c,
+                              enum br_field_kind kind, double stiffness)
+{
+    struct br_extreme_part *p = &c->part[kind];
+    const double power = kind == BR_AXIAL ? 1 : 3;
+    const double way = c->length * br_random_decades(r, -6, 0);
+    p->modelled = true;
+    p->stiffness = stiffness;
+    p->viscosity = stiffness * c->duration * br_random_decades(r, -6, 1);
+    if (br_random_once_in(r, 8))
+        p->viscosity = 0;
+    draw_forces(r, c, kind, way * stiffness / pow(c->length, power));
+    draw_start(r, p, way, c->duration, c->density);
+}
+
+static void draw_natural_laws(struct br_random *r, struct br_extreme_case *c)
+{
+    const struct br_extreme_part *u = &c->part[BR_AXIAL], *w = &c->part[BR_BENDING];
+    const double push = fabs(u->load.size) * c->length / 2 + fabs(u->tip_force.size);
+    const double pushed = push * c->length / fmax(u->stiffness, DBL_MIN);
+    const double way = pushed > 0 ? pushed : 1e-3 * c->length;
+    const double reaction = 0.375 * fabs(w->load.size) * c->length + fabs(w->tip_force.size);
+    c->contact = u->modelled && !br_random_once_in(r, 5);
+    c->gap = br_random_once_in(r, 3) ? 0 : way * br_random_decades(r, -6, 1);
+    c->contact_stiffness = u->stiffness / c->length * br_random_decades(r, -3, 4);
+    if (br_random_once_in(r, 5))
+        c->contact_stiffness *= br_random_decades(r, 4, 12);
+    if (!w->modelled)
+        return;
+    c->law = (enum br_friction_law)br_random_index(r, 3);
+    if (c->law == BR_COULOMB && !c->contact)
+        c->law = BR_TRESCA;
+    c->friction = reaction * br_random_decades(r, -2, 1);
+    if (c->law == BR_COULOMB)
+        c->friction /= way * br_random_decades(r, -2, 0);
+}
+
+static void draw_natural(struct br_random *r, struct br_extreme_case *c)
+{
+    c->natural = true;
+    c->length = br_random_once_in(r, 3) ? br_random_decades(r, -6, 6) : br_random_decades(r, -1, 1);
+    c->duration =
+        br_random_once_in(r, 3) ? br_random_decades(r, -6, 6) : br_random_decades(r, -1, 1);
+    const double bending = br_random_decades(r, -3, 6);
+    const double axial =
+        bending / (c->length * c->length) *
+        (br_random_once_in(r, 4) ? br_random_decades(r, -12, 12) : br_random_decades(r, -1, 4));
+    const double inertia = br_random_once_in(r, 4) ? 0 : br_random_decades(r, -10, 2);
+    c->density = inertia * bending * pow(c->duration, 2) / pow(c->length, 4);
+    const size_t fields = br_random_index(r, 6);
+    if (fields != 0)
+        draw_natural_part(r, c, BR_AXIAL, axial);
+    if (fields != 1)
+        draw_natural_part(r, c, BR_BENDING, bending);
+    draw_natural_laws(r, c);
+}
+
+/* ---- any numbers ---- */
+
+/* 10^[low, high), or now and then 0. */
+static double wild(struct br_random *r, double low, double high)
+{
+    return br_random_once_in(r, 8) ? 0 : br_random_decades(r, low, high);
+}
+
+static void draw_wild(struct br_random *r, struct br_extreme_case *c)
+{
+    c->length = br_random_decades(r, -6, 6);
+    c->duration = br_random_decades(r, -6, 6);
+    c->density = wild(r, -8, 6);
+    const size_t fields = br_random_index(r, 6);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_extreme_part *p = &c->part[kind];
+        if (fields == (size_t)kind)
+            continue;
+        p->modelled = true;
+        p->stiffness = wild(r, -6, 6);
+        p->viscosity = wild(r, -6, 6);
+        draw_forces(r, c, (enum br_field_kind)kind, br_random_decades(r, -6, 12));
+        draw_start(r, p, br_random_decades(r, -9, 0) * c->length, br_random_decades(r, -6, 6),
+                   c->density);
+    }
+    c->contact = c->part[BR_AXIAL].modelled && !br_random_once_in(r, 5);
+    c->gap = wild(r, -15, 6);
+    c->contact_stiffness = wild(r, -6, 15);
+    if (!c->part[BR_BENDING].modelled)
+        return;
+    c->law = (enum br_friction_law)br_random_index(r, 3);
+    if (c->law == BR_COULOMB && !c->contact)
+        c->law = BR_TRESCA;
+    c->friction = wild(r, -6, 15);
+}
+
+/* ---- method and resolution ---- */
+
+static size_t rows(const void *const *registry)
+{
+    size_t count = 0;
+    while (registry[count])
+        count++;
+    return count;
+}
+
+/* One of a registry's rows, the first half of the time. */
+static const void *pick(struct br_random *r, const void *const *registry)
+{
+    const size_t row = br_random_index(r, rows(registry));
+    return registry[br_random_once_in(r, 2) ? 0 : row];
+}
+
+static void draw_method(struct br_random *r, struct br_extreme_case *c)
+{
+    static const char *const scalings[] = {"none", "sum", "max"};
+    struct br_method *m = &c->method;
+    *m = br_method_default();
+    const size_t schemes = rows((const void *const *)br_time_schemes);
+    if (!br_random_once_in(r, 4))
+        m->scheme = br_time_schemes[br_random_index(r, schemes)];
+    m->solver = pick(r, (const void *const *)br_linear_solvers);
+    m->friction = pick(r, (const void *const *)br_friction_rules);
+    m->contact = pick(r, (const void *const *)br_contact_rules);
+    if (!m->scheme->may_lag)
+        m->contact = br_contact_rule_of(m->scheme);
+    m->tolerance = br_random_decades(r, -9, -3);
+    m->linear.refinement = (int)br_random_index(r, 3);
+    m->linear.scaling = scalings[br_random_index(r, 3)];
+    m->axial_degree = br_random_once_in(r, 4) ? 2 : 1;
+    c->regularisation = wild(r, -15, 0);
+    if (c->natural) /* of the tip's mean speed */
+        c->regularisation *= c->length / c->duration;
+    if (c->law == BR_TRESCA && br_random_once_in(r, 2) && c->part[BR_AXIAL].modelled)
+        c->wanted = 3;
+}
+
+/* Linear solves a step, about; integrators choose their steps by themselves. */
+static double solves(const struct br_method *m)
+{
+    if (m->scheme->integrator)
+        return 400;
+    return m->scheme->adaptive ? 60 : br_time_scheme_stages(m->scheme);
+}
+
+double br_extreme_work(const struct br_extreme_case *c)
+{
+    return (double)c->n * (double)c->steps * solves(&c->method);
+}
+
+/* Most of the elements times linear solves of a case. */
+static const double most_work = 1e5;
+
+static void draw_resolution(struct br_random *r, struct br_extreme_case *c)
+{
+    const double most = fmax(2, most_work / solves(&c->method));
+    const double decades = fmin(6, log10(most));
+    const size_t kind = br_random_index(r, 8);
+    double n = floor(br_random_decades(r, 0, 2.7));
+    if (kind == 0) /* few steps on a very fine mesh */
+        n = floor(br_random_decades(r, 2.5, decades));
+    n = fmax(1, fmin(n, most));
+    double steps = floor(br_random_decades(r, 0, fmax(0.4, log10(most / n))));
+    steps = fmax(1, fmin(steps, most / n));
+    c->n = (size_t)n;
+    c->steps = (size_t)steps;
+}
+
+/* ---- tricks ---- */
+
+static void drop_some(struct br_random *r, struct br_extreme_case *c)
+{
+    double *const may_be_zero[] = {
+        &c->density,           &c->part[0].stiffness, &c->part[0].viscosity, &c->part[1].stiffness,
+        &c->part[1].viscosity, &c->part[0].load.size, &c->part[1].load.size, &c->gap,
+        &c->contact_stiffness, &c->friction,
+    };
+    for (size_t i = 0; i < sizeof may_be_zero / sizeof *may_be_zero; i++)
+        if (br_random_once_in(r, 4))
+            *may_be_zero[i] = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && c->density == 0; kind++)
+        c->part[kind].velocity.size = 0;
+}
+
+static void scale_forces(struct br_extreme_case *c, double to)
+{
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_extreme_part *p = &c->part[kind];
+        struct br_extreme_force *const forces[] = {&p->load, &p->tip_force, &p->tip_moment};
+        for (size_t i = 0; i < sizeof forces / sizeof *forces; i++)
+            if (forces[i]->size != 0)
+                forces[i]->size = to;
+        p->displacement.size = p->velocity.size = 0;
+    }
+}
+
+static void oscillate(struct br_random *r, struct br_extreme_case *c)
+{
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_extreme_part *p = &c->part[kind];
+        struct br_extreme_force *const forces[] = {&p->load, &p->tip_force, &p->tip_moment};
+        for (size_t i = 0; i < sizeof forces / sizeof *forces; i++) {
+            forces[i]->history = BR_HISTORY_SINE;
+            forces[i]->rate = (double)c->steps * br_random_uniform(r, 0.3, 2);
+        }
+    }
+}
+
+static void play(struct br_random *r, struct br_extreme_case *c)
+{
+    const struct br_extreme_part *u = &c->part[BR_AXIAL];
+    static const double littles[] = {0, 1e-15, -1e-15, 1e-6, -1e-6, 0.02, -0.02};
+    switch (c->trick) {
+    case BR_TRICK_GRAZING:
+        c->gap = (u->load.size * c->length * c->length / 2 + u->tip_force.size * c->length) /
+                 fmax(u->stiffness, DBL_MIN) * (1 + littles[br_random_index(r, 5)]);
+        c->gap = isfinite(c->gap) ? fabs(c->gap) : 0;
+        break;
+    case BR_TRICK_DENORMAL:
+        scale_forces(c, br_random_uniform(r, 0.1, 1) * 1e-309);
+        break;
+    case BR_TRICK_ZEROS:
+        drop_some(r, c);
+        break;
+    case BR_TRICK_REVERSAL:
+        oscillate(r, c);
+        break;
+    case BR_TRICK_AT_LIMIT:
+    case BR_TRICK_AT_REACTION:
+        br_extreme_tune(c, littles[br_random_index(r, 7)]);
+        break;
+    case BR_TRICK_NONE:
+    case BR_TRICKS:
+        break;
+    }
+}
+
+void br_extreme_draw(uint64_t seed, size_t index, struct br_extreme_case *c)
+{
+    struct br_random r = br_random_of(seed, index);
+    *c = (struct br_extreme_case){.seed = seed, .index = index};
+    if (br_random_once_in(&r, 3))
+        draw_wild(&r, c);
+    else
+        draw_natural(&r, c);
+    draw_method(&r, c);
+    draw_resolution(&r, c);
+    if (br_random_once_in(&r, 3))
+        c->trick = (enum br_extreme_trick)br_random_index(&r, BR_TRICKS);
+    play(&r, c);
+}

@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The planes of the lagged contact, and the verdict. */
+#include "study/extremes/stability.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_sort.h>
+#include <math.h>
+#include <stdatomic.h>
+#include <string.h>
+
+#include "solver/contact_limit.h"
+#include "study/extremes/step_matrix.h"
+#include "study/grid/threads.h"
+
+const double br_stability_tolerance = 1e-9;
+
+/* How far outside of the unit circle an eigenvalue is found to be there. */
+static const double outside = 1e-11;
+
+enum { A_DECADE = 4, DECADES_OF_STIFFNESS = 15, DECADES_OF_STEPS = 5 };
+
+const struct br_stability_rod br_stability_rods[BR_STABILITY_RODS] = {
+    {"example", "the paper's Examples", 1e-4, 1, 1},
+    {"quasi-static", "without inertia", 0, 1, 1},
+    {"heavy", "much inertia", 1000, 1, 1},
+    {"light-damping", "little viscosity", 1, 1e-6, 1},
+    {"undamped", "no viscosity", 1, 0, 1},
+    {"quadratic", "quadratic elements", 1, 1e-3, 2},
+};
+
+struct br_field br_stability_field(const struct br_stability_rod *rod, size_t n, double k)
+{
+    return (struct br_field){
+        .kind = BR_AXIAL,
+        .n = n,
+        .h = 1.0 / (double)n,
+        .density = rod->density,
+        .stiffness = 1000,
+        .viscosity = rod->viscosity,
+        .k = k,
+        .degree = rod->degree,
+    };
+}
+
+/* ---- a row: one rod, one time step ---- */
+
+/* c_H where the largest eigenvalue leaves the unit circle, between two that are apart by it. */
+static enum br_status find_limit(const struct br_field *field, double low, double high,
+                                 double *limit, struct br_error *err)
+{
+    while (high / low - 1 > 1e-14) {
+        const double middle = sqrt(low) * sqrt(high);
+        double radius;
+        if (!(middle > low && middle < high))
+            break;
+        const enum br_status status = br_step_radius(field, middle, &radius, err);
+        if (status)
+            return status;
+        if (radius > 1 + outside)
+            high = middle;
+        else
+            low = middle;
+    }
+    *limit = low;
+    return BR_OK;
+}
+
+static enum br_status measure_row(struct br_stability *s, size_t plane, size_t row,
+                                  struct br_error *err)
+{
+    struct br_stability_plane *p = &s->plane[plane];
+    struct br_stability_row *r = &p->row[row];
+    const struct br_field field = br_stability_field(p->rod, s->n, r->k);
+    r->limit = br_contact_limit_stiffness(&field);
+    r->bouncing = br_contact_limit_bouncing(&field);
+    r->measured = NAN;
+    double *radius = p->radius + row * s->columns, *growth = p->growth + row * s->columns;
+    for (size_t j = 0; j < s->columns; j++) {
+        const enum br_status status = br_step_radius(&field, s->stiffness[j], &radius[j], err);
+        if (status)
+            return status;
+        growth[j] = br_contact_growth(&field, s->stiffness[j]);
+    }
+    size_t first = 0;
+    while (first < s->columns && !(radius[first] > 1 + outside))
+        first++;
+    if (first == 0 || first == s->columns)
+        return BR_OK; /* no limit within the columns */
+    return find_limit(&field, s->stiffness[first - 1], s->stiffness[first], &r->measured, err);
+}
+
+/* ---- all rows ---- */
+
+struct work {
+    struct br_stability *s;
+    const struct br_observer *observer;
+    atomic_size_t done;
+    atomic_bool stopped;
+    struct br_error *error; /* of each row of each plane */
+};
+
+static void tell(struct work *w)
+{
+    const size_t done = atomic_fetch_add(&w->done, 1) + 1;
+    const struct br_observer *o = w->observer;
+    if (o && o->progress)
+        o->progress(o->self, (double)done / (double)(BR_STABILITY_RODS * w->s->rows));
+    if (o && o->stop && o->stop(o->self))
+        atomic_store(&w->stopped, true);
+}
+
+static enum br_status measure_all(struct work *w, int threads, struct br_error *err)
+{
+    const size_t count = BR_STABILITY_RODS * w->s->rows;
+    (void)threads; /* without OpenMP */
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+    for (size_t i = 0; i < count; i++) {
+        if (atomic_load(&w->stopped))
+            continue;
+        measure_row(w->s, i / w->s->rows, i % w->s->rows, &w->error[i]);
+        tell(w);
+    }
+    if (atomic_load(&w->stopped))
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
+    for (size_t i = 0; i < count; i++)
+        if (w->error[i].status)
+            return br_fail(err, w->error[i].status, "%.1000s", w->error[i].message);
+    return BR_OK;
+}
+
+static enum br_status measure_planes(struct br_stability *s,
+                                     const struct br_stability_request *request,
+                                     struct br_error *err)
+{
+    const int threads = br_threads(request->threads);
+    struct work w = {.s = s, .observer = request->observer};
+    w.error = br_allocate(BR_STABILITY_RODS * s->rows, sizeof *w.error);
+    if (!w.error)
+        return br_no_memory(err, "the planes of stability");
+    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* it would end the program */
+    const enum br_status status = measure_all(&w, threads, err);
+    gsl_set_error_handler(handler);
+    free(w.error);
+    return status;
+}
+
+/* ---- what is tried ---- */
+
+static enum br_status check_request(const struct br_stability_request *q, struct br_error *err)
+{
+    if (q->n > BR_STABILITY_MOST_ELEMENTS)
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "n is %zu, expected at most %d elements: all eigenvalues of a step are taken", q->n,
+            BR_STABILITY_MOST_ELEMENTS);
+    for (size_t i = 0; i < q->k_count; i++)
+        if (!(q->k[i] >= 1e-9 && q->k[i] <= 1e3))
+            return br_fail(err, BR_BAD_INPUT, "k is %g s, expected 1e-9 s to 1000 s", q->k[i]);
+    return BR_OK;
+}
+
+static enum br_status make_plane(struct br_stability *s, size_t i, const double *k,
+                                 struct br_error *err)
+{
+    struct br_stability_plane *p = &s->plane[i];
+    p->rod = &br_stability_rods[i];
+    p->row = br_allocate(s->rows, sizeof *p->row);
+    p->radius = br_allocate(s->rows * s->columns, sizeof *p->radius);
+    p->growth = br_allocate(s->rows * s->columns, sizeof *p->growth);
+    if (!p->row || !p->radius || !p->growth)
+        return br_no_memory(err, "a plane of stability");
+    for (size_t j = 0; j < s->rows; j++)
+        p->row[j].k = k ? k[j] : pow(10, -6 + (double)j / A_DECADE);
+    for (size_t j = 1; j < s->rows; j++) /* ascending */
+        for (size_t m = j; m > 0 && p->row[m].k < p->row[m - 1].k; m--) {
+            const double smaller = p->row[m].k;
+            p->row[m].k = p->row[m - 1].k;
+            p->row[m - 1].k = smaller;
+        }
+    return BR_OK;
+}
+
+static enum br_status prepare(struct br_stability *s, const struct br_stability_request *q,
+                              struct br_error *err)
+{
+    s->n = q->n ? q->n : 8;
+    s->rows = q->k_count ? q->k_count : DECADES_OF_STEPS * A_DECADE + 1;
+    s->columns = DECADES_OF_STIFFNESS * A_DECADE + 1;
+    s->stiffness = br_allocate(s->columns, sizeof *s->stiffness);
+    if (!s->stiffness)
+        return br_no_memory(err, "the planes of stability");
+    for (size_t j = 0; j < s->columns; j++)
+        s->stiffness[j] = pow(10, (double)j / A_DECADE);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < BR_STABILITY_RODS && !status; i++)
+        status = make_plane(s, i, q->k_count ? q->k : NULL, err);
+    return status;
+}
+
+/* ---- what has come out ---- */
+
+/* The larger one; NaN is the largest. */
+static void raise(double *most, double value)
+{
+    if (!(value <= *most) && !isnan(*most))
+        *most = value;
+}
+
+static void sum_up_row(struct br_stability *s, const struct br_stability_plane *p, size_t row)
+{
+    const struct br_stability_row *r = &p->row[row];
+    const double *radius = p->radius + row * s->columns, *growth = p->growth + row * s->columns;
+    const bool within = r->limit > s->stiffness[0] && r->limit < s->stiffness[s->columns - 1];
+    if (within || isfinite(r->measured))
+        raise(&s->limit_error, fabs(r->measured / r->limit - 1));
+    for (size_t j = 0; j < s->columns; j++) {
+        s->cells++;
+        if (growth[j] > 1) {
+            s->growing++;
+            raise(&s->growth_error, fabs(radius[j] / growth[j] - 1));
+        } else {
+            raise(&s->excess, fmax(radius[j] - 1, 0));
+        }
+    }
+}
+
+static void sum_up(struct br_stability *s)
+{
+    s->limit_error = s->growth_error = s->excess = 0;
+    for (size_t i = 0; i < BR_STABILITY_RODS; i++)
+        for (size_t row = 0; row < s->rows; row++)
+            sum_up_row(s, &s->plane[i], row);
+}
+
+enum br_status br_stability_run(const struct br_stability_request *request, struct br_stability *s,
+                                struct br_error *err)
+{
+    *s = (struct br_stability){0};
+    enum br_status status = check_request(request, err);
+    if (!status)
+        status = prepare(s, request, err);
+    if (!status)
+        status = measure_planes(s, request, err);
+    if (!status)
+        status = br_stability_schemes(s, err);
+    if (!status)
+        status = br_stability_tips(s, err);
+    if (!status)
+        status = br_stability_bounces(s, err);
+    if (!status)
+        sum_up(s);
+    return status;
+}
+
+void br_stability_clear(struct br_stability *s)
+{
+    for (size_t i = 0; i < BR_STABILITY_RODS; i++) {
+        free(s->plane[i].row);
+        free(s->plane[i].radius);
+        free(s->plane[i].growth);
+    }
+    free(s->stiffness);
+    *s = (struct br_stability){0};
+}

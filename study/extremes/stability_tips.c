@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The lagged contact of tips: pressed ones near and beyond the limit, and ones that bounce. */
+#include <math.h>
+
+#include "reference/energy.h"
+#include "solver/contact_limit.h"
+#include "study/extremes/stability.h"
+
+static const double tip_shares[BR_STABILITY_TIPS] = {0.5, 0.9, 0.99, 1.01, 1.1, 2, 10, 1e3, 1e6};
+
+/* Of the limit of a contact that closes and opens, and, from the fifth on, of a closed one. */
+static const double bounce_shares[BR_STABILITY_BOUNCES] = {0.1, 0.5, 0.9, 1, 0.1, 0.5, 0.9, 0.99};
+enum { OF_BOUNCING = 4, TIP_STEPS = 4000, BOUNCE_STEPS = 20000, BOUNCE_ELEMENTS = 20 };
+
+static struct br_scene scene_of(const struct br_field *field, double duration)
+{
+    return (struct br_scene){
+        .length = (double)field->n * field->h,
+        .duration = duration,
+        .density = field->density,
+        .axial = {.modelled = true, .stiffness = field->stiffness, .viscosity = field->viscosity},
+        .contact = {.modelled = true},
+    };
+}
+
+/* ---- pressed ---- */
+
+struct watch {
+    struct br_stability_tip *tip;
+    double low, high; /* u(L) in the last quarter, m */
+    bool closed;
+};
+
+static void look(struct watch *w, const struct br_march *march, bool late)
+{
+    const struct br_tip *tip = br_march_tip(march);
+    const bool closed = tip->contact_force > 0;
+    if (!(fabs(tip->displacement) <= w->tip->farthest))
+        w->tip->farthest = fabs(tip->displacement);
+    if (late) {
+        w->low = fmin(w->low, tip->displacement);
+        w->high = fmax(w->high, tip->displacement);
+        w->tip->opened += w->closed && !closed;
+    }
+    w->closed = closed;
+}
+
+static enum br_status press(struct br_stability_tip *tip, const struct br_scene *scene, size_t n,
+                            struct br_error *err)
+{
+    const struct br_method method = br_method_default();
+    struct watch w = {.tip = tip, .low = INFINITY, .high = -INFINITY};
+    struct br_error failure = {0};
+    struct br_march *march;
+    enum br_status status = br_march_create(&march, scene, n, TIP_STEPS, &method, &failure);
+    for (size_t i = 1; i <= TIP_STEPS && !status; i++) {
+        status = br_march_step(march, &failure);
+        if (!status)
+            look(&w, march, i > TIP_STEPS * 3 / 4);
+    }
+    br_march_free(march);
+    const double free_tip = scene->axial.load.term[0].space.constant * scene->length *
+                            scene->length / 2 / scene->axial.stiffness;
+    tip->swing = status ? NAN : (w.high - w.low) / free_tip;
+    tip->farthest = status ? NAN : tip->farthest / free_tip;
+    return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
+}
+
+enum br_status br_stability_tips(struct br_stability *s, struct br_error *err)
+{
+    s->tip_k = 1e-3;
+    const struct br_field field = br_stability_field(&br_stability_rods[0], s->n, s->tip_k);
+    struct br_scene scene = scene_of(&field, s->tip_k * TIP_STEPS);
+    scene.axial.load = (struct br_load){{{{.constant = field.stiffness}, {.constant = 1}}}};
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < BR_STABILITY_TIPS && !status; i++) {
+        struct br_stability_tip *tip = &s->tip[i];
+        tip->share = tip_shares[i];
+        tip->stiffness = tip->share * br_contact_limit_stiffness(&field);
+        scene.contact.stiffness = tip->stiffness;
+        status = press(tip, &scene, s->n, err);
+    }
+    return status;
+}
+
+/* ---- bouncing ---- */
+
+static double energy_of(const struct br_march *march, const struct br_scene *scene, double *nodal)
+{
+    const struct br_field *field = br_march_field(march, BR_AXIAL);
+    const size_t size = br_field_size(field);
+    br_march_get(march, BR_AXIAL, nodal, nodal + size);
+    const double depth = br_penetration(&scene->contact, nodal[size - 1]);
+    return br_energy_stored(field, nodal) + br_energy_kinetic(field, nodal + size) +
+           scene->contact.stiffness / 2 * depth * depth;
+}
+
+static enum br_status throw_rod(struct br_stability_bounce *b, const struct br_scene *scene,
+                                struct br_error *err)
+{
+    const struct br_method method = br_method_default();
+    double nodal[2 * (BOUNCE_ELEMENTS + 1)];
+    struct br_error failure = {0};
+    struct br_march *march;
+    enum br_status status =
+        br_march_create(&march, scene, BOUNCE_ELEMENTS, BOUNCE_STEPS, &method, &failure);
+    const double start = status ? NAN : energy_of(march, scene, nodal);
+    bool closed = false;
+    for (size_t i = 0; i < BOUNCE_STEPS && !status; i++) {
+        status = br_march_step(march, &failure);
+        if (status)
+            break;
+        const double energy = energy_of(march, scene, nodal) / start;
+        if (!(energy <= b->energy))
+            b->energy = energy;
+        const bool was_closed = closed;
+        closed = br_march_tip(march)->contact_force > 0;
+        b->impacts += closed && !was_closed;
+    }
+    br_march_free(march);
+    if (status)
+        b->energy = NAN;
+    return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
+}
+
+/* Every point of the rod is thrown alike. */
+enum br_status br_stability_bounces(struct br_stability *s, struct br_error *err)
+{
+    s->bounce_k = 1e-5;
+    const struct br_field field =
+        br_stability_field(&br_stability_rods[4], BOUNCE_ELEMENTS, s->bounce_k);
+    struct br_scene scene = scene_of(&field, s->bounce_k * BOUNCE_STEPS);
+    scene.axial.velocity.constant = 1;
+    scene.contact.gap = 0.01;
+    const double bouncing = br_contact_limit_bouncing(&field);
+    const double limit = br_contact_limit_stiffness(&field);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < BR_STABILITY_BOUNCES && !status; i++) {
+        struct br_stability_bounce *b = &s->bounce[i];
+        b->stiffness = bounce_shares[i] * (i < OF_BOUNCING ? bouncing : limit);
+        b->bouncing = b->stiffness / bouncing;
+        b->limit = b->stiffness / limit;
+        scene.contact.stiffness = b->stiffness;
+        status = throw_rod(b, &scene, err);
+    }
+    return status;
+}

@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/extremes/track.h"
+
+#include <math.h>
+
+/* Even ones of `count`, then ever nearer to the tip, which is the last. */
+static size_t choose_places(size_t count, size_t place[BR_TRACK_POINTS])
+{
+    const size_t even = count < BR_TRACK_EVEN ? count : BR_TRACK_EVEN;
+    size_t points = 0;
+    for (size_t i = 0; i + 1 < even; i++)
+        place[points++] = (i + 1) * count / even;
+    for (size_t from_tip = count / (2 * BR_TRACK_EVEN);
+         from_tip > 0 && points + 1 < BR_TRACK_POINTS; from_tip /= 2)
+        place[points++] = count - from_tip;
+    place[points++] = count;
+    return points;
+}
+
+struct br_track_places br_track_places(size_t n, size_t steps)
+{
+    struct br_track_places p = {.n = n, .steps = steps, .parts = 1};
+    const size_t parts = steps < BR_TRACK_LEVELS ? steps : BR_TRACK_LEVELS;
+    while (n * p.parts < 64 * BR_TRACK_EVEN) /* room for those near the tip */
+        p.parts *= 2;
+    p.levels = parts + 1;
+    p.points = choose_places(n * p.parts, p.place);
+    for (size_t i = 0; i < p.levels; i++)
+        p.level[i] = i * steps / parts;
+    return p;
+}
+
+/* ---- marches ---- */
+
+struct looker {
+    const struct br_track_request *request;
+    struct br_track *track;
+    double *nodal; /* displacements, then velocities */
+};
+
+/* slope: L w_x/4, m. */
+static void keep_slope(struct br_track *t, size_t point, double slope)
+{
+    t->value[BR_TRACK_SLOPE][t->seen][point] = slope;
+    t->largest[BR_BENDING] = fmax(t->largest[BR_BENDING], fabs(slope));
+}
+
+/* A displacement at xi, 0 to 1, in the element whose nodes' unknowns begin there, and of a beam h
+ * w_x (out). Rods: u, and, where they are quadratic, the bulge's b; beams: w and h w_x. */
+static double interpolate(const double *at, size_t unknowns, enum br_field_kind kind, double xi,
+                          double *slope)
+{
+    const double *end = at + unknowns, r = 1 - xi;
+    if (kind == BR_AXIAL)
+        return at[0] * r + end[0] * xi - (unknowns == 2 ? end[1] * xi * r : 0);
+    *slope = 6 * xi * r * (end[0] - at[0]) + r * (1 - 3 * xi) * at[1] - xi * (2 - 3 * xi) * end[1];
+    return (1 + 2 * xi) * r * r * at[0] + xi * r * r * at[1] + xi * xi * (3 - 2 * xi) * end[0] -
+           xi * xi * r * end[1];
+}
+
+static void look_at(struct looker *l, const struct br_march *march, enum br_field_kind kind)
+{
+    struct br_track *t = l->track;
+    const struct br_field *f = br_march_field(march, kind);
+    const size_t unknowns = br_field_unknowns(f), size = br_field_size(f);
+    const double *velocity = l->nodal + size;
+    br_march_get(march, kind, l->nodal, l->nodal + size);
+    for (size_t i = 0; i < 2 * size; i++)
+        t->finite = t->finite && isfinite(l->nodal[i]);
+    for (size_t i = 0; i < size; i += unknowns)
+        t->speed[kind] = fmax(t->speed[kind], fabs(velocity[i]));
+    for (size_t i = 0; i < size; i += unknowns)
+        t->largest[kind] = fmax(t->largest[kind], fabs(l->nodal[i]));
+    for (size_t p = 0; p < t->places.points; p++) {
+        const size_t part = l->request->finer * t->places.place[p], parts = t->places.parts;
+        const size_t element = (part - 1) / parts; /* that the place ends, or is in */
+        const double xi = (double)(part - element * parts) / (double)parts;
+        double slope;
+        t->value[kind][t->seen][p] =
+            interpolate(l->nodal + element * unknowns, unknowns, kind, xi, &slope);
+        if (kind == BR_BENDING)
+            keep_slope(t, p, slope * (double)f->n / 4);
+    }
+}
+
+static enum br_status look(void *self, const struct br_march *march,
+                           const struct br_history_row *row, struct br_error *err)
+{
+    struct looker *l = self;
+    (void)row;
+    if (!l->nodal)
+        l->nodal =
+            br_allocate(4 * (l->request->places->n * l->request->finer + 1), sizeof *l->nodal);
+    if (!l->nodal)
+        return br_no_memory(err, "a march's values");
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (br_march_models(march, (enum br_field_kind)kind))
+            look_at(l, march, (enum br_field_kind)kind);
+    l->track->seen++;
+    return BR_OK;
+}
+
+static enum br_status watch_size(void *self, const struct br_march *march,
+                                 const struct br_history_row *row, struct br_error *err)
+{
+    struct br_track *t = ((struct looker *)self)->track;
+    (void)err;
+    const double force[2] = {row->contact_force, row->friction_force};
+    const double k = t->report.k;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && row->step > 0; kind++)
+        t->held[kind] +=
+            k * fabs(force[kind]) * br_march_compliance(march, (enum br_field_kind)kind);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        t->speed[kind] = fmax(t->speed[kind], fabs(row->velocity[kind]));
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        t->largest[kind] = fmax(t->largest[kind],
+                                fabs(br_march_tip_displacement(march, (enum br_field_kind)kind)));
+    return BR_OK;
+}
+
+enum br_status br_track_march(const struct br_track_request *q, struct br_track *t,
+                              struct br_error *err)
+{
+    *t = (struct br_track){.places = *q->places, .finite = true};
+    struct looker looker = {.request = q, .track = t};
+    const struct br_history_observer observer = {.self = &looker, .step = watch_size, .look = look};
+    size_t level[BR_TRACK_LEVELS + 1];
+    for (size_t i = 0; i < t->places.levels; i++)
+        level[i] = t->places.level[i] * q->shorter;
+    struct br_method method = *q->method;
+    method.rounding = q->rounding;
+    const struct br_run_request request = {
+        .scene = q->scene,
+        .wanted = q->wanted,
+        .method = method,
+        .n = t->places.n * q->finer,
+        .steps = t->places.steps * q->shorter,
+        .level = level,
+        .levels = t->places.levels,
+        .check = q->check,
+        .output = &observer,
+        .outputs = 1,
+    };
+    const enum br_status status = br_run(&request, &t->report, &t->failure);
+    free(looker.nodal);
+    if (status == BR_NO_MEMORY)
+        return br_fail(err, status, "%s", t->failure.message);
+    t->begun = !status;
+    if (!status)
+        t->failure = t->report.failure;
+    return BR_OK;
+}
+
+/* ---- the exact solution ---- */
+
+struct patience {
+    size_t left;
+};
+
+static bool stop(void *self)
+{
+    struct patience *p = self;
+    return p->left-- == 0;
+}
+
+/* Values of one field, or its slope, at the places (out). */
+static enum br_status evaluate(const struct br_exact *exact, struct br_track *t,
+                               const struct br_exact_part *part, double length,
+                               const struct br_exact_state *state, double value[BR_TRACK_POINTS])
+{
+    double x[BR_TRACK_POINTS];
+    for (size_t p = 0; p < t->places.points; p++)
+        x[p] = length * (double)t->places.place[p] / (double)(t->places.n * t->places.parts);
+    return br_exact_evaluate(exact, state, part, t->places.points, x, value, &t->failure);
+}
+
+static enum br_status read_exact(const struct br_exact *exact, struct br_track *t,
+                                 enum br_field_kind kind, double length,
+                                 const struct br_exact_state *state)
+{
+    struct br_exact_part part = {kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING, false, 0};
+    double *value = t->value[kind][t->seen], slope[BR_TRACK_POINTS];
+    enum br_status status = evaluate(exact, t, &part, length, state, value);
+    for (size_t p = 0; p < t->places.points && !status; p++)
+        t->largest[kind] = fmax(t->largest[kind], fabs(value[p]));
+    const struct br_exact_report report = br_exact_report(exact, part.field);
+    t->largest[kind] = fmax(t->largest[kind], report.largest.displacement);
+    t->own_error[kind] = report.error.displacement;
+    part.order = 1;
+    if (!status && kind == BR_BENDING)
+        status = evaluate(exact, t, &part, length, state, slope);
+    for (size_t p = 0; p < t->places.points && !status && kind == BR_BENDING; p++)
+        keep_slope(t, p, slope[p] * length / 4);
+    return status;
+}
+
+static void look_at_exact(const struct br_exact *exact, const struct br_scene *scene,
+                          struct br_track *t)
+{
+    struct br_exact_state *state = NULL;
+    enum br_status status = br_exact_state_create(&state, exact, &t->failure);
+    for (; t->seen < t->places.levels && !status; t->seen++) {
+        br_exact_at(exact,
+                    scene->duration * (double)t->places.level[t->seen] / (double)t->places.steps,
+                    state);
+        for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+            if (kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled)
+                status = read_exact(exact, t, (enum br_field_kind)kind, scene->length, state);
+    }
+    br_exact_state_free(state);
+}
+
+enum br_status br_track_exact(const struct br_scene *scene, const struct br_track_places *places,
+                              size_t steps, struct br_track *t, struct br_error *err)
+{
+    *t = (struct br_track){.places = *places, .finite = true};
+    struct patience patience = {steps};
+    const struct br_exact_options options = {.tolerance = 1e-6,
+                                             .acceptable = 1e-3,
+                                             .max_modes = 96,
+                                             .max_steps = steps,
+                                             .stop = stop,
+                                             .stop_self = &patience};
+    struct br_exact *exact = NULL;
+    const enum br_status status = br_exact_create(&exact, scene, &options, &t->failure);
+    t->begun = !status;
+    if (!status)
+        look_at_exact(exact, scene, t);
+    br_exact_free(exact);
+    return t->failure.status == BR_NO_MEMORY ? br_no_memory(err, "the exact solution") : BR_OK;
+}
+
+/* ---- distances ---- */
+
+/* NAN where a value is not finite. */
+static double difference(const struct br_track *a, const struct br_track *b, int value, double unit)
+{
+    double most = 0;
+    for (size_t i = 0; i < a->places.levels; i++)
+        for (size_t p = 0; p < a->places.points; p++) {
+            const double d = fabs(a->value[value][i][p] / unit - b->value[value][i][p]);
+            if (!isfinite(d))
+                return NAN;
+            most = fmax(most, d);
+        }
+    return most;
+}
+
+double br_track_distance(const struct br_track *track, const struct br_track *reference,
+                         enum br_field_kind kind, double unit)
+{
+    const double *size = reference->largest;
+    if (track->seen < track->places.levels || reference->seen < track->places.levels)
+        return NAN;
+    double most = difference(track, reference, (int)kind, unit);
+    if (kind == BR_BENDING) {
+        const double slope = difference(track, reference, BR_TRACK_SLOPE, unit);
+        most = isnan(slope) || slope > most ? slope : most;
+    }
+    return most == 0 ? 0 : most / (size[kind] > 0 ? size[kind] : size[1 - kind]);
+}
+
+/* ---- errors ---- */
+
+/* The mean square of a field less another's, or alone, at a level: by trapezes from the clamped
+ * end, where nothing moves. */
+static double square(const struct br_track *a, const struct br_track *b, int value, size_t level)
+{
+    const struct br_track_places *at = &a->places;
+    double sum = 0;
+    for (size_t p = 0; p < at->points; p++) {
+        const double d = a->value[value][level][p] - (b ? b->value[value][level][p] : 0);
+        const size_t before = p > 0 ? at->place[p - 1] : 0;
+        const size_t after = p + 1 < at->points ? at->place[p + 1] : at->n * at->parts;
+        sum += d * d * (double)(after - before) / 2;
+    }
+    return sum / (double)(at->n * at->parts);
+}
+
+static double largest_mean(const struct br_track *a, const struct br_track *b,
+                           enum br_field_kind kind)
+{
+    double most = 0;
+    for (size_t i = 0; i < a->places.levels; i++) {
+        const double mean = square(a, b, (int)kind, i);
+        most = isnan(mean) || mean > most ? mean : most;
+    }
+    return sqrt(most);
+}
+
+/* The largest of the values that are looked at; of a beam also of the bulge, as in `largest`. */
+static double largest_seen(const struct br_track *t, enum br_field_kind kind)
+{
+    const int last = kind == BR_BENDING ? BR_TRACK_SLOPE : (int)kind;
+    double most = 0;
+    for (int value = (int)kind; value <= last; value++)
+        for (size_t i = 0; i < t->places.levels; i++)
+            for (size_t p = 0; p < t->places.points; p++)
+                most = fmax(most, fabs(t->value[value][i][p]));
+    return most;
+}
+
+/* Of the mean at all times: as much larger as what the track has seen at other times. */
+static double mean_size(const struct br_track *t, enum br_field_kind kind)
+{
+    const double mean = largest_mean(t, NULL, kind), seen = largest_seen(t, kind);
+    return seen > 0 ? mean * fmax(1, t->largest[kind] / seen) : 0;
+}
+
+double br_track_error(const struct br_track *track, const struct br_track *reference,
+                      enum br_field_kind kind, double *sure_to)
+{
+    *sure_to = 0;
+    if (track->seen < track->places.levels || reference->seen < track->places.levels)
+        return NAN;
+    const double own = mean_size(reference, kind);
+    const double size = own > 0 ? own : mean_size(reference, (enum br_field_kind)(1 - kind));
+    const double error = largest_mean(track, reference, kind);
+    *sure_to = reference->own_error[kind] == 0 ? 0 : reference->own_error[kind] / size;
+    return error == 0 ? 0 : error / size;
+}

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/extremes/vibration.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "reference/energy.h"
+#include "study/extremes/amplification.h"
+#include "study/extremes/beam_mode.h"
+
+/* Steps at first, in which what the scheme's start has left dies away, and periods then. */
+enum { FIRST_STEPS = 60, PERIODS = 2 };
+
+struct trial {
+    struct br_vibration *v;
+    struct br_scene scene;
+    struct br_method method;
+    struct br_beam_mode mode;
+    struct br_march *march;
+    struct br_energy_meter *meter;
+    double k;
+};
+
+/* An adaptive scheme's start is over at once. */
+static size_t first_steps(const struct br_vibration *v)
+{
+    return v->scheme->adaptive ? 2 : FIRST_STEPS;
+}
+
+static size_t steps_of(const struct br_vibration *v)
+{
+    return first_steps(v) + PERIODS * v->per_period;
+}
+
+static void set_scene(struct trial *t)
+{
+    const double viscosity = 2 * t->v->damping / t->mode.omega; /* C = viscosity K */
+    const double k = t->k = 2 * M_PI / t->mode.omega / (double)t->v->per_period;
+    t->scene.duration = k * (double)steps_of(t->v);
+    t->scene.axial.viscosity = t->scene.bending.viscosity = viscosity;
+    t->scene.axial.displacement = br_beam_mode_function(&t->mode, false);
+    t->scene.bending.displacement = t->scene.axial.displacement;
+    t->scene.bending.displacement_slope = br_beam_mode_function(&t->mode, true);
+}
+
+/* |alpha|^2 of the two eigenvectors of q'' + 2 zeta omega q' + omega^2 q = 0, which neither
+ * viscosity nor a scheme couples: without damping the energy. */
+static double amplitude(const struct trial *t)
+{
+    double displacement[2 * (BR_MODE_ELEMENTS + 1)], velocity[2 * (BR_MODE_ELEMENTS + 1)];
+    br_march_get(t->march, t->v->kind, displacement, velocity);
+    const double q = t->mode.omega * br_beam_mode_part(&t->mode, displacement);
+    const double p = br_beam_mode_part(&t->mode, velocity);
+    return p * p + 2 * t->v->damping * p * q + q * q;
+}
+
+/* A march's failure is a result. */
+static enum br_status advance(struct trial *t, size_t steps, struct br_error *err)
+{
+    struct br_vibration *v = t->v;
+    for (size_t i = 0; i < steps; i++) {
+        const enum br_status status = br_march_step(t->march, err);
+        if (status)
+            return status;
+        const double imbalance = br_energy_meter_step(t->meter);
+        if (isnan(imbalance) || imbalance > v->worst)
+            v->worst = imbalance;
+    }
+    return BR_OK;
+}
+
+static void predict(struct trial *t)
+{
+    struct br_vibration *v = t->v;
+    const struct br_textbook *book = br_textbook_step(v->scheme->name, 2);
+    const double zeta = v->damping, n = (double)v->per_period;
+    const double complex lambda = t->mode.omega * (-zeta + I * sqrt(1 - zeta * zeta));
+    v->predicted = NAN;
+    if (!v->scheme->adaptive)
+        v->predicted = -expm1(
+            2 * n * (log(cabs(br_amplification(book, t->k * lambda))) - creal(lambda) * t->k));
+}
+
+static enum br_status march(struct trial *t, struct br_error *err)
+{
+    struct br_vibration *v = t->v;
+    const double ideal = 2 * v->damping * t->mode.omega * t->k * (double)v->per_period;
+    enum br_status status = advance(t, first_steps(v), err);
+    const double before = amplitude(t);
+    const size_t steps = br_march_counts(t->march).steps;
+    if (!status)
+        status = advance(t, PERIODS * v->per_period, err);
+    if (status) {
+        v->end = BR_VIBRATION_FAILED;
+        v->failure = *err;
+        return status == BR_NOT_FINITE ? BR_OK : status;
+    }
+    struct br_energy start, now;
+    struct br_work work;
+    v->steps = (double)(br_march_counts(t->march).steps - steps) / PERIODS;
+    v->measured = -expm1(log(amplitude(t) / before) / PERIODS + ideal);
+    br_energy_meter_read(t->meter, &start, &now, &work);
+    v->gaining = work.gaining[v->kind];
+    v->all = work.steps[v->kind];
+    predict(t);
+    return BR_OK;
+}
+
+static struct br_scene bare(const struct br_vibration *v)
+{
+    struct br_scene s = {.length = 1, .duration = 1, .density = v->density};
+    s.axial.modelled = v->kind == BR_AXIAL;
+    s.bending.modelled = v->kind == BR_BENDING;
+    s.axial.stiffness = s.bending.stiffness = 1;
+    return s;
+}
+
+/* The eigenvalues of a dense matrix are right to its norm's last bits, n^2 or n^4 of the lowest. */
+static double predicted_round_off(const struct br_vibration *v)
+{
+    const double n = BR_MODE_ELEMENTS, condition = v->kind == BR_AXIAL ? n * n : n * n * n * n;
+    return 64 * DBL_EPSILON * (PERIODS * (double)v->per_period + condition);
+}
+
+static enum br_status refuse(const struct trial *t, struct br_error *err)
+{
+    if (t->v->scheme->integrator)
+        return br_fail(err, BR_BAD_INPUT,
+                       "scheme %s has no stages: what it takes is not told apart from the error of "
+                       "a sum over its steps",
+                       t->v->scheme->name);
+    return br_method_check_scene(&t->method, &t->scene, err);
+}
+
+enum br_status br_vibration_run(struct br_vibration *v, struct br_error *err)
+{
+    struct trial t = {.v = v, .scene = bare(v), .method = br_method_default()};
+    enum br_status status = br_beam_mode_find(&t.mode, &t.scene, v->kind, err);
+    if (status)
+        return status;
+    set_scene(&t);
+    t.method.scheme = v->scheme;
+    t.method.contact = br_contact_rule_of(v->scheme);
+    if (v->scheme->adaptive)
+        t.method.tolerance = v->tolerance;
+    v->end = BR_VIBRATION_DONE;
+    v->worst = 0;
+    if (refuse(&t, &v->failure)) {
+        v->end = BR_VIBRATION_REFUSED;
+        return BR_OK;
+    }
+    status = br_march_create(&t.march, &t.scene, BR_MODE_ELEMENTS, steps_of(v), &t.method, err);
+    if (!status) {
+        v->limit = br_energy_limit(BR_MODE_ELEMENTS, br_march_round_off(t.march));
+        v->round_off = predicted_round_off(v);
+        status = br_energy_meter_create(&t.meter, t.march, &t.scene, &t.method, err);
+    }
+    if (!status)
+        status = march(&t, err);
+    if (status == BR_BAD_INPUT) { /* by the march: a mode of too little damping, say */
+        v->end = BR_VIBRATION_REFUSED;
+        v->failure = *err;
+        status = BR_OK;
+    }
+    br_energy_meter_free(t.meter);
+    br_march_free(t.march);
+    return status;
+}
+
+bool br_vibration_is_right(const struct br_vibration *v)
+{
+    if (v->end != BR_VIBRATION_DONE)
+        return v->end == BR_VIBRATION_REFUSED;
+    return v->worst <= v->limit && isfinite(v->measured) &&
+           (v->scheme->adaptive || fabs(v->measured - v->predicted) <= v->round_off);
+}

@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/fit/fit.h"
+
+#include <gsl/gsl_fit.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "study/fit/joint_fit.h"
+
+const double br_flag_margin = 3;
+
+bool br_order_determined(const struct br_estimate *order)
+{
+    return order->high - order->low <= 1 && order->low > 0; /* false for NaN */
+}
+
+const char *br_order_text(const struct br_estimate *order, char *buffer, size_t size)
+{
+    if (!isfinite(order->value))
+        return "-";
+    if (!isfinite(order->low) || !isfinite(order->high)) {
+        snprintf(buffer, size, "%.2f [no interval]", order->value);
+        return buffer;
+    }
+    const double half = (order->high - order->low) / 2;
+    const int decimals = half < 0.0005 ? 4 : half < 0.005 ? 3 : 2;
+    snprintf(buffer, size, "%.*f [%.*f, %.*f]", decimals, order->value, decimals, order->low,
+             decimals, order->high);
+    return buffer;
+}
+
+bool br_joint_describes(const struct br_joint_fit *fit)
+{
+    return fit->converged && fit->misfit <= 0.02;
+}
+
+static double mesh_of(const struct br_study *s, const struct br_cell *c)
+{
+    return br_mesh_size(s->scene, c->at.n);
+}
+
+static double step_of(const struct br_study *s, const struct br_cell *c)
+{
+    return br_time_step(s->scene, c->at.steps);
+}
+
+static bool usable(const struct br_cell *c, enum br_part part)
+{
+    return c->flag[part] == BR_FLAG_NONE && c->error[part] > 0 && isfinite(c->error[part]);
+}
+
+/* Slope of y over x with its interval. */
+static struct br_slope slope_of(const double *x, const double *y, size_t count)
+{
+    struct br_slope slope = {.order = {NAN, NAN, NAN}, .points = count};
+    if (count < 2)
+        return slope;
+    double c0, c1, cov00, cov01, cov11, sum;
+    gsl_fit_linear(x, 1, y, 1, count, &c0, &c1, &cov00, &cov01, &cov11, &sum);
+    slope.order = br_estimate_of(c1, sqrt(fmax(0, cov11)), count - 2);
+    return slope;
+}
+
+/* Slopes along one direction of the grid: `outer` lines of `inner` cells. */
+struct lines {
+    size_t outer, inner;
+    size_t outer_stride, inner_stride;
+    double (*abscissa)(const struct br_study *, const struct br_cell *);
+};
+
+static enum br_status fit_lines(const struct br_study *s, enum br_part part,
+                                const struct lines *lines, struct br_slope **slopes,
+                                struct br_error *err)
+{
+    double *x = br_allocate(2 * lines->inner, sizeof *x);
+    *slopes = br_allocate(lines->outer, sizeof **slopes);
+    if (!x || !*slopes) {
+        free(x);
+        return br_no_memory(err, "the fits");
+    }
+    double *y = x + lines->inner;
+    for (size_t i = 0; i < lines->outer; i++) {
+        size_t count = 0;
+        for (size_t j = 0; j < lines->inner; j++) {
+            const struct br_cell *c = &s->cell[i * lines->outer_stride + j * lines->inner_stride];
+            if (!usable(c, part))
+                continue;
+            x[count] = log(lines->abscissa(s, c));
+            y[count++] = log(c->error[part]);
+        }
+        (*slopes)[i] = slope_of(x, y, count);
+    }
+    free(x);
+    return BR_OK;
+}
+
+static enum br_status fit_joint(const struct br_study *s, enum br_part part,
+                                struct br_joint_fit *fit, struct br_error *err)
+{
+    struct br_observation *o = br_allocate(br_study_cells(s), sizeof *o);
+    if (!o)
+        return br_no_memory(err, "the fits");
+    size_t count = 0;
+    for (size_t i = 0; i < br_study_cells(s); i++)
+        if (usable(&s->cell[i], part))
+            o[count++] = (struct br_observation){
+                .h = mesh_of(s, &s->cell[i]),
+                .k = step_of(s, &s->cell[i]),
+                .h_ref = br_mesh_size(s->scene, s->cell[i].against.n),
+                .k_ref = br_time_step(s->scene, s->cell[i].against.steps),
+                .error = s->cell[i].error[part],
+            };
+    const enum br_status status = br_joint_fit_solve(o, count, fit, err);
+    free(o);
+    return status;
+}
+
+/* The reference's own error: by the auditor, by the reference itself, or else by the
+ * model against a reference without one. */
+static double reference_error(const struct br_study *s, enum br_part part,
+                              const struct br_joint_fit *fit)
+{
+    if (s->auditor)
+        return s->reference_error[part];
+    const double told = br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, part);
+    if (isfinite(told))
+        return told;
+    if (!br_joint_describes(fit))
+        return NAN;
+    return br_joint_model(fit, br_reference_mesh(s), br_reference_step(s), 0, 0);
+}
+
+static bool in_part(enum br_part part, enum br_field_kind kind)
+{
+    return part == BR_PART_TOTAL || (part == BR_PART_AXIAL) == (kind == BR_AXIAL);
+}
+
+/* Predicted round-off of a part of a cell, and of the reference's unless an auditor
+ * has measured all of its error, m^(3/2). */
+static double round_off(const struct br_study *s, const struct br_cell *c, enum br_part part)
+{
+    const struct br_method *method = br_study_method(s, (size_t)(c - s->cell));
+    double relative = s->auditor ? 0 : s->judged_by.round_off;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const bool modelled =
+            kind == BR_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled;
+        const struct br_field field =
+            br_field_of_scene(s->scene, (enum br_field_kind)kind, c->at.n, step_of(s, c));
+        if (modelled && in_part(part, (enum br_field_kind)kind))
+            relative = fmax(relative, method->solver->round_off(&field, &method->linear));
+    }
+    return relative * s->reference_scale;
+}
+
+/* Sets the flags of one part; returns how many changed. */
+static size_t set_flags(struct br_study *s, enum br_part part, double reference)
+{
+    size_t changed = 0;
+    if ((part == BR_PART_AXIAL && !s->scene->axial.modelled) ||
+        (part == BR_PART_BENDING && !s->scene->bending.modelled))
+        return 0;
+    for (size_t i = 0; i < br_study_cells(s); i++) {
+        struct br_cell *c = &s->cell[i];
+        enum br_flag flag = BR_FLAG_NONE;
+        if (c->failure.status || !isfinite(c->error[part]))
+            flag = BR_FLAG_FAILED;
+        else if (c->unstable)
+            flag = BR_FLAG_UNSTABLE;
+        else if (!(c->error[part] >= br_flag_margin * round_off(s, c, part)))
+            flag = BR_FLAG_ROUND_OFF;
+        else if (isfinite(reference) && !(c->error[part] >= br_flag_margin * reference))
+            flag = BR_FLAG_REFERENCE;
+        changed += flag != c->flag[part];
+        c->flag[part] = flag;
+    }
+    return changed;
+}
+
+enum br_status br_fit(struct br_study *s, enum br_part part, struct br_fits *fits,
+                      struct br_error *err)
+{
+    *fits = (struct br_fits){.reference_error = NAN};
+    set_flags(s, part, 0);
+    enum br_status status = BR_OK;
+    /* What a round finds of the reference's error only grows, so flags are never
+     * taken back and the rounds end. */
+    do {
+        status = fit_joint(s, part, &fits->joint, err);
+        const double own = reference_error(s, part, &fits->joint);
+        if (!(own <= fits->reference_error) && isfinite(own))
+            fits->reference_error = own;
+    } while (!status && set_flags(s, part, fits->reference_error) != 0);
+    const struct lines rows = {s->n_count, s->k_count, s->k_count, 1, step_of};
+    const struct lines columns = {s->k_count, s->n_count, 1, s->k_count, mesh_of};
+    if (!status)
+        status = fit_lines(s, part, &rows, &fits->by_n, err);
+    if (!status)
+        status = fit_lines(s, part, &columns, &fits->by_k, err);
+    return status;
+}
+
+void br_flag_beside(struct br_study *s)
+{
+    static const struct br_joint_fit none;
+    for (int part = 0; part < BR_PARTS; part++)
+        set_flags(s, (enum br_part)part, reference_error(s, (enum br_part)part, &none));
+}
+
+void br_fits_clear(struct br_fits *fits)
+{
+    free(fits->by_n);
+    free(fits->by_k);
+    *fits = (struct br_fits){0};
+}

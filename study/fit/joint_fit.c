@@ -1,0 +1,432 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/fit/joint_fit.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <math.h>
+
+/* The unknowns are log C_h, p, log C_k, q and theta with r = sin(theta). */
+enum { LOG_C_H, P, LOG_C_K, Q, THETA, UNKNOWNS };
+
+/* Which of the unknowns a kind of model has, and how many. */
+static const struct {
+    int unknown[UNKNOWNS];
+    size_t count;
+} kinds[] = {
+    [BR_JOINT_BOTH] = {{LOG_C_H, P, LOG_C_K, Q, THETA}, 5},
+    [BR_JOINT_TIME] = {{LOG_C_K, Q}, 2},
+    [BR_JOINT_SPACE] = {{LOG_C_H, P}, 2},
+};
+
+struct problem {
+    const struct br_observation *observation;
+    size_t count;
+    enum br_joint_kind kind;
+};
+
+struct br_estimate br_estimate_of(double value, double deviation, size_t freedom)
+{
+    const double half = freedom > 0 ? gsl_cdf_tdist_Pinv(0.975, (double)freedom) * deviation : NAN;
+    return (struct br_estimate){value, value - half, value + half};
+}
+
+/* C (x^order - x_ref^order); an order is positive. */
+static double signed_error(double log_c, double order, double x, double x_ref)
+{
+    if (!(order > 0))
+        return NAN;
+    return exp(log_c + order * log(x)) - exp(log_c + order * log(x_ref));
+}
+
+/* Its derivative with respect to the order; that to log C is itself. */
+static double signed_rate(double log_c, double order, double x, double x_ref)
+{
+    const double rate = exp(log_c + order * log(x)) * log(x);
+    return x_ref > 0 ? rate - exp(log_c + order * log(x_ref)) * log(x_ref) : rate;
+}
+
+static double combine(double a, double b, double r)
+{
+    const double square = a * a + 2 * r * a * b + b * b;
+    return sqrt(square < 0 ? 0 : square); /* NaN stays */
+}
+
+static void spread(const struct problem *problem, const gsl_vector *v, double full[UNKNOWNS])
+{
+    for (size_t i = 0; i < UNKNOWNS; i++)
+        full[i] = 0;
+    for (size_t i = 0; i < kinds[problem->kind].count; i++)
+        full[kinds[problem->kind].unknown[i]] = gsl_vector_get(v, i);
+}
+
+static double part_h(const struct problem *problem, const double full[UNKNOWNS],
+                     const struct br_observation *o)
+{
+    return problem->kind == BR_JOINT_TIME ? 0
+                                          : signed_error(full[LOG_C_H], full[P], o->h, o->h_ref);
+}
+
+static double part_k(const struct problem *problem, const double full[UNKNOWNS],
+                     const struct br_observation *o)
+{
+    return problem->kind == BR_JOINT_SPACE ? 0
+                                           : signed_error(full[LOG_C_K], full[Q], o->k, o->k_ref);
+}
+
+static const double least_model = 1e-300;
+
+/* Residuals log(model / error). */
+static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
+{
+    const struct problem *problem = params;
+    double full[UNKNOWNS];
+    spread(problem, v, full);
+    const double r = sin(full[THETA]);
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct br_observation *o = &problem->observation[i];
+        const double m = combine(part_h(problem, full, o), part_k(problem, full, o), r);
+        const double f = log((m < least_model ? least_model : m) / o->error);
+        if (!isfinite(f))
+            return GSL_EDOM;
+        gsl_vector_set(out, i, f);
+    }
+    return GSL_SUCCESS;
+}
+
+/* d log(model) / d unknown: with m^2 = a^2 + 2 r a b + b^2, m dm = (a + r b) da + (b + r a) db +
+ * a b dr. */
+static int jacobian(const gsl_vector *v, void *params, gsl_matrix *out)
+{
+    const struct problem *problem = params;
+    double full[UNKNOWNS];
+    spread(problem, v, full);
+    const double r = sin(full[THETA]), slope = cos(full[THETA]);
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct br_observation *o = &problem->observation[i];
+        const double a = part_h(problem, full, o), b = part_k(problem, full, o);
+        const double m = combine(a, b, r), square = m * m;
+        const double by_a = (a + r * b) / square, by_b = (b + r * a) / square;
+        const double rate[UNKNOWNS] = {
+            [LOG_C_H] = by_a * a,
+            [P] = by_a * signed_rate(full[LOG_C_H], full[P], o->h, o->h_ref),
+            [LOG_C_K] = by_b * b,
+            [Q] = by_b * signed_rate(full[LOG_C_K], full[Q], o->k, o->k_ref),
+            [THETA] = a * b / square * slope,
+        };
+        for (size_t j = 0; j < kinds[problem->kind].count; j++) {
+            const double value = square > 0 ? rate[kinds[problem->kind].unknown[j]] : 0;
+            if (!isfinite(value))
+                return GSL_EDOM;
+            gsl_matrix_set(out, i, j, value);
+        }
+    }
+    return GSL_SUCCESS;
+}
+
+/* The least and the largest error stand for the two scales. */
+static void start_at(const struct problem *problem, double p, double r, double full[UNKNOWNS])
+{
+    double h = 0, k = 0, at_coarse_h = INFINITY, at_coarse_k = INFINITY;
+    for (size_t i = 0; i < problem->count; i++) {
+        h = fmax(h, problem->observation[i].h);
+        k = fmax(k, problem->observation[i].k);
+    }
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct br_observation *o = &problem->observation[i];
+        if (o->h == h)
+            at_coarse_h = fmin(at_coarse_h, o->error);
+        if (o->k == k)
+            at_coarse_k = fmin(at_coarse_k, o->error);
+    }
+    full[LOG_C_H] = log(at_coarse_h) - p * log(h);
+    full[P] = p;
+    full[LOG_C_K] = log(at_coarse_k) - log(k);
+    full[Q] = 1;
+    full[THETA] = asin(r);
+}
+
+/* One start of one kind; returns the sum of squares, or infinity. */
+struct attempt {
+    double sum;
+    double value[UNKNOWNS], deviation[UNKNOWNS]; /* NaN where not in the model */
+};
+
+static void read_attempt(const struct problem *problem, gsl_multifit_nlinear_workspace *w,
+                         struct attempt *out)
+{
+    const size_t unknowns = kinds[problem->kind].count;
+    const gsl_vector *f = gsl_multifit_nlinear_residual(w);
+    double sum = 0;
+    for (size_t i = 0; i < f->size; i++)
+        sum += gsl_vector_get(f, i) * gsl_vector_get(f, i);
+    if (!isfinite(sum))
+        return;
+    gsl_matrix *covariance = gsl_matrix_alloc(unknowns, unknowns);
+    if (!covariance)
+        return;
+    gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(w), 1e-12, covariance);
+    const double variance = sum / (double)(problem->count - unknowns);
+    for (size_t i = 0; i < unknowns; i++) {
+        const int u = kinds[problem->kind].unknown[i];
+        const double c = gsl_matrix_get(covariance, i, i);
+        out->value[u] = gsl_vector_get(gsl_multifit_nlinear_position(w), i);
+        out->deviation[u] = c > 0 ? sqrt(variance * c) : INFINITY; /* 0: rank deficient */
+    }
+    out->sum = sum;
+    gsl_matrix_free(covariance);
+}
+
+/* A fit that starts from the given values of all unknowns. */
+static struct attempt attempt_from(const struct problem *problem, const double full[UNKNOWNS])
+{
+    struct attempt out = {.sum = INFINITY};
+    for (int i = 0; i < UNKNOWNS; i++)
+        out.value[i] = out.deviation[i] = NAN;
+    const size_t unknowns = kinds[problem->kind].count;
+    gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
+    gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(
+        gsl_multifit_nlinear_trust, &parameters, problem->count, unknowns);
+    gsl_vector *start = gsl_vector_alloc(unknowns);
+    if (w && start) {
+        for (size_t i = 0; i < unknowns; i++)
+            gsl_vector_set(start, i, full[kinds[problem->kind].unknown[i]]);
+        gsl_multifit_nlinear_fdf fdf = {.f = residuals,
+                                        .df = jacobian,
+                                        .n = problem->count,
+                                        .p = unknowns,
+                                        .params = (void *)problem};
+        int info;
+        if (gsl_multifit_nlinear_init(start, &fdf, w) == GSL_SUCCESS) {
+            gsl_multifit_nlinear_driver(500, 1e-10, 1e-10, 0, NULL, NULL, &info, w);
+            read_attempt(problem, w, &out);
+        }
+    }
+    gsl_vector_free(start);
+    gsl_multifit_nlinear_free(w);
+    return out;
+}
+
+/* The best of several starts: the sum of squares has local minima in r and p. */
+static struct attempt best_attempt(const struct problem *problem)
+{
+    static const double orders[] = {1, 2, 4}, correlations[] = {-0.9, 0, 0.9};
+    struct attempt best = {.sum = INFINITY};
+    for (size_t i = 0; i < sizeof orders / sizeof *orders; i++)
+        for (size_t j = 0; j < sizeof correlations / sizeof *correlations; j++) {
+            double full[UNKNOWNS];
+            start_at(problem, orders[i], correlations[j], full);
+            const struct attempt a = attempt_from(problem, full);
+            if (a.sum < best.sum || (i == 0 && j == 0))
+                best = a;
+        }
+    return best;
+}
+
+/* ---- intervals ---- */
+
+static double coordinate(const struct br_observation *o, bool over_h)
+{
+    return over_h ? o->h : o->k;
+}
+
+/* Whether observation i is the first with its h (or k). */
+static bool is_first(const struct problem *problem, size_t i, bool over_h)
+{
+    for (size_t j = 0; j < i; j++)
+        if (coordinate(&problem->observation[j], over_h) ==
+            coordinate(&problem->observation[i], over_h))
+            return false;
+    return true;
+}
+
+/* Different values of h (or k) among the observations. */
+static size_t distinct(const struct problem *problem, bool over_h)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < problem->count; i++)
+        count += is_first(problem, i, over_h);
+    return count;
+}
+
+/* Cells that share h or k are no independent trials: what is left of the errors is
+ * deterministic. So the intervals come from leaving out one whole line of the grid
+ * after the other (delete-a-group jackknife, Efron 1982), where that is wider. */
+static void widen_by_jackknife(const struct problem *problem, struct attempt *a, bool over_h,
+                               struct br_observation *workspace)
+{
+    const double groups = (double)distinct(problem, over_h);
+    double sum[UNKNOWNS] = {0}, squares[UNKNOWNS] = {0};
+    for (size_t i = 0; i < problem->count; i++) {
+        if (!is_first(problem, i, over_h))
+            continue;
+        struct problem rest = *problem;
+        rest.observation = workspace;
+        rest.count = 0;
+        for (size_t j = 0; j < problem->count; j++)
+            if (coordinate(&problem->observation[j], over_h) !=
+                coordinate(&problem->observation[i], over_h))
+                workspace[rest.count++] = problem->observation[j];
+        struct attempt without = {.sum = INFINITY};
+        if (rest.count > kinds[problem->kind].count)
+            without = attempt_from(&rest, a->value);
+        for (int u = 0; u < UNKNOWNS; u++) {
+            const double shift = isfinite(without.sum) ? without.value[u] - a->value[u] : NAN;
+            sum[u] += shift;
+            squares[u] += shift * shift;
+        }
+    }
+    const double freedom = (double)(problem->count - kinds[problem->kind].count);
+    const double quantiles =
+        gsl_cdf_tdist_Pinv(0.975, groups - 1) / gsl_cdf_tdist_Pinv(0.975, freedom);
+    for (size_t i = 0; i < kinds[problem->kind].count; i++) {
+        const int u = kinds[problem->kind].unknown[i];
+        const double spread = squares[u] - sum[u] * sum[u] / groups;
+        const double deviation = sqrt((groups - 1) / groups * fmax(0, spread)) * quantiles;
+        if (!(deviation <= a->deviation[u])) /* a refit that failed tells nothing: NaN */
+            a->deviation[u] = isfinite(spread) ? deviation : INFINITY;
+    }
+}
+
+double br_akaike(double sum, size_t count, size_t unknowns)
+{
+    const double n = (double)count, u = (double)unknowns + 1; /* the variance is one too */
+    if (!(n > u + 1))
+        return INFINITY;
+    return n * log(fmax(sum, 1e-300) / n) + 2 * u + 2 * u * (u + 1) / (n - u - 1);
+}
+
+static struct br_estimate exponential(struct br_estimate e)
+{
+    return (struct br_estimate){exp(e.value), exp(e.low), exp(e.high)};
+}
+
+/* r = sin(theta), its interval by the slope of the sine, within [-1, 1]. */
+static struct br_estimate correlation(double theta, double deviation, size_t freedom)
+{
+    struct br_estimate e = br_estimate_of(sin(theta), fabs(cos(theta)) * deviation, freedom);
+    e.low = e.low < -1 ? -1 : e.low; /* NaN stays */
+    e.high = e.high > 1 ? 1 : e.high;
+    return e;
+}
+
+static void describe(const struct problem *problem, const struct attempt *a,
+                     struct br_joint_fit *fit)
+{
+    const size_t freedom = problem->count - kinds[problem->kind].count;
+    *fit = (struct br_joint_fit){0};
+    fit->kind = problem->kind;
+    fit->converged = true;
+    fit->points = problem->count;
+    fit->freedom = freedom;
+    fit->c_h = exponential(br_estimate_of(a->value[LOG_C_H], a->deviation[LOG_C_H], freedom));
+    fit->p = br_estimate_of(a->value[P], a->deviation[P], freedom);
+    fit->c_k = exponential(br_estimate_of(a->value[LOG_C_K], a->deviation[LOG_C_K], freedom));
+    fit->q = br_estimate_of(a->value[Q], a->deviation[Q], freedom);
+    fit->r = correlation(a->value[THETA], a->deviation[THETA], freedom);
+
+    double mean = 0, total = 0, worst = 0;
+    for (size_t i = 0; i < problem->count; i++)
+        mean += log(problem->observation[i].error) / (double)problem->count;
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct br_observation *o = &problem->observation[i];
+        total += pow(log(o->error) - mean, 2);
+        worst =
+            fmax(worst, fabs(log(br_joint_model(fit, o->h, o->k, o->h_ref, o->k_ref) / o->error)));
+    }
+    fit->misfit = sqrt(a->sum / (double)problem->count);
+    fit->worst = worst;
+    fit->r_squared = total > 0 ? 1 - a->sum / total : NAN;
+}
+
+double br_joint_model(const struct br_joint_fit *fit, double h, double k, double h_ref,
+                      double k_ref)
+{
+    const double a =
+        fit->kind == BR_JOINT_TIME ? 0 : signed_error(log(fit->c_h.value), fit->p.value, h, h_ref);
+    const double b =
+        fit->kind == BR_JOINT_SPACE ? 0 : signed_error(log(fit->c_k.value), fit->q.value, k, k_ref);
+    return combine(a, b, fit->kind == BR_JOINT_BOTH ? fit->r.value : 0);
+}
+
+static void nothing_fitted(struct br_joint_fit *fit)
+{
+    const struct br_estimate none = {NAN, NAN, NAN};
+    *fit = (struct br_joint_fit){.c_h = none,
+                                 .p = none,
+                                 .c_k = none,
+                                 .q = none,
+                                 .r = none,
+                                 .misfit = NAN,
+                                 .worst = NAN,
+                                 .r_squared = NAN};
+}
+
+/* Whether some observation differs from its reference in h (or k). */
+static bool varies(const struct problem *problem, bool over_h)
+{
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct br_observation *o = &problem->observation[i];
+        if (over_h ? o->h != o->h_ref : o->k != o->k_ref)
+            return true;
+    }
+    return false;
+}
+
+/* An order needs three values of what it is an order in. */
+static bool enough(const struct problem *problem)
+{
+    const bool space = problem->kind != BR_JOINT_TIME, time = problem->kind != BR_JOINT_SPACE;
+    if ((space && !varies(problem, true)) || (time && !varies(problem, false)))
+        return false;
+    return problem->count >= kinds[problem->kind].count + 2 &&
+           (!space || distinct(problem, true) >= 3) && (!time || distinct(problem, false) >= 3);
+}
+
+/* Whether the orders that the model has can be told. */
+static bool is_told(const struct br_joint_fit *fit)
+{
+    return (fit->kind == BR_JOINT_TIME || br_order_determined(&fit->p)) &&
+           (fit->kind == BR_JOINT_SPACE || br_order_determined(&fit->q));
+}
+
+enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
+                                  struct br_joint_fit *fit, struct br_error *err)
+{
+    nothing_fitted(fit);
+    fit->points = count;
+    struct br_observation *workspace = br_allocate(count, sizeof *workspace);
+    if (!workspace)
+        return br_no_memory(err, "the fits");
+    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    struct br_joint_fit both = {0};
+    double best = INFINITY;
+    for (int kind = BR_JOINT_BOTH; kind <= BR_JOINT_SPACE; kind++) {
+        const struct problem problem = {observation, count, (enum br_joint_kind)kind};
+        if (!enough(&problem))
+            continue;
+        struct attempt a = best_attempt(&problem);
+        const double criterion = br_akaike(a.sum, count, kinds[kind].count);
+        if (!isfinite(a.sum) || !(criterion < best))
+            continue;
+        if (kind != BR_JOINT_TIME)
+            widen_by_jackknife(&problem, &a, true, workspace);
+        if (kind != BR_JOINT_SPACE)
+            widen_by_jackknife(&problem, &a, false, workspace);
+        struct br_joint_fit candidate;
+        describe(&problem, &a, &candidate);
+        if (kind == BR_JOINT_BOTH)
+            both = candidate;
+        if (!is_told(&candidate))
+            continue;
+        *fit = candidate;
+        best = criterion;
+    }
+    /* Two errors, of which one cannot be told, where nothing simpler will do. */
+    if (!br_joint_describes(fit) && br_joint_describes(&both) &&
+        (br_order_determined(&both.p) || br_order_determined(&both.q)))
+        *fit = both;
+    gsl_set_error_handler(handler);
+    free(workspace);
+    return BR_OK;
+}

@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/foresee/prediction.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "solver/clock.h"
+#include "study/foresee/prediction_probes.h"
+
+/* What an error that was extrapolated is unsure by: a factor. */
+static const double doubt = 3;
+
+/* The same of a distance from a reference that is surer than that: the norm sees it at levels and
+ * in elements of the run alone. */
+static const double measured_doubt = 2;
+
+/* A reference of order one is off by at most so many times what its check differs from it. */
+static const double of_check = 1.5;
+
+/* Orders in space that are told apart. */
+static const double lowest_order = 0.25, highest_order = 1;
+
+/* Round-off that is found may be so many times what is predicted. */
+static const double of_round_off = 4;
+
+/* An interval is of use if its ends differ by at most this factor, or its upper end is below the
+ * solution itself or near to the error that is expected. */
+static const double widest = 300, all = 1, near = 10;
+
+/* Exponents of the tolerance: least, expected, most. */
+static const double by_tolerance[] = {0.6, 0.9, 1.2};
+
+/* Orders below are no convergence. */
+static const double least_order = 0.5;
+
+/* What a run is compared with sees loads and initial data as so many times its levels and elements
+ * do; what is less than this share of one is no loss. */
+enum { FINER_LEVELS = 64, FINER_ELEMENTS = 4 };
+static const double least_share = 1e-3;
+
+static const enum br_part part_of[2] = {BR_PART_AXIAL, BR_PART_BENDING};
+
+/* How large a field becomes: at least, and at most, by the marches that go to the end; a coarse
+ * mesh may sway far more than a fine one. Where the field rests in one of them, the other field's.
+ */
+struct size {
+    double least, most;
+};
+
+static struct size solution_size(const struct br_probe_set *s, int kind)
+{
+    struct size size = {INFINITY, 0};
+    for (int i = 0; i < BR_PROBES; i++) {
+        const double *seen = s->probe[i].study.reference_size;
+        if (!s->probe[i].held || i == BR_PROBE_START)
+            continue;
+        const double one = seen[kind] > 0 ? seen[kind] : seen[1 - kind];
+        size.least = fmin(size.least, one);
+        size.most = fmax(size.most, one);
+    }
+    return size;
+}
+
+static double cell_error(const struct br_probe *p, size_t cell, int kind)
+{
+    return p->study.cell[cell].error[part_of[kind]];
+}
+
+/* What e, which is beyond its cell, may be elsewhere: by the least order, the expected one and the
+ * most. */
+static struct br_predicted by_orders(double e, double beyond, const double order[3])
+{
+    return (struct br_predicted){
+        .error = e * pow(beyond, -order[1]),
+        .low = e * pow(beyond, -order[2]) / doubt,
+        .high = e * pow(beyond, -order[0]) * doubt,
+        .order = NAN,
+    };
+}
+
+/* With errors C h^q of cells h and h/2 against h/4 their ratio is 2^q + 1. */
+static double observed_order(double coarse, double fine)
+{
+    return log2(coarse / fine - 1);
+}
+
+/* Orders between which the run's lies, when so much was observed and theory says q; and, if it
+ * is spoilt, at least `spoilt`. */
+static void bracket(double observed, double q, double spoilt, double order[3])
+{
+    const bool trusted = observed >= least_order;
+    order[1] = trusted ? fmin(observed, q) : fmin(q, 1);
+    order[0] = trusted ? fmin(order[1], spoilt) : 0;
+    order[2] = fmax(q, order[1]);
+}
+
+/* ---- the run itself ---- */
+
+/* How far a reference may be off, of whose elements or steps two cells have 1/a and 1/b and these
+ * distances from it: by the order q with (a^q - 1) / (b^q - 1) as their ratio. Where a layer is
+ * narrower than all of them, finer ones change little, and the order is next to nothing. */
+static double reference_error(double coarse, double a, double finer, double b)
+{
+    double low = lowest_order, high = highest_order;
+    for (int i = 0; i < 30; i++) {
+        const double q = (low + high) / 2;
+        if ((pow(a, q) - 1) * finer < coarse * (pow(b, q) - 1))
+            low = q;
+        else
+            high = q;
+    }
+    return of_check * finer / (pow(b, low) - 1);
+}
+
+/* What steps by a tolerance gather, in tolerances, where no switch is in the way. */
+static const double gathered = 10;
+
+/* The same of the run's own reference: in time by its check's steps and the run's, in space by
+ * three meshes. Two tolerances may choose the same steps, which differ by nothing: so one is not
+ * surer than what it may gather. */
+static double whole_reference_error(const struct br_probe *p, int kind)
+{
+    const double steps = cell_error(p, BR_WHOLE_STEPS, kind);
+    const double shorter = (double)p->study.reference.steps / (double)p->steps[BR_WHOLE_RUN];
+    const double tolerance = p->study.reference_method.tolerance;
+    const double in_time =
+        p->study.reference_method.scheme->adaptive
+            ? fmax(of_check * steps, gathered * tolerance * p->study.reference_size[kind])
+            : reference_error(cell_error(p, BR_WHOLE_TIME, kind), shorter, steps, 2);
+    const double finer = fmax(0, cell_error(p, BR_WHOLE_CHECK, kind) - steps);
+    const double coarse = fmax(0, cell_error(p, BR_WHOLE_SPACE, kind) - steps);
+    const double a = (double)p->study.reference.n / (double)p->n[BR_WHOLE_RUN];
+    return in_time + reference_error(coarse, a, finer, 2);
+}
+
+/* A cell's distance from the reference, and how sure that is. */
+static struct br_predicted distance(const struct br_probe *p, enum br_whole_cell cell, int kind)
+{
+    const double e = cell_error(p, cell, kind), unsure = whole_reference_error(p, kind);
+    return (struct br_predicted){
+        .error = e,
+        .low = fmax(0, (e - unsure) / measured_doubt),
+        .high = measured_doubt * (e + unsure),
+        .order = NAN,
+    };
+}
+
+static bool is_measured(const struct br_probe_set *s)
+{
+    return s->probe[BR_PROBE_TIGHT].held || s->probe[BR_PROBE_WHOLE].held;
+}
+
+/* By the reference that is surer of the run's error; but one of equal steps may have missed
+ * what dies away within a step, and is not believed where the other one contradicts it. */
+static struct br_predicted measured(const struct br_probe_set *s, enum br_whole_cell cell, int kind)
+{
+    const struct br_probe *tight = &s->probe[BR_PROBE_TIGHT], *whole = &s->probe[BR_PROBE_WHOLE];
+    if (!whole->held)
+        return distance(tight, cell, kind);
+    if (!tight->held)
+        return distance(whole, cell, kind);
+    const struct br_predicted a = distance(tight, BR_WHOLE_RUN, kind);
+    const struct br_predicted b = distance(whole, BR_WHOLE_RUN, kind);
+    return distance(b.high < a.low || a.high <= b.high ? tight : whole, cell, kind);
+}
+
+/* ---- time ---- */
+
+static bool can_switch(const struct br_scene *scene)
+{
+    return (scene->contact.modelled && scene->contact.stiffness > 0) ||
+           scene->friction.law != BR_FRICTIONLESS;
+}
+
+static double order_in_time(const struct br_outlook *o)
+{
+    return o->method->contact->at_new_step ? o->method->scheme->order : 1;
+}
+
+/* A distance of the run's own steps or elements from a reference that may be off by so much. */
+static struct br_predicted around(double e, double unsure)
+{
+    return (struct br_predicted){
+        .error = e, .low = fmax(0, e - unsure) / doubt, .high = doubt * (e + unsure), .order = NAN};
+}
+
+static struct br_predicted measured_time(const struct br_probe *p, int kind)
+{
+    const double e = cell_error(p, 0, kind);
+    const double finer = p->study.k_count > 1 ? cell_error(p, 1, kind) : e / 2;
+    return around(e, reference_error(e, p->ratio, finer, 3));
+}
+
+static struct br_predicted extrapolated_time(const struct br_probe *p, const struct br_outlook *o,
+                                             int kind)
+{
+    const double q = order_in_time(o), fine = cell_error(p, 1, kind);
+    const double observed = log2(cell_error(p, 0, kind) / fine);
+    double order[3];
+    bracket(observed, q, can_switch(o->scene) ? fmin(1, q) : q, order);
+    struct br_predicted predicted = by_orders(fine, p->beyond, order);
+    predicted.order = observed;
+    return predicted;
+}
+
+/* What the run's first steps are off by, it is off by somewhere. */
+static struct br_predicted and_at_start(const struct br_probe_set *s, struct br_predicted e,
+                                        int kind)
+{
+    const struct br_probe *start = &s->probe[BR_PROBE_START];
+    const double first = start->held ? cell_error(start, 0, kind) : 0;
+    e.error = fmax(e.error, first);
+    e.low = fmax(e.low, first / doubt);
+    e.high = fmax(e.high, first * doubt);
+    return e;
+}
+
+static struct br_predicted time_error(const struct br_probe_set *s, int kind)
+{
+    const struct br_probe *p = &s->probe[BR_PROBE_TIME];
+    struct br_predicted e;
+    if (is_measured(s))
+        e = measured(s, BR_WHOLE_TIME, kind);
+    else if (s->outlook->method->scheme->adaptive || s->outlook->method->scheme->integrator)
+        e = by_orders(cell_error(p, 0, kind), p->beyond, by_tolerance);
+    else
+        e = p->measured ? measured_time(p, kind) : extrapolated_time(p, s->outlook, kind);
+    return and_at_start(s, e, kind);
+}
+
+/* ---- space ---- */
+
+static struct br_predicted space_error(const struct br_probe_set *s, int kind)
+{
+    const struct br_probe *p = &s->probe[BR_PROBE_SPACE];
+    if (is_measured(s))
+        return measured(s, BR_WHOLE_SPACE, kind);
+    const double q = kind == BR_AXIAL ? s->outlook->method->axial_degree + 1 : 4;
+    const double fine = cell_error(p, p->study.n_count - 1, kind);
+    if (fine == 0) /* not modelled, or at rest */
+        return (struct br_predicted){.order = NAN};
+    if (p->measured)
+        return around(cell_error(p, 0, kind),
+                      reference_error(cell_error(p, 0, kind), p->ratio, fine, 2));
+    const double observed = observed_order(cell_error(p, 0, kind), fine);
+    double order[3];
+    bracket(observed, q, q, order);
+    return by_orders(fine / (1 - pow(p->ratio, -fmax(order[1], least_order))), p->beyond, order);
+}
+
+/* ---- both ---- */
+
+static struct br_predicted whole_error(const struct br_probe_set *s, int kind)
+{
+    if (is_measured(s))
+        return and_at_start(s, measured(s, BR_WHOLE_RUN, kind), kind);
+    const struct br_predicted time = time_error(s, kind), space = space_error(s, kind);
+    return (struct br_predicted){
+        .error = time.error + space.error,
+        .low = fmax(time.low, space.low), /* they may point against each other */
+        .high = time.high + space.high,
+        .order = NAN,
+    };
+}
+
+/* Of a field that rests in every march, 0. */
+static struct br_predicted relative(struct br_predicted e, struct size size)
+{
+    if (e.high == 0)
+        return (struct br_predicted){.order = e.order};
+    return (struct br_predicted){e.error / size.least, e.low / size.most, e.high / size.least,
+                                 e.order};
+}
+
+static bool is_modelled(const struct br_scene *scene, int kind)
+{
+    return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
+}
+
+static void judge(struct br_prediction *p, const struct br_probe_set *s)
+{
+    for (int i = BR_PROBE_TIME; i < BR_PROBES; i++)
+        if (br_probe_failed(&s->probe[i], p->why))
+            return;
+    bool useful = true;
+    p->bounded = true;
+    p->whole.high = -1;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct size size = solution_size(s, kind);
+        if (!is_modelled(s->outlook->scene, kind))
+            continue;
+        const struct br_predicted e = p->field[kind] = relative(whole_error(s, kind), size);
+        p->bounded = p->bounded && isfinite(e.high);
+        useful = useful && (e.high <= fmax(all, near * e.error) || e.high <= widest * e.low);
+        if (e.high <= p->whole.high)
+            continue;
+        p->whole = e;
+        p->time = relative(time_error(s, kind), size);
+        p->space = relative(space_error(s, kind), size);
+    }
+    p->known = p->bounded && useful;
+    if (!p->known)
+        snprintf(p->why, sizeof p->why,
+                 "the marches that it is compared with differ too much among themselves");
+}
+
+double br_predicted_most(const struct br_prediction *p, enum br_field_kind kind)
+{
+    return p->known ? p->field[kind].high + of_round_off * p->round_off : INFINITY;
+}
+
+double br_predict_round_off(const struct br_outlook *o)
+{
+    double largest = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_field field = br_field_of_scene(o->scene, (enum br_field_kind)kind, o->n,
+                                                  br_time_step(o->scene, o->steps));
+        if (kind == BR_AXIAL)
+            field.degree = o->method->axial_degree;
+        if (is_modelled(o->scene, kind))
+            largest = fmax(largest, o->method->solver->round_off(&field, &o->method->linear));
+    }
+    return largest;
+}
+
+/* What is so short that even what the run is compared with steps over it; NULL: nothing. */
+static const char *too_short(const struct br_outlook *o)
+{
+    struct br_outlook finer = *o;
+    struct br_warnings unseen = {0};
+    struct br_error err;
+    finer.steps *= FINER_LEVELS;
+    finer.n *= FINER_ELEMENTS;
+    finer.share = least_share;
+    if (!br_look_at_loads(&finer, &unseen, &err) && unseen.count == 0)
+        return NULL;
+    return br_warnings_find(&unseen, BR_WARN_INITIAL) ? "the initial data are" : "a load is";
+}
+
+enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction *p,
+                          struct br_error *err)
+{
+    const double begun = br_seconds();
+    struct br_probe_set set;
+    *p = (struct br_prediction){.round_off = br_predict_round_off(outlook)};
+    const enum br_status status = br_probes_hold(&set, outlook, err);
+    if (!status)
+        judge(p, &set);
+    const char *unseen = !status && p->known ? too_short(outlook) : NULL;
+    if (unseen) {
+        p->known = p->bounded = false;
+        snprintf(p->why, sizeof p->why, "%s too short for what it is compared with", unseen);
+    }
+    br_probes_clear(&set);
+    p->seconds = br_seconds() - begun;
+    return status;
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The error of a run, predicted before it: of each field the largest L2 norm over all time levels,
+ * relative to the largest of that field's solution.
+ *
+ * A run that is short is marched twice: as it is, and by the most accurate method on a finer mesh
+ * with smaller steps. Their distance is the error; what a reference of half that mesh and half
+ * those steps differs from the first tells how sure it is, and widens the interval. Where the run
+ * takes long, cheaper marches tell it: so many steps as are cheap, on a coarse mesh; the run's
+ * first steps, of their own length, for what happens at t = 0; and the run's own mesh, or one of
+ * 128 elements, at few steps. What lies beyond is extrapolated by the order that was observed where
+ * that makes sense, else by theory's. That switching (stick and slip, contact) spoils orders above
+ * one is not seen by coarse marches: the upper bound then takes order one.
+ *
+ * Tests hold it against the exact solution (tests/test_prediction.c), and so does each case of
+ * `extremes map`. */
+#ifndef BR_STUDY_FORESEE_PREDICTION_H
+#define BR_STUDY_FORESEE_PREDICTION_H
+
+#include <stdbool.h>
+
+#include "study/foresee/warnings.h"
+
+/* A part of the error, relative to the solution. */
+struct br_predicted {
+    double error, low, high;
+    double order; /* as it was observed; NaN: it was not, or not needed */
+};
+
+struct br_prediction {
+    bool known;
+    char why[200]; /* not known: why */
+    bool bounded;  /* low and high of `whole` mean something, also where it is not known */
+    struct br_predicted field[2];           /* of discretisation, by br_field_kind; zeros: not
+                                               modelled */
+    struct br_predicted space, time, whole; /* of the field whose upper bound is the larger */
+    double round_off; /* relative to the exact discrete solution: br_predict_round_off */
+    double seconds;   /* that the prediction took */
+};
+
+/* Predicts (out). Takes some ten milliseconds, and less than the run itself where that takes
+ * longer, or what outlook->budget allows; what it cannot tell is no failure. Fails with
+ * BR_NO_MEMORY. */
+enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction *prediction,
+                          struct br_error *err);
+
+/* The most that a field is stated to be off, relative to its solution: the upper bound of the
+ * discretisation error, and what round-off adds. INFINITY where nothing is stated. */
+double br_predicted_most(const struct br_prediction *prediction, enum br_field_kind kind);
+
+/* Round-off of the displacements, relative to the exact discrete solution, as the linear solver
+ * predicts it: the larger of the modelled fields'. */
+double br_predict_round_off(const struct br_outlook *outlook);
+
+#endif

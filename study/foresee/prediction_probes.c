@@ -1,0 +1,495 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/foresee/prediction_probes.h"
+#include "study/grid/sweep.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* A solve costs as much as so many elements more than it has; an element whose load must be
+ * evaluated anew at each time, as so many others. */
+static const double overhead = 700, evaluated = 30;
+
+/* Elements times solves of all probes together: at least, at most, and as a share of the run's. */
+static const double least_work = 1e7, most_work = 5e7, most_share = 0.5;
+static const double chosen_work = 6e7; /* where the run chooses its steps */
+static const double chosen_stages = 12;
+static const double time_share = 0.5, start_share = 0.2, space_share = 0.3;
+
+enum {
+    SPACE_N = 128,
+    TIME_N = 32,
+    MOST_REFINED = 32,
+    FINE_N = 32,
+    MANY_N = 1000,
+    TOLERANCE_LEVELS = 24,
+    LEAST_CHOSEN = 40,
+    FIRST_STEPS = 4
+};
+
+/* A reference is sure enough where its check differs from it by so much of the run's error, or of
+ * the solution. */
+static const double sure = 0.2, negligible = 1e-5;
+
+/* By a tolerance: that of extrapolating probes is at least `loosest`; a reference's is smaller than
+ * the run's by `tighter`, its check's by the root of that. */
+static const double loosest = 1e-4, tighter = 25, tightest = 1e-12;
+
+/* That of a reference for equal steps; its check's is larger by the same. */
+static const double tight = 1e-6;
+
+static bool by_tolerance(const struct br_method *m)
+{
+    return m->scheme->adaptive || m->scheme->integrator;
+}
+
+static double stages(const struct br_method *m)
+{
+    return by_tolerance(m) ? chosen_stages : br_time_scheme_stages(m->scheme);
+}
+
+static bool is_evaluated(const struct br_load *load)
+{
+    bool anew = false;
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
+        anew |= load->term[i].space.uses_x && load->term[i].space.uses_t;
+    return anew;
+}
+
+/* A solve on so many elements. */
+static double solve(const struct br_outlook *o, double n)
+{
+    const bool anew = (o->scene->axial.modelled && is_evaluated(&o->scene->axial.load)) ||
+                      (o->scene->bending.modelled && is_evaluated(&o->scene->bending.load));
+    return n * (anew ? evaluated : 1) + overhead;
+}
+
+static double budget(const struct br_outlook *o)
+{
+    const double own = solve(o, (double)o->n) * (double)o->steps * stages(o->method);
+    if (o->budget > 0)
+        return o->budget;
+    return by_tolerance(o->method) ? chosen_work
+                                   : fmin(fmax(most_share * own, least_work), most_work);
+}
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+/* ---- methods ---- */
+
+static const struct br_contact_rule *contact_without_lag(void)
+{
+    const struct br_contact_rule *const *rule = br_contact_rules;
+    while (!(*rule)->at_new_step)
+        rule++;
+    return *rule;
+}
+
+/* What solves the same equations more accurately on the same steps: the scheme of the highest
+ * order, which takes next to no energy from a vibration, contact at the new time level, friction
+ * that does not iterate, and the solver of the least round-off. A reference of the run's own scheme
+ * would not show what that damps away in both. */
+static struct br_method best_method(const struct br_method *own)
+{
+    struct br_method m = *own;
+    m.scheme = br_time_scheme_find("esdirk4");
+    m.solver = br_linear_solvers[0];
+    m.contact = contact_without_lag();
+    if (m.friction->iterates)
+        m.friction = br_friction_rules[0];
+    m.most_steps = 0;
+    return m;
+}
+
+/* The same by a tolerance, smaller than the run's, or than that of a check. */
+static struct br_method tight_method(const struct br_method *own, double times)
+{
+    const double from = by_tolerance(own) ? own->tolerance : tight * tighter;
+    struct br_method m = best_method(own);
+    m.scheme = br_time_scheme_find("adaptive");
+    m.tolerance = fmax(from / times, tightest);
+    return m;
+}
+
+static void set_study(struct br_probe *p, const struct br_method *method,
+                      const struct br_method *reference, struct br_resolution fine)
+{
+    p->held = true;
+    p->study = (struct br_study){
+        .scene = &p->scene,
+        .norm = &br_norm_l2,
+        .method = *method,
+        .judge = &br_judge_fine,
+        .reference_method = *reference,
+        .reference = fine,
+        .n_count = 1,
+        .k_count = 1,
+        .n = p->n,
+        .steps = p->steps,
+    };
+}
+
+/* ---- the run itself ---- */
+
+/* Elements and steps of a reference over those of the run. */
+struct finer {
+    size_t elements, steps;
+};
+
+/* On a check's mesh, too, where that is not very fine. */
+static size_t refinement(size_t n)
+{
+    size_t ratio = n < MANY_N ? 4 : 2;
+    while (ratio < MOST_REFINED && n * ratio < FINE_N)
+        ratio *= 2;
+    return ratio;
+}
+
+static void set_whole_cells(struct br_probe *p, const struct br_outlook *o,
+                            const struct br_method *check, const struct br_method *reference,
+                            struct finer by)
+{
+    const size_t finer = by.elements, shorter = by.steps, steps = p->steps[BR_WHOLE_RUN];
+    const size_t fine = o->n * finer, half = steps * shorter / 2;
+    const size_t n[] = {o->n, fine / 2, fine, o->n, fine};
+    const size_t times[] = {steps, half, steps, half, half};
+    struct br_method own_steps = *o->method;
+    own_steps.solver = br_linear_solvers[0];
+    own_steps.most_steps = check->most_steps;
+    const struct br_method method[] = {*o->method, *check, own_steps, *check, *check};
+    for (int i = 0; i < BR_WHOLE_CELLS; i++) {
+        p->n[i] = n[i];
+        p->steps[i] = by_tolerance(check) ? steps : times[i];
+        p->method[i] = method[i];
+    }
+    p->method[BR_WHOLE_RUN].most_steps = check->most_steps;
+    p->scene = *o->scene;
+    p->measured = true;
+    set_study(p, o->method, reference,
+              (struct br_resolution){fine, by_tolerance(check) ? steps : steps * shorter});
+    p->study.path = true;
+    p->study.n_count = p->study.k_count = BR_WHOLE_CELLS;
+    p->study.cell_method = p->method;
+}
+
+/* Work of the run, its steps on the fine mesh, and marches of the reference's method. */
+static double whole_work(const struct br_outlook *o, const struct br_method *best, struct finer by)
+{
+    const double n = (double)o->n, fine = n * (double)by.elements;
+    const double own = (solve(o, n) + solve(o, fine)) * stages(o->method);
+    const double others = (1.5 * solve(o, fine) + (solve(o, fine / 2) + solve(o, n)) / 2) *
+                          (double)by.steps * stages(best);
+    return (own + others) * (double)o->steps;
+}
+
+static bool is_affordable(const struct br_outlook *o, struct finer by)
+{
+    const struct br_method best = best_method(o->method);
+    return whole_work(o, &best, by) <= budget(o);
+}
+
+static void set_whole(struct br_probe *p, const struct br_outlook *o, struct finer by)
+{
+    const struct br_method best = best_method(o->method);
+    p->steps[BR_WHOLE_RUN] = o->steps;
+    set_whole_cells(p, o, &best, &best, by);
+}
+
+/* Steps that a scheme may choose within a share of the budget. */
+static size_t most_steps(const struct br_outlook *o, double n)
+{
+    return 1 + (size_t)(budget(o) / 4 / (solve(o, n) * chosen_stages));
+}
+
+/* Where there are not so many time levels that a tolerance decides little. */
+static void set_tight(struct br_probe *p, const struct br_outlook *o)
+{
+    const size_t finer = refinement(o->n), most = most_steps(o, (double)(o->n * finer));
+    struct br_method check = tight_method(o->method, sqrt(tighter));
+    struct br_method reference = tight_method(o->method, tighter);
+    check.most_steps = reference.most_steps = most;
+    p->steps[BR_WHOLE_RUN] = by_tolerance(o->method) ? least(o->steps, TOLERANCE_LEVELS) : o->steps;
+    if (p->steps[BR_WHOLE_RUN] + LEAST_CHOSEN <= most)
+        set_whole_cells(p, o, &check, &reference, (struct finer){finer, 1});
+}
+
+/* Where no step is small enough for a smaller tolerance, or steps are too many: equal ones. */
+static void set_whole_by_equal_steps(struct br_probe *p, const struct br_outlook *o)
+{
+    struct br_method best = best_method(o->method);
+    best.most_steps = most_steps(o, (double)(o->n * refinement(o->n)));
+    p->steps[BR_WHOLE_RUN] = least(o->steps, TOLERANCE_LEVELS);
+    const double many = (double)best.most_steps / (double)p->steps[BR_WHOLE_RUN];
+    set_whole_cells(p, o, &best, &best,
+                    (struct finer){refinement(o->n), 2 * (size_t)fmax(2, many)});
+}
+
+/* ---- time ---- */
+
+/* The run's few steps against many times as many; a second cell between them is there for the
+ * levels at which the solution's size is seen. */
+static void measure_time(struct br_probe *p, const struct br_outlook *o, double most)
+{
+    const struct br_method best = best_method(o->method);
+    const double a_step = (double)o->steps * stages(&best);
+    const size_t ratio = a_step * 31 <= most ? 27 : a_step * 11 <= most ? 9 : 3;
+    p->measured = true;
+    p->ratio = (double)ratio;
+    p->beyond = 1;
+    p->steps[0] = o->steps;
+    p->steps[1] = o->steps * ratio / 3;
+    set_study(p, o->method, &best, (struct br_resolution){p->n[0], o->steps * ratio});
+    p->study.k_count = ratio > 3 ? 2 : 1;
+}
+
+/* a, 2a against 8a steps, a odd: their levels are not those at which a periodic load is zero. */
+static void extrapolate_time(struct br_probe *p, const struct br_outlook *o, double most)
+{
+    const struct br_method best = best_method(o->method);
+    const size_t a = (size_t)(most / (3 * stages(o->method) + 8 * stages(&best))) | 1;
+    p->ratio = 4;
+    p->beyond = (double)o->steps / (2 * (double)a);
+    p->steps[0] = a;
+    p->steps[1] = 2 * a;
+    set_study(p, o->method, &best, (struct br_resolution){p->n[0], 8 * a});
+    p->study.k_count = 2;
+}
+
+static void compare_tolerances(struct br_probe *p, const struct br_outlook *o)
+{
+    struct br_method method = *o->method;
+    method.tolerance = fmax(method.tolerance, loosest);
+    method.most_steps = most_steps(o, (double)p->n[0]);
+    p->measured = method.tolerance == o->method->tolerance;
+    p->beyond = method.tolerance / o->method->tolerance;
+    p->ratio = tighter;
+    p->steps[0] = TOLERANCE_LEVELS;
+    struct br_method reference = tight_method(&method, tighter);
+    reference.most_steps = method.most_steps;
+    set_study(p, &method, &reference, (struct br_resolution){p->n[0], TOLERANCE_LEVELS});
+}
+
+static void set_time(struct br_probe *p, const struct br_outlook *o)
+{
+    const struct br_method best = best_method(o->method);
+    p->scene = *o->scene;
+    p->n[0] = least(o->n, TIME_N);
+    const double most = time_share * budget(o) / solve(o, (double)p->n[0]);
+    if (by_tolerance(o->method))
+        compare_tolerances(p, o);
+    else if ((double)o->steps * (stages(o->method) + 3 * stages(&best)) <= most)
+        measure_time(p, o, most);
+    else
+        extrapolate_time(p, o, most);
+}
+
+/* The run's first steps against steps by a tolerance, which find what dies away within a step; if
+ * `equal`, and more of them, against smaller equal ones. */
+static void set_start(struct br_probe *p, const struct br_outlook *o, bool equal)
+{
+    const struct br_method best = best_method(o->method);
+    struct br_method fine = equal ? best : tight_method(o->method, tighter);
+    p->scene = *o->scene;
+    p->n[0] = least(o->n, TIME_N);
+    const double most = start_share * budget(o) / solve(o, (double)p->n[0]);
+    const double many = equal ? most / (stages(o->method) + 3 * stages(&best)) + 1 : FIRST_STEPS;
+    fine.most_steps = most_steps(o, (double)p->n[0]);
+    p->steps[0] = least(o->steps, (size_t)many);
+    p->scene.duration *= (double)p->steps[0] / (double)o->steps;
+    p->measured = true;
+    p->ratio = 3;
+    set_study(p, o->method, &fine, (struct br_resolution){p->n[0], (equal ? 3 : 1) * p->steps[0]});
+}
+
+/* ---- space ---- */
+
+static void set_space(struct br_probe *p, const struct br_outlook *o)
+{
+    const struct br_method best = best_method(o->method);
+    size_t finest = 2 * SPACE_N;
+    p->scene = *o->scene;
+    p->measured = o->n <= SPACE_N;
+    if (p->measured) {
+        size_t ratio = 4;
+        while (ratio < MOST_REFINED && o->n * ratio < SPACE_N)
+            ratio *= 2;
+        finest = ratio * o->n;
+    }
+    p->n[0] = p->measured ? o->n : SPACE_N / 2;
+    p->n[1] = finest / 2;
+    p->ratio = (double)finest / (double)p->n[p->measured ? 0 : 1];
+    p->beyond = p->measured ? 1 : (double)o->n / (double)p->n[1];
+    const double a_step =
+        (solve(o, (double)finest) + solve(o, (double)p->n[0]) + solve(o, (double)p->n[1])) *
+        stages(&best);
+    /* Where a tolerance chooses, the levels say nothing of the steps that are needed. */
+    p->steps[0] = least(by_tolerance(o->method) ? SIZE_MAX : o->steps,
+                        (size_t)(space_share * budget(o) / a_step) + 1);
+    set_study(p, &best, &best, (struct br_resolution){finest, p->steps[0]});
+    p->study.n_count = 2;
+}
+
+/* ---- marching ---- */
+
+bool br_probe_failed(const struct br_probe *p, char why[200])
+{
+    const struct br_study *s = &p->study;
+    const struct br_error *failure = &s->failure;
+    for (size_t i = 0; p->held && !failure->status && i < br_study_cells(s); i++) {
+        if (s->path && (i == BR_WHOLE_TIME || i == BR_WHOLE_SPACE))
+            continue; /* these only tell what the error comes from */
+        if (s->cell[i].unstable) {
+            snprintf(why, 200, "the lagged contact is beyond its stability limit%s",
+                     p->measured ? "" : " at the steps of a cheap march");
+            return true;
+        }
+        failure = &s->cell[i].failure;
+    }
+    if (!p->held || !failure->status)
+        return false;
+    snprintf(why, 200, "a march to compare with failed: %.150s", failure->message);
+    return true;
+}
+
+/* Marches the probes from `first` to `last`. That a reference has made too many steps is its
+ * failure, not the call's. */
+static enum br_status march(struct br_probe_set *set, int first, int last, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (int i = first; i <= last && !status; i++) {
+        struct br_probe *p = &set->probe[i];
+        struct br_error failure = {0};
+        if (p->held)
+            status = br_study_run_each(&p->study, 1, 1, NULL, &failure);
+        if (status == BR_NO_MEMORY)
+            return br_fail(err, status, "%s", failure.message);
+        status = BR_OK;
+    }
+    return status;
+}
+
+static void forget(struct br_probe *p)
+{
+    br_study_clear(&p->study);
+    *p = (struct br_probe){0};
+}
+
+/* Marches one probe, and forgets one that fails. */
+static enum br_status try_probe(struct br_probe_set *set, enum br_probe_kind kind,
+                                struct br_error *err)
+{
+    char why[200];
+    struct br_probe *p = &set->probe[kind];
+    const enum br_status status = march(set, (int)kind, (int)kind, err);
+    if (!status && br_probe_failed(p, why))
+        forget(p);
+    return status;
+}
+
+/* Whether the check is near enough to the reference. */
+static bool is_sure(const struct br_probe *p)
+{
+    static const enum br_part parts[] = {BR_PART_AXIAL, BR_PART_BENDING};
+    bool all = p->held;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && all; kind++) {
+        const double off = p->study.cell[BR_WHOLE_CHECK].error[parts[kind]];
+        const double error = p->study.cell[BR_WHOLE_RUN].error[parts[kind]];
+        all = off <= fmax(sure * error, negligible * p->study.reference_size[kind]);
+    }
+    return all;
+}
+
+/* The largest, over the fields, of a cell's distance from the reference, relative. */
+static double off(const struct br_probe *p, enum br_whole_cell cell)
+{
+    const double *error = p->study.cell[cell].error, *size = p->study.reference_size;
+    const double axial = size[BR_AXIAL] > 0 ? error[BR_PART_AXIAL] / size[BR_AXIAL] : 0;
+    const double bending = size[BR_BENDING] > 0 ? error[BR_PART_BENDING] / size[BR_BENDING] : 0;
+    return fmax(axial, bending);
+}
+
+/* Elements and steps of the next reference; where there is no room for both, of what the last one
+ * was less sure of. False: no room. */
+static bool refine(const struct br_outlook *o, const struct br_probe *last, struct finer *by)
+{
+    const struct finer both = {4 * by->elements, 4 * by->steps}, space = {both.elements, by->steps},
+                       time = {by->elements, both.steps};
+    const bool of_space = 2 * off(last, BR_WHOLE_STEPS) < off(last, BR_WHOLE_CHECK);
+    const struct finer tries[] = {both, of_space ? space : time, of_space ? time : space};
+    for (size_t i = 0; i < sizeof tries / sizeof *tries; i++)
+        if (is_affordable(o, tries[i])) {
+            *by = tries[i];
+            return true;
+        }
+    return false;
+}
+
+/* By ever finer references until one is sure, or there is no room for more. */
+static enum br_status march_whole(struct br_probe_set *set, struct br_error *err)
+{
+    struct br_probe *whole = &set->probe[BR_PROBE_WHOLE];
+    struct finer by = {refinement(set->outlook->n), 4};
+    enum br_status status = BR_OK;
+    bool more = is_affordable(set->outlook, by);
+    while (more && !status) {
+        forget(whole);
+        set_whole(whole, set->outlook, by);
+        status = try_probe(set, BR_PROBE_WHOLE, err);
+        more = whole->held && !is_sure(whole) && refine(set->outlook, whole, &by);
+    }
+    return status;
+}
+
+static enum br_status march_itself(struct br_probe_set *set, struct br_error *err)
+{
+    struct br_probe *probe = set->probe;
+    set_tight(&probe[BR_PROBE_TIGHT], set->outlook);
+    enum br_status status = try_probe(set, BR_PROBE_TIGHT, err);
+    if (status || is_sure(&probe[BR_PROBE_TIGHT]))
+        return status;
+    if (!by_tolerance(set->outlook->method))
+        return march_whole(set, err);
+    if (probe[BR_PROBE_TIGHT].held)
+        return BR_OK;
+    set_whole_by_equal_steps(&probe[BR_PROBE_WHOLE], set->outlook);
+    return try_probe(set, BR_PROBE_WHOLE, err);
+}
+
+/* What happens at t = 0, where no steps by a tolerance have seen it. */
+static enum br_status march_start(struct br_probe_set *set, struct br_error *err)
+{
+    struct br_probe *start = &set->probe[BR_PROBE_START];
+    set_start(start, set->outlook, false);
+    enum br_status status = try_probe(set, BR_PROBE_START, err);
+    if (status || start->held || set->probe[BR_PROBE_WHOLE].held)
+        return status;
+    set_start(start, set->outlook, true);
+    return march(set, BR_PROBE_START, BR_PROBE_START, err);
+}
+
+enum br_status br_probes_hold(struct br_probe_set *set, const struct br_outlook *outlook,
+                              struct br_error *err)
+{
+    *set = (struct br_probe_set){.outlook = outlook};
+    struct br_probe *probe = set->probe;
+    enum br_status status = march_itself(set, err);
+    if (status || probe[BR_PROBE_TIGHT].held)
+        return status;
+    if (!probe[BR_PROBE_WHOLE].held) {
+        set_time(&probe[BR_PROBE_TIME], outlook);
+        set_space(&probe[BR_PROBE_SPACE], outlook);
+        status = march(set, BR_PROBE_TIME, BR_PROBE_SPACE, err);
+    }
+    if (status || by_tolerance(outlook->method))
+        return status;
+    return march_start(set, err);
+}
+
+void br_probes_clear(struct br_probe_set *set)
+{
+    for (int i = 0; i < BR_PROBES; i++)
+        br_study_clear(&set->probe[i].study);
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a person should know before a march begins, with what to do about it; and what is refused
+ * then. Each source looks at what is to be marched and predicts; it marches little or nothing. */
+#ifndef BR_STUDY_FORESEE_WARNINGS_H
+#define BR_STUDY_FORESEE_WARNINGS_H
+
+#include "solver/method.h"
+
+/* X(name, word for programs). Of each kind a list keeps the first; others are counted. */
+#define BR_WARNING_LIST(X)                                                             \
+    X(BR_WARN_UNSTABLE, "unstable")        /* lagged contact beyond its limit */       \
+    X(BR_WARN_BOUNCE, "bounce")            /* lagged contact that may gain energy */   \
+    X(BR_WARN_ROUND_OFF, "round-off")      /* above the discretisation error */        \
+    X(BR_WARN_INACCURATE, "inaccurate")    /* the discretisation error is large */     \
+    X(BR_WARN_UNKNOWN, "error-not-known")  /* the discretisation error is not known */ \
+    X(BR_WARN_LOAD_TIME, "load-in-time")   /* the time levels miss some of a load */   \
+    X(BR_WARN_LOAD_SPACE, "load-in-space") /* the elements' quadrature misses some */  \
+    X(BR_WARN_INITIAL, "initial-data")     /* initial data between the nodes */        \
+    X(BR_WARN_LONG, "long")                /* the march takes days */
+
+enum br_warning_kind {
+#define X(name, word) name,
+    BR_WARNING_LIST(X)
+#undef X
+        BR_WARNINGS
+};
+const char *br_warning_word(enum br_warning_kind kind);
+
+struct br_warning {
+    enum br_warning_kind kind;
+    char text[400];   /* what will happen, with the figures; no full stop */
+    char remedy[400]; /* what to do instead, as the command line's options; "": nothing known */
+    size_t more;      /* marches of the same study with a warning of this kind */
+};
+
+/* Zeroed at first. */
+struct br_warnings {
+    struct br_warning list[BR_WARNINGS];
+    size_t count;
+};
+
+/* Adds a warning; its text is the formatted one. The remedy may be NULL. */
+__attribute__((format(printf, 4, 5))) void br_warn(struct br_warnings *warnings,
+                                                   enum br_warning_kind kind, const char *remedy,
+                                                   const char *format, ...);
+
+/* The warning of that kind, or NULL. */
+const struct br_warning *br_warnings_find(const struct br_warnings *warnings,
+                                          enum br_warning_kind kind);
+
+struct br_prediction;
+
+/* What is to be marched. All borrowed; the scene is the part of it that is marched (model.h). */
+struct br_outlook {
+    const struct br_scene *scene;
+    const struct br_method *method;
+    size_t n, steps;
+    struct br_prediction *prediction; /* out: the errors to expect; NULL: nobody asks */
+    double budget; /* elements times solves that a prediction may take; 0: as prediction.h says */
+    double share;  /* of a load that is warned of if it is not seen; 0: as the sources say */
+};
+
+/* A source of warnings: a row of the registry. */
+struct br_warning_source {
+    const char *title; /* what it looks at, for a person */
+    bool every;        /* so cheap that each march of a study is looked at */
+    /* Adds what it has to say. What it cannot tell is no failure. Fails with BR_BAD_INPUT or
+     * BR_NO_MEMORY where the march is refused, the message with the figures. */
+    enum br_status (*look)(const struct br_outlook *outlook, struct br_warnings *warnings,
+                           struct br_error *err);
+};
+
+/* NULL-terminated: refusals first, then in the order in which warnings are told. To add one: a
+ * const record in a file of its own, and a row in warnings.c. */
+extern const struct br_warning_source *const br_warning_sources[];
+
+/* Asks all sources about one march; adds to *warnings. Fails as they do. */
+enum br_status br_look_ahead(const struct br_outlook *outlook, struct br_warnings *warnings,
+                             struct br_error *err);
+
+/* Asks those that are cheap alone: for marches that are many. */
+enum br_status br_look_ahead_cheaply(const struct br_outlook *outlook, struct br_warnings *warnings,
+                                     struct br_error *err);
+
+/* Asks about the loads and initial data alone: what of them the time levels and the elements do
+ * not see. For the finest of many marches; that takes milliseconds, or a second for loads with
+ * thousands of jumps.
+ */
+enum br_status br_look_at_loads(const struct br_outlook *outlook, struct br_warnings *warnings,
+                                struct br_error *err);
+
+#endif

@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/grid/ladder.h"
+
+#include <gsl/gsl_integration.h>
+#include <math.h>
+#include <string.h>
+
+#include "study/grid/ladder_kernel.h"
+
+struct rung {
+    size_t n;
+    size_t parent;    /* what it is projected from: a rung, or `count` + a root */
+    size_t ratio;     /* parent's n over n */
+    size_t offset;    /* of its modes in a projection, where they are in lanes */
+    double *transfer; /* as in ladder_kernel.h */
+};
+
+struct br_ladder {
+    const struct br_ladder_kernel *kernel;
+    size_t modes;
+    size_t count; /* rungs */
+    size_t roots;
+    size_t *root; /* elements of each */
+    size_t size;  /* doubles in a projection: the losses of all rungs, then their modes */
+    struct rung *rung;
+    size_t *order; /* of the rungs, parents first */
+};
+
+/* P_i on [0, 1], orthonormal. */
+static double legendre(size_t i, double x)
+{
+    const double y = 2 * x - 1;
+    switch (i) {
+    case 0:
+        return 1;
+    case 1:
+        return sqrt(3) * y;
+    case 2:
+        return sqrt(5) * (3 * y * y - 1) / 2;
+    default:
+        return sqrt(7) * y * (5 * y * y - 3) / 2;
+    }
+}
+
+/* E_j[i][m] = ratio^-1/2 int_0^1 P_i(x) P_m((j + x)/ratio) dx for i <= m: the modes of child j of
+ * an element from the element's mode m; exactly the identity where the ratio is 1. */
+static double transfer(const gsl_integration_glfixed_table *gauss, const struct rung *rung,
+                       size_t j, size_t i, size_t m)
+{
+    const double ratio = (double)rung->ratio;
+    double sum = 0;
+    for (size_t q = 0; q < BR_MOST_MODES; q++) {
+        double x, weight;
+        gsl_integration_glfixed_point(0, 1, q, &x, &weight, gauss);
+        sum += weight * legendre(i, x) * legendre(m, ((double)j + x) / ratio) / sqrt(ratio);
+    }
+    return rung->ratio > 1 ? sum : i == m;
+}
+
+static enum br_status fill_transfers(struct rung *rung, size_t modes, struct br_error *err)
+{
+    const size_t half = (rung->ratio + 1) / 2;
+    rung->transfer = br_allocate_aligned(half * modes * modes, sizeof *rung->transfer);
+    gsl_integration_glfixed_table *gauss = gsl_integration_glfixed_table_alloc(BR_MOST_MODES);
+    if (!rung->transfer || !gauss) {
+        gsl_integration_glfixed_table_free(gauss);
+        return br_no_memory(err, "the ladder of meshes");
+    }
+    for (size_t j = 0; j < half; j++)
+        for (size_t i = 0; i < modes; i++)
+            for (size_t m = i; m < modes; m++)
+                rung->transfer[(j * modes + i) * modes + m] = transfer(gauss, rung, j, i, m);
+    gsl_integration_glfixed_table_free(gauss);
+    return BR_OK;
+}
+
+/* Elements of the mesh that a rung is projected from. */
+static size_t parent_n(const struct br_ladder *ladder, size_t parent)
+{
+    return parent < ladder->count ? ladder->rung[parent].n : ladder->root[parent - ladder->count];
+}
+
+/* The coarsest mesh that rung r divides, a finer rung or a root; *parent: which. */
+static bool find_parent(const struct br_ladder *ladder, size_t r, size_t *parent)
+{
+    const size_t n = ladder->rung[r].n;
+    bool found = false;
+    for (size_t i = 0; i < ladder->count + ladder->roots; i++) {
+        const size_t other = parent_n(ladder, i);
+        if (other % n != 0 || (i < ladder->count && other == n))
+            continue;
+        if (!found || other < parent_n(ladder, *parent))
+            *parent = i;
+        found = true;
+    }
+    return found;
+}
+
+static size_t round_up(size_t count, size_t lanes)
+{
+    return (count + lanes - 1) / lanes * lanes;
+}
+
+static enum br_status add_rungs(struct br_ladder *ladder, const struct br_mesh_list *rungs,
+                                struct br_error *err)
+{
+    ladder->rung = br_allocate(rungs->count, sizeof *ladder->rung);
+    ladder->order = br_allocate(rungs->count, sizeof *ladder->order);
+    if (!ladder->rung || !ladder->order)
+        return br_no_memory(err, "the ladder of meshes");
+    ladder->count = rungs->count;
+    ladder->size = round_up(rungs->count, BR_MOST_LANES);
+    for (size_t r = 0; r < rungs->count; r++) {
+        ladder->rung[r] = (struct rung){.n = rungs->n[r], .offset = ladder->size};
+        if (rungs->n[r] == 0)
+            return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
+        ladder->size += round_up(rungs->n[r], BR_MOST_LANES) * ladder->modes;
+    }
+    for (size_t r = 0; r < rungs->count; r++) {
+        struct rung *rung = &ladder->rung[r];
+        if (!find_parent(ladder, r, &rung->parent))
+            return br_fail(err, BR_BAD_INPUT, "n = %zu does not divide the reference's %zu",
+                           rung->n, ladder->root[0]);
+        rung->ratio = parent_n(ladder, rung->parent) / rung->n;
+        const enum br_status status = fill_transfers(rung, ladder->modes, err);
+        if (status)
+            return status;
+    }
+    return BR_OK;
+}
+
+/* Finer rungs first: each needs its parent. */
+static void sort_rungs(struct br_ladder *ladder)
+{
+    for (size_t r = 0; r < ladder->count; r++) {
+        size_t i = r;
+        for (; i > 0 && ladder->rung[ladder->order[i - 1]].n < ladder->rung[r].n; i--)
+            ladder->order[i] = ladder->order[i - 1];
+        ladder->order[i] = r;
+    }
+}
+
+enum br_status br_ladder_create(struct br_ladder **out, size_t modes,
+                                const struct br_mesh_list *roots, const struct br_mesh_list *rungs,
+                                struct br_error *err)
+{
+    struct br_ladder *ladder = br_allocate(1, sizeof *ladder);
+    *out = ladder;
+    if (!ladder)
+        return br_no_memory(err, "the ladder of meshes");
+    ladder->kernel = br_ladder_kernel_best();
+    ladder->modes = modes;
+    ladder->root = br_allocate(roots->count, sizeof *ladder->root);
+    if (!ladder->root)
+        return br_no_memory(err, "the ladder of meshes");
+    ladder->roots = roots->count;
+    memcpy(ladder->root, roots->n, roots->count * sizeof *ladder->root);
+    const enum br_status status = add_rungs(ladder, rungs, err);
+    if (!status)
+        sort_rungs(ladder);
+    return status;
+}
+
+void br_ladder_free(struct br_ladder *ladder)
+{
+    if (!ladder)
+        return;
+    for (size_t r = 0; ladder->rung && r < ladder->count; r++)
+        free(ladder->rung[r].transfer);
+    free(ladder->rung);
+    free(ladder->order);
+    free(ladder->root);
+    free(ladder);
+}
+
+void br_ladder_use(struct br_ladder *ladder, const struct br_ladder_kernel *kernel)
+{
+    ladder->kernel = kernel;
+}
+
+size_t br_ladder_size(const struct br_ladder *ladder)
+{
+    return ladder->size;
+}
+
+/* The projection's part on a rung. */
+static struct br_view view_of(const struct br_ladder *ladder, size_t r, double *projection)
+{
+    struct br_view view;
+    br_view_modes(&view, ladder->modes);
+    view.layout = BR_IN_LANES;
+    view.rest = projection[r];
+    view.values = projection + ladder->rung[r].offset;
+    return view;
+}
+
+void br_ladder_project(const struct br_ladder *ladder, const struct br_view *root,
+                       double *projection)
+{
+    for (size_t i = 0; i < ladder->count; i++) {
+        const size_t r = ladder->order[i];
+        const struct rung *rung = &ladder->rung[r];
+        const struct br_projecting p = {
+            .fine = rung->parent < ladder->count ? view_of(ladder, rung->parent, projection)
+                                                 : root[rung->parent - ladder->count],
+            .n = rung->n,
+            .ratio = rung->ratio,
+            .transfer = rung->transfer,
+            .coarse = projection + rung->offset,
+        };
+        projection[r] = p.fine.rest + ladder->kernel->project(&p);
+    }
+}
+
+double br_ladder_distance(const struct br_ladder *ladder, size_t r, const struct br_view *view,
+                          const double *projection)
+{
+    const struct rung *rung = &ladder->rung[r];
+    return sqrt(ladder->kernel->distance(view, rung->n, projection + rung->offset) + view->rest +
+                projection[r]);
+}
+
+/* By Pythagoras, from the coarsest rung: the shortest sum. */
+double br_ladder_norm(const struct br_ladder *ladder, const double *projection)
+{
+    const size_t r = ladder->order[ladder->count - 1];
+    const struct rung *rung = &ladder->rung[r];
+    const double *modes = projection + rung->offset;
+    double sum = projection[r];
+    const size_t count = round_up(rung->n, ladder->kernel->lanes) * ladder->modes;
+    for (size_t i = 0; i < count; i++)
+        sum += modes[i] * modes[i];
+    return sqrt(sum);
+}

@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One kernel, for the instruction set BR_SET: this file is compiled for each (meson.build), and
+ * contracted (solver/sweep.h). */
+#include "study/grid/ladder_vectors.h"
+
+/* The children j and ratio - 1 - j are mirror images, and so are their transfers: those from even
+ * modes to odd ones and back differ in sign. Half of the work is saved by taking the sum s and the
+ * difference d of the two. */
+INLINE void mirror(int modes, vec *first, vec *last)
+{
+    for (int i = 0; i < modes; i++) {
+        const vec s = first[i] + last[i], d = first[i] - last[i];
+        first[i] = s;
+        last[i] = d;
+    }
+}
+
+/* sum += E' x, of two such children, or of the middle one with s = d = x */
+INLINE void add_children(int modes, const double *transfer, const vec *s, const vec *d, vec *sum)
+{
+    for (int i = 0; i < modes; i++)
+        for (int m = i; m < modes; m++)
+            sum[m] += ALL(transfer[i * modes + m]) * ((m - i) % 2 ? d[i] : s[i]);
+}
+
+/* loss += 2 (x - E sum)^2, of both together; twice the sum is given */
+INLINE void add_losses(int modes, const double *transfer, const vec *s, const vec *d,
+                       const vec *twice, vec *loss)
+{
+    for (int i = 0; i < modes; i++) {
+        vec rest[2] = {s[i], d[i]};
+        for (int m = i; m < modes; m++)
+            rest[(m - i) % 2] -= ALL(transfer[i * modes + m]) * twice[m];
+        loss[i] += rest[0] * rest[0];
+        loss[i] += rest[1] * rest[1];
+    }
+}
+
+/* The same for the middle child. */
+INLINE void add_loss(int modes, const double *transfer, const vec *x, const vec *sum, vec *loss)
+{
+    for (int i = 0; i < modes; i++) {
+        vec rest = x[i];
+        for (int m = i; m < modes; m++)
+            rest -= ALL(transfer[i * modes + m]) * sum[m];
+        loss[i] += (rest + rest) * rest;
+    }
+}
+
+/* Transfers for modes without their scales: diag(scale) E, and diag(scale)^-1 E for the loss, which
+ * is the scales' to mend. Copies, since no store can change what is local. */
+struct scaled {
+    double scale[MOST], sum[MOST_RATIO / 2 * MOST * MOST], loss[MOST_RATIO / 2 * MOST * MOST];
+};
+
+INLINE void scale_transfers(const struct br_projecting *p, int modes, int ratio, struct scaled *t)
+{
+    for (int i = 0; i < modes; i++)
+        t->scale[i] = p->fine.scale[i];
+    for (int i = 0; i < ratio / 2 * modes * modes; i++) {
+        const double scale = t->scale[i / modes % modes];
+        t->sum[i] = p->transfer[i] * scale;
+        t->loss[i] = p->transfer[i] / scale;
+    }
+}
+
+/* A vector of elements of a rung; the loss of each mode is without the square of its scale. */
+INLINE void project_vector(const struct br_projecting *p, const struct scaled *t,
+                           enum br_layout layout, int modes, int ratio, size_t first, vec *loss)
+{
+    const double *loss_transfer = layout == BR_IN_LANES ? t->sum : t->loss; /* without scales */
+    const int square = modes * modes;
+    vec x[MOST_RATIO][MOST], sum[MOST], twice[MOST];
+    fetch(&p->fine, layout, modes, ratio, first, x);
+    for (int j = 0; j < ratio; j++)
+        combine(layout, modes, x[j]);
+    for (int i = 0; i < modes; i++)
+        sum[i] = ratio == 1 ? ALL(t->scale[i]) * x[0][i] : ALL(0.0);
+    for (int j = 0; j < ratio / 2; j++) {
+        mirror(modes, x[j], x[ratio - 1 - j]);
+        add_children(modes, t->sum + j * square, x[j], x[ratio - 1 - j], sum);
+    }
+    for (int i = 0; i < modes; i++)
+        twice[i] = sum[i] + sum[i];
+    for (int j = 0; j < ratio / 2; j++)
+        add_losses(modes, loss_transfer + j * square, x[j], x[ratio - 1 - j], twice, loss);
+    for (int i = 0; i < modes; i++)
+        store(sum[i], p->coarse + first * (size_t)modes + i * LANES);
+}
+
+/* The children j and ratio - 1 - j of few elements, mirrored, or twice the middle one. */
+INLINE void collect_children(const struct br_projecting *p, enum br_layout layout, int modes,
+                             const struct few *few, size_t j, vec x[2][MOST])
+{
+    const bool middle = 2 * j + 1 == p->ratio;
+    for (int last = 0; last < (middle ? 1 : 2); last++) {
+        const struct few children = {
+            .e = few->e * p->ratio + (last ? p->ratio - 1 - j : j),
+            .stride = p->ratio,
+            .live = few->live,
+        };
+        collect(&p->fine, layout, modes, &children, x[last]);
+        make_modes(p->fine.scale, layout, modes, x[last]);
+    }
+    if (!middle) {
+        mirror(modes, x[0], x[1]);
+        return;
+    }
+    for (int i = 0; i < modes; i++)
+        x[1][i] = x[0][i];
+}
+
+/* Few elements, with any ratio. Of very many children only the last ones are kept. */
+INLINE void project_few(const struct br_projecting *p, enum br_layout layout, int modes,
+                        const struct few *few, vec *loss)
+{
+    const size_t square = (size_t)(modes * modes);
+    enum { KEPT = 8 };
+    vec kept[KEPT][2][MOST], sum[MOST], twice[MOST];
+    for (int i = 0; i < modes; i++)
+        sum[i] = ALL(0.0);
+    for (size_t j = 0; 2 * j < p->ratio; j++) {
+        vec(*x)[MOST] = kept[j % KEPT];
+        collect_children(p, layout, modes, few, j, x);
+        add_children(modes, p->transfer + j * square, x[0], x[1], sum);
+    }
+    for (int i = 0; i < modes; i++)
+        twice[i] = sum[i] + sum[i];
+    for (size_t j = 0; 2 * j < p->ratio; j++) {
+        vec(*x)[MOST] = kept[j % KEPT];
+        if (p->ratio > 2 * KEPT)
+            collect_children(p, layout, modes, few, j, x);
+        if (2 * j + 1 < p->ratio)
+            add_losses(modes, p->transfer + j * square, x[0], x[1], twice, loss);
+        else
+            add_loss(modes, p->transfer + j * square, x[0], sum, loss);
+    }
+    for (int i = 0; i < modes; i++)
+        store(sum[i], p->coarse + few->e * (size_t)modes + i * LANES);
+}
+
+/* All whole vectors of a rung. */
+INLINE void project_whole(const struct br_projecting *p, enum br_layout layout, int modes,
+                          int ratio, vec *loss)
+{
+    const struct br_projecting local = *p;
+    struct scaled t;
+    vec unscaled[MOST] = {ALL(0.0)};
+    scale_transfers(p, modes, ratio, &t);
+    for (size_t e = 0; e + LANES <= p->n; e += LANES)
+        project_vector(&local, &t, layout, modes, ratio, e, unscaled);
+    for (int i = 0; i < modes; i++)
+        loss[i] += ALL(t.scale[i] * t.scale[i]) * unscaled[i];
+}
+
+INLINE void project_layout(const struct br_projecting *p, enum br_layout layout, int modes,
+                           vec *loss)
+{
+    if (p->ratio == 1)
+        project_whole(p, layout, modes, 1, loss);
+    else if (p->ratio == 2 && layout != BR_BY_ELEMENT)
+        project_whole(p, layout, modes, 2, loss);
+    else if (p->ratio == 4 && layout != BR_BY_ELEMENT)
+        project_whole(p, layout, modes, 4, loss);
+    else
+        for (size_t e = 0; e + LANES <= p->n; e += LANES)
+            project_few(p, layout, modes, &(struct few){e, 1, LANES}, loss);
+    const size_t rest = p->n % LANES;
+    if (rest)
+        project_few(p, layout, modes, &(struct few){p->n - rest, 1, rest}, loss);
+}
+
+INLINE double total(int modes, const vec *x)
+{
+    vec sum = x[0];
+    for (int i = 1; i < modes; i++)
+        sum += x[i];
+    double lane[LANES];
+    store(sum, lane);
+    for (int width = LANES / 2; width > 0; width /= 2)
+        for (int l = 0; l < width; l++)
+            lane[l] += lane[l + width];
+    return lane[0];
+}
+
+INLINE double project_modes(const struct br_projecting *p, int modes)
+{
+    vec loss[MOST] = {ALL(0.0)};
+    if (p->fine.layout == BR_BY_ELEMENT)
+        project_layout(p, BR_BY_ELEMENT, modes, loss);
+    else if (p->fine.layout == BR_IN_LANES)
+        project_layout(p, BR_IN_LANES, modes, loss);
+    else if (modes > 1)
+        project_layout(p, BR_BY_NODE, modes, loss);
+    return total(modes, loss) / 2;
+}
+
+static double project(const struct br_projecting *p)
+{
+    switch (p->fine.modes) {
+    case 1:
+        return project_modes(p, 1);
+    case 2:
+        return project_modes(p, 2);
+    case 3:
+        return project_modes(p, 3);
+    default:
+        return project_modes(p, 4);
+    }
+}
+
+/* sum += (x - b)^2 */
+INLINE void add_difference(int modes, const vec *x, const double *b, vec *sum)
+{
+    for (int i = 0; i < modes; i++) {
+        vec other;
+        other = load(b + i * LANES);
+        const vec difference = x[i] - other;
+        sum[i] += difference * difference;
+    }
+}
+
+INLINE void distance_layout(const struct br_view *a, size_t n, const double *b,
+                            enum br_layout layout, int modes, vec *sum)
+{
+    size_t e = 0;
+    vec x[1][MOST] = {{ALL(0.0)}};
+    for (; e + LANES <= n; e += LANES) {
+        fetch(a, layout, modes, 1, e, x);
+        make_modes(a->scale, layout, modes, x[0]);
+        add_difference(modes, x[0], b + e * (size_t)modes, sum);
+    }
+    if (e < n) {
+        collect(a, layout, modes, &(struct few){e, 1, n - e}, x[0]);
+        make_modes(a->scale, layout, modes, x[0]);
+        add_difference(modes, x[0], b + e * (size_t)modes, sum);
+    }
+}
+
+INLINE double distance_modes(const struct br_view *a, size_t n, const double *b, int modes)
+{
+    vec sum[MOST] = {ALL(0.0)};
+    if (a->layout == BR_BY_ELEMENT)
+        distance_layout(a, n, b, BR_BY_ELEMENT, modes, sum);
+    else if (a->layout == BR_IN_LANES)
+        distance_layout(a, n, b, BR_IN_LANES, modes, sum);
+    else if (modes > 1)
+        distance_layout(a, n, b, BR_BY_NODE, modes, sum);
+    return total(modes, sum);
+}
+
+static double distance(const struct br_view *a, size_t n, const double *b)
+{
+    switch (a->modes) {
+    case 1:
+        return distance_modes(a, n, b, 1);
+    case 2:
+        return distance_modes(a, n, b, 2);
+    case 3:
+        return distance_modes(a, n, b, 3);
+    default:
+        return distance_modes(a, n, b, 4);
+    }
+}
+
+const struct br_ladder_kernel BR_JOIN(br_ladder_, BR_SET) = {
+    .name = BR_QUOTE(BR_SET),
+    .lanes = LANES,
+    .available = BR_JOIN(br_has_, BR_SET),
+    .project = project,
+    .distance = distance,
+};

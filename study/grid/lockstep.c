@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The reference is marched a batch of time levels at a time, its two fields apart, and leaves its
+ * projections (ladder.h) in one of a few buffers; the cells then take their own steps through the
+ * batch and measure their errors, while the reference is already filling the other buffers. These
+ * are OpenMP tasks whose dependences are the buffers and the marches. The bending field follows the
+ * axial one, which never waits for it but for a free buffer. Every march is one sequence of
+ * operations whichever threads run it, so the result has the same bits on any number. */
+#include "study/grid/lockstep.h"
+
+#include "study/grid/lockstep_state.h"
+#include "study/grid/observer.h"
+#include "study/grid/threads.h"
+#include <stdio.h>
+
+static size_t batch_end(const struct br_lockstep *l, size_t b)
+{
+    const size_t end = (b + 1) * l->batch;
+    return end < l->level_count ? end : l->level_count;
+}
+
+static bool should_stop(struct br_lockstep *l)
+{
+    if (l->observer && l->observer->stop && l->observer->stop(l->observer->self))
+        atomic_store(&l->stopped, true);
+    return atomic_load(&l->stopped);
+}
+
+static struct br_slot slot_at(const struct br_lockstep *l, size_t index)
+{
+    return (struct br_slot){index / l->batch % BR_LOCKSTEP_BUFFERS, index % l->batch};
+}
+
+/* Whether the reference, in one field or the other, has failed before that level. */
+static bool failed_before(const struct br_lockstep *l, size_t index)
+{
+    return atomic_load(&l->first_failed) <= index;
+}
+
+static enum br_status reference_level(struct br_lockstep *l, enum br_field_kind kind, size_t index,
+                                      struct br_error *err)
+{
+    const size_t level = l->level[index];
+    const struct br_slot slot = slot_at(l, index);
+    const enum br_status status = l->reference.judge->advance(l->reference.self, kind, level, err);
+    if (status)
+        return status;
+    br_lockstep_project(l, kind, slot, level);
+    return br_lockstep_audits(l, index) ? br_lockstep_audit(l, kind, slot, level, err) : BR_OK;
+}
+
+static bool models(const struct br_lockstep *l, enum br_field_kind kind)
+{
+    const struct br_scene *scene = l->study->scene;
+    return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
+}
+
+/* A field that fails stops the other one only beyond that level, so that the first failure is told,
+ * whichever thread was faster. */
+static void reference_batch(struct br_lockstep *l, enum br_field_kind kind, size_t b)
+{
+    struct br_lane *lane = &l->lane[kind];
+    for (size_t i = b * l->batch; i < batch_end(l, b) && models(l, kind); i++) {
+        if (should_stop(l) || lane->error.status || failed_before(l, i))
+            return;
+        if (!reference_level(l, kind, i, &lane->error))
+            continue;
+        lane->failed = i;
+        size_t first = atomic_load(&l->first_failed);
+        while (i < first && !atomic_compare_exchange_weak(&l->first_failed, &first, i)) {
+        }
+    }
+}
+
+static void add_up_batch(struct br_lockstep *l, size_t b)
+{
+    for (size_t i = b * l->batch; i < batch_end(l, b) && !failed_before(l, i); i++)
+        br_lockstep_add_up(l, slot_at(l, i), i);
+}
+
+/* A cell goes on to the level of that index, if it is one of its own, and is measured there. */
+static void cell_level(struct br_lockstep *l, size_t index, size_t cell)
+{
+    struct br_runner *r = &l->cell[cell];
+    const size_t ratio = l->study->reference.steps / l->study->cell[cell].at.steps;
+    if (r->error.status || l->level[index] % ratio != 0)
+        return;
+    if (br_runner_advance(r, l->level[index] / ratio))
+        br_cell_failed(l->study, cell, &r->error);
+    else
+        br_lockstep_measure(l, cell, slot_at(l, index));
+}
+
+/* Level by level: the cells of a crew read the same projection while it is near. */
+static void crew_batch(struct br_lockstep *l, size_t b, size_t crew)
+{
+    for (size_t i = b * l->batch; i < batch_end(l, b); i++) {
+        if (atomic_load(&l->stopped) || failed_before(l, i))
+            return;
+        for (size_t c = l->crew[crew]; c < l->crew[crew + 1]; c++)
+            cell_level(l, i, c);
+    }
+}
+
+/* ---- running ---- */
+
+/* Batches of each study that are known at once, at most: time and memory of waiting tasks grow
+ * faster than their number. */
+enum { AHEAD = 128 };
+
+/* All the studies of a call, and how far they are. */
+struct work {
+    struct br_lockstep *step;
+    size_t count;
+    atomic_size_t finished_batches;
+    size_t all_batches;
+    const struct br_observer *observer;
+};
+
+static void tell(struct work *work, struct br_lockstep *l)
+{
+    if (atomic_load(&l->stopped) || failed_before(l, l->level_count))
+        return;
+    const size_t done = atomic_fetch_add(&work->finished_batches, 1) + 1;
+    if (work->observer && work->observer->progress)
+        work->observer->progress(work->observer->self, (double)done / (double)work->all_batches);
+}
+
+/* The tasks of batch b: each field of the reference fills its buffer, then the cells read them. */
+static void spawn_batch(struct work *work, struct br_lockstep *l, size_t b)
+{
+    (void)work; /* without OpenMP */
+    struct br_lane *axial = &l->lane[BR_AXIAL], *bending = &l->lane[BR_BENDING];
+    char *from_axial = &axial->token[b % BR_LOCKSTEP_BUFFERS], *tally = &l->tally;
+    char *from_bending = &bending->token[b % BR_LOCKSTEP_BUFFERS];
+    (void)from_axial, (void)from_bending, (void)tally;
+#pragma omp task depend(inout : axial[0], from_axial[0])
+    reference_batch(l, BR_AXIAL, b);
+#pragma omp task depend(inout : bending[0], from_bending[0]) depend(in : from_axial[0])
+    {
+        reference_batch(l, BR_BENDING, b);
+        tell(work, l);
+    }
+#pragma omp task depend(inout : tally[0]) depend(in : from_axial[0], from_bending[0])
+    add_up_batch(l, b);
+    for (size_t i = 0; i < l->crews; i++) {
+        size_t *crew = &l->crew[i];
+        (void)crew;
+#pragma omp task depend(inout : crew[0]) depend(in : from_axial[0], from_bending[0])
+        crew_batch(l, b, i);
+    }
+}
+
+static void spawn_all(struct work *work)
+{
+    size_t most = 0;
+    for (size_t s = 0; s < work->count; s++)
+        most = work->step[s].batches > most ? work->step[s].batches : most;
+    for (size_t b = 0; b < most; b++) {
+        for (size_t s = 0; s < work->count; s++) {
+            struct br_lockstep *l = &work->step[s];
+            if (b < l->batches && !atomic_load(&l->stopped) && !failed_before(l, l->level_count))
+                spawn_batch(work, l, b);
+        }
+        if (b % AHEAD == AHEAD - 1 || b + 1 == most) {
+#pragma omp taskwait
+        }
+    }
+}
+
+/* What the reference tells, kept with the study. */
+static enum br_status keep_events(struct br_lockstep *l, struct br_study *study,
+                                  struct br_error *err)
+{
+    size_t size;
+    FILE *out = open_memstream(&study->events, &size);
+    if (!out)
+        return br_no_memory(err, "the events");
+    l->reference.judge->tell(l->reference.self, out);
+    return fclose(out) == 0 ? BR_OK : br_no_memory(err, "the events");
+}
+
+/* What concerns the whole call, not one study. */
+static bool is_fatal(const struct br_error *failure)
+{
+    return failure->status == BR_NO_MEMORY || failure->status == BR_INTERRUPTED;
+}
+
+/* Whether a study went well; if not, its failure is known to all its norms. */
+static bool succeeded(struct br_study *first)
+{
+    for (struct br_study *s = first; s; s = s->next_norm)
+        s->failure = first->failure;
+    return !first->failure.status;
+}
+
+static enum br_status conclude(struct br_lockstep *l, struct br_error *err)
+{
+    const struct br_lane *axial = &l->lane[BR_AXIAL], *bending = &l->lane[BR_BENDING];
+    const bool axial_first =
+        axial->error.status && (!bending->error.status || axial->failed <= bending->failed);
+    if (axial->error.status || bending->error.status)
+        l->study->failure = axial_first ? axial->error : bending->error;
+    for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++)
+        if (l->cell[i].error.status == BR_NO_MEMORY)
+            l->study->failure = l->cell[i].error;
+    if (!l->study->failure.status && atomic_load(&l->stopped))
+        br_fail(&l->study->failure, BR_INTERRUPTED, "interrupted");
+    if (is_fatal(&l->study->failure))
+        return br_fail(err, l->study->failure.status, "%s", l->study->failure.message);
+    if (!succeeded(l->study))
+        return BR_OK;
+    br_lockstep_conclude(l);
+    enum br_status status = BR_OK;
+    for (struct br_study *study = l->study; study && !status; study = study->next_norm)
+        status = keep_events(l, study, err);
+    return status;
+}
+
+static void create(struct work *work, struct br_study *studies, size_t s)
+{
+    struct br_lockstep *l = &work->step[s];
+    if (studies[s].failure.status)
+        l->study = &studies[s];
+    else if (br_lockstep_create(l, &studies[s], work->observer, &studies[s].failure))
+        l->batches = 0; /* nothing to march */
+}
+
+/* Sets up all studies: an exact reference works its solution out there. Those of one scene
+ * one after the other, since they all read its functions (scene.h). */
+static void create_all(struct work *work, struct br_study *studies, int threads)
+{
+    (void)threads; /* without OpenMP */
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+    for (size_t first = 0; first < work->count; first++) {
+        bool is_first = true;
+        for (size_t s = 0; s < first; s++)
+            is_first &= studies[s].scene != studies[first].scene;
+        for (size_t s = first; s < work->count && is_first; s++)
+            if (studies[s].scene == studies[first].scene)
+                create(work, studies, s);
+    }
+    for (size_t s = 0; s < work->count; s++)
+        work->all_batches += work->step[s].batches;
+}
+
+enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
+                           const struct br_observer *observer, struct br_error *err)
+{
+    struct work work = {.count = count, .observer = observer};
+    work.step = br_allocate(count, sizeof *work.step);
+    if (!work.step)
+        return br_no_memory(err, "the studies");
+    threads = br_threads(threads);
+    create_all(&work, studies, threads);
+    bool fatal = false;
+    for (size_t s = 0; s < count; s++)
+        fatal |= is_fatal(&studies[s].failure);
+#pragma omp parallel num_threads(threads) if (!fatal)
+#pragma omp single
+    if (!fatal)
+        spawn_all(&work);
+    enum br_status status = BR_OK;
+    for (size_t s = 0; s < count && !status; s++)
+        status = conclude(&work.step[s], err);
+    for (size_t s = 0; s < count; s++)
+        br_lockstep_clear(&work.step[s]);
+    free(work.step);
+    return status;
+}

@@ -1,0 +1,349 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdint.h>
+
+#include "study/grid/ladder_kernel.h"
+#include "study/grid/lockstep_state.h"
+#include "study/grid/observer.h"
+
+static const size_t buffer_bytes = 1u << 20; /* of a batch's projections, at most */
+static const size_t most_levels = 32;        /* in a batch */
+static const double least_work = 1e5;        /* element-steps of a crew in a batch, about */
+static const size_t most_audits = 1000;      /* of the reference, about */
+
+/* Every reference step that is a time level of some cell, 0 included. */
+static enum br_status list_levels(struct br_lockstep *l, struct br_error *err)
+{
+    const struct br_study *s = l->study;
+    size_t most = 1;
+    for (size_t j = 0; j < s->k_count; j++)
+        most += s->steps[j];
+    l->level = br_allocate(most, sizeof *l->level);
+    if (!l->level)
+        return br_no_memory(err, "the time levels");
+    l->level_count = 1; /* t = 0 */
+    for (size_t last = 0; last < s->reference.steps;) {
+        size_t next = s->reference.steps;
+        for (size_t j = 0; j < s->k_count; j++) {
+            const size_t ratio = s->reference.steps / s->steps[j];
+            const size_t candidate = (last / ratio + 1) * ratio;
+            next = candidate < next ? candidate : next;
+        }
+        l->level[l->level_count++] = last = next;
+    }
+    return BR_OK;
+}
+
+/* The meshes that the reference is looked at on: its own where it has one; else
+ * those of the cells that are no divisor of another's. */
+static enum br_status list_roots(struct br_lockstep *l, struct br_error *err)
+{
+    const struct br_study *s = l->study;
+    l->root = br_allocate(s->n_count, sizeof *l->root);
+    if (!l->root)
+        return br_no_memory(err, "the meshes");
+    if (s->judge->nests) {
+        l->root[l->roots++] = s->reference.n;
+        return BR_OK;
+    }
+    for (size_t i = 0; i < s->n_count; i++) {
+        bool divides = false;
+        for (size_t j = 0; j < s->n_count; j++)
+            divides |= s->n[j] % s->n[i] == 0 && (s->n[j] > s->n[i] || j < i);
+        if (!divides)
+            l->root[l->roots++] = s->n[i];
+    }
+    return BR_OK;
+}
+
+/* Which measures the norms need. The tip's is also kept at the end, whatever they need. */
+static void choose_channels(struct br_lockstep *l)
+{
+    const struct br_scene *scene = l->study->scene;
+    const bool modelled[2] = {scene->axial.modelled, scene->bending.modelled};
+    for (int measure = 0; measure < BR_MEASURES; measure++) {
+        bool needed = false;
+        for (const struct br_study *s = l->study; s; s = s->next_norm)
+            needed |= br_norm_needs(s->norm, (enum br_measure)measure);
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+            struct br_channel *c =
+                br_channel_of(l, (enum br_field_kind)kind, (enum br_measure)measure);
+            c->used = modelled[kind] && (needed || measure == BR_TIP);
+            c->last_only = !needed;
+        }
+    }
+}
+
+static enum br_status create_roots(struct br_lockstep *l, struct br_channel *c,
+                                   const struct br_look_at *at, struct br_error *err)
+{
+    c->root = br_allocate(l->roots, sizeof *c->root);
+    if (!c->root)
+        return br_no_memory(err, "the reference's values");
+    for (size_t i = 0; i < l->roots; i++) {
+        c->root[i].values = br_allocate_aligned(
+            br_measure_size(br_lockstep_elements(l, at->kind), at->measure, l->root[i]),
+            sizeof(double));
+        if (!c->root[i].values)
+            return br_no_memory(err, "the reference's values");
+    }
+    return BR_OK;
+}
+
+/* With the kernel that the cells are marched by, where one was asked for: then another processor
+ * gives the same bits. */
+static enum br_status create_ladder(const struct br_lockstep *l, const struct br_look_at *at,
+                                    const struct br_mesh_list *roots,
+                                    const struct br_mesh_list *rungs, struct br_ladder **ladder,
+                                    struct br_error *err)
+{
+    const struct br_kernel *kernel = l->study->method.linear.kernel;
+    const size_t modes = br_mode_count(br_lockstep_elements(l, at->kind), at->measure);
+    const enum br_status status = br_ladder_create(ladder, modes, roots, rungs, err);
+    if (!status && kernel)
+        br_ladder_use(*ladder, br_ladder_kernel_find(kernel->name));
+    return status;
+}
+
+/* What the auditor needs. */
+static enum br_status create_audit(struct br_lockstep *l, struct br_channel *c,
+                                   const struct br_look_at *at, struct br_error *err)
+{
+    const struct br_mesh_list root = {1, l->root};
+    c->audit.values =
+        br_allocate(br_measure_size(br_lockstep_elements(l, at->kind), at->measure, l->root[0]),
+                    sizeof(double));
+    if (!c->audit.values)
+        return br_no_memory(err, "the auditor's values");
+    if (at->measure == BR_TIP)
+        return BR_OK;
+    const enum br_status status = create_ladder(l, at, &root, &root, &c->audit_ladder, err);
+    if (status)
+        return status;
+    c->audit_projection = br_allocate_aligned(br_ladder_size(c->audit_ladder), sizeof(double));
+    return c->audit_projection ? BR_OK : br_no_memory(err, "the auditor's values");
+}
+
+static enum br_status create_channel(struct br_lockstep *l, enum br_field_kind kind,
+                                     enum br_measure measure, struct br_error *err)
+{
+    struct br_channel *c = br_channel_of(l, kind, measure);
+    const struct br_look_at at = {kind, measure, 0};
+    const struct br_mesh_list roots = {l->roots, l->root}, rungs = {l->study->n_count, l->study->n};
+    enum br_status status = create_roots(l, c, &at, err);
+    if (!status && l->study->auditor)
+        status = create_audit(l, c, &at, err);
+    if (!status && measure != BR_TIP)
+        status = create_ladder(l, &at, &roots, &rungs, &c->ladder, err);
+    c->size = c->ladder ? br_ladder_size(c->ladder) : 1;
+    return status;
+}
+
+static enum br_status create_channels(struct br_lockstep *l, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (int measure = 0; measure < BR_MEASURES && !status; measure++)
+            if (br_channel_of(l, (enum br_field_kind)kind, (enum br_measure)measure)->used)
+                status = create_channel(l, (enum br_field_kind)kind, (enum br_measure)measure, err);
+    return status;
+}
+
+static enum br_status create_buffers(struct br_lockstep *l, struct br_error *err)
+{
+    size_t doubles = 0;
+    for (size_t i = 0; i < BR_CHANNELS; i++)
+        doubles += l->channel[i].size;
+    l->batch = buffer_bytes / (doubles * sizeof(double));
+    l->batch = l->batch < 1 ? 1 : l->batch > most_levels ? most_levels : l->batch;
+    l->batches = (l->level_count + l->batch - 1) / l->batch;
+    for (size_t i = 0; i < BR_CHANNELS * BR_LOCKSTEP_BUFFERS; i++) {
+        struct br_channel *c = &l->channel[i / BR_LOCKSTEP_BUFFERS];
+        double **projection = &c->projection[i % BR_LOCKSTEP_BUFFERS];
+        if (c->used && !(*projection = br_allocate_aligned(l->batch * c->size, sizeof(double))))
+            return br_no_memory(err, "the reference's projections");
+    }
+    for (int b = 0; b < BR_LOCKSTEP_BUFFERS; b++) {
+        l->scale[b] = br_allocate(l->batch, sizeof *l->scale[b]);
+        l->audit[b] = br_allocate(l->batch, sizeof *l->audit[b]);
+        if (!l->scale[b] || !l->audit[b])
+            return br_no_memory(err, "the reference's sizes");
+    }
+    return BR_OK;
+}
+
+/* Steps of the reference in the longest run of as many batches as there are buffers. */
+static size_t longest_lead(const struct br_lockstep *l)
+{
+    const size_t run = BR_LOCKSTEP_BUFFERS * l->batch;
+    size_t most = 1;
+    for (size_t i = 0; i < l->level_count; i += l->batch) {
+        const size_t last = i + run < l->level_count ? i + run : l->level_count - 1;
+        const size_t steps = l->level[last] - l->level[i];
+        most = steps > most ? steps : most;
+    }
+    return most;
+}
+
+static enum br_status create_sums(struct br_lockstep *l, struct br_error *err)
+{
+    const size_t cells = br_study_cells(l->study);
+    l->cell_sum = br_allocate(cells * l->norms, sizeof *l->cell_sum);
+    l->scale_sum = br_allocate(l->norms, sizeof *l->scale_sum);
+    l->audit_sum = br_allocate(l->norms, sizeof *l->audit_sum);
+    return l->cell_sum && l->scale_sum && l->audit_sum ? BR_OK : br_no_memory(err, "the errors");
+}
+
+/* An auditor that cannot promise a solution of this scene is done without. */
+static void dismiss_auditor(struct br_lockstep *l)
+{
+    l->auditor.judge->free(l->auditor.self);
+    l->auditor = (struct br_bench){0};
+    l->study->auditor = NULL;
+}
+
+/* The reference, and who audits it. */
+static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
+{
+    struct br_study *s = l->study;
+    struct br_judge_request request = {
+        .scene = s->scene,
+        .method = s->reference_method,
+        .n = s->reference.n,
+        .axial_degree = s->method.axial_degree,
+        .levels = s->reference.steps,
+        .lead = longest_lead(l),
+        .mesh_count = l->roots,
+        .mesh = l->root,
+        .stop = l->observer ? l->observer->stop : NULL,
+        .stop_self = l->observer ? l->observer->self : NULL,
+        .preparing = l->observer ? l->observer->preparing : NULL,
+    };
+    for (int measure = 0; measure < BR_MEASURES; measure++) {
+        const enum br_measure m = (enum br_measure)measure;
+        request.measured[BR_AXIAL][m] = br_channel_of(l, BR_AXIAL, m)->used;
+        request.measured[BR_BENDING][m] = br_channel_of(l, BR_BENDING, m)->used;
+    }
+    l->reference.judge = s->judge;
+    const enum br_status status = s->judge->create(&l->reference.self, &request, err);
+    if (status || !s->auditor)
+        return status;
+    l->auditor.judge = s->auditor;
+    l->audit_every = l->level_count / most_audits + 1;
+    request.modest = true;
+    struct br_error refusal = {0};
+    if (!s->auditor->create(&l->auditor.self, &request, &refusal))
+        return BR_OK;
+    if (refusal.status == BR_NO_MEMORY)
+        return br_fail(err, BR_NO_MEMORY, "%s", refusal.message);
+    dismiss_auditor(l);
+    return BR_OK;
+}
+
+static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
+{
+    const struct br_study *s = l->study;
+    const size_t cells = br_study_cells(s);
+    l->cell = br_allocate(cells, sizeof *l->cell);
+    if (!l->cell)
+        return br_no_memory(err, "the cells");
+    for (size_t i = 0; i < cells; i++) {
+        br_runner_start(&l->cell[i], s->scene, s->cell[i].at, br_study_method(s, i));
+        if (l->cell[i].march && l->observer)
+            br_march_stop_when(l->cell[i].march, l->observer->stop, l->observer->self);
+        const enum br_status failure = l->cell[i].error.status;
+        if (failure == BR_BAD_INPUT || failure == BR_NO_MEMORY)
+            return br_fail(err, failure, "%s", l->cell[i].error.message);
+        if (failure)
+            br_cell_failed(l->study, i, &l->cell[i].error);
+    }
+    return BR_OK;
+}
+
+/* Element-steps of a cell in a batch, about. */
+static double work_of(const struct br_lockstep *l, size_t cell)
+{
+    const struct br_resolution at = l->study->cell[cell].at;
+    return (double)at.n * (double)at.steps / (double)l->batches;
+}
+
+/* Cells go into crews whose tasks are long enough to be worth their while, whatever the number of
+ * threads. */
+static enum br_status create_crews(struct br_lockstep *l, struct br_error *err)
+{
+    const size_t cells = br_study_cells(l->study);
+    l->crew = br_allocate(cells + 1, sizeof *l->crew);
+    if (!l->crew)
+        return br_no_memory(err, "the cells");
+    double work = 0;
+    for (size_t i = 0; i < cells; i++) {
+        work += work_of(l, i);
+        if (work < least_work && i + 1 < cells)
+            continue;
+        l->crew[++l->crews] = i + 1;
+        work = 0;
+    }
+    return BR_OK;
+}
+
+enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
+                                  const struct br_observer *observer, struct br_error *err)
+{
+    l->study = s;
+    for (; s; s = s->next_norm)
+        l->norms++;
+    l->observer = observer;
+    atomic_init(&l->first_failed, SIZE_MAX);
+    choose_channels(l);
+    enum br_status status = list_levels(l, err);
+    if (!status)
+        status = list_roots(l, err);
+    if (!status)
+        status = create_channels(l, err);
+    if (!status)
+        status = create_buffers(l, err);
+    if (!status)
+        status = create_sums(l, err);
+    if (!status)
+        status = create_judges(l, err);
+    if (!status)
+        status = create_cells(l, err);
+    if (!status)
+        status = create_crews(l, err);
+    return status;
+}
+
+static void channel_clear(struct br_channel *c, size_t roots)
+{
+    br_ladder_free(c->ladder);
+    for (size_t i = 0; c->root && i < roots; i++)
+        free(c->root[i].values);
+    free(c->root);
+    br_ladder_free(c->audit_ladder);
+    free(c->audit.values);
+    free(c->audit_projection);
+    for (int b = 0; b < BR_LOCKSTEP_BUFFERS; b++)
+        free(c->projection[b]);
+}
+
+void br_lockstep_clear(struct br_lockstep *l)
+{
+    for (size_t i = 0; i < BR_CHANNELS; i++)
+        channel_clear(&l->channel[i], l->roots);
+    if (l->reference.judge)
+        l->reference.judge->free(l->reference.self);
+    if (l->auditor.judge)
+        l->auditor.judge->free(l->auditor.self);
+    for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++)
+        br_runner_clear(&l->cell[i]);
+    for (int b = 0; b < BR_LOCKSTEP_BUFFERS; b++) {
+        free(l->scale[b]);
+        free(l->audit[b]);
+    }
+    free(l->cell);
+    free(l->crew);
+    free(l->cell_sum);
+    free(l->scale_sum);
+    free(l->audit_sum);
+    free(l->root);
+    free(l->level);
+}

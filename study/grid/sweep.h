@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Marches the cells of studies beside their references, and measures the errors. */
+#ifndef BR_STUDY_GRID_SWEEP_H
+#define BR_STUDY_GRID_SWEEP_H
+
+#include "study/grid/observer.h"
+#include "study/grid/study.h"
+
+/* Runs studies on `threads` threads (0: all cores), all at once: the reference and
+ * the cells march in lockstep, a few time levels at a time, so that neither is
+ * ever stored as a whole. The results do not depend on the number of threads.
+ * A cell that fails is marked; the reference failing, or grids that do not nest,
+ * fail the call (BR_BAD_INPUT names the nearest values that would do). `studies` are
+ * the first ones of their chains of norms. */
+enum br_status br_study_run(struct br_study *studies, size_t count, int threads,
+                            const struct br_observer *observer, struct br_error *err);
+/* As br_study_run, but what is wrong with one study stays in its `failure`, and the others go
+ * on: only BR_NO_MEMORY and BR_INTERRUPTED fail the call. */
+enum br_status br_study_run_each(struct br_study *studies, size_t count, int threads,
+                                 const struct br_observer *observer, struct br_error *err);
+
+#endif

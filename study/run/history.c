@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/run/history.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "solver/clock.h"
+
+struct run {
+    const struct br_history_request *request;
+    struct br_march *march;
+    struct br_history_row row; /* of the level reached */
+    size_t next_level;         /* index into request->level */
+};
+
+size_t br_history_stride(size_t steps, size_t most_rows)
+{
+    const size_t intervals = most_rows > 2 ? most_rows - 1 : 1;
+    return steps <= intervals ? 1 : (steps + intervals - 1) / intervals;
+}
+
+/* ---- rows ---- */
+
+/* At t = 0: the laws at the initial data; the scheme has no friction force there. */
+static enum br_status first_row(struct run *r, struct br_error *err)
+{
+    const struct br_scene *scene = r->request->scene;
+    const struct br_field *axial = br_march_field(r->march, BR_AXIAL);
+    double *velocity = br_allocate(2 * (axial->n + 1), sizeof *velocity);
+    if (!velocity)
+        return br_no_memory(err, "a history");
+    r->row = (struct br_history_row){.friction_force = NAN};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        br_march_get(r->march, (enum br_field_kind)kind, NULL, velocity);
+        r->row.velocity[kind] =
+            velocity[axial->n *
+                     br_field_unknowns(br_march_field(r->march, (enum br_field_kind)kind))];
+    }
+    free(velocity);
+    r->row.displacement[BR_AXIAL] = br_march_tip_displacement(r->march, BR_AXIAL);
+    r->row.displacement[BR_BENDING] = NAN;
+    const double depth = scene->contact.modelled
+                             ? br_penetration(&scene->contact, r->row.displacement[BR_AXIAL])
+                             : 0;
+    r->row.contact_force = scene->contact.stiffness * depth;
+    r->row.friction_bound = br_friction_bound(scene, depth);
+    if (scene->friction.law == BR_FRICTIONLESS)
+        r->row.friction_force = 0;
+    return BR_OK;
+}
+
+static void fill_row(struct run *r)
+{
+    const struct br_tip *tip = br_march_tip(r->march);
+    r->row = (struct br_history_row){
+        .step = br_march_steps_done(r->march),
+        .time = br_march_time(r->march),
+        .displacement = {tip->displacement, NAN},
+        .velocity = {tip->velocity[BR_AXIAL], tip->velocity[BR_BENDING]},
+        .contact_force = tip->contact_force,
+        .friction_force = tip->friction_force,
+        .friction_bound = tip->friction_bound,
+    };
+}
+
+static void complete_row(struct run *r)
+{
+    if (isnan(r->row.displacement[BR_BENDING]))
+        r->row.displacement[BR_BENDING] = br_march_tip_displacement(r->march, BR_BENDING);
+}
+
+/* ---- observers ---- */
+
+static bool is_row(const struct run *r)
+{
+    const struct br_history_request *q = r->request;
+    return q->stride && (r->row.step % q->stride == 0 || r->row.step == q->steps);
+}
+
+/* Whether this is a chosen level; each is told once. */
+static bool is_look(struct run *r)
+{
+    const struct br_history_request *q = r->request;
+    if (r->next_level >= q->levels || q->level[r->next_level] != r->row.step)
+        return false;
+    r->next_level++;
+    return true;
+}
+
+static enum br_status tell(struct run *r, struct br_error *err)
+{
+    const struct br_history_request *q = r->request;
+    const bool row = is_row(r), look = is_look(r);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < q->observers && !status; i++)
+        if (q->observer[i].step)
+            status = q->observer[i].step(q->observer[i].self, r->march, &r->row, err);
+    if (row || look)
+        complete_row(r);
+    for (size_t i = 0; i < q->observers && !status && row; i++)
+        if (q->observer[i].row)
+            status = q->observer[i].row(q->observer[i].self, &r->row, err);
+    for (size_t i = 0; i < q->observers && !status && look; i++)
+        if (q->observer[i].look)
+            status = q->observer[i].look(q->observer[i].self, r->march, &r->row, err);
+    return status;
+}
+
+/* ---- the march ---- */
+
+/* By how much a march that left the numbers had grown. */
+static void append_last(const struct run *r, struct br_error *err)
+{
+    if (!err)
+        return;
+    const struct br_history_row *last = &r->row;
+    const size_t used = strlen(err->message);
+    snprintf(err->message + used, sizeof err->message - used,
+             "; the last good step, %zu at t = %.15g s, has velocities of %.3g m/s (axial) and "
+             "%.3g m/s (bending) at the tip",
+             last->step, last->time, last->velocity[BR_AXIAL], last->velocity[BR_BENDING]);
+}
+
+/* The last good row, if it was not told: without the bending displacement, which is lost. */
+static void tell_last(const struct run *r)
+{
+    const struct br_history_request *q = r->request;
+    if (!q->stride || is_row(r))
+        return;
+    for (size_t i = 0; i < q->observers; i++)
+        if (q->observer[i].row)
+            q->observer[i].row(q->observer[i].self, &r->row, NULL);
+}
+
+static enum br_status begin(struct run *r, struct br_error *err)
+{
+    const struct br_history_request *q = r->request;
+    enum br_status status = first_row(r, err);
+    for (size_t i = 0; i < q->observers && !status; i++)
+        if (q->observer[i].begin)
+            status = q->observer[i].begin(q->observer[i].self, r->march, err);
+    return status;
+}
+
+static enum br_status march(struct run *r, struct br_error *err)
+{
+    enum br_status status = begin(r, err);
+    if (!status)
+        status = tell(r, err);
+    while (!status && r->row.step < r->request->steps) {
+        status = br_march_step(r->march, err);
+        if (status) {
+            append_last(r, err);
+            tell_last(r);
+            return status;
+        }
+        fill_row(r);
+        status = tell(r, err);
+    }
+    if (!status)
+        complete_row(r);
+    return status;
+}
+
+enum br_status br_history_run(const struct br_history_request *q, struct br_march **out,
+                              struct br_history_end *end, struct br_error *err)
+{
+    struct run r = {.request = q};
+    if (out)
+        *out = NULL;
+    *end = (struct br_history_end){0};
+    const double start = br_seconds();
+    enum br_status status = br_march_create(&r.march, q->scene, q->n, q->steps, q->method, err);
+    end->set_up_seconds = br_seconds() - start;
+    if (!status) {
+        status = march(&r, err);
+        end->march_seconds = br_seconds() - start - end->set_up_seconds;
+    }
+    end->last = r.row;
+    if (out)
+        *out = r.march;
+    else
+        br_march_free(r.march);
+    return status;
+}
+
+/* ---- the recorder ---- */
+
+/* Of a node: u, (w, s), and their velocities. */
+static size_t values_of(const struct br_history_record *h)
+{
+    return 2 * (h->unknowns[BR_AXIAL] + h->unknowns[BR_BENDING]);
+}
+
+/* Room for one more of `size` bytes. */
+static bool grow(void **memory, size_t count, size_t *most, size_t size)
+{
+    if (count < *most)
+        return true;
+    const size_t wanted = *most ? 2 * *most : 64;
+    void *larger = br_allocate(wanted, size);
+    if (!larger)
+        return false;
+    if (count)
+        memcpy(larger, *memory, count * size);
+    free(*memory);
+    *memory = larger;
+    *most = wanted;
+    return true;
+}
+
+static enum br_status keep_row(void *self, const struct br_history_row *row, struct br_error *err)
+{
+    struct br_history_record *h = self;
+    if (!grow((void **)&h->row, h->rows, &h->most_rows, sizeof *h->row))
+        return br_no_memory(err, "the tip's history");
+    h->row[h->rows++] = *row;
+    return BR_OK;
+}
+
+static size_t field_offset(const struct br_history_record *h, enum br_field_kind kind,
+                           bool velocity)
+{
+    const size_t before = kind == BR_AXIAL ? 0 : 2 * h->unknowns[BR_AXIAL];
+    return (h->n + 1) * (before + (velocity ? h->unknowns[kind] : 0));
+}
+
+static enum br_status keep_look(void *self, const struct br_march *march,
+                                const struct br_history_row *row, struct br_error *err)
+{
+    struct br_history_record *h = self;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        h->unknowns[kind] = br_field_unknowns(br_march_field(march, (enum br_field_kind)kind));
+    const size_t size = values_of(h) * (h->n + 1);
+    size_t most = h->most_looks;
+    if (!grow((void **)&h->at, h->looks, &most, sizeof *h->at))
+        return br_no_memory(err, "the fields");
+    most = h->most_looks;
+    if (!grow((void **)&h->field, h->looks, &most, size * sizeof *h->field))
+        return br_no_memory(err, "the fields");
+    h->most_looks = most;
+    double *field = h->field + h->looks * size;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const enum br_field_kind k = (enum br_field_kind)kind;
+        br_march_get(march, k, field + field_offset(h, k, false), field + field_offset(h, k, true));
+    }
+    h->at[h->looks++] = *row;
+    return BR_OK;
+}
+
+struct br_history_observer br_history_recorder(struct br_history_record *record, size_t n)
+{
+    record->n = n;
+    return (struct br_history_observer){.self = record, .row = keep_row, .look = keep_look};
+}
+
+void br_history_record_clear(struct br_history_record *h)
+{
+    free(h->row);
+    free(h->at);
+    free(h->field);
+    *h = (struct br_history_record){0};
+}
+
+const double *br_history_field(const struct br_history_record *h, size_t look,
+                               enum br_field_kind kind, bool velocity)
+{
+    return h->field + look * values_of(h) * (h->n + 1) + field_offset(h, kind, velocity);
+}

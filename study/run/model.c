@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/run/model.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+enum br_status br_model_select(const struct br_scene *scene, unsigned wanted,
+                               struct br_scene *marched, struct br_error *err)
+{
+    *marched = *scene;
+    if ((wanted & BR_WANT_AXIAL) && !scene->axial.modelled)
+        return br_fail(err, BR_BAD_INPUT, "--fields: found axial, but the scene has no axial part");
+    if ((wanted & BR_WANT_BENDING) && !scene->bending.modelled)
+        return br_fail(err, BR_BAD_INPUT,
+                       "--fields: found bending, but the scene has no bending part");
+    const bool tresca = scene->friction.law == BR_TRESCA;
+    marched->axial.modelled =
+        scene->axial.modelled && (wanted ? (wanted & BR_WANT_AXIAL) != 0 : !tresca);
+    marched->bending.modelled = scene->bending.modelled && (!wanted || (wanted & BR_WANT_BENDING));
+    marched->contact.modelled = scene->contact.modelled && marched->axial.modelled;
+    if (!marched->bending.modelled)
+        marched->friction.law = BR_FRICTIONLESS;
+    if (marched->friction.law == BR_COULOMB && !marched->contact.modelled)
+        return br_fail(err, BR_BAD_INPUT,
+                       "--fields: found bending alone, but Coulomb's friction bound is c_V (u(L) - "
+                       "g)_+, expected axial,bending");
+    return BR_OK;
+}
+
+/* ---- rows ---- */
+
+struct rows {
+    const struct br_model_question *q;
+    struct br_model_row *row;
+    size_t count;
+};
+
+__attribute__((format(printf, 5, 6))) static void add(struct rows *r, const char *key,
+                                                      const char *part, bool modelled,
+                                                      const char *format, ...)
+{
+    struct br_model_row *row = &r->row[r->count++];
+    *row = (struct br_model_row){.key = key, .part = part, .modelled = modelled};
+    va_list args;
+    va_start(args, format);
+    vsnprintf(row->why, sizeof row->why, format, args);
+    va_end(args);
+}
+
+static void add_axial(struct rows *r)
+{
+    if (r->q->marched->axial.modelled)
+        add(r, "axial", "axial field", true, "%zu unknowns, P%d elements",
+            r->q->n * (size_t)r->q->method->axial_degree, r->q->method->axial_degree);
+    else if (!r->q->scene->axial.modelled)
+        add(r, "axial", "axial field", false, "the scene has no axial part");
+    else if (r->q->scene->friction.law == BR_TRESCA && r->q->marched->bending.modelled)
+        add(r, "axial", "axial field", false,
+            "not asked for: Tresca's bound does not depend on it, nor does bending; --fields "
+            "axial,bending marches it");
+    else
+        add(r, "axial", "axial field", false, "not asked for by --fields");
+}
+
+static void add_bending(struct rows *r)
+{
+    if (r->q->marched->bending.modelled)
+        add(r, "bending", "bending field", true, "%zu unknowns, cubic Hermite elements",
+            2 * r->q->n);
+    else if (!r->q->scene->bending.modelled)
+        add(r, "bending", "bending field", false, "the scene has no bending part");
+    else
+        add(r, "bending", "bending field", false, "not asked for by --fields");
+}
+
+static void add_contact(struct rows *r)
+{
+    if (r->q->marched->contact.modelled)
+        add(r, "contact", "contact", true, "normal compliance (10), %s",
+            r->q->method->contact->title);
+    else if (!r->q->scene->contact.modelled)
+        add(r, "contact", "contact", false, "the scene has no contact part: no lagged force");
+    else
+        add(r, "contact", "contact", false, "it acts on the axial field, which is not marched");
+}
+
+static void add_friction(struct rows *r)
+{
+    const struct br_friction *f = &r->q->marched->friction;
+    const char *title = r->q->method->friction->title;
+    if (f->law == BR_TRESCA)
+        add(r, "friction", "friction", true, "Tresca, the bound is constant, %g N; %s",
+            f->coefficient, title);
+    else if (f->law == BR_COULOMB)
+        add(r, "friction", "friction", true, "Coulomb, the bound is c_V (u(L) - g)_+; %s", title);
+    else if (r->q->scene->friction.law == BR_FRICTIONLESS)
+        add(r, "friction", "friction", false,
+            "the scene has no friction part: no friction algebra");
+    else
+        add(r, "friction", "friction", false, "it acts on the bending field, which is not marched");
+}
+
+static void add_terms(struct rows *r, const char *key, const char *part, const struct br_load *load)
+{
+    size_t moving = 0, quadrature = 0, products = 0, histories = 0;
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
+        const struct br_product *p = &load->term[i];
+        if (br_product_is_zero(p))
+            continue;
+        moving += p->space.uses_t;
+        products += !p->space.uses_t;
+        quadrature += p->space.uses_x && !p->space.uses_t;
+        histories += p->time.uses_t;
+    }
+    const char *how = quadrature ? "F(x) G(t): assembled once, by quadrature"
+                                 : "without x: assembled once, in closed form";
+    const char *history = histories ? "one evaluation of its history a step"
+                                    : "its history is constant: nothing a step";
+    if (moving)
+        add(r, key, part, true, "f(x, t): quadrature every step, %zu evaluations",
+            5 * moving * r->q->n);
+    else if (products > 1)
+        add(r, key, part, true,
+            "%zu products F(x) G(t): assembled once; their sum, with %zu histories, a step",
+            products, histories);
+    else
+        add(r, key, part, true, "%s; %s", how, history);
+}
+
+static void add_load(struct rows *r, enum br_field_kind kind)
+{
+    const bool axial = kind == BR_AXIAL;
+    const char *key = axial ? "axial_load" : "bending_load";
+    const char *part = axial ? "axial load" : "bending load";
+    const struct br_scene *s = r->q->marched;
+    const struct br_load *load = axial ? &s->axial.load : &s->bending.load;
+    if (!(axial ? s->axial.modelled : s->bending.modelled))
+        return;
+    if (br_load_is_zero(load))
+        add(r, key, part, false, "the scene has none");
+    else
+        add_terms(r, key, part, load);
+}
+
+static void add_tip_loads(struct rows *r)
+{
+    const struct br_scene *s = r->q->marched;
+    const struct {
+        const char *key, *part;
+        bool marched;
+        const struct br_function *f;
+    } loads[] = {
+        {"axial_tip_force", "axial tip force", s->axial.modelled, &s->axial.tip_force},
+        {"bending_tip_force", "bending tip force", s->bending.modelled, &s->bending.tip_force},
+        {"bending_tip_moment", "bending tip moment", s->bending.modelled, &s->bending.tip_moment},
+    };
+    for (size_t i = 0; i < sizeof loads / sizeof *loads; i++)
+        if (loads[i].marched && !br_function_is_zero(loads[i].f))
+            add(r, loads[i].key, loads[i].part, true, "%s",
+                loads[i].f->uses_t ? "one evaluation a step" : "constant");
+}
+
+static void add_initial(struct rows *r)
+{
+    const struct br_scene *s = r->q->marched;
+    const bool axial = s->axial.modelled && !(br_function_is_zero(&s->axial.displacement) &&
+                                              br_function_is_zero(&s->axial.velocity));
+    const bool bending = s->bending.modelled && !(br_function_is_zero(&s->bending.displacement) &&
+                                                  br_function_is_zero(&s->bending.velocity));
+    if (axial || bending)
+        add(r, "initial_data", "initial data", true, "interpolated once, at the nodes%s: %s",
+            axial && r->q->method->axial_degree == 2 ? " and midpoints" : "",
+            axial && bending ? "both fields"
+            : axial          ? "axial"
+                             : "bending");
+    else
+        add(r, "initial_data", "initial data", false, "zero: not interpolated");
+}
+
+static void add_rebuilding(struct rows *r)
+{
+    if (r->q->every_step)
+        add(r, "nodal_fields", "nodal fields", true,
+            "rebuilt every step, for the certificate or the energies");
+    else
+        add(r, "nodal_fields", "nodal fields", true,
+            "rebuilt at t = 0, at %zu output time%s and at the end, not in the steps", r->q->looks,
+            r->q->looks == 1 ? "" : "s");
+}
+
+size_t br_model_rows(const struct br_model_question *question,
+                     struct br_model_row row[BR_MOST_MODEL_ROWS])
+{
+    struct rows r = {.q = question, .row = row};
+    add_axial(&r);
+    add_bending(&r);
+    add_contact(&r);
+    add_friction(&r);
+    add_load(&r, BR_AXIAL);
+    add_load(&r, BR_BENDING);
+    add_tip_loads(&r);
+    add_initial(&r);
+    add_rebuilding(&r);
+    return r.count;
+}

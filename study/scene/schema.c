@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/scene/schema.h"
+
+#include <gsl/gsl_deriv.h>
+#include <math.h>
+
+#define AT(member) offsetof(struct br_scene, member)
+
+const char *const br_friction_law_names[BR_FRICTION_LAWS] = {
+    [BR_TRESCA] = "tresca",
+    [BR_COULOMB] = "coulomb",
+};
+
+const struct br_scene_key br_scene_keys[] = {
+    {"", "title", BR_KEY_TEXT, true, 0, "", AT(title), "one line for a person", "My scene"},
+    {"", "remark", BR_KEY_TEXT, false, 0, "", AT(remark), "a sentence to stand beside the results",
+     "A sentence about it"},
+    {"", "length", BR_KEY_POSITIVE, true, 0, "m", AT(length), "the beam's length L", "1 m"},
+    {"", "duration", BR_KEY_POSITIVE, true, 0, "s", AT(duration), "the time interval T", "1 s"},
+    {"", "density", BR_KEY_NOT_NEGATIVE, true, 0, "kg/m", AT(density), "mass per length rho",
+     "0.1 kg/m"},
+    {"", "axial", BR_KEY_SECTION, false, 0, "", 0, "the rod, u", ""},
+    {"", "bending", BR_KEY_SECTION, false, 0, "", 0, "the beam, w", ""},
+    {"", "contact", BR_KEY_SECTION, false, 0, "", 0, "normal compliance (10)", ""},
+    {"", "friction", BR_KEY_SECTION, false, 0, "", 0, "friction at the tip (12)", ""},
+    {"", "verify", BR_KEY_VERIFY, false, 0, "", 0, "what 'beamrate check' expects", ""},
+
+    {"axial", "stiffness", BR_KEY_NOT_NEGATIVE, true, 0, "N", AT(axial.stiffness), "a1", "1000 N"},
+    {"axial", "viscosity", BR_KEY_NOT_NEGATIVE, true, 0, "N s", AT(axial.viscosity), "c1", "1 N s"},
+    {"axial", "load", BR_KEY_LOAD, false, 0, "N/m", AT(axial.load), "f_H(x, t)",
+     "100*(exp(t) - 1) [N/m]"},
+    {"axial", "tip_force", BR_KEY_HISTORY, false, 0, "N", AT(axial.tip_force),
+     "a force on the tip along the beam", "5*sin(t) [N]"},
+    {"axial", "solution", BR_KEY_SOLUTION, false, 0, "m", AT(axial.solution),
+     "u(x, t), from which load, tip force and initial data are derived", "0.1*sin(8*x)*t^2 [m]"},
+    {"axial", "displacement", BR_KEY_INITIAL, false, 0, "m", AT(axial.displacement), "u_0(x)",
+     "0.01*sin(pi*x/2) [m]"},
+    {"axial", "velocity", BR_KEY_INITIAL, false, 0, "m/s", AT(axial.velocity), "v_0(x)",
+     "2*sin(pi*x/2) [m/s]"},
+
+    {"bending", "stiffness", BR_KEY_NOT_NEGATIVE, true, 0, "N m^2", AT(bending.stiffness), "a2",
+     "1000 N m^2"},
+    {"bending", "viscosity", BR_KEY_NOT_NEGATIVE, true, 0, "N m^2 s", AT(bending.viscosity), "c2",
+     "1 N m^2 s"},
+    {"bending", "load", BR_KEY_LOAD, false, 0, "N/m", AT(bending.load), "f_V(x, t)",
+     "-1000*x*sin(3*t) [N/m]"},
+    {"bending", "tip_force", BR_KEY_HISTORY, false, 0, "N", AT(bending.tip_force),
+     "a force on the tip across the beam", "2*sin(3*t) [N]"},
+    {"bending", "tip_moment", BR_KEY_HISTORY, false, 0, "N m", AT(bending.tip_moment),
+     "a moment on the tip", "2*sin(2*t) [N m]"},
+    {"bending", "solution", BR_KEY_SOLUTION, false, 0, "m", AT(bending.solution),
+     "w(x, t), from which load, tip forces and initial data are derived",
+     "0.1*(1 - cos(12*x))*exp(-t) [m]"},
+    {"bending", "stick_force", BR_KEY_HISTORY, false, 0, "N", AT(bending.stick_force),
+     "the friction force of a solution while its tip rests", "3*cos(2*t) [N]"},
+    {"bending", "displacement", BR_KEY_INITIAL, false, 0, "m", AT(bending.displacement), "w_0(x)",
+     "0.02*x^2 [m]"},
+    {"bending", "displacement_slope", BR_KEY_INITIAL, false, 0, "1", AT(bending.displacement_slope),
+     "the derivative of w_0", "0.04*x [1]"},
+    {"bending", "velocity", BR_KEY_INITIAL, false, 0, "m/s", AT(bending.velocity),
+     "the initial bending velocity", "0.2*x^2 [m/s]"},
+    {"bending", "velocity_slope", BR_KEY_INITIAL, false, 0, "1/s", AT(bending.velocity_slope),
+     "the derivative of the initial bending velocity", "0.4*x [1/s]"},
+
+    {"contact", "gap", BR_KEY_NOT_NEGATIVE, true, 0, "m", AT(contact.gap), "g", "0.01 m"},
+    {"contact", "stiffness", BR_KEY_NOT_NEGATIVE, true, 0, "N/m", AT(contact.stiffness), "c_H",
+     "1000 N/m"},
+
+    {"friction", "law", BR_KEY_LAW, true, 0, "", 0, "tresca or coulomb", "coulomb"},
+    {"friction", "bound", BR_KEY_NOT_NEGATIVE, true, BR_TRESCA, "N", AT(friction.coefficient),
+     "c_V of Tresca's law", "100 N"},
+    {"friction", "coefficient", BR_KEY_NOT_NEGATIVE, true, BR_COULOMB, "N/m",
+     AT(friction.coefficient), "c_V of Coulomb's law", "1e4 N/m"},
+    {"friction", "regularisation", BR_KEY_NOT_NEGATIVE, false, 0, "m/s",
+     AT(friction.regularisation), "mu of (29)", "1e-8 m/s"},
+    {0},
+};
+
+/* An initial function, for messages and its checks. */
+struct initial {
+    const char *name;
+    const struct br_function *value;
+    const char *slope_name; /* NULL: needs none */
+    const struct br_function *slope;
+    double length;
+};
+
+static double value_at(double x, void *f)
+{
+    double value;
+    br_function_evaluate(f, 1, &x, 0, &value);
+    return value;
+}
+
+enum { SAMPLES = 65 };
+
+/* Largest |f| over equidistant points of [0, length]; NaN where f is not finite. */
+static double largest(const struct br_function *f, double length)
+{
+    double most = 0;
+    for (int i = 0; i < SAMPLES; i++) {
+        const double v = fabs(value_at(length * i / (SAMPLES - 1), (void *)f));
+        if (!isfinite(v))
+            return NAN;
+        most = fmax(most, v);
+    }
+    return most;
+}
+
+static enum br_status check_slope(const struct initial *d, double scale, struct br_error *err)
+{
+    gsl_function f = {.function = value_at, .params = (void *)d->value};
+    const double slope_scale = fmax(largest(d->slope, d->length), scale / d->length);
+    for (int i = 1; i < SAMPLES - 1; i++) {
+        const double x = d->length * i / (SAMPLES - 1);
+        double derivative, uncertainty;
+        gsl_deriv_central(&f, x, 1e-4 * d->length, &derivative, &uncertainty);
+        const double given = value_at(x, (void *)d->slope);
+        const double allowed = 1e-6 * slope_scale + 10 * uncertainty;
+        if (!(fabs(given - derivative) <= allowed))
+            return br_fail(err, BR_BAD_INPUT,
+                           "bending %s is %g at x = %g m, expected the derivative of %s there, %g",
+                           d->slope_name, given, x, d->name, derivative);
+    }
+    return BR_OK;
+}
+
+static enum br_status check_initial(const struct initial *d, struct br_error *err)
+{
+    const double scale = largest(d->value, d->length);
+    if (!isfinite(scale))
+        return br_fail(err, BR_BAD_INPUT, "initial %s is not finite everywhere in [0, L]", d->name);
+    const double clamp = value_at(0, (void *)d->value);
+    if (!(fabs(clamp) <= 1e-12 * scale))
+        return br_fail(err, BR_BAD_INPUT,
+                       "initial %s is %g at x = 0, expected 0 where the beam is clamped", d->name,
+                       clamp);
+    if (!d->slope || scale == 0)
+        return BR_OK;
+    if (br_function_is_zero(d->slope))
+        return br_fail(err, BR_BAD_INPUT, "initial %s needs %s, its derivative", d->name,
+                       d->slope_name);
+    const double slope = value_at(0, (void *)d->slope);
+    if (!(fabs(slope) <= 1e-12 * scale / d->length))
+        return br_fail(err, BR_BAD_INPUT,
+                       "initial %s is %g at x = 0, expected 0 where the beam is clamped",
+                       d->slope_name, slope);
+    return check_slope(d, scale, err);
+}
+
+/* Whose fault it is: the slope's, where there is one and the value is sound at the clamp. */
+static const struct br_function *fault_of(const struct initial *d)
+{
+    const double scale = largest(d->value, d->length);
+    const bool sound = fabs(value_at(0, (void *)d->value)) <= 1e-12 * scale;
+    return sound && d->slope && !br_function_is_zero(d->slope) ? d->slope : d->value;
+}
+
+enum br_status br_scene_check_initial(const struct br_scene *s, size_t *culprit,
+                                      struct br_error *err)
+{
+    const struct br_bending *b = &s->bending;
+    const struct initial data[] = {
+        {"axial displacement", &s->axial.displacement, NULL, NULL, s->length},
+        {"axial velocity", &s->axial.velocity, NULL, NULL, s->length},
+        {"bending displacement", &b->displacement, "displacement_slope", &b->displacement_slope,
+         s->length},
+        {"bending velocity", &b->velocity, "velocity_slope", &b->velocity_slope, s->length},
+    };
+    if (s->density == 0 &&
+        !(br_function_is_zero(&s->axial.velocity) && br_function_is_zero(&b->velocity))) {
+        *culprit =
+            br_function_is_zero(&s->axial.velocity) ? AT(bending.velocity) : AT(axial.velocity);
+        return br_fail(err, BR_BAD_INPUT,
+                       "an initial velocity means nothing without density, expected none");
+    }
+    if (!br_function_is_zero(&b->stick_force) &&
+        (!b->solution || s->friction.law == BR_FRICTIONLESS)) {
+        *culprit = AT(bending.stick_force);
+        return br_fail(err, BR_BAD_INPUT,
+                       "bending stick_force belongs to friction and a solution, expected both");
+    }
+    for (size_t i = 0; i < sizeof data / sizeof *data; i++) {
+        const enum br_status status = check_initial(&data[i], err);
+        if (status) {
+            *culprit = (size_t)((const char *)fault_of(&data[i]) - (const char *)s);
+            return status;
+        }
+    }
+    return BR_OK;
+}

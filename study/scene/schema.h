@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The scene format: one row a key. The reader, its messages, the template and the JSON schema of
+ * tables/scene_format.h walk this list. */
+#ifndef BR_STUDY_SCENE_SCHEMA_H
+#define BR_STUDY_SCENE_SCHEMA_H
+
+#include "solver/scene.h"
+
+enum br_key_kind {
+    BR_KEY_SECTION,
+    BR_KEY_TEXT,
+    BR_KEY_POSITIVE,     /* "number unit", > 0 */
+    BR_KEY_NOT_NEGATIVE, /* "number unit", >= 0 */
+    BR_KEY_LOAD,         /* "expression in x and t [N/m]", or shape and history */
+    BR_KEY_INITIAL,      /* "expression in x [unit]" */
+    BR_KEY_HISTORY,      /* "expression in t [unit]" */
+    BR_KEY_SOLUTION,     /* "expression in x and t [unit]", kept as text */
+    BR_KEY_LAW,          /* tresca or coulomb */
+    BR_KEY_VERIFY,       /* read by verify_file.c, and only where somebody asks for it */
+};
+
+struct br_scene_key {
+    const char *section; /* "" at the top */
+    const char *name;
+    enum br_key_kind kind;
+    bool required;            /* where its section is given */
+    enum br_friction_law law; /* the law it belongs to; BR_FRICTIONLESS: any */
+    const char *unit;         /* "" for none */
+    size_t offset;            /* into struct br_scene */
+    const char *help;         /* what is expected */
+    const char *example;      /* a value, for templates; the required ones make a scene together */
+};
+
+/* The names of the friction laws, by enum br_friction_law; NULL where none is written. */
+enum { BR_FRICTION_LAWS = 3 };
+extern const char *const br_friction_law_names[BR_FRICTION_LAWS];
+
+/* Ends with a row whose name is NULL. */
+extern const struct br_scene_key br_scene_keys[];
+
+/* Refuses (BR_BAD_INPUT) initial data that break the clamp, that are not finite,
+ * or whose slope is missing or is not the derivative. *culprit (out): where in struct br_scene the
+ * function at fault is. */
+enum br_status br_scene_check_initial(const struct br_scene *scene, size_t *culprit,
+                                      struct br_error *err);
+
+#endif

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One value of a scene file: a number with its unit, an expression, a load, a word. */
+#ifndef BR_STUDY_SCENE_VALUE_H
+#define BR_STUDY_SCENE_VALUE_H
+
+#include <yaml.h>
+
+#include "study/scene/schema.h"
+
+/* What is being read, for messages. All borrowed. */
+struct br_scene_reader {
+    const char *path;
+    yaml_document_t *document;
+    struct br_scene *scene;
+    struct br_error *err;
+};
+
+/* Refuses with "path:line: key: ..."; returns BR_BAD_INPUT. */
+__attribute__((format(printf, 4, 5))) enum br_status br_scene_refuse(
+    const struct br_scene_reader *r, size_t line, const char *key, const char *format, ...);
+
+/* Where a node stands, from 1, and the text of a scalar. */
+size_t br_yaml_line(const yaml_node_t *node);
+const char *br_yaml_text(const yaml_node_t *node);
+
+/* Reads the value of a key that is no section into the reader's scene. Fails with
+ * BR_BAD_INPUT or BR_NO_MEMORY. */
+enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct br_scene_key *key,
+                                   const yaml_node_t *node);
+
+#endif

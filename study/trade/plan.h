@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A plan: the cheapest way to an error, or the least error for so many seconds. Cheap trials of
+ * every contender tell how its errors and costs go (plan_model.h, plan_cost.h); by that the
+ * cheapest resolution is proposed and tried, the models learn from it, and so on until nothing that
+ * is cheaper is likely to do. Errors are relative: the norm of the error over the norm of the
+ * solution, the judge's own error added. */
+#ifndef BR_STUDY_TRADE_PLAN_H
+#define BR_STUDY_TRADE_PLAN_H
+
+#include "study/trade/plan_cost.h"
+#include "study/trade/trial.h"
+
+/* The promise: a proposal's error is at most E, and not less than E over this. */
+extern const double br_plan_band;
+
+/* One of the two; the other is NaN. */
+struct br_plan_goal {
+    double error;   /* relative */
+    double seconds; /* of set-up and march */
+};
+
+/* X(name, word): how a plan ended. */
+#define BR_PLAN_LIST(X)                                                         \
+    X(BR_PLAN_MET, "met")                                                       \
+    X(BR_PLAN_COARSEST, "coarsest") /* the coarsest mesh does, and is better */ \
+    X(BR_PLAN_BETTER, "better")     /* no more was found between E/3 and E */   \
+    X(BR_PLAN_MISSED, "missed")     /* nothing that was tried reaches the goal */
+
+enum br_plan_end {
+#define X(name, word) name,
+    BR_PLAN_LIST(X)
+#undef X
+};
+const char *br_plan_end_name(enum br_plan_end end);
+
+/* What was expected of a trial before it was held. */
+struct br_plan_forecast {
+    size_t round;          /* 0: a cheap trial that the first models were made from */
+    double error, seconds; /* NaN in round 0 */
+};
+
+/* The models of one contender. */
+struct br_plan_models {
+    bool known; /* enough of its trials came to their end */
+    struct br_plan_model error;
+    struct br_plan_cost cost;
+};
+
+struct br_plan {
+    /* in */
+    struct br_trial_request request; /* norm and norms are set by the plan */
+    const struct br_norm *norm[1];
+    struct br_contenders contenders;
+    struct br_plan_goal goal;
+    size_t most_rounds;
+    double (*seconds)(const struct br_trial *trial); /* what a trial costs: br_trial_seconds */
+    /* out */
+    struct br_trial *trial;            /* count; owned */
+    struct br_plan_forecast *forecast; /* count; owned */
+    size_t count, capacity, rounds;
+    size_t first;  /* the first proposal, the cheapest of round 1; count: none */
+    size_t chosen; /* count: none */
+    enum br_plan_end end;
+    struct br_plan_models model[BR_MOST_CONTENDERS];
+    double own;          /* the judge's own relative error, where it is least; NaN: not known */
+    double wall_seconds; /* of all of it */
+};
+
+/* A request with its defaults: l2, marches of at most 60 s, 8 rounds, seconds as measured. The
+ * contenders of br_contenders_default that keep the default solver and friction rule, without ida.
+ * Trials point to the contenders, so a plan that is made is not to be moved. */
+void br_plan_default(struct br_plan *plan, const struct br_scene *scene);
+
+/* Makes the plan. Fails with BR_BAD_INPUT (a goal that makes no sense, or below what the judge can
+ * tell), BR_NOT_FINITE (no trial came to its end), BR_NO_MEMORY, BR_INTERRUPTED. A goal that is not
+ * reached is no failure: end tells. Clear the plan even then. */
+enum br_status br_plan_make(struct br_plan *plan, struct br_error *err);
+void br_plan_clear(struct br_plan *plan);
+
+/* The parts of the chosen trial's error, and its observed orders, as modelled. */
+struct br_plan_parts br_plan_chosen_parts(const struct br_plan *plan);
+
+/* Seconds of all trials' marches, once each. */
+double br_plan_spent(const struct br_plan *plan);
+
+#endif

@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The search for what might do, by the models, in all resolutions of all contenders. */
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+
+#include "study/trade/plan_steps.h"
+
+/* Predictions err: a candidate is safe so many deviations below E, and within this part of the
+ * seconds. What was tried has no deviation. */
+static const double safe_deviations = 1.5, safe_seconds = 0.9;
+
+/* Neighbouring candidates: n, steps and tolerances are so far apart, as factors. */
+static const double n_factor = 1.06, step_factor = 1.08, tolerance_factor = 1.6;
+
+/* Beyond the trials of its contender a candidate may be by so much, as factors. */
+static const double most_beyond = 8;
+
+/* A trial costs at most so many times what one has cost so far: models err. */
+static const double most_growth = 16;
+
+/* A search in the candidates of one contender. */
+struct search {
+    const struct br_plan *plan;
+    const struct br_contender *contender;
+    const struct br_plan_models *models;
+    double most_x, most_y; /* where there are trials */
+    double most_seconds;
+    double best_seconds, best_log_error;                /* of what is there; infinite: nothing */
+    struct br_plan_candidate *safe, *gamble, *explorer; /* out */
+};
+
+static const double nobody = INFINITY;
+
+/* Whether the nearest trial did not come to a good end. */
+static bool is_near_failure(const struct search *s, double x, double y)
+{
+    double nearest = INFINITY;
+    bool failed = false;
+    for (size_t i = 0; i < s->plan->count; i++) {
+        const struct br_trial *t = &s->plan->trial[i];
+        const double distance = hypot(log((double)t->at.n) - x, 2 * (br_plan_y(t) - y));
+        if (t->contender == s->contender && distance < nearest) {
+            nearest = distance;
+            failed = !isfinite(br_trial_bound(t, 0));
+        }
+    }
+    return failed;
+}
+
+/* ---- one candidate ---- */
+
+static void consider_error(const struct search *s, const struct br_plan_candidate *c)
+{
+    const double distance = log(s->plan->goal.error) - c->log_error;
+    if (distance >= safe_deviations * c->deviation && c->seconds < s->safe->seconds)
+        *s->safe = *c;
+    const double gain = log(fmin(s->best_seconds, 1e3 * c->seconds) / c->seconds);
+    struct br_plan_candidate gamble = *c;
+    gamble.score = gsl_cdf_ugaussian_P(distance / fmax(c->deviation, 1e-6)) * gain;
+    if (gamble.score > s->gamble->score)
+        *s->gamble = gamble;
+    if (c->log_error + c->deviation < s->explorer->log_error + s->explorer->deviation)
+        *s->explorer = *c;
+}
+
+static void consider_seconds(const struct search *s, const struct br_plan_candidate *c)
+{
+    if (c->seconds <= safe_seconds * s->plan->goal.seconds &&
+        c->log_error + c->deviation < s->safe->log_error + s->safe->deviation)
+        *s->safe = *c;
+}
+
+/* Of one column: elements from few to many, until the cost forbids more. */
+static void consider_column(const struct search *s, double y)
+{
+    const bool by_error = isfinite(s->plan->goal.error);
+    double before = 0;
+    for (double real = BR_PLAN_LEAST_N; real <= exp(s->most_x) * most_beyond; real *= n_factor) {
+        const double n = floor(real + 0.5), x = log(n);
+        if (!(n > before))
+            continue;
+        before = n;
+        const struct br_plan_prediction p = br_plan_model_predict(&s->models->error, x, y);
+        const struct br_plan_candidate c = {
+            .contender = s->contender,
+            .n = n,
+            .y = y,
+            .log_error = p.log_error,
+            .deviation = p.deviation,
+            .seconds = br_plan_cost_seconds(&s->models->cost, n, y),
+        };
+        if (!(c.seconds <= s->most_seconds) || (by_error && c.seconds > s->best_seconds))
+            return;
+        if (is_near_failure(s, x, y))
+            continue;
+        if (by_error)
+            consider_error(s, &c);
+        else
+            consider_seconds(s, &c);
+    }
+}
+
+/* ---- one contender ---- */
+
+static void consider_steps(const struct search *s)
+{
+    double before = 0;
+    const double most = exp(s->most_y) * most_beyond;
+    for (double real = BR_PLAN_LEAST_STEPS; real <= most; real *= step_factor) {
+        const double steps = floor(real + 0.5);
+        if (steps > before)
+            consider_column(s, log(steps));
+        before = steps;
+    }
+}
+
+static void consider_tolerances(const struct search *s)
+{
+    for (double tolerance = 0.1; - log(tolerance) <= s->most_y + log(most_beyond);
+         tolerance /= tolerance_factor)
+        consider_column(s, -log(tolerance));
+}
+
+static bool is_tried_column(const struct search *s, size_t i)
+{
+    for (size_t j = 0; j < i; j++)
+        if (s->plan->trial[j].contender == s->contender &&
+            fabs(br_plan_y(&s->plan->trial[j]) - br_plan_y(&s->plan->trial[i])) <= 1e-12)
+            return true;
+    return false;
+}
+
+/* Columns that were tried are known best. */
+static void consider_tried(const struct search *s)
+{
+    for (size_t i = 0; i < s->plan->count; i++)
+        if (s->plan->trial[i].contender == s->contender && !is_tried_column(s, i))
+            consider_column(s, br_plan_y(&s->plan->trial[i]));
+}
+
+static void look_through(struct search *s)
+{
+    s->most_x = s->most_y = -INFINITY;
+    for (size_t i = 0; i < s->models->error.points; i++) {
+        const struct br_plan_point *p = &s->models->error.point[i];
+        s->most_x = fmax(s->most_x, p->x);
+        s->most_y = fmax(s->most_y, p->y);
+    }
+    consider_tried(s);
+    if (br_contender_adaptive(s->contender))
+        consider_tolerances(s);
+    else
+        consider_steps(s);
+}
+
+/* ---- all contenders ---- */
+
+static double largest_seconds(const struct br_plan *plan)
+{
+    double most = 0;
+    for (size_t i = 0; i < plan->count; i++)
+        most = fmax(most, plan->seconds(&plan->trial[i])); /* NaN is passed over */
+    return most;
+}
+
+double br_plan_best_seconds(const struct br_plan *plan, size_t best)
+{
+    if (best == plan->count)
+        return INFINITY;
+    const struct br_trial *t = &plan->trial[best];
+    const struct br_plan_models *m = &plan->model[t->contender - plan->contenders.list];
+    const double seconds = plan->seconds(t);
+    return m->known ? fmin(seconds, br_plan_cost_seconds(&m->cost, (double)t->at.n, br_plan_y(t)))
+                    : seconds;
+}
+
+void br_plan_search(const struct br_plan *plan, size_t best, struct br_plan_table *table)
+{
+    const double limit = plan->request.time_limit > 0 ? plan->request.time_limit : INFINITY;
+    table->explorer = (struct br_plan_candidate){.log_error = INFINITY};
+    for (size_t c = 0; c < plan->contenders.count; c++) {
+        table->safe[c] = (struct br_plan_candidate){.seconds = nobody, .log_error = nobody};
+        table->gamble[c] = (struct br_plan_candidate){.seconds = nobody, .score = 0};
+        struct search s = {
+            .plan = plan,
+            .contender = &plan->contenders.list[c],
+            .models = &plan->model[c],
+            .most_seconds = fmin(limit, most_growth * largest_seconds(plan)),
+            .best_seconds = br_plan_best_seconds(plan, best),
+            .safe = &table->safe[c],
+            .gamble = &table->gamble[c],
+            .explorer = &table->explorer,
+        };
+        if (s.models->known)
+            look_through(&s);
+    }
+}

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a plan is made of: the cheap trials, the candidates of a round, the choice at the end. */
+#ifndef BR_STUDY_TRADE_PLAN_STEPS_H
+#define BR_STUDY_TRADE_PLAN_STEPS_H
+
+#include "study/trade/plan.h"
+
+enum {
+    BR_PLAN_LEAST_N = 1,
+    BR_PLAN_LEAST_STEPS = 10, /* fewer would hardly look at the solution */
+    BR_PLAN_LEVELS = 20,      /* where an adaptive scheme is looked at */
+    BR_PLAN_BATCH = 8,        /* candidates of a round */
+};
+
+/* A resolution that might do. */
+struct br_plan_candidate {
+    const struct br_contender *contender;
+    double n, y; /* whole elements; log of whole steps, or -log of the tolerance */
+    double log_error, deviation, seconds;
+    double score; /* of a gamble: what it may save times how likely that is */
+};
+
+struct br_plan_batch {
+    struct br_plan_candidate candidate[BR_PLAN_BATCH];
+    size_t count;
+};
+
+/* Adds a trial without an outcome; a proposal that was made before is not added (*added, out).
+ * Fails with BR_NO_MEMORY. */
+enum br_status br_plan_add(struct br_plan *plan, const struct br_trial *trial,
+                           const struct br_plan_forecast *forecast, bool *added,
+                           struct br_error *err);
+
+/* Adds the cheap trials of all contenders. Fails with BR_NO_MEMORY. */
+enum br_status br_plan_add_probes(struct br_plan *plan, struct br_error *err);
+
+/* The y of a trial: log of its steps, or -log of its tolerance. */
+double br_plan_y(const struct br_trial *trial);
+struct br_trial br_plan_trial(const struct br_plan_candidate *candidate);
+
+/* Fits the models of all contenders to their trials so far. Fails with BR_NO_MEMORY. */
+enum br_status br_plan_fit(struct br_plan *plan, struct br_error *err);
+void br_plan_forget(struct br_plan *plan); /* clears them */
+
+/* The best candidates of every contender, by its index: the cheapest (or, for seconds, the most
+ * accurate) safe one, and the most promising gamble; and the least error of all. A candidate
+ * without a contender: none. */
+struct br_plan_table {
+    struct br_plan_candidate safe[BR_MOST_CONTENDERS], gamble[BR_MOST_CONTENDERS], explorer;
+};
+void br_plan_search(const struct br_plan *plan, size_t best, struct br_plan_table *table);
+
+/* What the trial `best` costs: clocks err, so the model has a say, too. Infinite: count. */
+double br_plan_best_seconds(const struct br_plan *plan, size_t best);
+
+/* What to try next (out); nothing where no candidate promises anything. */
+void br_plan_propose(const struct br_plan *plan, struct br_plan_batch *batch);
+
+/* The trial that meets the goal best so far; count: none. */
+size_t br_plan_best(const struct br_plan *plan);
+
+/* Whether a trial's error is at most the goal's, or its seconds. */
+bool br_plan_meets(const struct br_plan *plan, const struct br_trial *trial);
+
+#endif

@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/trade/split.h"
+#include "study/grid/sweep.h"
+
+#include <math.h>
+
+/* ---- studies of one cell each: the distance of two marches, or of a march from the solution ----
+ */
+
+/* `heads` distances, each in all norms. */
+struct distances {
+    const struct br_split *split;
+    struct br_study *study; /* norms * heads, the first norm first */
+    size_t *steps;          /* heads: of the cells */
+    size_t heads, most;
+};
+
+static struct br_study *distance(const struct distances *d, size_t head, size_t norm)
+{
+    return &d->study[norm * d->most + head];
+}
+
+static enum br_status distances_create(struct distances *d, const struct br_split *split,
+                                       size_t most, struct br_error *err)
+{
+    *d = (struct distances){.split = split, .most = most};
+    d->study = br_allocate(most * split->norms, sizeof *d->study);
+    d->steps = br_allocate(most, sizeof *d->steps);
+    return d->study && d->steps ? BR_OK : br_no_memory(err, "the parts of the error");
+}
+
+static void distances_clear(struct distances *d)
+{
+    for (size_t i = 0; d->study && i < d->most * d->split->norms; i++)
+        br_study_clear(&d->study[i]);
+    free(d->study);
+    free(d->steps);
+}
+
+/* Adds the distance of one stand from the next; returns its index. */
+static size_t add_distance(struct distances *d, const struct br_stand *from,
+                           const struct br_stand *to)
+{
+    const struct br_split *split = d->split;
+    const size_t head = d->heads++;
+    d->steps[head] = from->steps;
+    for (size_t m = 0; m < split->norms; m++)
+        *distance(d, head, m) = (struct br_study){
+            .scene = split->scene,
+            .norm = split->norm[m],
+            .method = from->method,
+            .judge = to->continuous ? split->judge : &br_judge_fine,
+            .reference_method = to->method,
+            .reference = {to->continuous ? 0 : split->at.n, to->continuous ? 0 : to->steps},
+            .n_count = 1,
+            .k_count = 1,
+            .n = &split->at.n,
+            .steps = &d->steps[head],
+            .next_norm = m + 1 < split->norms ? distance(d, head, m + 1) : NULL,
+        };
+    return head;
+}
+
+/* The failure of a distance: of the reference, or of the cell. */
+static const struct br_error *failure_of(const struct br_study *s)
+{
+    return s->failure.status || !s->cell ? &s->failure : &s->cell[0].failure;
+}
+
+static bool failed(const struct distances *d, size_t head)
+{
+    const struct br_study *s = distance(d, head, 0);
+    return failure_of(s)->status || !isfinite(s->cell[0].error[BR_PART_TOTAL]);
+}
+
+/* Marches all that have been added. What fails is left in the studies. */
+static enum br_status march(struct distances *d, int threads, const struct br_observer *observer,
+                            struct br_error *err)
+{
+    return br_study_run_each(d->study, d->heads, threads, observer, err);
+}
+
+/* ---- the refinement in time ---- */
+
+static struct br_stand start(const struct br_split *split)
+{
+    return (struct br_stand){.method = split->method, .steps = split->at.steps};
+}
+
+/* The run with all sources but the elements taken away. */
+static struct br_stand without_time_error(const struct br_split *split,
+                                          const struct br_refinement *refined)
+{
+    struct br_stand stand = start(split);
+    for (const struct br_source *const *s = br_sources; *s; s++) {
+        struct br_stand next = stand;
+        if ((*s)->remove(split->scene, refined, &next) == NULL && !next.continuous)
+            stand = next;
+    }
+    return stand;
+}
+
+/* The same with ten times the tolerance, or half as many steps. */
+static struct br_stand coarser(const struct br_stand *stand)
+{
+    struct br_stand c = *stand;
+    if (c.method.scheme->adaptive)
+        c.method.tolerance *= 10;
+    else
+        c.steps /= 2;
+    return c;
+}
+
+/* By norm and part. */
+typedef double by_norm[BR_MOST_NORMS][BR_PARTS];
+
+enum { MOST_REFINEMENTS = 4 };
+static const double good_enough = 1e-8; /* relative to the solution */
+
+struct refining {
+    int threads;
+    const struct br_observer *observer;
+    by_norm error;           /* of the best refinement, at most */
+    double least;            /* the same, relative, in the first norm */
+    struct br_error failure; /* the first */
+};
+
+static void take_errors(const struct distances *d, size_t head, by_norm error)
+{
+    for (size_t m = 0; m < d->split->norms; m++)
+        for (int part = 0; part < BR_PARTS; part++)
+            error[m][part] = distance(d, head, m)->cell[0].error[part];
+}
+
+/* How far a refined march is from a coarser one of its kind, in the first norm and relative to the
+ * solution; infinite where one of them fails. Such errors are kept where they are the least yet. */
+static enum br_status try_refinement(struct br_split *split, const struct br_refinement *refined,
+                                     struct refining *r, struct br_error *err)
+{
+    struct distances d;
+    enum br_status status = distances_create(&d, split, 1, err);
+    if (!status) {
+        const struct br_stand fine = without_time_error(split, refined);
+        const struct br_stand coarse = coarser(&fine);
+        add_distance(&d, &coarse, &fine);
+        status = march(&d, r->threads, r->observer, err);
+    }
+    if (!status && failed(&d, 0) && !r->failure.status)
+        r->failure = *failure_of(distance(&d, 0, 0));
+    else if (!status && !(distance(&d, 0, 0)->reference_scale > 0) && !r->failure.status)
+        br_fail(&r->failure, BR_NOT_FINITE, "the solution is zero: no error is relative to it");
+    if (!status && !failed(&d, 0)) {
+        const struct br_study *s = distance(&d, 0, 0);
+        const double relative = s->cell[0].error[BR_PART_TOTAL] / s->reference_scale;
+        if (relative < r->least) {
+            r->least = relative;
+            split->refined = *refined;
+            split->refined.stand = without_time_error(split, refined);
+            take_errors(&d, 0, r->error);
+        }
+    }
+    distances_clear(&d);
+    return status;
+}
+
+/* The first refinement that is good enough, or the best. */
+static enum br_status refine(struct br_split *split, struct refining *r, struct br_error *err)
+{
+    struct br_refinement refined[MOST_REFINEMENTS];
+    const size_t count = br_refinements(split, MOST_REFINEMENTS, refined);
+    enum br_status status = BR_OK;
+    r->least = INFINITY;
+    for (size_t i = 0; i < count && !status && !(r->least <= good_enough); i++)
+        status = try_refinement(split, &refined[i], r, err);
+    if (status || isfinite(r->least))
+        return status;
+    return br_fail(err, r->failure.status ? r->failure.status : BR_NOT_FINITE,
+                   "no march without time error: %.900s", r->failure.message);
+}
+
+/* ---- the chain ---- */
+
+struct chain {
+    struct distances d;
+    size_t whole;                 /* head: the run and the solution */
+    size_t audit[2];              /* heads: riccati and plain, as given and before `in_time` */
+    size_t link[BR_MOST_SOURCES]; /* heads, by share */
+    struct refining refining;
+};
+
+/* Two forms of the same step: what they differ by is round-off, and what the march makes of it. */
+static size_t add_audit(struct chain *c, const struct br_stand *stand)
+{
+    struct br_stand plain = *stand, riccati = *stand;
+    plain.method.solver = &br_plain;
+    riccati.method.solver = &br_riccati;
+    return add_distance(&c->d, &plain, &riccati);
+}
+
+static void add_links(struct br_split *split, struct chain *c)
+{
+    struct br_stand stand = start(split);
+    const struct br_stand solution = {.method = split->method, .continuous = true};
+    bool audited = false;
+    c->whole = add_distance(&c->d, &stand, &solution);
+    c->audit[0] = add_audit(c, &stand);
+    for (const struct br_source *const *s = br_sources; *s; s++) {
+        struct br_share *share = &split->share[split->shares++];
+        struct br_stand next = stand;
+        *share = (struct br_share){.source = *s};
+        share->none = (*s)->remove(split->scene, &split->refined, &next);
+        if (share->none)
+            continue;
+        if ((*s)->in_time && !audited)
+            c->audit[1] = add_audit(c, &stand);
+        audited |= (*s)->in_time;
+        c->link[split->shares - 1] = add_distance(&c->d, &stand, &next);
+        stand = next;
+    }
+}
+
+/* Any link that fails breaks the chain. */
+static enum br_status check_links(const struct br_split *split, const struct chain *c,
+                                  struct br_error *err)
+{
+    const struct br_error *whole = failure_of(distance(&c->d, c->whole, 0));
+    if (whole->status)
+        return br_fail(err, whole->status, "%.1000s", whole->message);
+    for (size_t i = 0; i < split->shares; i++) {
+        if (split->share[i].none || !failed(&c->d, c->link[i]))
+            continue;
+        const struct br_error *failure = failure_of(distance(&c->d, c->link[i], 0));
+        return br_fail(err, failure->status ? failure->status : BR_NOT_FINITE,
+                       "the part of the error called %s: %.900s", split->share[i].source->name,
+                       failure->status ? failure->message : "it is not a number");
+    }
+    return BR_OK;
+}
+
+/* What a march's linear solver leaves open: measured or, where the audit fails, predicted. */
+static double floor_of_march(const struct br_split *split, const struct chain *c, bool in_time,
+                             size_t norm, int part)
+{
+    const size_t audit = c->audit[in_time];
+    return failed(&c->d, audit) ? split->predicted_round_off * split->scale[norm]
+                                : 2 * distance(&c->d, audit, norm)->cell[0].error[part];
+}
+
+static void set_floor(const struct br_split *split, const struct chain *c, size_t head,
+                      bool in_time, struct br_share *share)
+{
+    for (size_t m = 0; m < split->norms; m++)
+        for (int part = 0; part < BR_PARTS; part++) {
+            const struct br_study *s = distance(&c->d, head, m);
+            share->floor[m][part] = floor_of_march(split, c, in_time, m, part);
+            if (in_time)
+                share->floor[m][part] += c->refining.error[m][part];
+            if (s->judge == split->judge)
+                share->floor[m][part] += br_norm_of_constant(
+                    s->norm, s->scene, s->judged_by.own_error, (enum br_part)part);
+        }
+}
+
+static void set_share(const struct br_split *split, const struct chain *c, size_t head,
+                      struct br_share *share)
+{
+    const struct br_study *s = distance(&c->d, head, 0);
+    take_errors(&c->d, head, share->error);
+    set_floor(split, c, head, share->source && share->source->in_time, share);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        share->tip[kind] = s->cell[0].tip[kind] - s->reference_tip[kind];
+}
+
+static void set_whole(struct br_split *split, const struct chain *c)
+{
+    const struct br_study *s = distance(&c->d, c->whole, 0);
+    split->unstable = s->cell[0].unstable;
+    for (size_t m = 0; m < split->norms; m++)
+        split->scale[m] = distance(&c->d, c->whole, m)->reference_scale;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        split->tip[kind] = s->cell[0].tip[kind];
+        split->solution_tip[kind] = s->reference_tip[kind];
+    }
+    split->predicted_round_off = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_field field =
+            br_field_of_scene(split->scene, (enum br_field_kind)kind, split->at.n,
+                              br_time_step(split->scene, split->at.steps));
+        if (kind == BR_AXIAL ? split->scene->axial.modelled : split->scene->bending.modelled)
+            split->predicted_round_off =
+                fmax(split->predicted_round_off,
+                     split->method.solver->round_off(&field, &split->method.linear));
+    }
+    set_share(split, c, c->whole, &split->whole);
+}
+
+static void add_up(struct br_split *split)
+{
+    for (size_t i = 0; i < split->shares; i++) {
+        for (size_t m = 0; m < split->norms; m++)
+            for (int part = 0; part < BR_PARTS; part++)
+                split->sum[m][part] += split->share[i].error[m][part];
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+            split->tip_sum[kind] += split->share[i].tip[kind];
+    }
+}
+
+static void clear_results(struct br_split *split)
+{
+    split->judge = br_judge_best(split->scene);
+    split->shares = 0;
+    split->whole = (struct br_share){0};
+    for (size_t m = 0; m < BR_MOST_NORMS; m++)
+        for (int part = 0; part < BR_PARTS; part++)
+            split->sum[m][part] = 0;
+    split->tip_sum[BR_AXIAL] = split->tip_sum[BR_BENDING] = 0;
+}
+
+enum br_status br_split_run(struct br_split *split, int threads, const struct br_observer *observer,
+                            struct br_error *err)
+{
+    struct chain c = {0};
+    clear_results(split);
+    if (split->at.n < 1 || split->at.steps < 1)
+        return br_fail(err, BR_BAD_INPUT, "%s is 0, expected at least one",
+                       split->at.n < 1 ? "n" : "the number of time steps");
+    struct br_observer quiet = observer ? *observer : (struct br_observer){0};
+    quiet.progress = NULL; /* the chain takes longer */
+    c.refining.threads = threads;
+    c.refining.observer = &quiet;
+    enum br_status status = refine(split, &c.refining, err);
+    if (status)
+        return status;
+    status = distances_create(&c.d, split, BR_MOST_SOURCES + 3, err);
+    if (!status) {
+        add_links(split, &c);
+        status = march(&c.d, threads, observer, err);
+    }
+    if (!status)
+        status = check_links(split, &c, err);
+    if (!status) {
+        set_whole(split, &c);
+        for (size_t i = 0; i < split->shares; i++)
+            if (!split->share[i].none)
+                set_share(split, &c, c.link[i], &split->share[i]);
+        add_up(split);
+    }
+    distances_clear(&c.d);
+    return status;
+}
+
+bool br_share_told(const struct br_share *share, size_t norm, enum br_part part)
+{
+    return share->error[norm][part] > share->floor[norm][part];
+}
+
+double br_share_of_sum(const struct br_split *split, const struct br_share *share, size_t norm,
+                       enum br_part part)
+{
+    return share->error[norm][part] / split->sum[norm][part];
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a result costs and what it is worth: trials. A trial is one contender at one resolution; it
+ * gets the seconds of its march, undisturbed and alone, and its errors against a judge.
+ *
+ * Seconds are those of the processor in one thread, the least of several repeats after a warm-up.
+ * Errors come from br_study_run, the same cells that `study` shows. */
+#ifndef BR_STUDY_TRADE_TRIAL_H
+#define BR_STUDY_TRADE_TRIAL_H
+
+#include "study/grid/observer.h"
+#include "study/grid/study.h"
+#include "study/trade/contender.h"
+
+/* X(name, word): how a trial ended. */
+#define BR_TRIAL_LIST(X)                                                          \
+    X(BR_TRIAL_DONE, "done")                                                      \
+    X(BR_TRIAL_DOUBTFUL, "doubtful") /* the judge's own error is not far below */ \
+    X(BR_TRIAL_UNSTABLE, "unstable") /* lagged contact beyond its limit */        \
+    X(BR_TRIAL_OVER, "over limit")   /* takes longer than the time limit */       \
+    X(BR_TRIAL_FAILED, "failed")
+
+enum br_trial_end {
+#define X(name, word) name,
+    BR_TRIAL_LIST(X)
+#undef X
+        BR_TRIAL_ENDS
+};
+const char *br_trial_end_name(enum br_trial_end end);
+
+/* What a march takes; the least of the repeats. */
+struct br_trial_cost {
+    double set_up, march; /* s of the processor, one thread; NaN: it did not end */
+    size_t repeats;       /* marches that were timed */
+    struct br_counts counts;
+};
+
+struct br_trial {
+    /* in */
+    const struct br_contender *contender; /* borrowed */
+    struct br_resolution at; /* of an adaptive contender, at.steps are the levels looked at */
+    double tolerance;        /* of an adaptive contender; otherwise 0 */
+    bool printed;            /* the paper's method at a resolution of its printed tables */
+    /* out */
+    enum br_trial_end end;
+    struct br_trial_cost cost;
+    double error[BR_MOST_NORMS][BR_PARTS]; /* by the request's norms, in their units; NaN: none */
+    double scale[BR_MOST_NORMS];           /* the norm of the solution, same unit */
+    double own[BR_MOST_NORMS];             /* the judge's own error, same unit; NaN: not known */
+    struct br_error failure;               /* why it is BR_TRIAL_FAILED or BR_TRIAL_OVER */
+};
+
+/* How trials are held. All borrowed. */
+struct br_trial_request {
+    const struct br_scene *scene;
+    const struct br_judge *judge;      /* NULL: br_judge_best of the scene */
+    struct br_method reference_method; /* of a judge that nests */
+    struct br_resolution reference;    /* likewise */
+    const struct br_norm *const *norm; /* norms, at least one */
+    size_t norms;
+    size_t repeats;                     /* timed marches of a trial, at least 1 */
+    double repeat_seconds;              /* no more repeats once they have taken so long, s */
+    double time_limit;                  /* of one march with its set-up, s; 0: none */
+    int threads;                        /* of the errors; 0: all cores */
+    const struct br_observer *observer; /* NULL: nobody */
+};
+
+/* What is asked for where nobody says otherwise: l2, 3 repeats within 0.1 s, 10 s a march. */
+struct br_trial_request br_trial_request_default(const struct br_scene *scene);
+
+/* Holds trials: the seconds of all, one after the other, then the errors of those that came to
+ * their end, all at once. A march that fails is a result, and one over the limit is ended as soon
+ * as that is sure. Fails with BR_BAD_INPUT (the judge cannot judge this scene), BR_NO_MEMORY,
+ * BR_INTERRUPTED. */
+enum br_status br_trials_hold(struct br_trial *trial, size_t count,
+                              const struct br_trial_request *request, struct br_error *err);
+
+/* The halves of it. Timing clears what is out, and sets `cost` and, where a trial did not come to
+ * its end, `end` and `failure`; judging is of the trials whose `end` is BR_TRIAL_DONE. */
+enum br_status br_trials_time(struct br_trial *trial, size_t count,
+                              const struct br_trial_request *request, struct br_error *err);
+enum br_status br_trials_judge(struct br_trial *trial, size_t count,
+                               const struct br_trial_request *request, struct br_error *err);
+
+/* Set-up and march, s; NaN: it did not come to its end. */
+double br_trial_seconds(const struct br_trial *trial);
+
+/* The error of a part in norm m over the norm of the whole solution; NaN: none. */
+double br_trial_relative(const struct br_trial *trial, size_t m, enum br_part part);
+
+/* What the relative error is at most, the judge's own error added; NaN: no trial that counts. */
+double br_trial_bound(const struct br_trial *trial, size_t m);
+
+/* The method that a trial marches with: its contender's, with the trial's tolerance. */
+struct br_method br_trial_method(const struct br_trial *trial);
+
+#endif

@@ -1,0 +1,317 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/verify/check.h"
+#include "study/grid/sweep.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* The part of one study of one check in all that is marched: over space and time a chain of norms
+ * for each pair of neighbours, jointly one for the whole path. */
+struct section {
+    const struct br_check *check;
+    enum br_verify_kind kind;
+    const struct br_norm *norm[BR_MOST_NORMS];
+    size_t norms;
+    size_t first, heads; /* in plan.study: heads chains, from `first` on */
+};
+
+/* Everything that is marched. */
+struct plan {
+    struct section *section;
+    size_t sections;
+    struct br_study *study; /* the heads of all chains, then the rest of them */
+    size_t heads, studies;
+};
+
+static const struct br_verify_study *study_of(const struct section *s)
+{
+    return &s->check->verify->study[s->kind];
+}
+
+static size_t norm_index(const struct section *s, const struct br_norm *norm)
+{
+    size_t i = 0;
+    while (i < s->norms && s->norm[i] != norm)
+        i++;
+    return i;
+}
+
+/* ---- the plan ---- */
+
+static void add_section(struct plan *plan, const struct br_check *check, enum br_verify_kind kind)
+{
+    struct section *s = &plan->section[plan->sections];
+    *s = (struct section){.check = check, .kind = kind, .first = plan->heads};
+    const struct br_verify_study *v = study_of(s);
+    if (v->count == 0)
+        return;
+    for (size_t i = 0; i < v->expectations; i++)
+        if (norm_index(s, v->expectation[i].norm) == s->norms)
+            s->norm[s->norms++] = v->expectation[i].norm;
+    s->heads = kind == BR_VERIFY_JOINT ? 1 : v->count - 1;
+    plan->heads += s->heads;
+    plan->studies += s->heads * s->norms;
+    plan->sections++;
+}
+
+/* The study of a section's head h, in its first norm. */
+static struct br_study study_at(const struct section *s, size_t h)
+{
+    const struct br_verify_study *v = study_of(s);
+    const bool joint = s->kind == BR_VERIFY_JOINT;
+    return (struct br_study){
+        .scene = s->check->scene,
+        .norm = s->norm[0],
+        .method = v->method,
+        .judge = joint ? br_judge_best(s->check->scene) : &br_judge_fine,
+        .reference_method = v->method,
+        .reference = joint ? (struct br_resolution){0, 0}
+                           : (struct br_resolution){v->n[h + 1], v->steps[h + 1]},
+        .n_count = joint ? v->count : 1,
+        .k_count = joint ? v->count : 1,
+        .path = true,
+        .n = &v->n[h],
+        .steps = &v->steps[h],
+    };
+}
+
+/* Where the chain of a section's head goes on in norm m > 0. */
+static struct br_study *next_in_chain(const struct plan *plan, const struct section *s, size_t h,
+                                      size_t m)
+{
+    size_t rest = plan->heads;
+    for (const struct section *before = plan->section; before < s; before++)
+        rest += before->heads * (before->norms - 1);
+    return &plan->study[rest + h * (s->norms - 1) + m - 1];
+}
+
+static struct br_study *study_in(const struct plan *plan, const struct section *s, size_t h,
+                                 size_t m)
+{
+    return m == 0 ? &plan->study[s->first + h] : next_in_chain(plan, s, h, m);
+}
+
+static void fill_section(const struct plan *plan, const struct section *s)
+{
+    for (size_t h = 0; h < s->heads; h++)
+        for (size_t m = 0; m < s->norms; m++) {
+            struct br_study *study = study_in(plan, s, h, m);
+            *study = study_at(s, h);
+            study->norm = s->norm[m];
+            study->next_norm = m + 1 < s->norms ? study_in(plan, s, h, m + 1) : NULL;
+        }
+}
+
+static enum br_status make_plan(struct plan *plan, const struct br_check *checks, size_t count,
+                                struct br_error *err)
+{
+    plan->section = br_allocate(count * BR_VERIFY_KINDS, sizeof *plan->section);
+    if (!plan->section)
+        return br_no_memory(err, "the check");
+    for (size_t i = 0; i < count; i++)
+        for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+            add_section(plan, &checks[i], (enum br_verify_kind)kind);
+    plan->study = br_allocate(plan->studies, sizeof *plan->study);
+    if (!plan->study)
+        return br_no_memory(err, "the check");
+    for (size_t i = 0; i < plan->sections; i++)
+        fill_section(plan, &plan->section[i]);
+    return BR_OK;
+}
+
+static void clear_plan(struct plan *plan)
+{
+    for (size_t i = 0; plan->study && i < plan->studies; i++)
+        br_study_clear(&plan->study[i]);
+    free(plan->study);
+    free(plan->section);
+}
+
+/* ---- the results ---- */
+
+/* h/L or k/T: what the orders of a study are in; 0 for the continuous problem. */
+static double refinement(enum br_verify_kind kind, struct br_resolution at)
+{
+    const size_t parts = kind == BR_VERIFY_SPACE ? at.n : at.steps;
+    return parts ? 1 / (double)parts : 0;
+}
+
+/* Point i of a section in one norm and part. */
+static struct br_point point_at(const struct plan *plan, const struct section *s, size_t i,
+                                const struct br_expectation *e)
+{
+    const bool joint = s->kind == BR_VERIFY_JOINT;
+    const struct br_study *study = study_in(plan, s, joint ? 0 : i, norm_index(s, e->norm));
+    const struct br_verify_study *v = study_of(s);
+    struct br_point p = {
+        .at = {v->n[i], v->steps[i]},
+        .error = NAN,
+        .flag = BR_FLAG_FAILED,
+    };
+    if (!joint)
+        p.against = study->reference;
+    p.z = refinement(s->kind, p.at);
+    p.z_against = refinement(s->kind, p.against);
+    const struct br_error *failure = &study->failure;
+    if (!failure->status) {
+        const struct br_cell *cell = &study->cell[joint ? i : 0];
+        failure = &cell->failure;
+        p.error = cell->error[e->part];
+        p.flag = cell->flag[e->part];
+        if (p.flag == BR_FLAG_NONE && study->judged_by.unstable)
+            p.flag = BR_FLAG_UNSTABLE; /* what it is compared with */
+    }
+    snprintf(p.failure, sizeof p.failure, "%.255s", failure->status ? failure->message : "");
+    return p;
+}
+
+static enum br_status conclude_case(const struct plan *plan, const struct section *s,
+                                    const struct br_expectation *e, struct br_case *c,
+                                    struct br_error *err)
+{
+    c->kind = s->kind;
+    c->expected = *e;
+    c->points = br_verify_points(s->kind, study_of(s)->count);
+    c->point = br_allocate(c->points, sizeof *c->point);
+    if (!c->point)
+        return br_no_memory(err, "the verdict");
+    for (size_t i = 0; i < c->points; i++)
+        c->point[i] = point_at(plan, s, i, e);
+    return br_verdict_reach(c, err);
+}
+
+/* A scene that a method refuses, or whose solution the reference cannot promise: there is nothing
+ * to verify. Any other failure of a march is a verdict. */
+static enum br_status check_verifiable(const struct plan *plan, const struct section *s,
+                                       struct br_error *err)
+{
+    for (size_t h = 0; h < s->heads; h++) {
+        const struct br_error *failure = &plan->study[s->first + h].failure;
+        if (failure->status && (failure->status == BR_BAD_INPUT || s->kind == BR_VERIFY_JOINT))
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s:%zu: verify: %s: the scene cannot be verified: %s", s->check->path,
+                           study_of(s)->line, br_verify_names[s->kind], failure->message);
+    }
+    return BR_OK;
+}
+
+static void add_cost(const struct br_study *study, struct br_check *check)
+{
+    const double fields = check->scene->axial.modelled + check->scene->bending.modelled;
+    if (study->failure.status)
+        return;
+    for (size_t i = 0; i < br_study_cells(study); i++) {
+        const struct br_resolution at = study->cell[i].at;
+        check->seconds += study->cell[i].seconds;
+        check->element_steps += fields * (double)at.n * (double)at.steps;
+    }
+    if (!study->judge->nests)
+        return;
+    check->seconds += study->judged_by.seconds;
+    check->element_steps += fields * (double)study->reference.n * (double)study->reference.steps;
+}
+
+static enum br_status conclude_section(const struct plan *plan, const struct section *s,
+                                       struct br_check *check, struct br_error *err)
+{
+    const struct br_verify_study *v = study_of(s);
+    enum br_status status = check_verifiable(plan, s, err);
+    for (size_t h = 0; h < s->heads && !status; h++) {
+        for (size_t m = 0; m < s->norms; m++)
+            if (!study_in(plan, s, h, m)->failure.status)
+                br_flag_beside(study_in(plan, s, h, m));
+        add_cost(study_in(plan, s, h, 0), check);
+    }
+    for (size_t i = 0; i < v->expectations && !status; i++)
+        status = conclude_case(plan, s, &v->expectation[i], &check->cases[check->count++], err);
+    return status;
+}
+
+static void refuse_check(struct br_check *check, const struct br_error *failure)
+{
+    br_check_clear(check);
+    check->failure = *failure;
+}
+
+static enum br_status conclude_check(const struct plan *plan, struct br_check *check,
+                                     struct br_error *err)
+{
+    size_t cases = 0;
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+        cases += check->verify->study[kind].expectations;
+    check->cases = br_allocate(cases, sizeof *check->cases);
+    if (!check->cases)
+        return br_no_memory(err, "the verdicts");
+    struct br_error failure = {0};
+    for (size_t i = 0; i < plan->sections && !failure.status; i++)
+        if (plan->section[i].check == check)
+            conclude_section(plan, &plan->section[i], check, &failure);
+    if (failure.status == BR_BAD_INPUT)
+        refuse_check(check, &failure);
+    else if (failure.status)
+        return br_fail(err, failure.status, "%s", failure.message);
+    return BR_OK;
+}
+
+enum br_status br_check_run(struct br_check *checks, size_t count, int threads,
+                            const struct br_observer *observer, struct br_error *err)
+{
+    for (size_t i = 0; i < count; i++) {
+        checks[i].failure = (struct br_error){0};
+        checks[i].cases = NULL;
+        checks[i].count = 0;
+        checks[i].seconds = checks[i].element_steps = 0;
+    }
+    struct plan plan = {0};
+    enum br_status status = make_plan(&plan, checks, count, err);
+    if (!status)
+        status = br_study_run_each(plan.study, plan.heads, threads, observer, err);
+    for (size_t i = 0; i < count && !status; i++)
+        status = conclude_check(&plan, &checks[i], err);
+    for (size_t i = 0; i < count && status; i++)
+        br_check_clear(&checks[i]);
+    clear_plan(&plan);
+    return status;
+}
+
+void br_check_clear(struct br_check *check)
+{
+    for (size_t i = 0; i < check->count; i++)
+        free(check->cases[i].point);
+    free(check->cases);
+    check->cases = NULL;
+    check->count = 0;
+}
+
+double br_check_work(const struct br_check *check)
+{
+    const double fields = check->scene->axial.modelled + check->scene->bending.modelled;
+    double work = 0;
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+        const struct br_verify_study *v = &check->verify->study[kind];
+        for (size_t i = 0; i < v->count; i++)
+            work += fields * (double)v->n[i] * (double)v->steps[i];
+    }
+    return work;
+}
+
+size_t br_check_failures(const struct br_check *checks, size_t count, const struct br_check **first)
+{
+    size_t failures = 0;
+    *first = NULL;
+    for (size_t i = 0; i < count; i++)
+        if (checks[i].failure.status) {
+            *first = *first ? *first : &checks[i];
+            failures++;
+        }
+    return failures;
+}
+
+size_t br_check_tally(const struct br_check *checks, size_t count, enum br_verdict verdict)
+{
+    size_t tally = 0;
+    for (size_t i = 0; i < count; i++)
+        for (size_t c = 0; c < checks[i].count; c++)
+            tally += checks[i].cases[c].verdict == verdict;
+    return tally;
+}

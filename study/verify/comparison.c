@@ -1,0 +1,310 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/verify/comparison.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *const br_severity_names[] = {"same", "note", "warning", "serious"};
+
+enum { METHOD_PARTS = 6 }; /* differences that a method may have */
+
+/* Where each severity begins: a shift of the order in tolerances, factors otherwise. */
+static const double order_steps[] = {0.01, 0.25, 1};
+static const double constant_steps[] = {1.001, 1.05, 2};
+static const double work_steps[] = {1, 1.5, INFINITY};
+static const double time_steps[] = {1.25, 1.5, INFINITY}; /* machines differ: never serious */
+
+void br_old_check_clear(struct br_old_check *old)
+{
+    free(old->cases);
+    free(old->costs);
+    *old = (struct br_old_check){0};
+}
+
+void br_comparison_clear(struct br_comparison *c)
+{
+    free(c->difference);
+    *c = (struct br_comparison){0};
+}
+
+/* By how many of the steps `change` is above; NaN is above all. */
+static enum br_severity grade(double change, const double steps[BR_SERIOUS])
+{
+    int severity = 0;
+    while (severity < BR_SERIOUS && !(change <= steps[severity]))
+        severity++;
+    return (enum br_severity)severity;
+}
+
+/* The factor between two positive numbers, >= 1; 1 where both are missing. */
+static double factor(double before, double now)
+{
+    if (isnan(before) && isnan(now))
+        return 1;
+    return now > before ? now / before : before / now;
+}
+
+/* What was missing or failed before and passes now has not become worse. */
+static void soften(struct br_difference *d, const struct br_case *c, const struct br_old_case *old)
+{
+    if (c->verdict == BR_PASS && old->verdict != BR_PASS && d->severity > BR_NOTE)
+        d->severity = BR_NOTE;
+}
+
+static void add(struct br_comparison *c, const struct br_difference *d)
+{
+    c->tally[d->severity]++;
+    if (d->severity != BR_SAME)
+        c->difference[c->count++] = *d;
+}
+
+/* ---- cases ---- */
+
+/* A name that is not UTF-8 has got question marks in JSON (tables/json_value.h). */
+static bool same_name(const char *old, const char *now)
+{
+    while (*old && (*old == *now || (*old == '?' && (unsigned char)*now >= 0x80))) {
+        old++;
+        now++;
+    }
+    return *old == *now;
+}
+
+static bool is_case(const struct br_old_case *old, const struct br_check *check,
+                    const struct br_case *c)
+{
+    return same_name(old->scene, check->scene->name) &&
+           strcmp(old->study, br_verify_names[c->kind]) == 0 &&
+           strcmp(old->norm, c->expected.norm->name) == 0 &&
+           strcmp(old->part, br_part_names[c->expected.part]) == 0;
+}
+
+static struct br_difference about_case(const struct br_check *check, const struct br_case *c,
+                                       const char *what)
+{
+    struct br_difference d = {0};
+    snprintf(d.subject, sizeof d.subject, "%.100s %s %s %s: %s", check->scene->name,
+             br_verify_names[c->kind], c->expected.norm->name, br_part_names[c->expected.part],
+             what);
+    return d;
+}
+
+static void compare_order(struct br_comparison *out, const struct br_check *check,
+                          const struct br_case *c, const struct br_old_case *old)
+{
+    struct br_difference d = about_case(check, c, "order");
+    d.before = old->order;
+    d.now = c->order.value;
+    if (!isnan(d.before) || !isnan(d.now))
+        d.severity = grade(fabs(d.now - d.before) / c->expected.tolerance, order_steps);
+    snprintf(d.remark, sizeof d.remark, "%+.2g of a tolerance of %.2g", d.now - d.before,
+             c->expected.tolerance);
+    soften(&d, c, old);
+    add(out, &d);
+}
+
+static void compare_constant(struct br_comparison *out, const struct br_check *check,
+                             const struct br_case *c, const struct br_old_case *old)
+{
+    struct br_difference d = about_case(check, c, "constant");
+    d.before = old->constant;
+    d.now = c->constant;
+    d.severity = grade(factor(d.before, d.now), constant_steps);
+    snprintf(d.remark, sizeof d.remark, "%+.2g %%", 100 * (d.now / d.before - 1));
+    soften(&d, c, old);
+    add(out, &d);
+}
+
+static void compare_verdict(struct br_comparison *out, const struct br_check *check,
+                            const struct br_case *c, const struct br_old_case *old)
+{
+    struct br_difference d = about_case(check, c, "verdict");
+    d.before = d.now = NAN;
+    if (old->verdict != c->verdict)
+        d.severity = c->verdict == BR_PASS ? BR_NOTE : BR_SERIOUS;
+    snprintf(d.remark, sizeof d.remark, "%s before, %s now", br_verdict_names[old->verdict],
+             br_verdict_names[c->verdict]);
+    add(out, &d);
+}
+
+/* Whether a limit has gone or moved outward; direction: 1 for an upper one, -1 for a lower one. */
+static bool is_looser(double before, double now, double direction)
+{
+    return !isnan(before) && !(direction * (now - before) <= 1e-9 * fabs(before));
+}
+
+/* A band that is wider lets pass what failed before. */
+static void compare_expectation(struct br_comparison *out, const struct br_check *check,
+                                const struct br_case *c, const struct br_old_case *old)
+{
+    const struct br_expectation *e = &c->expected;
+    struct br_difference d = about_case(check, c, "expectation");
+    d.before = old->expected;
+    d.now = e->order;
+    if (is_looser(old->expected + old->tolerance, e->order + e->tolerance, 1) ||
+        is_looser(old->expected - old->tolerance, e->order - e->tolerance, -1) ||
+        is_looser(old->ceiling, e->ceiling, 1) || is_looser(old->floor, e->floor, -1))
+        d.severity = BR_WARNING;
+    snprintf(d.remark, sizeof d.remark, "looser: +- %g and %g to %g before, +- %g and %g to %g now",
+             old->tolerance, old->floor, old->ceiling, e->tolerance, e->floor, e->ceiling);
+    add(out, &d);
+}
+
+static void compare_case(struct br_comparison *out, const struct br_check *check,
+                         const struct br_case *c, const struct br_old_check *old)
+{
+    for (size_t i = 0; i < old->count; i++)
+        if (is_case(&old->cases[i], check, c)) {
+            compare_verdict(out, check, c, &old->cases[i]);
+            compare_expectation(out, check, c, &old->cases[i]);
+            compare_order(out, check, c, &old->cases[i]);
+            compare_constant(out, check, c, &old->cases[i]);
+            return;
+        }
+    struct br_difference d = about_case(check, c, "new");
+    d.before = NAN;
+    d.now = c->order.value;
+    d.severity = BR_NOTE;
+    add(out, &d);
+}
+
+/* An earlier case that should be there again, and is not. */
+static void report_lost(struct br_comparison *out, const struct br_check *checks, size_t count,
+                        bool whole, const struct br_old_case *old)
+{
+    bool scene = whole;
+    for (size_t i = 0; i < count; i++) {
+        scene |= same_name(old->scene, checks[i].scene->name);
+        for (size_t c = 0; c < checks[i].count; c++)
+            if (is_case(old, &checks[i], &checks[i].cases[c]))
+                return;
+    }
+    struct br_difference d = {.before = old->order, .now = NAN, .severity = BR_SERIOUS};
+    snprintf(d.subject, sizeof d.subject, "%.100s %s %s %s: gone", old->scene, old->study,
+             old->norm, old->part);
+    if (scene)
+        add(out, &d);
+}
+
+/* ---- methods ---- */
+
+/* Another method is no fault, but may be why other things have moved. */
+static void compare_method(struct br_comparison *out, const struct br_check *check,
+                           enum br_verify_kind kind, const struct br_old_method *old)
+{
+    const struct br_method *m = &check->verify->study[kind].method;
+    const double tolerance = m->scheme->adaptive ? m->tolerance : NAN;
+    struct br_difference d = {.before = NAN, .now = NAN, .severity = BR_NOTE};
+    snprintf(d.subject, sizeof d.subject, "%.100s %s: method", check->scene->name,
+             br_verify_names[kind]);
+    const char *const words[][3] = {
+        {"scheme", old->scheme, m->scheme->name},
+        {"solver", old->solver, m->solver->name},
+        {"contact", old->contact, m->contact->name},
+        {"friction", old->friction, m->friction->name},
+        {"scaling", old->scaling, m->linear.scaling},
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        snprintf(d.remark, sizeof d.remark, "%s %s before, %s now", words[i][0], words[i][1],
+                 words[i][2]);
+        if (strcmp(words[i][1], words[i][2]) != 0)
+            add(out, &d);
+    }
+    snprintf(d.remark, sizeof d.remark, "tolerance %g before, %g now", old->tolerance, tolerance);
+    if (factor(old->tolerance, tolerance) != 1)
+        add(out, &d);
+    const struct {
+        const char *name;
+        double before;
+        int now;
+    } numbers[] = {
+        {"axial degree", old->axial_degree, m->axial_degree},
+        {"refinement", old->refinement, m->linear.refinement},
+    };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        snprintf(d.remark, sizeof d.remark, "%s %g before, %d now", numbers[i].name,
+                 numbers[i].before, numbers[i].now);
+        if (numbers[i].before != numbers[i].now)
+            add(out, &d);
+    }
+}
+
+static void compare_methods(struct br_comparison *out, const struct br_check *check,
+                            const struct br_old_cost *old)
+{
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+        if (old->method[kind].known && check->verify->study[kind].count)
+            compare_method(out, check, (enum br_verify_kind)kind, &old->method[kind]);
+}
+
+/* ---- cost ---- */
+
+static void compare_cost(struct br_comparison *out, const struct br_check *check,
+                         const struct br_old_cost *old)
+{
+    struct br_difference d = {.before = old->element_steps, .now = check->element_steps};
+    snprintf(d.subject, sizeof d.subject, "%.100s: element-steps", check->scene->name);
+    d.severity = grade(factor(d.before, d.now), work_steps);
+    add(out, &d);
+    d = (struct br_difference){.before = old->seconds / old->element_steps * 1e9,
+                               .now = check->seconds / check->element_steps * 1e9};
+    snprintf(d.subject, sizeof d.subject, "%.100s: ns per element-step", check->scene->name);
+    if (!isfinite(d.before) || !isfinite(d.now))
+        return; /* one of the two did not march */
+    d.severity = grade(factor(d.before, d.now), time_steps);
+    snprintf(d.remark, sizeof d.remark, "on these machines, as busy as they were");
+    add(out, &d);
+}
+
+static int by_severity(const void *a, const void *b)
+{
+    const struct br_difference *x = a, *y = b;
+    return x->severity != y->severity ? (x->severity < y->severity) - (x->severity > y->severity)
+                                      : strcmp(x->subject, y->subject);
+}
+
+enum br_status br_compare_check(const struct br_check *checks, size_t count,
+                                const struct br_old_check *old, struct br_error *err)
+{
+    bool found = false;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t j = 0; j < i; j++)
+            if (strcmp(checks[i].scene->name, checks[j].scene->name) == 0)
+                return br_fail(err, BR_BAD_INPUT,
+                               "two scenes are called %s, expected names that tell them apart from "
+                               "each other in a comparison",
+                               checks[i].scene->name);
+        for (size_t s = 0; s < old->scenes; s++)
+            found |= same_name(old->costs[s].scene, checks[i].scene->name);
+    }
+    return found ? BR_OK
+                 : br_fail(err, BR_BAD_INPUT,
+                           "none of these scenes is in the earlier check, expected at least one");
+}
+
+enum br_status br_compare(const struct br_check *checks, size_t count, bool whole,
+                          const struct br_old_check *old, struct br_comparison *out,
+                          struct br_error *err)
+{
+    *out = (struct br_comparison){0};
+    size_t most = old->count;
+    for (size_t i = 0; i < count; i++)
+        most += 4 * checks[i].count + (2 + BR_VERIFY_KINDS * METHOD_PARTS) * old->scenes;
+    out->difference = br_allocate(most + 1, sizeof *out->difference);
+    if (!out->difference)
+        return br_no_memory(err, "the comparison");
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < checks[i].count; c++)
+            compare_case(out, &checks[i], &checks[i].cases[c], old);
+        for (size_t s = 0; s < old->scenes; s++)
+            if (same_name(old->costs[s].scene, checks[i].scene->name)) {
+                compare_methods(out, &checks[i], &old->costs[s]);
+                compare_cost(out, &checks[i], &old->costs[s]);
+            }
+    }
+    for (size_t i = 0; i < old->count; i++)
+        report_lost(out, checks, count, whole, &old->cases[i]);
+    qsort(out->difference, out->count, sizeof *out->difference, by_severity);
+    return BR_OK;
+}

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A check against an earlier one: what has moved, and how serious that is, so that a slow drift is
+ * seen before an order breaks. */
+#ifndef BR_STUDY_VERIFY_COMPARISON_H
+#define BR_STUDY_VERIFY_COMPARISON_H
+
+#include "study/verify/check.h"
+
+enum br_severity {
+    BR_SAME,    /* nothing that is worth a line */
+    BR_NOTE,    /* moved a little, or new */
+    BR_WARNING, /* moved by a quarter of the tolerance, 5 % of a constant, or 1.5 times the cost */
+    BR_SERIOUS, /* moved by the whole tolerance, twice the constant; a worse verdict; gone */
+};
+extern const char *const br_severity_names[];
+
+/* What an earlier check knew of one case. */
+struct br_old_case {
+    char scene[256], study[16], norm[16], part[16];
+    double order, constant;                     /* NaN: none */
+    double expected, tolerance, floor, ceiling; /* what was expected; NaN: nothing */
+    enum br_verdict verdict;
+};
+
+/* The method of a study; what a report from before it had a choice does not say is the default. */
+struct br_old_method {
+    bool known; /* the study was made */
+    char scheme[32], solver[32], contact[32], friction[32];
+    double tolerance; /* of an adaptive scheme; NaN: it is none */
+    double axial_degree, refinement;
+    char scaling[32];
+};
+
+/* And what one of its scenes cost. */
+struct br_old_cost {
+    char scene[256];
+    double seconds, element_steps;
+    struct br_old_method method[BR_VERIFY_KINDS];
+};
+
+struct br_old_check {
+    struct br_old_case *cases; /* owned */
+    size_t count;
+    struct br_old_cost *costs; /* owned */
+    size_t scenes;
+};
+void br_old_check_clear(struct br_old_check *old);
+
+struct br_difference {
+    char subject[192];  /* "example1 space l2 axial: order" */
+    double before, now; /* NaN: there is none */
+    enum br_severity severity;
+    char remark[128]; /* or "" */
+};
+
+struct br_comparison {
+    struct br_difference *difference; /* the most serious first; owned */
+    size_t count;
+    size_t tally[BR_SERIOUS + 1];
+};
+
+/* Whether a comparison makes sense, before anything is run: scenes are told apart by their names,
+ * and at least one of them must have been there before. Fails with BR_BAD_INPUT. */
+enum br_status br_compare_check(const struct br_check *checks, size_t count,
+                                const struct br_old_check *old, struct br_error *err);
+
+/* Compares the checks with an earlier one. A case that was there before and is not there any more
+ * is serious, where its scene is checked now, or where these checks are all there are (`whole`). An
+ * expectation that has been loosened is a warning. Fails with BR_NO_MEMORY. */
+enum br_status br_compare(const struct br_check *checks, size_t count, bool whole,
+                          const struct br_old_check *old, struct br_comparison *comparison,
+                          struct br_error *err);
+void br_comparison_clear(struct br_comparison *comparison);
+
+#endif

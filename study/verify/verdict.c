@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/verify/verdict.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "study/fit/order_fit.h"
+
+const char *const br_verdict_names[] = {"PASS", "FAIL", "INCONCLUSIVE"};
+
+__attribute__((format(printf, 3, 4))) static void conclude(struct br_case *c,
+                                                           enum br_verdict verdict,
+                                                           const char *format, ...)
+{
+    c->verdict = verdict;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(c->reason, sizeof c->reason, format, args);
+    va_end(args);
+}
+
+__attribute__((format(printf, 3, 4))) static void append(char *text, size_t size,
+                                                         const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text + used, size - used, format, args);
+    va_end(args);
+}
+
+/* "n = 40" over space, "k = T/400" over time, both jointly. */
+static const char *name_point(const struct br_case *c, const struct br_point *p, char text[64])
+{
+    if (c->kind == BR_VERIFY_SPACE)
+        snprintf(text, 64, "n = %zu", p->at.n);
+    else if (c->kind == BR_VERIFY_TIME)
+        snprintf(text, 64, "k = T/%zu", p->at.steps);
+    else
+        snprintf(text, 64, "(n = %zu, k = T/%zu)", p->at.n, p->at.steps);
+    return text;
+}
+
+/* ---- what is seen ---- */
+
+/* The finest points that are not left out. */
+static void choose_points(struct br_case *c)
+{
+    c->used = 0;
+    for (size_t i = c->points; i-- > 0;) {
+        struct br_point *p = &c->point[i];
+        p->used = p->flag == BR_FLAG_NONE && c->used < BR_VERIFY_MOST_POINTS;
+        c->used += p->used;
+    }
+}
+
+/* A point that is not a number must fail, whatever its flag. */
+static const struct br_point *first_failed(const struct br_case *c)
+{
+    for (size_t i = 0; i < c->points; i++) {
+        const struct br_point *p = &c->point[i];
+        if (p->failure[0] || p->flag == BR_FLAG_FAILED || !(p->error >= 0 && isfinite(p->error)))
+            return p;
+    }
+    return NULL;
+}
+
+static void list_left_out(struct br_case *c)
+{
+    for (size_t i = 0; i < c->points; i++) {
+        char name[64];
+        if (c->point[i].flag)
+            append(c->note, sizeof c->note, "%s%s (%s, error %.1e)",
+                   c->note[0] ? ", " : "left out: ", name_point(c, &c->point[i], name),
+                   br_flag_name(c->point[i].flag), c->point[i].error);
+    }
+}
+
+static void find_constants(struct br_case *c)
+{
+    const double order = c->expected.order;
+    c->constant = NAN;
+    for (size_t i = 0; i < c->points; i++) {
+        struct br_point *p = &c->point[i];
+        p->constant = p->error / (pow(p->z, order) - pow(p->z_against, order));
+        if (p->used && !(p->constant <= c->constant))
+            c->constant = p->constant; /* also where there was none yet */
+    }
+}
+
+/* The order with its interval, from the points that are not left out. */
+static enum br_status find_order(struct br_case *c, struct br_error *err)
+{
+    struct br_order_point *used = br_allocate(c->points, sizeof *used);
+    if (!used)
+        return br_no_memory(err, "the verdict");
+    size_t count = 0;
+    for (size_t i = 0; i < c->points; i++) {
+        const struct br_point *p = &c->point[i];
+        if (p->used)
+            used[count++] = (struct br_order_point){p->z, p->z_against, p->error};
+    }
+    const enum br_status status = br_order_fit(used, count, &c->order, err);
+    free(used);
+    return status;
+}
+
+/* ---- what it means ---- */
+
+/* The order that the two finest points show by themselves. */
+static double last_order(const struct br_case *c)
+{
+    const struct br_point *fine = NULL, *coarse = NULL;
+    for (size_t i = 0; i < c->points; i++)
+        if (c->point[i].used) {
+            coarse = fine;
+            fine = &c->point[i];
+        }
+    return coarse ? log(coarse->error / fine->error) / log(coarse->z / fine->z) : NAN;
+}
+
+/* A tolerance that would hold the interval, rounded up; none that would hold any order. */
+static void advise_tolerance(struct br_case *c)
+{
+    const double expected = c->expected.order;
+    const double off = fmax(fabs(c->order.low - expected), fabs(c->order.high - expected));
+    const double enough = ceil(100 * off + 1e-9) / 100;
+    if (enough < expected)
+        append(c->reason, sizeof c->reason, ", a tolerance of %.4g would hold it", enough);
+}
+
+/* What would make it conclusive. */
+static void advise(struct br_case *c)
+{
+    const double expected = c->expected.order, last = last_order(c);
+    if (fabs(last - expected) <= c->expected.tolerance &&
+        fabs(last - expected) < fabs(c->order.value - expected)) {
+        append(
+            c->reason, sizeof c->reason,
+            "; the two finest show %.2f, so the coarse ones are not asymptotic: begin finer, or go "
+            "on refining",
+            last);
+        return;
+    }
+    append(c->reason, sizeof c->reason, "; %s",
+           c->order.high - c->order.low > 2 * c->expected.tolerance
+               ? "it is wider than the band: finer grids would narrow it"
+               : "finer grids would tell");
+    advise_tolerance(c);
+}
+
+static void judge_too_few(struct br_case *c)
+{
+    bool unstable = false;
+    for (size_t i = 0; i < c->points; i++)
+        unstable |= c->point[i].flag == BR_FLAG_UNSTABLE;
+    conclude(c, BR_INCONCLUSIVE, "%zu of %zu errors are left, an order needs %d: %s", c->used,
+             c->points, BR_VERIFY_LEAST_POINTS,
+             unstable ? "smaller time steps, or contact at u_n (contact: implicit), are stable"
+                      : "coarser grids have errors that are not lost in what limits them");
+}
+
+static void straddle(struct br_case *c, const char *order, double low, double high)
+{
+    const bool below = c->order.low<low, above = c->order.high> high;
+    if (below && above)
+        conclude(c, BR_INCONCLUSIVE,
+                 "the order's interval, %s, straddles both ends of the band, %.4g "
+                 "and %.4g",
+                 order, low, high);
+    else
+        conclude(c, BR_INCONCLUSIVE, "the order's interval, %s, straddles the band's %s end, %.4g",
+                 order, below ? "lower" : "upper", below ? low : high);
+}
+
+static void judge_order(struct br_case *c)
+{
+    const struct br_expectation *e = &c->expected;
+    const double low = e->order - e->tolerance, high = e->order + e->tolerance;
+    char text[64];
+    br_order_text(&c->order, text, sizeof text);
+    c->margin = fmin(c->order.low - low, high - c->order.high);
+    if (c->order.low >= low && c->order.high <= high)
+        conclude(c, BR_PASS, "%s", "");
+    else if (c->order.high < low || c->order.low > high)
+        conclude(c, BR_FAIL, "the order, %s, lies %s the band, %.4g to %.4g", text,
+                 c->order.high < low ? "below" : "above", low, high);
+    else if (isfinite(c->margin)) {
+        straddle(c, text, low, high);
+        advise(c);
+    } else
+        conclude(c, BR_FAIL, "no order fits the errors, %.2e to %.2e from coarse to fine",
+                 c->point[0].error, c->point[c->points - 1].error);
+}
+
+/* An order can be right while the errors have doubled; errors that have become small mean another
+ * scheme, too. */
+static void judge_constant(struct br_case *c)
+{
+    const struct br_expectation *e = &c->expected;
+    const bool high = !isnan(e->ceiling) && !(c->constant <= e->ceiling);
+    const bool low = !isnan(e->floor) && !(c->constant >= e->floor);
+    if (!high && !low)
+        return;
+    const enum br_verdict so_far = c->verdict;
+    char before[sizeof c->reason];
+    snprintf(before, sizeof before, "%s", c->reason);
+    conclude(c, BR_FAIL, "the constant, %.4g %s, is %s, %.4g", c->constant, e->norm->unit,
+             high ? "above its ceiling" : "below its floor", high ? e->ceiling : e->floor);
+    if (so_far != BR_PASS)
+        append(c->reason, sizeof c->reason, "; and %s", before);
+}
+
+enum br_status br_verdict_reach(struct br_case *c, struct br_error *err)
+{
+    c->order = (struct br_estimate){NAN, NAN, NAN};
+    c->margin = NAN;
+    c->reason[0] = c->note[0] = '\0';
+    choose_points(c);
+    list_left_out(c);
+    find_constants(c);
+    const struct br_point *failed = first_failed(c);
+    char name[64];
+    if (failed) {
+        conclude(c, BR_FAIL, "at %s %s", name_point(c, failed, name),
+                 failed->failure[0] ? failed->failure : "the error is not a number");
+        return BR_OK;
+    }
+    if (c->points < BR_VERIFY_LEAST_POINTS) {
+        conclude(c, BR_FAIL, "the study has %zu errors, expected at least %d", c->points,
+                 BR_VERIFY_LEAST_POINTS);
+        return BR_OK;
+    }
+    if (c->used < BR_VERIFY_LEAST_POINTS) {
+        judge_too_few(c);
+        return BR_OK;
+    }
+    const enum br_status status = find_order(c, err);
+    if (!status)
+        judge_order(c);
+    if (!status)
+        judge_constant(c);
+    return status;
+}

@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/verify/verify.h"
+
+#include <math.h>
+
+const char *const br_verify_names[BR_VERIFY_KINDS] = {"space", "time", "joint"};
+
+size_t br_verify_points(enum br_verify_kind kind, size_t cells)
+{
+    return kind == BR_VERIFY_JOINT || cells == 0 ? cells : cells - 1;
+}
+
+/* ---- defaults ---- */
+
+enum { CELLS = 5 };
+
+/* Cells i = 0 .. CELLS - 1 have n r^i elements and steps s^i time steps. */
+static const struct {
+    size_t n, n_ratio, steps, steps_ratio;
+} default_grids[BR_VERIFY_KINDS] = {
+    [BR_VERIFY_SPACE] = {10, 2, 100, 1},
+    [BR_VERIFY_TIME] = {20, 1, 1000, 2},
+    [BR_VERIFY_JOINT] = {10, 2, 100, 4},
+};
+
+static enum br_status default_grid(enum br_verify_kind kind, struct br_verify_study *v,
+                                   struct br_error *err)
+{
+    v->method = br_method_default();
+    v->n = br_allocate(CELLS, sizeof *v->n);
+    v->steps = br_allocate(CELLS, sizeof *v->steps);
+    if (!v->n || !v->steps)
+        return br_no_memory(err, "what is expected");
+    v->count = CELLS;
+    size_t n = default_grids[kind].n, steps = default_grids[kind].steps;
+    for (size_t i = 0; i < CELLS; i++) {
+        v->n[i] = n;
+        v->steps[i] = steps;
+        n *= default_grids[kind].n_ratio;
+        steps *= default_grids[kind].steps_ratio;
+    }
+    return BR_OK;
+}
+
+static void expect(struct br_verify_study *v, enum br_part part, double order)
+{
+    v->expectation[v->expectations++] = (struct br_expectation){
+        .norm = br_norms[0],
+        .part = part,
+        .order = order,
+        .tolerance = order / 10,
+        .floor = NAN,
+        .ceiling = NAN,
+    };
+}
+
+enum br_status br_verify_default(const struct br_scene *scene, struct br_verify *verify,
+                                 struct br_error *err)
+{
+    *verify = (struct br_verify){.by_default = true};
+    enum br_status status = BR_OK;
+    for (int kind = 0; kind < BR_VERIFY_KINDS && !status; kind++)
+        status = default_grid((enum br_verify_kind)kind, &verify->study[kind], err);
+    br_verify_expect_default(scene, verify);
+    return status;
+}
+
+void br_verify_expect_default(const struct br_scene *scene, struct br_verify *verify)
+{
+    struct br_verify_study *space = &verify->study[BR_VERIFY_SPACE];
+    struct br_verify_study *time = &verify->study[BR_VERIFY_TIME];
+    struct br_verify_study *joint = &verify->study[BR_VERIFY_JOINT];
+    space->expectations = time->expectations = joint->expectations = 0;
+    if (scene->axial.modelled)
+        expect(space, BR_PART_AXIAL, space->method.axial_degree + 1);
+    if (scene->bending.modelled)
+        expect(space, BR_PART_BENDING, 4);
+    expect(time, BR_PART_TOTAL, time->method.scheme->order);
+    /* where k falls like h^2, an error of h^p is one of k^(p / 2) */
+    const double in_space = scene->axial.modelled ? joint->method.axial_degree + 1 : 4;
+    expect(joint, BR_PART_TOTAL, fmin(joint->method.scheme->order, in_space / 2));
+}
+
+/* ---- checks ---- */
+
+static enum br_status check_cells(const struct br_scene *scene, enum br_verify_kind kind,
+                                  const struct br_verify_study *v, struct br_error *err)
+{
+    const size_t points = br_verify_points(kind, v->count);
+    if (points < BR_VERIFY_LEAST_POINTS)
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "found %zu cells, which give %zu errors, expected at least %d errors: an order "
+            "and its interval need as many",
+            v->count, points, BR_VERIFY_LEAST_POINTS);
+    for (size_t i = 0; i + 1 < v->count; i++) {
+        if (v->n[i] == 0 || v->n[i + 1] % v->n[i] != 0)
+            return br_fail(err, BR_BAD_INPUT,
+                           "n = %zu does not divide n = %zu, the next finer mesh", v->n[i],
+                           v->n[i + 1]);
+        if (v->steps[i] == 0 || v->steps[i + 1] % v->steps[i] != 0)
+            return br_fail(
+                err, BR_BAD_INPUT,
+                "the time levels of k = %g s are not all among those of k = %g s, the next "
+                "smaller step",
+                br_time_step(scene, v->steps[i]), br_time_step(scene, v->steps[i + 1]));
+        const bool finer = v->n[i + 1] > v->n[i], shorter = v->steps[i + 1] > v->steps[i];
+        if (kind == BR_VERIFY_SPACE ? !finer : !shorter)
+            return br_fail(err, BR_BAD_INPUT, "two cells have the same %s",
+                           kind == BR_VERIFY_SPACE ? "n" : "k");
+    }
+    return BR_OK;
+}
+
+static enum br_status check_expectation(const struct br_scene *scene,
+                                        const struct br_expectation *e, struct br_error *err)
+{
+    const char *part = br_part_names[e->part];
+    if ((e->part == BR_PART_AXIAL && !scene->axial.modelled) ||
+        (e->part == BR_PART_BENDING && !scene->bending.modelled))
+        return br_fail(err, BR_BAD_INPUT, "the scene has no %s part", part);
+    if (!(e->order > 0 && e->tolerance > 0))
+        return br_fail(err, BR_BAD_INPUT,
+                       "found %g +- %g, expected an order > 0 and a tolerance > 0", e->order,
+                       e->tolerance);
+    if (!(e->tolerance < e->order))
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "found %g +- %g, which an error that does not fall at all would meet; expected "
+            "a tolerance below the order",
+            e->order, e->tolerance);
+    if (!isnan(e->ceiling) && !(e->ceiling > 0 && isfinite(e->ceiling)))
+        return br_fail(err, BR_BAD_INPUT, "found a constant of %g, expected one > 0", e->ceiling);
+    if (!isnan(e->floor) && !(e->floor > 0 && e->floor < e->ceiling))
+        return br_fail(err, BR_BAD_INPUT,
+                       "found a constant from %g to %g, expected 0 < the first < the second",
+                       e->floor, e->ceiling);
+    return BR_OK;
+}
+
+static const struct br_expectation *find(const struct br_verify_study *v,
+                                         const struct br_norm *norm, enum br_part part)
+{
+    for (size_t i = 0; i < v->expectations; i++)
+        if (v->expectation[i].norm == norm && v->expectation[i].part == part)
+            return &v->expectation[i];
+    return NULL;
+}
+
+/* The total is no larger than the sum of its parts and no less than either: its order is that of
+ * the part with the lower one. */
+static enum br_status check_total(const struct br_verify_study *v,
+                                  const struct br_expectation *total, struct br_error *err)
+{
+    const struct br_expectation *axial = find(v, total->norm, BR_PART_AXIAL);
+    const struct br_expectation *bending = find(v, total->norm, BR_PART_BENDING);
+    if (!axial || !bending)
+        return BR_OK;
+    const double low = fmin(axial->order - axial->tolerance, bending->order - bending->tolerance);
+    const double high = fmin(axial->order + axial->tolerance, bending->order + bending->tolerance);
+    if (total->order + total->tolerance >= low && total->order - total->tolerance <= high)
+        return BR_OK;
+    return br_fail(
+        err, BR_BAD_INPUT,
+        "%g +- %g contradicts what is expected of the parts: the total has the lower one "
+        "of their orders, %g to %g",
+        total->order, total->tolerance, low, high);
+}
+
+static enum br_status check_study(const struct br_scene *scene, enum br_verify_kind kind,
+                                  const struct br_verify_study *v, size_t *line,
+                                  struct br_error *err)
+{
+    *line = v->line;
+    enum br_status status = check_cells(scene, kind, v, err);
+    if (!status && v->expectations == 0)
+        status = br_fail(err, BR_BAD_INPUT,
+                         "nothing is expected; expected a line like 'l2 axial: 2 +- 0.1'");
+    for (size_t i = 0; i < v->expectations && !status; i++) {
+        const struct br_expectation *e = &v->expectation[i];
+        *line = e->line;
+        status = check_expectation(scene, e, err);
+        if (!status && find(v, e->norm, e->part) != e)
+            status = br_fail(err, BR_BAD_INPUT, "%s %s is given twice", e->norm->name,
+                             br_part_names[e->part]);
+        if (!status && e->part == BR_PART_TOTAL)
+            status = check_total(v, e, err);
+    }
+    return status;
+}
+
+enum br_status br_verify_check(const struct br_scene *scene, const struct br_verify *verify,
+                               size_t *line, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    size_t studies = 0;
+    *line = 0;
+    for (int kind = 0; kind < BR_VERIFY_KINDS && !status; kind++) {
+        const struct br_verify_study *v = &verify->study[kind];
+        if (v->count == 0 && v->line == 0)
+            continue;
+        studies++;
+        status = check_study(scene, (enum br_verify_kind)kind, v, line, err);
+    }
+    if (!status && studies == 0)
+        return br_fail(err, BR_BAD_INPUT,
+                       "it is empty, expected at least one of space, time, joint");
+    return status;
+}
+
+void br_verify_clear(struct br_verify *verify)
+{
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+        free(verify->study[kind].n);
+        free(verify->study[kind].steps);
+    }
+    *verify = (struct br_verify){0};
+}

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a scene is expected to show: its `verify` part. Three studies that are apart, so that
+ * no error hides behind another. Each is a list of cells in order of refinement; an expectation
+ * is an order with a tolerance, and a range for the error constant. */
+#ifndef BR_STUDY_VERIFY_VERIFY_H
+#define BR_STUDY_VERIFY_VERIFY_H
+
+#include "study/grid/study.h"
+
+enum br_verify_kind {
+    BR_VERIFY_SPACE, /* over h, at one k: each mesh against the next, so the time error is the same
+                      */
+    BR_VERIFY_TIME,  /* over k, on one mesh: each step against the next, likewise */
+    BR_VERIFY_JOINT, /* h and k together, against the solution of the continuous problem: what is
+                        consistent with another problem converges, too, but not to this one */
+    BR_VERIFY_KINDS,
+};
+extern const char *const br_verify_names[BR_VERIFY_KINDS];
+
+/* An order needs as many errors, at least: two fitted, two to see how well. Of more than
+ * five the finest five count: coarse ones would outvote a stall at the end, or hold back an order
+ * that has been reached since. */
+enum { BR_VERIFY_LEAST_POINTS = 4, BR_VERIFY_MOST_POINTS = 5 };
+
+/* e = C z^order, with z = h/L over space and z = k/T over time and jointly. */
+struct br_expectation {
+    const struct br_norm *norm;
+    enum br_part part;
+    double order, tolerance; /* the order's 95 % interval is to lie within order -+ tolerance */
+    double floor, ceiling;   /* of C at the expected order, in the norm's unit; NaN: none */
+    size_t line;             /* in the scene's file; 0: a default */
+};
+
+enum { BR_MOST_EXPECTATIONS = BR_MOST_NORMS * BR_PARTS };
+
+struct br_verify_study {
+    size_t line;       /* in the scene's file; 0: a default */
+    size_t count;      /* of cells; 0: this study is not done */
+    size_t *n, *steps; /* count each, from coarse to fine; owned */
+    struct br_method method;
+    struct br_expectation expectation[BR_MOST_EXPECTATIONS];
+    size_t expectations;
+};
+
+struct br_verify {
+    bool by_default; /* the scene has no `verify` part */
+    struct br_verify_study study[BR_VERIFY_KINDS];
+};
+
+/* How many errors a study with so many cells gives: one less where neighbours are compared. */
+size_t br_verify_points(enum br_verify_kind kind, size_t cells);
+
+/* What is expected of a scene that does not say: the orders of the default method, 2 for the axial
+ * and 4 for the bending part in space and 1 in time, in the norm of (31). Fails with BR_NO_MEMORY.
+ */
+enum br_status br_verify_default(const struct br_scene *scene, struct br_verify *verify,
+                                 struct br_error *err);
+
+/* What the methods of such studies let expect: the orders of their schemes and elements. */
+void br_verify_expect_default(const struct br_scene *scene, struct br_verify *verify);
+
+/* Refuses (BR_BAD_INPUT) what cannot be verified: too few cells, meshes or time levels that do not
+ * nest, a part that is not modelled, a band that contains 0, expectations that are given twice or
+ * contradict each other. *line: out, where. */
+enum br_status br_verify_check(const struct br_scene *scene, const struct br_verify *verify,
+                               size_t *line, struct br_error *err);
+
+void br_verify_clear(struct br_verify *verify);
+
+#endif
