@@ -420,13 +420,17 @@ void br_put_provenance(struct br_document *d, const struct br_provenance *p)
 
 /* ---- printing ---- */
 
+enum br_status br_document_status(const struct br_document *d, struct br_error *err)
+{
+    return d->failure.status ? br_fail(err, d->failure.status, "%s", d->failure.message) : BR_OK;
+}
+
 enum br_status br_document_print(FILE *out, const struct br_document_format *format,
                                  const struct br_document *d, const struct br_document_table *table,
                                  struct br_error *err)
 {
-    if (d->failure.status)
-        return br_fail(err, d->failure.status, "%s", d->failure.message);
-    return format->write(out, d, table, err);
+    const enum br_status status = br_document_status(d, err);
+    return status ? status : format->write(out, d, table, err);
 }
 
 const struct br_document_table *br_document_next_table(const struct br_document *d, size_t *block)
@@ -466,10 +470,20 @@ const struct br_document_cell *br_document_cell_at(const struct br_document_tabl
     return &table->cell[row * table->columns + column];
 }
 
+bool br_document_is_seen(const struct br_document_table *table, size_t column)
+{
+    for (size_t r = 0; r < table->rows; r++) {
+        const struct br_document_cell *cell = br_document_cell_at(table, r, column);
+        if (cell->value.kind != BR_NOTHING || cell->shown)
+            return br_for_people(table->column[column].flags);
+    }
+    return false;
+}
+
 bool br_document_is_text(const struct br_document_table *table, size_t column)
 {
     for (size_t r = 0; r < table->rows; r++) {
-        const enum br_value_kind kind = br_document_cell_at(table, r, column)->value.kind;
+        const enum br_value_type kind = br_document_cell_at(table, r, column)->value.kind;
         if (kind == BR_TEXT || kind == BR_TRUTH)
             return true;
     }

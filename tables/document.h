@@ -4,9 +4,9 @@
  * One straight function builds it, from top to bottom:
  *
  *     static const struct br_column columns[] = {
- *         {"method", "method"},
- *         {"k", "time step", "s", "%.6g"},
- *         {"error", "relative error", "", "%.2e"},
+ *         {.key = "method"},
+ *         {.key = "k", .heading = "time step", .unit = "s", .format = "%.6g"},
+ *         {.key = "error", .heading = "relative error", .format = "%.2e"},
  *     };
  *     br_document_begin(d, "example1", "beamrate trade", 1, "What a digit costs");
  *     br_put_answer(d, "%s needs the least time.", method);
@@ -35,10 +35,10 @@
 
 /* ---- values ---- */
 
-enum br_value_kind { BR_NOTHING, BR_NUMBER, BR_COUNT, BR_TRUTH, BR_TEXT };
+enum br_value_type { BR_NOTHING, BR_NUMBER, BR_COUNT, BR_TRUTH, BR_TEXT };
 
 struct br_value {
-    enum br_value_kind kind;
+    enum br_value_type kind;
     union {
         double number;
         long long count;
@@ -269,15 +269,17 @@ extern const struct br_document_format br_document_text, br_document_csv, br_doc
 extern const struct br_document_format *const br_document_formats[];
 const struct br_document_format *br_document_format_find(const char *name);
 
+/* What the document remembers: BR_OK, BR_NO_MEMORY, or BR_IO where it was built wrongly. */
+enum br_status br_document_status(const struct br_document *d, struct br_error *err);
+
 /* Prints it, or one table of it where the format is by_table. Fails with what the document
- * remembers (BR_NO_MEMORY; BR_IO: it was built wrongly), or BR_NO_MEMORY; write errors stay in
- * `out`. */
+ * remembers, or BR_NO_MEMORY; write errors stay in `out`. */
 enum br_status br_document_print(FILE *out, const struct br_document_format *format,
                                  const struct br_document *d, const struct br_document_table *table,
                                  struct br_error *err);
 
-/* For a terminal: the tables and facts that are not for files only, the verdicts that did not pass,
- * and the answer last. Fails as print. */
+/* For a terminal: the tables that are short and not for files only, facts, verdicts that did not
+ * pass, and last the answer and the commands. Fails as print. */
 enum br_status br_document_show(FILE *out, const struct br_document *d, struct br_error *err);
 
 /* The table that the file of a by_table format would have next, from block *block on (in/out,
@@ -303,6 +305,9 @@ const char *br_document_shown(const struct br_column *column, const struct br_do
 
 const struct br_document_cell *br_document_cell_at(const struct br_document_table *table,
                                                    size_t row, size_t column);
+
+/* Whether people see a column: it is for them, and not without any value. */
+bool br_document_is_seen(const struct br_document_table *table, size_t column);
 
 /* Whether the cells of a column are texts, to be set to the left: any of them is. */
 bool br_document_is_text(const struct br_document_table *table, size_t column);

@@ -89,7 +89,7 @@ static void print_head(FILE *out, const struct br_document_table *t, const char 
 {
     fputs("\n\\begin{longtable}{", out);
     for (size_t c = 0; c < t->columns; c++)
-        if (br_for_people(t->column[c].flags))
+        if (br_document_is_seen(t, c))
             fputs(t->column[c].flags & BR_WRAP ? "p{0.25\\textwidth}"
                   : br_document_is_text(t, c)  ? "l"
                                                : "r",
@@ -101,7 +101,7 @@ static void print_head(FILE *out, const struct br_document_table *t, const char 
     fputs("}\\\\\n\\toprule\n", out);
     const char *separator = "";
     for (size_t c = 0; c < t->columns; c++) {
-        if (!br_for_people(t->column[c].flags))
+        if (!br_document_is_seen(t, c))
             continue;
         fputs(separator, out);
         print_heading(out, &t->column[c]);
@@ -118,7 +118,7 @@ static void print_table(FILE *out, const struct br_document_table *t, const char
     for (size_t r = 0; r < t->rows; r++) {
         const char *separator = t->rule[r] && r > 0 ? "\\midrule\n" : "";
         for (size_t c = 0; c < t->columns; c++) {
-            if (!br_for_people(t->column[c].flags))
+            if (!br_document_is_seen(t, c))
                 continue;
             fputs(separator, out);
             print_value(out, &t->column[c], br_document_cell_at(t, r, c));

@@ -24,7 +24,7 @@ static void print_head(FILE *out, const struct br_document_table *t)
     fputs("\n\n|", out);
     for (size_t c = 0; c < t->columns; c++) {
         const struct br_column *column = &t->column[c];
-        if (!br_for_people(column->flags))
+        if (!br_document_is_seen(t, c))
             continue;
         fputc(' ', out);
         print(out, column->heading);
@@ -34,7 +34,7 @@ static void print_head(FILE *out, const struct br_document_table *t)
     }
     fputs("\n|", out);
     for (size_t c = 0; c < t->columns; c++)
-        if (br_for_people(t->column[c].flags))
+        if (br_document_is_seen(t, c))
             fputs(br_document_is_text(t, c) ? "---|" : "---:|", out);
     fputc('\n', out);
 }
@@ -59,7 +59,7 @@ static void print_table(FILE *out, const struct br_document_table *t)
     for (size_t r = 0; r < t->rows; r++) {
         fputc('|', out);
         for (size_t c = 0; c < t->columns; c++)
-            if (br_for_people(t->column[c].flags)) {
+            if (br_document_is_seen(t, c)) {
                 fputc(' ', out);
                 print_value(out, &t->column[c], br_document_cell_at(t, r, c));
                 fputs(" |", out);

@@ -8,7 +8,7 @@
 enum {
     WIDTH = 100,    /* columns of a paragraph */
     WRAPPED = 44,   /* of a cell in a column that is wrapped */
-    LONG_TABLE = 40 /* rows: a terminal does not show more */
+    LONG_TABLE = 24 /* rows: a terminal does not show more */
 };
 
 /* A report on its way out. */
@@ -111,7 +111,7 @@ static struct layout lay_out(const struct page *p, const struct br_document_tabl
     const unsigned flags = t->column[c].flags;
     struct layout l = {
         .column = &t->column[c],
-        .shown = br_for_people(flags) && !(p->terminal && flags & BR_FILES_ONLY),
+        .shown = br_document_is_seen(t, c) && !(p->terminal && flags & BR_FILES_ONLY),
         .left = br_document_is_text(t, c),
     };
     for (size_t r = 0; r < t->rows; r++) {
@@ -235,6 +235,13 @@ static void print_fact(const struct page *p, const struct br_block *b)
     fputc('\n', p->out);
 }
 
+static void print_command(const struct page *p, const struct br_block *b)
+{
+    print(p, b->what.heading);
+    fputs(":\n", p->out);
+    print_lines(p, b->cell.value.text);
+}
+
 static bool is_shown(const struct page *p, const struct br_block *b)
 {
     const unsigned flags = b->kind == BR_BLOCK_TABLE ? b->table->flags : b->what.flags;
@@ -264,9 +271,7 @@ static enum br_status print_block(const struct page *p, const struct br_block *b
         print_fact(p, b);
         break;
     case BR_BLOCK_COMMAND:
-        print(p, b->what.heading);
-        fputs(":\n", p->out);
-        print_lines(p, b->cell.value.text);
+        print_command(p, b);
         break;
     case BR_BLOCK_PICTURE:
         fputs("Picture ", p->out);
@@ -313,6 +318,16 @@ static void print_answer(const struct page *p)
         print_paragraph(p, p->d->answer[i]);
 }
 
+/* What a terminal shows last: the answer, and what may be typed next. */
+static void print_end(const struct page *p)
+{
+    fputs(p->d->answers ? "\n" : "", p->out);
+    print_answer(p);
+    for (size_t i = 0; i < p->d->blocks; i++)
+        if (p->d->block[i].kind == BR_BLOCK_COMMAND)
+            print_command(p, &p->d->block[i]);
+}
+
 static enum br_status print_page(FILE *out, const struct br_document *d, bool terminal,
                                  struct br_error *err)
 {
@@ -329,18 +344,16 @@ static enum br_status print_page(FILE *out, const struct br_document *d, bool te
     for (size_t i = 0; i < d->verdicts && !status; i++)
         if (br_document_verdict_matters(&d->verdict[i]))
             print_verdict(&p, &d->verdict[i]);
-    if (terminal && d->answers) {
-        fputc('\n', out);
-        print_answer(&p);
-    }
+    if (terminal)
+        print_end(&p);
     free(p.visible);
     return status;
 }
 
 enum br_status br_document_show(FILE *out, const struct br_document *d, struct br_error *err)
 {
-    return d->failure.status ? br_fail(err, d->failure.status, "%s", d->failure.message)
-                             : print_page(out, d, true, err);
+    const enum br_status status = br_document_status(d, err);
+    return status ? status : print_page(out, d, true, err);
 }
 
 static enum br_status write(FILE *out, const struct br_document *d,
