@@ -319,6 +319,10 @@ static void put_copied(struct br_document *d, const char *key, struct br_value v
     d->last = &t->cell[(t->rows - 1) * t->columns + column];
     d->last->value = value;
     d->next = column + 1;
+    if (value.kind != BR_NOTHING)
+        t->column[column].flags |= BR_FILLED;
+    if (value.kind == BR_TEXT || value.kind == BR_TRUTH)
+        t->column[column].flags |= BR_TEXTUAL;
 }
 
 void br_put(struct br_document *d, const char *key, struct br_value value)
@@ -340,18 +344,21 @@ void br_put_shown(struct br_document *d, const char *format, ...)
     va_start(arguments, format);
     const char *text = formatted(d, format, arguments);
     va_end(arguments);
-    if (d->last)
-        d->last->shown = text;
-    else
-        refuse(d, "shown is no value, but", text);
+    if (!d->last)
+        refuse(d, "there is no value that is shown as", text);
+    if (d->failure.status)
+        return;
+    d->last->shown = text;
+    if (d->block[d->blocks - 1].kind == BR_BLOCK_TABLE)
+        open_table(d)->column[d->next - 1].flags |= BR_FILLED;
 }
 
 void br_put_mark(struct br_document *d, const char *mark)
 {
-    if (d->last)
-        d->last->mark = mark && *mark ? copied(d, mark) : NULL;
-    else
+    if (!d->last)
         refuse(d, "there is no value before the mark", mark);
+    if (!d->failure.status)
+        d->last->mark = mark && *mark ? copied(d, mark) : NULL;
 }
 
 /* ---- verdicts and the rest ---- */
@@ -472,22 +479,13 @@ const struct br_document_cell *br_document_cell_at(const struct br_document_tabl
 
 bool br_document_is_seen(const struct br_document_table *table, size_t column)
 {
-    for (size_t r = 0; r < table->rows; r++) {
-        const struct br_document_cell *cell = br_document_cell_at(table, r, column);
-        if (cell->value.kind != BR_NOTHING || cell->shown)
-            return br_for_people(table->column[column].flags);
-    }
-    return false;
+    const unsigned flags = table->column[column].flags;
+    return br_for_people(flags) && flags & BR_FILLED;
 }
 
 bool br_document_is_text(const struct br_document_table *table, size_t column)
 {
-    for (size_t r = 0; r < table->rows; r++) {
-        const enum br_value_type kind = br_document_cell_at(table, r, column)->value.kind;
-        if (kind == BR_TEXT || kind == BR_TRUTH)
-            return true;
-    }
-    return false;
+    return table->column[column].flags & BR_TEXTUAL;
 }
 
 bool br_document_verdict_matters(const struct br_document_verdict *verdict)

@@ -82,6 +82,8 @@ enum {
     BR_FOR_PROGRAMS = 4, /* in CSV and JSON only */
     BR_MAIN = 8,         /* the table whose CSV file is NAME.csv; others are NAME-TABLE.csv */
     BR_WRAP = 16,        /* a column of long texts, which people get on several lines */
+    BR_FILLED = 32,      /* a column with a value; set by br_put */
+    BR_TEXTUAL = 64,     /* a column with a text or a truth; set by br_put */
 };
 
 /* A column of a table, or what a fact is. Strings may be NULL, but for the key of what programs
