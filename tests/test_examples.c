@@ -17,7 +17,7 @@
 #include "solver/clock.h"
 #include "support.h"
 
-enum { MOST_EXAMPLES = 128, MOST_LINE = 512 };
+enum { MOST_EXAMPLES = 256, MOST_LINE = 512 };
 
 static struct {
     char line[MOST_LINE];
