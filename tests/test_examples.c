@@ -180,22 +180,24 @@ static void collect_helps(void)
 
 /* ---- running them ---- */
 
-/* Words that make an example short, for a line that has a text and not another one. Those that the
- * suite runs elsewhere are asked for their help, which reads the options. */
+/* Words that make an example short, for a line that has a text and neither of two others. Those
+ * that the suite runs elsewhere are asked for their help, which reads the options. */
 static const struct {
-    const char *with, *without, *words;
+    const char *with, *without[2], *words;
 } shorter[] = {
-    {"beamrate tables", " --n", " --n 5,10 --k 0.1,0.05 --reference fine:20,0.05"},
-    {" --split", " --n", " --n 10"},
-    {"beamrate trade", " --n", " --n 10 --k 0.1,0.05 --methods euler,bdf2 --repeats 1"},
-    {"beamrate plan", " --methods", " --methods euler+implicit,adaptive+p2 --repeats 1"},
-    {"beamrate extremes", " --cases 10 ", " --help"},
-    {"beamrate figures", " --help", " --help"},
-    {" --k 1e-4 --check", " --help", " --help"},
-    {" --animate example", " --n", " --n 10 --k 0.03"},
-    {"beamrate tables", " --no-plots", " --no-plots"},
-    {"beamrate study", " --no-plots", " --no-plots"},
-    {"beamrate trade", " --no-plots", " --no-plots"},
+    {"beamrate tables", {" --n ", " -n "}, " --n 5,10 --k 0.1,0.05 --reference fine:20,0.05"},
+    {" --split", {" --n ", " -n "}, " --n 10"},
+    {"beamrate trade", {" --n ", " -n "}, " --n 10 --k 0.1,0.05 --methods euler,bdf2 --repeats 1"},
+    {"beamrate plan",
+     {" --methods", " --help"},
+     " --methods euler+implicit,adaptive+p2 --repeats 1"},
+    {"beamrate extremes", {" --cases 10 ", " --help"}, " --help"},
+    {"beamrate figures", {" --help", " -h "}, " --help"},
+    {" 1e-4 --check", {" --help", " -h "}, " --help"},
+    {" --animate example", {" --n ", " -n "}, " --n 10 --k 0.03"},
+    {"beamrate tables", {" --no-plots", " --help"}, " --no-plots"},
+    {"beamrate study", {" --no-plots", " --help"}, " --no-plots"},
+    {"beamrate trade", {" --no-plots", " --help"}, " --no-plots"},
 };
 
 /* Appends them to a line. */
@@ -206,7 +208,8 @@ static void shorten(char line[2 * MOST_LINE], bool is_long)
         strcat(line, " --help");
     for (size_t i = 0; i < sizeof shorter / sizeof *shorter && !is_long; i++) {
         char *last = line + strlen(line);
-        if (strstr(line, shorter[i].with) && !strstr(line, shorter[i].without))
+        if (strstr(line, shorter[i].with) && !strstr(line, shorter[i].without[0]) &&
+            !strstr(line, shorter[i].without[1]))
             snprintf(last, (size_t)(end - last), "%s", shorter[i].words);
     }
 }
