@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "cli/command.h"
-#include "cli/formats.h"
-#include "cli/output.h"
+#include "cli/documents.h"
 #include "cli/plan_options.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
@@ -14,17 +13,17 @@
 #include "cli/warn_marches.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
-#include "tables/plan_emitter.h"
+#include "tables/report_plan.h"
 
 struct work {
     struct br_plan_options options;
     struct br_plan_wish wish;
     char path[1024]; /* of the scene */
     char *text;
-    char caption[512];
     struct br_scene scene;
     struct br_plan plan;
     struct br_provenance provenance;
+    struct br_document document;
     struct br_output output;
 };
 
@@ -35,7 +34,6 @@ static enum br_status prepare(struct work *w, struct br_error *err)
     if (status)
         return status;
     struct br_plan *p = &w->plan;
-    snprintf(w->caption, sizeof w->caption, "A plan: %.400s", w->scene.title);
     br_plan_default(p, &w->scene);
     p->goal = w->wish.goal;
     p->norm[0] = w->wish.study.norm[0];
@@ -64,33 +62,14 @@ static enum br_status make(struct work *w, struct br_error *err)
 
 /* ---- results ---- */
 
-static enum br_status write_one(struct work *w, const struct br_page_emitter *e,
-                                const struct br_plan_page *page, struct br_error *err)
+static enum br_status write_all(struct work *w, struct br_error *err)
 {
-    char name[600];
-    FILE *file;
-    snprintf(name, sizeof name, "%.500s-plan%s", w->scene.name, e->extension);
-    enum br_status status = br_output_file(&w->output, name, &file, err);
-    if (status)
-        return status;
-    status = br_plan_emit(e, file, page, err);
-    const enum br_status closed = br_output_close(file, name, status ? NULL : err);
-    return status ? status : closed;
-}
-
-static enum br_status write_all(struct work *w, const struct br_plan_page *page,
-                                struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (const struct br_page_emitter *const *e = br_page_emitters; *e && !status; e++)
-        if (br_format_wanted(w->options.study.format, (*e)->name))
-            status = write_one(w, *e, page, err);
+    enum br_status status =
+        br_documents_write(&w->output, w->options.study.format, &w->document, 1, err);
     if (!status)
         status = br_output_commit(&w->output, err);
-    if (!status && !w->options.study.quiet) {
-        putchar('\n');
+    if (!status && !w->options.study.quiet)
         br_output_announce(&w->output);
-    }
     return status;
 }
 
@@ -99,19 +78,12 @@ static enum br_status show(struct work *w, struct br_error *err)
     br_provenance_fill(&w->provenance, w->wish.study.threads);
     w->provenance.scene_path = w->path;
     w->provenance.scene_text = w->text;
-    const struct br_plan_page page = {
-        .name = w->scene.name,
-        .scene_word = w->options.scene,
-        .caption = w->caption,
-        .plan = &w->plan,
-        .provenance = &w->provenance,
-    };
-    enum br_status status = BR_OK;
     br_warn_of_plan(&w->plan);
-    if (!w->options.study.quiet)
-        status = br_plan_emit(&br_page_text, stdout, &page, err);
+    br_report_plan(&w->plan, w->options.scene, &w->provenance, &w->document);
+    enum br_status status =
+        w->options.study.quiet ? BR_OK : br_documents_show(&w->document, 1, err);
     if (!status && w->options.study.out)
-        status = write_all(w, &page, err);
+        status = write_all(w, err);
     if (!status && w->plan.end == BR_PLAN_MISSED)
         status = br_fail(err, BR_NOT_FINITE, "%s: the goal was missed by all %zu trials",
                          w->scene.name, w->plan.count);
@@ -141,6 +113,7 @@ static enum br_status run(int argc, const char **argv, struct br_error *err)
     if (works && !status)
         status = work(&w, err);
     br_output_discard(&w.output);
+    br_document_clear(&w.document);
     br_plan_clear(&w.plan);
     br_plan_wish_clear(&w.wish);
     br_scene_clear(&w.scene);

@@ -8,7 +8,7 @@
 #include "cli/names.h"
 #include "cli/number_option.h"
 #include "cli/parse.h"
-#include "tables/sheet.h"
+#include "tables/document.h"
 
 static const char usage[] =
     "SCENE --error E | --seconds S [OPTION...]\n\nThe cheapest way to a relative error, or the "
@@ -24,7 +24,7 @@ static void print_names(FILE *out)
 {
     br_print_contender_words(out);
     fprintf(out, "Formats (--format):\n ");
-    for (const struct br_page_emitter *const *e = br_page_emitters; *e; e++)
+    for (const struct br_document_format *const *e = br_document_formats; *e; e++)
         fprintf(out, " %s", (*e)->name);
     fputc('\n', out);
 }

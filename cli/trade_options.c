@@ -9,7 +9,7 @@
 #include "cli/number_option.h"
 #include "cli/parse.h"
 #include "study/scene/number_list.h"
-#include "tables/sheet.h"
+#include "tables/document.h"
 
 static const char usage[] =
     "SCENE... [OPTION...]\n\nWhat a digit costs: the relative error of many methods at many "
@@ -30,7 +30,7 @@ static void print_names(FILE *out)
 {
     br_print_contender_words(out);
     fprintf(out, "Formats (--format):\n ");
-    for (const struct br_page_emitter *const *e = br_page_emitters; *e; e++)
+    for (const struct br_document_format *const *e = br_document_formats; *e; e++)
         fprintf(out, " %s", (*e)->name);
     fputc('\n', out);
 }

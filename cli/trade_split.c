@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/formats.h"
+#include "cli/documents.h"
 #include "cli/output.h"
 #include "cli/picture_files.h"
 #include "cli/progress.h"
@@ -17,7 +17,7 @@
 #include "study/scene/file.h"
 #include "study/scene/number_list.h"
 #include "study/trade/contender.h"
-#include "tables/split_emitter.h"
+#include "tables/report_split.h"
 
 struct work {
     const struct br_trade_options *options;
@@ -31,6 +31,7 @@ struct work {
     struct br_split *split; /* splits; owned */
     size_t splits;
     struct br_provenance provenance;
+    struct br_document document;
     struct br_output output;
 };
 
@@ -157,20 +158,6 @@ static enum br_status split_all(struct work *w, struct br_error *err)
     return !status && br_signals_caught() ? br_fail(err, BR_INTERRUPTED, "interrupted") : status;
 }
 
-static enum br_status write_table(struct work *w, const struct br_split_emitter *emitter,
-                                  const struct br_split_page *page, struct br_error *err)
-{
-    char name[600];
-    FILE *file;
-    snprintf(name, sizeof name, "%.500s-split%s", w->scene.name, emitter->extension);
-    enum br_status status = br_output_file(&w->output, name, &file, err);
-    if (status)
-        return status;
-    status = emitter->emit(file, page, err);
-    const enum br_status closed = br_output_close(file, name, status ? NULL : err);
-    return status ? status : closed;
-}
-
 static enum br_status write_plot(struct work *w, const struct br_chart *chart, struct br_error *err)
 {
     struct br_picture_files files = {.output = &w->output};
@@ -180,26 +167,34 @@ static enum br_status write_plot(struct work *w, const struct br_chart *chart, s
 }
 
 /* Over k or h, where the runs differ by one of them. */
-static enum br_status plot(struct work *w, const struct br_split_page *page, struct br_error *err)
+static enum br_status plot(struct work *w, struct br_error *err)
 {
     struct br_chart chart;
-    enum br_status status = br_split_chart(page->split, page->count, &chart, err);
-    if (!status && chart.panels)
+    enum br_status status = br_split_chart(w->split, w->splits, &chart, err);
+    if (!status && chart.panels) {
+        br_put_picture(&w->document, chart.stem, chart.title);
         status = write_plot(w, &chart, err);
+    }
     br_chart_clear(&chart);
     return status;
 }
 
-static enum br_status write_all(struct work *w, const struct br_split_page *page,
-                                struct br_error *err)
+static enum br_status write_all(struct work *w, struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    for (const struct br_split_emitter *const *e = br_split_emitters; *e && !status; e++)
-        if (br_format_wanted(w->options->study.format, (*e)->name))
-            status = write_table(w, *e, page, err);
-    if (!status && !w->options->study.no_plots)
-        status = plot(w, page, err);
-    return status ? status : br_output_commit(&w->output, err);
+    br_provenance_fill(&w->provenance, w->request.threads);
+    w->provenance.scene_path = w->path;
+    w->provenance.scene_text = w->text;
+    br_report_split(w->split, w->splits, &w->provenance, &w->document);
+    enum br_status status = w->options->study.no_plots ? BR_OK : plot(w, err);
+    if (!status)
+        status = br_documents_write(&w->output, w->options->study.format, &w->document, 1, err);
+    if (!status && !w->options->study.quiet)
+        status = br_documents_show(&w->document, 1, err);
+    if (!status)
+        status = br_output_commit(&w->output, err);
+    if (!status && !w->options->study.quiet)
+        br_output_announce(&w->output);
+    return status;
 }
 
 static enum br_status run(struct work *w, struct br_error *err)
@@ -218,21 +213,7 @@ static enum br_status run(struct work *w, struct br_error *err)
         status = br_output_open(&w->output, out ? out : "trade", err);
     if (!status)
         status = split_all(w, err);
-    if (status || !writes)
-        return status;
-    br_provenance_fill(&w->provenance, w->request.threads);
-    w->provenance.scene_path = w->path;
-    w->provenance.scene_text = w->text;
-    const struct br_split_page page = {w->split, w->splits, &w->provenance};
-    if (!w->options->study.quiet)
-        status = br_split_emitters[0]->emit(stdout, &page, err);
-    if (!status)
-        status = write_all(w, &page, err);
-    if (!status && !w->options->study.quiet) {
-        putchar('\n');
-        br_output_announce(&w->output);
-    }
-    return status;
+    return status || !writes ? status : write_all(w, err);
 }
 
 enum br_status br_trade_split(const struct br_trade_options *options, struct br_error *err)
@@ -241,6 +222,7 @@ enum br_status br_trade_split(const struct br_trade_options *options, struct br_
     const enum br_status status = run(&w, err);
     br_output_discard(&w.output);
     br_study_request_clear(&w.request);
+    br_document_clear(&w.document);
     br_scene_clear(&w.scene);
     free(w.tolerance);
     free(w.split);

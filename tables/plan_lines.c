@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "study/scene/quote.h"
-#include "tables/plan_emitter.h"
+#include "tables/report_plan.h"
 
 __attribute__((format(printf, 2, 3))) static void append(char line[BR_PLAN_LINE],
                                                          const char *format, ...)
@@ -47,29 +47,27 @@ static void append_method(char line[BR_PLAN_LINE], const struct br_method *m,
         append(line, " --refinement %d", (int)m->linear.refinement);
 }
 
-void br_plan_run_line(const struct br_plan_page *page, char line[BR_PLAN_LINE])
+void br_plan_run_line(const struct br_plan *p, const char *scene_word, char line[BR_PLAN_LINE])
 {
-    const struct br_plan *p = page->plan;
     line[0] = '\0';
     if (p->chosen == p->count)
         return;
     const struct br_trial *t = &p->trial[p->chosen];
     const struct br_method method = br_trial_method(t);
     append(line, "beamrate run");
-    append_word(line, page->scene_word);
+    append_word(line, scene_word);
     append(line, " --n %zu --k %.15g", t->at.n, br_time_step(p->request.scene, t->at.steps));
     append_method(line, &method, p->request.scene);
 }
 
-void br_plan_trade_line(const struct br_plan_page *page, char line[BR_PLAN_LINE])
+void br_plan_trade_line(const struct br_plan *p, const char *scene_word, char line[BR_PLAN_LINE])
 {
-    const struct br_plan *p = page->plan;
     line[0] = '\0';
     if (p->chosen == p->count)
         return;
     const struct br_trial *t = &p->trial[p->chosen];
     append(line, "beamrate trade");
-    append_word(line, page->scene_word);
+    append_word(line, scene_word);
     append(line, " --methods %s --n %zu", t->contender->name, t->at.n);
     if (br_contender_adaptive(t->contender))
         append(line, " --tolerances %.15g", t->tolerance);

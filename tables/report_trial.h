@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the reports of trade, split and plan share: rows that are built with their columns, and what
+ * they have of a trial and of a method. */
+#ifndef BR_TABLES_REPORT_TRIAL_H
+#define BR_TABLES_REPORT_TRIAL_H
+
+#include "study/trade/trial.h"
+#include "tables/document.h"
+
+/* A value with its column. */
+struct br_cell_of_column {
+    struct br_column column;
+    struct br_value value;
+};
+
+/* A row on its way into a table; begins as zeros. Strings are borrowed until it is put. */
+enum { BR_MOST_COLUMNS = 40 };
+struct br_row {
+    struct br_cell_of_column cell[BR_MOST_COLUMNS];
+    char shown[BR_MOST_COLUMNS][32]; /* to people instead of the value; "": the value */
+    size_t cells;
+};
+void br_row_add(struct br_row *row, const struct br_cell_of_column *cells, size_t count);
+
+/* What people see instead of the value that was added last. */
+__attribute__((format(printf, 2, 3))) void br_row_shown(struct br_row *row, const char *format,
+                                                        ...);
+
+/* Makes the cells from `first` on nothing. */
+void br_row_empty(struct br_row *row, size_t first);
+
+/* Puts the row into the document's last table. The first row brings the table's columns, so all
+ * rows of a table are built alike. */
+void br_put_whole_row(struct br_document *d, const struct br_row *row);
+
+/* Adds method, n, steps_or_levels, k and tolerance; people see a tolerance in the place of k. */
+void br_row_add_trial(struct br_row *row, const struct br_scene *scene,
+                      const struct br_trial *trial);
+
+/* Adds all that a method is but its tolerance, for programs: scheme, contact and so on. What an
+ * iteration has is nothing where none is made. */
+void br_row_add_method(struct br_row *row, const struct br_method *method);
+
+/* "bdf2, n = 100, k = 0.01 s", or "adaptive, n = 100, tolerance 0.0001"; returns `text`. */
+enum { BR_TRIAL_TEXT = 160 };
+const char *br_trial_text(const struct br_scene *scene, const struct br_trial *trial,
+                          char text[BR_TRIAL_TEXT]);
+
+/* Puts facts that people do not see. */
+void br_put_program_facts(struct br_document *d, const struct br_cell_of_column *facts,
+                          size_t count);
+
+/* An array of cells, and how many they are. */
+#define BR_CELLS(cells) (cells), (sizeof(cells) / sizeof *(cells))
+
+#endif
