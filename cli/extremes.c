@@ -124,33 +124,19 @@ static enum br_status write_pages(struct work *w, struct br_error *err)
     return status;
 }
 
-static void clear_picture(struct br_extremes_picture *picture)
-{
-    if (picture->chart)
-        br_chart_clear(picture->chart);
-    if (picture->heat)
-        br_heat_clear(picture->heat);
-    free(picture->chart);
-    free(picture->heat);
-    *picture = (struct br_extremes_picture){NULL, NULL};
-}
-
 /* The pictures of one part. */
 static enum br_status draw(struct work *w, size_t part, struct br_picture_files *files,
                            struct br_error *err)
 {
-    struct br_extremes_picture picture = {NULL, NULL};
     enum br_status status = BR_OK;
-    for (size_t i = 0; !status; i++) {
-        status = w->options.part[part]->draw(w->result[part], i, &picture, err);
-        const bool last = !picture.chart && !picture.heat;
-        if (!status && picture.chart)
-            status = br_picture_files_chart(files, picture.chart, err);
-        if (!status && picture.heat)
-            status = br_picture_files_heat(files, picture.heat, err);
-        clear_picture(&picture);
-        if (last)
-            break;
+    bool last = false;
+    for (size_t i = 0; !status && !last; i++) {
+        struct br_figure figure = {0};
+        status = w->options.part[part]->draw(w->result[part], i, &figure, err);
+        last = !figure.panels;
+        if (!status && !last)
+            status = br_picture_files_draw(files, &figure, err);
+        br_figure_clear(&figure);
     }
     return status;
 }

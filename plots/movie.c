@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "plots/page.h"
+#include "plots/figure.h"
 #include "study/scene/quote.h"
 
 static const struct br_movie_format gif = {".gif", "gif", "animated GIF", false};
@@ -162,18 +162,11 @@ static void write_array(FILE *out, const char *name, const struct br_history_rec
 static void write_head(FILE *out, const struct br_movie *m)
 {
     const struct scales s = find_scales(m);
-    char name[512], file[512], stem[512];
+    char name[512], file[512], pictures[600];
     br_movie_file(m, 0, name, sizeof name);
     br_quoted(file, sizeof file, &br_for_text, name);
-    br_quoted(stem, sizeof stem, &br_for_text, m->stem);
-    fputs("# SPDX-License-Identifier: GPL-3.0-or-later\n# ", out);
-    br_write_comment(out, m->scene->title);
-    fprintf(out,
-            "# Draws %s%s from %s.dat;\n# edit it, and draw again, in this folder, with\n"
-            "#     gnuplot %s.gp\n\nset encoding utf8\nstem = ",
-            file, m->format->frames ? " and so on" : "", stem, stem);
-    br_quote(out, &br_for_gnuplot, m->stem);
-    fputc('\n', out);
+    BR_SAY(pictures, "%s%s", file, m->format->frames ? " and so on" : "");
+    br_script_head(out, m->scene->title, m->stem, pictures);
     fprintf(
         out,
         "length = %.9g # m\ngap = %.9g # m\naxial_scale = %.9g\nbending_scale = %.9g\n"
