@@ -243,7 +243,7 @@ static void fill_parts(const struct br_report *r, struct br_figure *f)
     const struct br_study *study = br_report_fitted(r);
     say_fit(r, BR_PART_AXIAL, f->note[0], sizeof f->note[0]);
     say_fit(r, BR_PART_BENDING, f->note[1], sizeof f->note[1]);
-    f->one_key = f->one_y = true;
+    f->one_key = true;
     struct br_panel *p = add_panel(r, OVER_H, f);
     BR_SAY(p->x_label, "mesh size h (m), at k = %.4g s",
            value_of(r, OVER_K, study->steps[largest(r, OVER_K)]));
@@ -289,7 +289,7 @@ static void add_both(const struct br_report *r, enum axis axis, struct br_panel 
             repaint(p->series[i], i < curves ? 2 : 1);
     }
     struct br_series *whose[] = {br_series_add(p, BR_PEN_LINE, "computed"),
-                                 br_series_add(p, BR_PEN_LINE, "printed in the paper")};
+                                 br_series_add(p, BR_PEN_LINE, "printed")};
     for (size_t i = 0; i < 2 && whose[i]; i++) {
         whose[i]->pen = BR_PEN_LINE;
         whose[i]->hue = 1 + i;

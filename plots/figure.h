@@ -110,7 +110,7 @@ struct br_figure {
     struct br_range value;
     bool log_value;
     double neutral;                 /* the value that is white between two hues; 0: none */
-    char kind[BR_FIGURE_KINDS][48]; /* where values are kinds 0, 1, ...: their names, no bar */
+    char kind[BR_FIGURE_KINDS][64]; /* where values are kinds 0, 1, ...: their names, no bar */
     size_t kinds;
 };
 

@@ -212,12 +212,13 @@ static void write_stage(FILE *out, const struct br_movie *m)
         "set label 2 sprintf('u drawn %%g times as large, w %%g times', axial_scale, bending_scale) "
         "at screen 0.03,0.885 left\n"
         "set xrange [-0.05*length:1.5*length]; set yrange [-0.62*length:0.62*length]\n"
-        "set lmargin at screen 0.03; set rmargin at screen 0.84\n"
+        "set lmargin at screen 0.03; set rmargin at screen 0.82\n"
         "set bmargin at screen 0.09; set tmargin at screen 0.9\n"
         "unset key; unset border; unset tics\n"
-        "set palette defined (0 '#0d0887', 0.5 '#cb4679', 1 '#f0b040')\n"
-        "set cbrange [-most:most]; set cblabel 'horizontal displacement u (m)'\n"
-        "set colorbox user origin 0.87,0.15 size 0.02,0.65; set cbtics\n"
+        "set palette defined (0 '#0072b2', 0.5 '#aaaaaa', 1 '#d55e00')\n"
+        "set cbrange [-most:most]\n"
+        "set label 7 'horizontal displacement u (m)' at screen 0.97,0.475 center rotate\n"
+        "set colorbox user origin 0.84,0.15 size 0.02,0.65; set cbtics\n"
         "set object 1 rectangle from -0.04*length,-0.2*length to 0,0.2*length "
         "fc rgb '#888888' fs solid 1 noborder\n");
     if (m->scene->contact.modelled)
@@ -239,17 +240,18 @@ static void write_forces(FILE *out, const struct br_movie *m)
             "    set label 5 sprintf('contact force %.4g N', contact[i]) at screen 0.03,0.045 left\n"
             "    if (contact[i] > 0) {\n"
             "        set arrow 1 from tx + contact_scale*contact[i],ty to tx,ty lw 4 "
-            "lc rgb '#e8704f' front\n"
+            "lc rgb '#009e73' front\n"
             "    } else { unset arrow 1 }\n",
             out);
     if (m->scene->friction.law == BR_FRICTIONLESS)
         return;
     fputs(
-        "    state = speed[i] == 0 || abs(friction[i]) < bound[i] ? 'sticks' : 'slips'\n"
+        "    state = open(i) ? 'open' : speed[i] == 0 || abs(friction[i]) < bound[i] ? 'sticks' : "
+        "'slips'\n"
         "    set label 6 sprintf('friction %.4g N of %.4g N: %s', abs(friction[i]), bound[i], state) "
         "at screen 0.32,0.045 left\n"
         "    set arrow 2 from tx,ty to tx,ty - friction_scale*friction[i] lw 4 "
-        "lc rgb '#0d0887' front\n"
+        "lc rgb '#000000' front\n"
         "    # The bound, to both sides, as far as the picture reaches.\n"
         "    b = friction_scale*bound[i]; d = 0.03*length\n"
         "    if (b < 0.5*length) {\n"
@@ -264,6 +266,7 @@ void br_movie_write_script(FILE *out, const struct br_movie *m)
     write_head(out, m);
     write_terminal(out, m);
     write_stage(out, m);
+    fputs(m->scene->contact.modelled ? "open(i) = contact[i] <= 0\n" : "open(i) = 0\n", out);
     fputs("do for [i=1:frames] {\n", out);
     if (m->format->frames)
         fputs("    set output stem.sprintf('-%04d.png', i)\n", out);

@@ -379,7 +379,7 @@ static void add_keys(const struct br_figure *f, struct layout *l)
     size_t rows = 0;
     for (size_t i = 0; i < f->panels; i++) {
         const struct br_panel *p = &f->panel[i];
-        const double room = f->one_key ? l->width - 60 : l->column - 30;
+        const double room = f->one_key ? l->width - 60 : l->column - l->left - 35 - guide_width(p);
         const size_t needed = f->one_key && i > 0 ? 0 : key_of(f, p, room).rows;
         rows = needed > rows ? needed : rows;
         l->head = fmax(l->head, (p->title[0] && !is_inset(p) ? 45 : 12) + (p->top.count ? 75 : 0));
@@ -667,7 +667,7 @@ static void write_axes(FILE *out, const struct br_figure *f, const struct br_pan
 static void write_key_place(FILE *out, const struct br_figure *f, const struct br_panel *p,
                             const struct box *b, const struct layout *l)
 {
-    const struct key key = key_of(f, p, f->one_key ? l->width - 60 : l->column - 30);
+    const struct key key = key_of(f, p, f->one_key ? l->width - 60 : b->right - b->left);
     if (!key.entries)
         fputs("unset key\n", out);
     else if (l->beside)
@@ -832,12 +832,13 @@ static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t i
 static void write_one_key(FILE *out, const struct br_figure *f, const struct layout *l)
 {
     const struct box b = {30, l->width - 30, l->bottom + 95, l->bottom + 95};
-    fprintf(out,
-            "\nunset label; unset arrow; unset object; unset logscale; unset tics; unset border\n"
-            "set lmargin at screen 0.02; set rmargin at screen 0.98\n"
-            "set bmargin at screen 0; set tmargin at screen %.4f\nset xrange [0:1]; set yrange "
-            "[0:1]\n",
-            l->bottom / l->height);
+    fprintf(
+        out,
+        "\nunset label; unset arrow; unset object; unset logscale; unset tics; unset border; unset x2label\n"
+        "set lmargin at screen 0.02; set rmargin at screen 0.98\n"
+        "set bmargin at screen 0; set tmargin at screen %.4f\nset xrange [0:1]; set yrange "
+        "[0:1]\n",
+        l->bottom / l->height);
     write_key_place(out, f, &f->panel[0], &b, l);
     fputs("plot NaN notitle", out);
     write_entries(out, f, &f->panel[0]);

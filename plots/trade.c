@@ -170,16 +170,35 @@ static void add_cloud(const struct br_trade_picture *p, const struct br_trade *t
 
 /* ---- the picture ---- */
 
-/* Who gets a hue first: 0 the paper's own method, 1 who is on the front of all, 2 the rest. */
-static int rank_of(const struct br_trade_picture *p, const struct br_trade *t,
-                   const struct br_contender *c)
+/* Who gets a hue first: the paper's own method, then those with most trials on the front of all. */
+static size_t merit(const struct br_trade_picture *p, const struct br_trade *t,
+                    const struct br_contender *c)
 {
-    if (br_trade_is_printed_method(c))
-        return 0;
+    size_t kept = 0;
     for (size_t i = 0; i < t->count; i++)
-        if (t->trial[i].contender == c && is_kept(p, t, i, NULL))
-            return 1;
-    return 2;
+        kept += t->trial[i].contender == c && is_kept(p, t, i, NULL);
+    return br_trade_is_printed_method(c) ? t->count : kept;
+}
+
+/* The methods that are shown, by merit, into `list` (out); how many. */
+static size_t rank(const struct br_trade_picture *p, const struct br_trade *t,
+                   const struct br_contender *list[BR_MOST_CONTENDERS])
+{
+    size_t merits[BR_MOST_CONTENDERS], count = 0;
+    for (size_t i = 0; i < t->contenders.count; i++) {
+        const struct br_contender *c = &t->contenders.list[i];
+        if (!p->shows(t, c))
+            continue;
+        const size_t own = merit(p, t, c);
+        size_t at = count++;
+        for (; at > 0 && merits[at - 1] < own; at--) {
+            list[at] = list[at - 1];
+            merits[at] = merits[at - 1];
+        }
+        list[at] = c;
+        merits[at] = own;
+    }
+    return count;
 }
 
 /* Errors beyond 10 say nothing, and widen no axis. */
@@ -201,12 +220,10 @@ static void fill(const struct br_trade_picture *p, const struct br_trade *t, str
     add_front(p, t, NULL, br_series_add(panel, BR_PEN_BAND, "Pareto front"));
     for (size_t i = 0; i < sizeof clouds / sizeof *clouds; i++)
         add_cloud(p, t, i, panel);
-    for (int rank = 0; rank < 3; rank++)
-        for (size_t i = 0; i < t->contenders.count; i++) {
-            const struct br_contender *c = &t->contenders.list[i];
-            if (p->shows(t, c) && rank_of(p, t, c) == rank)
-                add_front(p, t, c, br_series_add(panel, BR_PEN_CURVE, "%s", c->name));
-        }
+    const struct br_contender *list[BR_MOST_CONTENDERS];
+    const size_t count = rank(p, t, list);
+    for (size_t i = 0; i < count; i++)
+        add_front(p, t, list[i], br_series_add(panel, BR_PEN_CURVE, "%s", list[i]->name));
 }
 
 enum br_status br_trade_draw(const struct br_trade_picture *picture, const struct br_trade *trade,
