@@ -48,7 +48,6 @@ enum br_status br_floors_draw(const struct br_floors *f, size_t k, struct br_fig
            BR_FLOOR_STEPS, f->k[k]);
     struct br_panel *p = br_panel_add(figure);
     p->log_x = p->log_y = true;
-    p->y.high = 10;
     BR_SAY(p->x_label, "elements n");
     BR_SAY(p->y_label, "relative deviation");
     for (size_t s = 0; s < f->solvers; s++) /* scaled ones are where they are without */

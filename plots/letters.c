@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gnuplot in a folder of its own, which is removed again. */
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -87,41 +88,37 @@ enum br_status br_gnuplot_has(const char *terminal, bool *has, bool *missing, st
 
 /* ---- letters ---- */
 
-typedef double of_row(const struct br_history_row *row);
-
-static double axial_of(const struct br_history_row *row)
+double br_value_of_row(const struct br_history_row *row, enum br_row_value what)
 {
-    return row->displacement[BR_AXIAL];
+    switch (what) {
+    case BR_ROW_TIME:
+        return row->time;
+    case BR_ROW_AXIAL:
+        return row->displacement[BR_AXIAL];
+    case BR_ROW_BENDING:
+        return row->displacement[BR_BENDING];
+    case BR_ROW_SPEED:
+        return row->velocity[BR_BENDING];
+    case BR_ROW_CONTACT:
+        return row->contact_force;
+    case BR_ROW_FRICTION:
+        return row->friction_force;
+    case BR_ROW_STRESS:
+        return -row->friction_force;
+    case BR_ROW_BOUND:
+        return row->friction_bound;
+    }
+    return NAN;
 }
 
-static double bending_of(const struct br_history_row *row)
-{
-    return row->displacement[BR_BENDING];
-}
-
-static double contact_of(const struct br_history_row *row)
-{
-    return row->contact_force;
-}
-
-static double friction_of(const struct br_history_row *row)
-{
-    return row->friction_force;
-}
-
-static double bound_of(const struct br_history_row *row)
-{
-    return row->friction_bound;
-}
-
-static void add_rows(const struct br_history_record *r, const char *title, of_row *value,
+static void add_rows(const struct br_history_record *r, const char *title, enum br_row_value value,
                      struct br_panel *p)
 {
     enum { MOST_POINTS = 2000 };
     const size_t every = r->rows > MOST_POINTS ? (r->rows - 1) / MOST_POINTS + 1 : 1;
     struct br_series *s = br_series_add(p, BR_PEN_LINE, "%s", title);
     for (size_t i = 0; i < r->rows; i += every)
-        br_point_add(s, r->row[i].time, value(&r->row[i]), NULL);
+        br_point_add(s, r->row[i].time, br_value_of_row(&r->row[i], value), NULL);
 }
 
 static struct br_panel *add_panel(struct br_figure *f, const char *label)
@@ -137,15 +134,17 @@ enum br_status br_history_draw(const struct br_scene *scene, const struct br_his
 {
     *f = (struct br_figure){0};
     if (scene->axial.modelled)
-        add_rows(r, "u", axial_of, add_panel(f, "horizontal displacement of the tip, u(L) (m)"));
+        add_rows(r, "u", BR_ROW_AXIAL,
+                 add_panel(f, "horizontal displacement of the tip, u(L) (m)"));
     if (scene->bending.modelled)
-        add_rows(r, "w", bending_of, add_panel(f, "vertical displacement of the tip, w(L) (m)"));
+        add_rows(r, "w", BR_ROW_BENDING,
+                 add_panel(f, "vertical displacement of the tip, w(L) (m)"));
     if (scene->contact.modelled)
-        add_rows(r, "contact", contact_of, add_panel(f, "contact force (N)"));
+        add_rows(r, "contact", BR_ROW_CONTACT, add_panel(f, "contact force (N)"));
     if (scene->friction.law != BR_FRICTIONLESS) {
         struct br_panel *p = add_panel(f, "friction force and its bound (N)");
-        add_rows(r, "friction", friction_of, p);
-        add_rows(r, "bound", bound_of, p);
+        add_rows(r, "friction", BR_ROW_FRICTION, p);
+        add_rows(r, "bound", BR_ROW_BOUND, p);
     }
     return br_figure_check(f, err);
 }

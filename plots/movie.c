@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "plots/figure.h"
+#include "plots/pictures.h"
 #include "study/scene/quote.h"
 
 static const struct br_movie_format gif = {".gif", "gif", "animated GIF", false};
@@ -112,50 +112,15 @@ void br_movie_write_data(FILE *out, const struct br_movie *m)
 
 /* ---- the script ---- */
 
-typedef double of_frame(const struct br_history_row *row);
-
-static double time_of(const struct br_history_row *row)
-{
-    return row->time;
-}
-
-static double contact_of(const struct br_history_row *row)
-{
-    return row->contact_force;
-}
-
-/* The scheme has no friction force at t = 0. */
-static double friction_of(const struct br_history_row *row)
-{
-    return isnan(row->friction_force) ? 0 : row->friction_force;
-}
-
-static double bound_of(const struct br_history_row *row)
-{
-    return row->friction_bound;
-}
-
-static double speed_of(const struct br_history_row *row)
-{
-    return row->velocity[BR_BENDING];
-}
-
-static double axial_of(const struct br_history_row *row)
-{
-    return row->displacement[BR_AXIAL];
-}
-
-static double bending_of(const struct br_history_row *row)
-{
-    return row->displacement[BR_BENDING];
-}
-
 static void write_array(FILE *out, const char *name, const struct br_history_record *r,
-                        of_frame *value)
+                        enum br_row_value what)
 {
     fprintf(out, "array %s[%zu] = [", name, r->looks);
-    for (size_t i = 0; i < r->looks; i++)
-        fprintf(out, "%s%.9g", i == 0 ? "" : i % 8 ? ", " : ", \\\n    ", value(&r->at[i]));
+    for (size_t i = 0; i < r->looks; i++) {
+        const double value = br_value_of_row(&r->at[i], what);
+        const bool none = isnan(value); /* the scheme has no friction force at t = 0 */
+        fprintf(out, "%s%.9g", i == 0 ? "" : i % 8 ? ", " : ", \\\n    ", none ? 0 : value);
+    }
     fputs("]\n", out);
 }
 
@@ -173,13 +138,10 @@ static void write_head(FILE *out, const struct br_movie *m)
         "contact_scale = %.9g # m per N\nfriction_scale = %.9g # m per N\nmost = %.9g # |u|, m\n",
         m->scene->length, m->scene->contact.modelled ? m->scene->contact.gap : 0, s.axial,
         s.bending, s.contact, s.friction, s.most_axial);
-    write_array(out, "time", m->record, time_of);
-    write_array(out, "contact", m->record, contact_of);
-    write_array(out, "friction", m->record, friction_of);
-    write_array(out, "bound", m->record, bound_of);
-    write_array(out, "speed", m->record, speed_of);
-    write_array(out, "u", m->record, axial_of);
-    write_array(out, "w", m->record, bending_of);
+    static const char *const names[] = {"time", "u", "w", "speed", "contact", "friction"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        write_array(out, names[i], m->record, (enum br_row_value)i);
+    write_array(out, "bound", m->record, BR_ROW_BOUND);
 }
 
 static void write_terminal(FILE *out, const struct br_movie *m)

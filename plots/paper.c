@@ -23,48 +23,19 @@ static void add_field(const struct br_example *e, enum br_field_kind kind, struc
            kind == BR_AXIAL ? "horizontal displacement u (m)" : "vertical displacement w (m)");
 }
 
-/* What a curve over time shows of a row. */
-typedef double of_row(const struct br_history_row *row);
-
-static double bending_of(const struct br_history_row *row)
-{
-    return row->displacement[BR_BENDING];
-}
-
-static double axial_of(const struct br_history_row *row)
-{
-    return row->displacement[BR_AXIAL];
-}
-
-static double stress_of(const struct br_history_row *row)
-{
-    return -row->friction_force;
-}
-
-static double bound_of(const struct br_history_row *row)
-{
-    return row->friction_bound;
-}
-
-static double below_of(const struct br_history_row *row)
-{
-    return -row->friction_bound;
-}
-
-/* Over time, in the panel's next hue, or (like) in that of the series before. */
-static void add_rows(const struct br_example *e, of_row *value, bool like, const char *title,
-                     struct br_panel *p)
+/* Over time. */
+static struct br_series *add_rows(const struct br_example *e, enum br_row_value value,
+                                  const char *title, struct br_panel *p)
 {
     struct br_series *s = br_series_add(p, BR_PEN_LINE, "%s", title);
-    if (s && like)
-        s->hue = p->series[p->count - 2]->hue;
     for (size_t i = 0; i < e->record.rows; i++)
-        br_point_add(s, e->record.row[i].time, value(&e->record.row[i]), NULL);
+        br_point_add(s, e->record.row[i].time, br_value_of_row(&e->record.row[i], value), NULL);
     BR_SAY(p->x_label, "time t (s)");
     BR_SAY(p->y_label, "%s",
-           value == axial_of     ? "horizontal displacement u (m)"
-           : value == bending_of ? "vertical displacement w (m)"
-                                 : "force (N)");
+           value == BR_ROW_AXIAL     ? "horizontal displacement u (m)"
+           : value == BR_ROW_BENDING ? "vertical displacement w (m)"
+                                     : "force (N)");
+    return s;
 }
 
 static struct br_panel *add_panel(struct br_figure *f, const char *title)
@@ -120,8 +91,8 @@ static void fill3(const struct br_paper *paper, struct br_figure *f)
     struct br_panel *p = br_panel_add(f);
     p->log_y = true;
     p->y = (struct br_range){1e-3, 1e7};
-    add_rows(&paper->example[0], stress_of, false, "tangential stress {/Symbol s}_V(1,t)", p);
-    add_rows(&paper->example[0], bound_of, false, "friction bound h(t) = c_V u(1,t)", p);
+    add_rows(&paper->example[0], BR_ROW_STRESS, "tangential stress {/Symbol s}_V(1,t)", p);
+    add_rows(&paper->example[0], BR_ROW_BOUND, "friction bound h(t) = c_V u(1,t)", p);
     p = add_inset(f, (struct br_range){0.55, 0.95}, (struct br_range){0.18, 0.44},
                   "the first instants, exact");
     p->y.high = 0.6;
@@ -144,7 +115,7 @@ static struct br_panel *fill_beam(const struct br_example *e, enum br_field_kind
     f->one_key = true;
     add_field(e, kind, add_panel(f, "the beam"));
     struct br_panel *p = add_panel(f, "the contact node");
-    add_rows(e, kind == BR_AXIAL ? axial_of : bending_of, false, "", p);
+    add_rows(e, kind == BR_AXIAL ? BR_ROW_AXIAL : BR_ROW_BENDING, "", p);
     return p;
 }
 
@@ -176,8 +147,8 @@ static void fill6(const struct br_paper *paper, struct br_figure *f)
 {
     struct br_panel *p = br_panel_add(f);
     mark_release(&paper->example[2], p);
-    add_rows(&paper->example[2], stress_of, false, "tangential stress {/Symbol s}_V(1,t)", p);
-    add_rows(&paper->example[2], bound_of, false, "friction bound c_V", p);
+    add_rows(&paper->example[2], BR_ROW_STRESS, "tangential stress {/Symbol s}_V(1,t)", p);
+    add_rows(&paper->example[2], BR_ROW_BOUND, "friction bound c_V", p);
 }
 
 static void fill7(const struct br_paper *paper, struct br_figure *f)
@@ -205,11 +176,15 @@ static void fill8(const struct br_paper *paper, struct br_figure *f)
 static void fill9(const struct br_paper *paper, struct br_figure *f)
 {
     const struct br_example *e = &paper->example[3];
-    add_rows(e, bound_of, false, "h(t) = c_V u(1,t)", add_panel(f, "friction bound"));
+    add_rows(e, BR_ROW_BOUND, "h(t) = c_V u(1,t)", add_panel(f, "friction bound"));
     struct br_panel *p = add_panel(f, "tangential stress");
-    add_rows(e, bound_of, false, "bounds h(t) and -h(t)", p);
-    add_rows(e, below_of, true, "", p);
-    add_rows(e, stress_of, false, "stress {/Symbol s}_V(1,t)", p);
+    add_rows(e, BR_ROW_BOUND, "bounds h(t) and -h(t)", p);
+    struct br_series *below = add_rows(e, BR_ROW_BOUND, "", p);
+    for (size_t i = 0; below && i < below->count; i++)
+        below->point[i].y *= -1;
+    if (below)
+        below->hue = 1;
+    add_rows(e, BR_ROW_STRESS, "stress {/Symbol s}_V(1,t)", p);
     mark_phases(e, 0.4, p);
 }
 

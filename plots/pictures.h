@@ -14,6 +14,7 @@ struct br_extreme_map;
 struct br_finding;
 struct br_floors;
 struct br_history_record;
+struct br_history_row;
 struct br_paper;
 struct br_report;
 struct br_scene;
@@ -103,7 +104,20 @@ void br_paper_caption(FILE *out, const struct br_paper_figure *row, const struct
                       const struct br_finding *findings);
 void br_paper_readme(FILE *out, const struct br_paper *paper, const struct br_finding *findings);
 
-/* ---- letters.c: the tip's history of a run, for a terminal ---- */
+/* ---- letters.c: the tip of a run over time, for a terminal ---- */
+
+/* What a row of a history tells of the tip. */
+enum br_row_value {
+    BR_ROW_TIME,
+    BR_ROW_AXIAL,
+    BR_ROW_BENDING,
+    BR_ROW_SPEED, /* of bending */
+    BR_ROW_CONTACT,
+    BR_ROW_FRICTION,
+    BR_ROW_STRESS, /* minus friction */
+    BR_ROW_BOUND
+};
+double br_value_of_row(const struct br_history_row *row, enum br_row_value what);
 
 enum br_status br_history_draw(const struct br_scene *scene, const struct br_history_record *record,
                                struct br_figure *figure, struct br_error *err);

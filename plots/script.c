@@ -5,6 +5,7 @@
  *
  * A page is laid out in pixels, from its lower left. */
 #include <math.h>
+#include <stdarg.h>
 #include <string.h>
 
 #include "plots/figure.h"
@@ -43,7 +44,7 @@ static const char *const styles[BR_PENS] = {
     [BR_PEN_PLUSES] = "points pt 1 ps 1.1*size lw 2 lc rgb '#707070'",
     [BR_PEN_STARS] = "points pt 3 ps 1.5*size lw 1.5 lc rgb '#707070'",
 };
-static const char *const guide_dashes[] = {"(9,5)", "(2,4)", "(12,4,3,4)", "(20,5)"};
+static const char *const guide_dashes[] = {"(9,5)", "(12,4,2,4)", "(3,3)", "(20,5)"};
 
 /* Verdicts: what matters is dark, what is right is pale; also in grey. */
 static const char *const kind_colours[BR_FIGURE_KINDS] = {
@@ -60,25 +61,42 @@ static void write_styles(FILE *out)
                 hues[i].colour, hues[i].dash, hues[i].mark, 2.8 - 0.22 * i);
 }
 
-/* The pen of a series after "with". */
-static void write_pen(FILE *out, const struct br_panel *p, const struct br_series *s)
+enum { STYLE = 96 };
+
+/* The pen of a series, as it stands after "with". */
+static const char *pen_of(const struct br_panel *p, const struct br_series *s, char style[STYLE])
 {
     size_t before = 0;
     for (size_t j = 0; j < p->count && p->series[j] != s; j++)
         before += p->series[j]->pen == BR_PEN_GUIDE;
     const int mark = hues[s->mark ? s->mark : s->hue].mark;
     if (s->pen == BR_PEN_CURVE)
-        fprintf(out, "linespoints ls %zu", s->hue);
+        snprintf(style, STYLE, "linespoints ls %zu pt %d", s->hue, mark);
     else if (s->pen == BR_PEN_LINE)
-        fprintf(out, "lines ls %zu", s->hue);
+        snprintf(style, STYLE, "lines ls %zu", s->hue);
     else if (s->pen == BR_PEN_SIGNS)
-        fprintf(out, "points pt %d ps 1.8*size lc rgb '#444444'", mark);
+        snprintf(style, STYLE, "points pt %d ps 1.8*size lc rgb '#444444'", mark);
     else if (s->pen == BR_PEN_GUIDE)
-        fprintf(out, "lines lw 2.5 lc rgb '#333333' dt %s", guide_dashes[before % 4]);
+        snprintf(style, STYLE, "lines lw 2.5 lc rgb '#333333' dt %s", guide_dashes[before % 4]);
     else
-        fputs(styles[s->pen], out);
-    if (s->pen == BR_PEN_CURVE && s->mark)
-        fprintf(out, " pt %d", mark);
+        snprintf(style, STYLE, "%s", styles[s->pen]);
+    return style;
+}
+
+/* What is to be seen of a series. */
+struct seen {
+    bool drawn, flagged;
+};
+
+static struct seen look_at(const struct br_panel *p, const struct br_series *s)
+{
+    struct seen seen = {false, false};
+    for (size_t k = 0; k < s->count; k++) {
+        const bool drawn = br_is_drawn(p, &s->point[k]);
+        seen.drawn |= drawn;
+        seen.flagged |= drawn && s->point[k].flag;
+    }
+    return seen;
 }
 
 /* ---- data ---- */
@@ -253,30 +271,21 @@ static struct axes axes_of(const struct br_figure *f, const struct br_panel *p)
     return a;
 }
 
-/* ---- layout ---- */
+/* ---- keys ---- */
 
-/* The columns and rows of a key, and its longest title. */
+enum { ENTRIES = 40 };
+
 struct key {
+    struct {
+        const char *title;
+        char style[STYLE];
+    } entry[ENTRIES];
     size_t entries, longest, columns, rows;
 };
 
 static bool is_inset(const struct br_panel *p)
 {
     return p->inset_x.high > p->inset_x.low;
-}
-
-/* Whether a series stands in the key: of the others only the first. */
-static bool in_key(const struct br_panel *p, size_t j)
-{
-    for (size_t i = 0; i < j && p->series[j]->pen == BR_PEN_OTHERS; i++)
-        if (p->series[i]->pen == BR_PEN_OTHERS)
-            return false;
-    return p->series[j]->title[0];
-}
-
-static const char *key_title(const struct br_series *s)
-{
-    return s->pen == BR_PEN_OTHERS && s->count ? "others" : s->title;
 }
 
 static bool has_empty(const struct br_figure *f)
@@ -288,43 +297,55 @@ static bool has_empty(const struct br_figure *f)
     return empty;
 }
 
-static bool has_hollow(const struct br_panel *p)
+__attribute__((format(printf, 3, 4))) static void add_entry(struct key *key, const char *title,
+                                                            const char *style, ...)
 {
-    for (size_t j = 0; j < p->count; j++)
-        for (size_t k = 0; k < p->series[j]->count; k++)
-            if (p->series[j]->point[k].flag && br_is_drawn(p, &p->series[j]->point[k]))
-                return true;
-    return false;
+    if (key->entries == ENTRIES)
+        return;
+    va_list arguments;
+    va_start(arguments, style);
+    vsnprintf(key->entry[key->entries].style, STYLE, style, arguments);
+    va_end(arguments);
+    key->entry[key->entries++].title = title;
+    key->longest = strlen(title) > key->longest ? strlen(title) : key->longest;
 }
 
-static void count_entry(struct key *key, const char *title)
+/* Kinds, series with a title, of the others one, and what a hollow mark means. */
+static void collect(const struct br_figure *f, const struct br_panel *p, struct key *key)
 {
-    const size_t length = strlen(title);
-    key->entries++;
-    key->longest = length > key->longest ? length : key->longest;
+    bool flagged = false, others = false;
+    char style[STYLE];
+    for (size_t k = 0; k < f->kinds; k++)
+        add_entry(key, f->kind[k], "boxes lc rgb '%s' fs solid 1 border lc rgb '#666666'",
+                  kind_colours[k]);
+    if (p->cells.columns && has_empty(f))
+        add_entry(key, "no case", "boxes %s", empty_style);
+    for (size_t j = 0; j < p->count; j++) {
+        const struct br_series *s = p->series[j];
+        flagged |= look_at(p, s).flagged;
+        others |= s->pen == BR_PEN_OTHERS;
+        if (s->title[0] && s->pen != BR_PEN_OTHERS)
+            add_entry(key, s->title, "%s", pen_of(p, s, style));
+    }
+    if (others)
+        add_entry(key, "others", "%s", styles[BR_PEN_OTHERS]);
+    if (f->hollow[0] && flagged)
+        add_entry(key, f->hollow, "points pt 6 ps 1.8*size lc rgb '#444444'");
 }
 
 /* In a space so wide. */
 static struct key key_of(const struct br_figure *f, const struct br_panel *p, double width)
 {
-    struct key key = {0};
-    if (p->keyless || is_inset(p))
-        return key;
-    for (size_t j = 0; j < p->count; j++)
-        if (in_key(p, j))
-            count_entry(&key, key_title(p->series[j]));
-    for (size_t k = 0; k < f->kinds; k++)
-        count_entry(&key, f->kind[k]);
-    if (p->cells.columns && has_empty(f))
-        count_entry(&key, "no case");
-    if (f->hollow[0] && has_hollow(p))
-        count_entry(&key, f->hollow);
-    key.columns = (size_t)fmax(1, floor(width / (double)(key.longest * LETTER + SAMPLE)));
-    if (key.columns > key.entries)
-        key.columns = key.entries ? key.entries : 1;
+    struct key key = {.entries = 0};
+    if (!p->keyless && !is_inset(p))
+        collect(f, p, &key);
+    const double fit = floor(width / (double)(key.longest * LETTER + SAMPLE));
+    key.columns = (size_t)fmax(1, fmin(fit, (double)key.entries));
     key.rows = (key.entries + key.columns - 1) / key.columns;
     return key;
 }
+
+/* ---- layout ---- */
 
 struct layout {
     double width, height;
@@ -664,11 +685,21 @@ static void write_axes(FILE *out, const struct br_figure *f, const struct br_pan
 
 /* ---- the script: what is plotted ---- */
 
-static void write_key_place(FILE *out, const struct br_figure *f, const struct br_panel *p,
-                            const struct box *b, const struct layout *l)
+/* Ends a plot command with the key of a panel. */
+static void write_entries(FILE *out, const struct key *key)
 {
-    const struct key key = key_of(f, p, f->one_key ? l->width - 60 : b->right - b->left);
-    if (!key.entries)
+    for (size_t i = 0; i < key->entries; i++) {
+        fprintf(out, ", \\\n     keyentry with %s title ", key->entry[i].style);
+        br_quote(out, &br_for_gnuplot, key->entry[i].title);
+    }
+    fputc('\n', out);
+}
+
+/* Below the box, or beside it. */
+static void write_key_place(FILE *out, const struct key *key, const struct box *b,
+                            const struct layout *l)
+{
+    if (!key->entries)
         fputs("unset key\n", out);
     else if (l->beside)
         fprintf(out, "set key at screen %.4f,%.4f left top Left reverse samplen 3",
@@ -677,8 +708,8 @@ static void write_key_place(FILE *out, const struct br_figure *f, const struct b
         fprintf(out,
                 "set key at screen %.4f,%.4f center top horizontal Left reverse samplen 2.5 "
                 "maxcols %zu",
-                (b->left + b->right) / 2 / l->width, (b->bottom - 95) / l->height, key.columns);
-    if (key.entries)
+                (b->left + b->right) / 2 / l->width, (b->bottom - 95) / l->height, key->columns);
+    if (key->entries)
         fprintf(out, " spacing 1.15 font ',%d'\n", SMALL);
 }
 
@@ -705,45 +736,12 @@ static void write_cell_clauses(FILE *out, const struct br_figure *f, size_t inde
     }
 }
 
-static void write_entry(FILE *out, const char *style, const char *title)
-{
-    fprintf(out, ", \\\n     keyentry with %s title ", style);
-    br_quote(out, &br_for_gnuplot, title);
-}
-
-static void write_cell_entries(FILE *out, const struct br_figure *f)
-{
-    char style[96];
-    for (size_t k = 0; k < f->kinds; k++) {
-        BR_SAY(style, "boxes lc rgb '%s' fs solid 1 border lc rgb '#666666'", kind_colours[k]);
-        write_entry(out, style, f->kind[k]);
-    }
-    BR_SAY(style, "boxes %s", empty_style);
-    if (has_empty(f))
-        write_entry(out, style, "no case");
-}
-
-static bool has_drawn(const struct br_panel *p, const struct br_series *s)
-{
-    for (size_t k = 0; k < s->count; k++)
-        if (br_is_drawn(p, &s->point[k]))
-            return true;
-    return false;
-}
-
-static bool has_flag(const struct br_series *s)
-{
-    for (size_t k = 0; k < s->count; k++)
-        if (s->point[k].flag)
-            return true;
-    return false;
-}
-
 static void write_curve(FILE *out, const struct br_panel *p, const struct br_series *s,
                         size_t index)
 {
+    char style[STYLE];
     fprintf(out, ", \\\n     data index %zu using 1:2", index);
-    if (s->pen == BR_PEN_CURVE && has_flag(s)) {
+    if (s->pen == BR_PEN_CURVE && look_at(p, s).flagged) {
         fprintf(out, ":(mark(%d, strcol(3))) with linespoints ls %zu pt variable notitle",
                 hues[s->mark ? s->mark : s->hue].mark, s->hue);
         return;
@@ -751,28 +749,12 @@ static void write_curve(FILE *out, const struct br_panel *p, const struct br_ser
     if (p->cells.columns) /* on a white ground */
         fprintf(out, " with lines lw 7 lc rgb 'white' notitle, \\\n     '' index %zu using 1:2",
                 index);
-    fputs(" with ", out);
-    write_pen(out, p, s);
-    fputs(" notitle", out);
+    fprintf(out, " with %s notitle", pen_of(p, s, style));
 }
 
-static void write_entries(FILE *out, const struct br_figure *f, const struct br_panel *p)
-{
-    if (p->cells.columns)
-        write_cell_entries(out, f);
-    for (size_t j = 0; j < p->count; j++)
-        if (in_key(p, j)) {
-            fputs(", \\\n     keyentry with ", out);
-            write_pen(out, p, p->series[j]);
-            fputs(" title ", out);
-            br_quote(out, &br_for_gnuplot, key_title(p->series[j]));
-        }
-    if (f->hollow[0] && has_hollow(p))
-        write_entry(out, "points pt 6 ps 1.8*size lc rgb '#444444'", f->hollow);
-}
-
-/* The curves, those that stand behind first, then the key. */
-static void write_plot(FILE *out, const struct br_figure *f, const struct br_panel *p, size_t index)
+/* Those that stand behind first. */
+static void write_curves(FILE *out, const struct br_figure *f, const struct br_panel *p,
+                         size_t index)
 {
     fputs("plot NaN notitle", out);
     if (p->cells.columns)
@@ -780,13 +762,11 @@ static void write_plot(FILE *out, const struct br_figure *f, const struct br_pan
     for (int behind = 1; behind >= 0; behind--)
         for (size_t j = 0, at = index; j < p->count; j++) {
             const struct br_series *s = p->series[j];
-            if ((s->pen == BR_PEN_OTHERS || s->pen == BR_PEN_BAND) == behind && has_drawn(p, s))
+            const bool is_behind = s->pen == BR_PEN_OTHERS || s->pen == BR_PEN_BAND;
+            if (is_behind == behind && look_at(p, s).drawn)
                 write_curve(out, p, s, at);
             at += s->count > 0;
         }
-    if (!f->one_key)
-        write_entries(out, f, p);
-    fputc('\n', out);
 }
 
 /* One bar for all panels, right of them. */
@@ -820,11 +800,11 @@ static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t i
     if (p->cells.columns && !f->kinds && i == 0)
         write_bar(out, f, l);
     write_axes(out, f, p, &b, l);
-    if (f->one_key)
-        fputs("unset key\n", out);
-    else
-        write_key_place(out, f, p, &b, l);
-    write_plot(out, f, p, index);
+    const struct key none = {.entries = 0};
+    const struct key key = f->one_key ? none : key_of(f, p, b.right - b.left);
+    write_key_place(out, &key, &b, l);
+    write_curves(out, f, p, index);
+    write_entries(out, &key);
 }
 
 /* The first panel's key, below all: a plot of its own as wide as the page, since gnuplot fits a key
@@ -839,9 +819,10 @@ static void write_one_key(FILE *out, const struct br_figure *f, const struct lay
         "set bmargin at screen 0; set tmargin at screen %.4f\nset xrange [0:1]; set yrange "
         "[0:1]\n",
         l->bottom / l->height);
-    write_key_place(out, f, &f->panel[0], &b, l);
+    const struct key key = key_of(f, &f->panel[0], b.right - b.left);
+    write_key_place(out, &key, &b, l);
     fputs("plot NaN notitle", out);
-    write_entries(out, f, &f->panel[0]);
+    write_entries(out, &key);
     fputs("\nset border\n", out);
 }
 
