@@ -37,6 +37,7 @@ static void fill_curves(struct br_panel *p)
     BR_SAY(p->title, "it's {/:Italic n}");
     BR_SAY(p->x_label, "time step k (s)");
     BR_SAY(p->y_label, "isn't (m)");
+    br_series_add(p, BR_PEN_SIGNS, "in the key alone"); /* no block of the data */
     for (int pen = 0; pen < BR_PENS; pen++) {
         struct br_series *s = br_series_add(p, (enum br_pen)pen, "pen %d", pen);
         for (int i = 0; i < 4; i++)
@@ -46,7 +47,6 @@ static void fill_curves(struct br_panel *p)
                                   : 0.1 + pen + i,
                          i == 3 ? "far" : NULL);
     }
-    br_series_add(p, BR_PEN_LINE, "in the key alone");
     br_point_add(br_series_add(p, BR_PEN_LINE, "nowhere"), 1, INFINITY, NULL);
     for (int i = 0; i < 3; i++)
         br_point_add(&p->top, pow(10, i), 1000 >> i, NULL);
