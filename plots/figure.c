@@ -5,6 +5,8 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "study/scene/quote.h"
+
 /* Room for one more in an array (in/out: *array, *room); false: no memory. */
 static bool grow(void *array, size_t count, size_t *room, size_t size)
 {
@@ -180,4 +182,87 @@ void br_figure_clear(struct br_figure *f)
     for (size_t i = 0; i < f->panels; i++)
         clear_panel(&f->panel[i]);
     *f = (struct br_figure){0};
+}
+
+/* ---- the data file ---- */
+
+static void write_number(FILE *out, double value)
+{
+    if (isfinite(value))
+        fprintf(out, "%.17g ", value);
+    else
+        fputs(isnan(value) ? "NaN " : value > 0 ? "Inf " : "-Inf ", out);
+}
+
+static double middle(double a, double b, bool logarithmic)
+{
+    return logarithmic ? sqrt(a) * sqrt(b) : (a + b) / 2;
+}
+
+static void write_cells(FILE *out, const struct br_figure *f, const struct br_panel *p)
+{
+    const struct br_cells *c = &p->cells;
+    const struct br_range r = br_value_range(f);
+    for (size_t i = 0; i < c->rows; i++)
+        for (size_t j = 0; j < c->columns; j++) {
+            const double v = c->value[i * c->columns + j];
+            write_number(out, middle(c->x[j], c->x[j + 1], p->log_x));
+            write_number(out, middle(c->y[i], c->y[i + 1], p->log_y));
+            write_number(out, c->x[j]);
+            write_number(out, c->x[j + 1]);
+            write_number(out, c->y[i]);
+            write_number(out, c->y[i + 1]);
+            write_number(out, v);
+            write_number(out, isnan(v) || f->kinds ? v : fmin(fmax(v, r.low), r.high));
+            fprintf(out, "%d\n", br_is_coloured(f, v));
+        }
+}
+
+/* What cannot be drawn is a gap. */
+static void write_points(FILE *out, const struct br_panel *p, const struct br_series *s)
+{
+    for (size_t k = 0; k < s->count; k++) {
+        const struct br_figure_point *at = &s->point[k];
+        write_number(out, at->x);
+        write_number(out, br_is_drawn(p, at) ? at->y : NAN);
+        fprintf(out, "%s\n", at->flag ? at->flag : "-");
+    }
+}
+
+static void write_comment_line(FILE *out, const char *text)
+{
+    fputs("# ", out);
+    br_write_comment(out, text);
+}
+
+void br_figure_write_data(FILE *out, const struct br_figure *f)
+{
+    size_t index = 0;
+    fputs("# SPDX-License-Identifier: GPL-3.0-or-later\n", out);
+    write_comment_line(out, f->title);
+    if (f->about[0])
+        write_comment_line(out, f->about);
+    if (f->hollow[0])
+        fprintf(out, "# A flag tells why a point is %s; - for none.\n", f->hollow);
+    for (size_t k = 0; k < f->kinds; k++)
+        fprintf(out, "# value %zu: %s\n", k, f->kind[k]);
+    for (size_t i = 0; i < f->panels; i++) {
+        const struct br_panel *p = &f->panel[i];
+        if (p->cells.columns) {
+            fprintf(out,
+                    "\n# index %zu: %s; cells: x, y, x from, to, y from, to, value, its colour, "
+                    "whether it has one\n# %s | %s\n",
+                    index++, p->title, p->x_label, p->y_label);
+            write_cells(out, f, p);
+            fputs("\n\n", out);
+        }
+        for (size_t j = 0; j < p->count; j++) {
+            if (!p->series[j]->count)
+                continue;
+            fprintf(out, "\n# index %zu: %s; %s\n# %s | %s | flag\n", index++, p->title,
+                    p->series[j]->title, p->x_label, p->y_label);
+            write_points(out, p, p->series[j]);
+            fputs("\n\n", out);
+        }
+    }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A picture as data: panels of series between axes, or of coloured cells. A filler fills it from a
- * result (plots/pictures.h), and script.c alone writes it for gnuplot.
+ * result (plots/pictures.h), layout.c lays it out, and script.c alone writes it for gnuplot.
  *
  * Series grow as points are added. A filler need not look whether there was memory: the figure
  * remembers, and br_figure_check tells. Texts are in gnuplot's enhanced markup unless they are
@@ -151,11 +151,12 @@ bool br_is_coloured(const struct br_figure *figure, double value);
 enum br_status br_figure_check(const struct br_figure *figure, struct br_error *err);
 void br_figure_clear(struct br_figure *figure);
 
+/* The data: a block for each panel's cells and each series with points. */
+void br_figure_write_data(FILE *out, const struct br_figure *figure);
+
 /* ---- script.c ---- */
 
-/* The data, a block for each panel's cells and each series with points, and the script that draws
- * stem.svg, stem.png and, where gnuplot can, stem.pdf from stem.dat. */
-void br_figure_write_data(FILE *out, const struct br_figure *figure);
+/* The script that draws stem.svg, stem.png and, where gnuplot can, stem.pdf from stem.dat. */
 void br_figure_write_script(FILE *out, const struct br_figure *figure);
 
 /* A script that draws the panels one below the other with letters, `columns` wide, into the file
