@@ -90,7 +90,7 @@ static void fill3(const struct br_paper *paper, struct br_figure *f)
     const struct br_early *early = &paper->early;
     struct br_panel *p = br_panel_add(f);
     p->log_y = true;
-    p->y = (struct br_range){1e-3, 1e7};
+    p->y.low = 1e-2; /* room for the inset */
     add_rows(&paper->example[0], BR_ROW_STRESS, "tangential stress {/Symbol s}_V(1,t)", p);
     add_rows(&paper->example[0], BR_ROW_BOUND, "friction bound h(t) = c_V u(1,t)", p);
     p = add_inset(f, (struct br_range){0.55, 0.95}, (struct br_range){0.18, 0.44},
