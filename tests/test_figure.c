@@ -11,6 +11,7 @@
 
 #include "figure_check.h"
 #include "made_report.h"
+#include "plots/movie.h"
 #include "plots/pictures.h"
 #include "plots/render.h"
 #include "study/extremes/count.h"
@@ -560,6 +561,92 @@ static void test_map(void **state)
     br_figure_clear(&f);
 }
 
+/* ---- a run ---- */
+
+enum { LOOKS = 3 };
+
+/* Two elements, P1 and Hermite; as many rows as looks. */
+static void make_record(struct br_history_record *r, struct br_history_row row[LOOKS],
+                        double field[LOOKS * 18])
+{
+    for (size_t i = 0; i < LOOKS; i++) {
+        const double x = (double)i + 1;
+        row[i] = (struct br_history_row){i,      0.5 * x, {3 * x, 5 * x}, {7 * x, 11 * x},
+                                         13 * x, 17 * x,  19 * x};
+    }
+    row[0].friction_force = NAN; /* as at t = 0 */
+    for (size_t i = 0; i < LOOKS * 18; i++)
+        field[i] = 100 + (double)i;
+    *r = (struct br_history_record){.n = 2,
+                                    .unknowns = {1, 2},
+                                    .row = row,
+                                    .rows = LOOKS,
+                                    .at = row,
+                                    .looks = LOOKS,
+                                    .field = field};
+}
+
+static void test_letters(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_history_record r;
+    struct br_history_row row[LOOKS];
+    double field[LOOKS * 18];
+    struct br_figure f;
+    struct br_scene scene = br_test_bundled("example2");
+    make_record(&r, row, field);
+    MUST(br_history_draw(&scene, &r, &f, &err));
+    for (size_t i = 0; i < LOOKS; i++) {
+        const double t = row[i].time;
+        figure_point(figure_series(&f.panel[0], "u"), i, t, row[i].displacement[BR_AXIAL]);
+        figure_point(figure_series(&f.panel[1], "w"), i, t, row[i].displacement[BR_BENDING]);
+        figure_point(figure_series(&f.panel[2], "contact"), i, t, row[i].contact_force);
+        figure_point(figure_series(&f.panel[3], "friction"), i, t, row[i].friction_force);
+        figure_point(figure_series(&f.panel[3], "bound"), i, t, row[i].friction_bound);
+    }
+    figure_axes(&f.panel[0], "time (s)", "horizontal displacement of the tip, u(L) (m)");
+    figure_axes(&f.panel[1], "time (s)", "vertical displacement of the tip, w(L) (m)");
+    figure_axes(&f.panel[2], "time (s)", "contact force (N)");
+    br_figure_clear(&f);
+    br_scene_clear(&scene);
+}
+
+/* Frames have the fields of their looks, and the arrays what the tip does there. */
+static void test_movie(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "\narray time[3] = [0.5, 1, 1.5]\n",   "\narray u[3] = [3, 6, 9]\n",
+        "\narray w[3] = [5, 10, 15]\n",        "\narray speed[3] = [11, 22, 33]\n",
+        "\narray contact[3] = [13, 26, 39]\n", "\narray friction[3] = [0, 34, 51]\n",
+        "\narray bound[3] = [19, 38, 57]\n"};
+    struct br_history_record r;
+    struct br_history_row row[LOOKS];
+    double field[LOOKS * 18];
+    char text[1 << 13], frame[200];
+    struct br_scene scene = br_test_bundled("example2");
+    make_record(&r, row, field);
+    const struct br_movie movie = {&scene, &r, br_movie_format_of("m.gif"), "m"};
+    FILE *out = fmemopen(text, sizeof text, "w");
+    br_movie_write_script(out, &movie);
+    fclose(out);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        if (!strstr(text, lines[i]))
+            fail_msg("expected:%s in:\n%s", lines[i], text);
+    out = fmemopen(text, sizeof text, "w");
+    br_movie_write_data(out, &movie);
+    fclose(out);
+    for (size_t look = 0; look < LOOKS; look++) {
+        const double *u = br_history_field(&r, look, BR_AXIAL, false);
+        const double *w = br_history_field(&r, look, BR_BENDING, false);
+        snprintf(frame, sizeof frame, "t = %.9g s\n0 %g %g\n0.5 %g %g\n1 %g %g\n", row[look].time,
+                 u[0], w[0], u[1], w[2], u[2], w[4]);
+        assert_non_null(strstr(text, frame));
+    }
+    br_scene_clear(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -568,7 +655,8 @@ int main(void)
         cmocka_unit_test(test_study),  cmocka_unit_test(test_names),
         cmocka_unit_test(test_trade),  cmocka_unit_test(test_floors),
         cmocka_unit_test(test_drifts), cmocka_unit_test(test_energy),
-        cmocka_unit_test(test_map),    cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(test_map),    cmocka_unit_test(test_letters),
+        cmocka_unit_test(test_movie),  cmocka_unit_test(test_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
