@@ -92,7 +92,7 @@ struct br_panel {
     size_t marks, guides;
     struct br_range inset_x, inset_y; /* 0 to 1 of the panel before, in which it is drawn; all 0:
                                          it stands beside it */
-    bool keyless, failed;
+    bool failed;
 };
 
 struct br_figure {

@@ -227,7 +227,7 @@ static void collect(const struct br_figure *f, const struct br_panel *p, struct 
 struct br_key br_key_of(const struct br_figure *f, const struct br_panel *p, double width)
 {
     struct br_key key = {.entries = 0};
-    if (!p->keyless && !br_is_inset(p))
+    if (!br_is_inset(p))
         collect(f, p, &key);
     const double fit = floor(width / (double)(key.longest * LETTER + SAMPLE));
     key.columns = (size_t)fmax(1, fmin(fit, (double)key.entries));
@@ -272,7 +272,7 @@ static void add_keys(const struct br_figure *f, struct br_figure_page *l)
     const struct br_panel *first = &f->panel[0];
     const double beside = (double)(br_key_of(f, first, 0).longest * LETTER) + SAMPLE + 20;
     const bool bar = first->cells.columns && !f->kinds;
-    l->beside = f->panels == 1 && !first->cells.columns && !first->keyless && beside <= 400;
+    l->beside = f->panels == 1 && !first->cells.columns && beside <= 400;
     const double aside = bar ? 175 : l->beside ? fmax(beside, guide_width(first)) - 20 : 0;
     l->column = (l->width - aside) / (double)l->across;
     size_t rows = 0;

@@ -251,16 +251,23 @@ static enum br_status end(const struct br_rendering *r, struct br_error *err)
     return status;
 }
 
+/* Starts gnuplot on a script whose name has room. */
+static enum br_status begin_named(struct br_rendering *r, const char *folder, const char *script,
+                                  bool *missing, struct br_error *err)
+{
+    const int folder_length = snprintf(r->folder, sizeof r->folder, "%s", folder);
+    const int script_length = snprintf(r->script, sizeof r->script, "%s", script);
+    if ((size_t)folder_length >= sizeof r->folder || (size_t)script_length >= sizeof r->script)
+        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
+    return begin(r, missing, err);
+}
+
 enum br_status br_gnuplot_run(const char *folder, const char *script, bool *missing,
                               struct br_error *err)
 {
     struct br_rendering r = {0};
     *missing = false;
-    const int folder_length = snprintf(r.folder, sizeof r.folder, "%s", folder);
-    const int script_length = snprintf(r.script, sizeof r.script, "%s", script);
-    if ((size_t)folder_length >= sizeof r.folder || (size_t)script_length >= sizeof r.script)
-        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
-    const enum br_status status = begin(&r, missing, err);
+    const enum br_status status = begin_named(&r, folder, script, missing, err);
     return status ? status : wait_for(&r, err);
 }
 
@@ -280,13 +287,7 @@ enum br_status br_renderer_add(struct br_renderer *r, const char *folder, const 
         if (status)
             return status;
     }
-    struct br_rendering *next = &r->at_work[r->count];
-    const int folder_length = snprintf(next->folder, sizeof next->folder, "%s", folder);
-    const int script_length = snprintf(next->script, sizeof next->script, "%s", script);
-    if ((size_t)folder_length >= sizeof next->folder ||
-        (size_t)script_length >= sizeof next->script)
-        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
-    const enum br_status status = begin(next, missing, err);
+    const enum br_status status = begin_named(&r->at_work[r->count], folder, script, missing, err);
     r->count += status == BR_OK;
     return status;
 }

@@ -300,6 +300,9 @@ static void test_charts(void **state)
         MUST(br_paper_figure_draw(row, &paper, &f, &err));
         for (size_t p = 0; p < f.panels; p++)
             check_panel(row, &f.panel[p], p);
+        if (strstr(row->title, "of the contact node"))
+            for (size_t p = 0; p < 2; p++)
+                assert_non_null(strstr(f.panel[p].y_label, row->number == 7 ? "horiz" : "vertic"));
         figure_check(&f);
         br_figure_clear(&f);
     }
