@@ -86,26 +86,27 @@ static void write_palette(FILE *out, const struct br_figure *f)
 /* The three terminals. */
 static void write_loop(FILE *out, const struct br_figure_page *l)
 {
-    fprintf(out,
-            "\n# The default font only scales marks; every text has its own size.\n"
-            "do for [format in 'svg png pdf'] {\n"
-            "if (format eq 'svg') {\n"
-            "    set terminal svg size %g,%g font 'DejaVu Sans,12' background rgb 'white'\n"
-            "    size = 0.75\n"
-            "}\n"
-            "if (format eq 'png') {\n"
-            "    set terminal pngcairo size %g,%g font 'DejaVu Sans,12' fontscale 0.75\n"
-            "    size = 1\n"
-            "}\n"
-            "if (format eq 'pdf') {\n"
-            "    if (strstrt(GPVAL_TERMINALS, 'pdfcairo') == 0) { break }\n"
-            "    set terminal pdfcairo size %.4g,%.4g font 'DejaVu Sans,12' fontscale 0.5\n"
-            "    size = 0.66\n"
-            "}\n"
-            "set pointintervalbox 1.6\n"
-            "set output stem.'.'.format\n"
-            "unset label\nunset arrow\n",
-            l->width, l->height, l->width, l->height, l->width / 108, l->height / 108);
+    fprintf(
+        out,
+        "\n# The default font only scales marks; every text has its own size.\n"
+        "do for [format in 'svg png pdf'] {\n"
+        "if (format eq 'svg') {\n"
+        "    set terminal svg size %g,%g font 'DejaVu Sans,12' background rgb 'white'\n"
+        "    size = 0.75\n"
+        "}\n"
+        "if (format eq 'png') {\n"
+        "    set terminal pngcairo size %g,%g font 'DejaVu Sans,12' fontscale 0.75\n"
+        "    size = 1\n"
+        "}\n"
+        "if (format eq 'pdf') {\n"
+        "    if (strstrt(GPVAL_TERMINALS, 'pdfcairo') == 0) { break }\n"
+        "    set terminal pdfcairo size %.4g,%.4g font 'DejaVu Sans,12' fontscale 0.5 linewidth 1.3\n"
+        "    size = 0.86\n"
+        "}\n"
+        "set pointintervalbox 1.6\n"
+        "set output stem.'.'.format\n"
+        "unset label\nunset arrow\n",
+        l->width, l->height, l->width, l->height, l->width / 108, l->height / 108);
 }
 
 /* ---- the script: axes ---- */
