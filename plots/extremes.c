@@ -29,13 +29,18 @@ static void add_solver(const struct br_floors *f, size_t solver, size_t k, struc
     }
 }
 
-/* 2^-53 n^power: what one rounding becomes. */
+/* 2^-53 n^power: what one rounding becomes. A deviation beyond 10 says nothing, and widens no axis.
+ */
 static void add_rounding(const struct br_floors *f, int power, struct br_panel *p)
 {
     struct br_series *s =
         br_series_add(p, BR_PEN_GUIDE, power == 1 ? "2^{-53} n" : "2^{-53} n^{%d}", power);
-    for (size_t i = 0; i < f->n_count; i++)
-        br_point_add(s, (double)f->n[i], DBL_EPSILON / 2 * pow((double)f->n[i], power), NULL);
+    for (size_t i = 0; i < f->n_count; i++) {
+        const double rounding = DBL_EPSILON / 2 * pow((double)f->n[i], power);
+        br_point_add(s, (double)f->n[i], rounding, NULL);
+        if (rounding > 10)
+            p->y.high = 10;
+    }
 }
 
 enum br_status br_floors_draw(const struct br_floors *f, size_t k, struct br_figure *figure,
