@@ -5,7 +5,8 @@
 # are both round-off. Bits depend on processor, compiler and LAPACK. Blanks may differ only beside
 # numbers that differ.
 
-function abs(x) { return x < 0 ? -x : x }
+# Adding 0 makes a number of a text: texts are compared by letters.
+function abs(x) { x += 0; return x < 0 ? -x : x }
 
 # One unit of the last printed digit.
 function unit(number,    parts, mantissa) {
@@ -41,11 +42,15 @@ function next_number(line) {
     return substr(line, RSTART, RLENGTH)
 }
 
+# LaTeX's powers of ten as all others write them: 1.5\cdot10^{-3} is 1.5e-3}.
+function plain(line) { gsub(/\\cdot10\^\{/, "e", line); return line }
+
 function squeezed(text) { gsub(/ +/, " ", text); sub(/ $/, "", text); return text }
 
 function same(a, b,    x, y, text_a, text_b, moved) {
     if (a == b)
         return 1
+    a = plain(a); b = plain(b)
     for (; a != "" || b != "";) {
         x = next_number(a); text_a = before; a = rest
         y = next_number(b); text_b = before; b = rest
