@@ -9,7 +9,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 folder=$(mktemp -d) || exit 99
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/bin"
-ln -s "$(readlink -f "$BEAMRATE")" "$folder/bin/beamrate"
+ln -s "$(readlink -f "${BEAMRATE:?is the program}")" "$folder/bin/beamrate"
 export BEAMRATE_DATA="${BEAMRATE_DATA:-$here/../..}" LC_ALL=C OMP_NUM_THREADS=1
 update=
 [ "${1:-}" = --update ] && update=yes && shift
