@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # usage: awk -f compare.awk STORED FOUND: prints lines that differ; exit code 1 where some do.
 # Texts are equal to the byte, counts exactly. Other numbers are equal to a relative 1e-6, or to one
-# unit of the last digit of the one that is printed with more digits; and two numbers below 1e-11
-# are both round-off. Bits depend on processor, compiler and LAPACK. Blanks may differ only beside
-# numbers that differ.
+# unit of the last digit of the one that is printed with more digits; and what is below 1e-11, or
+# differs by less than 1e-13, is round-off. Bits depend on processor, compiler and LAPACK. Blanks
+# may differ only beside numbers that differ.
 
 # Adding 0 makes a number of a text: texts are compared by letters.
 function abs(x) { x += 0; return x < 0 ? -x : x }
@@ -24,7 +24,7 @@ function close_enough(a, b,    ulp, larger) {
     if (is_count(a) && is_count(b))
         return 0
     larger = abs(a) > abs(b) ? abs(a) : abs(b)
-    if (larger < 1e-11 || abs(a - b) <= 1e-6 * larger)
+    if (larger < 1e-11 || abs(a - b) <= 1e-13 || abs(a - b) <= 1e-6 * larger)
         return 1
     ulp = unit(a) < unit(b) ? unit(a) : unit(b)
     return abs(a - b) <= 1.001 * ulp

@@ -5,20 +5,22 @@
 # stand-ins of stand_ins.c; there is no gnuplot.
 # usage: run.sh [--update] [NAME...]     --update rewrites what differs, and says which
 set -u
+: "${BEAMRATE:?is the program}"
 here=$(cd "$(dirname "$0")" && pwd)
 folder=$(mktemp -d) || exit 99
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/bin"
-ln -s "$(readlink -f "${BEAMRATE:?is the program}")" "$folder/bin/beamrate"
+ln -s "$(readlink -f "$BEAMRATE")" "$folder/bin/beamrate"
 export BEAMRATE_DATA="${BEAMRATE_DATA:-$here/../..}" LC_ALL=C OMP_NUM_THREADS=1
 update=
 [ "${1:-}" = --update ] && update=yes && shift
 wanted=" $* "
 
-# What no two runs have in common, and what a build may have or not: ida, other kernels.
+# What no two runs have in common, seconds on the wall, and what a build may have or not.
 mask() {
     sed -E -e "s|$BEAMRATE_DATA/||g" -e 's/[0-9a-f]{64}/HASH/g' \
         -e 's/"(version|commit|size|run)": ("[^"]*"|[0-9]+)/"\1": MASKED/' \
+        -e 's/"(wall_seconds|seconds)": [0-9.]+e-[6-9]/"\1": MASKED/' \
         -e '/^  (ida|avx[0-9a-z]*|portable) /d' -e 's/, ida\b//; s/ ida( |$)/\1/'
 }
 
@@ -33,7 +35,7 @@ run() {
     mask <../err
     for file in $2; do
         echo "==== $file"
-        mask <"$file"
+        if [ -f "$file" ]; then mask <"$file"; else echo "is not there"; fi
     done
     cd "$here" || exit 99
 }
