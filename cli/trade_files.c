@@ -6,7 +6,7 @@
 
 #include "cli/documents.h"
 #include "cli/provenance.h"
-#include "plots/trade.h"
+#include "plots/pictures.h"
 #include "study/scene/file.h"
 #include "tables/report_trade.h"
 
@@ -87,35 +87,19 @@ static enum br_status build(struct br_trade_files *f, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status write_part(struct br_trade_files *f, const char *extension,
-                                 void (*write)(FILE *, const struct br_trade_picture *,
-                                               const struct br_trade_view *),
-                                 const struct br_trade_picture *picture,
-                                 const struct br_trade_view *view, struct br_error *err)
-{
-    char name[BR_SCRIPT_NAME];
-    FILE *file;
-    snprintf(name, sizeof name, "%s.%s", view->stem, extension);
-    const enum br_status status = br_output_file(&f->output, name, &file, err);
-    if (status)
-        return status;
-    write(file, picture, view);
-    return br_output_close(file, name, err);
-}
-
 static enum br_status draw(struct br_trade_files *f, const struct br_trade_picture *picture,
                            size_t item, struct br_error *err)
 {
-    char stem[BR_SCRIPT_NAME - 8], script[BR_SCRIPT_NAME];
+    struct br_figure figure;
     struct br_document *d = &f->document[item];
-    const struct br_trade_view view = {d->caption, stem, &f->item[item].trade};
-    snprintf(stem, sizeof stem, "%.400s-%s", d->name, picture->name);
-    snprintf(script, sizeof script, "%s.gp", stem);
-    br_put_picture(d, stem, picture->title);
-    enum br_status status = write_part(f, "dat", br_trade_picture_data, picture, &view, err);
-    if (!status)
-        status = write_part(f, "gp", br_trade_picture_script, picture, &view, err);
-    return status ? status : br_picture_files_render(&f->pictures, script, err);
+    enum br_status status =
+        br_trade_draw(picture, &f->item[item].trade, d->name, d->caption, &figure, err);
+    if (!status) {
+        br_put_picture(d, figure.stem, picture->title);
+        status = br_picture_files_draw(&f->pictures, &figure, err);
+    }
+    br_figure_clear(&figure);
+    return status;
 }
 
 static enum br_status draw_all(struct br_trade_files *f, struct br_error *err)

@@ -11,7 +11,7 @@
 #include "cli/provenance.h"
 #include "cli/signals.h"
 #include "cli/warn_marches.h"
-#include "plots/split.h"
+#include "plots/pictures.h"
 #include "study/grid/observer.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
@@ -158,10 +158,11 @@ static enum br_status split_all(struct work *w, struct br_error *err)
     return !status && br_signals_caught() ? br_fail(err, BR_INTERRUPTED, "interrupted") : status;
 }
 
-static enum br_status write_plot(struct work *w, const struct br_chart *chart, struct br_error *err)
+static enum br_status write_plot(struct work *w, const struct br_figure *figure,
+                                 struct br_error *err)
 {
     struct br_picture_files files = {.output = &w->output};
-    const enum br_status status = br_picture_files_chart(&files, chart, err);
+    const enum br_status status = br_picture_files_draw(&files, figure, err);
     const enum br_status finished = br_picture_files_finish(&files, status ? NULL : err);
     return status ? status : finished;
 }
@@ -169,13 +170,13 @@ static enum br_status write_plot(struct work *w, const struct br_chart *chart, s
 /* Over k or h, where the runs differ by one of them. */
 static enum br_status plot(struct work *w, struct br_error *err)
 {
-    struct br_chart chart;
-    enum br_status status = br_split_chart(w->split, w->splits, &chart, err);
-    if (!status && chart.panels) {
-        br_put_picture(&w->document, chart.stem, chart.title);
-        status = write_plot(w, &chart, err);
+    struct br_figure figure;
+    enum br_status status = br_split_draw(w->split, w->splits, &figure, err);
+    if (!status && figure.panels) {
+        br_put_picture(&w->document, figure.stem, figure.title);
+        status = write_plot(w, &figure, err);
     }
-    br_chart_clear(&chart);
+    br_figure_clear(&figure);
     return status;
 }
 

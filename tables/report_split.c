@@ -140,26 +140,25 @@ static void add_share(struct br_row *row, double share)
 static void add_line(struct br_row *row, const struct br_split *s, size_t norm, size_t i)
 {
     const struct line l = line_of(s, norm, i);
+    const bool told = i > s->shares || isfinite(l.share);
+    const double relative = told ? l.error[BR_PART_TOTAL] / s->scale[norm] : (double)NAN;
     const double axial_tip = models(s, BR_PART_AXIAL) ? l.tip[BR_AXIAL] : (double)NAN;
     const double bending_tip = models(s, BR_PART_BENDING) ? l.tip[BR_BENDING] : (double)NAN;
-    const struct br_cell_of_column name[] =
-        {
-            {{.key = "norm", .flags = BR_FOR_PROGRAMS}, br_text(s->norm[norm]->name)},
-            {{.key = "unit", .flags = BR_FOR_PROGRAMS}, br_text(s->norm[norm]->unit)},
-            {{.key = "part"}, br_text(l.name)},
-            {{.key = "applies", .flags = BR_FOR_PROGRAMS}, br_truth(!l.none)},
-        },
-                                   tip[] =
-                                       {
-                                           {{"relative", "of the solution", NULL, "%.2e", 0},
-                                            br_number(l.error[BR_PART_TOTAL] / s->scale[norm])},
-                                           {{"axial_tip", "axial tip", "m", "%+.3e", 0},
-                                            br_number(axial_tip)},
-                                           {{"bending_tip", "bending tip", "m", "%+.3e", 0},
-                                            br_number(bending_tip)},
-                                       },
-                                   none = {{.key = "none", .flags = BR_FOR_PROGRAMS},
-                                           br_text(l.none)};
+    const struct br_cell_of_column
+        name[] =
+            {
+                {{.key = "norm", .flags = BR_FOR_PROGRAMS}, br_text(s->norm[norm]->name)},
+                {{.key = "unit", .flags = BR_FOR_PROGRAMS}, br_text(s->norm[norm]->unit)},
+                {{.key = "part"}, br_text(l.name)},
+                {{.key = "applies", .flags = BR_FOR_PROGRAMS}, br_truth(!l.none)},
+            },
+        tip[] =
+            {
+                {{"relative", "of the solution", NULL, "%.2e", 0}, br_number(relative)},
+                {{"axial_tip", "axial tip", "m", "%+.3e", 0}, br_number(axial_tip)},
+                {{"bending_tip", "bending tip", "m", "%+.3e", 0}, br_number(bending_tip)},
+            },
+        none = {{.key = "none", .flags = BR_FOR_PROGRAMS}, br_text(l.none)};
     br_row_add(row, BR_CELLS(name));
     const size_t first = row->cells;
     for (int part = 0; part < BR_PARTS; part++)

@@ -1,0 +1,869 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What machines read is what was computed: every number of the CSV, JSON, JUnit, TAP and HDF5 of
+ * run, check, trade, split and plan stands under its own key. The structs hold a different number
+ * in every place, so that two that are exchanged are seen. */
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#ifdef BR_HAVE_HDF5
+#include <hdf5.h>
+#endif
+
+#include "tables/check_emitter.h"
+#include "tables/fields_file.h"
+#include "tables/report_plan.h"
+#include "tables/report_split.h"
+#include "tables/report_trade.h"
+#include "tables/run_page.h"
+#include "tests/support.h"
+
+static const struct br_provenance provenance = {.version = "1",
+                                                .commit = "c",
+                                                .compiler = "cc",
+                                                .flags = "-O",
+                                                .command_line = "beamrate",
+                                                .machine = "m",
+                                                .date = "d",
+                                                .threads = 1,
+                                                .scene_path = "p",
+                                                .scene_text = "t"};
+
+/* A key with the number that belongs to it; NAN: none is printed. */
+struct expected {
+    const char *key;
+    double value;
+};
+
+/* As it is printed: with six digits at least. */
+static void is(const char *where, const char *key, double found, double expected)
+{
+    if (isnan(expected) ? !isnan(found) : !(fabs(found - expected) <= 1e-5 * fabs(expected)))
+        fail_msg("%s: %s is %.17g, expected %.17g", where, key, found, expected);
+}
+
+/* ---- reading ---- */
+
+/* The next line of a text, without its end; NULL: none. Advances *text. */
+static char *next_line(char **text)
+{
+    return *text && **text ? strsep(text, "\n") : NULL;
+}
+
+/* The place of a name among a line's fields. */
+static size_t place_of(const char *line, const char *name, char separator)
+{
+    const size_t size = strlen(name);
+    for (size_t i = 0; line; i++) {
+        line += strspn(line, " ");
+        if (strncmp(line, name, size) == 0 && strchr(" ,|", line[size]))
+            return i;
+        line = strchr(line, separator);
+        line = line ? line + 1 : NULL;
+    }
+    fail_msg("there is no column %s", name);
+    return 0;
+}
+
+/* The number in a place of a line; NAN: it is empty. */
+static double number_at(const char *line, size_t place, char separator)
+{
+    for (; place > 0 && line; place--) {
+        line = strchr(line, separator);
+        line = line ? line + 1 : NULL;
+    }
+    assert_non_null(line);
+    char *end;
+    const double value = strtod(line, &end);
+    return end == line ? NAN : value;
+}
+
+static void row_has(const char *what, const char *head, const char *row, char separator,
+                    const struct expected *e, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        is(what, e[i].key, number_at(row, place_of(head, e[i].key, separator), separator),
+           e[i].value);
+}
+
+/* The value at a path, "runs.0.parts.2.tip". */
+static const json_t *at_path(const json_t *value, const char *path)
+{
+    char key[64];
+    for (int used; value && sscanf(path, "%63[^.]%n", key, &used) == 1;) {
+        value = json_is_array(value) ? json_array_get(value, strtoul(key, NULL, 10))
+                                     : json_object_get(value, key);
+        path += used + (path[used] == '.');
+    }
+    return value;
+}
+
+static void json_has(const json_t *root, const struct expected *e, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const json_t *value = at_path(root, e[i].key);
+        if (!value)
+            fail_msg("JSON has no %s", e[i].key);
+        is("JSON", e[i].key, json_is_number(value) ? json_number_value(value) : NAN, e[i].value);
+    }
+}
+
+static json_t *read_json(char *text)
+{
+    json_error_t error;
+    json_t *root = json_loads(text, 0, &error);
+    if (!root)
+        fail_msg("%s in:\n%s", error.text, text);
+    free(text);
+    return root;
+}
+
+/* ---- documents ---- */
+
+/* A document as JSON, which is released with json_decref, or a table of it as CSV, which is freed.
+ */
+static char *printed(const struct br_document *d, const struct br_document_format *format,
+                     const struct br_document_table *table)
+{
+    struct br_error err = {0};
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    MUST(br_document_print(out, format, d, table, &err));
+    fclose(out);
+    return text;
+}
+
+static json_t *document_json(const struct br_document *d)
+{
+    return read_json(printed(d, &br_document_json, NULL));
+}
+
+static char *document_csv(const struct br_document *d, const char *key)
+{
+    const struct br_document_table *t;
+    for (size_t block = 0; (t = br_document_next_table(d, &block));)
+        if (strcmp(t->key, key) == 0)
+            return printed(d, &br_document_csv, t);
+    fail_msg("there is no table %s", key);
+    return NULL;
+}
+
+/* The numbers of a row under their keys, in both formats. */
+static void table_has(const struct br_document *d, const char *key, size_t row,
+                      const struct expected *e, size_t count)
+{
+    char path[64];
+    char *csv = document_csv(d, key), *rest = csv, *head = next_line(&rest);
+    for (size_t i = 0; i < row; i++)
+        next_line(&rest);
+    row_has("CSV", head, next_line(&rest), ',', e, count);
+    json_t *root = document_json(d);
+    snprintf(path, sizeof path, "tables.%s.%zu", key, row);
+    json_has(at_path(root, path), e, count);
+    json_decref(root);
+    free(csv);
+}
+
+static void facts_are(const struct br_document *d, const struct expected *e, size_t count)
+{
+    json_t *root = document_json(d);
+    json_has(root, e, count);
+    json_decref(root);
+}
+
+/* ---- trade ---- */
+
+/* Two trials whose numbers are all different. */
+static struct br_trade *made_trade(const struct br_scene *scene)
+{
+    struct br_error err = {0};
+    struct br_trade *t = calloc(1, sizeof *t);
+    assert_non_null(t);
+    MUST(br_contenders_read("--methods", "euler,adaptive", &t->contenders, &err));
+    t->request = br_trial_request_default(scene);
+    t->norm[0] = &br_norm_l2;
+    t->count = 2;
+    t->trial = calloc(2, sizeof *t->trial);
+    t->front = calloc(2, sizeof *t->front);
+    assert_true(t->trial && t->front);
+    for (size_t i = 0; i < t->count; i++)
+        t->trial[i] = (struct br_trial){
+            .contender = &t->contenders.list[i],
+            .at = {11 + i, 20 + i},
+            .tolerance = i ? 0.0625 : 0,
+            .cost = {2.5,
+                     3.75,
+                     4,
+                     {.steps = 5, .stages = 6, .rejected = 7, .set_ups = 8, .iterations = 9}},
+            .error = {{0.125, 0.25, 0.375}},
+            .scale = {1.5},
+            .own = {0.0078125},
+        };
+    t->front[1] = true;
+    t->wall_seconds = 10.5;
+    for (size_t d = 0; d < BR_TRADE_DIGITS; d++) {
+        t->best[d] = d == 1 ? 1 : 2;
+        t->best_of[0][d] = t->best_of[1][d] = d == 3 ? 0 : 2;
+    }
+    return t;
+}
+
+static const struct expected trial_numbers[] = {
+    {"n", 11},         {"k", 0.05},     {"tolerance", NAN}, {"relative_error", 0.125 / 1.5},
+    {"error", 0.125},  {"axial", 0.25}, {"bending", 0.375}, {"own_error", 0.0078125},
+    {"seconds", 6.25}, {"set_up", 2.5}, {"march", 3.75},    {"repeats", 4},
+    {"steps", 5},      {"solves", 6},   {"rejected", 7},    {"set_ups", 8},
+    {"iterations", 9}};
+enum { TRIAL_NUMBERS = sizeof trial_numbers / sizeof *trial_numbers };
+
+static void trade_is_printed(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bare();
+    scene.name = (char[]){"made"};
+    struct br_trade *trade = made_trade(&scene);
+    struct br_document d = {.name = NULL};
+    br_report_trade(trade, &provenance, &d);
+    table_has(&d, "trials", 0, trial_numbers, TRIAL_NUMBERS);
+    const struct expected others[] = {
+        {"steps_or_levels", 20}, {"scale", 1.5}, {"digits_per_second", -log10(0.125 / 1.5) / 6.25}};
+    table_has(&d, "trials", 0, others, 3);
+    const struct expected adaptive[] = {{"k", NAN}, {"tolerance", 0.0625}, {"n", 12}};
+    table_has(&d, "trials", 1, adaptive, 3);
+    const struct expected cheapest[] = {
+        {"target", 1e-3}, {"trial", 1}, {"n", 12}, {"tolerance", 0.0625}, {"error", 0.125}};
+    table_has(&d, "cheapest", 1, cheapest, 5);
+    const struct expected none[] = {{"target", 1e-2}, {"trial", NAN}, {"n", NAN}, {"k", NAN}};
+    table_has(&d, "cheapest", 0, none, 4);
+    const struct expected seconds[] = {
+        {"axial_degree", 1}, {"seconds_to_1e-05", 6.25}, {"seconds_to_1e-04", NAN}};
+    table_has(&d, "methods", 0, seconds, 3);
+    const struct expected facts[] = {
+        {"wall_seconds", 10.5}, {"repeats", 3}, {"repeat_seconds", 0.1}, {"time_limit", 10}};
+    facts_are(&d, facts, 4);
+    json_t *root = document_json(&d);
+    assert_true(json_is_false(at_path(root, "tables.trials.0.front")));
+    assert_true(json_is_true(at_path(root, "tables.trials.1.front")));
+    json_decref(root);
+    br_document_clear(&d);
+    free(trade->trial);
+    free(trade->front);
+    free(trade);
+}
+
+/* ---- split ---- */
+
+/* A split whose part i has errors, floors and tips that are i + 1 times what the first has. */
+static struct br_split made_split(struct br_scene *scene)
+{
+    struct br_split s = {
+        .scene = scene,
+        .method = br_test_method(NULL, "lagged", NULL),
+        .at = {12, 16},
+        .norm = {&br_norm_l2},
+        .norms = 1,
+        .judge = &br_judge_exact,
+        .whole = {.error = {{16, 32, 48}}, .floor = {{0.5, 0.625, 0.75}}, .tip = {17, 33}},
+        .sum = {{64, 128, 192}},
+        .tip_sum = {65, 129},
+        .tip = {66, 130},
+        .solution_tip = {67, 131},
+        .scale = {4},
+        .predicted_round_off = 0.03125,
+    };
+    for (; br_sources[s.shares]; s.shares++) {
+        const double times = (double)(s.shares + 1);
+        s.share[s.shares] = (struct br_share){
+            .source = br_sources[s.shares],
+            .error = {{times, 2 * times, 3 * times}},
+            .floor = {{0.125 * times, 0.25 * times, 0.375 * times}},
+            .tip = {5 * times, -7 * times},
+        };
+    }
+    return s;
+}
+
+static void split_is_printed(void **state)
+{
+    (void)state;
+    static const struct expected third[] = {{"run", 0},
+                                            {"n", 12},
+                                            {"steps", 16},
+                                            {"k", 1.0 / 16},
+                                            {"error", 3},
+                                            {"axial", 6},
+                                            {"bending", 9},
+                                            {"floor", 0.375},
+                                            {"axial_floor", 0.75},
+                                            {"bending_floor", 1.125},
+                                            {"share", 3.0 / 64},
+                                            {"relative", 0.75},
+                                            {"axial_tip", 15},
+                                            {"bending_tip", -21}};
+    static const struct expected sum[] = {{"error", 64},     {"axial", 128},      {"bending", 192},
+                                          {"floor", NAN},    {"share", 1},        {"relative", 16},
+                                          {"axial_tip", 65}, {"bending_tip", 129}};
+    static const struct expected whole[] = {
+        {"error", 16},          {"axial", 32},           {"bending", 48}, {"floor", 0.5},
+        {"axial_floor", 0.625}, {"bending_floor", 0.75}, {"share", NAN},  {"relative", 4},
+        {"axial_tip", 17},      {"bending_tip", 33}};
+    static const struct expected run[] = {{"n", 12},
+                                          {"steps", 16},
+                                          {"predicted_round_off", 0.03125},
+                                          {"axial_tip", 66},
+                                          {"bending_tip", 130},
+                                          {"solution_axial_tip", 67},
+                                          {"solution_bending_tip", 131}};
+    struct br_scene scene = br_test_bare();
+    scene.name = (char[]){"made"};
+    const struct br_split split = made_split(&scene);
+    struct br_document d = {.name = NULL};
+    br_report_split(&split, 1, &provenance, &d);
+    table_has(&d, "parts", 2, third, sizeof third / sizeof *third);
+    table_has(&d, "parts", split.shares, sum, sizeof sum / sizeof *sum);
+    table_has(&d, "parts", split.shares + 1, whole, sizeof whole / sizeof *whole);
+    table_has(&d, "runs", 0, run, sizeof run / sizeof *run);
+    br_document_clear(&d);
+}
+
+/* ---- plan ---- */
+
+static double seconds_of_plan(const struct br_trial *trial)
+{
+    return 2 * br_trial_seconds(trial);
+}
+
+/* Two trials and models of two methods; the second is not known. */
+static struct br_plan *made_plan(const struct br_scene *scene)
+{
+    struct br_error err = {0};
+    struct br_plan *p = calloc(1, sizeof *p);
+    assert_non_null(p);
+    br_plan_default(p, scene);
+    MUST(br_contenders_read("--methods", "euler,bdf2", &p->contenders, &err));
+    p->goal = (struct br_plan_goal){0.5, NAN};
+    p->norm[0] = &br_norm_l2;
+    p->seconds = seconds_of_plan;
+    p->count = 2;
+    p->trial = calloc(2, sizeof *p->trial);
+    p->forecast = calloc(2, sizeof *p->forecast);
+    assert_true(p->trial && p->forecast);
+    for (size_t i = 0; i < p->count; i++) {
+        p->trial[i] = (struct br_trial){
+            .contender = &p->contenders.list[0],
+            .at = {11 + i, 20 + i},
+            .cost = {2.5, 3.75, 4, {.steps = 5, .stages = 6, .set_ups = 8}},
+            .error = {{0.125, 0.25, 0.375}},
+            .scale = {1.5},
+            .own = {0.25},
+        };
+        p->forecast[i] = (struct br_plan_forecast){i, 0.0625, 7.5};
+    }
+    p->first = 0;
+    p->chosen = 1;
+    p->rounds = 9;
+    p->own = 0.0078125;
+    p->wall_seconds = 10.5;
+    struct br_plan_models *m = &p->model[0];
+    m->known = true;
+    m->error = (struct br_plan_model){.r = 0.75, .scatter = 0.875, .points = 13};
+    m->error.space = m->error.time = (struct br_plan_curve){1, {1.25}, {-2.25}};
+    m->error.time.value[0] = -3.25;
+    m->cost =
+        (struct br_plan_cost){.c = {1, 2, 3, 4}, .scatter = 0.9375, .solves = {1, {4.25}, {5.25}}};
+    return p;
+}
+
+static void plan_is_printed(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bare();
+    scene.name = (char[]){"made"};
+    struct br_plan *plan = made_plan(&scene);
+    struct br_document d = {.name = NULL};
+    br_report_plan(plan, "made", &provenance, &d);
+    const struct expected trial[] = {
+        {"round", 1},
+        {"n", 12},
+        {"steps_or_levels", 21},
+        {"k", 1.0 / 21},
+        {"tolerance", NAN},
+        {"predicted_error", 0.0625},
+        {"relative_error", 0.375 / 1.5},
+        {"predicted_seconds", 7.5},
+        {"seconds", 12.5},
+        {"steps", 5},
+        {"solves", 6},
+        {"set_ups", 8},
+    };
+    table_has(&d, "trials", 1, trial, sizeof trial / sizeof *trial);
+    const struct expected model[] = {{"trials", 13},           {"r", 0.75},
+                                     {"error_scatter", 0.875}, {"cost_scatter", 0.9375},
+                                     {"seconds_set_up", 1},    {"seconds_element", 2},
+                                     {"seconds_solve", 3},     {"seconds_element_solve", 4}};
+    table_has(&d, "models", 0, model, sizeof model / sizeof *model);
+    table_has(&d, "models", 1, &(struct expected){"r", NAN}, 1);
+    const struct expected curve[][2] = {{{"at", 1.25}, {"value", -2.25}},
+                                        {{"at", 1.25}, {"value", -3.25}},
+                                        {{"at", 4.25}, {"value", 5.25}}};
+    for (size_t i = 0; i < 3; i++)
+        table_has(&d, "curves", i, curve[i], 2);
+    const struct br_plan_parts parts = br_plan_chosen_parts(plan);
+    const struct expected facts[] = {{"goal_error", 0.5},
+                                     {"goal_seconds", NAN},
+                                     {"own_error", 0.0078125},
+                                     {"rounds", 9},
+                                     {"first", 0},
+                                     {"chosen", 1},
+                                     {"marched_seconds", br_plan_spent(plan)},
+                                     {"wall_seconds", 10.5},
+                                     {"space_error", parts.space},
+                                     {"time_error", parts.time},
+                                     {"space_order", parts.p},
+                                     {"time_order", parts.q}};
+    facts_are(&d, facts, sizeof facts / sizeof *facts);
+    br_document_clear(&d);
+    free(plan->trial);
+    free(plan->forecast);
+    free(plan);
+}
+
+/* ---- check ---- */
+
+static const struct expected case_numbers[] = {
+    {"order", 2.25},   {"low", 2.125},    {"high", 2.5},   {"expected", 2.75}, {"tolerance", 0.375},
+    {"margin", 0.625}, {"constant", 3.5}, {"floor", 0.75}, {"ceiling", 7.5}};
+enum { CASE_NUMBERS = sizeof case_numbers / sizeof *case_numbers };
+
+static char *emitted_check(const char *format)
+{
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bare();
+    struct br_verify verify = {0};
+    struct br_point point = {
+        .at = {21, 22}, .against = {23, 24}, .error = 1.5, .constant = 1.75, .used = true};
+    struct br_case c = {
+        .kind = BR_VERIFY_TIME,
+        .expected = {&br_norm_l2, BR_PART_AXIAL, 2.75, 0.375, 0.75, 7.5, 26},
+        .point = &point,
+        .points = 1,
+        .used = 1,
+        .order = {2.25, 2.125, 2.5},
+        .constant = 3.5,
+        .margin = 0.625,
+    };
+    scene.name = (char[]){"made"};
+    const struct br_check check = {"made.yaml", &scene, &verify, {0}, &c, 1, 4.25, 5.25};
+    const struct br_check_page page = {
+        .checks = &check, .count = 1, .wall_seconds = 8.5, .provenance = &provenance};
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    for (const struct br_check_emitter *const *e = br_check_emitters; *e; e++)
+        if (strcmp((*e)->name, format) == 0)
+            MUST((*e)->emit(out, &page, &err));
+    fclose(out);
+    return text;
+}
+
+/* The number behind a key, as `pattern` puts it. */
+static double number_behind(const char *text, const char *pattern, const char *key)
+{
+    char wanted[64];
+    snprintf(wanted, sizeof wanted, pattern, key);
+    const char *at = strstr(text, wanted);
+    if (!at)
+        fail_msg("'%s' is not in:\n%s", wanted, text);
+    return strtod(at + strlen(wanted), NULL);
+}
+
+static void check_is_printed(void **state)
+{
+    (void)state;
+    char *junit = emitted_check("junit"), *tap = emitted_check("tap");
+    for (size_t i = 0; i < CASE_NUMBERS; i++) {
+        const struct expected *e = &case_numbers[i];
+        is("JUnit", e->key, number_behind(junit, "<property name=\"%s\" value=\"", e->key),
+           e->value);
+        if (strcmp(e->key, "expected") != 0)
+            is("TAP", e->key, number_behind(tap, "\n  %s: ", e->key), e->value);
+    }
+    assert_non_null(strstr(tap, "expected 2.75 +- 0.375: PASS"));
+    is("JUnit", "line", number_behind(junit, " %s=\"", "line"), 26);
+    is("JUnit", "tests", number_behind(junit, " %s=\"", "tests"), 1);
+    is("JUnit", "failures", number_behind(junit, " %s=\"", "failures"), 0);
+    free(junit);
+    free(tap);
+}
+
+static void check_is_printed_for_people(void **state)
+{
+    (void)state;
+    char *text = emitted_check("markdown");
+    char *rest = strstr(text, "| scene |"), *head = next_line(&rest);
+    next_line(&rest);
+    char *row = next_line(&rest);
+    const struct expected numbers[] = {{"expected", 2.75},
+                                       {"observed order", 2.25},
+                                       {"margin", 0.625},
+                                       {"constant", 3.5},
+                                       {"its range", 0.75}};
+    row_has("Markdown", head, row, '|', numbers, sizeof numbers / sizeof *numbers);
+    assert_non_null(strstr(row, "| 2.75 +- 0.375 |"));
+    assert_non_null(strstr(row, "[2.12, 2.50]"));
+    assert_non_null(strstr(row, "| 0.75 to 7.5 |"));
+    free(text);
+}
+
+static void check_is_in_json(void **state)
+{
+    (void)state;
+    json_t *root = read_json(emitted_check("json"));
+    const json_t *scene = at_path(root, "scenes.0"), *c = at_path(scene, "cases.0");
+    const struct expected order[] = {{"value", 2.25}, {"low", 2.125}, {"high", 2.5}};
+    const struct expected point[] = {{"n", 21},         {"steps", 22},
+                                     {"against_n", 23}, {"against_steps", 24},
+                                     {"error", 1.5},    {"constant", 1.75}};
+    const struct expected cost[] = {{"seconds", 4.25}, {"element_steps", 5.25}};
+    json_has(at_path(c, "order"), order, 3);
+    json_has(c, case_numbers + 3, CASE_NUMBERS - 3);
+    json_has(at_path(c, "points.0"), point, 6);
+    json_has(scene, cost, 2);
+    json_decref(root);
+}
+
+/* ---- run ---- */
+
+enum { ELEMENTS = 4, STEPS = 8, LOOKS = 3, MOST_FORMATS = 4 };
+static const size_t levels[LOOKS] = {1, 5, 8};
+
+/* A march of example2, what it has told, and the files that were written meanwhile. */
+struct watched {
+    char folder[32];
+    struct br_scene scene;
+    struct br_history_record record;
+    FILE *history;
+    struct br_fields_file *file[MOST_FORMATS];
+    struct br_run_report report;
+};
+
+static enum br_status write_row(void *self, const struct br_history_row *row, struct br_error *err)
+{
+    const struct watched *w = self;
+    (void)err;
+    br_history_csv_row(w->history, row);
+    return BR_OK;
+}
+
+static enum br_status write_fields(void *self, const struct br_march *march,
+                                   const struct br_history_row *row, struct br_error *err)
+{
+    struct watched *w = self;
+    enum br_status status = BR_OK;
+    for (size_t f = 0; br_fields_formats[f] && !status; f++)
+        status = br_fields_formats[f]->look(w->file[f], march, row, err);
+    return status;
+}
+
+static void path_of(const struct watched *w, const char *name, char path[64])
+{
+    snprintf(path, 64, "%s/%s", w->folder, name);
+}
+
+static char *read_file(const struct watched *w, const char *name)
+{
+    char path[64];
+    path_of(w, name, path);
+    FILE *in = fopen(path, "r");
+    assert_non_null(in);
+    char *text = calloc(1, 1 << 16);
+    assert_non_null(text);
+    assert_true(fread(text, 1, (1 << 16) - 1, in) > 0);
+    fclose(in);
+    return text;
+}
+
+/* What the test program does as the command does it: rows and fields go to files as they come. */
+static void march_and_write(struct watched *w)
+{
+    struct br_error err = {0};
+    char path[64];
+    const struct br_history_observer output[] = {
+        br_history_recorder(&w->record, ELEMENTS),
+        {.self = w, .row = write_row, .look = write_fields},
+    };
+    const struct br_run_request request = {.scene = &w->scene,
+                                           .wanted = 3,
+                                           .method = br_test_method(NULL, NULL, NULL),
+                                           .n = ELEMENTS,
+                                           .steps = STEPS,
+                                           .stride = 1,
+                                           .level = levels,
+                                           .levels = LOOKS,
+                                           .check = true,
+                                           .energies = true,
+                                           .output = output,
+                                           .outputs = 2};
+    path_of(w, "history.csv", path);
+    w->history = fopen(path, "w");
+    assert_non_null(w->history);
+    br_history_csv_head(w->history);
+    for (size_t f = 0; br_fields_formats[f]; f++) {
+        path_of(w, br_fields_formats[f]->file_name, path);
+        const struct br_fields_request fields = {path,  &w->scene, ELEMENTS,   STEPS,
+                                                 LOOKS, 1,         &provenance};
+        MUST(br_fields_formats[f]->open(&w->file[f], &fields, &err));
+    }
+    MUST(br_run(&request, &w->report, &err));
+    fclose(w->history);
+    for (size_t f = 0; br_fields_formats[f]; f++)
+        MUST(br_fields_formats[f]->close(w->file[f], NULL, &err));
+}
+
+static int set_up(void **state)
+{
+    static struct watched w;
+    w = (struct watched){.folder = "/tmp/br_printed_XXXXXX", .scene = br_test_bundled("example2")};
+    assert_non_null(mkdtemp(w.folder));
+    march_and_write(&w);
+    *state = &w;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    struct watched *w = *state;
+    char command[64];
+    snprintf(command, sizeof command, "rm -r '%s'", w->folder);
+    br_history_record_clear(&w->record);
+    br_scene_clear(&w->scene);
+    return system(command);
+}
+
+static void history_is_printed(void **state)
+{
+    const struct watched *w = *state;
+    char *text = read_file(w, "history.csv"), *rest = text, *head = next_line(&rest);
+    assert_int_equal(w->record.rows, STEPS + 1);
+    for (size_t i = 0; i < w->record.rows; i++) {
+        const struct br_history_row *row = &w->record.row[i];
+        const struct expected numbers[] = {{"step", (double)i},
+                                           {"t", (double)i / STEPS},
+                                           {"u", row->displacement[BR_AXIAL]},
+                                           {"w", row->displacement[BR_BENDING]},
+                                           {"u_t", row->velocity[BR_AXIAL]},
+                                           {"w_t", row->velocity[BR_BENDING]},
+                                           {"contact_force", row->contact_force},
+                                           {"friction_force", row->friction_force},
+                                           {"friction_bound", row->friction_bound}};
+        row_has("history.csv", head, next_line(&rest), ',', numbers, 9);
+    }
+    free(text);
+}
+
+/* What a variable of the fields is at a node, of the march's own nodal values. */
+static double field_value(const struct watched *w, size_t look, size_t node, const char *name)
+{
+    const double h = w->scene.length / ELEMENTS;
+    const enum br_field_kind kind = name[0] == 'u' ? BR_AXIAL : BR_BENDING;
+    const bool slope = strstr(name, "slope") != NULL;
+    const double *value = br_history_field(&w->record, look, kind, strstr(name, "_t") != NULL);
+    return kind == BR_AXIAL ? value[node] : slope ? value[2 * node + 1] / h : value[2 * node];
+}
+
+/* The rows' tip is that of the fields. */
+static void tip_is_the_last_node(void **state)
+{
+    const struct watched *w = *state;
+    for (size_t look = 0; look < LOOKS; look++) {
+        const struct br_history_row *row = &w->record.row[levels[look]];
+        is("row", "u", row->displacement[BR_AXIAL], field_value(w, look, ELEMENTS, "u"));
+        is("row", "u_t", row->velocity[BR_AXIAL], field_value(w, look, ELEMENTS, "u_t"));
+        is("row", "w", row->displacement[BR_BENDING], field_value(w, look, ELEMENTS, "w"));
+        is("row", "w_t", row->velocity[BR_BENDING], field_value(w, look, ELEMENTS, "w_t"));
+    }
+}
+
+static void fields_are_printed(void **state)
+{
+    const struct watched *w = *state;
+    char *text = read_file(w, "fields.csv"), *rest = text, *head = next_line(&rest);
+    for (size_t look = 0; look < LOOKS; look++)
+        for (size_t node = 0; node <= ELEMENTS; node++) {
+            const char *row = next_line(&rest);
+            const struct expected place[] = {{"t", (double)levels[look] / STEPS},
+                                             {"x", w->scene.length * (double)node / ELEMENTS}};
+            row_has("fields.csv", head, row, ',', place, 2);
+            for (size_t v = 0; v < br_field_variable_count(1); v++) {
+                const char *name = br_field_variables[v].name;
+                const struct expected e = {name, field_value(w, look, node, name)};
+                row_has("fields.csv", head, row, ',', &e, 1);
+            }
+        }
+    free(text);
+}
+
+#ifdef BR_HAVE_HDF5
+static void read_set(hid_t file, const char *name, hssize_t size, double *values)
+{
+    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(set);
+    assert_int_equal(H5Sget_simple_extent_npoints(space), size);
+    assert_true(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+    H5Sclose(space);
+    H5Dclose(set);
+}
+
+static void fields_are_in_hdf5(void **state)
+{
+    const struct watched *w = *state;
+    double x[ELEMENTS + 1], t[LOOKS], values[LOOKS][ELEMENTS + 1];
+    char path[64];
+    path_of(w, "fields.h5", path);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    assert_true(file >= 0);
+    read_set(file, "x", ELEMENTS + 1, x);
+    read_set(file, "t", LOOKS, t);
+    for (size_t node = 0; node <= ELEMENTS; node++)
+        is("fields.h5", "x", x[node], w->scene.length * (double)node / ELEMENTS);
+    for (size_t look = 0; look < LOOKS; look++)
+        is("fields.h5", "t", t[look], (double)levels[look] / STEPS);
+    for (size_t v = 0; v < br_field_variable_count(1); v++) {
+        const char *name = br_field_variables[v].name;
+        read_set(file, name, LOOKS * (ELEMENTS + 1), &values[0][0]);
+        for (size_t look = 0; look < LOOKS; look++)
+            for (size_t node = 0; node <= ELEMENTS; node++)
+                is("fields.h5", name, values[look][node], field_value(w, look, node, name));
+    }
+    H5Fclose(file);
+}
+#endif
+
+static json_t *summary(const struct watched *w, const struct br_prediction *prediction)
+{
+    struct br_error err = {0};
+    const struct br_warnings warnings = {0};
+    const struct br_run_page page = {&w->report, prediction, &warnings, &provenance, 12.5};
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    MUST(br_run_json(out, &page, &err));
+    fclose(out);
+    return read_json(text);
+}
+
+static void prediction_is_printed(void **state)
+{
+    const struct br_prediction made = {
+        .known = true,
+        .bounded = true,
+        .field = {{0.125, 0.0625, 0.25, 1}, {0.375, 0.1875, 0.75, 1}},
+        .space = {1.125, 1.0625, 1.25, 1},
+        .time = {2.125, 2.0625, 2.25, 1},
+        .whole = {3.125, 3.0625, 3.25, 1},
+        .round_off = 0.03125,
+        .seconds = 4.5,
+    };
+    const struct expected numbers[] = {
+        {"prediction.discretisation.error", 3.125},
+        {"prediction.discretisation.low", 3.0625},
+        {"prediction.discretisation.high", 3.25},
+        {"prediction.axial.error", 0.125},
+        {"prediction.axial.low", 0.0625},
+        {"prediction.axial.high", 0.25},
+        {"prediction.bending.error", 0.375},
+        {"prediction.bending.high", 0.75},
+        {"prediction.bending.most", br_predicted_most(&made, BR_BENDING)},
+        {"prediction.axial.most", br_predicted_most(&made, BR_AXIAL)},
+        {"prediction.time.error", 2.125},
+        {"prediction.time.high", 2.25},
+        {"prediction.space.low", 1.0625},
+        {"prediction.space.error", 1.125},
+        {"prediction.round_off", 0.03125},
+        {"prediction.seconds", 4.5},
+        {"seconds.wall", 12.5}};
+    json_t *root = summary(*state, &made);
+    json_has(root, numbers, sizeof numbers / sizeof *numbers);
+    json_decref(root);
+}
+
+static void summary_is_printed(void **state)
+{
+    const struct watched *w = *state;
+    const struct br_run_report *p = &w->report;
+    const struct br_history_row *last = &w->record.row[STEPS];
+    const struct br_work *work = &p->work;
+    const struct expected numbers[] = {
+        {"n", ELEMENTS},
+        {"steps", STEPS},
+        {"h", w->scene.length / ELEMENTS},
+        {"k", 1.0 / STEPS},
+        {"tip.t", 1},
+        {"tip.step", STEPS},
+        {"tip.displacement.axial", last->displacement[BR_AXIAL]},
+        {"tip.displacement.bending", last->displacement[BR_BENDING]},
+        {"tip.velocity.axial", last->velocity[BR_AXIAL]},
+        {"tip.velocity.bending", last->velocity[BR_BENDING]},
+        {"tip.contact_force", last->contact_force},
+        {"tip.friction_force", last->friction_force},
+        {"tip.friction_bound", last->friction_bound},
+        {"events.largest_contact_force.value", p->watch.contact_force.value},
+        {"events.largest_contact_force.t", p->watch.contact_force.time},
+        {"events.largest_friction_force.value", p->watch.friction_force.value},
+        {"events.counts.slipped", (double)p->watch.count[BR_TIP_SLIPPED]},
+        {"events.steps.slip", (double)p->watch.regime_steps[BR_TIP_SLIP]},
+        {"events.steps.closed", (double)p->watch.closed_steps},
+        {"energies.end.kinetic.axial", p->energy_now.kinetic[BR_AXIAL]},
+        {"energies.end.kinetic.bending", p->energy_now.kinetic[BR_BENDING]},
+        {"energies.end.stored.axial", p->energy_now.stored[BR_AXIAL]},
+        {"energies.end.stored.bending", p->energy_now.stored[BR_BENDING]},
+        {"energies.end.contact", p->energy_now.contact},
+        {"energies.end.total", br_energy_total(&p->energy_now)},
+        {"energies.lost_to_friction", work->friction},
+        {"energies.work_of_loads.axial", work->loads[BR_AXIAL]},
+        {"energies.work_of_loads.bending", work->loads[BR_BENDING]},
+        {"energies.lost_to_viscosity.axial", work->viscous[BR_AXIAL]},
+        {"energies.lost_to_viscosity.bending", work->viscous[BR_BENDING]},
+        {"energies.lost_to_scheme.axial", work->scheme[BR_AXIAL]},
+        {"energies.lost_to_scheme.bending", work->scheme[BR_BENDING]},
+        {"energies.lost_to_scheme_by_contact", work->scheme_contact},
+        {"energies.largest_imbalance_of_a_step", p->energy_worst},
+        {"certificate.worst.axial", p->worst.axial_residual},
+        {"certificate.worst.bending", p->worst.bending_residual},
+        {"certificate.worst.update", p->worst.update},
+        {"certificate.worst.friction", p->worst.friction},
+        {"certificate.worst.contact", p->worst.contact},
+        {"certificate.worst.energy", p->energy_worst},
+        {"certificate.limits.axial", p->limits.axial_residual},
+        {"certificate.limits.energy", p->energy_limit},
+        {"seconds.set_up", p->end.set_up_seconds},
+        {"seconds.march", p->end.march_seconds},
+        {"seconds.per_step", p->end.march_seconds / STEPS}};
+    const struct br_prediction none = {0};
+    json_t *root = summary(w, &none);
+    json_has(root, numbers, sizeof numbers / sizeof *numbers);
+    json_decref(root);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(trade_is_printed),
+        cmocka_unit_test(split_is_printed),
+        cmocka_unit_test(plan_is_printed),
+        cmocka_unit_test(check_is_printed),
+        cmocka_unit_test(check_is_printed_for_people),
+        cmocka_unit_test(check_is_in_json),
+        cmocka_unit_test(history_is_printed),
+        cmocka_unit_test(tip_is_the_last_node),
+        cmocka_unit_test(fields_are_printed),
+#ifdef BR_HAVE_HDF5
+        cmocka_unit_test(fields_are_in_hdf5),
+#endif
+        cmocka_unit_test(prediction_is_printed),
+        cmocka_unit_test(summary_is_printed),
+    };
+    return cmocka_run_group_tests_name("printed_values", tests, set_up, tear_down);
+}
