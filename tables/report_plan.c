@@ -219,7 +219,7 @@ static void put_facts(struct br_document *d, const struct br_plan *p)
 {
     const struct br_plan_parts parts = br_plan_chosen_parts(p);
     const struct br_cell_of_column facts[] = {
-        {{.key = "scene"}, br_text(p->request.scene->name)},
+        {{.key = "scene.name"}, br_text(p->request.scene->name)},
         {{.key = "goal_error"}, br_number(p->goal.error)},
         {{.key = "goal_seconds"}, br_number(p->goal.seconds)},
         {{.key = "norm"}, br_text(p->norm[0]->name)},

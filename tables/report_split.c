@@ -251,6 +251,9 @@ static void note_run(struct br_document *d, const struct br_split *s)
         br_put_note(d, "The whole is %.3g of the sum of its parts%s (%s).", whole / sum,
                     whole < 0.9 * sum ? ", which point against each other" : "", s->norm[m]->name);
     }
+    for (size_t i = 0; i < s->shares; i++)
+        if (s->share[i].none)
+            br_put_note(d, "No part %s: %s.", s->share[i].source->name, s->share[i].none);
     br_put_note(
         d, "Without time error: %s.%s At the tip the parts add up but for %.1e m.", s->refined.name,
         s->method.scheme->adaptive ? " The part called time is what the tolerance leaves." : "",
@@ -282,7 +285,8 @@ void br_report_split(const struct br_split *split, size_t count,
     snprintf(name, sizeof name, "%.500s-split", scene->name);
     snprintf(caption, sizeof caption, "Where the error comes from: %.400s", scene->title);
     br_document_begin(d, name, "beamrate trade --split", 1, caption);
-    br_put_program_facts(d, &(struct br_cell_of_column){{.key = "scene"}, br_text(scene->name)}, 1);
+    br_put_program_facts(
+        d, &(struct br_cell_of_column){{.key = "scene.name"}, br_text(scene->name)}, 1);
     for (size_t r = 0; r < count; r++)
         answer_run(d, &split[r]);
     for (size_t r = 0; r < count; r++) {

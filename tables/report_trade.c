@@ -101,7 +101,7 @@ static void answer_ends(struct br_document *d, const struct br_trade *t)
             used += (size_t)snprintf(text + used, sizeof text - used, "%s%zu %s", used ? ", " : "",
                                      br_trade_tally(t, end), br_trial_end_name(end));
     }
-    br_put_answer(d, "%zu trials: %s.", t->count, text);
+    br_put_answer(d, "Trials: %s.", text);
 }
 
 /* ---- tables ---- */
@@ -275,7 +275,7 @@ static void put_notes(struct br_document *d, const struct br_trade *t, const cha
 static void put_facts(struct br_document *d, const struct br_trade *t)
 {
     const struct br_cell_of_column facts[] = {
-        {{.key = "scene"}, br_text(t->request.scene->name)},
+        {{.key = "scene.name"}, br_text(t->request.scene->name)},
         {{.key = "norm"}, br_text(t->norm[0]->name)},
         {{.key = "unit"}, br_text(t->norm[0]->unit)},
         {{.key = "judge"}, br_text(judge_of(t)->name)},
@@ -297,7 +297,8 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
     answer_front(d, t);
     answer_paper(d, t);
     answer_ends(d, t);
-    br_put_table(d, "cheapest", "Cheapest way to an error", 0, NULL, 0);
+    br_put_table(d, "cheapest", "Cheapest way to an error",
+                 t->best[0] < t->count ? 0 : BR_FOR_PROGRAMS, NULL, 0);
     put_targets(d, t, NULL);
     put_front(d, t);
     put_methods(d, t);

@@ -102,7 +102,7 @@ static void test_texts(void **state)
     text = printed(&s, &br_document_markdown);
     has(text, "| lag | 4.000e-06 | 2.000e-06 | 1.333e-06 | 21.1 % | 1.60e-05 | -1.667e-04 | "
               "-1.429e-04 |");
-    has(text, "| round-off | < 2.5e-01 | < 2.5e-01 | < 2.5e-01 | - | - |");
+    has(text, "| round-off | \\< 2.5e-01 | \\< 2.5e-01 | \\< 2.5e-01 | - | - |");
     has(text, "| sum | 1.900e-05 |");
     assert_null(strstr(text, "| iteration |"));
     free(text);
