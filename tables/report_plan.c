@@ -108,26 +108,24 @@ static void put_trial(struct br_document *d, const struct br_plan *p, size_t i)
 {
     const struct br_trial *t = &p->trial[i];
     const struct br_counts *c = &t->cost.counts;
-    const unsigned hidden = BR_FOR_PROGRAMS;
     struct br_row row = {.cells = 0};
-    const struct br_cell_of_column round = {{.key = "round"}, br_count(p->forecast[i].round)};
-    const struct br_cell_of_column cells[] = {
-        {{"predicted_error", "predicted error", NULL, "%.3e", 0}, br_number(p->forecast[i].error)},
-        {{"relative_error", "relative error", NULL, "%.3e", 0}, br_number(error_of(p, i))},
-        {{"predicted_seconds", "predicted CPU", "s", "%.3g", 0}, br_number(p->forecast[i].seconds)},
-        {{"seconds", "CPU", "s", "%.3g", 0}, br_number(p->seconds(t))},
-        {{.key = "steps"}, br_count(c->steps)},
-        {{.key = "solves", .flags = hidden}, br_count(c->stages)},
-        {{.key = "set_ups", .flags = hidden}, br_count(c->set_ups)},
-        {{.key = "end", .flags = hidden}, br_text(br_trial_end_name(t->end))},
-        {{.key = "chosen", .flags = hidden}, br_truth(i == p->chosen)},
-        {{.key = "failure", .flags = hidden},
-         br_text(t->failure.status ? t->failure.message : NULL)},
-        {{.key = "remark", .flags = BR_FOR_PEOPLE}, br_text(remark_on(p, i))},
-    };
-    br_row_add(&row, &round, 1);
+    BR_ADD(&row, br_count(p->forecast[i].round), .key = "round");
     br_row_add_trial(&row, p->request.scene, t);
-    br_row_add(&row, BR_CELLS(cells));
+    BR_ADD(&row, br_number(p->forecast[i].error), .key = "predicted_error",
+           .heading = "predicted error", .format = "%.3e");
+    BR_ADD(&row, br_number(error_of(p, i)), .key = "relative_error", .heading = "relative error",
+           .format = "%.3e");
+    BR_ADD(&row, br_number(p->forecast[i].seconds), .key = "predicted_seconds",
+           .heading = "predicted CPU", .unit = "s", .format = "%.3g");
+    BR_ADD(&row, br_number(p->seconds(t)), .key = "seconds", .heading = "CPU", .unit = "s",
+           .format = "%.3g");
+    BR_ADD(&row, br_count(c->steps), .key = "steps");
+    br_row_hide(&row, "solves", NULL, br_count(c->stages));
+    br_row_hide(&row, "set_ups", NULL, br_count(c->set_ups));
+    br_row_hide(&row, "end", NULL, br_text(br_trial_end_name(t->end)));
+    br_row_hide(&row, "chosen", NULL, br_truth(i == p->chosen));
+    br_row_hide(&row, "failure", NULL, br_text(t->failure.status ? t->failure.message : NULL));
+    BR_ADD(&row, br_text(remark_on(p, i)), .key = "remark", .flags = BR_FOR_PEOPLE);
     br_put_whole_row(d, &row);
 }
 
@@ -150,37 +148,31 @@ static void put_trials(struct br_document *d, const struct br_plan *p)
 /* A root mean square of logarithms, which people see in per cent; NaN: not known. */
 static void add_scatter(struct br_row *row, const char *key, const char *heading, double scatter)
 {
-    br_row_add(
-        row, &(struct br_cell_of_column){{.key = key, .heading = heading}, br_number(scatter)}, 1);
+    BR_ADD(row, br_number(scatter), .key = key, .heading = heading);
     if (isfinite(scatter))
         br_row_shown(row, "%.2g %%", 100 * expm1(scatter));
 }
 
 static void put_models(struct br_document *d, const struct br_plan *p)
 {
-    static const struct br_column costs[BR_PLAN_COSTS] = {
-        {"seconds_set_up", NULL, "s", NULL, BR_FOR_PROGRAMS},
-        {"seconds_element", NULL, "s", NULL, BR_FOR_PROGRAMS},
-        {"seconds_solve", "a solve", "s", "%.3g", 0},
-        {"seconds_element_solve", "an element and solve", "s", "%.3g", 0},
-    };
+    static const double unknown[BR_PLAN_COSTS] = {NAN, NAN, NAN, NAN};
     br_put_table(d, "models", "How far the models are off (root mean square over the trials)", 0,
                  NULL, 0);
     for (size_t i = 0; i < p->contenders.count; i++) {
         const struct br_plan_models *m = &p->model[i];
+        const double *c = m->known ? m->cost.c : unknown;
         struct br_row row = {.cells = 0};
-        const struct br_cell_of_column cells[] = {
-            {{.key = "method"}, br_text(p->contenders.list[i].name)},
-            {{.key = "trials"}, br_count(m->error.points)},
-            {{.key = "r", .format = "%.2f"}, br_number(m->known ? m->error.r : NAN)},
-        };
-        br_row_add(&row, BR_CELLS(cells));
+        BR_ADD(&row, br_text(p->contenders.list[i].name), .key = "method");
+        BR_ADD(&row, br_count(m->error.points), .key = "trials");
+        BR_ADD(&row, br_number(m->known ? m->error.r : NAN), .key = "r", .format = "%.2f");
         add_scatter(&row, "error_scatter", "error", m->known ? m->error.scatter : (double)NAN);
         add_scatter(&row, "cost_scatter", "CPU", m->known ? m->cost.scatter : (double)NAN);
-        for (int c = 0; c < BR_PLAN_COSTS; c++)
-            br_row_add(
-                &row,
-                &(struct br_cell_of_column){costs[c], br_number(m->known ? m->cost.c[c] : NAN)}, 1);
+        br_row_hide(&row, "seconds_set_up", "s", br_number(c[0]));
+        br_row_hide(&row, "seconds_element", "s", br_number(c[1]));
+        BR_ADD(&row, br_number(c[2]), .key = "seconds_solve", .heading = "a solve", .unit = "s",
+               .format = "%.3g");
+        BR_ADD(&row, br_number(c[3]), .key = "seconds_element_solve",
+               .heading = "an element and solve", .unit = "s", .format = "%.3g");
         br_put_whole_row(d, &row);
     }
 }
@@ -218,24 +210,21 @@ static void put_curves(struct br_document *d, const struct br_plan *p)
 static void put_facts(struct br_document *d, const struct br_plan *p)
 {
     const struct br_plan_parts parts = br_plan_chosen_parts(p);
-    const struct br_cell_of_column facts[] = {
-        {{.key = "scene.name"}, br_text(p->request.scene->name)},
-        {{.key = "goal_error"}, br_number(p->goal.error)},
-        {{.key = "goal_seconds"}, br_number(p->goal.seconds)},
-        {{.key = "norm"}, br_text(p->norm[0]->name)},
-        {{.key = "end"}, br_text(br_plan_end_name(p->end))},
-        {{.key = "own_error"}, br_number(p->own)},
-        {{.key = "rounds"}, br_count(p->rounds)},
-        {{.key = "first"}, p->first < p->count ? br_count(p->first) : br_nothing()},
-        {{.key = "chosen"}, p->chosen < p->count ? br_count(p->chosen) : br_nothing()},
-        {{.key = "marched_seconds"}, br_number(br_plan_spent(p))},
-        {{.key = "wall_seconds"}, br_number(p->wall_seconds)},
-        {{.key = "space_error"}, br_number(parts.space)},
-        {{.key = "time_error"}, br_number(parts.time)},
-        {{.key = "space_order"}, br_number(parts.p)},
-        {{.key = "time_order"}, br_number(parts.q)},
-    };
-    br_put_program_facts(d, BR_CELLS(facts));
+    br_put_hidden_fact(d, "scene.name", br_text(p->request.scene->name));
+    br_put_hidden_fact(d, "goal_error", br_number(p->goal.error));
+    br_put_hidden_fact(d, "goal_seconds", br_number(p->goal.seconds));
+    br_put_hidden_fact(d, "norm", br_text(p->norm[0]->name));
+    br_put_hidden_fact(d, "end", br_text(br_plan_end_name(p->end)));
+    br_put_hidden_fact(d, "own_error", br_number(p->own));
+    br_put_hidden_fact(d, "rounds", br_count(p->rounds));
+    br_put_hidden_fact(d, "first", p->first < p->count ? br_count(p->first) : br_nothing());
+    br_put_hidden_fact(d, "chosen", p->chosen < p->count ? br_count(p->chosen) : br_nothing());
+    br_put_hidden_fact(d, "marched_seconds", br_number(br_plan_spent(p)));
+    br_put_hidden_fact(d, "wall_seconds", br_number(p->wall_seconds));
+    br_put_hidden_fact(d, "space_error", br_number(parts.space));
+    br_put_hidden_fact(d, "time_error", br_number(parts.time));
+    br_put_hidden_fact(d, "space_order", br_number(parts.p));
+    br_put_hidden_fact(d, "time_order", br_number(parts.q));
 }
 
 static void put_notes(struct br_document *d, const struct br_plan *p, const char *machine)

@@ -116,11 +116,9 @@ static void add_error(struct br_row *row, const struct br_split *s, const struct
                              *const floor_key[BR_PARTS] = {"floor", "axial_floor", "bending_floor"};
     const double error = models(s, part) ? l->error[part] : (double)NAN;
     const double floor = l->floor ? l->floor[part] : (double)NAN;
-    const struct br_cell_of_column cells[] = {
-        {{.key = floor_key[part], .flags = BR_FOR_PROGRAMS}, br_number(floor)},
-        {{key[part], br_part_names[part], NULL, "%.3e", 0}, br_number(error)},
-    };
-    br_row_add(row, BR_CELLS(cells));
+    br_row_hide(row, floor_key[part], NULL, br_number(floor));
+    BR_ADD(row, br_number(error), .key = key[part], .heading = br_part_names[part],
+           .format = "%.3e");
     if (isfinite(error) && floor > 0 && !(error > floor))
         br_row_shown(row, "< %.1e", floor);
 }
@@ -129,10 +127,7 @@ static void add_share(struct br_row *row, double share)
 {
     char text[TEXT] = "";
     append_share(text, share);
-    br_row_add(
-        row,
-        &(struct br_cell_of_column){{.key = "share", .heading = "of the sum"}, br_number(share)},
-        1);
+    BR_ADD(row, br_number(share), .key = "share", .heading = "of the sum");
     if (isfinite(share))
         br_row_shown(row, "%.30s", text);
 }
@@ -144,47 +139,35 @@ static void add_line(struct br_row *row, const struct br_split *s, size_t norm, 
     const double relative = told ? l.error[BR_PART_TOTAL] / s->scale[norm] : (double)NAN;
     const double axial_tip = models(s, BR_PART_AXIAL) ? l.tip[BR_AXIAL] : (double)NAN;
     const double bending_tip = models(s, BR_PART_BENDING) ? l.tip[BR_BENDING] : (double)NAN;
-    const struct br_cell_of_column
-        name[] =
-            {
-                {{.key = "norm", .flags = BR_FOR_PROGRAMS}, br_text(s->norm[norm]->name)},
-                {{.key = "unit", .flags = BR_FOR_PROGRAMS}, br_text(s->norm[norm]->unit)},
-                {{.key = "part"}, br_text(l.name)},
-                {{.key = "applies", .flags = BR_FOR_PROGRAMS}, br_truth(!l.none)},
-            },
-        tip[] =
-            {
-                {{"relative", "of the solution", NULL, "%.2e", 0}, br_number(relative)},
-                {{"axial_tip", "axial tip", "m", "%+.3e", 0}, br_number(axial_tip)},
-                {{"bending_tip", "bending tip", "m", "%+.3e", 0}, br_number(bending_tip)},
-            },
-        none = {{.key = "none", .flags = BR_FOR_PROGRAMS}, br_text(l.none)};
-    br_row_add(row, BR_CELLS(name));
+    br_row_hide(row, "norm", NULL, br_text(s->norm[norm]->name));
+    br_row_hide(row, "unit", NULL, br_text(s->norm[norm]->unit));
+    BR_ADD(row, br_text(l.name), .key = "part");
+    br_row_hide(row, "applies", NULL, br_truth(!l.none));
     const size_t first = row->cells;
     for (int part = 0; part < BR_PARTS; part++)
         add_error(row, s, &l, (enum br_part)part);
     add_share(row, l.share);
-    br_row_add(row, BR_CELLS(tip));
+    BR_ADD(row, br_number(relative), .key = "relative", .heading = "of the solution",
+           .format = "%.2e");
+    BR_ADD(row, br_number(axial_tip), .key = "axial_tip", .heading = "axial tip", .unit = "m",
+           .format = "%+.3e");
+    BR_ADD(row, br_number(bending_tip), .key = "bending_tip", .heading = "bending tip", .unit = "m",
+           .format = "%+.3e");
     if (l.none)
         br_row_empty(row, first);
-    br_row_add(row, &none, 1);
+    br_row_hide(row, "none", NULL, br_text(l.none));
 }
 
 /* ---- tables ---- */
 
 static void add_run(struct br_row *row, const struct br_split *s, size_t run)
 {
-    const unsigned hidden = BR_FOR_PROGRAMS;
     const double tolerance = s->method.scheme->adaptive ? s->method.tolerance : (double)NAN;
-    const struct br_cell_of_column cells[] = {
-        {{.key = "run", .flags = hidden}, br_count(run)},
-        {{.key = "n", .flags = hidden}, br_count(s->at.n)},
-        {{.key = "steps", .flags = hidden}, br_count(s->at.steps)},
-        {{.key = "k", .unit = "s", .flags = hidden},
-         br_number(br_time_step(s->scene, s->at.steps))},
-        {{.key = "tolerance", .flags = hidden}, br_number(tolerance)},
-    };
-    br_row_add(row, BR_CELLS(cells));
+    br_row_hide(row, "run", NULL, br_count(run));
+    br_row_hide(row, "n", NULL, br_count(s->at.n));
+    br_row_hide(row, "steps", NULL, br_count(s->at.steps));
+    br_row_hide(row, "k", "s", br_number(br_time_step(s->scene, s->at.steps)));
+    br_row_hide(row, "tolerance", NULL, br_number(tolerance));
     br_row_add_method(row, &s->method);
 }
 
@@ -226,18 +209,15 @@ static void put_runs(struct br_document *d, const struct br_split *split, size_t
     for (size_t r = 0; r < count; r++) {
         const struct br_split *s = &split[r];
         struct br_row row = {.cells = 0};
-        const struct br_cell_of_column cells[] = {
-            {{.key = "axial_tip", .unit = "m"}, br_number(s->tip[BR_AXIAL])},
-            {{.key = "bending_tip", .unit = "m"}, br_number(s->tip[BR_BENDING])},
-            {{.key = "solution_axial_tip", .unit = "m"}, br_number(s->solution_tip[BR_AXIAL])},
-            {{.key = "solution_bending_tip", .unit = "m"}, br_number(s->solution_tip[BR_BENDING])},
-            {{.key = "predicted_round_off"}, br_number(s->predicted_round_off)},
-            {{.key = "unstable"}, br_truth(s->unstable)},
-            {{.key = "reference"}, br_text(s->judge->name)},
-            {{.key = "refined"}, br_text(s->refined.name)},
-        };
         add_run(&row, s, r);
-        br_row_add(&row, BR_CELLS(cells));
+        br_row_hide(&row, "axial_tip", "m", br_number(s->tip[BR_AXIAL]));
+        br_row_hide(&row, "bending_tip", "m", br_number(s->tip[BR_BENDING]));
+        br_row_hide(&row, "solution_axial_tip", "m", br_number(s->solution_tip[BR_AXIAL]));
+        br_row_hide(&row, "solution_bending_tip", "m", br_number(s->solution_tip[BR_BENDING]));
+        br_row_hide(&row, "predicted_round_off", NULL, br_number(s->predicted_round_off));
+        br_row_hide(&row, "unstable", NULL, br_truth(s->unstable));
+        br_row_hide(&row, "reference", NULL, br_text(s->judge->name));
+        br_row_hide(&row, "refined", NULL, br_text(s->refined.name));
         br_put_whole_row(d, &row);
     }
 }
@@ -285,8 +265,7 @@ void br_report_split(const struct br_split *split, size_t count,
     snprintf(name, sizeof name, "%.500s-split", scene->name);
     snprintf(caption, sizeof caption, "Where the error comes from: %.400s", scene->title);
     br_document_begin(d, name, "beamrate trade --split", 1, caption);
-    br_put_program_facts(
-        d, &(struct br_cell_of_column){{.key = "scene.name"}, br_text(scene->name)}, 1);
+    br_put_hidden_fact(d, "scene.name", br_text(scene->name));
     for (size_t r = 0; r < count; r++)
         answer_run(d, &split[r]);
     for (size_t r = 0; r < count; r++) {

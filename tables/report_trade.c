@@ -106,39 +106,38 @@ static void answer_ends(struct br_document *d, const struct br_trade *t)
 
 /* ---- tables ---- */
 
+/* A trial and what came of it. */
 static void add_outcome(struct br_row *row, const struct br_trade *t, size_t i)
 {
     const struct br_trial *trial = &t->trial[i];
     const struct br_counts *c = &trial->cost.counts;
     const char *unit = t->norm[0]->unit;
-    const unsigned hidden = BR_FOR_PROGRAMS;
-    const struct br_cell_of_column cells[] = {
-        {{"relative_error", "relative error", NULL, "%.2e", 0},
-         br_number(br_trial_relative(trial, 0, BR_PART_TOTAL))},
-        {{"error", NULL, unit, "%.3e", 0}, br_number(trial->error[0][BR_PART_TOTAL])},
-        {{"axial", NULL, unit, NULL, hidden}, br_number(trial->error[0][BR_PART_AXIAL])},
-        {{"bending", NULL, unit, NULL, hidden}, br_number(trial->error[0][BR_PART_BENDING])},
-        {{"own_error", NULL, unit, NULL, hidden}, br_number(trial->own[0])},
-        {{"scale", NULL, unit, NULL, hidden}, br_number(trial->scale[0])},
-        {{"seconds", "CPU", "s", "%.3g", 0}, br_number(br_trial_seconds(trial))},
-        {{"set_up", NULL, "s", NULL, hidden}, br_number(trial->cost.set_up)},
-        {{"march", NULL, "s", NULL, hidden}, br_number(trial->cost.march)},
-        {{"repeats", NULL, NULL, NULL, hidden}, br_count(trial->cost.repeats)},
-        {{"steps", NULL, NULL, NULL, hidden}, br_count(c->steps)},
-        {{"rejected", NULL, NULL, NULL, hidden}, br_count(c->rejected)},
-        {{"solves", NULL, NULL, NULL, 0}, br_count(c->stages)},
-        {{"iterations", NULL, NULL, NULL, 0}, br_count(c->iterations)},
-        {{"set_ups", NULL, NULL, NULL, hidden}, br_count(c->set_ups)},
-        {{"digits_per_second", "digits/s", NULL, "%.3g", BR_FILES_ONLY},
-         br_number(br_trade_digits_per_second(trial))},
-        {{"end", NULL, NULL, NULL, hidden}, br_text(br_trial_end_name(trial->end))},
-        {{"front", NULL, NULL, NULL, hidden}, br_truth(t->front[i])},
-        {{"printed", NULL, NULL, NULL, hidden}, br_truth(trial->printed)},
-        {{"failure", NULL, NULL, NULL, hidden},
-         br_text(trial->failure.status ? trial->failure.message : NULL)},
-    };
     br_row_add_trial(row, t->request.scene, trial);
-    br_row_add(row, BR_CELLS(cells));
+    BR_ADD(row, br_number(br_trial_relative(trial, 0, BR_PART_TOTAL)), .key = "relative_error",
+           .heading = "relative error", .format = "%.2e");
+    BR_ADD(row, br_number(trial->error[0][BR_PART_TOTAL]), .key = "error", .unit = unit,
+           .format = "%.3e");
+    br_row_hide(row, "axial", unit, br_number(trial->error[0][BR_PART_AXIAL]));
+    br_row_hide(row, "bending", unit, br_number(trial->error[0][BR_PART_BENDING]));
+    br_row_hide(row, "own_error", unit, br_number(trial->own[0]));
+    br_row_hide(row, "scale", unit, br_number(trial->scale[0]));
+    BR_ADD(row, br_number(br_trial_seconds(trial)), .key = "seconds", .heading = "CPU", .unit = "s",
+           .format = "%.3g");
+    br_row_hide(row, "set_up", "s", br_number(trial->cost.set_up));
+    br_row_hide(row, "march", "s", br_number(trial->cost.march));
+    br_row_hide(row, "repeats", NULL, br_count(trial->cost.repeats));
+    br_row_hide(row, "steps", NULL, br_count(c->steps));
+    br_row_hide(row, "rejected", NULL, br_count(c->rejected));
+    BR_ADD(row, br_count(c->stages), .key = "solves");
+    BR_ADD(row, br_count(c->iterations), .key = "iterations");
+    br_row_hide(row, "set_ups", NULL, br_count(c->set_ups));
+    BR_ADD(row, br_number(br_trade_digits_per_second(trial)), .key = "digits_per_second",
+           .heading = "digits/s", .format = "%.3g", .flags = BR_FILES_ONLY);
+    br_row_hide(row, "end", NULL, br_text(br_trial_end_name(trial->end)));
+    br_row_hide(row, "front", NULL, br_truth(t->front[i]));
+    br_row_hide(row, "printed", NULL, br_truth(trial->printed));
+    br_row_hide(row, "failure", NULL,
+                br_text(trial->failure.status ? trial->failure.message : NULL));
 }
 
 /* A row for each target. Without a trial that is good enough only the target is there. scene: of
@@ -148,16 +147,16 @@ static void put_targets(struct br_document *d, const struct br_trade *t, const c
     for (size_t digit = 0; digit < BR_TRADE_DIGITS; digit++) {
         const size_t best = t->best[digit];
         struct br_row row = {.cells = 0};
-        const struct br_cell_of_column cells[] = {
-            {{.key = "scene"}, br_text(scene)},
-            {{"target", "to error", NULL, "%.0e", 0}, br_number(br_trade_target(digit))},
-            /* the place in the list of all trials, which begins with 0 */
-            {{.key = "trial", .flags = BR_FOR_PROGRAMS}, br_count(best)},
-        };
-        br_row_add(&row, scene ? cells : cells + 1, scene ? 3 : 2);
+        if (scene)
+            BR_ADD(&row, br_text(scene), .key = "scene");
+        BR_ADD(&row, br_number(br_trade_target(digit)), .key = "target", .heading = "to error",
+               .format = "%.0e");
+        const size_t first = row.cells;
+        /* its place in the list of all trials, which begins with 0 */
+        br_row_hide(&row, "trial", NULL, br_count(best));
         add_outcome(&row, t, best < t->count ? best : 0);
         if (best == t->count)
-            br_row_empty(&row, scene ? 2 : 1);
+            br_row_empty(&row, first);
         br_put_whole_row(d, &row);
     }
 }
@@ -179,20 +178,15 @@ static void put_methods(struct br_document *d, const struct br_trade *t)
     for (size_t c = 0; c < t->contenders.count; c++) {
         char key[BR_TRADE_DIGITS][32];
         struct br_row row = {.cells = 0};
-        br_row_add(
-            &row,
-            &(struct br_cell_of_column){{.key = "method"}, br_text(t->contenders.list[c].name)}, 1);
+        BR_ADD(&row, br_text(t->contenders.list[c].name), .key = "method");
         br_row_add_method(&row, &t->contenders.list[c].method);
         for (size_t i = 0; i < BR_TRADE_DIGITS; i++) {
             const size_t best = t->best_of[c][i];
             const double seconds =
                 best < t->count ? br_trial_seconds(&t->trial[best]) : (double)NAN;
             snprintf(key[i], sizeof *key, "seconds_to_%.0e", br_trade_target(i));
-            br_row_add(
-                &row,
-                &(struct br_cell_of_column){
-                    {key[i], key[i] + strlen("seconds_to_"), "s", "%.2g", 0}, br_number(seconds)},
-                1);
+            BR_ADD(&row, br_number(seconds), .key = key[i],
+                   .heading = key[i] + strlen("seconds_to_"), .unit = "s", .format = "%.2g");
         }
         br_put_whole_row(d, &row);
     }
@@ -204,14 +198,11 @@ static void put_failures(struct br_document *d, const struct br_trade *t)
     for (size_t i = 0; i < t->count; i++) {
         const struct br_trial *trial = &t->trial[i];
         struct br_row row = {.cells = 0};
-        const struct br_cell_of_column cells[] = {
-            {{.key = "end"}, br_text(br_trial_end_name(trial->end))},
-            {{.key = "why", .flags = BR_WRAP}, br_text(trial->failure.message)},
-        };
         if (!trial->failure.status)
             continue;
         br_row_add_trial(&row, t->request.scene, trial);
-        br_row_add(&row, BR_CELLS(cells));
+        BR_ADD(&row, br_text(br_trial_end_name(trial->end)), .key = "end");
+        BR_ADD(&row, br_text(trial->failure.message), .key = "why", .flags = BR_WRAP);
         br_put_whole_row(d, &row);
     }
 }
@@ -274,17 +265,14 @@ static void put_notes(struct br_document *d, const struct br_trade *t, const cha
 
 static void put_facts(struct br_document *d, const struct br_trade *t)
 {
-    const struct br_cell_of_column facts[] = {
-        {{.key = "scene.name"}, br_text(t->request.scene->name)},
-        {{.key = "norm"}, br_text(t->norm[0]->name)},
-        {{.key = "unit"}, br_text(t->norm[0]->unit)},
-        {{.key = "judge"}, br_text(judge_of(t)->name)},
-        {{.key = "repeats"}, br_count(t->request.repeats)},
-        {{.key = "repeat_seconds"}, br_number(t->request.repeat_seconds)},
-        {{.key = "time_limit"}, br_number(t->request.time_limit)},
-        {{.key = "wall_seconds"}, br_number(t->wall_seconds)},
-    };
-    br_put_program_facts(d, BR_CELLS(facts));
+    br_put_hidden_fact(d, "scene.name", br_text(t->request.scene->name));
+    br_put_hidden_fact(d, "norm", br_text(t->norm[0]->name));
+    br_put_hidden_fact(d, "unit", br_text(t->norm[0]->unit));
+    br_put_hidden_fact(d, "judge", br_text(judge_of(t)->name));
+    br_put_hidden_fact(d, "repeats", br_count(t->request.repeats));
+    br_put_hidden_fact(d, "repeat_seconds", br_number(t->request.repeat_seconds));
+    br_put_hidden_fact(d, "time_limit", br_number(t->request.time_limit));
+    br_put_hidden_fact(d, "wall_seconds", br_number(t->wall_seconds));
 }
 
 void br_report_trade(const struct br_trade *t, const struct br_provenance *provenance,

@@ -4,10 +4,18 @@
 #include <math.h>
 #include <stdarg.h>
 
-void br_row_add(struct br_row *row, const struct br_cell_of_column *cells, size_t count)
+void br_row_add(struct br_row *row, const struct br_column *column, struct br_value value)
 {
-    for (size_t i = 0; i < count && row->cells < BR_MOST_COLUMNS; i++)
-        row->cell[row->cells++] = cells[i];
+    row->full = row->cells == BR_MOST_COLUMNS;
+    if (row->full)
+        return;
+    row->column[row->cells] = *column;
+    row->value[row->cells++] = value;
+}
+
+void br_row_hide(struct br_row *row, const char *key, const char *unit, struct br_value value)
+{
+    BR_ADD(row, value, .key = key, .unit = unit, .flags = BR_FOR_PROGRAMS);
 }
 
 void br_row_shown(struct br_row *row, const char *format, ...)
@@ -21,7 +29,7 @@ void br_row_shown(struct br_row *row, const char *format, ...)
 void br_row_empty(struct br_row *row, size_t first)
 {
     for (size_t i = first; i < row->cells; i++) {
-        row->cell[i].value = br_nothing();
+        row->value[i] = br_nothing();
         *row->shown[i] = '\0';
     }
 }
@@ -31,10 +39,12 @@ void br_put_whole_row(struct br_document *d, const struct br_row *row)
     const struct br_block *last = d->blocks ? &d->block[d->blocks - 1] : NULL;
     if (last && last->table && last->table->rows == 0)
         for (size_t i = 0; i < row->cells; i++)
-            br_put_column(d, &row->cell[i].column);
+            br_put_column(d, &row->column[i]);
     br_put_row(d);
+    if (row->full)
+        br_put(d, "more columns than a row has", br_nothing());
     for (size_t i = 0; i < row->cells; i++) {
-        br_put(d, row->cell[i].column.key, row->cell[i].value);
+        br_put(d, row->column[i].key, row->value[i]);
         if (*row->shown[i])
             br_put_shown(d, "%s", row->shown[i]);
     }
@@ -49,14 +59,11 @@ static double step_of(const struct br_scene *scene, const struct br_trial *t)
 void br_row_add_trial(struct br_row *row, const struct br_scene *scene, const struct br_trial *t)
 {
     const bool adaptive = br_contender_adaptive(t->contender);
-    const struct br_cell_of_column cells[] = {
-        {{.key = "method"}, br_text(t->contender->name)},
-        {{.key = "n"}, br_count(t->at.n)},
-        {{.key = "steps_or_levels", .flags = BR_FOR_PROGRAMS}, br_count(t->at.steps)},
-        {{.key = "tolerance", .flags = BR_FOR_PROGRAMS}, br_number(adaptive ? t->tolerance : NAN)},
-        {{.key = "k", .unit = "s"}, br_number(step_of(scene, t))},
-    };
-    br_row_add(row, BR_CELLS(cells));
+    BR_ADD(row, br_text(t->contender->name), .key = "method");
+    BR_ADD(row, br_count(t->at.n), .key = "n");
+    br_row_hide(row, "steps_or_levels", NULL, br_count(t->at.steps));
+    br_row_hide(row, "tolerance", NULL, br_number(adaptive ? t->tolerance : NAN));
+    BR_ADD(row, br_number(step_of(scene, t)), .key = "k", .unit = "s");
     if (adaptive)
         br_row_shown(row, "tol %.4g", t->tolerance);
 }
@@ -65,23 +72,18 @@ void br_row_add_method(struct br_row *row, const struct br_method *m)
 {
     const struct br_kernel *kernel = br_linear_solver_kernel(m->solver, &m->linear);
     const bool iterates = m->friction->iterates;
-    const struct br_cell_of_column cells[] = {
-        {{.key = "scheme"}, br_text(m->scheme->name)},
-        {{.key = "contact"}, br_text(m->contact->name)},
-        {{.key = "friction"}, br_text(m->friction->name)},
-        {{.key = "axial_degree"}, br_count((size_t)m->axial_degree)},
-        {{.key = "solver"}, br_text(m->solver->name)},
-        {{.key = "kernel"}, br_text(kernel ? kernel->name : NULL)},
-        {{.key = "scaling"}, br_text(m->linear.scaling)},
-        {{.key = "refinement"}, br_count((size_t)m->linear.refinement)},
-        {{.key = "iteration_parameter"}, br_number(iterates ? m->iteration.parameter : NAN)},
-        {{.key = "iteration_tolerance"}, br_number(iterates ? m->iteration.tolerance : NAN)},
-        {{.key = "iteration_most"}, iterates ? br_count(m->iteration.most) : br_nothing()},
-    };
-    const size_t first = row->cells;
-    br_row_add(row, BR_CELLS(cells));
-    for (size_t i = first; i < row->cells; i++)
-        row->cell[i].column.flags = BR_FOR_PROGRAMS;
+    const struct br_iteration *i = &m->iteration;
+    br_row_hide(row, "scheme", NULL, br_text(m->scheme->name));
+    br_row_hide(row, "contact", NULL, br_text(m->contact->name));
+    br_row_hide(row, "friction", NULL, br_text(m->friction->name));
+    br_row_hide(row, "axial_degree", NULL, br_count((size_t)m->axial_degree));
+    br_row_hide(row, "solver", NULL, br_text(m->solver->name));
+    br_row_hide(row, "kernel", NULL, br_text(kernel ? kernel->name : NULL));
+    br_row_hide(row, "scaling", NULL, br_text(m->linear.scaling));
+    br_row_hide(row, "refinement", NULL, br_count((size_t)m->linear.refinement));
+    br_row_hide(row, "iteration_parameter", NULL, br_number(iterates ? i->parameter : NAN));
+    br_row_hide(row, "iteration_tolerance", NULL, br_number(iterates ? i->tolerance : NAN));
+    br_row_hide(row, "iteration_most", NULL, iterates ? br_count(i->most) : br_nothing());
 }
 
 const char *br_trial_text(const struct br_scene *scene, const struct br_trial *t,
@@ -96,10 +98,7 @@ const char *br_trial_text(const struct br_scene *scene, const struct br_trial *t
     return text;
 }
 
-void br_put_program_facts(struct br_document *d, const struct br_cell_of_column *facts,
-                          size_t count)
+void br_put_hidden_fact(struct br_document *d, const char *key, struct br_value value)
 {
-    for (size_t i = 0; i < count; i++)
-        br_put_fact(d, &(struct br_column){.key = facts[i].column.key, .flags = BR_FOR_PROGRAMS},
-                    facts[i].value);
+    br_put_fact(d, &(struct br_column){.key = key, .flags = BR_FOR_PROGRAMS}, value);
 }

@@ -1,26 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the reports of trade, split and plan share: rows that are built with their columns, and what
- * they have of a trial and of a method. */
+/* What the reports of trade, split and plan share: rows that are built together with their columns,
+ * so that a value stands beside its key, and what they have of a trial and of a method. */
 #ifndef BR_TABLES_REPORT_TRIAL_H
 #define BR_TABLES_REPORT_TRIAL_H
 
 #include "study/trade/trial.h"
 #include "tables/document.h"
 
-/* A value with its column. */
-struct br_cell_of_column {
-    struct br_column column;
-    struct br_value value;
-};
-
 /* A row on its way into a table; begins as zeros. Strings are borrowed until it is put. */
 enum { BR_MOST_COLUMNS = 40 };
 struct br_row {
-    struct br_cell_of_column cell[BR_MOST_COLUMNS];
+    struct br_column column[BR_MOST_COLUMNS];
+    struct br_value value[BR_MOST_COLUMNS];
     char shown[BR_MOST_COLUMNS][32]; /* to people instead of the value; "": the value */
     size_t cells;
+    bool full; /* more were added: the report is then refused */
 };
-void br_row_add(struct br_row *row, const struct br_cell_of_column *cells, size_t count);
+
+/* Adds a value under its column: BR_ADD(&row, br_count(n), .key = "n"). */
+#define BR_ADD(row, value, ...) br_row_add((row), &(struct br_column){__VA_ARGS__}, (value))
+void br_row_add(struct br_row *row, const struct br_column *column, struct br_value value);
+
+/* Adds a value that people do not see. unit: NULL, none. */
+void br_row_hide(struct br_row *row, const char *key, const char *unit, struct br_value value);
 
 /* What people see instead of the value that was added last. */
 __attribute__((format(printf, 2, 3))) void br_row_shown(struct br_row *row, const char *format,
@@ -46,11 +48,7 @@ enum { BR_TRIAL_TEXT = 160 };
 const char *br_trial_text(const struct br_scene *scene, const struct br_trial *trial,
                           char text[BR_TRIAL_TEXT]);
 
-/* Puts facts that people do not see. */
-void br_put_program_facts(struct br_document *d, const struct br_cell_of_column *facts,
-                          size_t count);
-
-/* An array of cells, and how many they are. */
-#define BR_CELLS(cells) (cells), (sizeof(cells) / sizeof *(cells))
+/* Puts a fact that people do not see. */
+void br_put_hidden_fact(struct br_document *d, const char *key, struct br_value value);
 
 #endif
