@@ -174,6 +174,14 @@ static void facts_are(const struct br_document *d, const struct expected *e, siz
     json_decref(root);
 }
 
+static void answers(const struct br_document *d, const char *sentence)
+{
+    for (size_t i = 0; i < d->answers; i++)
+        if (strcmp(d->answer[i], sentence) == 0)
+            return;
+    fail_msg("the answer lacks '%s'", sentence);
+}
+
 /* ---- trade ---- */
 
 /* Two trials whose numbers are all different. */
@@ -194,8 +202,8 @@ static struct br_trade *made_trade(const struct br_scene *scene)
             .contender = &t->contenders.list[i],
             .at = {11 + i, 20 + i},
             .tolerance = i ? 0.0625 : 0,
-            .cost = {2.5,
-                     3.75,
+            .cost = {i ? 0.5 : 2.5,
+                     i ? 0.75 : 3.75,
                      4,
                      {.steps = 5, .stages = 6, .rejected = 7, .set_ups = 8, .iterations = 9}},
             .error = {{0.125, 0.25, 0.375}},
@@ -205,7 +213,7 @@ static struct br_trade *made_trade(const struct br_scene *scene)
     t->front[1] = true;
     t->wall_seconds = 10.5;
     for (size_t d = 0; d < BR_TRADE_DIGITS; d++) {
-        t->best[d] = d == 1 ? 1 : 2;
+        t->best[d] = d == 1 || d == 3 ? 1 : 2;
         t->best_of[0][d] = t->best_of[1][d] = d == 3 ? 0 : 2;
     }
     return t;
@@ -244,6 +252,14 @@ static void trade_is_printed(void **state)
     const struct expected facts[] = {
         {"wall_seconds", 10.5}, {"repeats", 3}, {"repeat_seconds", 0.1}, {"time_limit", 10}};
     facts_are(&d, facts, 4);
+    answers(&d, "To an error of 1e-03: adaptive, n = 12, tolerance 0.0625; 1.25 CPU s, relative "
+                "error 8.33e-02.");
+    answers(&d, "No trial has an error of 1e-06 or less.");
+    answers(&d, "Fastest and most accurate: adaptive, n = 12, tolerance 0.0625; 1.25 CPU s, "
+                "relative error 8.33e-02.");
+    answers(&d, "The paper's way, euler, reaches 1e-05 in 6.25 CPU s, 5 times as much as the "
+                "cheapest.");
+    answers(&d, "Trials: 2 done.");
     json_t *root = document_json(&d);
     assert_true(json_is_false(at_path(root, "tables.trials.0.front")));
     assert_true(json_is_true(at_path(root, "tables.trials.1.front")));
@@ -322,6 +338,8 @@ static void split_is_printed(void **state)
     const struct br_split split = made_split(&scene);
     struct br_document d = {.name = NULL};
     br_report_split(&split, 1, &provenance, &d);
+    answers(&d, "n = 12, k = 0.0625 s: euler, solver riccati. Error 1.600e+01 m^(3/2), by parts: "
+                "round-off 1.6 %, iteration 3.1 %, mu 4.7 %, lag 6.2 %, time 7.8 %, space 9.4 %.");
     table_has(&d, "parts", 2, third, sizeof third / sizeof *third);
     table_has(&d, "parts", split.shares, sum, sizeof sum / sizeof *sum);
     table_has(&d, "parts", split.shares + 1, whole, sizeof whole / sizeof *whole);
@@ -385,6 +403,17 @@ static void plan_is_printed(void **state)
     struct br_plan *plan = made_plan(&scene);
     struct br_document d = {.name = NULL};
     br_report_plan(plan, "made", &provenance, &d);
+    answers(&d, "Proposal: euler, n = 12, k = 0.047619 s. Error 2.500e-01 (predicted 6.250e-02), "
+                "CPU 12.5 s (predicted 7.5 s), 5 steps.");
+    answers(&d, "First proposal, by the cheap trials alone: euler, n = 11, k = 0.05 s. Error "
+                "2.500e-01 (predicted 6.250e-02), CPU 12.5 s (predicted 7.5 s), 5 steps.");
+    answers(&d, "Met: the achieved error is 0.50 of the goal, a relative error of 0.5.");
+    json_t *root = document_json(&d);
+    assert_string_equal(json_string_value(json_object_get(root, "run")),
+                        "beamrate run made --n 12 --k 0.0476190476190476");
+    assert_string_equal(json_string_value(json_object_get(root, "trade")),
+                        "beamrate trade made --methods euler --n 12 --k 0.0476190476190476");
+    json_decref(root);
     const struct expected trial[] = {
         {"round", 1},
         {"n", 12},
