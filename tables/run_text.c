@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/scene/method_fields.h"
 #include "study/scene/quote.h"
-#include "tables/method_text.h"
 #include "tables/run_page.h"
 
 enum { SHOWN_EVENTS = 20 };
