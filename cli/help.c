@@ -197,7 +197,7 @@ static void print_markdown_command(FILE *out, const struct br_command *c)
 {
     struct br_option row[BR_OPTIONS];
     const size_t count = br_options_of(c, row);
-    fprintf(out, "\n## beamrate %s %s\n\n", c->name, c->arguments);
+    fprintf(out, "\n## beamrate %s%s%s\n\n", c->name, *c->arguments ? " " : "", c->arguments);
     print_markdown_text(out, c->about);
     if (c->more) {
         fputc(' ', out);
@@ -272,7 +272,7 @@ static void print_man_command(FILE *out, const struct br_command *c)
 {
     struct br_option row[BR_OPTIONS];
     const size_t count = br_options_of(c, row);
-    fprintf(out, ".SS beamrate %s %s\n", c->name, c->arguments);
+    fprintf(out, ".SS beamrate %s%s%s\n", c->name, *c->arguments ? " " : "", c->arguments);
     print_roff(out, c->about);
     fputc('\n', out);
     print_roff(out, c->more ? c->more : "");

@@ -99,7 +99,7 @@ static const struct br_option rows[] = {
     {BR_OPT_STEPS, "steps", 0, "COUNT", "number of time steps, instead of --k", NULL, BR_NUMBER,
      WHOLE(1, 1e12), .commands = BR_RUN},
     {BR_OPT_REFERENCE, "reference", 0, "NAME",
-     "what the cells are judged by: exact, fine:N,K or mms", "fine:12800,1e-5", BR_TEXT,
+     "what the cells are judged by: exact, fine:N,K, mms or none", "fine:12800,1e-5", BR_TEXT,
      .words = &br_judge_words, .commands = BR_TABLES,
      .more = "The exact solution stands beside it."},
     {BR_OPT_REFERENCE, "reference", 0, "NAME",

@@ -106,9 +106,7 @@ static enum br_status look_ahead(struct run *r, struct br_error *err)
         .steps = r->plan.steps,
         .prediction = &r->prediction,
     };
-    const enum br_status status = br_look_ahead(&outlook, &r->warnings, err);
-    br_print_warnings(&r->warnings);
-    return status;
+    return br_look_ahead(&outlook, &r->warnings, err);
 }
 
 static enum br_status march(struct run *r, struct br_error *err)
@@ -186,9 +184,11 @@ static enum br_status run_scene(struct run *r, struct br_error *err)
     if (!status && r->plan.method.axial_degree != 1 && !r->marched.axial.modelled)
         status = br_fail(err, BR_BAD_INPUT, "--axial-degree: no axial field is marched");
     if (!status)
+        status = look_ahead(r, err);
+    if (!status)
         status = open_files(r, err);
     if (!status)
-        status = look_ahead(r, err);
+        br_print_warnings(&r->warnings);
     if (!status)
         status = march(r, err);
     if (!status)

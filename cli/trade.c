@@ -53,12 +53,14 @@ static enum br_status set_request(const struct run *r, struct br_trade_item *ite
 static enum br_status lay_out(const struct run *r, struct br_trade_item *item, struct br_error *err)
 {
     const struct br_study_request *study = &r->study;
+    struct br_error inner = {0};
     size_t steps = 0;
     enum br_status status = set_request(r, item, err);
-    if (!status)
-        status = br_option_steps(r->options, &item->scene, &item->steps, &steps, err);
     if (status)
         return status;
+    status = br_option_steps(r->options, &item->scene, &item->steps, &steps, &inner);
+    if (status)
+        return br_fail(err, status, "%s: %s", item->scene.name, inner.message);
     if (r->contenders.count)
         item->trade.contenders = r->contenders;
     else
