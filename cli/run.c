@@ -152,8 +152,10 @@ static enum br_status write_results(struct run *r, double start, struct br_error
         status = br_run_files_commit(&r->files, &page, err);
     if (!status && r->json.file)
         status = br_run_json(r->json.file, &page, err);
+    struct br_run_page shown = page;
+    shown.warnings = &(const struct br_warnings){.count = 0}; /* said before the march */
     if (!status && !br_option_given(r->options, BR_OPT_QUIET) && r->json.file != stdout)
-        br_run_text(stdout, &page);
+        br_run_text(stdout, &shown);
     FILE *letters = r->json.file == stdout ? NULL : stdout;
     if (!status)
         status = br_whole_file_commit(&r->json, err);

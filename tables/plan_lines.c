@@ -36,7 +36,7 @@ void br_plan_run_line(const struct br_plan_page *page, char line[BR_PLAN_LINE])
     char options[BR_METHOD_TEXT];
     append(line, "beamrate run");
     append_word(line, page->scene_word);
-    append(line, " --n %zu --k %.15g%s", t->at.n, br_time_step(p->request.scene, t->at.steps),
+    append(line, " --n %zu --k T/%zu%s", t->at.n, t->at.steps,
            br_method_options(p->request.scene, &method, options));
 }
 
@@ -53,7 +53,7 @@ void br_plan_trade_line(const struct br_plan_page *page, char line[BR_PLAN_LINE]
     if (br_contender_adaptive(t->contender))
         append(line, " --tolerances %.15g", t->tolerance);
     else
-        append(line, " --k %.15g", br_time_step(p->request.scene, t->at.steps));
+        append(line, " --k T/%zu", t->at.steps);
     if (p->norm[0] != br_norms[0])
         append(line, " --norm %s", p->norm[0]->name);
 }
