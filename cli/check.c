@@ -329,7 +329,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 }
 
 const struct br_command br_command_check = {
-    .bit = BR_CHECK,
+    .bit = BR_FOR_CHECK,
     .name = "check",
     .arguments = "SCENE...",
     .title = "whether the orders are as expected: a verdict for CI",

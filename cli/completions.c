@@ -18,8 +18,8 @@ enum value_kind { NOTHING, FILES, FOLDERS, ONE_WORD, SOME_WORDS };
 static enum value_kind value_of(const struct br_option *row, char words[MOST_WORDS])
 {
     words[0] = '\0';
-    if (row->kind == BR_FILE || row->kind == BR_DIR)
-        return row->kind == BR_FILE ? FILES : FOLDERS;
+    if (row->kind == BR_TAKES_FILE || row->kind == BR_TAKES_DIR)
+        return row->kind == BR_TAKES_FILE ? FILES : FOLDERS;
     const struct br_words *names =
         row->id == BR_OPT_METHODS ? br_method_fields[BR_METHOD_SCHEME].words : row->words;
     size_t used = 0;
@@ -311,7 +311,7 @@ static enum br_status run(const struct br_options *o, struct br_error *err)
 }
 
 const struct br_command br_command_completions = {
-    .bit = BR_COMPLETIONS,
+    .bit = BR_FOR_COMPLETIONS,
     .name = "completions",
     .arguments = "bash|zsh|fish",
     .title = "makes a shell complete commands, options, values and scenes",

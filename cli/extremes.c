@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "cli/command.h"
+#include "cli/documents.h"
 #include "cli/extremes_part.h"
 #include "cli/picture_files.h"
 #include "cli/progress.h"
@@ -26,7 +27,7 @@ struct work {
     struct br_output output;
     struct br_provenance provenance;
     void *result[MOST_PARTS];
-    struct br_page page[MOST_PARTS];
+    struct br_document document[MOST_PARTS];
 };
 
 /* ---- what the options say ---- */
@@ -182,36 +183,11 @@ static enum br_status run_part(struct work *w, size_t i, struct br_error *err)
 
 /* ---- files ---- */
 
-static void fill_page(struct work *w, size_t i)
+static void build_report(struct work *w, size_t i)
 {
-    const struct br_extremes_part *part = w->part[i];
-    part->page(w->result[i], &w->page[i]);
-    w->page[i].name = part->name;
-    w->page[i].provenance = &w->provenance;
-}
-
-static enum br_status write_page(struct work *w, const struct br_page_emitter *e,
-                                 const struct br_page *page, struct br_error *err)
-{
-    char name[128];
-    FILE *file;
-    snprintf(name, sizeof name, "%.100s%s", page->name, e->extension);
-    enum br_status status = br_output_file(&w->output, name, &file, err);
-    if (status)
-        return status;
-    status = e->emit(file, page, err);
-    const enum br_status closed = br_output_close(file, name, status ? NULL : err);
-    return status ? status : closed;
-}
-
-static enum br_status write_pages(struct work *w, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (const struct br_page_emitter *const *e = br_page_emitters; *e; e++)
-        for (size_t i = 0; i < w->parts && !status; i++)
-            if (br_format_wanted(w->options, (*e)->name))
-                status = write_page(w, *e, &w->page[i], err);
-    return status;
+    struct br_document *d = &w->document[i];
+    w->part[i]->report(w->result[i], d);
+    br_put_provenance(d, &w->provenance);
 }
 
 static void clear_picture(struct br_extremes_picture *picture)
@@ -225,7 +201,7 @@ static void clear_picture(struct br_extremes_picture *picture)
     *picture = (struct br_extremes_picture){NULL, NULL};
 }
 
-/* The pictures of one part. */
+/* The pictures of one part: into files, and their names into its report. */
 static enum br_status draw(struct work *w, size_t part, struct br_picture_files *files,
                            struct br_error *err)
 {
@@ -234,10 +210,14 @@ static enum br_status draw(struct work *w, size_t part, struct br_picture_files 
     for (size_t i = 0; !status; i++) {
         status = w->part[part]->draw(w->result[part], i, &picture, err);
         const bool last = !picture.chart && !picture.heat;
-        if (!status && picture.chart)
+        if (!status && picture.chart) {
+            br_put_picture(&w->document[part], picture.chart->stem, picture.chart->title);
             status = br_picture_files_chart(files, picture.chart, err);
-        if (!status && picture.heat)
+        }
+        if (!status && picture.heat) {
+            br_put_picture(&w->document[part], picture.heat->stem, picture.heat->title);
             status = br_picture_files_heat(files, picture.heat, err);
+        }
         clear_picture(&picture);
         if (last)
             break;
@@ -255,19 +235,9 @@ static enum br_status write_all(struct work *w, struct br_error *err)
         if (w->part[i]->draw)
             status = draw(w, i, &files, err);
     if (!status)
-        status = write_pages(w, err);
+        status = br_documents_write(&w->output, w->options, w->document, w->parts, err);
     const enum br_status drawn = br_picture_files_finish(&files, status ? NULL : err);
     return status ? status : drawn;
-}
-
-static enum br_status show(const struct work *w, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < w->parts && !status && !br_option_given(w->options, BR_OPT_QUIET); i++) {
-        status = br_page_show(stdout, &w->page[i], err);
-        putchar('\n');
-    }
-    return status;
 }
 
 /* The first verdict that fails. */
@@ -295,10 +265,10 @@ static enum br_status work(struct work *w, struct br_error *err)
         return status;
     br_provenance_fill(&w->provenance, (int)br_option_number(w->options, BR_OPT_THREADS, 0));
     for (size_t i = 0; i < w->parts; i++)
-        fill_page(w, i);
+        build_report(w, i);
     status = write_all(w, err);
-    if (!status)
-        status = show(w, err);
+    if (!status && !br_option_given(w->options, BR_OPT_QUIET))
+        status = br_documents_show(w->document, w->parts, err);
     if (!status)
         status = br_output_commit(&w->output, err);
     if (!status)
@@ -316,14 +286,16 @@ static enum br_status run(const struct br_options *options, struct br_error *err
                        "found %d ranks, expected one: its threads share the work", br_ranks_size());
     const enum br_status status = work(&w, err);
     br_output_discard(&w.output);
-    for (size_t i = 0; i < w.parts; i++)
+    for (size_t i = 0; i < w.parts; i++) {
+        br_document_clear(&w.document[i]);
         w.part[i]->free(w.result[i]);
+    }
     free(w.n);
     return status;
 }
 
 const struct br_command br_command_extremes = {
-    .bit = BR_EXTREMES,
+    .bit = BR_FOR_EXTREMES,
     .name = "extremes",
     .arguments = "[PART...]",
     .title = "where does it break, and does it say so?",

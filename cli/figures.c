@@ -137,7 +137,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 }
 
 const struct br_command br_command_figures = {
-    .bit = BR_FIGURES,
+    .bit = BR_FOR_FIGURES,
     .name = "figures",
     .arguments = "",
     .title = "the paper's Figures 2 to 10, and what its section 3.2 says beside what we find",

@@ -354,7 +354,7 @@ static const char *topic(size_t row)
 static const struct br_words topics = {topic, NULL, NULL};
 
 const struct br_command br_command_help = {
-    .bit = BR_HELP,
+    .bit = BR_FOR_HELP,
     .name = "help",
     .arguments = "[TOPIC]",
     .title = "the commands, one of them, or the methods",

@@ -137,7 +137,7 @@ static enum br_status read_words(struct br_options *o, const struct br_option *r
     double *number = o->number[row->id];
     for (const char *rest = text;; rest++) {
         size_t found;
-        const size_t length = row->kind == BR_WORD ? strlen(rest) : strcspn(rest, ",");
+        const size_t length = row->kind == BR_TAKES_WORD ? strlen(rest) : strcspn(rest, ",");
         const enum br_status status = br_words_read(row->words, rest, length, &found, err);
         if (status)
             return status;
@@ -157,14 +157,14 @@ static enum br_status read_list(struct br_options *o, const struct br_option *ro
     size_t *whole = NULL, *count = &o->count[row->id];
     char name[64];
     snprintf(name, sizeof name, "--%s", row->name);
-    if (row->kind == BR_COUNTS) { /* read as such for its refusal */
+    if (row->kind == BR_TAKES_COUNTS) { /* read as such for its refusal */
         const enum br_status status = br_read_counts(name, text, &whole, count, err);
         free(whole);
         if (status)
             return status;
     }
     enum br_status status = br_read_numbers(name, text, &o->number[row->id], count, err);
-    for (size_t i = 0; i < *count && row->kind == BR_NUMBERS && !status; i++)
+    for (size_t i = 0; i < *count && row->kind == BR_TAKES_NUMBERS && !status; i++)
         if (!(o->number[row->id][i] > row->range.low && o->number[row->id][i] < row->range.high))
             status =
                 br_fail(err, BR_BAD_INPUT, "%s: found %g, expected numbers above %g and below %g",
@@ -175,13 +175,14 @@ static enum br_status read_list(struct br_options *o, const struct br_option *ro
 static enum br_status read_one(struct br_options *o, const struct br_option *row, const char *text,
                                struct br_error *err)
 {
-    if (row->kind == BR_TIMES)
+    if (row->kind == BR_TAKES_TIMES)
         return check_times(row, text, err);
-    if (row->kind != BR_NUMBER && row->kind != BR_WORD && row->kind != BR_WORD_LIST)
+    if (row->kind != BR_TAKES_NUMBER && row->kind != BR_TAKES_WORD &&
+        row->kind != BR_TAKES_WORD_LIST)
         return BR_OK;
     if (!(o->number[row->id] = br_allocate(strlen(text) + 1, sizeof(double))))
         return br_no_memory(err, "the options");
-    if (row->kind != BR_NUMBER)
+    if (row->kind != BR_TAKES_NUMBER)
         return read_words(o, row, text, err);
     o->count[row->id] = 1;
     return br_read_in_range(text, &row->range, o->number[row->id], err);
@@ -192,9 +193,9 @@ static enum br_status read_value(struct br_options *o, const struct br_option *r
 {
     struct br_error inner = {0};
     const char *text = o->text[row->id];
-    if (!text || row->kind == BR_FLAG)
+    if (!text || row->kind == BR_TAKES_FLAG)
         return BR_OK;
-    if (row->kind == BR_COUNTS || row->kind == BR_NUMBERS)
+    if (row->kind == BR_TAKES_COUNTS || row->kind == BR_TAKES_NUMBERS)
         return read_list(o, row, text, err);
     const enum br_status status = read_one(o, row, text, &inner);
     return status ? br_fail(err, status, "--%s: %s", row->name, inner.message) : BR_OK;
@@ -223,8 +224,8 @@ static enum br_status read_values(struct br_options *o, const struct br_option *
 static enum br_status take(poptContext context, struct br_options *o, const struct br_option *row,
                            struct br_error *err)
 {
-    char *text = row->kind == BR_FLAG ? strdup("") : poptGetOptArg(context);
-    const bool twice = o->given[row->id] && row->kind != BR_FLAG;
+    char *text = row->kind == BR_TAKES_FLAG ? strdup("") : poptGetOptArg(context);
+    const bool twice = o->given[row->id] && row->kind != BR_TAKES_FLAG;
     if (!text)
         return br_no_memory(err, "the options");
     free((char *)o->given[row->id]);
@@ -285,11 +286,11 @@ enum br_status br_options_parse(int argc, const char **argv, const struct br_com
     *o = (struct br_options){.command = command};
     const size_t count = br_options_of(command, row);
     for (size_t i = 0; i < count; i++)
-        table[i] =
-            (struct poptOption){.longName = row[i].name,
-                                .shortName = row[i].letter,
-                                .argInfo = row[i].kind == BR_FLAG ? POPT_ARG_NONE : POPT_ARG_STRING,
-                                .val = (int)i + 1};
+        table[i] = (struct poptOption){.longName = row[i].name,
+                                       .shortName = row[i].letter,
+                                       .argInfo = row[i].kind == BR_TAKES_FLAG ? POPT_ARG_NONE
+                                                                               : POPT_ARG_STRING,
+                                       .val = (int)i + 1};
     errno = 0;
     poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
     enum br_status status = BR_OK;

@@ -11,17 +11,17 @@
 
 /* Who takes an option. */
 enum {
-    BR_TABLES = 1,
-    BR_STUDY = 2,
-    BR_CHECK = 4,
-    BR_RUN = 8,
-    BR_TRADE = 16,
-    BR_PLAN = 32,
-    BR_EXTREMES = 64,
-    BR_FIGURES = 128,
-    BR_SCENES = 256,
-    BR_COMPLETIONS = 512,
-    BR_HELP = 1024,
+    BR_FOR_TABLES = 1,
+    BR_FOR_STUDY = 2,
+    BR_FOR_CHECK = 4,
+    BR_FOR_RUN = 8,
+    BR_FOR_TRADE = 16,
+    BR_FOR_PLAN = 32,
+    BR_FOR_EXTREMES = 64,
+    BR_FOR_FIGURES = 128,
+    BR_FOR_SCENES = 256,
+    BR_FOR_COMPLETIONS = 512,
+    BR_FOR_HELP = 1024,
 };
 
 enum br_option_id {
@@ -73,17 +73,17 @@ enum br_option_id {
 
 /* What is read of its text while it is parsed; what needs a scene is read later. */
 enum br_option_kind {
-    BR_FLAG,
-    BR_TEXT, /* anything: whoever takes it reads it */
-    BR_FILE,
-    BR_DIR,
-    BR_NUMBER,  /* a number of the range */
-    BR_COUNTS,  /* whole numbers, each once */
-    BR_NUMBERS, /* numbers of the range, each once */
-    BR_TIMES,   /* times above 0: seconds, or parts of the duration, T/100 */
-    BR_WORD,    /* a row of the registry */
-    BR_WORD_LIST,
-    BR_METHOD_VALUE_OF, /* a field of the method */
+    BR_TAKES_FLAG,
+    BR_TAKES_TEXT, /* anything: whoever takes it reads it */
+    BR_TAKES_FILE,
+    BR_TAKES_DIR,
+    BR_TAKES_NUMBER,  /* a number of the range */
+    BR_TAKES_COUNTS,  /* whole numbers, each once */
+    BR_TAKES_NUMBERS, /* numbers of the range, each once */
+    BR_TAKES_TIMES,   /* times above 0: seconds, or parts of the duration, T/100 */
+    BR_TAKES_WORD,    /* a row of the registry */
+    BR_TAKES_WORD_LIST,
+    BR_TAKES_METHOD, /* a field of the method */
 };
 
 struct br_option {

@@ -165,7 +165,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 }
 
 const struct br_command br_command_plan = {
-    .bit = BR_PLAN,
+    .bit = BR_FOR_PLAN,
     .name = "plan",
     .arguments = "SCENE",
     .title = "the cheapest way to an error, or the least error for some seconds",

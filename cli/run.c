@@ -220,7 +220,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 }
 
 const struct br_command br_command_run = {
-    .bit = BR_RUN,
+    .bit = BR_FOR_RUN,
     .name = "run",
     .arguments = "SCENE",
     .title = "marches one scene: its tip, its energies, its fields",

@@ -105,7 +105,7 @@ static enum br_status run(const struct br_options *o, struct br_error *err)
 }
 
 const struct br_command br_command_scenes = {
-    .bit = BR_SCENES,
+    .bit = BR_FOR_SCENES,
     .name = "scenes",
     .arguments = "[SCENE]",
     .title = "lists the bundled scenes, shows one, begins a new one",

@@ -10,7 +10,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 }
 
 const struct br_command br_command_study = {
-    .bit = BR_STUDY,
+    .bit = BR_FOR_STUDY,
     .name = "study",
     .arguments = "SCENE",
     .title = "the errors of a grid of meshes and time steps, and their orders",

@@ -15,7 +15,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 }
 
 const struct br_command br_command_tables = {
-    .bit = BR_TABLES,
+    .bit = BR_FOR_TABLES,
     .name = "tables",
     .arguments = "",
     .title = "the paper's two error tables beside the printed ones",

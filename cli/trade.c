@@ -220,7 +220,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 }
 
 const struct br_command br_command_trade = {
-    .bit = BR_TRADE,
+    .bit = BR_FOR_TRADE,
     .name = "trade",
     .arguments = "SCENE...",
     .title = "what a digit costs: errors against seconds of many methods",

@@ -11,7 +11,7 @@
 #include "cli_driver.h"
 #include "reference/judge.h"
 #include "support.h"
-#include "tables/emitter.h"
+#include "tables/document.h"
 
 /* The file without its timings: the column before the first flag. */
 static char *read_without_seconds(const char *name)
@@ -186,8 +186,8 @@ static void test_help(void **state)
         assert_non_null(strstr(out.output, br_judges[j]->title));
     for (size_t j = 0; br_norms[j]; j++)
         assert_non_null(strstr(out.output, br_norms[j]->title));
-    for (size_t j = 0; br_emitters[j]; j++)
-        assert_non_null(strstr(out.output, br_emitters[j]->title));
+    for (size_t j = 0; br_document_formats[j]; j++)
+        assert_non_null(strstr(out.output, br_document_formats[j]->title));
     cli_expect("help methods", NULL, 0, "  --scaling               --solver umfpack\n");
     cli_expect("--version", NULL, 0, "beamrate ");
 }
