@@ -10,6 +10,7 @@
 
 #include "cli_driver.h"
 #include "reference/judge.h"
+#include "study/grid/norm.h"
 #include "support.h"
 #include "tables/document.h"
 
