@@ -57,6 +57,25 @@ static const struct {
               {"--resume", BR_OPT_RESUME, BR_HEEDS_RESUME}};
 enum { HEEDED = sizeof heeded / sizeof *heeded };
 
+/* With the options that it heeds. */
+static const char *part_title(size_t row)
+{
+    static char text[256];
+    const struct br_extremes_part *part = br_extremes_parts[row];
+    size_t used = (size_t)snprintf(text, sizeof text, "%.150s.", part->title);
+    for (size_t i = 0; i < HEEDED && used < sizeof text; i++)
+        if (part->heeds & heeded[i].bit)
+            used += (size_t)snprintf(text + used, sizeof text - used, " %s", heeded[i].option);
+    return text;
+}
+
+static const char *part_name(size_t row)
+{
+    return br_extremes_parts[row] ? br_extremes_parts[row]->name : NULL;
+}
+
+static const struct br_words parts = {part_name, part_title, NULL};
+
 /* An option that no chosen part heeds would be dropped silently. */
 static enum br_status check_heeded(const struct work *w, struct br_error *err)
 {
@@ -312,6 +331,6 @@ const struct br_command br_command_extremes = {
     .example = {"beamrate extremes", "beamrate extremes map --cases 10 --seed 7",
                 "beamrate extremes floors -n 100,1000 -k 0.01"},
     .most_words = BR_MOST_WORDS,
-    .words = &br_part_words,
+    .words = &parts,
     .run = run,
 };

@@ -75,8 +75,10 @@ void br_print_command_help(FILE *out, const struct br_command *c)
     }
     if (c->words && c->words->title) {
         fputc('\n', out);
-        for (size_t i = 0; c->words->name(i); i++)
-            fprintf(out, "  %-12s %s\n", c->words->name(i), c->words->title(i));
+        for (size_t i = 0; c->words->name(i); i++) {
+            fprintf(out, "  %-12s ", c->words->name(i));
+            wrap(out, c->words->title(i), 15, 15);
+        }
     }
     fprintf(out, "\nExamples:\n");
     for (size_t i = 0; i < BR_MOST_EXAMPLES && c->example[i]; i++)
@@ -193,6 +195,16 @@ static void print_markdown_row(FILE *out, const struct br_option *row)
     fprintf(out, " |\n");
 }
 
+static void print_markdown_words(FILE *out, const struct br_words *words)
+{
+    fputc('\n', out);
+    for (size_t i = 0; words->name(i); i++) {
+        fprintf(out, "- `%s`%s", words->name(i), words->title ? ": " : "");
+        print_markdown_text(out, words->title ? words->title(i) : "");
+        fputc('\n', out);
+    }
+}
+
 static void print_markdown_command(FILE *out, const struct br_command *c)
 {
     struct br_option row[BR_OPTIONS];
@@ -211,6 +223,8 @@ static void print_markdown_command(FILE *out, const struct br_command *c)
         print_markdown_row(out, &row[i]);
     if (row[count - 1].id >= BR_OPT_METHOD)
         fprintf(out, "\nAnd the [options of the method](#options-of-the-method).\n");
+    if (c->words && c->words->title)
+        print_markdown_words(out, c->words);
 }
 
 /* Not what is available: that differs from machine to machine. */
@@ -229,12 +243,8 @@ static void print_markdown(FILE *out)
         if (row[i].id >= BR_OPT_METHOD)
             print_markdown_row(out, &row[i]);
     for (size_t i = 0; i < count; i++) {
-        fprintf(out, "\n### --%s: %s\n\n", list[i].option, list[i].title);
-        for (size_t r = 0; list[i].words->name(r); r++) {
-            fprintf(out, "- `%s`%s", list[i].words->name(r), list[i].words->title ? ": " : "");
-            print_markdown_text(out, list[i].words->title ? list[i].words->title(r) : "");
-            fputc('\n', out);
-        }
+        fprintf(out, "\n### --%s: %s\n", list[i].option, list[i].title);
+        print_markdown_words(out, list[i].words);
     }
 }
 
@@ -268,6 +278,15 @@ static void print_man_option(FILE *out, const struct br_option *row)
     }
 }
 
+static void print_man_words(FILE *out, const struct br_words *words)
+{
+    for (size_t i = 0; words->name(i); i++) {
+        fprintf(out, ".TP\n.B %s\n", words->name(i));
+        print_roff(out, words->title ? words->title(i) : "an instruction set");
+        fputc('\n', out);
+    }
+}
+
 static void print_man_command(FILE *out, const struct br_command *c)
 {
     struct br_option row[BR_OPTIONS];
@@ -280,6 +299,8 @@ static void print_man_command(FILE *out, const struct br_command *c)
         print_man_option(out, &row[i]);
     if (row[count - 1].id >= BR_OPT_METHOD)
         fprintf(out, ".PP\nAnd the options of the method, below.\n");
+    if (c->words && c->words->title)
+        print_man_words(out, c->words);
     fprintf(out, ".PP\n.nf\n");
     for (size_t i = 0; i < BR_MOST_EXAMPLES && c->example[i]; i++) {
         print_roff(out, c->example[i]);
@@ -309,11 +330,7 @@ static void print_man(FILE *out)
             print_man_option(out, &row[i]);
     for (size_t i = 0; i < count; i++) {
         fprintf(out, ".SS \"\\-\\-%s: %s\"\n", list[i].option, list[i].title);
-        for (size_t r = 0; list[i].words->name(r); r++) {
-            fprintf(out, ".TP\n.B %s\n", list[i].words->name(r));
-            print_roff(out, list[i].words->title ? list[i].words->title(r) : "an instruction set");
-            fputc('\n', out);
-        }
+        print_man_words(out, list[i].words);
     }
     for (const struct br_manual_section *s = br_manual_sections; s->title; s++) {
         fprintf(out, ".SH %s\n", s->title);

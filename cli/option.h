@@ -110,8 +110,7 @@ const char *br_option_default(const struct br_option *row, char text[BR_METHOD_V
 
 /* ---- registries that options name ---- */
 
-extern const struct br_words br_norm_words, br_judge_words, br_format_words, br_rounding_words,
-    br_part_words;
+extern const struct br_words br_norm_words, br_judge_words, br_format_words, br_rounding_words;
 
 /* Row i of --rounding as fesetround takes it. */
 int br_rounding_mode(size_t row);

@@ -5,7 +5,6 @@
 #include <math.h>
 
 #include "cli/command.h"
-#include "cli/extremes_part.h"
 #include "study/grid/study.h"
 #include "tables/document.h"
 
@@ -13,7 +12,6 @@
 
 BR_WORDS(norm, br_norms)
 BR_WORDS(format, br_document_formats)
-BR_WORDS(part, br_extremes_parts)
 BR_WORDS(judge, br_judges)
 
 /* With its arguments: fine:N,K. */
@@ -43,7 +41,6 @@ int br_rounding_mode(size_t row)
 
 const struct br_words br_norm_words = {norm_name, norm_title, NULL};
 const struct br_words br_format_words = {format_name, format_title, NULL};
-const struct br_words br_part_words = {part_name, part_title, NULL};
 const struct br_words br_judge_words = {judge_syntax, judge_title, NULL};
 const struct br_words br_rounding_words = {rounding_name, NULL, NULL};
 
