@@ -41,7 +41,7 @@ commands=$("$BEAMRATE" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p
 for command in $commands; do
     offers_only "$command" beamrate "${command%?}"
     offers "$command" beamrate help ''
-    "$BEAMRATE" "$command" --help | sed -nE 's/^ +(-., )?(--[-a-z]+)( ([A-Z]+))?.*/\2=\4/p' >arguments
+    "$BEAMRATE" "$command" --help | sed -nE 's/^ {2,6}(-., )?(--[-a-z]+)( ([A-Z]+))?.*/\2=\4/p' >arguments
     grep -q -e --help= arguments || failures=$((failures + 1))
     [ -z "$(sort arguments | uniq -d)" ] || failures=$((failures + 1)) # each once
     while IFS='=' read -r option argument; do
