@@ -294,7 +294,10 @@ static void print_man_command(FILE *out, const struct br_command *c)
     fprintf(out, ".SS beamrate %s%s%s\n", c->name, *c->arguments ? " " : "", c->arguments);
     print_roff(out, c->about);
     fputc('\n', out);
-    print_roff(out, c->more ? c->more : "");
+    if (c->more) {
+        print_roff(out, c->more);
+        fputc('\n', out);
+    }
     for (size_t i = 0; i < count && row[i].id < BR_OPT_METHOD; i++)
         print_man_option(out, &row[i]);
     if (row[count - 1].id >= BR_OPT_METHOD)

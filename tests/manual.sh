@@ -5,6 +5,7 @@
 set -u
 
 # The time scheme ida is not in every build.
+# shellcheck disable=SC2016
 without_ida() { sed '/^\.TP$/N; /^\.TP\n\.B ida$/,+1d; /^- `ida`/d'; }
 
 failures=0
@@ -17,6 +18,10 @@ for file in options.md beamrate.1; do
     echo "docs/$file differs: beamrate help $option >docs/$file"
     failures=$((failures + 1))
 done
+if grep -nE '.\.(SH|SS|TP|PP|B|nf|fi)( |$)' "$BEAMRATE_DATA/docs/beamrate.1"; then
+    echo "docs/beamrate.1: a request of roff inside of a line"
+    failures=$((failures + 1))
+fi
 if command -v groff >/dev/null; then
     errors=$(groff -man -Tutf8 -ww "$BEAMRATE_DATA/docs/beamrate.1" 2>&1 >/dev/null)
     [ -z "$errors" ] || { echo "$errors"; failures=$((failures + 1)); }
