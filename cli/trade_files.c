@@ -63,7 +63,7 @@ enum br_status br_trade_files_open(struct br_trade_files *f, int threads, struct
         item->provenance.scene_path = item->path;
         item->provenance.scene_text = item->text;
     }
-    return br_output_open(&f->output, f->options->out ? f->options->out : "trade", err);
+    return br_output_open(&f->output, br_option_text(f->options, BR_OPT_OUT), err);
 }
 
 /* How many documents there are: of the scenes, and where there are several one of all. */
@@ -105,7 +105,8 @@ static enum br_status draw(struct br_trade_files *f, const struct br_trade_pictu
 static enum br_status draw_all(struct br_trade_files *f, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < f->items && !status && !f->options->no_plots; i++)
+    for (size_t i = 0; i < f->items && !status && !br_option_given(f->options, BR_OPT_NO_PLOTS);
+         i++)
         for (const struct br_trade_picture *const *p = br_trade_pictures; *p && !status; p++)
             if (br_trade_picture_applies(*p, &f->item[i].trade))
                 status = draw(f, *p, i, err);
@@ -120,17 +121,17 @@ enum br_status br_trade_files_write(struct br_trade_files *f, struct br_error *e
     if (!status)
         status = draw_all(f, err);
     if (!status)
-        status = br_documents_write(&f->output, f->options->format, f->document, documents(f), err);
+        status = br_documents_write(&f->output, f->options, f->document, documents(f), err);
     const enum br_status drawn = br_picture_files_finish(&f->pictures, status ? NULL : err);
     if (!status)
         status = drawn;
     if (status)
         return status;
-    if (!f->options->quiet)
+    if (!br_option_given(f->options, BR_OPT_QUIET))
         status = br_documents_show(f->document, documents(f), err);
     if (!status)
         status = br_output_commit(&f->output, err);
-    if (!status && !f->options->quiet)
+    if (!status && !br_option_given(f->options, BR_OPT_QUIET))
         br_output_announce(&f->output);
     return status;
 }

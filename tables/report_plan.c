@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "study/scene/method_fields.h"
+#include "study/scene/quote.h"
 #include "tables/report_trial.h"
 
 /* ---- the answer ---- */
@@ -74,10 +76,32 @@ static void answer_work(struct br_document *d, const struct br_plan *p)
         p->wall_seconds, cheap, p->count - cheap, failed, br_plan_spent(p));
 }
 
-/* The command stands first: a file has it below the answer. */
+/* Command lines that repeat the chosen trial: its march, and its error and seconds. */
+static void put_commands(struct br_document *d, const struct br_plan *p, const char *scene_word)
+{
+    if (p->chosen == p->count)
+        return;
+    const struct br_trial *t = &p->trial[p->chosen];
+    const struct br_method method = br_trial_method(t);
+    const bool usual = p->norm[0] == br_norms[0];
+    char scene[1024], options[BR_METHOD_TEXT], step[64], line[2048];
+    br_quoted(scene, sizeof scene, &br_for_shell, scene_word);
+    snprintf(line, sizeof line, "beamrate run %s --n %zu --k T/%zu%s", scene, t->at.n, t->at.steps,
+             br_method_options(p->request.scene, &method, options));
+    br_put_command(d, "run", "To march it", line);
+    if (br_contender_adaptive(t->contender))
+        snprintf(step, sizeof step, "--tolerances %.15g", t->tolerance);
+    else
+        snprintf(step, sizeof step, "--k T/%zu", t->at.steps);
+    snprintf(line, sizeof line, "beamrate trade %s --methods %s --n %zu %s%s%s", scene,
+             t->contender->name, t->at.n, step, usual ? "" : " --norm ",
+             usual ? "" : p->norm[0]->name);
+    br_put_command(d, "trade", "To measure it again", line);
+}
+
+/* The commands stand first: a file has them below the answer. */
 static void put_answer(struct br_document *d, const struct br_plan *p, const char *scene_word)
 {
-    char line[BR_PLAN_LINE];
     if (p->end == BR_PLAN_MISSED)
         answer_missed(d, p);
     else
@@ -87,10 +111,7 @@ static void put_answer(struct br_document *d, const struct br_plan *p, const cha
     if (p->first < p->count && p->first != p->chosen)
         answer_trial(d, p, "First proposal, by the cheap trials alone", p->first);
     answer_work(d, p);
-    br_plan_run_line(p, scene_word, line);
-    br_put_command(d, "run", "To march it", line);
-    br_plan_trade_line(p, scene_word, line);
-    br_put_command(d, "trade", "To measure it again", line);
+    put_commands(d, p, scene_word);
 }
 
 /* ---- tables ---- */

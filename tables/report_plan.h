@@ -11,11 +11,4 @@
 void br_report_plan(const struct br_plan *plan, const char *scene_word,
                     const struct br_provenance *provenance, struct br_document *d);
 
-/* Command lines that repeat the chosen trial: its march, and its error and seconds. Empty where
- * nothing was chosen. */
-enum { BR_PLAN_LINE = 1536 };
-void br_plan_run_line(const struct br_plan *plan, const char *scene_word, char line[BR_PLAN_LINE]);
-void br_plan_trade_line(const struct br_plan *plan, const char *scene_word,
-                        char line[BR_PLAN_LINE]);
-
 #endif

@@ -162,12 +162,10 @@ static void add_line(struct br_row *row, const struct br_split *s, size_t norm, 
 
 static void add_run(struct br_row *row, const struct br_split *s, size_t run)
 {
-    const double tolerance = s->method.scheme->adaptive ? s->method.tolerance : (double)NAN;
     br_row_hide(row, "run", NULL, br_count(run));
     br_row_hide(row, "n", NULL, br_count(s->at.n));
     br_row_hide(row, "steps", NULL, br_count(s->at.steps));
     br_row_hide(row, "k", "s", br_number(br_time_step(s->scene, s->at.steps)));
-    br_row_hide(row, "tolerance", NULL, br_number(tolerance));
     br_row_add_method(row, &s->method);
 }
 

@@ -70,20 +70,16 @@ void br_row_add_trial(struct br_row *row, const struct br_scene *scene, const st
 
 void br_row_add_method(struct br_row *row, const struct br_method *m)
 {
-    const struct br_kernel *kernel = br_linear_solver_kernel(m->solver, &m->linear);
-    const bool iterates = m->friction->iterates;
-    const struct br_iteration *i = &m->iteration;
-    br_row_hide(row, "scheme", NULL, br_text(m->scheme->name));
-    br_row_hide(row, "contact", NULL, br_text(m->contact->name));
-    br_row_hide(row, "friction", NULL, br_text(m->friction->name));
-    br_row_hide(row, "axial_degree", NULL, br_count((size_t)m->axial_degree));
-    br_row_hide(row, "solver", NULL, br_text(m->solver->name));
-    br_row_hide(row, "kernel", NULL, br_text(kernel ? kernel->name : NULL));
-    br_row_hide(row, "scaling", NULL, br_text(m->linear.scaling));
-    br_row_hide(row, "refinement", NULL, br_count((size_t)m->linear.refinement));
-    br_row_hide(row, "iteration_parameter", NULL, br_number(iterates ? i->parameter : NAN));
-    br_row_hide(row, "iteration_tolerance", NULL, br_number(iterates ? i->tolerance : NAN));
-    br_row_hide(row, "iteration_most", NULL, iterates ? br_count(i->most) : br_nothing());
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        const struct br_method_field *f = &br_method_fields[i];
+        const char *key = br_method_field_key(f, row->text[2 * i]);
+        const char *text = br_method_field_text(f, m, row->text[2 * i + 1]);
+        const bool whole = i == BR_METHOD_DEGREE || (!f->words && f->range.whole);
+        const struct br_value value = whole      ? br_count(strtoull(text, NULL, 10))
+                                      : f->words ? br_text(text)
+                                                 : br_number(f->get(m));
+        br_row_hide(row, key, NULL, br_method_field_reported(f, m) ? value : br_nothing());
+    }
 }
 
 const char *br_trial_text(const struct br_scene *scene, const struct br_trial *t,

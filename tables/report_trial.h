@@ -4,6 +4,7 @@
 #ifndef BR_TABLES_REPORT_TRIAL_H
 #define BR_TABLES_REPORT_TRIAL_H
 
+#include "study/scene/method_fields.h"
 #include "study/trade/trial.h"
 #include "tables/document.h"
 
@@ -13,6 +14,7 @@ struct br_row {
     struct br_column column[BR_MOST_COLUMNS];
     struct br_value value[BR_MOST_COLUMNS];
     char shown[BR_MOST_COLUMNS][32]; /* to people instead of the value; "": the value */
+    char text[2 * BR_METHOD_FIELDS][BR_METHOD_VALUE]; /* keys and values of a method */
     size_t cells;
     bool full; /* more were added: the report is then refused */
 };
@@ -39,8 +41,8 @@ void br_put_whole_row(struct br_document *d, const struct br_row *row);
 void br_row_add_trial(struct br_row *row, const struct br_scene *scene,
                       const struct br_trial *trial);
 
-/* Adds all that a method is but its tolerance, for programs: scheme, contact and so on. What an
- * iteration has is nothing where none is made. */
+/* Adds all that a method is, for programs: scheme, tolerance and so on (br_method_fields). What it
+ * does not heed is nothing. */
 void br_row_add_method(struct br_row *row, const struct br_method *method);
 
 /* "bdf2, n = 100, k = 0.01 s", or "adaptive, n = 100, tolerance 0.0001"; returns `text`. */

@@ -120,7 +120,7 @@ static void test_missing(void **state)
     s.scene.axial.modelled = false;
     s.split[1].share[3].error[0][BR_PART_TOTAL] = NAN;
     char *csv = printed(&s, &br_document_csv);
-    has(csv, "\n1,10,1000,0.001,,euler,lagged,");
+    has(csv, "\n1,10,1000,0.001,euler,,1,riccati,");
     has(csv, ",l2,m^(3/2),lag,true,9.9999999999999998e-13,,9.9999999999999998e-13,,"
              "9.9999999999999998e-13,1.3333333333333332e-06,,,,-0.00014285714285714287,\n");
     has(csv, ",iteration,false,,,,,,,,,,,nothing iterates\n");
