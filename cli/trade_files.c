@@ -75,16 +75,16 @@ static size_t documents(const struct br_trade_files *f)
 static enum br_status build(struct br_trade_files *f, struct br_error *err)
 {
     const struct br_trade **trade = br_allocate(f->items, sizeof *trade);
-    if (!trade)
-        return br_no_memory(err, "the reports");
-    for (size_t i = 0; i < f->items; i++) {
+    enum br_status status = trade ? BR_OK : br_no_memory(err, "the reports");
+    for (size_t i = 0; i < f->items && !status; i++) {
         trade[i] = &f->item[i].trade;
         br_report_trade(trade[i], &f->item[i].provenance, &f->document[i]);
+        status = br_document_status(&f->document[i], err);
     }
-    if (f->items > 1)
+    if (!status && f->items > 1)
         br_report_trade_summary(trade, f->items, &f->item->provenance, &f->document[f->items]);
     free(trade);
-    return BR_OK;
+    return status;
 }
 
 static enum br_status draw(struct br_trade_files *f, const struct br_trade_picture *picture,
