@@ -181,7 +181,7 @@ static void test_schemes(void **state)
     for (size_t i = 0; i < 4; i++)
         for (size_t j = 0; br_time_schemes[j]; j++) {
             const struct br_time_scheme *scheme = br_time_schemes[j];
-            if (scheme->adaptive || scheme->integrator)
+            if (scheme->adaptive)
                 continue;
             struct br_scene scene = br_test_bundled(scenes[i]);
             struct br_method method = br_test_method("plain", "implicit", "exact");

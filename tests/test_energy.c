@@ -36,7 +36,7 @@ static bool start(struct metered *m, size_t n, size_t steps, const struct br_sce
 {
     struct br_error err = {0};
     m->worst = 0;
-    if (m->method.scheme->integrator || br_method_check_scene(&m->method, &m->scene, &err))
+    if (br_method_check_scene(&m->method, &m->scene, &err))
         return false;
     const enum br_status status = br_march_create(&m->march, &m->scene, n, steps, &m->method, &err);
     if (status == BR_BAD_INPUT)
@@ -74,7 +74,7 @@ static const struct br_time_scheme *staged(size_t i)
 {
     size_t seen = 0;
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
-        if (!(*s)->integrator && seen++ == i)
+        if (seen++ == i)
             return *s;
     return NULL;
 }
@@ -306,31 +306,6 @@ static void test_lagged_contact_adds(void **state)
     assert_true(br_energy_added(&work, BR_AXIAL) == 0 && work.gaining[BR_AXIAL] == 0);
 }
 
-/* A scheme of its own has the trapezoidal rule's remainder, which tells nothing. */
-static void test_remainder(void **state)
-{
-    (void)state;
-    const struct br_time_scheme *ida = br_time_scheme_find("ida");
-    struct br_error err = {0};
-    struct br_energy begin, now;
-    struct br_work work;
-    if (!ida)
-        return;
-    struct metered m = {.scene = br_test_bundled("example2")};
-    m.method = br_test_method(NULL, "implicit", NULL);
-    m.method.scheme = ida;
-    m.march = br_test_march(&m.scene, 10, 400, &m.method);
-    MUST(br_energy_meter_create(&m.meter, m.march, &m.scene, &m.method, &err));
-    m.limit = 1;
-    advance(&m, 400);
-    br_energy_meter_read(m.meter, &begin, &now, &work);
-    assert_true(work.remainder && m.worst == 0);
-    AT_MOST(fabs(br_energy_imbalance(&begin, &now, &work)), 1e-14);
-    AT_MOST(fabs(work.scheme[0] + work.scheme[1]), 1e-3 * br_energy_total(&now));
-    assert_true(br_energy_added(&work, BR_AXIAL) == 0);
-    finish(&m);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -338,7 +313,6 @@ int main(void)
         cmocka_unit_test(test_random_scenes),  cmocka_unit_test(test_spoilt_scenes),
         cmocka_unit_test(test_every_term),     cmocka_unit_test(test_other_scheme),
         cmocka_unit_test(test_free_vibration), cmocka_unit_test(test_lagged_contact_adds),
-        cmocka_unit_test(test_remainder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
