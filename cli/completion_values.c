@@ -5,7 +5,7 @@
 #include "cli/extremes_part.h"
 #include "cli/rounding_option.h"
 #include "study/grid/study.h"
-#include "tables/emitter.h"
+#include "tables/document.h"
 
 enum { MOST_WORDS = 256 };
 
@@ -31,7 +31,7 @@ NAMES(kernels, br_kernel, br_kernels)
 NAMES(contacts, br_contact_rule, br_contact_rules)
 NAMES(frictions, br_friction_rule, br_friction_rules)
 NAMES(norms, br_norm, br_norms)
-NAMES(formats, br_emitter, br_emitters)
+NAMES(formats, br_document_format, br_document_formats)
 
 /* Those that want numbers end with their colon. */
 static const char *references(void)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "cli/documents.h"
 #include "cli/number_option.h"
 #include "cli/parse.h"
 #include "cli/picture_files.h"
@@ -13,12 +14,12 @@
 #include "cli/warn_marches.h"
 #include "plots/figures.h"
 #include "study/ranks/ranks.h"
-#include "tables/claims_emitter.h"
+#include "tables/report_study.h"
 
 static const char usage[] =
     "[OPTION...]\n\nFigures 2 to 10 of the paper from Examples 1 to 4 at h = k = 1e-3, each as a "
     "gnuplot script,\ndata, SVG and PNG with a caption; and every statement of section 3.2 with our "
-    "value, its error\nbar, and whether they agree (claims.csv, .md, .tex). README.md shows them "
+    "value, its error\nbar, and whether they agree (claims.txt, .csv, .md, .tex, .json). README.md shows them "
     "all.\n\nExample:\n  beamrate figures --out figures\n";
 
 struct options {
@@ -46,7 +47,7 @@ struct run {
     struct br_paper paper;
     struct br_finding finding[BR_MOST_CLAIMS];
     struct br_output output;
-    struct br_provenance provenance;
+    struct br_document claims;
     struct br_picture_files pictures;
 };
 
@@ -85,34 +86,9 @@ static enum br_status write_readme(struct run *r, struct br_error *err)
     return br_output_close(file, "README.md", err);
 }
 
-static enum br_status write_claims(struct run *r, const struct br_claims_page *page,
-                                   struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (const struct br_claims_emitter *const *e = br_claims_emitters; *e && !status; e++) {
-        char name[64];
-        FILE *file;
-        if (!(*e)->extension)
-            continue;
-        snprintf(name, sizeof name, "claims%s", (*e)->extension);
-        status = br_output_file(&r->output, name, &file, err);
-        if (status)
-            return status;
-        (*e)->emit(file, page);
-        status = br_output_close(file, name, err);
-    }
-    return status;
-}
-
 /* The figures first: they are rendered while the tables are written. */
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
-    const struct br_claims_page page = {
-        .finding = r->finding,
-        .n = r->paper.request.n,
-        .per_second = r->paper.request.per_second,
-        .provenance = &r->provenance,
-    };
     enum br_status status = BR_OK;
     r->pictures.output = &r->output;
     for (const struct br_figure *const *f = br_figures; *f && !status; f++)
@@ -120,17 +96,25 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     if (!status)
         status = write_readme(r, err);
     if (!status)
-        status = write_claims(r, &page, err);
+        status = br_documents_write(&r->output, NULL, &r->claims, 1, err);
     const enum br_status drawn = br_picture_files_finish(&r->pictures, status ? NULL : err);
     if (!status)
         status = drawn;
     if (!status)
         status = br_output_commit(&r->output, err);
     if (!status && !r->options->quiet) {
-        br_claims_emitters[0]->emit(stdout, &page);
+        status = br_documents_show(&r->claims, 1, err);
         br_output_announce(&r->output);
     }
     return status;
+}
+
+static void report(struct run *r)
+{
+    struct br_provenance provenance;
+    br_provenance_fill(&provenance, r->options->thread_count);
+    br_report_claims(r->finding, r->paper.request.n, r->paper.request.per_second, &r->claims);
+    br_put_provenance(&r->claims, &provenance);
 }
 
 static enum br_status compute(struct run *r, struct br_error *err)
@@ -143,6 +127,8 @@ static enum br_status compute(struct run *r, struct br_error *err)
     br_progress_end();
     for (size_t i = 0; br_claims[i] && !status; i++)
         r->finding[i] = br_claim_measure(br_claims[i], &r->paper);
+    if (!status)
+        report(r);
     return status;
 }
 
@@ -156,11 +142,11 @@ static enum br_status run(int argc, const char **argv, struct br_error *err)
         status = br_warn_of_paper(err);
     if (writes && !status)
         status = br_output_open(&r.output, options.out ? options.out : "figures", err);
-    br_provenance_fill(&r.provenance, options.thread_count);
     if (works && !status)
         status = compute(&r, err); /* on every rank: it takes a second */
     if (writes && !status)
         status = write_all(&r, err);
+    br_document_clear(&r.claims);
     br_paper_clear(&r.paper);
     br_output_discard(&r.output);
     free(options.out);

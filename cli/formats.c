@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cli/names.h"
-#include "tables/emitter.h"
+#include "tables/document.h"
 
 enum br_status br_formats_check(const char *list, struct br_error *err)
 {
@@ -13,7 +13,7 @@ enum br_status br_formats_check(const char *list, struct br_error *err)
     for (const char *rest = list; rest && *rest;) {
         const size_t length = strcspn(rest, ",");
         snprintf(name, sizeof name, "%.*s", (int)(length < 63 ? length : 63), rest);
-        if (!br_emitter_find(name))
+        if (!br_document_format_find(name))
             return br_fail(err, BR_BAD_INPUT, "--format: found '%s', expected one of: %s", name,
                            br_format_names());
         rest += length + (rest[length] == ',');

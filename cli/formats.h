@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* --format LIST: names of the rows of tables/emitter.h, which those of other results share. */
+/* --format LIST: names of the rows of br_document_formats (tables/document.h). */
 #ifndef BR_CLI_FORMATS_H
 #define BR_CLI_FORMATS_H
 

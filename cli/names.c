@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "study/grid/study.h"
-#include "tables/emitter.h"
+#include "tables/document.h"
 
 /* The names of a registry as "a, b", for help and messages. */
 static void join(char *text, size_t size, const char *name)
@@ -85,7 +85,7 @@ const char *br_format_names(void)
 {
     static char text[256];
     text[0] = '\0';
-    for (const struct br_emitter *const *e = br_emitters; *e; e++)
+    for (const struct br_document_format *const *e = br_document_formats; *e; e++)
         join(text, sizeof text, (*e)->name);
     return text;
 }

@@ -10,7 +10,7 @@
 #include "cli/number_option.h"
 #include "cli/parse.h"
 #include "study/scene/number_list.h"
-#include "tables/emitter.h"
+#include "tables/document.h"
 
 /* One line a row of each registry, below the options. */
 static void print_registries(FILE *out)
@@ -23,7 +23,7 @@ static void print_registries(FILE *out)
     for (const struct br_norm *const *n = br_norms; *n; n++)
         fprintf(out, "  %-12s %s\n", (*n)->name, (*n)->title);
     fprintf(out, "Formats (--format):\n");
-    for (const struct br_emitter *const *e = br_emitters; *e; e++)
+    for (const struct br_document_format *const *e = br_document_formats; *e; e++)
         fprintf(out, "  %-12s %s\n", (*e)->name, (*e)->title);
 }
 

@@ -11,7 +11,7 @@
 #include "cli_driver.h"
 #include "reference/judge.h"
 #include "support.h"
-#include "tables/emitter.h"
+#include "tables/document.h"
 
 /* The file without its timings: the column before the first flag. */
 static char *read_without_seconds(const char *name)
@@ -189,7 +189,7 @@ static void test_single_cell(void **state)
                  &out);
     assert_int_equal(out.exit_code, 0);
     assert_non_null(strstr(out.output, "DIFFER"));
-    assert_null(strstr(out.output, "No choice of reference"));
+    assert_null(strstr(out.output, "No reference can repair"));
 }
 
 static void test_threads(void **state)
@@ -281,8 +281,8 @@ static void test_help(void **state)
             assert_non_null(strstr(out.output, br_friction_rules[j]->title));
         for (size_t j = 0; br_judges[j]; j++)
             assert_non_null(strstr(out.output, br_judges[j]->title));
-        for (size_t j = 0; br_emitters[j]; j++)
-            assert_non_null(strstr(out.output, br_emitters[j]->title));
+        for (size_t j = 0; br_document_formats[j]; j++)
+            assert_non_null(strstr(out.output, br_document_formats[j]->title));
     }
     cli_expect("--version", NULL, 0, "beamrate ");
 }
