@@ -194,8 +194,8 @@ static void answer_printed(struct br_document *d, const struct br_report *r)
         br_put_answer(
             d,
             "Ours (against %s) DIFFER from the printed errors by more than 5 %% in %zu of "
-            "%zu cells: they are %.2g to %.2g of them; the farthest (n = %zu, k = %g s) "
-            "is %.3e, printed %.3e.",
+            "%zu cells, ours over printed is %.2g to %.2g; the farthest (n = %zu, "
+            "k = %g s) is %.3e, printed %.3e.",
             s->judge->name, differ, compared, least, most, s->cell[farthest].at.n,
             step_of(s, &s->cell[farthest]), s->cell[farthest].error[BR_PART_TOTAL],
             r->printed[farthest]);
@@ -330,6 +330,7 @@ static void put_error_grid(struct br_document *d, const struct br_report *r,
                            const struct br_study *s, enum br_part part)
 {
     const bool fitted = s == br_report_fitted(r), none = s->judge == &br_judge_none;
+    static const char *const names[] = {"Total", "Axial", "Bending"};
     char title[TEXT];
     const struct grid g = {
         .key = fitted ? br_part_names[part] : s->judge->name,
@@ -339,7 +340,7 @@ static void put_error_grid(struct br_document *d, const struct br_report *r,
         .format = "%.3e",
         .flags = part == BR_PART_TOTAL && fitted ? 0 : BR_FILES_ONLY,
     };
-    snprintf(title, sizeof title, "%s %s%s, %s", br_part_names[part],
+    snprintf(title, sizeof title, "%s %s%s, %s", names[part],
              none ? "difference" : "error against ", none ? "" : s->judge->name, s->norm->unit);
     put_grid(d, r, &g, title);
 }
@@ -359,10 +360,10 @@ static void put_grids(struct br_document *d, const struct br_report *r)
                      .value = printed_of,
                      .format = "%.3e",
                      .flags = BR_FILES_ONLY};
-    put_grid(d, r, &g, "printed error, m^(3/2)");
+    put_grid(d, r, &g, "Printed error, m^(3/2)");
     g = (struct grid){
         .key = "ratio", .study = r->study, .value = br_report_ratio, .format = "%.3f"};
-    snprintf(title, sizeof title, "ours (against %s) over printed", r->study->judge->name);
+    snprintf(title, sizeof title, "Ours (against %s) over printed", r->study->judge->name);
     put_grid(d, r, &g, title);
 }
 
@@ -523,6 +524,8 @@ static void put_fit(struct br_document *d, const struct br_fits *f, enum br_part
     br_put_row(d);
     br_put(d, "part", br_text(br_part_names[part]));
     br_put(d, "model", br_text(kinds[j->kind]));
+    if (!j->converged)
+        br_put_shown(d, "none");
     put_order(d, "p", &j->p, claims);
     put_estimate(d, "C_h", &j->c_h, claims ? NULL : "-");
     put_order(d, "q", &j->q, claims);
@@ -595,24 +598,12 @@ static void put_tips(struct br_document *d, const struct br_report *r)
 
 /* ---- the printed table against itself ---- */
 
-static void put_end(struct br_document *d, const struct br_scene *scene, struct br_resolution at)
-{
-    br_put(d, NULL, br_count(at.n));
-    br_put(d, NULL, br_number(br_mesh_size(scene, at.n)));
-    br_put(d, NULL, br_count(at.steps));
-    br_put(d, NULL, br_number(br_time_step(scene, at.steps)));
-}
-
 static void put_triangles(struct br_document *d, const struct br_report *r)
 {
     static const struct br_column columns[] = {
         {.key = "a_n", .heading = "n"},
-        {.key = "a_h", .unit = "m", .flags = BR_FOR_PROGRAMS},
-        {.key = "a_steps", .flags = BR_FOR_PROGRAMS},
         {.key = "a_k", .heading = "k", .unit = "s"},
         {.key = "b_n", .heading = "and n"},
-        {.key = "b_h", .unit = "m", .flags = BR_FOR_PROGRAMS},
-        {.key = "b_steps", .flags = BR_FOR_PROGRAMS},
         {.key = "b_k", .heading = "k", .unit = "s"},
         {.key = "printed_a", .heading = "printed", .format = "%.3e"},
         {.key = "printed_b", .heading = "and", .format = "%.3e"},
@@ -628,8 +619,10 @@ static void put_triangles(struct br_document *d, const struct br_report *r)
     for (size_t i = 0; i < r->triangles; i++) {
         const struct br_triangle *t = &r->triangle[i];
         br_put_row(d);
-        put_end(d, r->study->scene, t->a);
-        put_end(d, r->study->scene, t->b);
+        br_put(d, "a_n", br_count(t->a.n));
+        br_put(d, "a_k", br_number(br_time_step(r->study->scene, t->a.steps)));
+        br_put(d, "b_n", br_count(t->b.n));
+        br_put(d, "b_k", br_number(br_time_step(r->study->scene, t->b.steps)));
         br_put(d, "printed_a", br_number(t->printed_a));
         br_put(d, "printed_b", br_number(t->printed_b));
         br_put(d, "least", br_number(t->least));
