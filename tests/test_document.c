@@ -72,6 +72,7 @@ static void put_all_kinds(struct br_document *d)
         br_put_mark(d, i == 0 ? "R" : NULL);
         br_put(d, NULL, br_count(counts[i]));
         br_put(d, NULL, br_truth(i % 2));
+        br_put(d, "empty", br_nothing());
         br_put(d, "seen", br_number((double)i));
         br_put_shown(d, "shown %zu", i);
         br_put(d, "hidden", br_text(i ? "only for programs" : NULL));
@@ -346,6 +347,8 @@ static void test_text(void **state)
     text = printed(NULL, NULL); /* the terminal: what is short, and last the answer */
     expect(text, "\nAll & sundry\ntext ");
     expect(text, "shown 8\n");
+    assert_ptr_equal(strstr(text, "Answer 1 "), strstr(text, "Answer 1 is short.\nAnswer 2"));
+    assert_true(strstr(text, "Answer 1 ") > strstr(text, "shown 8\n"));
     assert_null(strstr(text, "many words"));
     assert_null(strstr(text, "Too long for a terminal"));
     assert_null(strstr(text, "A note"));
@@ -563,48 +566,63 @@ static void test_two_values(void **state)
 
 /* ---- without memory ---- */
 
-static long left; /* allocations that jansson still gets; -1: all */
+static long until; /* allocations of jansson's until one fails */
 
 static void *failing_malloc(size_t size)
 {
-    left -= left > 0;
-    return left == 0 ? NULL : malloc(size);
+    return until-- == 0 ? NULL : malloc(size);
 }
 
-/* Builds and prints into nothing; `fails`: which allocation, of jansson's or of all others. */
-static enum br_status print_without(const struct br_document_format *format, long fails,
-                                    bool jansson)
+static void check_whole(const char *text, const char *whole, long failed)
+{
+    size_t same = 0;
+    while (text[same] && text[same] == whole[same])
+        same++;
+    if (text[same] || whole[same])
+        fail_msg("allocation %ld failed: found '%.60s', expected '%.60s'", failed, text + same,
+                 whole + same);
+}
+
+/* Builds and prints; `fails`: which allocation, of jansson's or of all others. What is printed in
+ * spite of that must be whole. */
+static enum br_status print_without(const struct br_document_format *format, const char *whole,
+                                    long fails, bool jansson)
 {
     struct br_error err = {0};
     struct br_document d = {NULL};
-    size_t block = 0;
-    FILE *out = tmpfile();
+    size_t block = 0, size;
+    char *text = NULL;
+    FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
-    left = jansson ? fails + 1 : -1;
+    until = jansson ? fails : -1;
     br_allocation_fails_at(jansson ? -1 : fails);
     build(&d);
-    enum br_status status = br_document_status(&d, &err);
-    if (!status)
-        status = format
-                     ? br_document_print(out, format, &d, br_document_next_table(&d, &block), &err)
-                     : br_document_show(out, &d, &err);
+    const struct br_document_table *table = br_document_next_table(&d, &block);
+    const enum br_status status =
+        format ? br_document_print(out, format, &d, table, &err) : br_document_show(out, &d, &err);
     br_allocation_fails_at(-1);
+    assert_int_equal(fclose(out), 0);
     if (status)
         REFUSED(status, BR_NO_MEMORY, "out of memory");
+    else
+        check_whole(text, whole, fails);
     br_document_clear(&d);
-    fclose(out);
+    free(text);
     return status;
 }
 
 /* Every allocation fails in turn: each time it is told when the report is printed. */
 static void sweep(const struct br_document_format *format, bool jansson, long least)
 {
+    const bool by_table = format && format->by_table;
+    char *whole = printed(format, by_table ? "all" : NULL);
     long i = 0;
-    while (print_without(format, i, jansson))
+    while (print_without(format, whole, i, jansson))
         assert_true(++i < 10000);
     if (i < least)
         fail_msg("%s: %ld allocations failed, expected at least %ld",
                  format ? format->name : "the terminal", i, least);
+    free(whole);
 }
 
 static void test_no_memory(void **state)
