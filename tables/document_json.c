@@ -183,20 +183,16 @@ static enum br_status write(FILE *out, const struct br_document *d,
     (void)table;
     struct page p = {.d = d};
     json_t *root = root_of(&p);
-    char *text =
-        p.lacked || *p.twice
-            ? NULL
-            : json_dumps(root, JSON_INDENT(1) | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(17));
+    const size_t flags = JSON_INDENT(1) | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(17);
     enum br_status status = BR_OK;
     if (*p.twice)
         status =
             br_fail(err, BR_IO, "the report %.100s has two values for '%.100s'", d->name, p.twice);
-    else if (!text)
+    /* Not json_dumps: it drops a key that its buffer has no room for. */
+    else if (p.lacked || (json_dumpf(root, out, flags) != 0 && !ferror(out)))
         status = br_no_memory(err, "the JSON text");
-    else
-        fprintf(out, "%s\n", text);
+    fputc('\n', out);
     json_decref(root);
-    free(text);
     return status;
 }
 
