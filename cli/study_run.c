@@ -22,6 +22,17 @@ struct run {
     struct br_picture_files pictures;
 };
 
+/* Names the pictures, which stand beside the report. */
+static void put_pictures(struct br_document *d, const struct br_report *report)
+{
+    char stem[BR_SCRIPT_NAME];
+    for (const struct br_plot *const *p = br_plots; *p; p++)
+        if ((*p)->applies(report)) {
+            snprintf(stem, sizeof stem, "%s-%s", report->name, (*p)->name);
+            br_put_picture(d, stem, (*p)->title);
+        }
+}
+
 static enum br_status build_reports(struct run *r, struct br_error *err)
 {
     struct br_provenance provenance;
@@ -34,6 +45,8 @@ static enum br_status build_reports(struct run *r, struct br_error *err)
         provenance.scene_path = w->path;
         provenance.scene_text = w->text;
         br_report_study(&r->session.page[i].report, &r->document[i]);
+        if (!r->options->no_plots)
+            put_pictures(&r->document[i], &r->session.page[i].report);
         br_put_provenance(&r->document[i], &provenance);
     }
     return BR_OK;
