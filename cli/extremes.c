@@ -99,37 +99,21 @@ static void build_report(struct work *w, size_t i)
     br_put_provenance(d, &w->provenance);
 }
 
-static void clear_picture(struct br_extremes_picture *picture)
-{
-    if (picture->chart)
-        br_chart_clear(picture->chart);
-    if (picture->heat)
-        br_heat_clear(picture->heat);
-    free(picture->chart);
-    free(picture->heat);
-    *picture = (struct br_extremes_picture){NULL, NULL};
-}
-
 /* The pictures of one part: into files, and their names into its report. */
 static enum br_status draw(struct work *w, size_t part, struct br_picture_files *files,
                            struct br_error *err)
 {
-    struct br_extremes_picture picture = {NULL, NULL};
     enum br_status status = BR_OK;
-    for (size_t i = 0; !status; i++) {
-        status = w->options.part[part]->draw(w->result[part], i, &picture, err);
-        const bool last = !picture.chart && !picture.heat;
-        if (!status && picture.chart) {
-            br_put_picture(&w->document[part], picture.chart->stem, picture.chart->title);
-            status = br_picture_files_chart(files, picture.chart, err);
+    bool last = false;
+    for (size_t i = 0; !status && !last; i++) {
+        struct br_figure figure = {0};
+        status = w->options.part[part]->draw(w->result[part], i, &figure, err);
+        last = !figure.panels;
+        if (!status && !last) {
+            br_put_picture(&w->document[part], figure.stem, figure.title);
+            status = br_picture_files_draw(files, &figure, err);
         }
-        if (!status && picture.heat) {
-            br_put_picture(&w->document[part], picture.heat->stem, picture.heat->title);
-            status = br_picture_files_heat(files, picture.heat, err);
-        }
-        clear_picture(&picture);
-        if (last)
-            break;
+        br_figure_clear(&figure);
     }
     return status;
 }
