@@ -16,7 +16,7 @@
 
 /* A run on its way to its files. */
 struct run {
-    const struct br_study_options *options;
+    const struct br_options *options;
     struct br_session session;
     struct br_document *document; /* session.pages; owned */
     struct br_output output;
@@ -46,7 +46,7 @@ static enum br_status build_reports(struct run *r, struct br_error *err)
         provenance.scene_path = w->path;
         provenance.scene_text = w->text;
         br_report_study(&r->session.page[i].report, &r->document[i]);
-        if (!r->options->no_plots)
+        if (!br_option_given(r->options, BR_OPT_NO_PLOTS))
             put_pictures(&r->document[i], &r->session.page[i].report);
         br_put_provenance(&r->document[i], &provenance);
     }
@@ -75,11 +75,11 @@ static enum br_status write_all(struct run *r, struct br_error *err)
 {
     enum br_status status = BR_OK;
     r->pictures.output = &r->output;
-    for (size_t i = 0; i < r->session.pages && !status && !r->options->no_plots; i++)
+    for (size_t i = 0;
+         i < r->session.pages && !status && !br_option_given(r->options, BR_OPT_NO_PLOTS); i++)
         status = write_plots(r, i, err);
     if (!status)
-        status =
-            br_documents_write(&r->output, r->options->format, r->document, r->session.pages, err);
+        status = br_documents_write(&r->output, r->options, r->document, r->session.pages, err);
     const enum br_status drawn = br_picture_files_finish(&r->pictures, status ? NULL : err);
     if (!status)
         status = drawn;
@@ -119,27 +119,27 @@ static enum br_status check_memory(const struct br_session *s, struct br_error *
 }
 
 enum br_status br_study_run_jobs(const struct br_study_job *jobs, size_t count,
-                                 const struct br_study_options *options, bool with_exact,
+                                 const struct br_options *options, bool with_exact,
                                  struct br_error *err)
 {
     struct run r = {.options = options};
-    const bool writes = br_ranks_first();
+    const bool writes = br_ranks_first(), quiet = br_option_given(options, BR_OPT_QUIET);
     enum br_status status = br_session_prepare(&r.session, jobs, count, options, with_exact, err);
-    if (!status && writes)
-        status = br_warn_of_studies(r.session.study, r.session.jobs, err);
     if (!status && br_ranks_size() == 1)
         status = check_memory(&r.session, err);
     if (!status && writes)
-        status = br_output_open(&r.output, options->out ? options->out : "results", err);
+        status = br_output_open(&r.output, br_option_text(options, BR_OPT_OUT), err);
+    if (!status && writes)
+        status = br_warn_of_studies(r.session.study, r.session.jobs, err);
     if (!status)
-        status = br_session_compute(&r.session, options->quiet || !writes, err);
+        status = br_session_compute(&r.session, quiet || !writes, err);
     if (!status && writes)
         status = build_reports(&r, err);
-    if (!status && writes && !options->quiet)
+    if (!status && writes && !quiet)
         status = br_documents_show(r.document, r.session.pages, err);
     if (!status && writes)
         status = write_all(&r, err);
-    if (!status && writes && !options->quiet)
+    if (!status && writes && !quiet)
         br_output_announce(&r.output);
     if (!status)
         status = check_cells(&r.session, err);

@@ -1,34 +1,42 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tables/report_method.h"
 
+#include "study/scene/method_fields.h"
+
+/* Nothing where the method does not heed it. */
+static struct br_value value_of(const struct br_method_field *f, const struct br_method *m,
+                                char text[BR_METHOD_VALUE])
+{
+    const bool whole = f == &br_method_fields[BR_METHOD_DEGREE] || (!f->words && f->range.whole);
+    if (!br_method_field_reported(f, m))
+        return br_nothing();
+    if (whole)
+        return br_count((size_t)atoll(br_method_field_text(f, m, text)));
+    return f->words ? br_text(br_method_field_text(f, m, text)) : br_number(f->get(m));
+}
+
+static void put(struct br_document *d, const char *key, const char *member, struct br_value value)
+{
+    char name[2 * BR_METHOD_VALUE];
+    snprintf(name, sizeof name, "%s.%s", key, member);
+    br_put_fact(d, &(struct br_column){.key = name, .flags = BR_FOR_PROGRAMS}, value);
+}
+
+/* Fields of a group are members of one object, null where they are not heeded. */
 void br_put_method(struct br_document *d, const char *key, const struct br_method *m)
 {
-    const struct br_kernel *kernel = br_linear_solver_kernel(m->solver, &m->linear);
-    const bool iterates = m->friction->iterates;
-    const struct {
-        const char *name;
-        struct br_value value;
-    } rows[] = {
-        {"scheme", br_text(m->scheme->name)},
-        {"tolerance", m->scheme->adaptive ? br_number(m->tolerance) : br_nothing()},
-        {"axial_degree", br_count((size_t)m->axial_degree)},
-        {"solver", br_text(m->solver->name)},
-        {"kernel", br_text(kernel ? kernel->name : NULL)},
-        {"scaling", br_text(m->linear.scaling)},
-        {"refinement", br_count((size_t)m->linear.refinement)},
-        {"contact", br_text(m->contact->name)},
-        {"friction", br_text(m->friction->name)},
-        {"iteration.parameter", br_number(m->iteration.parameter)},
-        {"iteration.tolerance", br_number(m->iteration.tolerance)},
-        {"iteration.most", br_count(m->iteration.most)},
-    };
-    const size_t all = sizeof rows / sizeof *rows;
-    char name[100];
-    for (size_t i = 0; i < (iterates ? all : all - 3); i++) {
-        snprintf(name, sizeof name, "%s.%s", key, rows[i].name);
-        br_put_fact(d, &(struct br_column){.key = name, .flags = BR_FOR_PROGRAMS}, rows[i].value);
+    const char *group = NULL;
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        const struct br_method_field *f = &br_method_fields[i];
+        char text[BR_METHOD_VALUE], name[BR_METHOD_VALUE];
+        if (!f->group) {
+            put(d, key, br_method_field_key(f, name), value_of(f, m, text));
+        } else if (br_method_field_heeded(f, m)) {
+            snprintf(name, sizeof name, "%s.%s", f->group, f->member);
+            put(d, key, name, value_of(f, m, text));
+        } else if (f->group != group) {
+            put(d, key, f->group, br_nothing());
+        }
+        group = f->group;
     }
-    snprintf(name, sizeof name, "%s.iteration", key);
-    if (!iterates)
-        br_put_fact(d, &(struct br_column){.key = name, .flags = BR_FOR_PROGRAMS}, br_nothing());
 }

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "study/scene/method_fields.h"
 #include "study/scene/quote.h"
 
 enum { PARAGRAPH = 4096, WIDTH = 100 };
