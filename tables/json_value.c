@@ -41,8 +41,9 @@ static json_t *not_utf8(const char *text)
 
 json_t *br_json_string(const char *text)
 {
-    json_t *o = text ? json_string(text) : json_null();
-    return o ? o : not_utf8(text);
+    if (!text)
+        return json_null();
+    return br_is_utf8(text) ? json_string(text) : not_utf8(text);
 }
 
 json_t *br_json_estimate(const struct br_estimate *e)

@@ -5,7 +5,8 @@
 
 #include <jansson.h>
 
-#include "tables/emitter.h"
+#include "study/fit/fit.h"
+#include "tables/document.h"
 
 /* jansson forgets a member that it has no memory for. From the first call on this remembers: false
  * where no memory of jansson's has been refused. Call it before any document is made, and before
