@@ -55,22 +55,27 @@ static double any(struct br_test_random *r, double low, double high, double zero
     return br_test_uniform(r, 0, 1) < zero ? 0 : br_test_log_uniform(r, low, high);
 }
 
+/* A function of x that is given a size and the length. */
+static struct br_function scaled(const char *format, double size, double length)
+{
+    char text[120];
+    snprintf(text, sizeof text, format, size, length);
+    return br_test_function(text);
+}
+
 static struct br_load any_load(struct br_test_random *r, double size, const struct br_scene *s)
 {
     static const char *const times[] = {
         "1", "t/%.17g", "exp(t/%.17g)-1", "sin(30*t/%.17g)", "exp(-30*t/%.17g)", "t<0.3*%.17g?1:0"};
-    static const char *const spaces[] = {"1-3*(x/%.17g)^3", "sin(3*x/%.17g)", "exp(-x/%.17g)"};
+    static const char *const spaces[] = {"%.17g*(1-3*(x/%.17g)^3)", "%.17g*sin(3*x/%.17g)",
+                                         "%.17g*exp(-x/%.17g)"};
     char text[80];
     struct br_load load = {0};
     snprintf(text, sizeof text, times[br_test_index(r, 6)], s->duration);
     load.term[0].time = br_test_function(text);
     load.term[0].space.constant = br_test_index(r, 2) ? size : -size;
-    if (br_test_index(r, 3) == 0) {
-        char product[120];
-        snprintf(text, sizeof text, spaces[br_test_index(r, 3)], s->length);
-        snprintf(product, sizeof product, "%.17g*(%s)", size, text);
-        load.term[0].space = br_test_function(product);
-    }
+    if (br_test_index(r, 3) == 0)
+        load.term[0].space = scaled(spaces[br_test_index(r, 3)], size, s->length);
     return load;
 }
 
@@ -86,15 +91,13 @@ static void fill_tip_and_start(struct br_test_random *r, struct br_scene *s, dou
     }
     if (s->axial.stiffness == 0 || s->bending.stiffness == 0 || br_test_index(r, 4))
         return;
-    char text[3][80];
-    snprintf(text[0], sizeof text[0], "%.17g*sin(2*x/%.17g)", 0.1 * way, L);
-    snprintf(text[1], sizeof text[1], "%.17g*(x/%.17g)^2", 0.1 * bend, L);
-    snprintf(text[2], sizeof text[2], "%.17g*x/%.17g", 0.2 * bend / L, L);
-    s->axial.displacement = br_test_function(text[0]);
-    s->bending.displacement = br_test_function(text[1]);
-    s->bending.displacement_slope = br_test_function(text[2]);
-    snprintf(text[0], sizeof text[0], "%.17g*x/%.17g", 0.1 * way / s->duration, L);
-    s->axial.velocity = br_test_function(text[0]);
+    const double T = s->duration;
+    s->axial.displacement = scaled("%.17g*sin(2*x/%.17g)", 0.1 * way, L);
+    s->axial.velocity = scaled("%.17g*x/%.17g", 0.1 * way / T, L);
+    s->bending.displacement = scaled("%.17g*(x/%.17g)^2", 0.1 * bend, L);
+    s->bending.displacement_slope = scaled("%.17g*x/%.17g", 0.2 * bend / L, L);
+    s->bending.velocity = scaled("%.17g*(x/%.17g)^3", 0.1 * bend / T, L);
+    s->bending.velocity_slope = scaled("%.17g*(x/%.17g)^2", 0.3 * bend / (T * L), L);
 }
 
 /* Numbers of the material as they come, or so that inertia, stiffness and viscosity have ratios up
@@ -174,7 +177,8 @@ static void check_strain_rate(const struct br_march *march, enum br_field_kind k
         if (kind == BR_BENDING)
             br_curvature(v, expected);
         for (size_t i = 0; i < u; i++)
-            CLOSE(rate[u * e + i], expected[i], DBL_MIN + (1e-14 + 4e-16 * (double)f->n) * br_test_slack() * most);
+            CLOSE(rate[u * e + i], expected[i],
+                  DBL_MIN + (1e-14 + 4e-16 * (double)f->n) * br_test_slack() * most);
     }
 }
 
