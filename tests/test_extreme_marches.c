@@ -85,8 +85,8 @@ static void fill_tip_and_start(struct br_test_random *r, struct br_scene *s, dou
     const double L = s->length, way = load * L / (s->axial.stiffness / L + 1 / DBL_MAX),
                  bend = load * pow(L, 4) / (s->bending.stiffness + 1 / DBL_MAX);
     if (br_test_index(r, 3) == 0) {
-        s->axial.tip_force.constant = load * L * br_test_uniform(r, -1, 1);
-        s->bending.tip_force.constant = load * L * br_test_uniform(r, -1, 1);
+        s->axial.tip_force = scaled("%.17g*sin(9*t/%.17g)", load * L, s->duration);
+        s->bending.tip_force = scaled("%.17g*cos(9*t/%.17g)", load * L, s->duration);
         s->bending.tip_moment.constant = load * L * L * br_test_uniform(r, -1, 1);
     }
     if (s->axial.stiffness == 0 || s->bending.stiffness == 0 || br_test_index(r, 4))
