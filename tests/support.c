@@ -189,54 +189,37 @@ double br_test_deviation(const struct br_test_end *end, const struct br_test_end
     return most;
 }
 
-/* ---- the L2 distance ---- */
+/* ---- finite element functions ---- */
 
-/* Value and scaled slope (per fine element: ratio of the coarse one) at xi. */
-static void hermite(const double *node, long double xi, long double ratio, long double out[2])
+long double br_test_value(enum br_field_kind kind, const double *nodal, size_t e, long double xi)
 {
-    const long double w0 = node[0], s0 = node[1], w1 = node[2], s1 = node[3];
-    const long double c2 = 3 * (w1 - w0) - 2 * s0 - s1, c3 = 2 * (w0 - w1) + s0 + s1;
-    out[0] = w0 + xi * (s0 + xi * (c2 + xi * c3));
-    out[1] = (s0 + xi * (2 * c2 + 3 * xi * c3)) / ratio;
+    const long double eta = 1 - xi;
+    if (kind == BR_AXIAL)
+        return eta * nodal[e] + xi * nodal[e + 1];
+    const double *w = nodal + 2 * e;
+    return eta * eta * (1 + 2 * xi) * w[0] + xi * eta * eta * w[1] + xi * xi * (3 - 2 * xi) * w[2] -
+           xi * xi * eta * w[3];
 }
 
-static void coarse_at(enum br_field_kind kind, const double *coarse, size_t j, size_t ratio,
-                      long double out[2])
-{
-    size_t e = j / ratio;
-    long double xi = (long double)(j % ratio) / (long double)ratio;
-    if (j > 0 && j % ratio == 0) { /* the end of an element, not beyond the last */
-        e--;
-        xi = 1;
-    }
-    if (kind == BR_BENDING) {
-        hermite(coarse + 2 * e, xi, (long double)ratio, out);
-        return;
-    }
-    out[0] = (1 - xi) * coarse[e] + xi * coarse[e + 1];
-    out[1] = 0;
-}
-
+/* Four Gauss points an element of the fine mesh: exact for the square of cubics. */
 double br_test_distance(enum br_field_kind kind, double length, size_t coarse_n,
                         const double *coarse, size_t fine_n, const double *fine)
 {
-    static const int rod[4][4] = {{2, 0, 1, 0}, {0, 0, 0, 0}, {1, 0, 2, 0}, {0, 0, 0, 0}};
-    static const int beam[4][4] = {
-        {156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}};
-    const bool axial = kind == BR_AXIAL;
-    const size_t unknowns = axial ? 1 : 2;
-    long double difference[4] = {0}, sum = 0;
-    for (size_t j = 0; j <= fine_n; j++) {
-        long double here[2];
-        coarse_at(kind, coarse, j, fine_n / coarse_n, here);
-        memmove(difference, difference + 2, 2 * sizeof *difference);
-        for (size_t i = 0; i < 2; i++)
-            difference[2 + i] = i < unknowns ? fine[j * unknowns + i] - here[i] : 0;
-        for (int a = 0; a < 4 && j > 0; a++)
-            for (int b = 0; b < 4; b++)
-                sum += difference[a] * difference[b] * (axial ? rod[a][b] : beam[a][b]);
-    }
-    return (double)sqrtl(fmaxl(sum, 0) * length / (long double)fine_n / (axial ? 6 : 420));
+    const long double a = sqrtl(3.0L / 7 - 2.0L / 7 * sqrtl(1.2L)),
+                      b = sqrtl(3.0L / 7 + 2.0L / 7 * sqrtl(1.2L));
+    const long double x[4] = {(1 - b) / 2, (1 - a) / 2, (1 + a) / 2, (1 + b) / 2};
+    const long double wa = (18 + sqrtl(30)) / 72, wb = (18 - sqrtl(30)) / 72;
+    const long double weight[4] = {wb, wa, wa, wb};
+    const size_t ratio = fine_n / coarse_n;
+    long double sum = 0;
+    for (size_t e = 0; e < fine_n; e++)
+        for (int q = 0; q < 4; q++) {
+            const long double xi = ((long double)(e % ratio) + x[q]) / (long double)ratio;
+            const long double difference =
+                br_test_value(kind, fine, e, x[q]) - br_test_value(kind, coarse, e / ratio, xi);
+            sum += weight[q] * difference * difference;
+        }
+    return (double)sqrtl(sum * length / (long double)fine_n);
 }
 
 bool br_test_quick(void)
