@@ -238,16 +238,81 @@ double br_test_slack(void)
     return one + tiny == one ? 1e4 : 1;
 }
 
-void br_test_keep_wrong(const char *scene, const char *message)
+/* ---- scenes as files ---- */
+
+static char scene_file[] = "/tmp/br_test_scene_XXXXXX.yaml";
+
+static void remove_scene_file(void)
+{
+    remove(scene_file);
+}
+
+static void write_file(const char *path, const char *remark, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "%s%s", remark, text);
+    assert_int_equal(fclose(file), 0);
+}
+
+const char *br_test_scene_file(const char *text)
+{
+    static bool made;
+    if (!made) {
+        const int descriptor = mkstemps(scene_file, 5);
+        assert_true(descriptor >= 0 && close(descriptor) == 0);
+        assert_int_equal(atexit(remove_scene_file), 0);
+        made = true;
+    }
+    write_file(scene_file, "", text);
+    return scene_file;
+}
+
+static void keep_wrong(const char *scene, const char *message)
 {
     static int count;
     const char *folder = getenv("BR_WRONG_SCENES");
+    char path[1024], remark[2048];
     if (!folder)
         return;
-    char path[1024];
     snprintf(path, sizeof path, "%s/%d-%03d.yaml", folder, (int)getpid(), count++);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fprintf(file, "# %s\n%s", message, scene);
-    assert_int_equal(fclose(file), 0);
+    snprintf(remark, sizeof remark, "# %s\n", message);
+    write_file(path, remark, scene);
+}
+
+void br_test_scene_refused(const char *text, bool verify, const char *message)
+{
+    struct br_error err = {0};
+    struct br_scene scene;
+    struct br_verify v = {0};
+    const char *path = br_test_scene_file(text);
+    const enum br_status status =
+        verify ? br_scene_read_verify(path, &scene, &v, &err) : br_scene_read(path, &scene, &err);
+    br_verify_clear(&v);
+    br_scene_clear(&scene);
+    keep_wrong(text, err.message);
+    if (status != BR_BAD_INPUT || err.status != BR_BAD_INPUT || !strstr(err.message, message) ||
+        strncmp(err.message, path, strlen(path)) != 0)
+        fail_msg("%s\nsaid '%s', expected '%s'", text, err.message, message);
+}
+
+/* ---- memory ---- */
+
+void br_test_without_memory(enum br_status (*attempt)(const void *data, struct br_error *err),
+                            const void *data, long least)
+{
+    long failed = 0;
+    for (long i = 0, good = 0; good < 40; i++) {
+        struct br_error err = {0};
+        br_allocation_fails_at(i);
+        const enum br_status status = attempt(data, &err);
+        br_allocation_fails_at(-1);
+        if (status)
+            REFUSED(status, BR_NO_MEMORY, "out of memory");
+        failed += status != BR_OK;
+        good = status ? 0 : good + 1;
+        assert_true(i < 10000);
+    }
+    if (failed < least)
+        fail_msg("%ld allocations failed, expected at least %ld", failed, least);
 }

@@ -88,9 +88,19 @@ long double br_test_value(enum br_field_kind kind, const double *nodal, size_t e
 double br_test_distance(enum br_field_kind kind, double length, size_t coarse_n,
                         const double *coarse, size_t fine_n, const double *fine);
 
-/* Puts a scene that is refused with a message into the folder $BR_WRONG_SCENES, if that is set: the
- * scene schema is tested with them. */
-void br_test_keep_wrong(const char *scene, const char *message);
+/* The path of a file, one a program, that now has this text: for scenes. */
+const char *br_test_scene_file(const char *text);
+
+/* Reading the scene, with its verify part or without, is refused with a message that begins with
+ * the file and contains `message`. The text is put into the folder $BR_WRONG_SCENES, if that is
+ * set: the scene schema is tested with them. */
+void br_test_scene_refused(const char *text, bool verify, const char *message);
+
+/* Fails every allocation of an attempt in turn until some attempts in a row succeed (a few
+ * allocations can be done without): at least `least` fail, and each says so. attempt: allocates,
+ * and cleans up after itself whatever happens. */
+void br_test_without_memory(enum br_status (*attempt)(const void *data, struct br_error *err),
+                            const void *data, long least);
 
 /* Whether long tests are to be left out (BR_TEST_QUICK is set: valgrind). */
 bool br_test_quick(void);
