@@ -154,6 +154,31 @@ struct br_test_end br_test_run(const struct br_scene *scene, size_t n, size_t st
     return end;
 }
 
+struct br_study br_test_study(const struct br_scene *scene, const struct br_judge *judge,
+                              size_t n_count, const size_t *n, size_t k_count, const size_t *steps)
+{
+    return (struct br_study){
+        .scene = scene,
+        .norm = br_norms[0],
+        .method = br_method_default(),
+        .judge = judge,
+        .reference_method = br_method_default(),
+        .n_count = n_count,
+        .k_count = k_count,
+        .n = n,
+        .steps = steps,
+    };
+}
+
+void br_test_all_norms(struct br_study s[BR_TEST_NORMS])
+{
+    for (size_t m = 0; m < BR_TEST_NORMS; m++) {
+        s[m] = s[0];
+        s[m].norm = br_norms[m];
+        s[m].next_norm = m + 1 < BR_TEST_NORMS ? &s[m + 1] : NULL;
+    }
+}
+
 size_t br_test_golden(struct br_test_golden rows[BR_TEST_MOST_GOLDEN])
 {
     char path[1024], line[256];

@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "solver/march.h"
+#include "study/grid/study.h"
 
 /* |actual - expected| <= tolerance; `what` goes into the message. */
 #define CLOSE(actual, expected, tolerance) \
@@ -60,6 +61,15 @@ struct br_method br_test_method(const char *solver, const char *contact, const c
 struct br_march *br_test_march(const struct br_scene *scene, size_t n, size_t steps,
                                const struct br_method *method);
 void br_test_advance(struct br_march *march, size_t until);
+
+/* A study in the L2 norm, by the default method and, where the judge is a fine run, with a
+ * reference by it; the lists are borrowed. */
+struct br_study br_test_study(const struct br_scene *scene, const struct br_judge *judge,
+                              size_t n_count, const size_t *n, size_t k_count, const size_t *steps);
+
+/* s[0] becomes a chain of studies in all norms of the registry (in/out). */
+enum { BR_TEST_NORMS = 3 };
+void br_test_all_norms(struct br_study s[BR_TEST_NORMS]);
 
 /* Tip values at the end: u(L), w(L) and w(L/2) of an even mesh, m. */
 struct br_test_end {

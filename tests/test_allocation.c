@@ -110,18 +110,10 @@ static enum br_status study(const void *data, struct br_error *err)
 {
     const struct march_data *d = data;
     static const size_t n[] = {2, 4}, steps[] = {5, 10};
-    struct br_study s = {
-        .scene = &d->scene,
-        .norm = br_norms[0],
-        .method = d->method,
-        .judge = &br_judge_fine,
-        .reference_method = d->method,
-        .reference = {8, 10},
-        .n_count = 2,
-        .k_count = 2,
-        .n = n,
-        .steps = steps,
-    };
+    struct br_study s = br_test_study(&d->scene, &br_judge_fine, 2, n, 2, steps);
+    s.method = d->method;
+    s.reference_method = d->method;
+    s.reference = (struct br_resolution){8, 10};
     enum br_status status = br_study_run(&s, 1, 1, NULL, err);
     /* In the middle of a march it costs a cell, not the study. */
     for (size_t i = 0; !status && i < 4; i++)

@@ -68,14 +68,14 @@ static struct br_load any_load(struct br_test_random *r, double size, const stru
     static const char *const times[] = {
         "1", "t/%.17g", "exp(t/%.17g)-1", "sin(30*t/%.17g)", "exp(-30*t/%.17g)", "t<0.3*%.17g?1:0"};
     static const char *const spaces[] = {"%.17g*(1-3*(x/%.17g)^3)", "%.17g*sin(3*x/%.17g)",
-                                         "%.17g*exp(-x/%.17g)"};
+                                         "%.17g*exp(-x/%.17g)", "%.17g*sin(3*x/%.17g+t)"};
     char text[80];
     struct br_load load = {0};
     snprintf(text, sizeof text, times[br_test_index(r, 6)], s->duration);
     load.term[0].time = br_test_function(text);
     load.term[0].space.constant = br_test_index(r, 2) ? size : -size;
     if (br_test_index(r, 3) == 0)
-        load.term[0].space = scaled(spaces[br_test_index(r, 3)], size, s->length);
+        load.term[0].space = scaled(spaces[br_test_index(r, 4)], size, s->length);
     return load;
 }
 

@@ -175,16 +175,9 @@ static void test_projection(void **state)
 
 static struct br_study study_of(const struct br_scene *scene, const size_t *n, const size_t *steps)
 {
-    return (struct br_study){
-        .scene = scene,
-        .norm = br_norms[0],
-        .method = br_test_method(NULL, "implicit", NULL),
-        .judge = &br_judge_mms,
-        .n_count = 2,
-        .k_count = 2,
-        .n = n,
-        .steps = steps,
-    };
+    struct br_study s = br_test_study(scene, &br_judge_mms, 2, n, 2, steps);
+    s.method = br_test_method(NULL, "implicit", NULL);
+    return s;
 }
 
 /* What both the elements and the Euler steps hold exactly has no error at all: with contact,
