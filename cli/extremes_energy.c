@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "cli/extremes_part.h"
-#include "plots/extremes_energy.h"
-#include "tables/extremes_energy.h"
+#include "plots/pictures.h"
+#include "tables/report_extremes.h"
 
 static void release(void *result)
 {
@@ -21,15 +21,15 @@ static enum br_status run(const struct br_extremes_job *job, void **result, stru
     return br_energy_behaviour_run(b, job->threads, job->observer, err);
 }
 
-static void fill(const void *result, struct br_page *page)
+static void report(const void *result, struct br_document *d)
 {
-    br_energy_page(result, page);
+    br_report_energy(result, d);
 }
 
-static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
+static enum br_status draw(const void *result, size_t i, struct br_figure *figure,
                            struct br_error *err)
 {
-    return i == 0 ? br_energy_chart(result, &picture->chart, err) : BR_OK;
+    return i == 0 ? br_energy_draw(result, figure, err) : BR_OK;
 }
 
 static enum br_status judge(const void *result, struct br_error *err)
@@ -56,7 +56,7 @@ const struct br_extremes_part br_extremes_part_energy = {
     .title = "what every scheme takes from the energy or adds to it, each step's balance",
     .run = run,
     .free = release,
-    .page = fill,
+    .report = report,
     .draw = draw,
     .verdict = judge,
 };

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The part `floors`. */
-#include "plots/extremes_floors.h"
 #include "cli/extremes_part.h"
-#include "tables/extremes_floors.h"
+#include "plots/pictures.h"
+#include "tables/report_extremes.h"
 
 static void floors_free(void *result)
 {
@@ -30,21 +30,17 @@ static enum br_status floors_run(const struct br_extremes_job *job, void **resul
     return br_floors_run(floors, &plan, job->observer, err);
 }
 
-static void floors_page(const void *result, struct br_page *page)
+static void report(const void *result, struct br_document *d)
 {
-    br_floors_page(result, page);
+    br_report_floors(result, d);
 }
 
-static enum br_status floors_draw(const void *result, size_t i, struct br_extremes_picture *picture,
+static enum br_status floors_draw(const void *result, size_t i, struct br_figure *figure,
                                   struct br_error *err)
 {
     const struct br_floors *floors = result;
-    if (i >= floors->k_count || floors->n_count < 2)
-        return BR_OK;
-    picture->chart = br_allocate(1, sizeof *picture->chart);
-    if (!picture->chart)
-        return br_no_memory(err, "a plot");
-    return br_floors_draw(floors, i, picture->chart, err);
+    return i < floors->k_count && floors->n_count > 1 ? br_floors_draw(floors, i, figure, err)
+                                                      : BR_OK;
 }
 
 static enum br_status floors_verdict(const void *result, struct br_error *err)
@@ -58,7 +54,7 @@ const struct br_extremes_part br_extremes_part_floors = {
     .heeds = BR_HEEDS_N | BR_HEEDS_K | BR_HEEDS_ROUNDING,
     .run = floors_run,
     .free = floors_free,
-    .page = floors_page,
+    .report = report,
     .draw = floors_draw,
     .verdict = floors_verdict,
 };

@@ -6,11 +6,10 @@
 
 #include <stdint.h>
 
-#include "plots/chart.h"
-#include "plots/heat.h"
+#include "plots/figure.h"
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
-#include "tables/sheet.h"
+#include "tables/document.h"
 
 /* What is asked for. All borrowed; 0 or NULL: the part's own choice. */
 struct br_extremes_job {
@@ -26,13 +25,6 @@ struct br_extremes_job {
                            the file is removed when all is written. NULL: nothing is kept */
     const char *folder; /* for other files of the part (reproducer scenes): the staging folder */
     const struct br_observer *observer; /* NULL: nobody */
-};
-
-/* A picture: one of them is not NULL, and made by br_allocate. Owned. Its stem is the part's name,
- * or begins with it and a dash. */
-struct br_extremes_picture {
-    struct br_chart *chart;
-    struct br_heat *heat;
 };
 
 /* The options that a part heeds: others are refused. --threads is for all. */
@@ -53,10 +45,13 @@ struct br_extremes_part {
      * Fails with BR_BAD_INPUT, BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */
     enum br_status (*run)(const struct br_extremes_job *job, void **result, struct br_error *err);
     void (*free)(void *result); /* accepts NULL */
-    /* Fills caption, tables and sentences, which borrow from the result; the rest is filled. */
-    void (*page)(const void *result, struct br_page *page);
-    /* Picture i, 0, 1, ...; both NULL: there are no more. Fails with BR_NO_MEMORY. */
-    enum br_status (*draw)(const void *result, size_t i, struct br_extremes_picture *picture,
+    /* Begins the report and puts all into it but pictures and provenance; its name is the part's.
+     */
+    void (*report)(const void *result, struct br_document *d);
+    /* Picture i, 0, 1, ... (out: zeroed; clear it even after a failure); left without panels: there
+     * are no more. Its stem is the part's name, or begins with it and a dash. Fails with
+     * BR_NO_MEMORY. */
+    enum br_status (*draw)(const void *result, size_t i, struct br_figure *figure,
                            struct br_error *err);
     /* BR_OK, or BR_VERDICT with what has been found wrong. */
     enum br_status (*verdict)(const void *result, struct br_error *err);

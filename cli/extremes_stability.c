@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate extremes stability: the contact's stability limit, predicted and measured. */
-#include "plots/extremes_stability.h"
 #include "cli/extremes_part.h"
-#include "tables/extremes_stability.h"
+#include "plots/pictures.h"
+#include "tables/report_extremes.h"
 
 static void release(void *result)
 {
@@ -28,20 +28,15 @@ static enum br_status run(const struct br_extremes_job *job, void **result, stru
     return br_stability_run(&request, s, err);
 }
 
-static void page(const void *result, struct br_page *page)
+static void report(const void *result, struct br_document *d)
 {
-    br_extremes_stability_page(result, page);
+    br_report_stability(result, d);
 }
 
-static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
+static enum br_status draw(const void *result, size_t i, struct br_figure *figure,
                            struct br_error *err)
 {
-    *picture = (struct br_extremes_picture){.heat = NULL};
-    if (i > 0)
-        return BR_OK;
-    picture->heat = br_allocate(1, sizeof *picture->heat);
-    return picture->heat ? br_extremes_stability_draw(result, picture->heat, err)
-                         : br_no_memory(err, "a heat map");
+    return i == 0 ? br_stability_draw(result, figure, err) : BR_OK;
 }
 
 static enum br_status verdict(const void *result, struct br_error *err)
@@ -55,7 +50,7 @@ const struct br_extremes_part br_extremes_part_stability = {
     .heeds = BR_HEEDS_N | BR_HEEDS_K,
     .run = run,
     .free = release,
-    .page = page,
+    .report = report,
     .draw = draw,
     .verdict = verdict,
 };

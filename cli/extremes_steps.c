@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The part `steps`. */
-#include "plots/extremes_steps.h"
 #include "cli/extremes_part.h"
-#include "tables/extremes_steps.h"
+#include "plots/pictures.h"
+#include "tables/report_extremes.h"
 
 static void drifts_free(void *result)
 {
@@ -28,21 +28,16 @@ static enum br_status drifts_run(const struct br_extremes_job *job, void **resul
     return br_drifts_run(drifts, &plan, job->observer, err);
 }
 
-static void drifts_page(const void *result, struct br_page *page)
+static void report(const void *result, struct br_document *d)
 {
-    br_drifts_page(result, page);
+    br_report_drifts(result, d);
 }
 
-static enum br_status drifts_draw(const void *result, size_t i, struct br_extremes_picture *picture,
+static enum br_status drifts_draw(const void *result, size_t i, struct br_figure *figure,
                                   struct br_error *err)
 {
     const struct br_drifts *drifts = result;
-    if (i > 0 || drifts->k_count < 2)
-        return BR_OK;
-    picture->chart = br_allocate(1, sizeof *picture->chart);
-    if (!picture->chart)
-        return br_no_memory(err, "a plot");
-    return br_drifts_draw(drifts, picture->chart, err);
+    return i == 0 && drifts->k_count > 1 ? br_drifts_draw(drifts, figure, err) : BR_OK;
 }
 
 static enum br_status drifts_verdict(const void *result, struct br_error *err)
@@ -56,7 +51,7 @@ const struct br_extremes_part br_extremes_part_steps = {
     .heeds = BR_HEEDS_K | BR_HEEDS_ROUNDING,
     .run = drifts_run,
     .free = drifts_free,
-    .page = drifts_page,
+    .report = report,
     .draw = drifts_draw,
     .verdict = drifts_verdict,
 };

@@ -11,7 +11,7 @@
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/warn_marches.h"
-#include "plots/figures.h"
+#include "plots/pictures.h"
 #include "study/ranks/ranks.h"
 #include "tables/claims_emitter.h"
 
@@ -50,28 +50,29 @@ struct run {
     struct br_picture_files pictures;
 };
 
-static enum br_status write_caption(struct run *r, const struct br_figure *f, const char *stem,
-                                    struct br_error *err)
+static enum br_status write_caption(struct run *r, const struct br_paper_figure *f,
+                                    const char *stem, struct br_error *err)
 {
-    char name[160];
+    char name[600];
     FILE *file;
     snprintf(name, sizeof name, "%s.txt", stem);
     const enum br_status status = br_output_file(&r->output, name, &file, err);
     if (status)
         return status;
-    br_figure_caption(file, f, &r->paper, r->finding);
+    br_paper_caption(file, f, &r->paper, r->finding);
     return br_output_close(file, name, err);
 }
 
-static enum br_status write_figure(struct run *r, const struct br_figure *f, struct br_error *err)
+static enum br_status write_figure(struct run *r, const struct br_paper_figure *f,
+                                   struct br_error *err)
 {
-    struct br_chart chart;
-    enum br_status status = br_figure_draw(f, &r->paper, &chart, err);
+    struct br_figure figure;
+    enum br_status status = br_paper_figure_draw(f, &r->paper, &figure, err);
     if (!status)
-        status = br_picture_files_chart(&r->pictures, &chart, err);
+        status = br_picture_files_draw(&r->pictures, &figure, err);
     if (!status)
-        status = write_caption(r, f, chart.stem, err);
-    br_chart_clear(&chart);
+        status = write_caption(r, f, figure.stem, err);
+    br_figure_clear(&figure);
     return status;
 }
 
@@ -81,7 +82,7 @@ static enum br_status write_readme(struct run *r, struct br_error *err)
     const enum br_status status = br_output_file(&r->output, "README.md", &file, err);
     if (status)
         return status;
-    br_figures_readme(file, &r->paper, r->finding);
+    br_paper_readme(file, &r->paper, r->finding);
     return br_output_close(file, "README.md", err);
 }
 
@@ -115,8 +116,8 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     };
     enum br_status status = BR_OK;
     r->pictures.output = &r->output;
-    for (const struct br_figure *const *f = br_figures; *f && !status; f++)
-        status = write_figure(r, *f, err);
+    for (const struct br_paper_figure *f = br_paper_figures; f->number && !status; f++)
+        status = write_figure(r, f, err);
     if (!status)
         status = write_readme(r, err);
     if (!status)

@@ -8,7 +8,7 @@
 #include "cli/provenance.h"
 #include "cli/signals.h"
 #include "cli/suggest.h"
-#include "plots/gnuplot.h"
+#include "plots/render.h"
 #include "study/ranks/ranks.h"
 #include "study/ranks/spread.h"
 #include "study/scene/quote.h"

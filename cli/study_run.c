@@ -9,6 +9,7 @@
 #include "cli/provenance.h"
 #include "cli/study_session.h"
 #include "cli/warn_marches.h"
+#include "plots/pictures.h"
 #include "study/foresee/resources.h"
 #include "study/ranks/ranks.h"
 #include "tables/emitter.h"
@@ -55,15 +56,15 @@ static enum br_status write_plots(struct run *r, size_t i, struct br_error *err)
 {
     const struct br_report *report = &r->session.page[i].report;
     enum br_status status = BR_OK;
-    for (const struct br_plot *const *p = br_plots; *p && !status; p++) {
-        char script[BR_SCRIPT_NAME];
+    for (const struct br_convergence_picture *const *p = br_convergence_pictures; *p && !status;
+         p++) {
+        struct br_figure figure;
         if (!(*p)->applies(report))
             continue;
-        status = br_plot_file(*p, report, "gp", script, sizeof script, err);
+        status = br_convergence_draw(*p, report, &figure, err);
         if (!status)
-            status = br_plot_write(*p, report, r->output.staging, err);
-        if (!status)
-            status = br_picture_files_render(&r->pictures, script, err);
+            status = br_picture_files_draw(&r->pictures, &figure, err);
+        br_figure_clear(&figure);
     }
     return status;
 }

@@ -6,7 +6,7 @@
 
 #include "cli/formats.h"
 #include "cli/provenance.h"
-#include "plots/trade.h"
+#include "plots/pictures.h"
 #include "study/scene/file.h"
 
 /* ---- scenes ---- */
@@ -107,33 +107,16 @@ static enum br_status write_tables(struct br_trade_files *f, struct br_error *er
     return status;
 }
 
-static enum br_status write_part(struct br_trade_files *f, const char *extension,
-                                 void (*write)(FILE *, const struct br_trade_picture *,
-                                               const struct br_trade_view *),
-                                 const struct br_trade_picture *picture,
-                                 const struct br_trade_view *view, struct br_error *err)
-{
-    char name[BR_SCRIPT_NAME];
-    FILE *file;
-    snprintf(name, sizeof name, "%s.%s", view->stem, extension);
-    const enum br_status status = br_output_file(&f->output, name, &file, err);
-    if (status)
-        return status;
-    write(file, picture, view);
-    return br_output_close(file, name, err);
-}
-
 static enum br_status draw(struct br_trade_files *f, const struct br_trade_picture *picture,
                            const struct br_trade_page *page, struct br_error *err)
 {
-    char stem[BR_SCRIPT_NAME - 8], script[BR_SCRIPT_NAME];
-    const struct br_trade_view view = {page->caption, stem, page->trade};
-    snprintf(stem, sizeof stem, "%.400s-%s", page->name, picture->name);
-    snprintf(script, sizeof script, "%s.gp", stem);
-    enum br_status status = write_part(f, "dat", br_trade_picture_data, picture, &view, err);
+    struct br_figure figure;
+    enum br_status status =
+        br_trade_draw(picture, page->trade, page->name, page->caption, &figure, err);
     if (!status)
-        status = write_part(f, "gp", br_trade_picture_script, picture, &view, err);
-    return status ? status : br_picture_files_render(&f->pictures, script, err);
+        status = br_picture_files_draw(&f->pictures, &figure, err);
+    br_figure_clear(&figure);
+    return status;
 }
 
 static enum br_status draw_all(struct br_trade_files *f, struct br_error *err)

@@ -11,7 +11,7 @@
 #include "cli/provenance.h"
 #include "cli/signals.h"
 #include "cli/warn_marches.h"
-#include "plots/split.h"
+#include "plots/pictures.h"
 #include "study/grid/observer.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
@@ -171,10 +171,11 @@ static enum br_status write_table(struct work *w, const struct br_split_emitter 
     return status ? status : closed;
 }
 
-static enum br_status write_plot(struct work *w, const struct br_chart *chart, struct br_error *err)
+static enum br_status write_plot(struct work *w, const struct br_figure *figure,
+                                 struct br_error *err)
 {
     struct br_picture_files files = {.output = &w->output};
-    const enum br_status status = br_picture_files_chart(&files, chart, err);
+    const enum br_status status = br_picture_files_draw(&files, figure, err);
     const enum br_status finished = br_picture_files_finish(&files, status ? NULL : err);
     return status ? status : finished;
 }
@@ -182,11 +183,11 @@ static enum br_status write_plot(struct work *w, const struct br_chart *chart, s
 /* Over k or h, where the runs differ by one of them. */
 static enum br_status plot(struct work *w, const struct br_split_page *page, struct br_error *err)
 {
-    struct br_chart chart;
-    enum br_status status = br_split_chart(page->split, page->count, &chart, err);
-    if (!status && chart.panels)
-        status = write_plot(w, &chart, err);
-    br_chart_clear(&chart);
+    struct br_figure figure;
+    enum br_status status = br_split_draw(page->split, page->count, &figure, err);
+    if (!status && figure.panels)
+        status = write_plot(w, &figure, err);
+    br_figure_clear(&figure);
     return status;
 }
 

@@ -13,77 +13,59 @@ struct heard {
 
 /* ---- what it says ---- */
 
-static const char *heading(const void *self, size_t column, bool *number)
+static void report(const void *result, const char *name, struct br_document *d)
 {
-    (void)self;
-    *number = column > 0;
-    return column ? "value" : "row";
-}
-
-static void cell(const void *self, size_t row, size_t column, char text[BR_CELL])
-{
-    (void)self;
-    snprintf(text, BR_CELL, column ? "%zu" : "row %zu", row);
-}
-
-static void say(const void *self, const struct br_writer *w)
-{
-    w->paragraph(w->self, ((const struct heard *)self)->line);
-}
-
-static void fill(const void *result, struct br_page *page)
-{
+    static const struct br_column columns[] = {{.key = "row"}, {.key = "value"}};
     const struct heard *h = result;
-    page->caption = "A made part";
-    page->self = h;
-    page->say = say;
-    page->tables = 1;
-    page->table[0] = (struct br_table){.name = "rows",
-                                       .title = "Rows",
-                                       .columns = 2,
-                                       .rows = h->rows,
-                                       .self = h,
-                                       .heading = heading,
-                                       .cell = cell};
+    br_document_begin(d, name, "beamrate extremes made", 1, "A made part");
+    br_put_answer(d, "%s", h->line);
+    br_put_table(d, "rows", "Rows", BR_MAIN, BR_COLUMNS(columns));
+    for (size_t i = 0; i < h->rows; i++) {
+        br_put_row(d);
+        br_put_text(d, "row", "row %zu", i);
+        br_put(d, "value", br_count(i));
+    }
 }
 
-static enum br_status draw_chart(struct br_extremes_picture *p, struct br_error *err)
+static void report_fast(const void *result, struct br_document *d)
 {
-    p->chart = br_allocate(1, sizeof *p->chart);
-    if (!p->chart)
-        return br_no_memory(err, "a chart");
-    br_chart_lay_out(p->chart, 1);
-    snprintf(p->chart->stem, sizeof p->chart->stem, "fast-chart");
-    double(*point)[2] = br_chart_curve(&p->chart->panel[0], BR_STROKE_SOLID, 2, "line");
-    if (!point)
-        return br_no_memory(err, "a curve");
-    point[1][0] = point[1][1] = 1;
-    return BR_OK;
+    report(result, "fast", d);
 }
 
-static enum br_status draw_heat(struct br_extremes_picture *p, struct br_error *err)
+static void report_slow(const void *result, struct br_document *d)
 {
-    p->heat = br_allocate(1, sizeof *p->heat);
-    if (!p->heat)
-        return br_no_memory(err, "a heat map");
-    snprintf(p->heat->stem, sizeof p->heat->stem, "fast-heat");
-    p->heat->panels = 1;
-    struct br_heat_panel *panel = &p->heat->panel[0];
-    const enum br_status status = br_heat_panel_init(panel, 2, 1, err);
-    if (status)
-        return status;
+    report(result, "slow", d);
+}
+
+static void draw_curve(struct br_figure *f)
+{
+    BR_SAY(f->stem, "fast-chart");
+    struct br_series *s = br_series_add(br_panel_add(f), BR_PEN_LINE, "line");
+    br_point_add(s, 0, 0, NULL);
+    br_point_add(s, 1, 1, NULL);
+}
+
+static void draw_cells(struct br_figure *f)
+{
+    BR_SAY(f->stem, "fast-heat");
+    struct br_panel *p = br_panel_add(f);
+    if (!br_cells_make(p, 2, 1))
+        return;
     for (int i = 0; i < 3; i++)
-        panel->x[i] = i;
-    panel->y[1] = 1;
-    panel->value[0] = 1;
-    return BR_OK;
+        p->cells.x[i] = i;
+    p->cells.y[1] = 1;
+    p->cells.value[0] = 1;
 }
 
-static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
+static enum br_status draw(const void *result, size_t i, struct br_figure *figure,
                            struct br_error *err)
 {
     (void)result;
-    return i == 0 ? draw_chart(picture, err) : i == 1 ? draw_heat(picture, err) : BR_OK;
+    if (i == 0)
+        draw_curve(figure);
+    if (i == 1)
+        draw_cells(figure);
+    return br_figure_check(figure, err);
 }
 
 static enum br_status judge(const void *result, struct br_error *err)
@@ -163,7 +145,7 @@ static const struct br_extremes_part fast = {
     .heeds = BR_HEEDS_CASES | BR_HEEDS_SEED | BR_HEEDS_N | BR_HEEDS_K | BR_HEEDS_ROUNDING,
     .run = run_fast,
     .free = free,
-    .page = fill,
+    .report = report_fast,
     .draw = draw,
     .verdict = judge,
 };
@@ -174,7 +156,7 @@ static const struct br_extremes_part slow = {
     .heeds = BR_HEEDS_CASES | BR_HEEDS_RESUME,
     .run = run_slow,
     .free = free,
-    .page = fill,
+    .report = report_slow,
     .verdict = judge,
 };
 
