@@ -62,6 +62,5 @@ extern const struct br_extremes_part br_extremes_part_floors, br_extremes_part_s
 
 /* NULL-terminated, in the order in which they run. */
 extern const struct br_extremes_part *const br_extremes_parts[];
-const struct br_extremes_part *br_extremes_part_find(const char *name);
 
 #endif

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/formats.h"
 #include "cli/provenance.h"
 #include "plots/pictures.h"
 #include "study/scene/file.h"
@@ -71,7 +70,7 @@ enum br_status br_trade_files_open(struct br_trade_files *f, int threads, struct
             .provenance = &item->provenance,
         };
     }
-    return br_output_open(&f->output, f->options->out ? f->options->out : "trade", err);
+    return br_output_open(&f->output, br_option_text(f->options, BR_OPT_OUT), err);
 }
 
 /* One table: of a page, or with pages > 1 their summary. */
@@ -97,7 +96,7 @@ static enum br_status write_tables(struct br_trade_files *f, struct br_error *er
 {
     enum br_status status = BR_OK;
     for (const struct br_page_emitter *const *e = br_page_emitters; *e && !status; e++) {
-        if (!br_format_wanted(f->options->format, (*e)->name))
+        if (!br_format_wanted(f->options, (*e)->name))
             continue;
         for (size_t i = 0; i < f->items && !status; i++)
             status = write_table(f, *e, &f->page[i], 1, err);
@@ -122,7 +121,8 @@ static enum br_status draw(struct br_trade_files *f, const struct br_trade_pictu
 static enum br_status draw_all(struct br_trade_files *f, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < f->items && !status && !f->options->no_plots; i++)
+    for (size_t i = 0; i < f->items && !status && !br_option_given(f->options, BR_OPT_NO_PLOTS);
+         i++)
         for (const struct br_trade_picture *const *p = br_trade_pictures; *p && !status; p++)
             if (br_trade_picture_applies(*p, f->page[i].trade))
                 status = draw(f, *p, &f->page[i], err);
@@ -153,11 +153,11 @@ enum br_status br_trade_files_write(struct br_trade_files *f, struct br_error *e
         status = drawn;
     if (status)
         return status;
-    if (!f->options->quiet)
+    if (!br_option_given(f->options, BR_OPT_QUIET))
         status = show(f, err);
     if (!status)
         status = br_output_commit(&f->output, err);
-    if (!status && !f->options->quiet)
+    if (!status && !br_option_given(f->options, BR_OPT_QUIET))
         br_output_announce(&f->output);
     return status;
 }
