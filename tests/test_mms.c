@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "reference/mms/projection.h"
 #include "study/grid/study.h"
@@ -14,30 +13,6 @@
 #include "support.h"
 
 /* ---- scenes ---- */
-
-static char path[] = "/tmp/br_test_mms_XXXXXX.yaml";
-
-static int make_file(void **state)
-{
-    (void)state;
-    const int descriptor = mkstemps(path, 5);
-    return descriptor < 0 ? -1 : close(descriptor);
-}
-
-static int remove_file(void **state)
-{
-    (void)state;
-    return remove(path);
-}
-
-static enum br_status read_text(const char *text, struct br_scene *scene, struct br_error *err)
-{
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
-    return br_scene_read(path, scene, err);
-}
 
 #define TOP "title: t\nlength: 2 m\nduration: 1 s\ndensity: 3 kg/m\n"
 #define AXIAL "axial:\n  stiffness: 5 N\n  viscosity: 7 N s\n"
@@ -88,14 +63,8 @@ static void test_refusals(void **state)
                    "  stick_force: 1 [N]\n" CONTACT COULOMB,
          ":12: solution: stick_force is 1 N at t = 0.923828 s, where the tip rests"},
     };
-    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
-        struct br_error err = {0};
-        struct br_scene scene;
-        const enum br_status status = read_text(refusals[i].text, &scene, &err);
-        br_scene_clear(&scene);
-        REFUSED(status, BR_BAD_INPUT, refusals[i].message);
-        REFUSED(status, BR_BAD_INPUT, path);
-    }
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++)
+        br_test_scene_refused(refusals[i].text, false, refusals[i].message);
 }
 
 static double at(const struct br_function *f, double x, double t)
@@ -109,7 +78,7 @@ static struct br_scene scene_of(const char *text)
 {
     struct br_error err = {0};
     struct br_scene scene;
-    MUST(read_text(text, &scene, &err));
+    MUST(br_scene_read_text("made.yaml", text, &scene, &err));
     return scene;
 }
 
@@ -206,16 +175,9 @@ static void test_projection(void **state)
 
 static struct br_study study_of(const struct br_scene *scene, const size_t *n, const size_t *steps)
 {
-    return (struct br_study){
-        .scene = scene,
-        .norm = br_norms[0],
-        .method = br_test_method(NULL, "implicit", NULL),
-        .judge = &br_judge_mms,
-        .n_count = 2,
-        .k_count = 2,
-        .n = n,
-        .steps = steps,
-    };
+    struct br_study s = br_test_study(scene, &br_judge_mms, 2, n, 2, steps);
+    s.method = br_test_method(NULL, "implicit", NULL);
+    return s;
 }
 
 /* What both the elements and the Euler steps hold exactly has no error at all: with contact,
@@ -281,11 +243,11 @@ static void test_threads(void **state)
 
 /* ---- out of memory ---- */
 
-static enum br_status attempt(struct br_error *err)
+static enum br_status attempt(const void *text, struct br_error *err)
 {
     static const size_t n[] = {2, 3}, steps[] = {2, 3};
     struct br_scene scene;
-    enum br_status status = br_scene_read(path, &scene, err);
+    enum br_status status = br_scene_read_text("made.yaml", text, &scene, err);
     if (!status) {
         struct br_study s = study_of(&scene, n, steps);
         status = br_study_run(&s, 1, 1, NULL, err);
@@ -298,22 +260,10 @@ static enum br_status attempt(struct br_error *err)
 static void test_allocation(void **state)
 {
     (void)state;
-    struct br_scene scene = scene_of(TOP AXIAL "  solution: x*(1 + t) [m]\n" BENDING
-                                               "  solution: x^4*t [m]\n" CONTACT COULOMB);
-    br_scene_clear(&scene);
-    long failed = 0;
-    for (long i = 0, good = 0; good < 40; i++) { /* a few allocations can be done without */
-        struct br_error err = {0};
-        br_allocation_fails_at(i);
-        const enum br_status status = attempt(&err);
-        br_allocation_fails_at(-1);
-        if (status)
-            REFUSED(status, BR_NO_MEMORY, "out of memory");
-        failed += status != BR_OK;
-        good = status ? 0 : good + 1;
-        assert_true(i < 2000);
-    }
-    assert_true(failed > 60);
+    br_test_without_memory(attempt,
+                           TOP AXIAL "  solution: x*(1 + t) [m]\n" BENDING
+                                     "  solution: x^4*t [m]\n" CONTACT COULOMB,
+                           60);
 }
 
 int main(void)
@@ -327,5 +277,5 @@ int main(void)
 
         cmocka_unit_test(test_allocation),
     };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

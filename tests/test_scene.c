@@ -5,35 +5,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "study/scene/expression.h"
 #include "study/scene/file.h"
 #include "study/scene/schema.h"
 #include "support.h"
 
-static char path[] = "/tmp/br_test_scene_XXXXXX.yaml";
-
-static int make_file(void **state)
-{
-    (void)state;
-    const int descriptor = mkstemps(path, 5);
-    return descriptor < 0 ? -1 : close(descriptor);
-}
-
-static int remove_file(void **state)
-{
-    (void)state;
-    return remove(path);
-}
-
 static enum br_status read_text(const char *text, struct br_scene *scene, struct br_error *err)
 {
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
-    return br_scene_read(path, scene, err);
+    return br_scene_read(br_test_scene_file(text), scene, err);
 }
 
 /* A good scene, which the tables below spoil in one place: lines 1 to 4, axial 5 to 8,
@@ -197,15 +177,10 @@ static void test_refusals(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
         char text[4096], where[160];
-        struct br_error err = {0};
-        struct br_scene scene;
         spoilt(refusals[i].line, refusals[i].replacement, text, sizeof text);
-        const enum br_status status = read_text(text, &scene, &err);
-        br_scene_clear(&scene);
-        br_test_keep_wrong(text, err.message);
-        REFUSED(status, BR_BAD_INPUT, refusals[i].text);
-        snprintf(where, sizeof where, "%s:%zu: %s: ", path, refusals[i].told, refusals[i].key);
-        REFUSED(status, BR_BAD_INPUT, where);
+        br_test_scene_refused(text, false, refusals[i].text);
+        snprintf(where, sizeof where, ".yaml:%zu: %s: ", refusals[i].told, refusals[i].key);
+        br_test_scene_refused(text, false, where);
     }
 }
 
@@ -240,15 +215,8 @@ static const struct {
 static void test_files(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        struct br_error err = {0};
-        struct br_scene scene;
-        const enum br_status status = read_text(files[i].text, &scene, &err);
-        br_scene_clear(&scene);
-        br_test_keep_wrong(files[i].text, err.message);
-        REFUSED(status, BR_BAD_INPUT, files[i].message);
-        REFUSED(status, BR_BAD_INPUT, path);
-    }
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        br_test_scene_refused(files[i].text, false, files[i].message);
 }
 
 /* A byte that is not UTF-8, and a file cut anywhere: refused or read, never a crash. */
@@ -284,6 +252,7 @@ static void test_no_file(void **state)
     REFUSED(br_scene_read("/tmp", &scene, &err), BR_BAD_INPUT, "/tmp");
     br_scene_clear(&scene);
     char found[1024];
+    const char *path = br_test_scene_file("");
     REFUSED(br_scene_find("example9", found, sizeof found, &err), BR_BAD_INPUT,
             "scene 'example9' is no file and no bundled scene");
     MUST(br_scene_find(path, found, sizeof found, &err));
@@ -457,5 +426,5 @@ int main(void)
         cmocka_unit_test(test_clone),
         cmocka_unit_test(test_check),
     };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

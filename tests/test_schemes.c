@@ -263,16 +263,10 @@ static void study_by(const struct br_scene *scene, const struct br_method *metho
 {
     static const size_t meshes[] = {4, 8}, steps[] = {50, 100};
     struct br_error err = {0};
-    struct br_study s = {.scene = scene,
-                         .norm = br_norms[0],
-                         .method = *method,
-                         .judge = &br_judge_fine,
-                         .reference = {16, 200},
-                         .reference_method = *method,
-                         .n_count = 2,
-                         .k_count = 2,
-                         .n = meshes,
-                         .steps = steps};
+    struct br_study s = br_test_study(scene, &br_judge_fine, 2, meshes, 2, steps);
+    s.method = *method;
+    s.reference = (struct br_resolution){16, 200};
+    s.reference_method = *method;
     MUST(br_study_run(&s, 1, threads, NULL, &err));
     for (int i = 0; i < 4; i++)
         error[i] = s.cell[i].error[BR_PART_TOTAL];
