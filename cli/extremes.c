@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "cli/command.h"
+#include "cli/documents.h"
 #include "cli/extremes_options.h"
-#include "cli/formats.h"
 #include "cli/picture_files.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
@@ -21,7 +21,7 @@ struct work {
     struct br_output output;
     struct br_provenance provenance;
     void *result[BR_EXTREMES_MOST];
-    struct br_page page[BR_EXTREMES_MOST];
+    struct br_document document[BR_EXTREMES_MOST];
 };
 
 /* ---- what an interrupted part has left ---- */
@@ -92,36 +92,11 @@ static enum br_status run_part(struct work *w, size_t i, struct br_error *err)
 
 /* ---- files ---- */
 
-static void fill_page(struct work *w, size_t i)
+static void build_report(struct work *w, size_t i)
 {
-    const struct br_extremes_part *part = w->options.part[i];
-    part->page(w->result[i], &w->page[i]);
-    w->page[i].name = part->name;
-    w->page[i].provenance = &w->provenance;
-}
-
-static enum br_status write_page(struct work *w, const struct br_page_emitter *e,
-                                 const struct br_page *page, struct br_error *err)
-{
-    char name[128];
-    FILE *file;
-    snprintf(name, sizeof name, "%.100s%s", page->name, e->extension);
-    enum br_status status = br_output_file(&w->output, name, &file, err);
-    if (status)
-        return status;
-    status = e->emit(file, page, err);
-    const enum br_status closed = br_output_close(file, name, status ? NULL : err);
-    return status ? status : closed;
-}
-
-static enum br_status write_pages(struct work *w, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (const struct br_page_emitter *const *e = br_page_emitters; *e; e++)
-        for (size_t i = 0; i < w->options.parts && !status; i++)
-            if (br_format_wanted(w->options.format, (*e)->name))
-                status = write_page(w, *e, &w->page[i], err);
-    return status;
+    struct br_document *d = &w->document[i];
+    w->options.part[i]->report(w->result[i], d);
+    br_put_provenance(d, &w->provenance);
 }
 
 static void clear_picture(struct br_extremes_picture *picture)
@@ -135,7 +110,7 @@ static void clear_picture(struct br_extremes_picture *picture)
     *picture = (struct br_extremes_picture){NULL, NULL};
 }
 
-/* The pictures of one part. */
+/* The pictures of one part: into files, and their names into its report. */
 static enum br_status draw(struct work *w, size_t part, struct br_picture_files *files,
                            struct br_error *err)
 {
@@ -144,10 +119,14 @@ static enum br_status draw(struct work *w, size_t part, struct br_picture_files 
     for (size_t i = 0; !status; i++) {
         status = w->options.part[part]->draw(w->result[part], i, &picture, err);
         const bool last = !picture.chart && !picture.heat;
-        if (!status && picture.chart)
+        if (!status && picture.chart) {
+            br_put_picture(&w->document[part], picture.chart->stem, picture.chart->title);
             status = br_picture_files_chart(files, picture.chart, err);
-        if (!status && picture.heat)
+        }
+        if (!status && picture.heat) {
+            br_put_picture(&w->document[part], picture.heat->stem, picture.heat->title);
             status = br_picture_files_heat(files, picture.heat, err);
+        }
         clear_picture(&picture);
         if (last)
             break;
@@ -164,19 +143,10 @@ static enum br_status write_all(struct work *w, struct br_error *err)
         if (w->options.part[i]->draw)
             status = draw(w, i, &files, err);
     if (!status)
-        status = write_pages(w, err);
+        status =
+            br_documents_write(&w->output, w->options.format, w->document, w->options.parts, err);
     const enum br_status drawn = br_picture_files_finish(&files, status ? NULL : err);
     return status ? status : drawn;
-}
-
-static enum br_status show(const struct work *w, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < w->options.parts && !status && !w->options.quiet; i++) {
-        status = br_page_show(stdout, &w->page[i], err);
-        putchar('\n');
-    }
-    return status;
 }
 
 /* The first verdict that fails. */
@@ -204,10 +174,10 @@ static enum br_status work(struct work *w, struct br_error *err)
         return status;
     br_provenance_fill(&w->provenance, w->wish.threads);
     for (size_t i = 0; i < w->options.parts; i++)
-        fill_page(w, i);
+        build_report(w, i);
     status = write_all(w, err);
-    if (!status)
-        status = show(w, err);
+    if (!status && !w->options.quiet)
+        status = br_documents_show(w->document, w->options.parts, err);
     if (!status)
         status = br_output_commit(&w->output, err);
     if (!status)
@@ -230,8 +200,10 @@ static enum br_status run(int argc, const char **argv, struct br_error *err)
     if (works && !status)
         status = work(&w, err);
     br_output_discard(&w.output);
-    for (size_t i = 0; i < w.options.parts; i++)
+    for (size_t i = 0; i < w.options.parts; i++) {
+        br_document_clear(&w.document[i]);
         w.options.part[i]->free(w.result[i]);
+    }
     br_extremes_wish_clear(&w.wish);
     br_extremes_options_clear(&w.options);
     return status;

@@ -4,7 +4,7 @@
 
 #include "cli/extremes_part.h"
 #include "plots/extremes_energy.h"
-#include "tables/extremes_energy.h"
+#include "tables/report_extremes.h"
 
 static void release(void *result)
 {
@@ -21,9 +21,9 @@ static enum br_status run(const struct br_extremes_job *job, void **result, stru
     return br_energy_behaviour_run(b, job->threads, job->observer, err);
 }
 
-static void fill(const void *result, struct br_page *page)
+static void report(const void *result, struct br_document *d)
 {
-    br_energy_page(result, page);
+    br_report_energy(result, d);
 }
 
 static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
@@ -56,7 +56,7 @@ const struct br_extremes_part br_extremes_part_energy = {
     .title = "what every scheme takes from the energy or adds to it, each step's balance",
     .run = run,
     .free = release,
-    .page = fill,
+    .report = report,
     .draw = draw,
     .verdict = judge,
 };

@@ -2,7 +2,7 @@
 /* The part `floors`. */
 #include "plots/extremes_floors.h"
 #include "cli/extremes_part.h"
-#include "tables/extremes_floors.h"
+#include "tables/report_extremes.h"
 
 static void floors_free(void *result)
 {
@@ -30,9 +30,9 @@ static enum br_status floors_run(const struct br_extremes_job *job, void **resul
     return br_floors_run(floors, &plan, job->observer, err);
 }
 
-static void floors_page(const void *result, struct br_page *page)
+static void report(const void *result, struct br_document *d)
 {
-    br_floors_page(result, page);
+    br_report_floors(result, d);
 }
 
 static enum br_status floors_draw(const void *result, size_t i, struct br_extremes_picture *picture,
@@ -58,7 +58,7 @@ const struct br_extremes_part br_extremes_part_floors = {
     .heeds = BR_HEEDS_N | BR_HEEDS_K | BR_HEEDS_ROUNDING,
     .run = floors_run,
     .free = floors_free,
-    .page = floors_page,
+    .report = report,
     .draw = floors_draw,
     .verdict = floors_verdict,
 };

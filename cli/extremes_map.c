@@ -5,14 +5,13 @@
 #include "cli/extremes_part.h"
 #include "cli/provenance.h"
 #include "plots/extremes_map.h"
-#include "tables/extremes_map.h"
+#include "tables/report_extremes.h"
 
 enum { CASES = 2000, SEED = 1 };
 
 struct result {
     struct br_extreme_map map;
     struct br_extreme_counts counts;
-    struct br_extremes_map_page page;
 };
 
 static void release(void *result)
@@ -32,7 +31,6 @@ static enum br_status run(const struct br_extremes_job *job, void **result, stru
     if (!r)
         return br_no_memory(err, "the map");
     snprintf(program, sizeof program, "beamrate %s %s", br_version(), br_commit());
-    r->page = (struct br_extremes_map_page){&r->map, &r->counts};
     const struct br_extreme_wish wish = {
         .seed = job->seed ? job->seed : SEED,
         .cases = job->cases ? job->cases : CASES,
@@ -47,9 +45,10 @@ static enum br_status run(const struct br_extremes_job *job, void **result, stru
     return status ? status : br_extreme_count(&r->map, &r->counts, err);
 }
 
-static void page(const void *result, struct br_page *page)
+static void report(const void *result, struct br_document *d)
 {
-    br_extremes_map_page(&((const struct result *)result)->page, page);
+    const struct result *r = result;
+    br_report_map(&r->map, &r->counts, d);
 }
 
 static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
@@ -80,7 +79,7 @@ const struct br_extremes_part br_extremes_part_map = {
     .heeds = BR_HEEDS_CASES | BR_HEEDS_SEED | BR_HEEDS_ROUNDING | BR_HEEDS_RESUME,
     .run = run,
     .free = release,
-    .page = page,
+    .report = report,
     .draw = draw,
     .verdict = verdict,
 };

@@ -54,7 +54,7 @@ static void print_parts(FILE *out)
     for (size_t i = 0; i < HEEDED; i++)
         fprintf(out, "  %-12s %s\n", heeded[i].option + 2, heeders(heeded[i].bit));
     fprintf(out, "Formats (--format):\n ");
-    for (const struct br_page_emitter *const *e = br_page_emitters; *e; e++)
+    for (const struct br_document_format *const *e = br_document_formats; *e; e++)
         fprintf(out, " %s", (*e)->name);
     fputc('\n', out);
 }

@@ -10,7 +10,7 @@
 #include "plots/heat.h"
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
-#include "tables/sheet.h"
+#include "tables/document.h"
 
 /* What is asked for. All borrowed; 0 or NULL: the part's own choice. */
 struct br_extremes_job {
@@ -53,8 +53,9 @@ struct br_extremes_part {
      * Fails with BR_BAD_INPUT, BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */
     enum br_status (*run)(const struct br_extremes_job *job, void **result, struct br_error *err);
     void (*free)(void *result); /* accepts NULL */
-    /* Fills caption, tables and sentences, which borrow from the result; the rest is filled. */
-    void (*page)(const void *result, struct br_page *page);
+    /* Begins the report and puts all into it but pictures and provenance; its name is the part's.
+     */
+    void (*report)(const void *result, struct br_document *d);
     /* Picture i, 0, 1, ...; both NULL: there are no more. Fails with BR_NO_MEMORY. */
     enum br_status (*draw)(const void *result, size_t i, struct br_extremes_picture *picture,
                            struct br_error *err);

@@ -2,7 +2,7 @@
 /* beamrate extremes stability: the contact's stability limit, predicted and measured. */
 #include "plots/extremes_stability.h"
 #include "cli/extremes_part.h"
-#include "tables/extremes_stability.h"
+#include "tables/report_extremes.h"
 
 static void release(void *result)
 {
@@ -28,9 +28,9 @@ static enum br_status run(const struct br_extremes_job *job, void **result, stru
     return br_stability_run(&request, s, err);
 }
 
-static void page(const void *result, struct br_page *page)
+static void report(const void *result, struct br_document *d)
 {
-    br_extremes_stability_page(result, page);
+    br_report_stability(result, d);
 }
 
 static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
@@ -55,7 +55,7 @@ const struct br_extremes_part br_extremes_part_stability = {
     .heeds = BR_HEEDS_N | BR_HEEDS_K,
     .run = run,
     .free = release,
-    .page = page,
+    .report = report,
     .draw = draw,
     .verdict = verdict,
 };

@@ -2,7 +2,7 @@
 /* The part `steps`. */
 #include "plots/extremes_steps.h"
 #include "cli/extremes_part.h"
-#include "tables/extremes_steps.h"
+#include "tables/report_extremes.h"
 
 static void drifts_free(void *result)
 {
@@ -28,9 +28,9 @@ static enum br_status drifts_run(const struct br_extremes_job *job, void **resul
     return br_drifts_run(drifts, &plan, job->observer, err);
 }
 
-static void drifts_page(const void *result, struct br_page *page)
+static void report(const void *result, struct br_document *d)
 {
-    br_drifts_page(result, page);
+    br_report_drifts(result, d);
 }
 
 static enum br_status drifts_draw(const void *result, size_t i, struct br_extremes_picture *picture,
@@ -56,7 +56,7 @@ const struct br_extremes_part br_extremes_part_steps = {
     .heeds = BR_HEEDS_K | BR_HEEDS_ROUNDING,
     .run = drifts_run,
     .free = drifts_free,
-    .page = drifts_page,
+    .report = report,
     .draw = drifts_draw,
     .verdict = drifts_verdict,
 };

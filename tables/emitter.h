@@ -6,18 +6,7 @@
 #include <stdio.h>
 
 #include "study/fit/report.h"
-
-/* All that is needed to repeat a run. Strings are borrowed. */
-struct br_provenance {
-    const char *version, *commit;
-    const char *compiler, *flags;
-    const char *command_line;
-    const char *machine; /* operating system, processor, cores */
-    const char *date;    /* UTC, ISO 8601 */
-    int threads;
-    const char *scene_path;
-    const char *scene_text; /* the scene's file, whole */
-};
+#include "tables/document.h"
 
 struct br_emitter {
     const char *name;      /* as on the command line */

@@ -8,7 +8,7 @@ failures=0
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 mkdir "$work/bin" || exit 1
-for tool in sh env cat grep sed dirname readlink mkdir rm; do
+for tool in sh env cat grep sed awk dirname readlink mkdir rm; do
     ln -s "$(command -v $tool)" "$work/bin/$tool" || exit 1
 done
 
@@ -30,8 +30,19 @@ END
 made cc </dev/null
 made ninja </dev/null
 made gnuplot </dev/null
+# Keeps what was chosen, as Meson does; has one test, which passes.
 made meson <<'END'
-[ "$1" != setup ] || mkdir -p "$2/meson-private"
+if [ "$1" = test ]; then
+    mkdir -p "$3/meson-logs"
+    echo '{"stdout": "ok 1 - a", "result": "OK"}' >"$3/meson-logs/testlog.json"
+fi
+[ "$1" = setup ] || exit 0
+echo "$*" >>"$W/set_ups"
+mkdir -p "$2/meson-private"
+echo rules >"$2/build.ninja"
+for word; do
+    case $word in -D*=enabled) word=${word#-D} && echo "${word%=*} = enabled" ;; esac
+done >>"$2/meson-private/cmd_line.txt"
 END
 made dpkg-query <<'END'
 for package; do :; done
@@ -47,7 +58,7 @@ for package; do grep -qx "$package" "$W/to_be_had" || exit 100; done
 printf '%s\n' "$@" >>"$W/installed"
 END
 
-every_package=$(sed -n '/^packages="/,/"$/s/^\([a-z][-a-z0-9]*\) .*/\1/p' "$1")
+every_package=$(sed -n '/^\(test_\)*packages="/,/"$/s/^\([a-z][-a-z0-9]*\) .*/\1/p' "$1")
 [ "$(echo "$every_package" | wc -w)" -ge 10 ] || exit 1
 
 # machine WITHOUT...: a new tree, on a machine with all packages but these; nothing is to be had yet.
@@ -60,11 +71,16 @@ machine() {
     for package; do sed -i "/^$package\$/d" "$work/installed"; done
 }
 
-# starts CODE CALLS WHAT: bootstrap ends with CODE, after so many calls of apt-get and sudo.
+# starts CODE CALLS WHAT [ARGUMENT...]: bootstrap (build) ends with CODE, after so many calls of
+# apt-get and sudo.
 starts() {
-    local code=0 calls
+    local code=0 calls expected=("${@:1:3}")
     : >"$work/calls"
-    PATH=$work/bin "$work/tree/bootstrap" build >"$work/said" 2>&1 </dev/null || code=$?
+    : >"$work/set_ups"
+    shift 3
+    [ $# -gt 0 ] || set -- build
+    PATH=$work/bin "$work/tree/bootstrap" "$@" >"$work/said" 2>&1 </dev/null || code=$?
+    set -- "${expected[@]}"
     calls=$(wc -l <"$work/calls")
     [ "$code" -eq "$1" ] && [ "$calls" -eq "$2" ] && return
     echo "$3: exit code $code after $calls calls, expected $1 after $2"
@@ -78,22 +94,57 @@ starts 0 0 'everything is there'
 machine "$1" gnuplot-nox
 starts 0 0 'an optional program is there, from another package'
 
-machine "$1" libhdf5-dev libopenmpi-dev
-starts 0 6 'two optional packages are not to be had'
-starts 0 0 'the same again'
-echo libopenmpi-dev >"$work/to_be_had"
+machine "$1" libflint-arb-dev python3-yaml
+starts 0 0 'what the program does not need'
+starts 0 8 'two optional packages are not to be had' test
+starts 0 0 'the same again' test
+echo python3-yaml >"$work/to_be_had"
 rm "$work/tree/build/not-installed"
-starts 0 6 'one of them is, now'
-starts 0 0 'and stays'
-grep -q '^libopenmpi-dev$' "$work/installed" || failures=$((failures + 1))
+starts 0 8 'one of them is, now' test
+starts 0 0 'and stays' test
+grep -q '^python3-yaml$' "$work/installed" || failures=$((failures + 1))
 
-machine "$1" libgsl-dev libhdf5-dev
-echo libgsl-dev >"$work/to_be_had"
-starts 0 6 'a needed package beside an optional one that is not to be had'
-starts 0 0 'the same again'
+machine "$1" libgsl-dev libcmocka-dev libflint-arb-dev
+printf '%s\n' libgsl-dev libcmocka-dev >"$work/to_be_had"
+starts 0 8 'needed packages beside an optional one that is not to be had' test
+starts 0 0 'the same again' test
 
 machine "$1" libgsl-dev
 starts 3 4 'a needed package is not to be had'
 starts 3 4 'and is tried again'
+
+machine "$1" libgsl-dev gnuplot-nox
+rm "$work/bin/gnuplot"
+printf '%s\n' libgsl-dev gnuplot-nox >"$work/to_be_had"
+starts 0 4 'all at once'
+made gnuplot </dev/null
+
+# configured WHAT [WORD]: the last start configured with this word in Meson's command, or not at all.
+configured() {
+    [ "$(wc -l <"$work/set_ups")" -eq $(($# - 1)) ] && grep -q -e "${2-}" "$work/set_ups" /dev/null
+    [ $? -eq $((2 - $#)) ] && return
+    echo "$1: configured as follows, expected ${2-nothing}"
+    sed 's/^/    /' "$work/set_ups"
+    failures=$((failures + 1))
+}
+
+machine "$1" libcmocka-dev
+starts 0 0 'the program alone'
+configured 'the program alone' '--buildtype=release$'
+starts 0 0 'the program again'
+configured 'the program again'
+starts 3 4 'a part that is not to be had' --with mpi build
+printf '%s\n' openmpi-bin libopenmpi-dev libhdf5-dev >"$work/to_be_had"
+starts 0 4 'two parts' --with mpi --with=hdf5 build
+configured 'two parts' '-Dmpi=enabled -Dhdf5=enabled --wipe$'
+for program in mpirun mpicc h5cc; do made $program </dev/null; done
+starts 0 0 'the same parts' --with mpi --with hdf5 build
+configured 'the same parts'
+echo libcmocka-dev >"$work/to_be_had"
+starts 0 4 'its tests' test
+configured 'its tests' '-Dtests=enabled --reconfigure$'
+starts 2 0 'an unknown part' --with gpu build
+starts 2 0 'a part that is not installed' --no-install --with ida build
+grep -q ' libsundials-dev$' "$work/said" || failures=$((failures + 1))
 
 [ "$failures" -eq 0 ]

@@ -13,38 +13,28 @@ struct heard {
 
 /* ---- what it says ---- */
 
-static const char *heading(const void *self, size_t column, bool *number)
+static void report(const void *result, const char *name, struct br_document *d)
 {
-    (void)self;
-    *number = column > 0;
-    return column ? "value" : "row";
-}
-
-static void cell(const void *self, size_t row, size_t column, char text[BR_CELL])
-{
-    (void)self;
-    snprintf(text, BR_CELL, column ? "%zu" : "row %zu", row);
-}
-
-static void say(const void *self, const struct br_writer *w)
-{
-    w->paragraph(w->self, ((const struct heard *)self)->line);
-}
-
-static void fill(const void *result, struct br_page *page)
-{
+    static const struct br_column columns[] = {{.key = "row"}, {.key = "value"}};
     const struct heard *h = result;
-    page->caption = "A made part";
-    page->self = h;
-    page->say = say;
-    page->tables = 1;
-    page->table[0] = (struct br_table){.name = "rows",
-                                       .title = "Rows",
-                                       .columns = 2,
-                                       .rows = h->rows,
-                                       .self = h,
-                                       .heading = heading,
-                                       .cell = cell};
+    br_document_begin(d, name, "beamrate extremes made", 1, "A made part");
+    br_put_answer(d, "%s", h->line);
+    br_put_table(d, "rows", "Rows", BR_MAIN, BR_COLUMNS(columns));
+    for (size_t i = 0; i < h->rows; i++) {
+        br_put_row(d);
+        br_put_text(d, "row", "row %zu", i);
+        br_put(d, "value", br_count(i));
+    }
+}
+
+static void report_fast(const void *result, struct br_document *d)
+{
+    report(result, "fast", d);
+}
+
+static void report_slow(const void *result, struct br_document *d)
+{
+    report(result, "slow", d);
 }
 
 static enum br_status draw_chart(struct br_extremes_picture *p, struct br_error *err)
@@ -163,7 +153,7 @@ static const struct br_extremes_part fast = {
     .heeds = BR_HEEDS_CASES | BR_HEEDS_SEED | BR_HEEDS_N | BR_HEEDS_K | BR_HEEDS_ROUNDING,
     .run = run_fast,
     .free = free,
-    .page = fill,
+    .report = report_fast,
     .draw = draw,
     .verdict = judge,
 };
@@ -174,7 +164,7 @@ static const struct br_extremes_part slow = {
     .heeds = BR_HEEDS_CASES | BR_HEEDS_RESUME,
     .run = run_slow,
     .free = free,
-    .page = fill,
+    .report = report_slow,
     .verdict = judge,
 };
 

@@ -89,6 +89,12 @@ static void test_files(void **state)
     json_t *root = json_load_file(path, 0, NULL);
     assert_non_null(root);
     assert_string_equal(json_string_value(json_object_get(root, "name")), "fast");
+    assert_string_equal(json_string_value(json_object_get(root, "format")),
+                        "beamrate extremes made");
+    const json_t *pictures_of = json_object_get(root, "pictures");
+    assert_int_equal(json_array_size(pictures_of), 2);
+    assert_string_equal(json_string_value(json_object_get(json_array_get(pictures_of, 1), "stem")),
+                        "fast-heat");
     const json_t *made = json_object_get(root, "provenance");
     assert_non_null(strstr(json_string_value(json_object_get(made, "command_line")),
                            "extremes fast --out files"));

@@ -5,6 +5,7 @@
  * the judge itself is wrong, a test program has to see: it is built with the bug, and has to fail.
  * By default a sample: the first bug of every file, and the first of every kind.
  * usage: test_planted [SHARD SHARDS | NAME], so that several can run side by side, or one alone. */
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -86,7 +87,8 @@ static void plant(const struct planted_bug *bug)
     free(source);
 }
 
-/* Compiles the planted source as the build would by one of its commands; returns its end. */
+/* Compiles the planted source as the build would by one of its commands, but with little
+ * optimisation, which is quicker; returns the command's end. */
 static const char *compile(const struct planted_bug *bug, const char *from, int number)
 {
     char word[256];
@@ -97,7 +99,7 @@ static const char *compile(const struct planted_bug *bug, const char *from, int 
     char *command = command_with(at, word), *tail = strstr(command, " -MD ");
     assert_non_null(tail);
     *tail = '\0';
-    if (run("cd '%s' && %s -w -o %s/bug%d.o -c %s/bug.c >%s/log 2>&1",
+    if (run("cd '%s' && %s -w -O1 -o %s/bug%d.o -c %s/bug.c >%s/log 2>&1",
             environment("BEAMRATE_BUILD"), command, folder, number, folder, folder) != 0)
         fail_msg("%s does not compile: see %s/log", bug->name, folder);
     free(command);
@@ -108,6 +110,13 @@ static const char *compile(const struct planted_bug *bug, const char *from, int 
 static bool is_for_a_test(const struct planted_bug *bug)
 {
     return strncmp(bug->command, "tests/", strlen("tests/")) == 0;
+}
+
+/* The row of the golden outputs that has to see the bug; NULL: something else has to. */
+static const char *golden_row(const struct planted_bug *bug)
+{
+    const size_t size = strlen("golden ");
+    return strncmp(bug->command, "golden ", size) == 0 ? bug->command + size : NULL;
 }
 
 /* Every time the build compiles that source, for an instruction set each perhaps; and links the
@@ -121,7 +130,10 @@ static void build(const struct planted_bug *bug)
     if (objects == 0)
         fail_msg("the build has no command for %s", bug->file);
     char output[256];
-    snprintf(output, sizeof output, " -o %s ", is_for_a_test(bug) ? bug->command : "cli/beamrate");
+    snprintf(output, sizeof output, " -o %s ",
+             is_for_a_test(bug) ? bug->command
+             : golden_row(bug)  ? "tests/beamrate-golden"
+                                : "cli/beamrate");
     char *link = command_with(commands, output), *rest = strstr(link, output);
     *rest = '\0';
     rest += strlen(output);
@@ -165,14 +177,28 @@ static void a_command_sees(const struct planted_bug *bug)
                  bug->command, code);
 }
 
-/* Its exit code is the number of its tests that fail; one that takes too long has 124. That it
- * passes without the bug is a test of its own. */
+/* cmocka aborts the program where the first of its tests fails, which saves the others' time. A
+ * program that crashes, or takes too long, does not say so. That it passes without the bug is a
+ * test of its own. */
 static void a_test_sees(const struct planted_bug *bug)
 {
-    const int code = run("env -u BR_TEST_LONG timeout 120 %s/planted >%s/log 2>&1", folder, folder);
-    if (code < 1 || code >= 100)
-        fail_msg("%s: %s: exit code %d, expected some of its tests to fail", bug->name,
-                 bug->command, code);
+    const int code = run("ulimit -c 0; env -u BR_TEST_LONG CMOCKA_TEST_ABORT=1 "
+                         "CMOCKA_MESSAGE_OUTPUT=stdout timeout 120 %s/planted >%s/log 2>&1",
+                         folder, folder);
+    if (code != 128 + SIGABRT || run("grep -q 'error: Failure!' %s/log", folder) != 0)
+        fail_msg("%s: %s: exit code %d, expected one of its tests to fail", bug->name, bug->command,
+                 code);
+}
+
+/* Its exit code is 1 where something differs. That nothing does without the bug is another test. */
+static void golden_outputs_see(const struct planted_bug *bug)
+{
+    const char *source = environment("BEAMRATE_SOURCE");
+    const int code = run("BEAMRATE_DATA='%s' BEAMRATE=%s/planted timeout 120 "
+                         "'%s/tests/golden/run.sh' %s >%s/log 2>&1",
+                         source, folder, source, golden_row(bug), folder);
+    if (code != 1)
+        fail_msg("%s: %s: exit code %d, expected 1: another output", bug->name, bug->command, code);
 }
 
 static void bug_is_caught(void **state)
@@ -184,6 +210,8 @@ static void bug_is_caught(void **state)
     build(bug);
     if (is_for_a_test(bug))
         a_test_sees(bug);
+    else if (golden_row(bug))
+        golden_outputs_see(bug);
     else
         a_command_sees(bug);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The part `stability` of extremes: the matrix of a step, what marches say of the limit, a verdict
- * that sees what is wrong, its page and its heat map. */
+ * that sees what is wrong, its report and its heat map. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 #include "study/extremes/step_matrix.h"
 #include "study/grid/observer.h"
 #include "support.h"
-#include "tables/extremes_stability.h"
+#include "tables/report_extremes.h"
 
 static struct br_stability found;
 
@@ -179,24 +179,28 @@ static void test_interrupted(void **state)
 
 /* ---- what is shown ---- */
 
-static void test_page(void **state)
+static void test_report(void **state)
 {
     (void)state;
     static char text[1 << 18];
-    static const struct br_provenance provenance = {
-        .version = "1", .commit = "c", .command_line = "beamrate extremes", .date = "today"};
     struct br_error err = {0};
-    struct br_page page = {.name = "stability", .provenance = &provenance};
-    br_extremes_stability_page(&found, &page);
-    for (const struct br_page_emitter *const *e = br_page_emitters; *e; e++) {
+    struct br_document d = {0};
+    br_report_stability(&found, &d);
+    for (const struct br_document_format *const *f = br_document_formats; *f; f++) {
         FILE *file = fmemopen(text, sizeof text, "w");
-        MUST((*e)->emit(file, &page, &err));
+        size_t block = 0;
+        const struct br_document_table *t = NULL;
+        while ((*f)->by_table && (t = br_document_next_table(&d, &block)))
+            MUST(br_document_print(file, *f, &d, t, &err));
+        if (!(*f)->by_table)
+            MUST(br_document_print(file, *f, &d, NULL, &err));
         assert_int_equal(fclose(file), 0);
         assert_true(strlen(text) < sizeof text - 1);
-        assert_true(*e == &br_page_csv || strstr(text, "exactly where it is predicted"));
+        assert_true((*f)->by_table || strstr(text, "exactly where it is predicted"));
         assert_non_null(strstr(text, "quasi-static"));
         assert_non_null(strstr(text, "trbdf2"));
     }
+    br_document_clear(&d);
 }
 
 static void test_heat(void **state)
@@ -230,7 +234,7 @@ int main(void)
         cmocka_unit_test(test_found),    cmocka_unit_test(test_verdict),
         cmocka_unit_test(test_bounce),   cmocka_unit_test(test_planted_limit),
         cmocka_unit_test(test_refusals), cmocka_unit_test(test_interrupted),
-        cmocka_unit_test(test_page),     cmocka_unit_test(test_heat),
+        cmocka_unit_test(test_report),   cmocka_unit_test(test_heat),
     };
     return cmocka_run_group_tests(tests, run_small, clear);
 }

@@ -47,18 +47,20 @@ static enum br_status decompose(struct br_modes *modes, struct br_error *err)
 
 /* The tip's value is the integral over [0, 1] of the first derivative, and its slope that of the
  * second one. */
-static enum br_status find_tip(struct br_modes *modes, struct br_error *err)
+static enum br_status integrate(struct br_modes *modes, struct br_error *err)
 {
-    const size_t m = modes->count;
-    double *q = br_allocate(m, sizeof *q), *series = modes->series;
+    const size_t m = modes->count, rows = br_modes_length(modes, 0);
+    double *q = br_allocate(m, sizeof *q);
     for (size_t i = 0; q && i < m; i++) {
+        double *c = &modes->function[i * rows];
         q[i] = 1;
-        br_modes_expand(modes, 1, q, series);
-        modes->tip[i] = br_pieces_integral(&modes->pieces, modes->degree - 1, series);
+        br_modes_expand(modes, modes->degree, q, c);
         if (modes->degree > 1) {
-            br_modes_expand(modes, 2, q, series);
-            modes->slope[i] = br_pieces_integral(&modes->pieces, 0, series);
+            modes->slope[i] = br_pieces_integral(&modes->pieces, 0, c);
+            br_pieces_integrate(&modes->pieces, 0, c);
         }
+        modes->tip[i] = br_pieces_integral(&modes->pieces, modes->degree - 1, c);
+        br_pieces_integrate(&modes->pieces, modes->degree - 1, c);
         q[i] = 0;
     }
     free(q);
@@ -70,12 +72,13 @@ static enum br_status allocate(struct br_modes *modes, struct br_error *err)
     const size_t m = modes->count, rows = br_modes_length(modes, 0);
     modes->size = br_allocate(m, sizeof *modes->size);
     modes->shape = br_allocate(m * rows, sizeof *modes->shape);
+    modes->function = br_allocate(m * rows, sizeof *modes->function);
     modes->curve = br_allocate(m * m, sizeof *modes->curve);
     modes->tip = br_allocate(m, sizeof *modes->tip);
     modes->slope = br_allocate(m, sizeof *modes->slope);
     modes->series = br_allocate(rows, sizeof *modes->series);
-    const bool done =
-        modes->size && modes->shape && modes->curve && modes->tip && modes->slope && modes->series;
+    const bool done = modes->size && modes->shape && modes->function && modes->curve &&
+                      modes->tip && modes->slope && modes->series;
     return done ? br_quadrature_init(&modes->quadrature, &modes->pieces, modes->degree, err)
                 : br_no_memory(err, "the modes");
 }
@@ -96,7 +99,7 @@ enum br_status br_modes_create(struct br_modes **out, const struct br_pieces *pi
     if (!status)
         status = decompose(modes, err);
     if (!status)
-        status = find_tip(modes, err);
+        status = integrate(modes, err);
     if (status)
         br_modes_free(modes);
     else
@@ -112,6 +115,7 @@ void br_modes_free(struct br_modes *modes)
     br_pieces_clear(&modes->pieces);
     free(modes->size);
     free(modes->shape);
+    free(modes->function);
     free(modes->curve);
     free(modes->tip);
     free(modes->slope);
@@ -126,33 +130,33 @@ void br_modes_expand(const struct br_modes *modes, size_t order, const double *q
         br_pieces_integrate(&modes->pieces, d, c);
 }
 
-/* out = Y' c, c the Legendre coefficients of f */
-static enum br_status test_with_shapes(struct br_modes *modes, const struct br_function *f,
-                                       double t, struct br_places fronts, double *out,
-                                       struct br_error *err)
+/* out = A' c, A one of the matrices of all functions, c the Legendre coefficients of f. */
+static enum br_status test_with(struct br_modes *modes, const double *a,
+                                const struct br_function *f, double t, struct br_places fronts,
+                                double *out, struct br_error *err)
 {
     const int rows = (int)br_modes_length(modes, 0);
     const enum br_status status =
         br_quadrature_project(&modes->quadrature, f, t, fronts, modes->series, err);
-    cblas_dgemv(CblasColMajor, CblasTrans, rows, (int)modes->count, 1, modes->shape, rows,
-                modes->series, 1, 0, out, 1);
+    cblas_dgemv(CblasColMajor, CblasTrans, rows, (int)modes->count, 1, a, rows, modes->series, 1, 0,
+                out, 1);
     return status;
 }
 
+/* With the integrals, not with s Y: in a short element at the clamp the modes are small, and Y has
+ * the round-off of its largest entries there. */
 enum br_status br_modes_load(struct br_modes *modes, const struct br_function *f, double t,
                              struct br_places fronts, double *out, struct br_error *err)
 {
-    const enum br_status status = test_with_shapes(modes, f, t, fronts, out, err);
-    for (size_t i = 0; i < modes->count; i++)
-        out[i] *= modes->size[i];
-    return status;
+    return test_with(modes, modes->function, f, t, fronts, out, err);
 }
 
 /* A mode that is smaller than round-off carries no velocity. */
 enum br_status br_modes_project(struct br_modes *modes, const struct br_function *f, double *q,
                                 struct br_error *err)
 {
-    const enum br_status status = test_with_shapes(modes, f, 0, (struct br_places){0}, q, err);
+    const enum br_status status =
+        test_with(modes, modes->shape, f, 0, (struct br_places){0}, q, err);
     for (size_t i = 0; i < modes->count; i++)
         q[i] = modes->size[i] > DBL_EPSILON * modes->size[0] ? q[i] / modes->size[i] : 0;
     return status;

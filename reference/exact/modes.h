@@ -17,13 +17,14 @@
 
 struct br_modes {
     struct br_pieces pieces;
-    size_t count;  /* m, the pieces' terms */
-    size_t degree; /* 1: axial, 2: bending */
-    double *size;  /* s, m: L2 norm of each mode */
-    double *shape; /* Y, br_modes_length(0) x m, by columns */
-    double *curve; /* U, m x m, by columns */
-    double *tip;   /* m: value of each mode at the free end */
-    double *slope; /* m: derivative of each there; degree 2 only, else zeros */
+    size_t count;     /* m, the pieces' terms */
+    size_t degree;    /* 1: axial, 2: bending */
+    double *size;     /* s, m: L2 norm of each mode */
+    double *shape;    /* Y, br_modes_length(0) x m, by columns */
+    double *function; /* B U = Y s, the same size: each mode, as integrated from the clamp */
+    double *curve;    /* U, m x m, by columns */
+    double *tip;      /* m: value of each mode at the free end */
+    double *slope;    /* m: derivative of each there; degree 2 only, else zeros */
 
     struct br_quadrature quadrature; /* of functions that are tested with shapes */
     double *series;                  /* br_modes_length(0): coefficients of the last one */

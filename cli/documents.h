@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reports on their way into an output folder: for each format and report a file, or several. */
+#ifndef BR_CLI_DOCUMENTS_H
+#define BR_CLI_DOCUMENTS_H
+
+#include "cli/output.h"
+#include "tables/document.h"
+
+/* Writes `count` documents in the formats of a list (cli/formats.h; NULL: all) into an open output,
+ * as NAME.EXTENSION, and formats that have a table a file as NAME.EXTENSION (its main table) and
+ * NAME-TABLE.EXTENSION. Fails as br_document_print does, with BR_IO, or as br_output_file. */
+enum br_status br_documents_write(const struct br_output *output, const char *formats,
+                                  const struct br_document *documents, size_t count,
+                                  struct br_error *err);
+
+/* Shows them on standard output, with an empty line between two. */
+enum br_status br_documents_show(const struct br_document *documents, size_t count,
+                                 struct br_error *err);
+
+#endif

@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Everything for programs, by jansson: what kind of report it is, the answer, facts, tables as
+ * lists of rows, notes, verdicts, and what repeats it. What is not there is null. */
+#include <jansson.h>
+#include <string.h>
+
+#include "tables/document.h"
+#include "tables/json_value.h"
+
+/* A report on its way out. */
+struct page {
+    const struct br_document *d;
+    bool lacked;     /* memory */
+    char twice[100]; /* a key that has two values; "": none */
+};
+
+/* Takes the value. */
+static void put(struct page *p, json_t *object, const char *key, json_t *value)
+{
+    if (json_object_get(object, key))
+        snprintf(p->twice, sizeof p->twice, "%s", key);
+    p->lacked |= json_object_set_new(object, key, value) != 0;
+}
+
+static void append(struct page *p, json_t *array, json_t *value)
+{
+    p->lacked |= json_array_append_new(array, value) != 0;
+}
+
+static json_t *value_of(const struct br_value *value)
+{
+    switch (value->kind) {
+    case BR_NUMBER:
+        return json_real(value->number);
+    case BR_COUNT:
+        return json_integer(value->count);
+    case BR_TRUTH:
+        return json_boolean(value->truth);
+    case BR_TEXT:
+        return br_json_string(value->text);
+    default:
+        return json_null();
+    }
+}
+
+/* The object of that name, which is made if it is not there; borrowed. */
+static json_t *object_in(struct page *p, json_t *object, const char *key)
+{
+    if (!json_is_object(json_object_get(object, key)))
+        put(p, object, key, json_object());
+    return json_object_get(object, key);
+}
+
+/* A key with dots is an object in an object. */
+static void put_fact(struct page *p, json_t *object, const char *key, json_t *value)
+{
+    char name[100];
+    for (const char *dot = strchr(key, '.'); dot; dot = strchr(key, '.')) {
+        snprintf(name, sizeof name, "%.*s", (int)(dot - key), key);
+        object = object_in(p, object, name);
+        key = dot + 1;
+    }
+    put(p, object, key, value);
+}
+
+static json_t *row_of(struct page *p, const struct br_document_table *t, size_t row)
+{
+    json_t *o = json_object();
+    for (size_t c = 0; c < t->columns; c++)
+        if (br_for_programs(t->column[c].flags))
+            put(p, o, t->column[c].key, value_of(&br_document_cell_at(t, row, c)->value));
+    return o;
+}
+
+static json_t *rows_of(struct page *p, const struct br_document_table *t)
+{
+    json_t *rows = json_array();
+    for (size_t r = 0; r < t->rows; r++)
+        append(p, rows, row_of(p, t, r));
+    return rows;
+}
+
+/* Titles of the tables, and units of their columns. */
+static json_t *columns_of(struct page *p, const struct br_document_table *t)
+{
+    json_t *o = json_object(), *units = json_object();
+    for (size_t c = 0; c < t->columns; c++)
+        if (br_for_programs(t->column[c].flags) && t->column[c].unit)
+            put(p, units, t->column[c].key, json_string(t->column[c].unit));
+    put(p, o, "title", br_json_string(t->title));
+    put(p, o, "units", units);
+    return o;
+}
+
+static json_t *verdict(struct page *p, const struct br_document_verdict *v)
+{
+    json_t *o = json_object(), *details = json_array();
+    for (size_t i = 0; i < v->details; i++)
+        append(p, details, br_json_string(v->detail[i]));
+    put(p, o, "verdict", json_string(br_outcome_names[v->outcome]));
+    put(p, o, "group", br_json_string(v->group));
+    put(p, o, "name", br_json_string(v->name));
+    put(p, o, "message", br_json_string(v->message));
+    put(p, o, "seconds", br_json_number(v->seconds));
+    put(p, o, "details", details);
+    return o;
+}
+
+static json_t *provenance(struct page *p)
+{
+    json_t *o = br_json_provenance(&p->d->provenance);
+    put(p, o, "scene_path", br_json_string(p->d->provenance.scene_path));
+    put(p, o, "scene_text", br_json_string(p->d->provenance.scene_text));
+    return o;
+}
+
+static json_t *picture(struct page *p, const struct br_block *b)
+{
+    json_t *o = json_object();
+    put(p, o, "stem", br_json_string(b->what.key));
+    put(p, o, "caption", br_json_string(b->text));
+    return o;
+}
+
+static void put_blocks(struct page *p, json_t *root)
+{
+    json_t *tables = json_object(), *about = json_object(), *notes = json_array(),
+           *pictures = json_array();
+    for (size_t i = 0; i < p->d->blocks; i++) {
+        const struct br_block *b = &p->d->block[i];
+        if (b->kind == BR_BLOCK_NOTE)
+            append(p, notes, br_json_string(b->text));
+        else if (b->kind == BR_BLOCK_PICTURE)
+            append(p, pictures, picture(p, b));
+        else if (b->kind == BR_BLOCK_TABLE && br_for_programs(b->table->flags)) {
+            put(p, tables, b->table->key, rows_of(p, b->table));
+            put(p, about, b->table->key, columns_of(p, b->table));
+        } else if (b->kind == BR_BLOCK_FACT || b->kind == BR_BLOCK_COMMAND)
+            if (br_for_programs(b->what.flags))
+                put_fact(p, root, b->what.key, value_of(&b->cell.value));
+    }
+    put(p, root, "tables", tables);
+    put(p, root, "about_tables", about);
+    put(p, root, "notes", notes);
+    put(p, root, "pictures", pictures);
+}
+
+static json_t *root_of(struct page *p)
+{
+    const struct br_document *d = p->d;
+    json_t *root = json_object(), *answer = json_array(), *verdicts = json_array();
+    for (size_t i = 0; i < d->answers; i++)
+        append(p, answer, br_json_string(d->answer[i]));
+    for (size_t i = 0; i < d->verdicts; i++)
+        append(p, verdicts, verdict(p, &d->verdict[i]));
+    put(p, root, "format", br_json_string(d->format));
+    put(p, root, "version", json_integer(d->version));
+    put(p, root, "name", br_json_string(d->name));
+    put(p, root, "caption", br_json_string(d->caption));
+    put(p, root, "answer", answer);
+    put_blocks(p, root);
+    put(p, root, "verdicts", verdicts);
+    put(p, root, "provenance", provenance(p));
+    return root;
+}
+
+static enum br_status write(FILE *out, const struct br_document *d,
+                            const struct br_document_table *table, struct br_error *err)
+{
+    (void)table;
+    struct page p = {.d = d};
+    json_t *root = root_of(&p);
+    char *text =
+        p.lacked || *p.twice
+            ? NULL
+            : json_dumps(root, JSON_INDENT(1) | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(17));
+    enum br_status status = BR_OK;
+    if (*p.twice)
+        status =
+            br_fail(err, BR_IO, "the report %.100s has two values for '%.100s'", d->name, p.twice);
+    else if (!text)
+        status = br_no_memory(err, "the JSON text");
+    else
+        fprintf(out, "%s\n", text);
+    json_decref(root);
+    free(text);
+    return status;
+}
+
+const struct br_document_format br_document_json = {
+    .name = "json",
+    .extension = ".json",
+    .title = "everything, for programs",
+    .write = write,
+};

@@ -1,0 +1,360 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tables/report_extremes.h"
+
+#include <math.h>
+
+/* ---- floors: the round-off of every linear solver ---- */
+
+/* The worst over the steps that are marched, and how many are refused. */
+static void put_worst(struct br_document *d, const struct br_floors *f, size_t solver, size_t row)
+{
+    double worst = 0;
+    size_t refused = 0;
+    for (size_t j = 0; j < f->k_count; j++) {
+        const struct br_floor *floor = br_floor_at(f, solver, row, j);
+        const double deviation = br_floor_deviation(floor);
+        if (floor->refused.status)
+            refused++;
+        else
+            worst = isnan(worst) || deviation <= worst ? worst : deviation;
+    }
+    br_put(d, f->solver[solver].name, refused == f->k_count ? br_nothing() : br_number(worst));
+    if (refused == f->k_count)
+        br_put_shown(d, "refused");
+    else if (refused)
+        br_put_shown(d, "%.1e, %zu refused", worst, refused);
+}
+
+static void put_floor_grid(struct br_document *d, const struct br_floors *f)
+{
+    br_put_table(d, "worst", "Deviation from the exact discrete solution, the worst over k",
+                 BR_FOR_PEOPLE, &(struct br_column){.key = "n"}, 1);
+    for (size_t i = 0; i < f->solvers; i++)
+        br_put_column(d, &(struct br_column){.heading = f->solver[i].name, .format = "%.1e"});
+    for (size_t row = 0; row < f->n_count; row++) {
+        br_put_row(d);
+        br_put(d, "n", br_count(f->n[row]));
+        for (size_t i = 0; i < f->solvers; i++)
+            put_worst(d, f, i, row);
+    }
+}
+
+static void put_floors(struct br_document *d, const struct br_floors *f)
+{
+    static const struct br_column columns[] = {
+        {.key = "solver"},
+        {.key = "n"},
+        {.key = "k", .unit = "s"},
+        {.key = "steps"},
+        {.key = "axial", .format = "%.2e"},
+        {.key = "bending", .format = "%.2e"},
+        {.key = "axial_tip", .heading = "axial tip", .format = "%.2e"},
+        {.key = "bending_tip", .heading = "bending tip", .format = "%.2e"},
+        {.key = "predicted", .format = "%.2e"},
+        {.key = "outcome"},
+        {.key = "message", .heading = "why", .flags = BR_WRAP},
+    };
+    br_put_table(d, "floors", "Every solver, mesh and time step", BR_FILES_ONLY | BR_MAIN,
+                 BR_COLUMNS(columns));
+    for (size_t i = 0; i < f->solvers * f->n_count * f->k_count; i++) {
+        const struct br_floor *floor = &f->floor[i];
+        const size_t solver = i / (f->n_count * f->k_count);
+        const bool below = br_floor_deviation(floor) <= br_floor_limit(f, solver, floor);
+        br_put_row(d);
+        br_put(d, "solver", br_text(f->solver[solver].name));
+        br_put(d, "n", br_count(floor->n));
+        br_put(d, "k", br_number(floor->k));
+        br_put(d, "steps", br_count(floor->steps));
+        br_put(d, "axial", br_number(floor->deviation[BR_AXIAL]));
+        br_put(d, "bending", br_number(floor->deviation[BR_BENDING]));
+        br_put(d, "axial_tip", br_number(floor->tip[BR_AXIAL]));
+        br_put(d, "bending_tip", br_number(floor->tip[BR_BENDING]));
+        br_put(d, "predicted", br_number(floor->predicted));
+        br_put(d, "outcome",
+               br_text(floor->refused.status ? "refused"
+                       : below               ? "as predicted"
+                                             : "ABOVE"));
+        br_put(d, "message", br_text(floor->refused.status ? floor->refused.message : NULL));
+    }
+}
+
+void br_report_floors(const struct br_floors *f, struct br_document *d)
+{
+    struct br_error err = {0};
+    br_document_begin(d, "floors", "beamrate extremes floors", 1,
+                      "Round-off floors of the linear solvers");
+    if (br_floors_verdict(f, &err))
+        br_put_answer(d, "ABOVE: %s", err.message);
+    else
+        br_put_answer(d, "Every solver is right to the round-off that it predicts, or refuses.");
+    put_floor_grid(d, f);
+    put_floors(d, f);
+    br_put_section(d, "What is measured");
+    br_put_note(d, "Deviation: the largest difference of all nodal displacements from the exact "
+                   "discrete solution (the same equations in long double, in a form that loses "
+                   "nothing), relative to the largest displacement of the field, after 20 steps of "
+                   "Example 2 by implicit Euler with lagged contact; the larger of both fields.");
+    br_put_note(d, "Refused: the assembled matrix would leave a march more than a twentieth off. "
+                   "'refined' does up to 2 steps of refinement a solve, 'scaled' scales the rows.");
+}
+
+/* ---- drifts: the round-off that steps gather ---- */
+
+static void put_drift_grid(struct br_document *d, const struct br_drifts *f)
+{
+    static const struct br_column columns[] = {{.key = "scene"}, {.key = "method"}};
+    char heading[32];
+    br_put_table(d, "gathered", "Deviation from the exact discrete solution after N steps",
+                 BR_FOR_PEOPLE, BR_COLUMNS(columns));
+    for (size_t j = 0; j < f->k_count; j++) {
+        snprintf(heading, sizeof heading, "N = %.3g", (double)f->steps[j]);
+        br_put_column(d, &(struct br_column){.heading = heading, .format = "%.1e"});
+    }
+    for (size_t row = 0; row < BR_DRIFT_SCENES * f->contenders; row++) {
+        const size_t scene = row / f->contenders, method = row % f->contenders;
+        br_put_row(d);
+        br_put(d, "scene", br_text(f->scene[scene].name));
+        br_put(d, "method", br_text(f->contender[method].name));
+        for (size_t j = 0; j < f->k_count; j++) {
+            const struct br_drift *drift = br_drift_at(f, scene, method, j);
+            br_put(d, NULL, br_number(drift->steps ? br_drift_deviation(drift) : NAN));
+            if (drift->refused.status)
+                br_put_shown(d, "refused");
+        }
+    }
+}
+
+static const char *drift_outcome(const struct br_drift *drift)
+{
+    if (drift->refused.status)
+        return "refused";
+    if (!drift->steps)
+        return "not marched";
+    return br_drift_deviation(drift) <= drift->predicted ? "as predicted" : "ABOVE";
+}
+
+static void put_drifts(struct br_document *d, const struct br_drifts *f)
+{
+    static const struct br_column columns[] = {
+        {.key = "scene"},
+        {.key = "method"},
+        {.key = "steps"},
+        {.key = "axial", .format = "%.2e"},
+        {.key = "bending", .format = "%.2e"},
+        {.key = "predicted", .format = "%.2e"},
+        {.key = "time_levels", .heading = "time levels", .format = "%.2e"},
+        {.key = "outcome"},
+        {.key = "message", .heading = "why", .flags = BR_WRAP},
+    };
+    br_put_table(d, "steps", "Every scene, method and number of steps", BR_FILES_ONLY | BR_MAIN,
+                 BR_COLUMNS(columns));
+    for (size_t i = 0; i < BR_DRIFT_SCENES * f->contenders * f->k_count; i++) {
+        const struct br_drift *drift = &f->drift[i];
+        const size_t row = i / f->k_count;
+        const bool marched = drift->steps > 0;
+        br_put_row(d);
+        br_put(d, "scene", br_text(f->scene[row / f->contenders].name));
+        br_put(d, "method", br_text(f->contender[row % f->contenders].name));
+        br_put(d, "steps", br_count(f->steps[i % f->k_count]));
+        br_put(d, "axial", br_number(marched ? drift->deviation[BR_AXIAL] : NAN));
+        br_put(d, "bending", br_number(marched ? drift->deviation[BR_BENDING] : NAN));
+        br_put(d, "predicted", br_number(marched ? drift->predicted : NAN));
+        br_put(d, "time_levels", br_number(marched ? drift->time_error : NAN));
+        br_put(d, "outcome", br_text(drift_outcome(drift)));
+        br_put(d, "message", br_text(drift->refused.status ? drift->refused.message : NULL));
+    }
+}
+
+void br_report_drifts(const struct br_drifts *f, struct br_document *d)
+{
+    struct br_error err = {0};
+    br_document_begin(d, "steps", "beamrate extremes steps", 1, "Round-off that steps gather");
+    if (br_drifts_verdict(f, &err))
+        br_put_answer(d, "ABOVE: %s", err.message);
+    else
+        br_put_answer(d, "However many steps there are, the round-off that they gather stays below "
+                         "what is predicted, and the time levels are n T/N.");
+    put_drift_grid(d, f);
+    put_drifts(d, f);
+    br_put_section(d, "What is measured");
+    br_put_note(d, "Deviation: the largest difference of all nodal displacements from the exact "
+                   "discrete solution at the end of the duration, relative to the largest "
+                   "displacement of the field; the larger of both fields; 10 elements.");
+    br_put_note(d, "Predicted: what a solver loses in a step, and a random walk of "
+                   "64 * 2^-52 * sqrt(N). In Example 1 the tip sticks: friction holds its "
+                   "velocity, and nothing its displacement.");
+}
+
+/* ---- stability of the contact ---- */
+
+static void put_limits(struct br_document *d, const struct br_stability *s)
+{
+    static const struct br_column columns[] = {
+        {.key = "rod"},
+        {.key = "rho", .unit = "kg/m", .format = "%.4g"},
+        {.key = "c", .unit = "N s", .format = "%.4g"},
+        {.key = "k", .unit = "s", .format = "%.4g"},
+        {.key = "predicted", .unit = "N/m", .format = "%.12g"},
+        {.key = "measured", .unit = "N/m", .format = "%.12g"},
+        {.key = "difference", .format = "%.1e"},
+    };
+    br_put_table(d, "limits", "Stability limit of the lagged contact", BR_FILES_ONLY,
+                 BR_COLUMNS(columns));
+    for (size_t i = 0; i < BR_STABILITY_RODS * s->rows; i++) {
+        const struct br_stability_plane *p = &s->plane[i / s->rows];
+        const struct br_stability_row *r = &p->row[i % s->rows];
+        br_put_row(d);
+        br_put(d, "rod", br_text(p->rod->title));
+        br_put(d, "rho", br_number(p->rod->density));
+        br_put(d, "c", br_number(p->rod->viscosity));
+        br_put(d, "k", br_number(r->k));
+        br_put(d, "predicted", br_number(r->limit));
+        br_put(d, "measured", br_number(r->measured));
+        br_put(d, "difference", br_number(r->measured / r->limit - 1));
+    }
+}
+
+static void put_growth(struct br_document *d, const struct br_stability *s)
+{
+    static const struct br_column columns[] = {
+        {.key = "rod"},
+        {.key = "k", .unit = "s", .format = "%.6g"},
+        {.key = "c_H", .unit = "N/m", .format = "%.6g"},
+        {.key = "eigenvalue", .heading = "largest eigenvalue", .format = "%.15g"},
+        {.key = "predicted", .heading = "predicted growth", .format = "%.15g"},
+    };
+    const size_t cells = s->rows * s->columns;
+    br_put_table(d, "cells", "Growth a step of the closed lagged contact", BR_FILES_ONLY,
+                 BR_COLUMNS(columns));
+    for (size_t i = 0; i < BR_STABILITY_RODS * cells; i++) {
+        const struct br_stability_plane *p = &s->plane[i / cells];
+        const size_t at = i % cells;
+        const double growth = p->growth[at];
+        br_put_row(d);
+        br_put(d, "rod", br_text(p->rod->name));
+        br_put(d, "k", br_number(p->row[at / s->columns].k));
+        br_put(d, "c_H", br_number(s->stiffness[at % s->columns]));
+        br_put(d, "eigenvalue", br_number(p->radius[at]));
+        br_put(d, "predicted", br_number(growth > 1 ? growth : NAN));
+    }
+}
+
+static void put_schemes(struct br_document *d, const struct br_stability *s)
+{
+    static const struct br_column columns[] = {
+        {.key = "scheme"},
+        {.key = "marches"},
+        {.key = "failed"},
+        {.key = "uncertain", .heading = "without a certificate"},
+        {.key = "force", .heading = "force off by", .format = "%.1e"},
+        {.key = "depth", .heading = "depth off by", .format = "%.1e"},
+    };
+    br_put_table(d, "schemes", "Contact at u_n, c_H from 1 to 1e15 N/m", 0, BR_COLUMNS(columns));
+    for (size_t i = 0; i < s->schemes; i++) {
+        const struct br_stability_scheme *c = &s->scheme[i];
+        br_put_row(d);
+        br_put(d, "scheme", br_text(c->scheme->name));
+        br_put(d, "marches", br_count(c->marches));
+        br_put(d, "failed", br_count(c->failed));
+        br_put(d, "uncertain", c->certified ? br_count(c->uncertain) : br_nothing());
+        br_put(d, "force", br_number(c->force));
+        br_put(d, "depth", br_number(c->depth));
+    }
+}
+
+static void put_tips(struct br_document *d, const struct br_stability *s)
+{
+    static const struct br_column columns[] = {
+        {.key = "share", .heading = "c_H over its limit"},
+        {.key = "c_H", .unit = "N/m"},
+        {.key = "opened", .heading = "times it opened"},
+        {.key = "swing", .format = "%.2e"},
+        {.key = "farthest", .format = "%.2e"},
+    };
+    br_put_table(d, "pressed", "A pressed tip, lagged contact", 0, BR_COLUMNS(columns));
+    for (size_t i = 0; i < BR_STABILITY_TIPS; i++) {
+        const struct br_stability_tip *t = &s->tip[i];
+        br_put_row(d);
+        br_put(d, "share", br_number(t->share));
+        br_put(d, "c_H", br_number(t->stiffness));
+        br_put(d, "opened", br_count(t->opened));
+        br_put(d, "swing", br_number(t->swing));
+        br_put(d, "farthest", br_number(t->farthest));
+    }
+}
+
+static void put_bounces(struct br_document *d, const struct br_stability *s)
+{
+    static const struct br_column columns[] = {
+        {.key = "c_H", .unit = "N/m", .format = "%.4g"},
+        {.key = "over_bouncing", .heading = "over the limit without inertia", .format = "%.4g"},
+        {.key = "over_limit", .heading = "over the limit", .format = "%.4g"},
+        {.key = "impacts"},
+        {.key = "energy", .heading = "largest energy over the first", .format = "%.7g"},
+    };
+    br_put_table(d, "bouncing", "A bouncing rod, lagged contact", 0, BR_COLUMNS(columns));
+    for (size_t i = 0; i < BR_STABILITY_BOUNCES; i++) {
+        const struct br_stability_bounce *b = &s->bounce[i];
+        br_put_row(d);
+        br_put(d, "c_H", br_number(b->stiffness));
+        br_put(d, "over_bouncing", br_number(b->bouncing));
+        br_put(d, "over_limit", br_number(b->limit));
+        br_put(d, "impacts", br_count(b->impacts));
+        br_put(d, "energy", br_number(b->energy));
+    }
+}
+
+static void answer_stability(struct br_document *d, const struct br_stability *s)
+{
+    struct br_error err = {0};
+    if (br_stability_verdict(s, &err))
+        br_put_answer(d, "Not as predicted: %s.", err.message);
+    else
+        br_put_answer(d, "The contact is stable and unstable exactly where it is predicted to be.");
+    br_put_answer(d,
+                  "The largest relative difference between a predicted and a measured stability "
+                  "limit of the lagged contact is %.1e.",
+                  s->limit_error);
+    br_put_answer(d,
+                  "Between predicted and measured growth, in %zu of %zu cells of the planes, it is "
+                  "%.1e.",
+                  s->growing, s->cells, s->growth_error);
+    if (s->excess > 0)
+        br_put_answer(d, "In the other cells eigenvalues are up to %.1e outside the unit circle.",
+                      s->excess);
+    else
+        br_put_answer(d, "In the other cells all eigenvalues are within the unit circle.");
+    br_put_answer(d, "Contact at u_n has no limit: every scheme brings a pressed rod to rest with "
+                     "c_H up to 1e15 N/m.");
+}
+
+void br_report_stability(const struct br_stability *s, struct br_document *d)
+{
+    br_document_begin(d, "stability", "beamrate extremes stability", 1,
+                      "The contact's stability: predicted, and measured by marches");
+    answer_stability(d, s);
+    put_limits(d, s);
+    put_growth(d, s);
+    put_schemes(d, s);
+    put_tips(d, s);
+    put_bounces(d, s);
+    br_put_section(d, "How it was measured");
+    br_put_note(
+        d,
+        "Measured: the matrix of a step against a closed contact, column by column by marches of "
+        "one step of %zu elements, its largest eigenvalue, and by bisection the c_H where that "
+        "leaves the unit circle. Predicted: c_H times the tip's flexibility at s = 2/k is 1.",
+        s->n);
+    br_put_note(
+        d,
+        "Pressed tips (the paper's rod, k = %g s, 4000 steps of a constant load): swing of the last "
+        "quarter, and largest displacement, over the free rod's. Within the limit they rest, "
+        "beyond it they chatter.",
+        s->tip_k);
+    br_put_note(
+        d,
+        "Bouncing rods (no viscosity, k = %g s): within the limit without inertia, (a + 2c/k)/L, a "
+        "lagged contact never gains energy; between that and the limit a closed one is stable, but "
+        "impacts may gain some. Euler with contact at u_n gains none.",
+        s->bounce_k);
+}

@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <inttypes.h>
+#include <math.h>
+
+#include "tables/report_extremes.h"
+
+/* By class; a key is the class's word. */
+static const char *const class_headings[BR_EXTREME_CLASSES] = {
+    [BR_EXTREME_RIGHT] = "right",
+    [BR_EXTREME_WARNED] = "inaccurate, said",
+    [BR_EXTREME_UNKNOWN] = "inaccurate, error not known",
+    [BR_EXTREME_UNSTABLE] = "unstable as predicted",
+    [BR_EXTREME_REFUSED] = "refused",
+    [BR_EXTREME_UNJUDGED] = "given up by the map",
+    [BR_EXTREME_WRONG] = "silently wrong",
+};
+
+static void put_tallies(struct br_document *d, const struct br_extreme_counts *counts)
+{
+    static const struct br_column columns[] = {
+        {.key = "tried", .heading = "what was tried"}, {.key = "range"}, {.key = "cases"}};
+    br_put_table(d, "tally", "What was tried, and what came of it", 0, BR_COLUMNS(columns));
+    for (int c = 0; c < BR_EXTREME_CLASSES; c++)
+        br_put_column(d, &(struct br_column){.key = br_extreme_word((enum br_extreme_class)c),
+                                             .heading = class_headings[c]});
+    for (size_t i = 0; i < counts->tallies; i++) {
+        const struct br_extreme_tally *t = &counts->tally[i];
+        br_put_row(d);
+        br_put(d, "tried", br_text(t->axis ? t->axis->title : "all"));
+        br_put(d, "range", br_text(t->axis ? t->label : NULL));
+        br_put(d, "cases", br_count(t->cases));
+        for (int c = 0; c < BR_EXTREME_CLASSES; c++)
+            br_put(d, br_extreme_word((enum br_extreme_class)c), br_count(t->count[c]));
+    }
+}
+
+static void put_reasons(struct br_document *d, const struct br_extreme_counts *counts)
+{
+    static const struct br_column columns[] = {
+        {.key = "kind"}, {.key = "cases"}, {.key = "first"}, {.key = "reason", .flags = BR_WRAP}};
+    br_put_table(d, "reasons", "Why it is not right (# stands for numbers)", BR_FILES_ONLY,
+                 BR_COLUMNS(columns));
+    for (size_t i = 0; i < counts->reasons; i++) {
+        const struct br_extreme_reason *r = &counts->reason[i];
+        br_put_row(d);
+        br_put(d, "kind", br_text(br_extreme_word(r->which)));
+        br_put_shown(d, "%s", class_headings[r->which]);
+        br_put(d, "cases", br_count(r->cases));
+        br_put(d, "first", br_count(r->first));
+        br_put(d, "reason", br_text(r->text));
+    }
+}
+
+static void put_wrong(struct br_document *d, const struct br_extreme_map *m)
+{
+    static const struct br_column columns[] = {{.key = "case"},
+                                               {.key = "scene"},
+                                               {.key = "why", .flags = BR_WRAP},
+                                               {.key = "command", .flags = BR_WRAP}};
+    br_put_table(d, "wrong", "Silently wrong, made small", 0, BR_COLUMNS(columns));
+    for (size_t i = 0; i < m->shrunks; i++) {
+        const struct br_extreme_shrunk *s = &m->shrunk[i];
+        br_put_row(d);
+        br_put(d, "case", br_count(s->one.index));
+        br_put(d, "scene", br_text(s->file));
+        br_put(d, "why", br_text(s->verdict.why));
+        br_put(d, "command", br_text(s->command));
+    }
+}
+
+static void put_warnings(struct br_document *d, unsigned warned)
+{
+    char text[400] = "";
+    size_t used = 0;
+    for (int kind = 0; kind < BR_WARNINGS; kind++)
+        if (warned & 1u << kind && used < sizeof text)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "",
+                                     br_warning_word((enum br_warning_kind)kind));
+    br_put(d, "warnings", br_text(used ? text : NULL));
+}
+
+static void put_case(struct br_document *d, const struct br_extreme_case *c, size_t index,
+                     const struct br_extreme_verdict *v)
+{
+    br_put_row(d);
+    br_put(d, "case", br_count(index));
+    br_put(d, "verdict", br_text(br_extreme_word(v->which)));
+    br_put(d, "judge", br_text(v->by == BR_BY_NOBODY ? NULL : br_extreme_by_name(v->by)));
+    br_put(d, "error", br_number(v->error));
+    br_put(d, "other_units", br_number(v->units));
+    br_put(d, "round_off", br_number(v->round_off));
+    put_warnings(d, v->warned);
+    br_put(d, "scheme", br_text(c->method.scheme->name));
+    br_put(d, "solver", br_text(c->method.solver->name));
+    br_put(d, "contact", br_text(c->method.contact->name));
+    br_put(d, "friction", br_text(c->method.friction->name));
+    br_put(d, "degree", br_count((size_t)c->method.axial_degree));
+    br_put(d, "n", br_count(c->n));
+    br_put(d, "steps", br_count(c->steps));
+    br_put(d, "L", br_number(c->length));
+    br_put(d, "T", br_number(c->duration));
+    br_put(d, "rho", br_number(c->density));
+    br_put(d, "c_H", br_number(c->contact ? c->contact_stiffness : NAN));
+    br_put(d, "c_V", br_number(c->law == BR_FRICTIONLESS ? NAN : c->friction));
+    br_put(d, "why", br_text(*v->why ? v->why : NULL));
+}
+
+static void put_cases(struct br_document *d, const struct br_extreme_map *m)
+{
+    static const struct br_column columns[] = {
+        {.key = "case"},
+        {.key = "verdict"},
+        {.key = "judge"},
+        {.key = "error", .format = "%.2e"},
+        {.key = "other_units", .heading = "other units", .format = "%.2e"},
+        {.key = "round_off", .heading = "round-off", .format = "%.2e"},
+        {.key = "warnings"},
+        {.key = "scheme"},
+        {.key = "solver"},
+        {.key = "contact"},
+        {.key = "friction"},
+        {.key = "degree"},
+        {.key = "n"},
+        {.key = "steps"},
+        {.key = "L", .unit = "m", .format = "%.4g"},
+        {.key = "T", .unit = "s", .format = "%.4g"},
+        {.key = "rho", .unit = "kg/m", .format = "%.4g"},
+        {.key = "c_H", .unit = "N/m", .format = "%.4g"},
+        {.key = "c_V", .format = "%.4g"},
+        {.key = "why", .flags = BR_WRAP},
+    };
+    br_put_table(d, "cases", "All cases", BR_FILES_ONLY | BR_MAIN, BR_COLUMNS(columns));
+    for (size_t i = 0; i < m->cases; i++)
+        put_case(d, &m->one[i], i, &m->verdict[i]);
+}
+
+static void answer_map(struct br_document *d, const struct br_extreme_map *m)
+{
+    const size_t *n = m->count;
+    const struct br_extreme_rate r = br_extreme_rate(m);
+    if (n[BR_EXTREME_WRONG])
+        br_put_answer(d, "%zu of %zu cases are silently wrong.", n[BR_EXTREME_WRONG], m->cases);
+    else
+        br_put_answer(d, "None of %zu cases is silently wrong.", m->cases);
+    br_put_answer(
+        d,
+        "%zu are right, %zu are inaccurate and say so, %zu are inaccurate and say that their "
+        "error is not known, %zu are unstable as predicted, %zu are refused, and %zu were given "
+        "up by the map, since they or their judges take too long.",
+        n[BR_EXTREME_RIGHT], n[BR_EXTREME_WARNED], n[BR_EXTREME_UNKNOWN], n[BR_EXTREME_UNSTABLE],
+        n[BR_EXTREME_REFUSED], n[BR_EXTREME_UNJUDGED]);
+    if (r.answers == 0)
+        return;
+    br_put_answer(
+        d,
+        "Of %zu answers that were judged, %.2g %% are silently wrong, which tells a rate between "
+        "%.2g %% and %.2g %% (95 %%, Clopper and Pearson).",
+        r.answers, 100 * (double)r.wrong / (double)r.answers, 100 * r.low, 100 * r.high);
+    br_put_answer(
+        d,
+        "%zu of them, %.2g %%, say that their error is not known, %zu of these beyond the lagged "
+        "contact's limit; all others state it, with an interval.",
+        r.unstated, 100 * (double)r.unstated / (double)r.answers, r.unstated_unstable);
+}
+
+static size_t judged_by(const struct br_extreme_map *m, enum br_extreme_by by)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < m->cases; i++)
+        count += m->verdict[i].by == by;
+    return count;
+}
+
+static double largest_units(const struct br_extreme_map *m, size_t *compared)
+{
+    double most = 0;
+    *compared = 0;
+    for (size_t i = 0; i < m->cases; i++)
+        if (!isnan(m->verdict[i].units)) {
+            most = fmax(most, m->verdict[i].units);
+            (*compared)++;
+        }
+    return most;
+}
+
+static void note_judging(struct br_document *d, const struct br_extreme_map *m)
+{
+    size_t compared;
+    const double units = largest_units(m, &compared);
+    br_put_section(d, "How it was judged");
+    br_put_note(
+        d,
+        "Cases are drawn from seed %" PRIu64
+        ". Silently wrong is an answer that is further from the truth than the error that it "
+        "states, with its interval and round-off, or than 5 %% where it states none and no warning "
+        "says so; and one that breaks an equation or a law. Right means: marched with the certificate "
+        "of every step, within what is stated, and within 5 %% (each field relative to its largest, "
+        "mean squares at eight times and up to 24 places), judged by the exact solution (%zu cases) "
+        "or by another scheme on two to eight times the elements with up to 32 times the steps "
+        "(%zu), and once more by a finer one before anything is called wrong.",
+        m->seed, judged_by(m, BR_BY_EXACT), judged_by(m, BR_BY_REFINEMENT));
+    br_put_note(
+        d,
+        "%zu cases were marched in other units of length, time and mass, too. Their displacements "
+        "agree to the predicted round-off, or to what a change of the data by 1e-12 does to them; "
+        "the largest difference is %.1e.",
+        compared, units);
+}
+
+void br_report_map(const struct br_extreme_map *m, const struct br_extreme_counts *counts,
+                   struct br_document *d)
+{
+    char again[120];
+    br_document_begin(d, "map", "beamrate extremes map", 1,
+                      "The map of extremes: right, or refused; never silently wrong");
+    answer_map(d, m);
+    put_tallies(d, counts);
+    put_reasons(d, counts);
+    put_wrong(d, m);
+    put_cases(d, m);
+    note_judging(d, m);
+    snprintf(again, sizeof again, "beamrate extremes map --cases %zu --seed %" PRIu64, m->cases,
+             m->seed);
+    br_put_command(d, "command", "To repeat this", again);
+}
