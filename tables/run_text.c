@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/scene/method_fields.h"
 #include "study/scene/quote.h"
-#include "tables/method_text.h"
 #include "tables/run_page.h"
 
 enum { SHOWN_EVENTS = 20 };
@@ -71,7 +71,10 @@ static void expected(FILE *out, const struct br_run_page *page)
     fprintf(out, "  round-off             %.1e\n", page->prediction->round_off);
     for (size_t i = 0; i < page->warnings->count; i++) {
         const struct br_warning *w = &page->warnings->list[i];
-        fprintf(out, "  Warning: %s%s%s\n", w->text, w->remedy[0] ? "; remedy: " : "", w->remedy);
+        fprintf(out, "  Warning: %s%s\n", w->text, w->remedy[0] ? "; remedy:" : "");
+        for (const char *line = w->remedy; *line;
+             line += strcspn(line, "\n"), line += *line == '\n')
+            fprintf(out, "    %.*s\n", (int)strcspn(line, "\n"), line);
     }
 }
 
