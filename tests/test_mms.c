@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "reference/mms/projection.h"
+#include "solver/proof.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
 #include "study/scene/file.h"
@@ -266,6 +267,85 @@ static void test_allocation(void **state)
                            60);
 }
 
+/* ---- what is proved of tip forces ---- */
+
+static const struct forced {
+    const char *text;
+    enum br_field_kind kind;
+    size_t breaks;
+    double at[3]; /* s: where the force bends or jumps */
+} forced[] = {
+    {TOP AXIAL "  solution: x*t^2 [m]\n" CONTACT, BR_AXIAL, 1, {0.22360679774997896}},
+    {TOP AXIAL "  solution: x*sin(pi*t) [m]\n" CONTACT, BR_AXIAL, 2, {0.0159221332, 0.9840778668}},
+    {TOP BENDING "  solution: x^4*(t^2 - t) [m]\n" TRESCA, BR_BENDING, 1, {0.5}},
+    {TOP BENDING "  solution: x^4*(1 + (t - 0.4)^2*step(t - 0.4)) [m]\n"
+                 "  stick_force: 3*cos(9*t) [N]\n" TRESCA,
+     BR_BENDING,
+     1,
+     {0.4}},
+    {TOP AXIAL "  solution: x*t [m]\n" BENDING "  solution: x^4*(t^3 - t) [m]\n" CONTACT COULOMB,
+     BR_BENDING,
+     2,
+     {0.05, 0.57735026918962576}},
+};
+
+/* The places where a tip force bends or jumps are found, and no others. */
+static void test_tip_breaks(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof forced / sizeof *forced; i++) {
+        struct br_error err = {0};
+        struct br_scene s = scene_of(forced[i].text);
+        struct br_breaks breaks = {0};
+        const struct br_function *f =
+            forced[i].kind == BR_AXIAL ? &s.axial.tip_force : &s.bending.tip_force;
+        MUST(br_breaks_add(f, BR_T, (struct br_box){{0, 2}, {0, 1}}, &breaks, &err));
+        assert_int_equal(breaks.count, forced[i].breaks);
+        for (size_t k = 0; k < breaks.count; k++)
+            CLOSE(breaks.at[k].low, forced[i].at[k], 1e-8);
+        br_breaks_free(&breaks);
+        br_scene_clear(&s);
+    }
+}
+
+/* In random boxes: all values lie within the bounds, and the series from one end reaches the other
+ * within its remainder. Bounds and series are there, but for boxes that hold a break. */
+static void test_tip_bounds(void **state)
+{
+    (void)state;
+    enum { ORDER = 4, TRIALS = 400 };
+    struct br_test_random random = {5};
+    for (size_t i = 0; i < TRIALS; i++) {
+        const struct forced *row = &forced[i % (sizeof forced / sizeof *forced)];
+        struct br_scene s = scene_of(row->text);
+        const struct br_function *f =
+            row->kind == BR_AXIAL ? &s.axial.tip_force : &s.bending.tip_force;
+        const double low = br_test_uniform(&random, 0, 1), wide = (1 - low) * 0.05,
+                     high = low + wide;
+        const struct br_box box = {{0, 0}, {low, high}}, start = {{0, 0}, {low, low}};
+        struct br_interval value, c[ORDER + 1], at_start[ORDER + 1];
+        bool broken = false;
+        for (size_t k = 0; k < row->breaks; k++)
+            broken |= low - 1e-6 < row->at[k] && row->at[k] < high + 1e-6;
+        assert_true(br_function_bound(f, box, &value));
+        for (int k = 0; k <= 16; k++) {
+            const double y = at(f, 0, low + wide * k / 16);
+            assert_true(value.low <= y && y <= value.high);
+        }
+        assert_true(br_function_taylor(f, BR_T, box, ORDER, c) != broken);
+        if (!broken && br_function_taylor(f, BR_T, start, ORDER, at_start)) {
+            double least = 0, most = 0;
+            for (size_t k = ORDER + 1; k-- > 0;) {
+                least = least * wide + (k == ORDER ? c[k].low : at_start[k].low);
+                most = most * wide + (k == ORDER ? c[k].high : at_start[k].high);
+            }
+            const double y = at(f, 0, high), round_off = 1e-13 * (fabs(y) + fabs(value.high));
+            assert_true(least - round_off <= y && y <= most + round_off);
+        }
+        br_scene_clear(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -273,7 +353,8 @@ int main(void)
         cmocka_unit_test(test_refusals),      cmocka_unit_test(test_data),
         cmocka_unit_test(test_friction_data), cmocka_unit_test(test_projection),
         cmocka_unit_test(test_exact),         cmocka_unit_test(test_judge),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_threads),       cmocka_unit_test(test_tip_breaks),
+        cmocka_unit_test(test_tip_bounds),
 
         cmocka_unit_test(test_allocation),
     };

@@ -140,6 +140,14 @@ static const struct {
     /* initial data */
     {8, "  displacement: 1 + x [m]", 8, "displacement",
      "initial axial displacement is 1 at x = 0, expected 0 where the beam is clamped"},
+    {8, "  displacement: x + step(x - 0.3) [m]", 8, "displacement",
+     "initial axial displacement jumps by 1 at x = 0.3 m, expected a continuous one"},
+    {8, "  displacement: \"x < 0.123456789 ? x : 1.001*x [m]\"", 8, "displacement",
+     "initial axial displacement jumps by 0.000123457 at x = 0.123456789 m"},
+    {12, "  displacement: x^2 + 1e-6*step(x - 0.3001) [m]\n  displacement_slope: 2*x [1]", 12,
+     "displacement", "initial bending displacement jumps by 1e-06 at x = 0.3001 m"},
+    {12, "  displacement: max(0, x - 0.3) [m]\n  displacement_slope: step(x - 0.3) [1]", 13,
+     "displacement_slope", "initial displacement_slope jumps by 1 at x = 0.3 m"},
     {8, "  velocity: cos(x) [m/s]", 8, "velocity", "initial axial velocity is 1 at x = 0"},
     {8, "  velocity: x/(x - 0.5) [m/s]", 8, "velocity",
      "found inf at x = 0.5 m, expected a finite number everywhere in [0, L]"},
@@ -217,6 +225,27 @@ static void test_files(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         br_test_scene_refused(files[i].text, false, files[i].message);
+}
+
+/* Displacements that bend, and velocities that jump, are no displacements that jump. */
+static void test_bent(void **state)
+{
+    (void)state;
+    static const char *const bent[] = {"  displacement: max(0, x - 0.4) [m]\n",
+                                       "  displacement: min(x, 0.3) [m]\n",
+                                       "  displacement: x + abs((x - 0.3)^3) - 0.027 [m]\n",
+                                       "  displacement: x*abs(sin(9*x)) [m]\n",
+                                       "  displacement: 1e9*(x - 0.7)*step(x - 0.7) [m]\n",
+                                       "  velocity: step(x - 0.4) [m/s]\n"};
+    for (size_t i = 0; i < sizeof bent / sizeof *bent; i++) {
+        struct br_error err = {0};
+        struct br_scene scene;
+        char text[400];
+        snprintf(text, sizeof text, TOP "axial:\n  stiffness: 1 N\n  viscosity: 1 N s\n%s",
+                 bent[i]);
+        MUST(read_text(text, &scene, &err));
+        br_scene_clear(&scene);
+    }
 }
 
 /* A byte that is not UTF-8, and a file cut anywhere: refused or read, never a crash. */
@@ -416,15 +445,11 @@ static void test_check(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_files),
-        cmocka_unit_test(test_mangled),
-        cmocka_unit_test(test_no_file),
-        cmocka_unit_test(test_bundled),
-        cmocka_unit_test(test_loads),
-        cmocka_unit_test(test_good_initial_data),
-        cmocka_unit_test(test_clone),
-        cmocka_unit_test(test_check),
+        cmocka_unit_test(test_refusals), cmocka_unit_test(test_files),
+        cmocka_unit_test(test_bent),     cmocka_unit_test(test_mangled),
+        cmocka_unit_test(test_no_file),  cmocka_unit_test(test_bundled),
+        cmocka_unit_test(test_loads),    cmocka_unit_test(test_good_initial_data),
+        cmocka_unit_test(test_clone),    cmocka_unit_test(test_check),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -505,33 +505,6 @@ static void test_lagged_contact_adds(void **state)
     assert_true(br_energy_added(&work, BR_AXIAL) == 0 && work.gaining[BR_AXIAL] == 0);
 }
 
-/* A scheme of its own has the trapezoidal rule's remainder, which tells nothing. */
-static void test_remainder(void **state)
-{
-    (void)state;
-    const struct br_time_scheme *ida = br_time_scheme_find("ida");
-    struct br_error err = {0};
-    struct br_energy begin, now;
-    struct br_work work;
-    if (!ida)
-        return;
-    struct watched m = {.scene = br_test_bundled("example2")};
-    m.method = br_test_method(NULL, "implicit", NULL);
-    m.method.scheme = ida;
-    m.march = br_test_march(&m.scene, 10, 400, &m.method);
-    MUST(br_energy_meter_create(&m.meter, m.march, &m.scene, &m.method, &err));
-    for (size_t step = 1; step <= 400; step++) {
-        MUST(br_march_step(m.march, &err));
-        assert_true(br_energy_meter_step(m.meter) == 0);
-    }
-    br_energy_meter_read(m.meter, &begin, &now, &work);
-    assert_true(work.remainder);
-    AT_MOST(fabs(br_energy_imbalance(&begin, &now, &work)), 1e-14);
-    AT_MOST(fabs(work.scheme[0] + work.scheme[1]), 1e-3 * br_energy_total(&now));
-    assert_true(br_energy_added(&work, BR_AXIAL) == 0);
-    finish(&m);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -548,7 +521,6 @@ int main(void)
         cmocka_unit_test(test_every_term),
         cmocka_unit_test(test_free_vibration),
         cmocka_unit_test(test_lagged_contact_adds),
-        cmocka_unit_test(test_remainder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
