@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdarg.h>
 
+#include "tables/report_method.h"
+
 void br_row_add(struct br_row *row, const struct br_column *column, struct br_value value)
 {
     row->full = row->cells == BR_MOST_COLUMNS;
@@ -72,13 +74,8 @@ void br_row_add_method(struct br_row *row, const struct br_method *m)
 {
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const struct br_method_field *f = &br_method_fields[i];
-        const char *key = br_method_field_key(f, row->text[2 * i]);
-        const char *text = br_method_field_text(f, m, row->text[2 * i + 1]);
-        const bool whole = i == BR_METHOD_DEGREE || (!f->words && f->range.whole);
-        const struct br_value value = whole      ? br_count(strtoull(text, NULL, 10))
-                                      : f->words ? br_text(text)
-                                                 : br_number(f->get(m));
-        br_row_hide(row, key, NULL, br_method_field_reported(f, m) ? value : br_nothing());
+        br_row_hide(row, br_method_field_key(f, row->text[2 * i]), NULL,
+                    br_method_value(f, m, row->text[2 * i + 1]));
     }
 }
 

@@ -69,7 +69,7 @@ static const double of_tolerance = 100;
 
 static double control(const struct br_extreme_trial *t)
 {
-    if (!t->method.scheme->adaptive && !t->method.scheme->integrator)
+    if (!t->method.scheme->adaptive)
         return 0;
     double stated = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
