@@ -24,7 +24,14 @@ static const char *words_of(const json_t *root, const char *key)
 static void test_written(void **state)
 {
     (void)state;
-    cli_expect("plan example2 --error 1e-3 --out o" SMALL, NULL, 0, "Met: the achieved error");
+    static struct cli_outcome out;
+    cli_run_line("plan example2 --error 1e-3 --out o" SMALL, NULL, &out);
+    assert_int_equal(out.exit_code, 0);
+    assert_non_null(strstr(out.output, "Met: the achieved error"));
+    const char *command = strstr(out.output, "\n  beamrate run example2 ");
+    assert_non_null(command); /* alone on its line, below the answer, once */
+    assert_null(strstr(command + 1, "beamrate run"));
+    assert_true(command > strstr(out.output, "Met:"));
     char path[512], words[1024], seen[64];
     cli_path("o/example2-plan.json", path);
     json_t *root = json_load_file(path, 0, NULL);
