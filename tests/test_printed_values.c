@@ -200,7 +200,7 @@ static void answers(const struct br_document *d, const char *sentence)
     for (size_t i = 0; i < d->answers; i++)
         if (strcmp(d->answer[i], sentence) == 0)
             return;
-    fail_msg("the answer lacks '%s'", sentence);
+    fail_msg("the answer lacks '%s'; it begins with '%s'", sentence, d->answer[0]);
 }
 
 /* ---- trade ---- */
