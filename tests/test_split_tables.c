@@ -94,7 +94,6 @@ static void test_texts(void **state)
     sample_init(&s);
     char *text = printed(&s, &br_document_text);
     has(text, "n = 10, k = 0.1 s: scheme euler, solver riccati");
-    has(text, "Error 9.500e-06 m^(3/2), by parts: mu");
     has(text, "The whole is 0.5 of the sum of its parts, which point against each other (l2)");
     has(text, "No part iteration: nothing iterates.");
     has(text, "adaptive, tolerance 1e-11");
