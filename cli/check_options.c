@@ -8,7 +8,7 @@
 #include "cli/number_option.h"
 #include "cli/parse.h"
 #include "cli/rounding_option.h"
-#include "tables/check_emitter.h"
+#include "tables/report_check.h"
 
 static const char usage[] =
     "SCENE... | --all [OPTION...]\n\nWhether scenes still converge as their 'verify' parts expect. "
@@ -49,9 +49,9 @@ static void fill_table(struct option_table *t, struct br_check_options *o)
         BR_INCLUDE_METHOD(t->method),
     };
     br_method_options_table(&o->method, t->method);
-    for (size_t i = 1; br_check_emitters[i]; i++)
-        add(t, &(struct poptOption){br_check_emitters[i]->name, 0, POPT_ARG_STRING, NULL,
-                                    FIRST_FILE + (int)i, br_check_emitters[i]->title, "FILE"});
+    for (size_t i = 1; br_check_formats[i]; i++)
+        add(t, &(struct poptOption){br_check_formats[i]->name, 0, POPT_ARG_STRING, NULL,
+                                    FIRST_FILE + (int)i, br_check_formats[i]->title, "FILE"});
     for (size_t i = 0; i < sizeof fixed / sizeof *fixed; i++)
         add(t, &fixed[i]);
     add(t, &(struct poptOption)POPT_TABLEEND);
@@ -88,7 +88,7 @@ static enum br_status keep_file(poptContext context, int val, void *self, struct
     char *path = poptGetOptArg(context);
     if (o->file[format]) {
         free(path);
-        return br_fail(err, BR_BAD_INPUT, "--%s is given twice", br_check_emitters[format]->name);
+        return br_fail(err, BR_BAD_INPUT, "--%s is given twice", br_check_formats[format]->name);
     }
     o->file[format] = path;
     return BR_OK;

@@ -8,7 +8,7 @@
 enum { BR_MOST_CHECK_FORMATS = 8 };
 
 struct br_check_options {
-    char *file[BR_MOST_CHECK_FORMATS]; /* by the registry of emitters; NULL: not given */
+    char *file[BR_MOST_CHECK_FORMATS]; /* by br_check_formats; NULL: not given */
     struct br_method_options method;   /* instead of what the scenes say */
     char *compare, *threads, *rounding;
     int all, fail_fast, quiet, help;
