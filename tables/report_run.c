@@ -1,0 +1,612 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tables/report_run.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include "tables/method_text.h"
+#include "tables/report_method.h"
+
+enum { KEY = 80, LABEL = 120, VALUE = 80, SENTENCE = 1000 };
+
+static const char *const field_names[2] = {"axial", "bending"};
+
+/* ---- facts ---- */
+
+/* Without a label: for programs. */
+static void put(struct br_document *d, const char *key, const char *label, const char *unit,
+                struct br_value value)
+{
+    br_put_fact(
+        d,
+        &(struct br_column){
+            .key = key, .heading = label, .unit = unit, .flags = label ? 0 : BR_FOR_PROGRAMS},
+        value);
+}
+
+/* What is not known is null, and people do not see it. */
+static void put_if(struct br_document *d, bool known, const char *key, const char *label,
+                   const char *unit, double value)
+{
+    put(d, key, known ? label : NULL, unit, known ? br_number(value) : br_nothing());
+}
+
+static bool is_marched(const struct br_run_report *r, int kind)
+{
+    return kind == BR_AXIAL ? r->marched.axial.modelled : r->marched.bending.modelled;
+}
+
+static bool has_friction(const struct br_run_report *r)
+{
+    return r->marched.friction.law != BR_FRICTIONLESS;
+}
+
+/* Of both fields: KEY.axial and KEY.bending. */
+static void put_two(struct br_document *d, const struct br_run_report *r, const char *key,
+                    const char *label, const char *unit, const double x[2])
+{
+    char name[KEY], whole[LABEL];
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        snprintf(name, sizeof name, "%s.%s", key, field_names[kind]);
+        snprintf(whole, sizeof whole, "%s, %s", label ? label : "", field_names[kind]);
+        put_if(d, is_marched(r, kind), name, label ? whole : NULL, unit, x[kind]);
+    }
+}
+
+static const char *direction(int sign)
+{
+    return sign > 0 ? " towards +w" : sign < 0 ? " towards -w" : "";
+}
+
+static struct br_value truth_if(bool known, bool truth)
+{
+    return known ? br_truth(truth) : br_nothing();
+}
+
+/* ---- the answer ---- */
+
+/* What the tip's displacement is predicted to be off, m; NAN: not known. */
+static double tip_error(const struct br_run_findings *f, int kind)
+{
+    const double most = br_predicted_most(f->prediction, (enum br_field_kind)kind);
+    const double value = f->report->end.last.displacement[kind];
+    return f->prediction->known && isfinite(most) ? most * fabs(value) : NAN;
+}
+
+/* "-0.2216 +- 0.014": the value to the error's second digit. */
+static const char *with_error(double value, double error, char text[VALUE])
+{
+    if (!(error > 0)) {
+        snprintf(text, VALUE, "%.6g", value);
+        return text;
+    }
+    const int first = (int)floor(log10(fabs(value))), last = (int)floor(log10(error)) - 1;
+    if (first < -4 || first > 6 || last > 0)
+        snprintf(text, VALUE, "%.*e +- %.1e", first > last ? first - last : 0, value, error);
+    else
+        snprintf(text, VALUE, "%.*f +- %.2g", -last < 15 ? -last : 15, value, error);
+    return text;
+}
+
+__attribute__((format(printf, 2, 3))) static void append(char text[SENTENCE], const char *format,
+                                                         ...)
+{
+    const size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + used, SENTENCE - used, format, arguments);
+    va_end(arguments);
+}
+
+static void answer_tip(struct br_document *d, const struct br_run_findings *f)
+{
+    const struct br_run_report *r = f->report;
+    const struct br_tip_watch *w = &r->watch;
+    char text[SENTENCE] = "", value[VALUE];
+    append(text, "Tip at t = %.10g s%s:", r->end.last.time,
+           r->failure.status ? " (the last good step)" : "");
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (is_marched(r, kind))
+            append(text, " %s = %s m,", kind == BR_AXIAL ? "u" : "w",
+                   with_error(r->end.last.displacement[kind], tip_error(f, kind), value));
+    if (w->contact)
+        append(text, " contact %s,", w->closed ? "closed" : "open");
+    if (w->friction && w->steps)
+        append(text, " friction: %s%s,", br_tip_regime_word(w->regime),
+               w->regime == BR_TIP_SLIP ? direction(w->direction) : "");
+    text[strlen(text) - 1] = '.';
+    for (int kind = 0, told = 0; kind < BR_TIP_EVENTS; kind++)
+        if (w->count[kind])
+            append(text, "%s %s %zu",
+                   told++ ? "," : " Events:", br_tip_event_word((enum br_tip_event_kind)kind),
+                   w->count[kind]);
+    br_put_answer(d, "%s", text);
+}
+
+static void answer_prediction(struct br_document *d, const struct br_prediction *p)
+{
+    if (p->known)
+        br_put_answer(d,
+                      "Predicted before the march, of each field relative to its largest (L2): "
+                      "discretisation error %.1e, between %.1e and %.1e (time %.1e, space %.1e); "
+                      "round-off %.1e. +- is that share of the tip's value.",
+                      p->whole.error, p->whole.low, p->whole.high, p->time.error, p->space.error,
+                      p->round_off);
+    else if (p->bounded)
+        br_put_answer(d,
+                      "The discretisation error is not known, between %.0e and %.0e: %s; "
+                      "round-off %.1e.",
+                      p->whole.low, p->whole.high, p->why, p->round_off);
+    else
+        br_put_answer(d, "The discretisation error is not known: %s; round-off %.1e.", p->why,
+                      p->round_off);
+}
+
+/* Their texts stand in a table, and were on the terminal before the march. */
+static void answer_warnings(struct br_document *d, const struct br_warnings *w)
+{
+    char text[SENTENCE] = "";
+    for (size_t i = 0; i < w->count; i++)
+        append(text, "%s%s", i ? ", " : "", br_warning_word(w->list[i].kind));
+    if (w->count)
+        br_put_answer(d, "%zu warning%s before the march: %s.", w->count, w->count == 1 ? "" : "s",
+                      text);
+}
+
+/* What the scheme has added in all. */
+static void answer_gain(struct br_document *d, const struct br_run_report *r, int kind)
+{
+    const double added = br_energy_added(&r->work, (enum br_field_kind)kind);
+    const double put_in = br_energy_put_in(&r->energy_start, &r->work, (enum br_field_kind)kind);
+    char share[LABEL] = "";
+    if (!(added > 0))
+        return;
+    if (put_in > 0)
+        snprintf(share, sizeof share,
+                 " (%.2g %% of what was there at first and of the loads' work)",
+                 100 * added / put_in);
+    br_put_answer(d, "The scheme ADDED %.3g J to the %s field%s.%s", added, field_names[kind],
+                  share,
+                  kind == BR_AXIAL && r->work.scheme_contact < 0 && !r->method.contact->at_new_step
+                      ? " It is the lagged contact's: --contact implicit adds none."
+                      : "");
+}
+
+static void put_answers(struct br_document *d, const struct br_run_findings *f)
+{
+    const struct br_run_report *r = f->report;
+    if (r->failure.status)
+        br_put_answer(d, "STOPPED: %s", r->failure.message);
+    answer_tip(d, f);
+    answer_prediction(d, f->prediction);
+    if (r->bad_steps)
+        br_put_answer(d, "%zu of %zu steps are beyond the certificate's limits; the first: %s",
+                      r->bad_steps, r->end.last.step, r->verdict.message);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && r->summed && !r->work.remainder; kind++)
+        answer_gain(d, r, kind);
+    if (r->contact_unstable)
+        br_put_answer(d, "The lagged contact is beyond its stability limit here: the tip may "
+                         "chatter at the step's rate. --contact implicit has no such limit.");
+    answer_warnings(d, f->warnings);
+}
+
+/* ---- the march ---- */
+
+static void put_march(struct br_document *d, const struct br_run_findings *f)
+{
+    const struct br_run_report *r = f->report;
+    char method[BR_METHOD_TEXT];
+    br_put_section(d, "The march");
+    put(d, "scene.name", NULL, NULL, br_text(r->scene->name));
+    put(d, "scene.title", NULL, NULL, br_text(r->scene->title));
+    put(d, "scene.remark", r->scene->remark ? "remark" : NULL, NULL, br_text(r->scene->remark));
+    put(d, "scene.length", NULL, "m", br_number(r->scene->length));
+    put(d, "scene.duration", NULL, "s", br_number(r->scene->duration));
+    put(d, "n", "elements", NULL, br_count(r->n));
+    put(d, "h", "element size h", "m", br_number(r->h));
+    put(d, "steps", "steps", NULL, br_count(r->steps));
+    put(d, "k", "time step k", "s", br_number(r->k));
+    br_put_fact(
+        d, &(struct br_column){.key = "method_text", .heading = "method", .flags = BR_FOR_PEOPLE},
+        br_text(br_method_text(&r->marched, &r->method, method)));
+    br_put_method(d, "method", &r->method);
+    put(d, "stopped", NULL, NULL, br_text(r->failure.status ? r->failure.message : NULL));
+    put(d, "contact_beyond_stability_limit", NULL, NULL, br_truth(r->contact_unstable));
+}
+
+/* "1.4e-03, between 4.6e-04 and 4.2e-03" */
+static void put_predicted(struct br_document *d, bool known, const char *name, const char *label,
+                          const struct br_predicted *e)
+{
+    char key[KEY];
+    snprintf(key, sizeof key, "prediction.%s.error", name);
+    put_if(d, known, key, label, NULL, e->error);
+    br_put_shown(d, "%.1e, between %.1e and %.1e", e->error, e->low, e->high);
+    snprintf(key, sizeof key, "prediction.%s.low", name);
+    put_if(d, known, key, NULL, NULL, e->low);
+    snprintf(key, sizeof key, "prediction.%s.high", name);
+    put_if(d, known, key, NULL, NULL, e->high);
+}
+
+static void put_prediction(struct br_document *d, const struct br_run_findings *f)
+{
+    const struct br_prediction *p = f->prediction;
+    br_put_section(d, "Predicted before the march, of each field relative to its largest (L2)");
+    put(d, "prediction.known", NULL, NULL, br_truth(p->known));
+    put(d, "prediction.why_not", NULL, NULL, br_text(p->known ? NULL : p->why));
+    put_predicted(d, p->bounded, "discretisation", "discretisation error", &p->whole);
+    put_predicted(d, p->bounded, "time", "of the time steps", &p->time);
+    put_predicted(d, p->bounded, "space", "of the elements", &p->space);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const bool marched = is_marched(f->report, kind);
+        char key[KEY], label[LABEL];
+        snprintf(label, sizeof label, "of the %s field", field_names[kind]);
+        put_predicted(d, marched && p->bounded, field_names[kind], label, &p->field[kind]);
+        snprintf(key, sizeof key, "prediction.%s.most", field_names[kind]);
+        put_if(d, marched && p->known, key, NULL, NULL,
+               br_predicted_most(p, (enum br_field_kind)kind));
+    }
+    put(d, "prediction.round_off", "round-off", NULL, br_number(p->round_off));
+    br_put_shown(d, "%.1e", p->round_off);
+    put(d, "prediction.seconds", NULL, "s", br_number(p->seconds));
+}
+
+static void put_warnings(struct br_document *d, const struct br_warnings *w)
+{
+    static const struct br_column columns[] = {
+        {.key = "warning"},
+        {.key = "text", .flags = BR_WRAP},
+        {.key = "remedy", .flags = BR_WRAP},
+    };
+    br_put_table(d, "warnings", "Warnings before the march", BR_FILES_ONLY, BR_COLUMNS(columns));
+    for (size_t i = 0; i < w->count; i++) {
+        br_put_row(d);
+        br_put(d, "warning", br_text(br_warning_word(w->list[i].kind)));
+        br_put(d, "text", br_text(w->list[i].text));
+        br_put(d, "remedy", br_text(w->list[i].remedy[0] ? w->list[i].remedy : NULL));
+    }
+}
+
+/* ---- the tip ---- */
+
+static void put_extreme(struct br_document *d, bool known, const char *what, const char *label,
+                        const struct br_extreme *e)
+{
+    char key[KEY];
+    snprintf(key, sizeof key, "events.%s.value", what);
+    put_if(d, known, key, label, "N", e->value);
+    snprintf(key, sizeof key, "events.%s.t", what);
+    put_if(d, known, key, "  at t", "s", e->time);
+}
+
+static void put_friction(struct br_document *d, const struct br_run_report *r)
+{
+    const struct br_history_row *row = &r->end.last;
+    const bool friction = has_friction(r), bound = friction && row->friction_bound > 0;
+    const bool known = friction && r->watch.steps > 0;
+    put_if(d, friction, "tip.friction_force", "friction force", "N", row->friction_force);
+    put_if(d, friction, "tip.friction_bound", "  its bound", "N", row->friction_bound);
+    put_if(d, bound, "tip.friction_share", "  of it", "%",
+           100 * fabs(row->friction_force) / row->friction_bound);
+    put(d, "tip.regime", known ? "friction" : NULL, NULL,
+        br_text(known ? br_tip_regime_word(r->watch.regime) : NULL));
+    br_put_mark(d, known && r->watch.regime == BR_TIP_SLIP ? direction(r->watch.direction) : "");
+}
+
+static void put_tip(struct br_document *d, const struct br_run_findings *f)
+{
+    const struct br_run_report *r = f->report;
+    const struct br_history_row *row = &r->end.last;
+    const bool contact = r->marched.contact.modelled;
+    const double error[] = {tip_error(f, BR_AXIAL), tip_error(f, BR_BENDING)};
+    br_put_section(d, "The tip");
+    put(d, "tip.t", "t", "s", br_number(row->time));
+    put(d, "tip.step", NULL, NULL, br_count(row->step));
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        char key[KEY], text[VALUE];
+        const char *label = kind == BR_AXIAL ? "axial displacement u" : "bending displacement w";
+        snprintf(key, sizeof key, "tip.displacement.%s", field_names[kind]);
+        put_if(d, is_marched(r, kind), key, label, "m", row->displacement[kind]);
+        br_put_shown(d, "%s", with_error(row->displacement[kind], error[kind], text));
+    }
+    put_two(d, r, "tip.predicted_error", NULL, "m", error);
+    put_two(d, r, "tip.velocity", "velocity", "m/s", row->velocity);
+    put_if(d, contact, "tip.contact_force", "contact force", "N", row->contact_force);
+    put(d, "tip.closed", contact ? "contact" : NULL, NULL, truth_if(contact, r->watch.closed));
+    br_put_shown(d, "%s", r->watch.closed ? "closed" : "open");
+    put_friction(d, r);
+    put_extreme(d, r->watch.contact, "largest_contact_force", "largest contact force",
+                &r->watch.contact_force);
+    put_extreme(d, r->watch.friction, "largest_friction_force", "largest friction force",
+                &r->watch.friction_force);
+}
+
+/* ---- events ---- */
+
+static void put_switches(struct br_document *d, const struct br_run_report *r)
+{
+    static const struct br_column columns[] = {{.key = "t", .unit = "s", .format = "%.12g"},
+                                               {.key = "law"},
+                                               {.key = "from"},
+                                               {.key = "to"}};
+    if (!r->method.scheme->adaptive)
+        return;
+    put(d, "events.switches", "switches that the scheme has found", NULL, br_count(r->switches));
+    br_put_table(d, "switches_found", "Switches within its steps, as the scheme has found them", 0,
+                 BR_COLUMNS(columns));
+    for (size_t i = 0; i < r->switches && i < BR_MOST_SWITCHES; i++) {
+        const struct br_switch *s = &r->switched[i];
+        br_put_row(d);
+        br_put(d, "t", br_number(s->time));
+        br_put(d, "law", br_text(s->kind == BR_AXIAL ? "contact" : "friction"));
+        br_put(d, "from", br_text(br_regime_name(s->from)));
+        br_put_shown(d, "%s", s->from == BR_REGIME_NONE ? "no bound" : br_regime_name(s->from));
+        br_put(d, "to", br_text(br_regime_name(s->to)));
+        br_put_shown(d, "%s", s->to == BR_REGIME_NONE ? "no bound" : br_regime_name(s->to));
+    }
+}
+
+static void put_event_list(struct br_document *d, const struct br_tip_watch *w)
+{
+    static const struct br_column columns[] = {
+        {.key = "t", .unit = "s", .format = "%.10g"},
+        {.key = "event"},
+        {.key = "direction"},
+        {.key = "step"},
+    };
+    br_put_table(d, "events", "Events at the tip", 0, BR_COLUMNS(columns));
+    for (size_t i = 0; i < w->events; i++) {
+        const struct br_tip_event *e = &w->event[i];
+        const struct br_value sign = {.kind = BR_COUNT, .count = e->direction};
+        br_put_row(d);
+        br_put(d, "t", br_number(e->time));
+        br_put(d, "event", br_text(br_tip_event_word(e->kind)));
+        br_put(d, "direction", e->direction ? sign : br_nothing());
+        br_put_shown(d, "%s", direction(e->direction));
+        br_put(d, "step", br_count(e->step));
+    }
+}
+
+/* How many steps, and what share that is. */
+static void put_steps(struct br_document *d, bool known, const char *word,
+                      const struct br_tip_watch *w, size_t steps)
+{
+    char key[KEY], label[LABEL];
+    snprintf(key, sizeof key, "events.steps.%s", word);
+    snprintf(label, sizeof label, "steps: %s", word);
+    put(d, key, known && w->steps ? label : NULL, NULL, br_count(steps));
+    br_put_shown(d, "%zu (%.4g %%)", steps, w->steps ? 100 * (double)steps / (double)w->steps : 0);
+}
+
+static void put_events(struct br_document *d, const struct br_run_report *r)
+{
+    const struct br_tip_watch *w = &r->watch;
+    const bool known = w->friction && w->steps;
+    br_put_section(d, "Events at the tip");
+    br_put_note(d,
+                "An event is told at the first time level of the new regime: it happened in the "
+                "step before, up to k = %g s earlier.",
+                r->k);
+    put(d, "events.resolution", NULL, "s", br_number(r->k));
+    put(d, "events.closed_at_start", w->contact ? "at first" : NULL, NULL,
+        truth_if(w->contact, w->closed_at_start));
+    br_put_shown(d, "%s", w->closed_at_start ? "closed" : "open");
+    put(d, "events.regime_at_start", known ? "in the first step" : NULL, NULL,
+        br_text(known ? br_tip_regime_word(w->regime_at_start) : NULL));
+    br_put_mark(d, known ? direction(w->direction_at_start) : "");
+    for (int kind = 0; kind < BR_TIP_EVENTS; kind++) {
+        const char *word = br_tip_event_word((enum br_tip_event_kind)kind);
+        char key[KEY];
+        snprintf(key, sizeof key, "events.counts.%s", word);
+        put(d, key, w->contact || w->friction ? word : NULL, NULL, br_count(w->count[kind]));
+    }
+    put_steps(d, w->contact, "closed", w, w->closed_steps);
+    for (int regime = 0; regime < BR_TIP_REGIMES; regime++)
+        put_steps(d, w->friction, br_tip_regime_word((enum br_tip_regime)regime), w,
+                  w->regime_steps[regime]);
+    put_event_list(d, w);
+    put_switches(d, r);
+}
+
+/* ---- energies ---- */
+
+static void put_state(struct br_document *d, const struct br_run_report *r, const char *when,
+                      bool known, const struct br_energy *e)
+{
+    char key[4][KEY];
+    static const char *const names[] = {"kinetic", "stored", "contact", "total"};
+    const bool people = known && strcmp(when, "end") == 0;
+    for (size_t i = 0; i < 4; i++)
+        snprintf(key[i], KEY, "energies.%s.%s", when, names[i]);
+    if (!known)
+        return;
+    put_two(d, r, key[0], people ? "kinetic" : NULL, "J", e->kinetic);
+    put_two(d, r, key[1], people ? "stored" : NULL, "J", e->stored);
+    put_if(d, r->marched.contact.modelled, key[2], people ? "of the contact" : NULL, "J",
+           e->contact);
+    put(d, key[3], people ? "total at the end" : "total at first", "J",
+        br_number(br_energy_total(e)));
+}
+
+static void put_added(struct br_document *d, const struct br_run_report *r)
+{
+    const struct br_work *w = &r->work;
+    const double all[] = {br_energy_added(w, BR_AXIAL), br_energy_added(w, BR_BENDING)};
+    const double put_in[] = {br_energy_put_in(&r->energy_start, w, BR_AXIAL),
+                             br_energy_put_in(&r->energy_start, w, BR_BENDING)};
+    const double steps[] = {(double)w->gaining[BR_AXIAL], (double)w->gaining[BR_BENDING]};
+    const char *gained = w->gaining[BR_AXIAL] + w->gaining[BR_BENDING] ? "  added in these" : NULL;
+    put_two(d, r, "energies.added_by_scheme.in_all", NULL, "J", all);
+    put_two(d, r, "energies.added_by_scheme.put_in", NULL, "J", put_in);
+    put_two(d, r, "energies.added_by_scheme.steps_that_add", "steps in which the scheme added",
+            NULL, steps);
+    put_two(d, r, "energies.added_by_scheme.by_these_steps", gained, "J", w->gained);
+}
+
+static void put_works(struct br_document *d, const struct br_run_report *r)
+{
+    const struct br_work *w = &r->work;
+    const bool exact = !w->remainder;
+    put_two(d, r, "energies.work_of_loads", "work of the loads", "J", w->loads);
+    put_two(d, r, "energies.lost_to_viscosity", "lost to viscosity", "J", w->viscous);
+    put_two(d, r, "energies.lost_to_scheme", "lost to the scheme", "J", w->scheme);
+    put(d, "energies.lost_to_scheme_is_the_remainder", exact ? NULL : "the last two", NULL,
+        br_truth(w->remainder));
+    br_put_shown(d, "what the works, sums by the trapezoidal rule, leave of the balance, with that "
+                    "rule's error");
+    put_if(d, r->marched.contact.modelled && exact, "energies.lost_to_scheme_by_contact",
+           "  and by its contact", "J", w->scheme_contact);
+    put_if(d, exact, "energies.imbalance", "missing, of the terms' sum", NULL,
+           br_energy_imbalance(&r->energy_start, &r->energy_now, w));
+    put_if(d, exact, "energies.largest_imbalance_of_a_step", "  in one step at most", NULL,
+           r->energy_worst);
+    if (exact)
+        put_added(d, r);
+}
+
+static void put_energies(struct br_document *d, const struct br_run_report *r)
+{
+    br_put_section(d, "Energies");
+    put_state(d, r, "start", true, &r->energy_start);
+    put_state(d, r, "end", r->at_end, &r->energy_now);
+    if (!r->at_end)
+        put(d, "energies.end", NULL, NULL, br_nothing());
+    put_if(d, has_friction(r), "energies.lost_to_friction", "lost to friction", "J",
+           r->summed ? r->work.friction : r->watch.friction_work);
+    put(d, "energies.summed", r->summed ? NULL : "work, losses and balance", NULL,
+        br_truth(r->summed));
+    br_put_shown(d, "not summed: they need the fields of every step; --energies or --check");
+    if (r->summed)
+        put_works(d, r);
+}
+
+/* ---- the certificate ---- */
+
+/* By code that the solver does not share; by stages where the scheme has some. */
+static void put_certificate(struct br_document *d, const struct br_run_report *r)
+{
+    const struct br_certificate *c = &r->worst, *limit = &r->limits;
+    const struct {
+        const char *key, *name;
+        double worst, limit;
+        bool modelled;
+    } rows[] = {
+        {"axial", "axial equation (27)", c->axial_residual, limit->axial_residual,
+         r->marched.axial.modelled},
+        {"bending", "bending equation (28)", c->bending_residual, limit->bending_residual,
+         r->marched.bending.modelled},
+        {"update", "update of the state", c->update, limit->update, true},
+        {"contact", "contact law (10)", c->contact, limit->contact, r->marched.contact.modelled},
+        {"friction", "friction law (12)", c->friction, limit->friction, has_friction(r)},
+        {"energy", "energy balance", r->energy_worst, r->energy_limit, isfinite(r->energy_limit)},
+    };
+    char key[KEY];
+    if (!r->checked) {
+        put(d, "certificate", NULL, NULL, br_nothing());
+        return;
+    }
+    br_put_section(d, r->method.scheme == br_time_schemes[0]
+                          ? "Certificate of every step: the worst"
+                          : "Certificate of every step, stage by stage: the worst");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        snprintf(key, sizeof key, "certificate.worst.%s", rows[i].key);
+        put(d, key, rows[i].modelled ? rows[i].name : NULL, NULL, br_number(rows[i].worst));
+        br_put_shown(d, "%.3g of at most %.3g: %s", rows[i].worst, rows[i].limit,
+                     rows[i].worst <= rows[i].limit ? "good" : "BAD");
+        snprintf(key, sizeof key, "certificate.limits.%s", rows[i].key);
+        put(d, key, NULL, NULL, br_number(rows[i].limit));
+    }
+    put(d, "certificate.bad_steps", "steps beyond a limit", NULL, br_count(r->bad_steps));
+    put(d, "certificate.first", NULL, NULL, br_text(r->bad_steps ? r->verdict.message : NULL));
+}
+
+/* ---- what is modelled, and what it costs ---- */
+
+static void put_model(struct br_document *d, const struct br_run_report *r)
+{
+    static const struct br_column columns[] = {
+        {.key = "part"}, {.key = "modelled"}, {.key = "why", .heading = "how, or why not"}};
+    br_put_table(d, "model", "What is modelled, and what is skipped", 0, BR_COLUMNS(columns));
+    for (size_t i = 0; i < r->model_rows; i++) {
+        br_put_row(d);
+        br_put(d, "part", br_text(r->model[i].key));
+        br_put_shown(d, "%s", r->model[i].part);
+        br_put(d, "modelled", br_truth(r->model[i].modelled));
+        br_put_shown(d, "%s", r->model[i].modelled ? "modelled" : "skipped");
+        br_put(d, "why", br_text(r->model[i].why));
+    }
+}
+
+static void put_cost(struct br_document *d, const struct br_run_report *r)
+{
+    static const struct br_column columns[] = {
+        {.key = "part"},
+        {.key = "ns_per_step", .heading = "a step", .unit = "ns", .format = "%.1f"},
+        {.key = "ns_per_element_step", .heading = "an element", .unit = "ns", .format = "%.4f"},
+        {.key = "share", .unit = "%", .format = "%.1f"},
+    };
+    const double steps = (double)r->end.last.step;
+    double all = 0;
+    if (!r->explained || steps == 0)
+        return;
+    for (int part = 0; part < BR_COST_PARTS; part++)
+        all += r->cost.seconds[part];
+    br_put_table(d, "cost", "Cost of the parts of a step, as measured", 0, BR_COLUMNS(columns));
+    for (int part = 0; part < BR_COST_PARTS; part++) {
+        const double ns = 1e9 * r->cost.seconds[part] / steps;
+        if (r->cost.laps[part] == 0)
+            continue;
+        br_put_row(d);
+        br_put(d, "part", br_text(br_cost_part_text((enum br_cost_part)part)));
+        br_put(d, "ns_per_step", br_number(ns));
+        br_put(d, "ns_per_element_step", br_number(ns / (double)r->n));
+        br_put(d, "share", br_number(100 * r->cost.seconds[part] / all));
+    }
+    put(d, "cost.ns_per_step", "sum of the parts of a step", "ns", br_number(1e9 * all / steps));
+    put(d, "cost.ns_per_reading", "a reading of the clock, which is taken off", "ns",
+        br_number(1e9 * r->cost.lap_seconds));
+}
+
+static void put_time(struct br_document *d, const struct br_run_findings *f)
+{
+    const struct br_run_report *r = f->report;
+    const double steps = (double)r->end.last.step, a_step = r->end.march_seconds / steps;
+    const bool iterates = r->method.friction->iterates && has_friction(r);
+    br_put_section(d, "Time and work");
+    put(d, "seconds.wall", "time", "s", br_number(f->wall_seconds));
+    put(d, "seconds.set_up", "  of setting up", "s", br_number(r->end.set_up_seconds));
+    put(d, "seconds.march",
+        r->checked  ? "  of the march, the check included"
+        : r->summed ? "  of the march, the energies included"
+                    : "  of the march",
+        "s", br_number(r->end.march_seconds));
+    put_if(d, steps > 0, "seconds.per_step", "  a step", "s", a_step);
+    put_if(d, steps > 0, "seconds.per_element_step", "  an element-step", "s",
+           a_step / (double)r->n);
+    put(d, "work.steps", "steps of the scheme", NULL, br_count(r->counts.steps));
+    put(d, "work.steps_taken_back", r->method.scheme->adaptive ? "  taken back" : NULL, NULL,
+        br_count(r->counts.rejected));
+    put(d, "work.solves_a_field", "solves a field", NULL, br_count(r->counts.stages));
+    put(d, "work.changes_of_the_step", r->counts.set_ups ? "changes of the step" : NULL, NULL,
+        br_count(r->counts.set_ups));
+    put(d, "work.friction_iterations", iterates ? "friction iterations" : NULL, NULL,
+        br_count(r->counts.iterations));
+}
+
+void br_report_run(const struct br_run_findings *f, struct br_document *d)
+{
+    br_document_begin(d, "summary", "beamrate run", 2, f->report->scene->title);
+    put_answers(d, f);
+    put_march(d, f);
+    put_warnings(d, f->warnings);
+    put_prediction(d, f);
+    put_tip(d, f);
+    put_events(d, f->report);
+    put_energies(d, f->report);
+    put_certificate(d, f->report);
+    put_model(d, f->report);
+    put_cost(d, f->report);
+    put_time(d, f);
+    br_put_provenance(d, f->provenance);
+}
