@@ -14,22 +14,29 @@ static const char *const field_names[2] = {"axial", "bending"};
 
 /* ---- facts ---- */
 
-/* Without a label: for programs. */
-static void put(struct br_document *d, const char *key, const char *label, const char *unit,
-                struct br_value value)
+/* Without a label, and what is not known: for programs alone. The key is formatted. */
+__attribute__((format(printf, 5, 6))) static void put(struct br_document *d, struct br_value value,
+                                                      const char *label, const char *unit,
+                                                      const char *key, ...)
 {
-    br_put_fact(
-        d,
-        &(struct br_column){
-            .key = key, .heading = label, .unit = unit, .flags = label ? 0 : BR_FOR_PROGRAMS},
-        value);
+    char name[KEY];
+    va_list arguments;
+    va_start(arguments, key);
+    vsnprintf(name, sizeof name, key, arguments);
+    va_end(arguments);
+    const bool lacks =
+        value.kind == BR_NOTHING || (value.kind == BR_NUMBER && !isfinite(value.number));
+    br_put_fact(d,
+                &(struct br_column){.key = name,
+                                    .heading = label,
+                                    .unit = unit,
+                                    .flags = label && !lacks ? 0 : BR_FOR_PROGRAMS},
+                value);
 }
 
-/* What is not known is null, and people do not see it. */
-static void put_if(struct br_document *d, bool known, const char *key, const char *label,
-                   const char *unit, double value)
+static struct br_value if_known(bool known, struct br_value value)
 {
-    put(d, key, known ? label : NULL, unit, known ? br_number(value) : br_nothing());
+    return known ? value : br_nothing();
 }
 
 static bool is_marched(const struct br_run_report *r, int kind)
@@ -43,25 +50,20 @@ static bool has_friction(const struct br_run_report *r)
 }
 
 /* Of both fields: KEY.axial and KEY.bending. */
-static void put_two(struct br_document *d, const struct br_run_report *r, const char *key,
-                    const char *label, const char *unit, const double x[2])
+static void put_two(struct br_document *d, const struct br_run_report *r, const double x[2],
+                    const char *label, const char *unit, const char *key)
 {
-    char name[KEY], whole[LABEL];
+    char whole[LABEL];
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        snprintf(name, sizeof name, "%s.%s", key, field_names[kind]);
         snprintf(whole, sizeof whole, "%s, %s", label ? label : "", field_names[kind]);
-        put_if(d, is_marched(r, kind), name, label ? whole : NULL, unit, x[kind]);
+        put(d, if_known(is_marched(r, kind), br_number(x[kind])), label ? whole : NULL, unit,
+            "%s.%s", key, field_names[kind]);
     }
 }
 
 static const char *direction(int sign)
 {
     return sign > 0 ? " towards +w" : sign < 0 ? " towards -w" : "";
-}
-
-static struct br_value truth_if(bool known, bool truth)
-{
-    return known ? br_truth(truth) : br_nothing();
 }
 
 /* ---- the answer ---- */
@@ -198,58 +200,53 @@ static void put_march(struct br_document *d, const struct br_run_findings *f)
     const struct br_run_report *r = f->report;
     char method[BR_METHOD_TEXT];
     br_put_section(d, "The march");
-    put(d, "scene.name", NULL, NULL, br_text(r->scene->name));
-    put(d, "scene.title", NULL, NULL, br_text(r->scene->title));
-    put(d, "scene.remark", r->scene->remark ? "remark" : NULL, NULL, br_text(r->scene->remark));
-    put(d, "scene.length", NULL, "m", br_number(r->scene->length));
-    put(d, "scene.duration", NULL, "s", br_number(r->scene->duration));
-    put(d, "n", "elements", NULL, br_count(r->n));
-    put(d, "h", "element size h", "m", br_number(r->h));
-    put(d, "steps", "steps", NULL, br_count(r->steps));
-    put(d, "k", "time step k", "s", br_number(r->k));
-    br_put_fact(
-        d, &(struct br_column){.key = "method_text", .heading = "method", .flags = BR_FOR_PEOPLE},
-        br_text(br_method_text(&r->marched, &r->method, method)));
+    put(d, br_text(r->scene->name), NULL, NULL, "scene.name");
+    put(d, br_text(r->scene->title), NULL, NULL, "scene.title");
+    put(d, br_text(r->scene->remark), "remark", NULL, "scene.remark");
+    put(d, br_number(r->scene->length), NULL, "m", "scene.length");
+    put(d, br_number(r->scene->duration), NULL, "s", "scene.duration");
+    put(d, br_count(r->n), "elements", NULL, "n");
+    put(d, br_number(r->h), "element size h", "m", "h");
+    put(d, br_count(r->steps), "steps", NULL, "steps");
+    put(d, br_number(r->k), "time step k", "s", "k");
+    br_put_fact(d, &(struct br_column){.key = "words", .heading = "method", .flags = BR_FOR_PEOPLE},
+                br_text(br_method_text(&r->marched, &r->method, method)));
     br_put_method(d, "method", &r->method);
-    put(d, "stopped", NULL, NULL, br_text(r->failure.status ? r->failure.message : NULL));
-    put(d, "contact_beyond_stability_limit", NULL, NULL, br_truth(r->contact_unstable));
+    put(d, br_text(r->failure.status ? r->failure.message : NULL), NULL, NULL, "stopped");
+    put(d, br_truth(r->contact_unstable), NULL, NULL, "contact_beyond_stability_limit");
 }
 
 /* "1.4e-03, between 4.6e-04 and 4.2e-03" */
-static void put_predicted(struct br_document *d, bool known, const char *name, const char *label,
+static void put_predicted(struct br_document *d, bool known, const char *key, const char *label,
                           const struct br_predicted *e)
 {
-    char key[KEY];
-    snprintf(key, sizeof key, "prediction.%s.error", name);
-    put_if(d, known, key, label, NULL, e->error);
+    put(d, if_known(known, br_number(e->error)), label, NULL, "prediction.%s.error", key);
     br_put_shown(d, "%.1e, between %.1e and %.1e", e->error, e->low, e->high);
-    snprintf(key, sizeof key, "prediction.%s.low", name);
-    put_if(d, known, key, NULL, NULL, e->low);
-    snprintf(key, sizeof key, "prediction.%s.high", name);
-    put_if(d, known, key, NULL, NULL, e->high);
+    put(d, if_known(known, br_number(e->low)), NULL, NULL, "prediction.%s.low", key);
+    put(d, if_known(known, br_number(e->high)), NULL, NULL, "prediction.%s.high", key);
 }
 
 static void put_prediction(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_prediction *p = f->prediction;
+    const double most[] = {br_predicted_most(p, BR_AXIAL), br_predicted_most(p, BR_BENDING)};
     br_put_section(d, "Predicted before the march, of each field relative to its largest (L2)");
-    put(d, "prediction.known", NULL, NULL, br_truth(p->known));
-    put(d, "prediction.why_not", NULL, NULL, br_text(p->known ? NULL : p->why));
+    put(d, br_truth(p->known), NULL, NULL, "prediction.known");
+    put(d, br_text(p->known ? NULL : p->why), NULL, NULL, "prediction.why_not");
     put_predicted(d, p->bounded, "discretisation", "discretisation error", &p->whole);
-    put_predicted(d, p->bounded, "time", "of the time steps", &p->time);
-    put_predicted(d, p->bounded, "space", "of the elements", &p->space);
+    put_predicted(d, p->bounded, "time", "  of the time steps", &p->time);
+    put_predicted(d, p->bounded, "space", "  of the elements", &p->space);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const bool marched = is_marched(f->report, kind);
-        char key[KEY], label[LABEL];
-        snprintf(label, sizeof label, "of the %s field", field_names[kind]);
-        put_predicted(d, marched && p->bounded, field_names[kind], label, &p->field[kind]);
-        snprintf(key, sizeof key, "prediction.%s.most", field_names[kind]);
-        put_if(d, marched && p->known, key, NULL, NULL,
-               br_predicted_most(p, (enum br_field_kind)kind));
+        put_predicted(d, marched && p->bounded, field_names[kind],
+                      kind == BR_AXIAL ? "  of the axial field" : "  of the bending field",
+                      &p->field[kind]);
+        put(d, if_known(marched && p->known, br_number(most[kind])), NULL, NULL,
+            "prediction.%s.most", field_names[kind]);
     }
-    put(d, "prediction.round_off", "round-off", NULL, br_number(p->round_off));
+    put(d, br_number(p->round_off), "round-off", NULL, "prediction.round_off");
     br_put_shown(d, "%.1e", p->round_off);
-    put(d, "prediction.seconds", NULL, "s", br_number(p->seconds));
+    put(d, br_number(p->seconds), NULL, "s", "prediction.seconds");
 }
 
 static void put_warnings(struct br_document *d, const struct br_warnings *w)
@@ -270,56 +267,55 @@ static void put_warnings(struct br_document *d, const struct br_warnings *w)
 
 /* ---- the tip ---- */
 
-static void put_extreme(struct br_document *d, bool known, const char *what, const char *label,
+static void put_extreme(struct br_document *d, bool known, const char *key, const char *label,
                         const struct br_extreme *e)
 {
-    char key[KEY];
-    snprintf(key, sizeof key, "events.%s.value", what);
-    put_if(d, known, key, label, "N", e->value);
-    snprintf(key, sizeof key, "events.%s.t", what);
-    put_if(d, known, key, "  at t", "s", e->time);
+    put(d, if_known(known, br_number(e->value)), label, "N", "events.%s.value", key);
+    put(d, if_known(known, br_number(e->time)), "  at t", "s", "events.%s.t", key);
 }
 
 static void put_friction(struct br_document *d, const struct br_run_report *r)
 {
     const struct br_history_row *row = &r->end.last;
-    const bool friction = has_friction(r), bound = friction && row->friction_bound > 0;
-    const bool known = friction && r->watch.steps > 0;
-    put_if(d, friction, "tip.friction_force", "friction force", "N", row->friction_force);
-    put_if(d, friction, "tip.friction_bound", "  its bound", "N", row->friction_bound);
-    put_if(d, bound, "tip.friction_share", "  of it", "%",
-           100 * fabs(row->friction_force) / row->friction_bound);
-    put(d, "tip.regime", known ? "friction" : NULL, NULL,
-        br_text(known ? br_tip_regime_word(r->watch.regime) : NULL));
-    br_put_mark(d, known && r->watch.regime == BR_TIP_SLIP ? direction(r->watch.direction) : "");
+    const double share = 100 * fabs(row->friction_force) / row->friction_bound;
+    const bool friction = has_friction(r);
+    put(d, if_known(friction, br_number(row->friction_force)), "friction force", "N",
+        "tip.friction_force");
+    put(d, if_known(friction, br_number(row->friction_bound)), "  its bound", "N",
+        "tip.friction_bound");
+    put(d, if_known(friction, br_number(share)), "  of the bound", "%", "tip.friction_share");
+    put(d, if_known(friction && r->watch.steps, br_text(br_tip_regime_word(r->watch.regime))),
+        "friction", NULL, "tip.regime");
+    br_put_mark(d, r->watch.regime == BR_TIP_SLIP ? direction(r->watch.direction) : "");
+    put_extreme(d, friction, "largest_friction_force", "largest friction force",
+                &r->watch.friction_force);
 }
 
 static void put_tip(struct br_document *d, const struct br_run_findings *f)
 {
+    static const char *const labels[] = {"axial displacement u", "bending displacement w"};
     const struct br_run_report *r = f->report;
     const struct br_history_row *row = &r->end.last;
     const bool contact = r->marched.contact.modelled;
     const double error[] = {tip_error(f, BR_AXIAL), tip_error(f, BR_BENDING)};
+    char text[VALUE];
     br_put_section(d, "The tip");
-    put(d, "tip.t", "t", "s", br_number(row->time));
-    put(d, "tip.step", NULL, NULL, br_count(row->step));
+    put(d, br_number(row->time), "t", "s", "tip.t");
+    put(d, br_count(row->step), NULL, NULL, "tip.step");
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        char key[KEY], text[VALUE];
-        const char *label = kind == BR_AXIAL ? "axial displacement u" : "bending displacement w";
-        snprintf(key, sizeof key, "tip.displacement.%s", field_names[kind]);
-        put_if(d, is_marched(r, kind), key, label, "m", row->displacement[kind]);
+        put(d, if_known(is_marched(r, kind), br_number(row->displacement[kind])), labels[kind], "m",
+            "tip.displacement.%s", field_names[kind]);
         br_put_shown(d, "%s", with_error(row->displacement[kind], error[kind], text));
     }
-    put_two(d, r, "tip.predicted_error", NULL, "m", error);
-    put_two(d, r, "tip.velocity", "velocity", "m/s", row->velocity);
-    put_if(d, contact, "tip.contact_force", "contact force", "N", row->contact_force);
-    put(d, "tip.closed", contact ? "contact" : NULL, NULL, truth_if(contact, r->watch.closed));
+    put_two(d, r, error, NULL, "m", "tip.predicted_error");
+    put_two(d, r, row->velocity, "velocity", "m/s", "tip.velocity");
+    put(d, if_known(contact, br_number(row->contact_force)), "contact force", "N",
+        "tip.contact_force");
+    put(d, if_known(contact, br_truth(r->watch.closed)), "contact", NULL, "tip.closed");
     br_put_shown(d, "%s", r->watch.closed ? "closed" : "open");
-    put_friction(d, r);
-    put_extreme(d, r->watch.contact, "largest_contact_force", "largest contact force",
+    put_extreme(d, contact, "largest_contact_force", "largest contact force",
                 &r->watch.contact_force);
-    put_extreme(d, r->watch.friction, "largest_friction_force", "largest friction force",
-                &r->watch.friction_force);
+    put_friction(d, r);
 }
 
 /* ---- events ---- */
@@ -332,7 +328,7 @@ static void put_switches(struct br_document *d, const struct br_run_report *r)
                                                {.key = "to"}};
     if (!r->method.scheme->adaptive)
         return;
-    put(d, "events.switches", "switches that the scheme has found", NULL, br_count(r->switches));
+    put(d, br_count(r->switches), "switches that the scheme has found", NULL, "events.switches");
     br_put_table(d, "switches_found", "Switches within its steps, as the scheme has found them", 0,
                  BR_COLUMNS(columns));
     for (size_t i = 0; i < r->switches && i < BR_MOST_SWITCHES; i++) {
@@ -355,7 +351,7 @@ static void put_event_list(struct br_document *d, const struct br_tip_watch *w)
         {.key = "direction"},
         {.key = "step"},
     };
-    br_put_table(d, "events", "Events at the tip", 0, BR_COLUMNS(columns));
+    br_put_table(d, "events", "When", 0, BR_COLUMNS(columns));
     for (size_t i = 0; i < w->events; i++) {
         const struct br_tip_event *e = &w->event[i];
         const struct br_value sign = {.kind = BR_COUNT, .count = e->direction};
@@ -369,64 +365,61 @@ static void put_event_list(struct br_document *d, const struct br_tip_watch *w)
 }
 
 /* How many steps, and what share that is. */
-static void put_steps(struct br_document *d, bool known, const char *word,
-                      const struct br_tip_watch *w, size_t steps)
+static void put_steps(struct br_document *d, bool known, const char *word, size_t steps, size_t all)
 {
-    char key[KEY], label[LABEL];
-    snprintf(key, sizeof key, "events.steps.%s", word);
+    char label[LABEL];
     snprintf(label, sizeof label, "steps: %s", word);
-    put(d, key, known && w->steps ? label : NULL, NULL, br_count(steps));
-    br_put_shown(d, "%zu (%.4g %%)", steps, w->steps ? 100 * (double)steps / (double)w->steps : 0);
+    put(d, br_count(steps), known && all ? label : NULL, NULL, "events.steps.%s", word);
+    br_put_shown(d, "%zu (%.4g %%)", steps, all ? 100 * (double)steps / (double)all : 0);
 }
 
 static void put_events(struct br_document *d, const struct br_run_report *r)
 {
     const struct br_tip_watch *w = &r->watch;
-    const bool known = w->friction && w->steps;
     br_put_section(d, "Events at the tip");
     br_put_note(d,
                 "An event is told at the first time level of the new regime: it happened in the "
                 "step before, up to k = %g s earlier.",
                 r->k);
-    put(d, "events.resolution", NULL, "s", br_number(r->k));
-    put(d, "events.closed_at_start", w->contact ? "at first" : NULL, NULL,
-        truth_if(w->contact, w->closed_at_start));
+    put(d, br_number(r->k), NULL, "s", "events.resolution");
+    put(d, if_known(w->contact, br_truth(w->closed_at_start)), "at first", NULL,
+        "events.closed_at_start");
     br_put_shown(d, "%s", w->closed_at_start ? "closed" : "open");
-    put(d, "events.regime_at_start", known ? "in the first step" : NULL, NULL,
-        br_text(known ? br_tip_regime_word(w->regime_at_start) : NULL));
-    br_put_mark(d, known ? direction(w->direction_at_start) : "");
+    put(d, if_known(w->friction && w->steps, br_text(br_tip_regime_word(w->regime_at_start))),
+        "in the first step", NULL, "events.regime_at_start");
+    br_put_mark(d, direction(w->direction_at_start));
     for (int kind = 0; kind < BR_TIP_EVENTS; kind++) {
         const char *word = br_tip_event_word((enum br_tip_event_kind)kind);
-        char key[KEY];
-        snprintf(key, sizeof key, "events.counts.%s", word);
-        put(d, key, w->contact || w->friction ? word : NULL, NULL, br_count(w->count[kind]));
+        put(d, br_count(w->count[kind]), w->contact || w->friction ? word : NULL, NULL,
+            "events.counts.%s", word);
     }
-    put_steps(d, w->contact, "closed", w, w->closed_steps);
+    put_steps(d, w->contact, "closed", w->closed_steps, w->steps);
     for (int regime = 0; regime < BR_TIP_REGIMES; regime++)
-        put_steps(d, w->friction, br_tip_regime_word((enum br_tip_regime)regime), w,
-                  w->regime_steps[regime]);
+        put_steps(d, w->friction, br_tip_regime_word((enum br_tip_regime)regime),
+                  w->regime_steps[regime], w->steps);
     put_event_list(d, w);
     put_switches(d, r);
 }
 
 /* ---- energies ---- */
 
+/* People see that of the end. */
 static void put_state(struct br_document *d, const struct br_run_report *r, const char *when,
-                      bool known, const struct br_energy *e)
+                      bool people, const struct br_energy *e)
 {
-    char key[4][KEY];
-    static const char *const names[] = {"kinetic", "stored", "contact", "total"};
-    const bool people = known && strcmp(when, "end") == 0;
-    for (size_t i = 0; i < 4; i++)
-        snprintf(key[i], KEY, "energies.%s.%s", when, names[i]);
-    if (!known)
-        return;
-    put_two(d, r, key[0], people ? "kinetic" : NULL, "J", e->kinetic);
-    put_two(d, r, key[1], people ? "stored" : NULL, "J", e->stored);
-    put_if(d, r->marched.contact.modelled, key[2], people ? "of the contact" : NULL, "J",
-           e->contact);
-    put(d, key[3], people ? "total at the end" : "total at first", "J",
-        br_number(br_energy_total(e)));
+    const struct {
+        const char *key, *label;
+        const double *x;
+    } rows[] = {{"kinetic", "kinetic", e->kinetic}, {"stored", "stored", e->stored}};
+    for (size_t i = 0; i < 2; i++) {
+        char key[KEY];
+        snprintf(key, sizeof key, "energies.%s.%s", when, rows[i].key);
+        put_two(d, r, rows[i].x, people ? rows[i].label : NULL, "J", key);
+    }
+    put(d, if_known(r->marched.contact.modelled, br_number(e->contact)),
+        people ? "of the contact" : NULL, "J", "energies.%s.contact", when);
+    put(d, br_number(br_energy_total(e)), people ? "total" : "total at t = 0", "J",
+        "energies.%s.total", when);
 }
 
 static void put_added(struct br_document *d, const struct br_run_report *r)
@@ -436,31 +429,32 @@ static void put_added(struct br_document *d, const struct br_run_report *r)
     const double put_in[] = {br_energy_put_in(&r->energy_start, w, BR_AXIAL),
                              br_energy_put_in(&r->energy_start, w, BR_BENDING)};
     const double steps[] = {(double)w->gaining[BR_AXIAL], (double)w->gaining[BR_BENDING]};
-    const char *gained = w->gaining[BR_AXIAL] + w->gaining[BR_BENDING] ? "  added in these" : NULL;
-    put_two(d, r, "energies.added_by_scheme.in_all", NULL, "J", all);
-    put_two(d, r, "energies.added_by_scheme.put_in", NULL, "J", put_in);
-    put_two(d, r, "energies.added_by_scheme.steps_that_add", "steps in which the scheme added",
-            NULL, steps);
-    put_two(d, r, "energies.added_by_scheme.by_these_steps", gained, "J", w->gained);
+    const bool any = steps[BR_AXIAL] + steps[BR_BENDING] > 0;
+    put_two(d, r, all, NULL, "J", "energies.added_by_scheme.in_all");
+    put_two(d, r, put_in, NULL, "J", "energies.added_by_scheme.put_in");
+    put_two(d, r, steps, any ? "steps in which the scheme added" : NULL, NULL,
+            "energies.added_by_scheme.steps_that_add");
+    put_two(d, r, w->gained, any ? "  added in these" : NULL, "J",
+            "energies.added_by_scheme.by_these_steps");
 }
 
 static void put_works(struct br_document *d, const struct br_run_report *r)
 {
     const struct br_work *w = &r->work;
     const bool exact = !w->remainder;
-    put_two(d, r, "energies.work_of_loads", "work of the loads", "J", w->loads);
-    put_two(d, r, "energies.lost_to_viscosity", "lost to viscosity", "J", w->viscous);
-    put_two(d, r, "energies.lost_to_scheme", "lost to the scheme", "J", w->scheme);
-    put(d, "energies.lost_to_scheme_is_the_remainder", exact ? NULL : "the last two", NULL,
-        br_truth(w->remainder));
+    put_two(d, r, w->loads, "work of the loads", "J", "energies.work_of_loads");
+    put_two(d, r, w->viscous, "lost to viscosity", "J", "energies.lost_to_viscosity");
+    put_two(d, r, w->scheme, "lost to the scheme", "J", "energies.lost_to_scheme");
+    put(d, br_truth(w->remainder), exact ? NULL : "the last two", NULL,
+        "energies.lost_to_scheme_is_the_remainder");
     br_put_shown(d, "what the works, sums by the trapezoidal rule, leave of the balance, with that "
                     "rule's error");
-    put_if(d, r->marched.contact.modelled && exact, "energies.lost_to_scheme_by_contact",
-           "  and by its contact", "J", w->scheme_contact);
-    put_if(d, exact, "energies.imbalance", "missing, of the terms' sum", NULL,
-           br_energy_imbalance(&r->energy_start, &r->energy_now, w));
-    put_if(d, exact, "energies.largest_imbalance_of_a_step", "  in one step at most", NULL,
-           r->energy_worst);
+    put(d, if_known(r->marched.contact.modelled && exact, br_number(w->scheme_contact)),
+        "  and by its contact", "J", "energies.lost_to_scheme_by_contact");
+    put(d, if_known(exact, br_number(br_energy_imbalance(&r->energy_start, &r->energy_now, w))),
+        "missing in the balance, of the terms' sum", NULL, "energies.imbalance");
+    put(d, if_known(exact, br_number(r->energy_worst)), "  in one step at most", NULL,
+        "energies.largest_imbalance_of_a_step");
     if (exact)
         put_added(d, r);
 }
@@ -468,15 +462,17 @@ static void put_works(struct br_document *d, const struct br_run_report *r)
 static void put_energies(struct br_document *d, const struct br_run_report *r)
 {
     br_put_section(d, "Energies");
-    put_state(d, r, "start", true, &r->energy_start);
-    put_state(d, r, "end", r->at_end, &r->energy_now);
-    if (!r->at_end)
-        put(d, "energies.end", NULL, NULL, br_nothing());
-    put_if(d, has_friction(r), "energies.lost_to_friction", "lost to friction", "J",
-           r->summed ? r->work.friction : r->watch.friction_work);
-    put(d, "energies.summed", r->summed ? NULL : "work, losses and balance", NULL,
-        br_truth(r->summed));
-    br_put_shown(d, "not summed: they need the fields of every step; --energies or --check");
+    put_state(d, r, "start", false, &r->energy_start);
+    if (r->at_end)
+        put_state(d, r, "end", true, &r->energy_now);
+    else
+        put(d, br_nothing(), NULL, NULL, "energies.end");
+    put(d,
+        if_known(has_friction(r), br_number(r->summed ? r->work.friction : r->watch.friction_work)),
+        "lost to friction", "J", "energies.lost_to_friction");
+    put(d, br_truth(r->summed), r->summed ? NULL : "works, losses, balance", NULL,
+        "energies.summed");
+    br_put_shown(d, "not summed, they need the fields of every step: --energies or --check");
     if (r->summed)
         put_works(d, r);
 }
@@ -501,24 +497,22 @@ static void put_certificate(struct br_document *d, const struct br_run_report *r
         {"friction", "friction law (12)", c->friction, limit->friction, has_friction(r)},
         {"energy", "energy balance", r->energy_worst, r->energy_limit, isfinite(r->energy_limit)},
     };
-    char key[KEY];
     if (!r->checked) {
-        put(d, "certificate", NULL, NULL, br_nothing());
+        put(d, br_nothing(), NULL, NULL, "certificate");
         return;
     }
     br_put_section(d, r->method.scheme == br_time_schemes[0]
                           ? "Certificate of every step: the worst"
                           : "Certificate of every step, stage by stage: the worst");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        snprintf(key, sizeof key, "certificate.worst.%s", rows[i].key);
-        put(d, key, rows[i].modelled ? rows[i].name : NULL, NULL, br_number(rows[i].worst));
+        put(d, br_number(rows[i].worst), rows[i].modelled ? rows[i].name : NULL, NULL,
+            "certificate.worst.%s", rows[i].key);
         br_put_shown(d, "%.3g of at most %.3g: %s", rows[i].worst, rows[i].limit,
                      rows[i].worst <= rows[i].limit ? "good" : "BAD");
-        snprintf(key, sizeof key, "certificate.limits.%s", rows[i].key);
-        put(d, key, NULL, NULL, br_number(rows[i].limit));
+        put(d, br_number(rows[i].limit), NULL, NULL, "certificate.limits.%s", rows[i].key);
     }
-    put(d, "certificate.bad_steps", "steps beyond a limit", NULL, br_count(r->bad_steps));
-    put(d, "certificate.first", NULL, NULL, br_text(r->bad_steps ? r->verdict.message : NULL));
+    put(d, br_count(r->bad_steps), "steps beyond a limit", NULL, "certificate.bad_steps");
+    put(d, br_text(r->bad_steps ? r->verdict.message : NULL), NULL, NULL, "certificate.first");
 }
 
 /* ---- what is modelled, and what it costs ---- */
@@ -563,35 +557,34 @@ static void put_cost(struct br_document *d, const struct br_run_report *r)
         br_put(d, "ns_per_element_step", br_number(ns / (double)r->n));
         br_put(d, "share", br_number(100 * r->cost.seconds[part] / all));
     }
-    put(d, "cost.ns_per_step", "sum of the parts of a step", "ns", br_number(1e9 * all / steps));
-    put(d, "cost.ns_per_reading", "a reading of the clock, which is taken off", "ns",
-        br_number(1e9 * r->cost.lap_seconds));
+    put(d, br_number(1e9 * all / steps), "sum of the parts of a step", "ns", "cost.ns_per_step");
+    put(d, br_number(1e9 * r->cost.lap_seconds), "a reading of the clock, which is taken off", "ns",
+        "cost.ns_per_reading");
 }
 
 static void put_time(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
-    const double steps = (double)r->end.last.step, a_step = r->end.march_seconds / steps;
+    const double a_step = r->end.march_seconds / (double)r->end.last.step; /* NAN: none */
     const bool iterates = r->method.friction->iterates && has_friction(r);
     br_put_section(d, "Time and work");
-    put(d, "seconds.wall", "time", "s", br_number(f->wall_seconds));
-    put(d, "seconds.set_up", "  of setting up", "s", br_number(r->end.set_up_seconds));
-    put(d, "seconds.march",
+    put(d, br_number(f->wall_seconds), "time", "s", "seconds.wall");
+    put(d, br_number(r->end.set_up_seconds), "  of setting up", "s", "seconds.set_up");
+    put(d, br_number(r->end.march_seconds),
         r->checked  ? "  of the march, the check included"
         : r->summed ? "  of the march, the energies included"
                     : "  of the march",
-        "s", br_number(r->end.march_seconds));
-    put_if(d, steps > 0, "seconds.per_step", "  a step", "s", a_step);
-    put_if(d, steps > 0, "seconds.per_element_step", "  an element-step", "s",
-           a_step / (double)r->n);
-    put(d, "work.steps", "steps of the scheme", NULL, br_count(r->counts.steps));
-    put(d, "work.steps_taken_back", r->method.scheme->adaptive ? "  taken back" : NULL, NULL,
-        br_count(r->counts.rejected));
-    put(d, "work.solves_a_field", "solves a field", NULL, br_count(r->counts.stages));
-    put(d, "work.changes_of_the_step", r->counts.set_ups ? "changes of the step" : NULL, NULL,
-        br_count(r->counts.set_ups));
-    put(d, "work.friction_iterations", iterates ? "friction iterations" : NULL, NULL,
-        br_count(r->counts.iterations));
+        "s", "seconds.march");
+    put(d, br_number(a_step), "  a step", "s", "seconds.per_step");
+    put(d, br_number(a_step / (double)r->n), "  an element-step", "s", "seconds.per_element_step");
+    put(d, br_count(r->counts.steps), "steps of the scheme", NULL, "work.steps");
+    put(d, br_count(r->counts.rejected), r->method.scheme->adaptive ? "  taken back" : NULL, NULL,
+        "work.steps_taken_back");
+    put(d, br_count(r->counts.stages), "solves a field", NULL, "work.solves_a_field");
+    put(d, br_count(r->counts.set_ups), r->counts.set_ups ? "changes of the step" : NULL, NULL,
+        "work.changes_of_the_step");
+    put(d, br_count(r->counts.iterations), iterates ? "friction iterations" : NULL, NULL,
+        "work.friction_iterations");
 }
 
 void br_report_run(const struct br_run_findings *f, struct br_document *d)
