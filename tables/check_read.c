@@ -120,9 +120,12 @@ static enum br_status gather(const json_t *root, json_t *scenes, struct br_error
     const json_t *methods = json_object_get(root, "methods");
     bool lacked = false;
     for (size_t i = 0; i < json_array_size(scenes); i++) {
-        json_t *scene = json_array_get(scenes, i), *cases = json_array();
+        json_t *scene = json_array_get(scenes, i);
         const json_t *name = json_object_get(scene, "scene");
         char number[32];
+        if (!json_is_object(scene))
+            continue; /* read_scene refuses it */
+        json_t *cases = json_array();
         for (size_t j = 0; j < json_array_size(orders); j++) {
             json_t *row = json_array_get(orders, j);
             if (json_equal(json_object_get(row, "scene"), name))

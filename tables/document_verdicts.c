@@ -83,21 +83,15 @@ static void print_counts(FILE *out, const struct suite *s)
             s->seconds);
 }
 
-/* What it was tested on, its numbers, its lines. The schemas have no attributes for a place. */
-static void print_output(FILE *out, const struct br_document *d,
-                         const struct br_document_verdict *v)
+/* Where it is expected, and the lines that explain. The schemas have no attributes for a place. */
+static void print_details(FILE *out, const struct br_document_verdict *v)
 {
-    fputs("      <system-out>\n", out);
     if (v->file)
         print_line(out, &br_for_xml, "file", v->file);
     if (v->line)
         fprintf(out, "  line: %zu\n", v->line);
-    print_row(out, &br_for_xml, d, v);
-    if (v->outcome == BR_OUTCOME_PASS && v->message)
-        print_line(out, &br_for_xml, "message", v->message);
     for (size_t i = 0; i < v->details; i++)
         print_line(out, &br_for_xml, "detail", v->detail[i]);
-    fputs("      </system-out>\n", out);
 }
 
 static void print_testcase(FILE *out, const struct br_document *d,
@@ -105,8 +99,7 @@ static void print_testcase(FILE *out, const struct br_document *d,
 {
     static const char *const elements[] = {NULL, "failure", "failure", "error", "skipped"};
     const char *element = elements[v->outcome];
-    fputs("    <testcase classname=\"beamrate", out);
-    fputs(v->group ? "." : "", out);
+    fprintf(out, "    <testcase classname=\"beamrate%s", v->group ? "." : "");
     br_quote(out, &br_for_xml, v->group ? v->group : "");
     fputc('"', out);
     print_attribute(out, "name", v->name);
@@ -118,10 +111,17 @@ static void print_testcase(FILE *out, const struct br_document *d,
         if (v->outcome != BR_OUTCOME_SKIPPED)
             print_attribute(out, "type", br_outcome_names[v->outcome]);
         print_attribute(out, "message", v->message ? v->message : "");
-        fputs("/>\n", out);
+        fputs(">\n", out);
+        print_details(out, v);
+        fprintf(out, "      </%s>\n", element);
     }
-    print_output(out, d, v);
-    fputs("    </testcase>\n", out);
+    fputs("      <system-out>\n", out);
+    if (!element && v->message)
+        print_line(out, &br_for_xml, "message", v->message);
+    if (!element)
+        print_details(out, v);
+    print_row(out, &br_for_xml, d, v);
+    fputs("      </system-out>\n    </testcase>\n", out);
 }
 
 static void print_suite(FILE *out, const struct br_document *d, const struct suite *s)

@@ -45,7 +45,7 @@ static void answer_tally(struct br_document *d, const struct br_check_findings *
 /* The first of what does not pass. */
 static void answer_failures(struct br_document *d, const struct br_check_findings *f)
 {
-    char name[NAME];
+    char name[NAME], place[1100];
     size_t failures = 0;
     for (size_t i = 0; i < f->count; i++)
         if (f->checks[i].failure.status && ++failures <= FIRST_FAILURES)
@@ -54,9 +54,13 @@ static void answer_failures(struct br_document *d, const struct br_check_finding
     for (size_t i = 0; i < f->count; i++)
         for (size_t j = 0; j < f->checks[i].count; j++) {
             const struct br_case *c = &f->checks[i].cases[j];
+            if (c->expected.line)
+                snprintf(place, sizeof place, " (%s:%zu)", f->checks[i].path, c->expected.line);
+            else
+                *place = '\0';
             if (c->verdict != BR_PASS && ++failures <= FIRST_FAILURES)
-                br_put_answer(d, "%s, %s, %s: %s", br_verdict_names[c->verdict],
-                              f->checks[i].scene->name, name_of(c, name), c->reason);
+                br_put_answer(d, "%s, %s, %s%s: %s", br_verdict_names[c->verdict],
+                              f->checks[i].scene->name, name_of(c, name), place, c->reason);
         }
     if (failures > FIRST_FAILURES)
         br_put_answer(d, "%zu more do not pass: see the verdicts.", failures - FIRST_FAILURES);
