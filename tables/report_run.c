@@ -123,7 +123,7 @@ static void answer_tip(struct br_document *d, const struct br_run_findings *f)
             append(text, "%s %s %zu",
                    told++ ? "," : " Events:", br_tip_event_word((enum br_tip_event_kind)kind),
                    w->count[kind]);
-    br_put_answer(d, "%s", text);
+    br_put_answer(d, "%s%s", text, text[strlen(text) - 1] == '.' ? "" : ".");
 }
 
 static void answer_prediction(struct br_document *d, const struct br_prediction *p)
@@ -145,7 +145,7 @@ static void answer_prediction(struct br_document *d, const struct br_prediction 
                       p->round_off);
 }
 
-/* Their texts stand in a table, and were on the terminal before the march. */
+/* Their texts stand below, and were on the terminal before the march. */
 static void answer_warnings(struct br_document *d, const struct br_warnings *w)
 {
     char text[SENTENCE] = "";
@@ -249,19 +249,23 @@ static void put_prediction(struct br_document *d, const struct br_run_findings *
     put(d, br_number(p->seconds), NULL, "s", "prediction.seconds");
 }
 
+/* Remedies are options that can be typed. */
 static void put_warnings(struct br_document *d, const struct br_warnings *w)
 {
     static const struct br_column columns[] = {
-        {.key = "warning"},
-        {.key = "text", .flags = BR_WRAP},
-        {.key = "remedy", .flags = BR_WRAP},
-    };
-    br_put_table(d, "warnings", "Warnings before the march", BR_FILES_ONLY, BR_COLUMNS(columns));
+        {.key = "warning"}, {.key = "text"}, {.key = "remedy"}};
+    char key[KEY];
+    br_put_table(d, "warnings", "Warnings before the march", BR_FOR_PROGRAMS, BR_COLUMNS(columns));
     for (size_t i = 0; i < w->count; i++) {
         br_put_row(d);
         br_put(d, "warning", br_text(br_warning_word(w->list[i].kind)));
         br_put(d, "text", br_text(w->list[i].text));
         br_put(d, "remedy", br_text(w->list[i].remedy[0] ? w->list[i].remedy : NULL));
+    }
+    for (size_t i = 0; i < w->count; i++) {
+        snprintf(key, sizeof key, "remedies.%s", br_warning_word(w->list[i].kind));
+        br_put_note(d, "Warning: %s.", w->list[i].text);
+        br_put_command(d, key, "Remedy", w->list[i].remedy);
     }
 }
 
@@ -359,7 +363,7 @@ static void put_event_list(struct br_document *d, const struct br_tip_watch *w)
         br_put(d, "t", br_number(e->time));
         br_put(d, "event", br_text(br_tip_event_word(e->kind)));
         br_put(d, "direction", e->direction ? sign : br_nothing());
-        br_put_shown(d, "%s", direction(e->direction));
+        br_put_shown(d, "%s", direction(e->direction) + (e->direction != 0)); /* no blank */
         br_put(d, "step", br_count(e->step));
     }
 }
