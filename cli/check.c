@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/check_options.h"
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
@@ -22,18 +21,43 @@ struct item {
     struct br_verify verify;
 };
 
+/* A format's name is an option's. */
+enum { MOST_FORMATS = 8 };
+
 struct run {
-    struct br_check_options options;
+    const struct br_options *options;
+    char **listed;     /* all bundled scenes; owned; NULL: those that are given */
     struct item *item; /* most */
     size_t most;
     struct br_check *check; /* of the items that can be checked */
     size_t count;
     size_t done; /* checks that have been run */
     double wall_seconds;
-    struct br_whole_file file[BR_MOST_CHECK_FORMATS];
+    struct br_whole_file file[MOST_FORMATS];
     struct br_old_check old;
     struct br_comparison comparison;
 };
+
+static const char *compare_with(const struct run *r)
+{
+    return br_option_text(r->options, BR_OPT_COMPARE);
+}
+
+static int threads_of(const struct run *r)
+{
+    return (int)br_option_number(r->options, BR_OPT_THREADS, 0);
+}
+
+/* The file that a format's option names, or NULL. */
+static const char *file_of(const struct run *r, const char *format)
+{
+    struct br_option row[BR_OPTIONS];
+    const size_t count = br_options_of(r->options->command, row);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(row[i].name, format) == 0)
+            return br_option_text(r->options, row[i].id);
+    return NULL;
+}
 
 /* ---- scenes ---- */
 
@@ -44,8 +68,10 @@ static enum br_status choose_method(const struct run *r, struct item *item, stru
     for (int kind = 0; kind < BR_VERIFY_KINDS && !status; kind++) {
         struct br_verify_study *v = &item->verify.study[kind];
         struct br_error inner = {0};
-        v->method.rounding = r->options.rounding_mode;
-        if (v->count && br_method_options_read(&r->options.method, &v->method, &inner))
+        v->method.rounding =
+            br_rounding_mode((size_t)br_option_number(r->options, BR_OPT_ROUNDING, 0));
+        if (v->count &&
+            br_method_read(&r->options->given[BR_OPT_METHOD], BR_METHOD_OPTION, &v->method, &inner))
             status = br_fail(err, inner.status, "%s: verify: %s: %s", item->path,
                              br_verify_names[kind], inner.message);
     }
@@ -72,21 +98,21 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
 
 static enum br_status read_scenes(struct run *r, struct br_error *err)
 {
-    struct br_check_options *o = &r->options;
     enum br_status status = BR_OK;
-    if (o->all) {
-        free(o->scene);
-        status = br_scene_list(&o->scene, &o->scenes, err);
+    char *const *name = r->options->word;
+    r->most = r->options->words;
+    if (br_option_given(r->options, BR_OPT_ALL)) {
+        status = br_scene_list(&r->listed, &r->most, err);
+        name = r->listed;
     }
     if (status)
         return status;
-    r->most = o->scenes;
     r->item = br_allocate(r->most + 1, sizeof *r->item);
     r->check = br_allocate(r->most + 1, sizeof *r->check);
     if (!r->item || !r->check)
         return br_no_memory(err, "the scenes");
     for (size_t i = 0; i < r->most && !status; i++)
-        status = read_scene(r, i, o->scene[i], err);
+        status = read_scene(r, i, name[i], err);
     return status;
 }
 
@@ -101,7 +127,8 @@ static enum br_status check_heeded(const struct run *r, struct br_error *err)
         for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
             if (r->check[i].verify->study[kind].count)
                 method[count++] = &r->check[i].verify->study[kind].method;
-    const enum br_status status = br_method_options_check(&r->options.method, method, count, err);
+    const enum br_status status = br_method_check_heeded(&r->options->given[BR_OPT_METHOD],
+                                                         BR_METHOD_OPTION, method, count, err);
     free(method);
     return status;
 }
@@ -127,14 +154,15 @@ static bool failed_so_far(const struct run *r)
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
-    const size_t at_once = r->options.fail_fast ? 1 : r->count;
-    if (r->options.fail_fast)
+    const size_t at_once = br_option_given(r->options, BR_OPT_FAIL_FAST) ? 1 : r->count;
+    if (br_option_given(r->options, BR_OPT_FAIL_FAST))
         qsort(r->check, r->count, sizeof *r->check, by_work);
-    const struct br_observer *observer =
-        br_progress_start("checking", r->options.quiet || !br_ranks_first());
+    const struct br_observer *observer = br_progress_start(
+        "checking", br_option_given(r->options, BR_OPT_QUIET) || !br_ranks_first());
     enum br_status status = BR_OK;
-    while (r->done < r->count && !status && !(r->options.fail_fast && failed_so_far(r))) {
-        status = br_check_run(&r->check[r->done], at_once, r->options.thread_count, observer, err);
+    while (r->done < r->count && !status &&
+           !(br_option_given(r->options, BR_OPT_FAIL_FAST) && failed_so_far(r))) {
+        status = br_check_run(&r->check[r->done], at_once, threads_of(r), observer, err);
         r->done += status ? 0 : at_once;
     }
     br_progress_end();
@@ -150,8 +178,8 @@ static enum br_status open_files(struct run *r, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (size_t i = 1; br_check_formats[i] && !status; i++)
-        status =
-            br_whole_file_open(&r->file[i], br_check_formats[i]->name, r->options.file[i], err);
+        status = br_whole_file_open(&r->file[i], br_check_formats[i]->name,
+                                    file_of(r, br_check_formats[i]->name), err);
     return status;
 }
 
@@ -168,7 +196,7 @@ static enum br_status check_places(const struct run *r, struct br_error *err)
         for (size_t s = 0; s < r->count; s++)
             if (br_whole_file_replaces(f, r->check[s].path))
                 return br_fail(err, BR_BAD_INPUT, "--%s would replace the scene %s", name, f->path);
-        if (r->options.compare && br_whole_file_replaces(f, r->options.compare))
+        if (compare_with(r) && br_whole_file_replaces(f, compare_with(r)))
             return br_fail(err, BR_BAD_INPUT, "--%s would replace what it is compared with, %s",
                            name, f->path);
     }
@@ -186,7 +214,7 @@ static bool uses_stdout(const struct run *r)
 static enum br_status write_report(struct run *r, const struct br_document *d, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    if (!r->options.quiet && !uses_stdout(r))
+    if (!br_option_given(r->options, BR_OPT_QUIET) && !uses_stdout(r))
         status = br_document_show(stdout, d, err);
     for (size_t i = 1; br_check_formats[i] && !status; i++)
         if (r->file[i].file)
@@ -200,13 +228,13 @@ static enum br_status write_results(struct run *r, struct br_error *err)
 {
     struct br_provenance provenance = {0};
     struct br_document d = {0};
-    br_provenance_fill(&provenance, r->options.thread_count);
+    br_provenance_fill(&provenance, threads_of(r));
     const struct br_check_findings findings = {
         .checks = r->check,
         .count = r->done,
         .stopped = r->done < r->count,
         .wall_seconds = r->wall_seconds,
-        .comparison = r->options.compare ? &r->comparison : NULL,
+        .comparison = compare_with(r) ? &r->comparison : NULL,
         .provenance = &provenance,
     };
     br_report_check(&findings, &d);
@@ -231,7 +259,7 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
         return br_fail(err, BR_VERDICT, "%zu of %zu orders do not pass", orders - passed, orders);
     if (r->comparison.tally[BR_SERIOUS])
         return br_fail(err, BR_VERDICT, "%zu serious differences from %s",
-                       r->comparison.tally[BR_SERIOUS], r->options.compare);
+                       r->comparison.tally[BR_SERIOUS], compare_with(r));
     return BR_OK;
 }
 
@@ -239,9 +267,9 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
 static enum br_status prepare_reports(struct run *r, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    if (r->options.compare)
-        status = br_check_read_json(r->options.compare, &r->old, err);
-    if (!status && r->options.compare)
+    if (compare_with(r))
+        status = br_check_read_json(compare_with(r), &r->old, err);
+    if (!status && compare_with(r))
         status = br_compare_check(r->check, r->count, &r->old, err);
     if (!status)
         status = open_files(r, err);
@@ -263,8 +291,9 @@ static enum br_status check(struct run *r, struct br_error *err)
         status = compute(r, err);
     if (!br_ranks_first())
         return status; /* rank 0 writes, and has the verdict */
-    if (!status && r->options.compare)
-        status = br_compare(r->check, r->done, r->options.all && r->done == r->count, &r->old,
+    if (!status && compare_with(r))
+        status = br_compare(r->check, r->done,
+                            br_option_given(r->options, BR_OPT_ALL) && r->done == r->count, &r->old,
                             &r->comparison, err);
     if (!status)
         status = write_results(r, err);
@@ -285,22 +314,38 @@ static void clear(struct run *r)
     free(r->check);
     br_old_check_clear(&r->old);
     br_comparison_clear(&r->comparison);
-    br_check_options_clear(&r->options);
+    br_scene_list_free(r->listed, r->listed ? r->most : 0);
 }
 
-static enum br_status run(int argc, const char **argv, struct br_error *err)
+static enum br_status run(const struct br_options *options, struct br_error *err)
 {
     static struct run r;
-    enum br_status status = br_check_options_parse(argc, argv, &r.options, err);
-    if (!status && !r.options.help)
-        status = check(&r, err);
+    const bool all = br_option_given(options, BR_OPT_ALL);
+    if (all == (options->words > 0))
+        return br_fail(
+            err, BR_BAD_INPUT,
+            all ? "--all and scenes are given, expected one of the two"
+                : "no scene is given, expected files, names of bundled scenes, or --all");
+    r.options = options;
+    const enum br_status status = check(&r, err);
     clear(&r);
     return status;
 }
 
 const struct br_command br_command_check = {
+    .bit = BR_FOR_CHECK,
     .name = "check",
     .arguments = "SCENE...",
     .title = "whether the orders are as expected: a verdict for CI",
+    .about =
+        "Whether scenes still converge as their 'verify' parts expect, or, where a scene has "
+        "none, as the scheme should. Three studies that are apart: over h at one time step, over "
+        "k on one mesh, and both together against the solution. The verdict on an order comes "
+        "from its 95 % interval: PASS within the band, FAIL outside, INCONCLUSIVE across its "
+        "end. Exit code 0: all PASS; 1: not so.",
+    .more = "The options of the method are taken instead of what the scenes say.",
+    .example = {"beamrate check --all --junit orders.xml --markdown summary.md",
+                "beamrate check my_scene.yaml --json new.json --compare old.json"},
+    .most_words = BR_MOST_WORDS,
     .run = run,
 };

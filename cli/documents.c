@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/documents.h"
 
-#include "cli/formats.h"
-
 enum { NAME = 600 };
 
 /* One file: of all, or of one table. */
@@ -23,9 +21,9 @@ static enum br_status write_file(const struct br_output *output, const struct br
     return status ? status : closed;
 }
 
-static enum br_status write_format(const struct br_output *output,
-                                   const struct br_document_format *f, const struct br_document *d,
-                                   struct br_error *err)
+enum br_status br_documents_write_as(const struct br_output *output,
+                                     const struct br_document_format *f,
+                                     const struct br_document *d, struct br_error *err)
 {
     enum br_status status = br_document_status(d, err);
     if (!f->by_table)
@@ -36,15 +34,15 @@ static enum br_status write_format(const struct br_output *output,
     return status;
 }
 
-enum br_status br_documents_write(const struct br_output *output, const char *formats,
+enum br_status br_documents_write(const struct br_output *output, const struct br_options *options,
                                   const struct br_document *documents, size_t count,
                                   struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (const struct br_document_format *const *f = br_document_formats; *f; f++)
         for (size_t i = 0; i < count && !status; i++)
-            if (br_format_wanted(formats, (*f)->name))
-                status = write_format(output, *f, &documents[i], err);
+            if (br_format_wanted(options, (*f)->name))
+                status = br_documents_write_as(output, *f, &documents[i], err);
     return status;
 }
 

@@ -3,15 +3,21 @@
 #ifndef BR_CLI_DOCUMENTS_H
 #define BR_CLI_DOCUMENTS_H
 
+#include "cli/option.h"
 #include "cli/output.h"
 #include "tables/document.h"
 
-/* Writes `count` documents in the formats of a list (cli/formats.h; NULL: all) into an open output,
+/* Writes `count` documents in the formats of --format into an open output,
  * as NAME.EXTENSION, and formats that have a table a file as NAME.EXTENSION (its main table) and
  * NAME-TABLE.EXTENSION. Fails as br_document_print does, with BR_IO, or as br_output_file. */
-enum br_status br_documents_write(const struct br_output *output, const char *formats,
+enum br_status br_documents_write(const struct br_output *output, const struct br_options *options,
                                   const struct br_document *documents, size_t count,
                                   struct br_error *err);
+
+/* The same of one document in one format. */
+enum br_status br_documents_write_as(const struct br_output *output,
+                                     const struct br_document_format *format,
+                                     const struct br_document *document, struct br_error *err);
 
 /* Shows them on standard output, with an empty line between two. */
 enum br_status br_documents_show(const struct br_document *documents, size_t count,

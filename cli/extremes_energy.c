@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "cli/extremes_part.h"
-#include "plots/extremes_energy.h"
+#include "plots/pictures.h"
 #include "tables/report_extremes.h"
 
 static void release(void *result)
@@ -26,10 +26,10 @@ static void report(const void *result, struct br_document *d)
     br_report_energy(result, d);
 }
 
-static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
+static enum br_status draw(const void *result, size_t i, struct br_figure *figure,
                            struct br_error *err)
 {
-    return i == 0 ? br_energy_chart(result, &picture->chart, err) : BR_OK;
+    return i == 0 ? br_energy_draw(result, figure, err) : BR_OK;
 }
 
 static enum br_status judge(const void *result, struct br_error *err)

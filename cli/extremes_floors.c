@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The part `floors`. */
-#include "plots/extremes_floors.h"
 #include "cli/extremes_part.h"
+#include "plots/pictures.h"
 #include "tables/report_extremes.h"
 
 static void floors_free(void *result)
@@ -35,16 +35,12 @@ static void report(const void *result, struct br_document *d)
     br_report_floors(result, d);
 }
 
-static enum br_status floors_draw(const void *result, size_t i, struct br_extremes_picture *picture,
+static enum br_status floors_draw(const void *result, size_t i, struct br_figure *figure,
                                   struct br_error *err)
 {
     const struct br_floors *floors = result;
-    if (i >= floors->k_count || floors->n_count < 2)
-        return BR_OK;
-    picture->chart = br_allocate(1, sizeof *picture->chart);
-    if (!picture->chart)
-        return br_no_memory(err, "a plot");
-    return br_floors_draw(floors, i, picture->chart, err);
+    return i < floors->k_count && floors->n_count > 1 ? br_floors_draw(floors, i, figure, err)
+                                                      : BR_OK;
 }
 
 static enum br_status floors_verdict(const void *result, struct br_error *err)

@@ -4,7 +4,7 @@
 
 #include "cli/extremes_part.h"
 #include "cli/provenance.h"
-#include "plots/extremes_map.h"
+#include "plots/pictures.h"
 #include "tables/report_extremes.h"
 
 enum { CASES = 2000, SEED = 1 };
@@ -51,16 +51,11 @@ static void report(const void *result, struct br_document *d)
     br_report_map(&r->map, &r->counts, d);
 }
 
-static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
+static enum br_status draw(const void *result, size_t i, struct br_figure *figure,
                            struct br_error *err)
 {
     const struct result *r = result;
-    *picture = (struct br_extremes_picture){0};
-    if (i > 0)
-        return BR_OK;
-    picture->heat = br_allocate(1, sizeof *picture->heat);
-    return picture->heat ? br_extremes_map_draw(&r->map, picture->heat, err)
-                         : br_no_memory(err, "a heat map");
+    return i == 0 ? br_extreme_map_draw(&r->map, figure, err) : BR_OK;
 }
 
 static enum br_status verdict(const void *result, struct br_error *err)

@@ -6,8 +6,7 @@
 
 #include <stdint.h>
 
-#include "plots/chart.h"
-#include "plots/heat.h"
+#include "plots/figure.h"
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
 #include "tables/document.h"
@@ -26,13 +25,6 @@ struct br_extremes_job {
                            the file is removed when all is written. NULL: nothing is kept */
     const char *folder; /* for other files of the part (reproducer scenes): the staging folder */
     const struct br_observer *observer; /* NULL: nobody */
-};
-
-/* A picture: one of them is not NULL, and made by br_allocate. Owned. Its stem is the part's name,
- * or begins with it and a dash. */
-struct br_extremes_picture {
-    struct br_chart *chart;
-    struct br_heat *heat;
 };
 
 /* The options that a part heeds: others are refused. --threads is for all. */
@@ -56,8 +48,10 @@ struct br_extremes_part {
     /* Begins the report and puts all into it but pictures and provenance; its name is the part's.
      */
     void (*report)(const void *result, struct br_document *d);
-    /* Picture i, 0, 1, ...; both NULL: there are no more. Fails with BR_NO_MEMORY. */
-    enum br_status (*draw)(const void *result, size_t i, struct br_extremes_picture *picture,
+    /* Picture i, 0, 1, ... (out: zeroed; clear it even after a failure); left without panels: there
+     * are no more. Its stem is the part's name, or begins with it and a dash. Fails with
+     * BR_NO_MEMORY. */
+    enum br_status (*draw)(const void *result, size_t i, struct br_figure *figure,
                            struct br_error *err);
     /* BR_OK, or BR_VERDICT with what has been found wrong. */
     enum br_status (*verdict)(const void *result, struct br_error *err);
@@ -68,6 +62,5 @@ extern const struct br_extremes_part br_extremes_part_floors, br_extremes_part_s
 
 /* NULL-terminated, in the order in which they run. */
 extern const struct br_extremes_part *const br_extremes_parts[];
-const struct br_extremes_part *br_extremes_part_find(const char *name);
 
 #endif

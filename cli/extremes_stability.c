@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate extremes stability: the contact's stability limit, predicted and measured. */
-#include "plots/extremes_stability.h"
 #include "cli/extremes_part.h"
+#include "plots/pictures.h"
 #include "tables/report_extremes.h"
 
 static void release(void *result)
@@ -33,15 +33,10 @@ static void report(const void *result, struct br_document *d)
     br_report_stability(result, d);
 }
 
-static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
+static enum br_status draw(const void *result, size_t i, struct br_figure *figure,
                            struct br_error *err)
 {
-    *picture = (struct br_extremes_picture){.heat = NULL};
-    if (i > 0)
-        return BR_OK;
-    picture->heat = br_allocate(1, sizeof *picture->heat);
-    return picture->heat ? br_extremes_stability_draw(result, picture->heat, err)
-                         : br_no_memory(err, "a heat map");
+    return i == 0 ? br_stability_draw(result, figure, err) : BR_OK;
 }
 
 static enum br_status verdict(const void *result, struct br_error *err)

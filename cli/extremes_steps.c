@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The part `steps`. */
-#include "plots/extremes_steps.h"
 #include "cli/extremes_part.h"
+#include "plots/pictures.h"
 #include "tables/report_extremes.h"
 
 static void drifts_free(void *result)
@@ -33,16 +33,11 @@ static void report(const void *result, struct br_document *d)
     br_report_drifts(result, d);
 }
 
-static enum br_status drifts_draw(const void *result, size_t i, struct br_extremes_picture *picture,
+static enum br_status drifts_draw(const void *result, size_t i, struct br_figure *figure,
                                   struct br_error *err)
 {
     const struct br_drifts *drifts = result;
-    if (i > 0 || drifts->k_count < 2)
-        return BR_OK;
-    picture->chart = br_allocate(1, sizeof *picture->chart);
-    if (!picture->chart)
-        return br_no_memory(err, "a plot");
-    return br_drifts_draw(drifts, picture->chart, err);
+    return i == 0 && drifts->k_count > 1 ? br_drifts_draw(drifts, figure, err) : BR_OK;
 }
 
 static enum br_status drifts_verdict(const void *result, struct br_error *err)

@@ -1,48 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate figures: Figures 2 to 10 of the paper, and what its section 3.2 says. */
-#include <popt.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/command.h"
-#include "cli/number_option.h"
-#include "cli/parse.h"
 #include "cli/picture_files.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/warn_marches.h"
-#include "plots/figures.h"
+#include "plots/pictures.h"
 #include "study/ranks/ranks.h"
 #include "tables/claims_emitter.h"
 
-static const char usage[] =
-    "[OPTION...]\n\nFigures 2 to 10 of the paper from Examples 1 to 4 at h = k = 1e-3, each as a "
-    "gnuplot script,\ndata, SVG and PNG with a caption; and every statement of section 3.2 with our "
-    "value, its error\nbar, and whether they agree (claims.csv, .md, .tex). README.md shows them "
-    "all.\n\nExample:\n  beamrate figures --out figures\n";
-
-struct options {
-    char *out, *threads;
-    int quiet, help, thread_count;
-};
-
-static enum br_status parse(int argc, const char **argv, struct options *o, struct br_error *err)
-{
-    const struct poptOption table[] = {
-        {"out", 0, POPT_ARG_STRING, &o->out, 0, "folder of the results (default: figures)", "DIR"},
-        {"threads", 0, POPT_ARG_STRING, &o->threads, 0, "threads; 0, the default: all cores",
-         "COUNT"},
-        {"quiet", 0, POPT_ARG_NONE, &o->quiet, 0, "no progress, no claims on the terminal", NULL},
-        BR_PARSE_HELP_ROW,
-        POPT_TABLEEND};
-    const enum br_status status = br_parse(
-        argc, argv, &(struct br_parse){.table = table, .usage = usage, .help = &o->help}, err);
-    return status ? status
-                  : br_read_count_option("threads", o->threads, 4096, &o->thread_count, err);
-}
-
 struct run {
-    const struct options *options;
+    const struct br_options *options;
     struct br_paper paper;
     struct br_finding finding[BR_MOST_CLAIMS];
     struct br_output output;
@@ -50,28 +21,29 @@ struct run {
     struct br_picture_files pictures;
 };
 
-static enum br_status write_caption(struct run *r, const struct br_figure *f, const char *stem,
-                                    struct br_error *err)
+static enum br_status write_caption(struct run *r, const struct br_paper_figure *f,
+                                    const char *stem, struct br_error *err)
 {
-    char name[160];
+    char name[600];
     FILE *file;
     snprintf(name, sizeof name, "%s.txt", stem);
     const enum br_status status = br_output_file(&r->output, name, &file, err);
     if (status)
         return status;
-    br_figure_caption(file, f, &r->paper, r->finding);
+    br_paper_caption(file, f, &r->paper, r->finding);
     return br_output_close(file, name, err);
 }
 
-static enum br_status write_figure(struct run *r, const struct br_figure *f, struct br_error *err)
+static enum br_status write_figure(struct run *r, const struct br_paper_figure *f,
+                                   struct br_error *err)
 {
-    struct br_chart chart;
-    enum br_status status = br_figure_draw(f, &r->paper, &chart, err);
+    struct br_figure figure;
+    enum br_status status = br_paper_figure_draw(f, &r->paper, &figure, err);
     if (!status)
-        status = br_picture_files_chart(&r->pictures, &chart, err);
+        status = br_picture_files_draw(&r->pictures, &figure, err);
     if (!status)
-        status = write_caption(r, f, chart.stem, err);
-    br_chart_clear(&chart);
+        status = write_caption(r, f, figure.stem, err);
+    br_figure_clear(&figure);
     return status;
 }
 
@@ -81,7 +53,7 @@ static enum br_status write_readme(struct run *r, struct br_error *err)
     const enum br_status status = br_output_file(&r->output, "README.md", &file, err);
     if (status)
         return status;
-    br_figures_readme(file, &r->paper, r->finding);
+    br_paper_readme(file, &r->paper, r->finding);
     return br_output_close(file, "README.md", err);
 }
 
@@ -115,8 +87,8 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     };
     enum br_status status = BR_OK;
     r->pictures.output = &r->output;
-    for (const struct br_figure *const *f = br_figures; *f && !status; f++)
-        status = write_figure(r, *f, err);
+    for (const struct br_paper_figure *f = br_paper_figures; f->number && !status; f++)
+        status = write_figure(r, f, err);
     if (!status)
         status = write_readme(r, err);
     if (!status)
@@ -126,7 +98,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         status = drawn;
     if (!status)
         status = br_output_commit(&r->output, err);
-    if (!status && !r->options->quiet) {
+    if (!status && !br_option_given(r->options, BR_OPT_QUIET)) {
         br_claims_emitters[0]->emit(stdout, &page);
         br_output_announce(&r->output);
     }
@@ -136,8 +108,8 @@ static enum br_status write_all(struct run *r, struct br_error *err)
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     struct br_paper_request request = br_paper_request_default();
-    request.threads = r->options->thread_count;
-    const bool quiet = r->options->quiet || !br_ranks_first();
+    request.threads = (int)br_option_number(r->options, BR_OPT_THREADS, 0);
+    const bool quiet = br_option_given(r->options, BR_OPT_QUIET) || !br_ranks_first();
     const struct br_observer *observer = br_progress_start("marching", quiet);
     const enum br_status status = br_paper_run(&r->paper, &request, observer, err);
     br_progress_end();
@@ -146,31 +118,35 @@ static enum br_status compute(struct run *r, struct br_error *err)
     return status;
 }
 
-static enum br_status run(int argc, const char **argv, struct br_error *err)
+static enum br_status run(const struct br_options *options, struct br_error *err)
 {
-    struct options options = {0};
-    struct run r = {.options = &options};
-    enum br_status status = parse(argc, argv, &options, err);
-    const bool works = !options.help, writes = works && br_ranks_first();
+    struct run r = {.options = options};
+    const bool writes = br_ranks_first();
+    enum br_status status = BR_OK;
+    if (writes)
+        status = br_output_open(&r.output, br_option_text(options, BR_OPT_OUT), err);
     if (writes && !status)
         status = br_warn_of_paper(err);
-    if (writes && !status)
-        status = br_output_open(&r.output, options.out ? options.out : "figures", err);
-    br_provenance_fill(&r.provenance, options.thread_count);
-    if (works && !status)
+    br_provenance_fill(&r.provenance, (int)br_option_number(options, BR_OPT_THREADS, 0));
+    if (!status)
         status = compute(&r, err); /* on every rank: it takes a second */
     if (writes && !status)
         status = write_all(&r, err);
     br_paper_clear(&r.paper);
     br_output_discard(&r.output);
-    free(options.out);
-    free(options.threads);
     return status;
 }
 
 const struct br_command br_command_figures = {
+    .bit = BR_FOR_FIGURES,
     .name = "figures",
     .arguments = "",
     .title = "the paper's Figures 2 to 10, and what its section 3.2 says beside what we find",
+    .about =
+        "Figures 2 to 10 of the paper from Examples 1 to 4 at h = k = 1e-3, each as a gnuplot "
+        "script, data, SVG and PNG with a caption; and every statement of section 3.2 with our "
+        "value, its error bar, and whether they agree (claims.csv, .md, .tex). README.md shows "
+        "them all.",
+    .example = {"beamrate figures --out figures"},
     .run = run,
 };

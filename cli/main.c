@@ -7,47 +7,22 @@
 #include "cli/command.h"
 #include "cli/provenance.h"
 #include "cli/signals.h"
-#include "cli/suggest.h"
-#include "plots/gnuplot.h"
+#include "plots/render.h"
 #include "study/ranks/ranks.h"
 #include "study/ranks/spread.h"
+#include "study/scene/nearest.h"
 #include "study/scene/quote.h"
 #include "tables/json_value.h"
 
 extern const struct br_command br_command_check, br_command_completions, br_command_extremes,
-    br_command_figures, br_command_plan, br_command_run, br_command_scenes, br_command_study,
-    br_command_tables, br_command_trade;
+    br_command_figures, br_command_help, br_command_plan, br_command_run, br_command_scenes,
+    br_command_study, br_command_tables, br_command_trade;
 
 const struct br_command *const br_commands[] = {
-    &br_command_tables,
-    &br_command_study,
-    &br_command_check,
-    &br_command_run,
-    &br_command_trade,
-    &br_command_plan,
-    &br_command_extremes,
-    &br_command_figures,
-    &br_command_scenes,
-    &br_command_completions,
-    NULL,
+    &br_command_tables, &br_command_study,       &br_command_check,    &br_command_run,
+    &br_command_trade,  &br_command_plan,        &br_command_extremes, &br_command_figures,
+    &br_command_scenes, &br_command_completions, &br_command_help,     NULL,
 };
-
-static void print_help(FILE *out)
-{
-    fprintf(out,
-            "beamrate: convergence studies of the dynamic frictional contact of a viscoelastic "
-            "beam\n\nUsage: beamrate COMMAND [OPTION...]\n\nCommands:\n");
-    for (const struct br_command *const *c = br_commands; *c; c++)
-        fprintf(out, "  %-11s %-13s %s\n", (*c)->name, (*c)->arguments, (*c)->title);
-    fprintf(out,
-            "\n'beamrate COMMAND --help' lists a command's options, with examples; here are some "
-            "to begin\nwith:\n"
-            "  beamrate tables --n 100,200,400 --k 0.01,0.005 --reference fine:1600,1e-3\n"
-            "  beamrate study example2 --norm l2,energy,tip\n"
-            "  beamrate check example2 example3\n"
-            "  beamrate scenes --new my_scene.yaml\n\n"
-            "Exit codes: 0 done, 1 a verdict failed, 2 bad input, 3 the computation failed.\n");
-}
 
 static const struct br_command *find_command(const char *name)
 {
@@ -76,15 +51,10 @@ static enum br_status join_ranks(struct br_error *err)
     return status;
 }
 
-static bool is_help(const char *word)
-{
-    return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0;
-}
-
 static enum br_status unknown(const char *word, struct br_error *err)
 {
-    const char *names[64] = {"--help", "--version", "help"};
-    size_t count = 3;
+    const char *names[64] = {"--help", "--version"};
+    size_t count = 2;
     for (const struct br_command *const *c = br_commands; *c && count < 64; c++)
         names[count++] = (*c)->name;
     const char *nearest = br_nearest(word, names, count);
@@ -93,30 +63,36 @@ static enum br_status unknown(const char *word, struct br_error *err)
     return br_fail(err, BR_BAD_INPUT, "'%s' is no command; 'beamrate --help' lists them", word);
 }
 
+static enum br_status run_parsed(const struct br_command *command, int argc, const char **argv,
+                                 struct br_error *err)
+{
+    struct br_options options;
+    enum br_status status = br_options_parse(argc, argv, command, &options, err);
+    if (!status && br_option_given(&options, BR_OPT_HELP))
+        br_print_command_help(stdout, command);
+    else if (!status)
+        status = command->run(&options, err);
+    br_options_clear(&options);
+    return status;
+}
+
 static enum br_status run_command(int argc, const char **argv, struct br_error *err)
 {
-    if (argc < 2 || (is_help(argv[1]) && argc == 2)) {
-        print_help(argc < 2 ? stderr : stdout);
-        return argc < 2 ? br_fail(err, BR_BAD_INPUT, "no command is given") : BR_OK;
-    }
-    if (is_help(argv[1])) /* 'help COMMAND' is 'COMMAND --help' */
-        return run_command(3, (const char *[]){argv[0], argv[2], "--help", NULL}, err);
-    if (strcmp(argv[1], "--version") == 0) {
+    const char *word = argc > 1 ? argv[1] : "";
+    const bool help = strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
+    if (argc < 2)
+        return br_fail(err, BR_BAD_INPUT, "no command is given; 'beamrate help' lists them");
+    if (strcmp(word, "--version") == 0) {
         printf("beamrate %s (%s)\n", br_version(), br_commit());
         return BR_OK;
     }
-    const struct br_command *command = find_command(argv[1]);
+    const struct br_command *command = help ? &br_command_help : find_command(word);
     if (!command)
-        return unknown(argv[1], err);
+        return unknown(word, err);
     br_signals_install();
     br_gnuplot_stop_when(br_signals_caught);
     const enum br_status status = br_remember_command_line(argc, argv, err);
-    if (status)
-        return status;
-    static char name[64]; /* for the usage line */
-    snprintf(name, sizeof name, "beamrate %s", command->name);
-    argv[1] = name;
-    return command->run(argc - 1, argv + 1, err);
+    return status ? status : run_parsed(command, argc - 1, argv + 1, err);
 }
 
 /* A message may repeat what a file says. */

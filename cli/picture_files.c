@@ -4,47 +4,6 @@
 #include "cli/signals.h"
 #include "study/scene/quote.h"
 
-enum { NAME = 160 };
-
-static void write_chart(FILE *out, const void *picture, bool script)
-{
-    script ? br_chart_write_script(out, picture) : br_chart_write_data(out, picture);
-}
-
-static void write_heat(FILE *out, const void *picture, bool script)
-{
-    script ? br_heat_write_script(out, picture) : br_heat_write_data(out, picture);
-}
-
-static enum br_status draw(struct br_picture_files *f, const char *stem, const void *picture,
-                           void (*write)(FILE *, const void *, bool), struct br_error *err)
-{
-    char name[NAME];
-    enum br_status status = BR_OK;
-    for (int script = 0; script < 2 && !status; script++) {
-        FILE *file = NULL;
-        snprintf(name, sizeof name, "%s%s", stem, script ? ".gp" : ".dat");
-        status = br_output_file(f->output, name, &file, err);
-        if (status)
-            return status;
-        write(file, picture, script);
-        status = br_output_close(file, name, err);
-    }
-    return status ? status : br_picture_files_render(f, name, err);
-}
-
-enum br_status br_picture_files_chart(struct br_picture_files *f, const struct br_chart *chart,
-                                      struct br_error *err)
-{
-    return draw(f, chart->stem, chart, write_chart, err);
-}
-
-enum br_status br_picture_files_heat(struct br_picture_files *f, const struct br_heat *heat,
-                                     struct br_error *err)
-{
-    return draw(f, heat->stem, heat, write_heat, err);
-}
-
 enum br_status br_picture_failed(const struct br_error *why, const char *what, struct br_error *err)
 {
     if (br_signals_caught()) /* Ctrl-C ends gnuplot, too: that is no failure of its own */
@@ -66,8 +25,7 @@ static enum br_status end_oldest(struct br_picture_files *f, struct br_error *er
                                                       : BR_OK;
 }
 
-enum br_status br_picture_files_render(struct br_picture_files *f, const char *script,
-                                       struct br_error *err)
+static enum br_status render(struct br_picture_files *f, const char *script, struct br_error *err)
 {
     struct br_error why = {0};
     enum br_status status = BR_OK;
@@ -77,6 +35,24 @@ enum br_status br_picture_files_render(struct br_picture_files *f, const char *s
         !br_renderer_add(&f->renderer, f->output->staging, script, &f->missing, &why))
         return status;
     return f->missing ? BR_OK : br_picture_failed(&why, script, err);
+}
+
+enum br_status br_picture_files_draw(struct br_picture_files *f, const struct br_figure *figure,
+                                     struct br_error *err)
+{
+    char name[BR_SCRIPT_NAME + 8];
+    for (int script = 0; script < 2; script++) {
+        FILE *file;
+        BR_SAY(name, "%s%s", figure->stem, script ? ".gp" : ".dat");
+        enum br_status status = br_output_file(f->output, name, &file, err);
+        if (status)
+            return status;
+        script ? br_figure_write_script(file, figure) : br_figure_write_data(file, figure);
+        status = br_output_close(file, name, err);
+        if (status)
+            return status;
+    }
+    return render(f, name, err);
 }
 
 enum br_status br_picture_files_finish(struct br_picture_files *f, struct br_error *err)

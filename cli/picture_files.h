@@ -5,9 +5,7 @@
 #define BR_CLI_PICTURE_FILES_H
 
 #include "cli/output.h"
-#include "plots/chart.h"
-#include "plots/heat.h"
-#include "plots/plots.h"
+#include "plots/render.h"
 
 /* Begins with its output, the rest zeros. */
 struct br_picture_files {
@@ -16,15 +14,9 @@ struct br_picture_files {
     bool missing; /* gnuplot */
 };
 
-/* Starts gnuplot, where there is one, on a script that has been written to the output. Fails with
- * BR_INTERRUPTED. Finish the files even then. */
-enum br_status br_picture_files_render(struct br_picture_files *files, const char *script,
-                                       struct br_error *err);
-
-/* Write the data and the script, and render it. Fail with BR_IO, or as above. */
-enum br_status br_picture_files_chart(struct br_picture_files *files, const struct br_chart *chart,
-                                      struct br_error *err);
-enum br_status br_picture_files_heat(struct br_picture_files *files, const struct br_heat *heat,
+/* Writes a figure's data and script to the output and starts gnuplot on it, where there is one.
+ * Fails with BR_IO, BR_INTERRUPTED. Finish the files even then. */
+enum br_status br_picture_files_draw(struct br_picture_files *files, const struct br_figure *figure,
                                      struct br_error *err);
 
 /* Warns of a picture that gnuplot has not drawn (what: its name). Fails with BR_INTERRUPTED where

@@ -8,7 +8,8 @@
 
 #include "cli/picture_files.h"
 #include "cli/signals.h"
-#include "plots/gnuplot.h"
+#include "plots/pictures.h"
+#include "plots/render.h"
 #include "study/scene/quote.h"
 
 /* All frames are kept with all nodes: 120 MB at most. */
@@ -189,12 +190,16 @@ static int columns_of(FILE *letters)
 
 static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct br_error *err)
 {
-    bool missing;
+    bool missing = false;
+    struct br_figure figure;
     struct br_error why = {0};
     fflush(letters);
-    if (!br_gnuplot_letters(letters, p->request.scene, &p->record, columns_of(letters), &missing,
-                            &why))
-        return BR_OK;
+    enum br_status status = br_history_draw(p->request.scene, &p->record, &figure, err);
+    if (!status)
+        status = br_gnuplot_letters(letters, &figure, columns_of(letters), &missing, &why);
+    br_figure_clear(&figure);
+    if (!status || !why.status)
+        return status;
     if (!missing)
         return br_picture_failed(&why, "--plot", err);
     fprintf(stderr, "beamrate: gnuplot is not installed: --plot shows nothing\n");

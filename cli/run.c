@@ -8,7 +8,7 @@
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/run_files.h"
-#include "cli/run_options.h"
+#include "cli/run_plan.h"
 #include "cli/warn.h"
 #include "cli/whole_file.h"
 #include "solver/clock.h"
@@ -16,7 +16,7 @@
 #include "study/scene/file.h"
 
 struct run {
-    struct br_run_options options;
+    const struct br_options *options;
     struct br_run_plan plan;
     char path[1024];                /* of the scene */
     char *text;                     /* of the scene's file */
@@ -43,23 +43,25 @@ static bool same_stem(const char *a, const char *b)
 /* One output must not replace another, or a scene. */
 static enum br_status check_places(const struct run *r, struct br_error *err)
 {
-    const struct br_run_options *o = &r->options;
+    const char *out = br_option_text(r->options, BR_OPT_OUT),
+               *json = br_option_text(r->options, BR_OPT_JSON),
+               *animate = br_option_text(r->options, BR_OPT_ANIMATE);
     if (br_whole_file_replaces(&r->json, r->path))
         return br_fail(err, BR_BAD_INPUT, "--json would replace the scene %s", r->json.path);
-    if (o->out && br_whole_file_is_in(&r->json, o->out))
+    if (out && br_whole_file_is_in(&r->json, out))
         return br_fail(err, BR_BAD_INPUT,
                        "--json: found '%s', expected a place outside of the folder of --out, which "
                        "has a summary.json of its own",
-                       o->json);
-    const char *slash = o->animate ? strrchr(o->animate, '/') : NULL;
+                       json);
+    const char *slash = animate ? strrchr(animate, '/') : NULL;
     char folder[1024] = ".";
     if (slash)
-        snprintf(folder, sizeof folder, "%.*s", (int)(slash - o->animate + 1), o->animate);
-    if (o->animate && (br_whole_file_is_in(&r->json, o->animate) ||
-                       (br_whole_file_is_in(&r->json, folder) && same_stem(o->json, o->animate))))
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash - animate + 1), animate);
+    if (animate && (br_whole_file_is_in(&r->json, animate) ||
+                    (br_whole_file_is_in(&r->json, folder) && same_stem(json, animate))))
         return br_fail(err, BR_BAD_INPUT,
                        "--json: found '%s', which --animate %s writes too, expected another name",
-                       o->json, o->animate);
+                       json, animate);
     return BR_OK;
 }
 
@@ -68,19 +70,20 @@ static enum br_status open_files(struct run *r, struct br_error *err)
     br_provenance_fill(&r->provenance, 1);
     r->provenance.scene_path = r->path;
     r->provenance.scene_text = r->text;
-    enum br_status status = br_whole_file_open(&r->json, "json", r->options.json, err);
+    enum br_status status =
+        br_whole_file_open(&r->json, "json", br_option_text(r->options, BR_OPT_JSON), err);
     if (!status)
         status = check_places(r, err);
     const struct br_pictures_request pictures = {
-        .animate = r->options.animate,
-        .plot = r->options.plot,
+        .animate = br_option_text(r->options, BR_OPT_ANIMATE),
+        .plot = br_option_given(r->options, BR_OPT_PLOT),
         .scene = &r->scene,
         .n = r->plan.n,
         .steps = r->plan.steps,
     };
     if (!status)
         status = br_pictures_open(&r->pictures, &pictures, err);
-    if (status || !r->options.out)
+    if (status || !br_option_given(r->options, BR_OPT_OUT))
         return status;
     const struct br_fields_request fields = {
         .scene = &r->marched,
@@ -90,7 +93,7 @@ static enum br_status open_files(struct run *r, struct br_error *err)
         .axial_degree = r->plan.method.axial_degree,
         .provenance = &r->provenance,
     };
-    return br_run_files_open(&r->files, r->options.out, &fields, err);
+    return br_run_files_open(&r->files, br_option_text(r->options, BR_OPT_OUT), &fields, err);
 }
 
 /* What is to be expected of the march, before anything of it is there. */
@@ -103,18 +106,16 @@ static enum br_status look_ahead(struct run *r, struct br_error *err)
         .steps = r->plan.steps,
         .prediction = &r->prediction,
     };
-    const enum br_status status = br_look_ahead(&outlook, &r->warnings, err);
-    br_print_warnings(&r->warnings);
-    return status;
+    return br_look_ahead(&outlook, &r->warnings, err);
 }
 
 static enum br_status march(struct run *r, struct br_error *err)
 {
     struct br_history_observer output[2];
     size_t outputs = 0;
-    if (r->options.out)
+    if (br_option_given(r->options, BR_OPT_OUT))
         output[outputs++] = br_run_files_observer(&r->files);
-    if (r->options.animate || r->options.plot)
+    if (br_option_given(r->options, BR_OPT_ANIMATE) || br_option_given(r->options, BR_OPT_PLOT))
         output[outputs++] = br_pictures_observer(&r->pictures);
     const struct br_run_request request = {
         .scene = &r->scene,
@@ -125,12 +126,12 @@ static enum br_status march(struct run *r, struct br_error *err)
         .stride = r->plan.stride,
         .level = r->plan.level,
         .levels = r->plan.levels,
-        .check = r->options.check,
-        .energies = r->options.energies,
-        .explain = r->options.explain,
+        .check = br_option_given(r->options, BR_OPT_CHECK),
+        .energies = br_option_given(r->options, BR_OPT_ENERGIES),
+        .explain = br_option_given(r->options, BR_OPT_EXPLAIN),
         .output = output,
         .outputs = outputs,
-        .progress = br_progress_start("marching", r->options.quiet),
+        .progress = br_progress_start("marching", br_option_given(r->options, BR_OPT_QUIET)),
     };
     const enum br_status status = br_run(&request, &r->report, err);
     br_progress_end();
@@ -141,11 +142,11 @@ static enum br_status write_report(struct run *r, const struct br_document *d, s
 {
     const struct br_error *failure = &r->report.failure;
     enum br_status status = BR_OK;
-    if (r->options.out)
+    if (br_option_given(r->options, BR_OPT_OUT))
         status = br_run_files_commit(&r->files, d, failure->status ? failure->message : NULL, err);
     if (!status && r->json.file)
         status = br_document_print(r->json.file, &br_document_json, d, NULL, err);
-    if (!status && !r->options.quiet && r->json.file != stdout)
+    if (!status && !br_option_given(r->options, BR_OPT_QUIET) && r->json.file != stdout)
         status = br_document_show(stdout, d, err);
     return status;
 }
@@ -185,9 +186,9 @@ static enum br_status run_scene(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
     enum br_status status =
-        br_scene_open(r->options.scene, r->path, sizeof r->path, &r->text, &r->scene, err);
+        br_scene_open(r->options->word[0], r->path, sizeof r->path, &r->text, &r->scene, err);
     if (!status)
-        status = br_run_plan_make(&r->options, &r->scene, &r->plan, err);
+        status = br_run_plan_make(r->options, &r->scene, &r->plan, err);
     if (!status)
         status = br_model_select(&r->scene, r->plan.wanted, &r->marched, err);
     if (!status && r->plan.method.axial_degree != 1 && !r->marched.axial.modelled)
@@ -196,6 +197,8 @@ static enum br_status run_scene(struct run *r, struct br_error *err)
         status = look_ahead(r, err);
     if (!status)
         status = open_files(r, err);
+    if (!status)
+        br_print_warnings(&r->warnings);
     if (!status)
         status = march(r, err);
     if (!status)
@@ -211,24 +214,32 @@ static void clear(struct run *r)
     br_run_plan_clear(&r->plan);
     br_scene_clear(&r->scene);
     free(r->text);
-    br_run_options_clear(&r->options);
 }
 
-static enum br_status run(int argc, const char **argv, struct br_error *err)
+static enum br_status run(const struct br_options *options, struct br_error *err)
 {
     static struct run r;
     if (!br_ranks_first())
         return BR_OK; /* one march is the work of one rank */
-    enum br_status status = br_run_options_parse(argc, argv, &r.options, err);
-    if (!status && !r.options.help)
-        status = run_scene(&r, err);
+    r.options = options;
+    const enum br_status status = run_scene(&r, err);
     clear(&r);
     return status;
 }
 
 const struct br_command br_command_run = {
+    .bit = BR_FOR_RUN,
     .name = "run",
     .arguments = "SCENE",
     .title = "marches one scene: its tip, its energies, its fields",
+    .about =
+        "Marches one scene and says what happened at its tip: displacements, forces, when it "
+        "stuck, slipped, reversed, closed and opened, energies, and what was modelled and what "
+        "not.",
+    .example = {"beamrate run example3", "beamrate run example2 -n 400 -k 1e-4 --check",
+                "beamrate run example4 --animate example4.gif",
+                "beamrate run example1 --at 0.5,T --out results --json -"},
+    .least_words = 1,
+    .most_words = 1,
     .run = run,
 };

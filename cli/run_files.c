@@ -77,7 +77,9 @@ enum br_status br_run_files_commit(struct br_run_files *f, const struct br_docum
     if (!status)
         status = close_fields(f, stopped, err);
     if (!status)
-        status = br_documents_write(&f->output, "text,json", summary, 1, err);
+        status = br_documents_write_as(&f->output, &br_document_text, summary, err);
+    if (!status)
+        status = br_documents_write_as(&f->output, &br_document_json, summary, err);
     if (!status)
         status = br_output_commit(&f->output, err);
     return status;

@@ -1,60 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate scenes: the bundled scenes, and what a new one may say. */
 #include <errno.h>
-#include <popt.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "cli/command.h"
-#include "cli/parse.h"
 #include "cli/whole_file.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 #include "study/scene/quote.h"
 #include "tables/scene_format.h"
 #include "tables/sentences.h"
-
-static const char usage[] =
-    "[SCENE] [OPTION...]\n\nLists the bundled scenes, a line each; shows one; or begins a new "
-    "one.\n\nExamples:\n  beamrate scenes\n  beamrate scenes example2\n"
-    "  beamrate scenes --new my_scene.yaml\n  beamrate scenes --schema > scene.schema.json\n";
-
-struct options {
-    char *file; /* of --new */
-    char *scene;
-    int schema, help;
-};
-
-/* At most one. */
-static enum br_status read_words(poptContext context, void *self, struct br_error *err)
-{
-    struct options *o = self;
-    if (poptPeekArg(context))
-        return br_parse_scene(context, &o->scene, err);
-    return BR_OK;
-}
-
-static enum br_status read_options(int argc, const char **argv, struct options *o,
-                                   struct br_error *err)
-{
-    const struct poptOption table[] = {
-        {"new", 0, POPT_ARG_STRING, &o->file, 0,
-         "write a template with every key, its unit and default; - is standard output", "FILE"},
-        {"schema", 0, POPT_ARG_NONE, &o->schema, 0,
-         "print the JSON schema by which an editor completes and checks scenes", NULL},
-        BR_PARSE_HELP_ROW,
-        POPT_TABLEEND,
-    };
-    const enum br_status status = br_parse(
-        argc, argv,
-        &(struct br_parse){
-            .table = table, .usage = usage, .help = &o->help, .read_words = read_words, .self = o},
-        err);
-    if (!status && (o->scene != NULL) + (o->file != NULL) + o->schema > 1)
-        return br_fail(err, BR_BAD_INPUT, "expected one of: a scene, --new, --schema");
-    return status;
-}
 
 /* ---- the list ---- */
 
@@ -133,23 +90,29 @@ static enum br_status begin(const char *path, struct br_error *err)
     return status;
 }
 
-static enum br_status run(int argc, const char **argv, struct br_error *err)
+static enum br_status run(const struct br_options *o, struct br_error *err)
 {
-    struct options o = {0};
-    enum br_status status = read_options(argc, argv, &o, err);
-    if (!status && !o.help && br_ranks_first())
-        status = o.file     ? begin(o.file, err)
-                 : o.schema ? br_scene_schema_write(stdout, err)
-                 : o.scene  ? show(o.scene, err)
-                            : list(err);
-    free(o.file);
-    free(o.scene);
-    return status;
+    const char *file = br_option_text(o, BR_OPT_NEW);
+    const bool schema = br_option_given(o, BR_OPT_SCHEMA);
+    if ((file != NULL) + schema + (o->words > 0) > 1)
+        return br_fail(err, BR_BAD_INPUT, "expected one of: a scene, --new, --schema");
+    if (!br_ranks_first())
+        return BR_OK;
+    return file       ? begin(file, err)
+           : schema   ? br_scene_schema_write(stdout, err)
+           : o->words ? show(o->word[0], err)
+                      : list(err);
 }
 
 const struct br_command br_command_scenes = {
+    .bit = BR_FOR_SCENES,
     .name = "scenes",
     .arguments = "[SCENE]",
     .title = "lists the bundled scenes, shows one, begins a new one",
+    .about = "Lists the bundled scenes, a line each; shows one; or begins a new one.",
+    .example = {"beamrate scenes", "beamrate scenes example2",
+                "beamrate scenes --new my_scene.yaml",
+                "beamrate scenes --schema > scene.schema.json"},
+    .most_words = 1,
     .run = run,
 };

@@ -3,28 +3,27 @@
 #include "cli/command.h"
 #include "cli/study_run.h"
 
-static enum br_status run(int argc, const char **argv, struct br_error *err)
+static enum br_status run(const struct br_options *options, struct br_error *err)
 {
-    struct br_study_options options = {0};
-    char *scene = NULL;
-    enum br_status status = br_study_options_parse(
-        argc, argv,
-        "SCENE [OPTION...]\n\nThe errors of a grid of cells (n, k) of a scene against the "
-        "exact solution\nor a fine run. Without --n, --k or --reference: n = 25, 50, 100, 200; "
-        "k = T/100,\nT/200, T/400, T/800; exact.\n\nExample:\n  beamrate study example4 "
-        "--n 50,100,200 --k 0.03,0.015 --reference fine:800,1e-3\n",
-        &options, &scene, err);
-    const struct br_study_job job = {.scene = scene};
-    if (!status && !options.help)
-        status = br_study_run_jobs(&job, 1, &options, false, err);
-    free(scene);
-    br_study_options_clear(&options);
-    return status;
+    const struct br_study_job job = {.scene = options->word[0]};
+    return br_study_run_jobs(&job, 1, options, false, err);
 }
 
 const struct br_command br_command_study = {
+    .bit = BR_FOR_STUDY,
     .name = "study",
     .arguments = "SCENE",
     .title = "the errors of a grid of meshes and time steps, and their orders",
+    .about = "The errors of a grid of cells (n, k) of a scene against the exact solution or a fine "
+             "run.",
+    .more =
+        "A scene is a file, or one of the bundled scenes that 'beamrate scenes' lists. The errors "
+        "are measured in exact norms over all time levels, and the orders of convergence are "
+        "fitted with 95 % intervals.",
+    .example = {"beamrate study example4 -n 50,100,200 -k 0.03,0.015 --reference fine:800,1e-3",
+                "beamrate study example2 --norm l2,energy,tip",
+                "beamrate study release --reference none"},
+    .least_words = 1,
+    .most_words = 1,
     .run = run,
 };

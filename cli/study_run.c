@@ -4,18 +4,18 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/formats.h"
 #include "cli/picture_files.h"
 #include "cli/provenance.h"
 #include "cli/study_session.h"
 #include "cli/warn_marches.h"
+#include "plots/pictures.h"
 #include "study/foresee/resources.h"
 #include "study/ranks/ranks.h"
 #include "tables/emitter.h"
 
 /* A run on its way to its files. */
 struct run {
-    const struct br_study_options *options;
+    const struct br_options *options;
     struct br_session session;
     struct br_output output;
     struct br_provenance provenance;
@@ -33,7 +33,7 @@ static enum br_status write_tables(struct run *r, size_t i, struct br_error *err
 {
     describe(r, i);
     for (const struct br_emitter *const *e = br_emitters; *e; e++) {
-        if (!br_format_wanted(r->options->format, (*e)->name))
+        if (!br_format_wanted(r->options, (*e)->name))
             continue;
         char name[512];
         snprintf(name, sizeof name, "%s%s", r->session.page[i].report.name, (*e)->extension);
@@ -55,15 +55,15 @@ static enum br_status write_plots(struct run *r, size_t i, struct br_error *err)
 {
     const struct br_report *report = &r->session.page[i].report;
     enum br_status status = BR_OK;
-    for (const struct br_plot *const *p = br_plots; *p && !status; p++) {
-        char script[BR_SCRIPT_NAME];
+    for (const struct br_convergence_picture *const *p = br_convergence_pictures; *p && !status;
+         p++) {
+        struct br_figure figure;
         if (!(*p)->applies(report))
             continue;
-        status = br_plot_file(*p, report, "gp", script, sizeof script, err);
+        status = br_convergence_draw(*p, report, &figure, err);
         if (!status)
-            status = br_plot_write(*p, report, r->output.staging, err);
-        if (!status)
-            status = br_picture_files_render(&r->pictures, script, err);
+            status = br_picture_files_draw(&r->pictures, &figure, err);
+        br_figure_clear(&figure);
     }
     return status;
 }
@@ -73,7 +73,8 @@ static enum br_status write_all(struct run *r, struct br_error *err)
 {
     enum br_status status = BR_OK;
     r->pictures.output = &r->output;
-    for (size_t i = 0; i < r->session.pages && !status && !r->options->no_plots; i++)
+    for (size_t i = 0;
+         i < r->session.pages && !status && !br_option_given(r->options, BR_OPT_NO_PLOTS); i++)
         status = write_plots(r, i, err);
     for (size_t i = 0; i < r->session.pages && !status; i++)
         status = write_tables(r, i, err);
@@ -86,7 +87,8 @@ static enum br_status write_all(struct run *r, struct br_error *err)
 static enum br_status show(struct run *r, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < r->session.pages && !status && !r->options->quiet; i++) {
+    for (size_t i = 0;
+         i < r->session.pages && !status && !br_option_given(r->options, BR_OPT_QUIET); i++) {
         describe(r, i);
         status = br_emitters[0]->emit(stdout, &r->session.page[i].report, &r->provenance, err);
         putchar('\n');
@@ -127,26 +129,26 @@ static enum br_status check_memory(const struct br_session *s, struct br_error *
 }
 
 enum br_status br_study_run_jobs(const struct br_study_job *jobs, size_t count,
-                                 const struct br_study_options *options, bool with_exact,
+                                 const struct br_options *options, bool with_exact,
                                  struct br_error *err)
 {
     struct run r = {.options = options};
-    const bool writes = br_ranks_first();
+    const bool writes = br_ranks_first(), quiet = br_option_given(options, BR_OPT_QUIET);
     enum br_status status = br_session_prepare(&r.session, jobs, count, options, with_exact, err);
-    if (!status && writes)
-        status = br_warn_of_studies(r.session.study, r.session.jobs, err);
     if (!status && br_ranks_size() == 1)
         status = check_memory(&r.session, err);
     if (!status && writes)
-        status = br_output_open(&r.output, options->out ? options->out : "results", err);
+        status = br_output_open(&r.output, br_option_text(options, BR_OPT_OUT), err);
+    if (!status && writes)
+        status = br_warn_of_studies(r.session.study, r.session.jobs, err);
     br_provenance_fill(&r.provenance, r.session.request.threads);
     if (!status)
-        status = br_session_compute(&r.session, options->quiet || !writes, err);
+        status = br_session_compute(&r.session, quiet || !writes, err);
     if (!status && writes)
         status = show(&r, err);
     if (!status && writes)
         status = write_all(&r, err);
-    if (!status && writes && !options->quiet)
+    if (!status && writes && !quiet)
         br_output_announce(&r.output);
     if (!status)
         status = check_cells(&r.session, err);

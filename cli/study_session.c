@@ -15,72 +15,35 @@
 
 /* ---- the grid ---- */
 
-/* Without --n: 25, 50, 100, 200; without --k: T over 100, 200, 400, 800; without
- * --reference: exact. */
-enum { DEFAULT_COUNT = 4, DEFAULT_N = 25, DEFAULT_STEPS = 100 };
-
-/* values, sorted in ascending order, or the default sequence. */
-static enum br_status fill_counts(const size_t *given, size_t count, size_t first, size_t **out,
-                                  struct br_error *err)
+static int ascending(const void *a, const void *b)
 {
-    *out = br_allocate(count, sizeof **out);
-    if (!*out)
-        return br_no_memory(err, "the grid");
-    for (size_t i = 0; i < count; i++) {
-        const size_t value = given ? given[i] : first << i;
-        size_t j = i;
-        for (; j > 0 && (*out)[j - 1] > value; j--)
-            (*out)[j] = (*out)[j - 1];
-        (*out)[j] = value;
-    }
-    return BR_OK;
-}
-
-static enum br_status make_steps(const struct br_scene *scene, const struct br_study_request *r,
-                                 size_t **steps, struct br_error *err)
-{
-    if (!r->k)
-        return fill_counts(NULL, DEFAULT_COUNT, DEFAULT_STEPS, steps, err);
-    size_t *given = br_allocate(r->k_count, sizeof *given);
-    enum br_status status = given ? BR_OK : br_no_memory(err, "the grid");
-    struct br_error inner = {0};
-    for (size_t j = 0; j < r->k_count && !status; j++)
-        if (br_steps_of(scene, r->k[j], &given[j], &inner))
-            status = br_fail(err, BR_BAD_INPUT, "--k: %s", inner.message);
-    if (!status)
-        status = fill_counts(given, r->k_count, 0, steps, err);
-    for (size_t j = 1; j < r->k_count && !status; j++)
-        if ((*steps)[j] == (*steps)[j - 1])
-            status = br_fail(err, BR_BAD_INPUT, "--k: %g is given twice",
-                             br_time_step(scene, (*steps)[j]));
-    free(given);
-    return status;
+    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
+    return (x > y) - (x < y);
 }
 
 /* The fine run's resolution, and who measures its own error. */
 static enum br_status set_fine(const struct br_session *s, struct br_study *study,
                                struct br_error *err)
 {
-    struct br_error inner = {0};
-    study->reference.n = s->request.reference_n;
-    if (br_steps_of(study->scene, s->request.reference_k, &study->reference.steps, &inner))
-        return br_fail(err, BR_BAD_INPUT, "--reference: %s", inner.message);
+    const enum br_status status =
+        br_study_request_fine(&s->request, study->scene, &study->reference, err);
     study->auditor = br_judge_best(study->scene);
-    return BR_OK;
+    return status;
 }
 
-static enum br_status make_grid(struct br_session *s, size_t i, struct br_error *err)
+static enum br_status make_grid(struct br_session *s, size_t i, const struct br_options *options,
+                                struct br_error *err)
 {
     struct br_work *w = &s->work[i];
     struct br_study *study = br_session_study(s, i, 0);
     const struct br_study_request *r = &s->request;
-    study->n_count = r->n ? r->n_count : DEFAULT_COUNT;
-    study->k_count = r->k ? r->k_count : DEFAULT_COUNT;
-    enum br_status status = fill_counts(r->n, study->n_count, DEFAULT_N, &w->n, err);
+    enum br_status status = br_option_counts(options, BR_OPT_N, &w->n, &study->n_count, err);
     if (!status)
-        status = make_steps(&w->scene, r, &w->steps, err);
+        status = br_option_steps(options, &w->scene, &w->steps, &study->k_count, err);
     if (status)
         return status;
+    qsort(w->n, study->n_count, sizeof *w->n, ascending);
+    qsort(w->steps, study->k_count, sizeof *w->steps, ascending);
     study->scene = &w->scene;
     study->norm = r->norm[0];
     study->method = r->method;
@@ -202,13 +165,13 @@ static enum br_status start_reports(struct br_session *s, size_t i, const struct
 }
 
 static enum br_status prepare(struct br_session *s, size_t i, const struct br_study_job *job,
-                              struct br_error *err)
+                              const struct br_options *options, struct br_error *err)
 {
     struct br_work *w = &s->work[i];
     enum br_status status =
         br_scene_open(job->scene, w->path, sizeof w->path, &w->text, &w->scene, err);
     if (!status)
-        status = make_grid(s, i, err);
+        status = make_grid(s, i, options, err);
     if (!status)
         spread_study(s, i);
     if (!status)
@@ -234,8 +197,8 @@ static enum br_status check_degree(const struct br_session *s, struct br_error *
 }
 
 enum br_status br_session_prepare(struct br_session *s, const struct br_study_job *jobs,
-                                  size_t count, const struct br_study_options *options,
-                                  bool with_exact, struct br_error *err)
+                                  size_t count, const struct br_options *options, bool with_exact,
+                                  struct br_error *err)
 {
     *s = (struct br_session){.jobs = count};
     enum br_status status = br_study_request_read(options, &s->request, err);
@@ -246,7 +209,7 @@ enum br_status br_session_prepare(struct br_session *s, const struct br_study_jo
     s->pages = count * s->request.norms * (without_reference(s) ? 2 : 1);
     status = allocate(s, err);
     for (size_t i = 0; i < count && !status; i++)
-        status = prepare(s, i, &jobs[i], err);
+        status = prepare(s, i, &jobs[i], options, err);
     return status ? status : check_degree(s, err);
 }
 

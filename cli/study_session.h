@@ -3,7 +3,7 @@
 #ifndef BR_CLI_STUDY_SESSION_H
 #define BR_CLI_STUDY_SESSION_H
 
-#include "cli/study_options.h"
+#include "cli/study_request.h"
 #include "cli/study_run.h"
 #include "study/fit/report.h"
 
@@ -35,8 +35,8 @@ struct br_session {
 /* Reads the options and the jobs' scenes and lays out studies and reports. Fails with
  * BR_BAD_INPUT or BR_NO_MEMORY; clear the session even then. */
 enum br_status br_session_prepare(struct br_session *session, const struct br_study_job *jobs,
-                                  size_t count, const struct br_study_options *options,
-                                  bool with_exact, struct br_error *err);
+                                  size_t count, const struct br_options *options, bool with_exact,
+                                  struct br_error *err);
 void br_session_clear(struct br_session *session);
 
 /* Marches and fits; quiet: without progress. Fails as br_study_run does. */

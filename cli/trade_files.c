@@ -4,9 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/formats.h"
 #include "cli/provenance.h"
-#include "plots/trade.h"
+#include "plots/pictures.h"
 #include "study/scene/file.h"
 
 /* ---- scenes ---- */
@@ -71,7 +70,7 @@ enum br_status br_trade_files_open(struct br_trade_files *f, int threads, struct
             .provenance = &item->provenance,
         };
     }
-    return br_output_open(&f->output, f->options->out ? f->options->out : "trade", err);
+    return br_output_open(&f->output, br_option_text(f->options, BR_OPT_OUT), err);
 }
 
 /* One table: of a page, or with pages > 1 their summary. */
@@ -97,7 +96,7 @@ static enum br_status write_tables(struct br_trade_files *f, struct br_error *er
 {
     enum br_status status = BR_OK;
     for (const struct br_page_emitter *const *e = br_page_emitters; *e && !status; e++) {
-        if (!br_format_wanted(f->options->format, (*e)->name))
+        if (!br_format_wanted(f->options, (*e)->name))
             continue;
         for (size_t i = 0; i < f->items && !status; i++)
             status = write_table(f, *e, &f->page[i], 1, err);
@@ -107,39 +106,23 @@ static enum br_status write_tables(struct br_trade_files *f, struct br_error *er
     return status;
 }
 
-static enum br_status write_part(struct br_trade_files *f, const char *extension,
-                                 void (*write)(FILE *, const struct br_trade_picture *,
-                                               const struct br_trade_view *),
-                                 const struct br_trade_picture *picture,
-                                 const struct br_trade_view *view, struct br_error *err)
-{
-    char name[BR_SCRIPT_NAME];
-    FILE *file;
-    snprintf(name, sizeof name, "%s.%s", view->stem, extension);
-    const enum br_status status = br_output_file(&f->output, name, &file, err);
-    if (status)
-        return status;
-    write(file, picture, view);
-    return br_output_close(file, name, err);
-}
-
 static enum br_status draw(struct br_trade_files *f, const struct br_trade_picture *picture,
                            const struct br_trade_page *page, struct br_error *err)
 {
-    char stem[BR_SCRIPT_NAME - 8], script[BR_SCRIPT_NAME];
-    const struct br_trade_view view = {page->caption, stem, page->trade};
-    snprintf(stem, sizeof stem, "%.400s-%s", page->name, picture->name);
-    snprintf(script, sizeof script, "%s.gp", stem);
-    enum br_status status = write_part(f, "dat", br_trade_picture_data, picture, &view, err);
+    struct br_figure figure;
+    enum br_status status =
+        br_trade_draw(picture, page->trade, page->name, page->caption, &figure, err);
     if (!status)
-        status = write_part(f, "gp", br_trade_picture_script, picture, &view, err);
-    return status ? status : br_picture_files_render(&f->pictures, script, err);
+        status = br_picture_files_draw(&f->pictures, &figure, err);
+    br_figure_clear(&figure);
+    return status;
 }
 
 static enum br_status draw_all(struct br_trade_files *f, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < f->items && !status && !f->options->no_plots; i++)
+    for (size_t i = 0; i < f->items && !status && !br_option_given(f->options, BR_OPT_NO_PLOTS);
+         i++)
         for (const struct br_trade_picture *const *p = br_trade_pictures; *p && !status; p++)
             if (br_trade_picture_applies(*p, f->page[i].trade))
                 status = draw(f, *p, &f->page[i], err);
@@ -170,11 +153,11 @@ enum br_status br_trade_files_write(struct br_trade_files *f, struct br_error *e
         status = drawn;
     if (status)
         return status;
-    if (!f->options->quiet)
+    if (!br_option_given(f->options, BR_OPT_QUIET))
         status = show(f, err);
     if (!status)
         status = br_output_commit(&f->output, err);
-    if (!status && !f->options->quiet)
+    if (!status && !br_option_given(f->options, BR_OPT_QUIET))
         br_output_announce(&f->output);
     return status;
 }

@@ -3,8 +3,8 @@
 #ifndef BR_CLI_TRADE_FILES_H
 #define BR_CLI_TRADE_FILES_H
 
+#include "cli/option.h"
 #include "cli/picture_files.h"
-#include "cli/study_options.h"
 #include "tables/trade_emitter.h"
 
 /* A scene on its way; not to be moved once its trade is laid out. Begins as zeros. */
@@ -29,8 +29,8 @@ void br_trade_item_clear(struct br_trade_item *item);
 struct br_trade_files {
     struct br_trade_item *item; /* items; borrowed */
     size_t items;
-    const struct br_study_options *options; /* out, format, no_plots, quiet */
-    struct br_trade_page *page;             /* items; owned */
+    const struct br_options *options;
+    struct br_trade_page *page; /* items; owned */
     struct br_output output;
     struct br_picture_files pictures;
 };

@@ -4,27 +4,28 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/formats.h"
 #include "cli/output.h"
 #include "cli/picture_files.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/signals.h"
+#include "cli/study_request.h"
 #include "cli/warn_marches.h"
-#include "plots/split.h"
+#include "plots/pictures.h"
 #include "study/grid/observer.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
-#include "study/scene/number_list.h"
 #include "study/trade/contender.h"
 #include "tables/split_emitter.h"
 
 struct work {
-    const struct br_trade_options *options;
-    struct br_study_request request; /* n, k, norms, threads */
+    const struct br_options *options;
+    struct br_study_request request; /* n, norms, threads */
     struct br_contenders methods;
-    double *tolerance; /* tolerances; owned */
+    const double *tolerance; /* tolerances */
     size_t tolerances;
+    size_t *steps; /* step_count; owned */
+    size_t step_count;
     char path[1024]; /* of the scene */
     char *text;
     struct br_scene scene;
@@ -49,13 +50,14 @@ static enum br_status check_heeded(const struct work *w, struct br_error *err)
 
 static enum br_status read_lists(struct work *w, struct br_error *err)
 {
-    const struct br_trade_options *o = w->options;
-    enum br_status status = br_study_request_read(&o->study, &w->request, err);
+    const struct br_options *o = w->options;
+    const char *methods = br_option_text(o, BR_OPT_METHODS);
+    enum br_status status = br_study_request_read(o, &w->request, err);
     if (!status)
-        status = br_contenders_read("--methods", o->methods ? o->methods : br_time_schemes[0]->name,
+        status = br_contenders_read("--methods", methods ? methods : br_time_schemes[0]->name,
                                     &w->methods, err);
-    if (!status && o->tolerances)
-        status = br_read_numbers("--tolerances", o->tolerances, &w->tolerance, &w->tolerances, err);
+    w->tolerance = o->number[BR_OPT_TOLERANCES];
+    w->tolerances = o->count[BR_OPT_TOLERANCES];
     return status ? status : check_heeded(w, err);
 }
 
@@ -81,39 +83,33 @@ static void set_run(const struct work *w, const struct br_contender *c, size_t n
 
 enum { DEFAULT_N = 100, DEFAULT_STEPS = 1000 };
 
-static enum br_status add_runs(struct work *w, const struct br_contender *c, size_t n,
-                               struct br_error *err)
+static void add_runs(struct work *w, const struct br_contender *c, size_t n)
 {
-    const size_t count = w->request.k_count ? w->request.k_count : 1;
-    for (size_t j = 0; j < count; j++) {
-        size_t steps = DEFAULT_STEPS;
-        struct br_error inner = {0};
-        if (w->request.k_count && br_steps_of(&w->scene, w->request.k[j], &steps, &inner))
-            return br_fail(err, BR_BAD_INPUT, "--k: %.1000s", inner.message);
+    for (size_t j = 0; j < (w->step_count ? w->step_count : 1); j++)
         for (size_t t = 0; t < tolerances_of(w, c); t++) {
             struct br_split *split = &w->split[w->splits++];
-            set_run(w, c, n, steps, split);
+            set_run(w, c, n, w->step_count ? w->steps[j] : DEFAULT_STEPS, split);
             if (br_contender_adaptive(c) && w->tolerances)
                 split->method.tolerance = w->tolerance[t];
         }
-    }
-    return BR_OK;
 }
 
 static enum br_status lay_out(struct work *w, struct br_error *err)
 {
     const size_t meshes = w->request.n_count ? w->request.n_count : 1;
-    const size_t steps = w->request.k_count ? w->request.k_count : 1;
     const size_t most = w->tolerances ? w->tolerances : 1;
+    const enum br_status status =
+        br_option_steps(w->options, &w->scene, &w->steps, &w->step_count, err);
+    if (status)
+        return status;
+    const size_t steps = w->step_count ? w->step_count : 1;
     w->split = br_allocate(w->methods.count * meshes * steps * most, sizeof *w->split);
     if (!w->split)
         return br_no_memory(err, "the parts of the errors");
-    enum br_status status = BR_OK;
     for (size_t c = 0; c < w->methods.count; c++)
-        for (size_t i = 0; i < meshes && !status; i++)
-            status = add_runs(w, &w->methods.list[c],
-                              w->request.n_count ? w->request.n[i] : DEFAULT_N, err);
-    return status;
+        for (size_t i = 0; i < meshes; i++)
+            add_runs(w, &w->methods.list[c], w->request.n_count ? w->request.n[i] : DEFAULT_N);
+    return BR_OK;
 }
 
 /* ---- computing and writing ---- */
@@ -147,7 +143,8 @@ static bool stop(void *self)
 static enum br_status split_all(struct work *w, struct br_error *err)
 {
     struct overall o = {
-        .inner = br_progress_start("splitting", w->options->study.quiet || !br_ranks_first()),
+        .inner = br_progress_start("splitting",
+                                   br_option_given(w->options, BR_OPT_QUIET) || !br_ranks_first()),
         .all = w->splits};
     const struct br_observer observer = {progress, stop, &o, preparing};
     enum br_status status = BR_OK;
@@ -171,10 +168,11 @@ static enum br_status write_table(struct work *w, const struct br_split_emitter 
     return status ? status : closed;
 }
 
-static enum br_status write_plot(struct work *w, const struct br_chart *chart, struct br_error *err)
+static enum br_status write_plot(struct work *w, const struct br_figure *figure,
+                                 struct br_error *err)
 {
     struct br_picture_files files = {.output = &w->output};
-    const enum br_status status = br_picture_files_chart(&files, chart, err);
+    const enum br_status status = br_picture_files_draw(&files, figure, err);
     const enum br_status finished = br_picture_files_finish(&files, status ? NULL : err);
     return status ? status : finished;
 }
@@ -182,11 +180,11 @@ static enum br_status write_plot(struct work *w, const struct br_chart *chart, s
 /* Over k or h, where the runs differ by one of them. */
 static enum br_status plot(struct work *w, const struct br_split_page *page, struct br_error *err)
 {
-    struct br_chart chart;
-    enum br_status status = br_split_chart(page->split, page->count, &chart, err);
-    if (!status && chart.panels)
-        status = write_plot(w, &chart, err);
-    br_chart_clear(&chart);
+    struct br_figure figure;
+    enum br_status status = br_split_draw(page->split, page->count, &figure, err);
+    if (!status && figure.panels)
+        status = write_plot(w, &figure, err);
+    br_figure_clear(&figure);
     return status;
 }
 
@@ -195,9 +193,9 @@ static enum br_status write_all(struct work *w, const struct br_split_page *page
 {
     enum br_status status = BR_OK;
     for (const struct br_split_emitter *const *e = br_split_emitters; *e && !status; e++)
-        if (br_format_wanted(w->options->study.format, (*e)->name))
+        if (br_format_wanted(w->options, (*e)->name))
             status = write_table(w, *e, page, err);
-    if (!status && !w->options->study.no_plots)
+    if (!status && !br_option_given(w->options, BR_OPT_NO_PLOTS))
         status = plot(w, page, err);
     return status ? status : br_output_commit(&w->output, err);
 }
@@ -205,17 +203,16 @@ static enum br_status write_all(struct work *w, const struct br_split_page *page
 static enum br_status run(struct work *w, struct br_error *err)
 {
     const bool writes = br_ranks_first();
-    const char *out = w->options->study.out;
     enum br_status status = read_lists(w, err);
     if (!status)
         status =
-            br_scene_open(w->options->scene[0], w->path, sizeof w->path, &w->text, &w->scene, err);
+            br_scene_open(w->options->word[0], w->path, sizeof w->path, &w->text, &w->scene, err);
     if (!status)
         status = lay_out(w, err);
     if (!status && writes)
-        status = br_warn_of_splits(w->split, w->splits, err);
+        status = br_output_open(&w->output, br_option_text(w->options, BR_OPT_OUT), err);
     if (!status && writes)
-        status = br_output_open(&w->output, out ? out : "trade", err);
+        status = br_warn_of_splits(w->split, w->splits, err);
     if (!status)
         status = split_all(w, err);
     if (status || !writes)
@@ -224,25 +221,25 @@ static enum br_status run(struct work *w, struct br_error *err)
     w->provenance.scene_path = w->path;
     w->provenance.scene_text = w->text;
     const struct br_split_page page = {w->split, w->splits, &w->provenance};
-    if (!w->options->study.quiet)
+    if (!br_option_given(w->options, BR_OPT_QUIET))
         status = br_split_emitters[0]->emit(stdout, &page, err);
     if (!status)
         status = write_all(w, &page, err);
-    if (!status && !w->options->study.quiet) {
+    if (!status && !br_option_given(w->options, BR_OPT_QUIET)) {
         putchar('\n');
         br_output_announce(&w->output);
     }
     return status;
 }
 
-enum br_status br_trade_split(const struct br_trade_options *options, struct br_error *err)
+enum br_status br_trade_split(const struct br_options *options, struct br_error *err)
 {
     struct work w = {.options = options};
     const enum br_status status = run(&w, err);
     br_output_discard(&w.output);
     br_study_request_clear(&w.request);
     br_scene_clear(&w.scene);
-    free(w.tolerance);
+    free(w.steps);
     free(w.split);
     free(w.text);
     return status;

@@ -3,11 +3,11 @@
 #ifndef BR_CLI_TRADE_SPLIT_H
 #define BR_CLI_TRADE_SPLIT_H
 
-#include "cli/trade_options.h"
+#include "cli/option.h"
 
 /* Splits the errors of all runs of the first scene, shows and writes them. Fails with BR_BAD_INPUT,
  * naming the option; BR_NOT_FINITE where a run fails or nobody can promise a solution: nothing is
  * written then. */
-enum br_status br_trade_split(const struct br_trade_options *options, struct br_error *err);
+enum br_status br_trade_split(const struct br_options *options, struct br_error *err);
 
 #endif

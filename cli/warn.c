@@ -2,8 +2,16 @@
 #include "cli/warn.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "study/scene/quote.h"
+
+/* Each alone, so that it can be copied. */
+static void print_lines(const char *remedy)
+{
+    for (const char *line = remedy; *line; line += strcspn(line, "\n"), line += *line == '\n')
+        fprintf(stderr, "    %.*s\n", (int)strcspn(line, "\n"), line);
+}
 
 static void print(const char *scene, const struct br_warnings *warnings)
 {
@@ -15,7 +23,8 @@ static void print(const char *scene, const struct br_warnings *warnings)
         br_quote(stderr, &br_for_text, w->text);
         if (w->more)
             fprintf(stderr, " (and so %zu more of these marches)", w->more);
-        fprintf(stderr, "%s%s\n", w->remedy[0] ? "; remedy: " : "", w->remedy);
+        fprintf(stderr, "%s\n", w->remedy[0] ? "; remedy:" : "");
+        print_lines(w->remedy);
     }
 }
 

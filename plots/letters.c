@@ -5,8 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "plots/gnuplot.h"
-#include "plots/page.h"
+#include "plots/pictures.h"
+#include "plots/render.h"
+#include "study/run/history.h"
 
 static const char script_name[] = "script.gp", output_name[] = "output";
 
@@ -87,91 +88,68 @@ enum br_status br_gnuplot_has(const char *terminal, bool *has, bool *missing, st
 
 /* ---- letters ---- */
 
-enum { LINES = 17, MOST_POINTS = 2000 };
-
-typedef double of_row(const struct br_history_row *row);
-
-static double axial_of(const struct br_history_row *row)
+double br_value_of_row(const struct br_history_row *row, enum br_row_value what)
 {
-    return row->displacement[BR_AXIAL];
-}
-
-static double bending_of(const struct br_history_row *row)
-{
-    return row->displacement[BR_BENDING];
-}
-
-static double contact_of(const struct br_history_row *row)
-{
-    return row->contact_force;
-}
-
-static double friction_of(const struct br_history_row *row)
-{
-    return row->friction_force;
-}
-
-static double bound_of(const struct br_history_row *row)
-{
-    return row->friction_bound;
-}
-
-struct curve {
-    const char *title;
-    of_row *value;
-    bool wanted;
-};
-
-/* A page of one or two curves, in data blocks of the script itself. */
-static void write_page(FILE *out, const char *title, const struct br_history_record *r,
-                       const struct curve *curve, size_t count)
-{
-    const size_t every = r->rows > MOST_POINTS ? (r->rows - 1) / MOST_POINTS + 1 : 1;
-    size_t shown = 0;
-    for (size_t c = 0; c < count; c++) {
-        if (!curve[c].wanted)
-            continue;
-        fprintf(out, "$d%zu << EOD\n", shown++);
-        for (size_t i = 0; i < r->rows; i += every) {
-            const double value = curve[c].value(&r->row[i]);
-            if (isfinite(value))
-                fprintf(out, "%.9g %.9g\n", r->row[i].time, value);
-        }
-        fputs("EOD\n", out);
+    switch (what) {
+    case BR_ROW_TIME:
+        return row->time;
+    case BR_ROW_AXIAL:
+        return row->displacement[BR_AXIAL];
+    case BR_ROW_BENDING:
+        return row->displacement[BR_BENDING];
+    case BR_ROW_SPEED:
+        return row->velocity[BR_BENDING];
+    case BR_ROW_CONTACT:
+        return row->contact_force;
+    case BR_ROW_FRICTION:
+        return row->friction_force;
+    case BR_ROW_STRESS:
+        return -row->friction_force;
+    case BR_ROW_BOUND:
+        return row->friction_bound;
     }
-    if (!shown)
-        return;
-    fprintf(out, "%s\nset title '%s'\nplot ", shown > 1 ? "set key below" : "unset key", title);
-    for (size_t c = 0, d = 0; c < count; c++)
-        if (curve[c].wanted)
-            fprintf(out, "%s$d%zu using 1:2 with lines title '%s'", d ? ", " : "", d,
-                    curve[c].title),
-                d++;
-    fputc('\n', out);
+    return NAN;
 }
 
-static void write_pages(FILE *out, const struct br_scene *s, const struct br_history_record *r,
-                        int columns)
+static void add_rows(const struct br_history_record *r, const char *title, enum br_row_value value,
+                     struct br_panel *p)
 {
-    const bool rubs = s->friction.law != BR_FRICTIONLESS;
-    fprintf(out,
-            "set terminal dumb noenhanced size %d,%d\nset output '%s'\n"
-            "set xlabel 'time (s)'\nset xrange [0:%.9g]\n",
-            columns, LINES, output_name, s->duration);
-    write_page(out, "horizontal displacement of the tip, u(L) (m)", r,
-               (const struct curve[]){{"u", axial_of, s->axial.modelled}}, 1);
-    write_page(out, "vertical displacement of the tip, w(L) (m)", r,
-               (const struct curve[]){{"w", bending_of, s->bending.modelled}}, 1);
-    write_page(out, "contact force (N)", r,
-               (const struct curve[]){{"contact", contact_of, s->contact.modelled}}, 1);
-    write_page(out, "friction force and its bound (N)", r,
-               (const struct curve[]){{"friction", friction_of, rubs}, {"bound", bound_of, rubs}},
-               2);
-    fputs("unset output\n", out);
+    enum { MOST_POINTS = 2000 };
+    const size_t every = r->rows > MOST_POINTS ? (r->rows - 1) / MOST_POINTS + 1 : 1;
+    struct br_series *s = br_series_add(p, BR_PEN_LINE, "%s", title);
+    for (size_t i = 0; i < r->rows; i += every)
+        br_point_add(s, r->row[i].time, br_value_of_row(&r->row[i], value), NULL);
 }
 
-enum br_status br_gnuplot_letters(FILE *out, const struct br_scene *scene,
-                                  const struct br_history_record *record, int columns,
+static struct br_panel *add_panel(struct br_figure *f, const char *label)
+{
+    struct br_panel *p = br_panel_add(f);
+    BR_SAY(p->x_label, "time (s)");
+    BR_SAY(p->y_label, "%s", label);
+    return p;
+}
+
+enum br_status br_history_draw(const struct br_scene *scene, const struct br_history_record *r,
+                               struct br_figure *f, struct br_error *err)
+{
+    *f = (struct br_figure){0};
+    if (scene->axial.modelled)
+        add_rows(r, "u", BR_ROW_AXIAL,
+                 add_panel(f, "horizontal displacement of the tip, u(L) (m)"));
+    if (scene->bending.modelled)
+        add_rows(r, "w", BR_ROW_BENDING,
+                 add_panel(f, "vertical displacement of the tip, w(L) (m)"));
+    if (scene->contact.modelled)
+        add_rows(r, "contact", BR_ROW_CONTACT, add_panel(f, "contact force (N)"));
+    if (scene->friction.law != BR_FRICTIONLESS) {
+        struct br_panel *p = add_panel(f, "friction force and its bound (N)");
+        add_rows(r, "friction", BR_ROW_FRICTION, p);
+        add_rows(r, "bound", BR_ROW_BOUND, p);
+    }
+    return br_figure_check(f, err);
+}
+
+enum br_status br_gnuplot_letters(FILE *out, const struct br_figure *figure, int columns,
                                   bool *missing, struct br_error *err)
 {
     struct workshop w = {0};
@@ -179,7 +157,7 @@ enum br_status br_gnuplot_letters(FILE *out, const struct br_scene *scene,
     *missing = false;
     enum br_status status = open_workshop(&w, &script, err);
     if (!status) {
-        write_pages(script, scene, record, columns);
+        br_figure_write_letters(script, figure, columns, output_name);
         status = run_workshop(&w, script, &output, missing, err);
     }
     for (int c; !status && (c = getc(output)) != EOF;)

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "plots/page.h"
+#include "plots/pictures.h"
 #include "study/scene/quote.h"
 
 static const struct br_movie_format gif = {".gif", "gif", "animated GIF", false};
@@ -112,81 +112,36 @@ void br_movie_write_data(FILE *out, const struct br_movie *m)
 
 /* ---- the script ---- */
 
-typedef double of_frame(const struct br_history_row *row);
-
-static double time_of(const struct br_history_row *row)
-{
-    return row->time;
-}
-
-static double contact_of(const struct br_history_row *row)
-{
-    return row->contact_force;
-}
-
-/* The scheme has no friction force at t = 0. */
-static double friction_of(const struct br_history_row *row)
-{
-    return isnan(row->friction_force) ? 0 : row->friction_force;
-}
-
-static double bound_of(const struct br_history_row *row)
-{
-    return row->friction_bound;
-}
-
-static double speed_of(const struct br_history_row *row)
-{
-    return row->velocity[BR_BENDING];
-}
-
-static double axial_of(const struct br_history_row *row)
-{
-    return row->displacement[BR_AXIAL];
-}
-
-static double bending_of(const struct br_history_row *row)
-{
-    return row->displacement[BR_BENDING];
-}
-
 static void write_array(FILE *out, const char *name, const struct br_history_record *r,
-                        of_frame *value)
+                        enum br_row_value what)
 {
     fprintf(out, "array %s[%zu] = [", name, r->looks);
-    for (size_t i = 0; i < r->looks; i++)
-        fprintf(out, "%s%.9g", i == 0 ? "" : i % 8 ? ", " : ", \\\n    ", value(&r->at[i]));
+    for (size_t i = 0; i < r->looks; i++) {
+        const double value = br_value_of_row(&r->at[i], what);
+        const bool none = isnan(value); /* the scheme has no friction force at t = 0 */
+        fprintf(out, "%s%.9g", i == 0 ? "" : i % 8 ? ", " : ", \\\n    ", none ? 0 : value);
+    }
     fputs("]\n", out);
 }
 
 static void write_head(FILE *out, const struct br_movie *m)
 {
     const struct scales s = find_scales(m);
-    char name[512], file[512], stem[512];
+    char name[512], file[512], pictures[600];
     br_movie_file(m, 0, name, sizeof name);
     br_quoted(file, sizeof file, &br_for_text, name);
-    br_quoted(stem, sizeof stem, &br_for_text, m->stem);
-    fputs("# SPDX-License-Identifier: GPL-3.0-or-later\n# ", out);
-    br_write_comment(out, m->scene->title);
-    fprintf(out,
-            "# Draws %s%s from %s.dat;\n# edit it, and draw again, in this folder, with\n"
-            "#     gnuplot %s.gp\n\nset encoding utf8\nstem = ",
-            file, m->format->frames ? " and so on" : "", stem, stem);
-    br_quote(out, &br_for_gnuplot, m->stem);
-    fputc('\n', out);
+    BR_SAY(pictures, "%s%s", file, m->format->frames ? " and so on" : "");
+    br_script_head(out, m->scene->title, m->stem, pictures);
     fprintf(
         out,
         "length = %.9g # m\ngap = %.9g # m\naxial_scale = %.9g\nbending_scale = %.9g\n"
         "contact_scale = %.9g # m per N\nfriction_scale = %.9g # m per N\nmost = %.9g # |u|, m\n",
         m->scene->length, m->scene->contact.modelled ? m->scene->contact.gap : 0, s.axial,
         s.bending, s.contact, s.friction, s.most_axial);
-    write_array(out, "time", m->record, time_of);
-    write_array(out, "contact", m->record, contact_of);
-    write_array(out, "friction", m->record, friction_of);
-    write_array(out, "bound", m->record, bound_of);
-    write_array(out, "speed", m->record, speed_of);
-    write_array(out, "u", m->record, axial_of);
-    write_array(out, "w", m->record, bending_of);
+    static const char *const names[] = {"time", "u", "w", "speed", "contact", "friction"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        write_array(out, names[i], m->record, (enum br_row_value)i);
+    write_array(out, "bound", m->record, BR_ROW_BOUND);
 }
 
 static void write_terminal(FILE *out, const struct br_movie *m)
@@ -219,12 +174,13 @@ static void write_stage(FILE *out, const struct br_movie *m)
         "set label 2 sprintf('u drawn %%g times as large, w %%g times', axial_scale, bending_scale) "
         "at screen 0.03,0.885 left\n"
         "set xrange [-0.05*length:1.5*length]; set yrange [-0.62*length:0.62*length]\n"
-        "set lmargin at screen 0.03; set rmargin at screen 0.84\n"
+        "set lmargin at screen 0.03; set rmargin at screen 0.82\n"
         "set bmargin at screen 0.09; set tmargin at screen 0.9\n"
         "unset key; unset border; unset tics\n"
-        "set palette defined (0 '#0d0887', 0.5 '#cb4679', 1 '#f0b040')\n"
-        "set cbrange [-most:most]; set cblabel 'horizontal displacement u (m)'\n"
-        "set colorbox user origin 0.87,0.15 size 0.02,0.65; set cbtics\n"
+        "set palette defined (0 '#0072b2', 0.5 '#aaaaaa', 1 '#d55e00')\n"
+        "set cbrange [-most:most]\n"
+        "set label 7 'horizontal displacement u (m)' at screen 0.97,0.475 center rotate\n"
+        "set colorbox user origin 0.84,0.15 size 0.02,0.65; set cbtics\n"
         "set object 1 rectangle from -0.04*length,-0.2*length to 0,0.2*length "
         "fc rgb '#888888' fs solid 1 noborder\n");
     if (m->scene->contact.modelled)
@@ -246,17 +202,18 @@ static void write_forces(FILE *out, const struct br_movie *m)
             "    set label 5 sprintf('contact force %.4g N', contact[i]) at screen 0.03,0.045 left\n"
             "    if (contact[i] > 0) {\n"
             "        set arrow 1 from tx + contact_scale*contact[i],ty to tx,ty lw 4 "
-            "lc rgb '#e8704f' front\n"
+            "lc rgb '#009e73' front\n"
             "    } else { unset arrow 1 }\n",
             out);
     if (m->scene->friction.law == BR_FRICTIONLESS)
         return;
     fputs(
-        "    state = speed[i] == 0 || abs(friction[i]) < bound[i] ? 'sticks' : 'slips'\n"
+        "    state = open(i) ? 'open' : speed[i] == 0 || abs(friction[i]) < bound[i] ? 'sticks' : "
+        "'slips'\n"
         "    set label 6 sprintf('friction %.4g N of %.4g N: %s', abs(friction[i]), bound[i], state) "
         "at screen 0.32,0.045 left\n"
         "    set arrow 2 from tx,ty to tx,ty - friction_scale*friction[i] lw 4 "
-        "lc rgb '#0d0887' front\n"
+        "lc rgb '#000000' front\n"
         "    # The bound, to both sides, as far as the picture reaches.\n"
         "    b = friction_scale*bound[i]; d = 0.03*length\n"
         "    if (b < 0.5*length) {\n"
@@ -271,6 +228,7 @@ void br_movie_write_script(FILE *out, const struct br_movie *m)
     write_head(out, m);
     write_terminal(out, m);
     write_stage(out, m);
+    fputs(m->scene->contact.modelled ? "open(i) = contact[i] <= 0\n" : "open(i) = 0\n", out);
     fputs("do for [i=1:frames] {\n", out);
     if (m->format->frames)
         fputs("    set output stem.sprintf('-%04d.png', i)\n", out);

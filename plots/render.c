@@ -12,8 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "plots/gnuplot.h"
-#include "plots/plots.h"
+#include "plots/render.h"
 
 extern char **environ;
 
@@ -80,7 +79,11 @@ static const char *reason(char *text)
 /* How whole pictures end, but for white space. A WebP says its length at the start instead. */
 static const struct {
     const char *extension, *ending;
-} endings[] = {{".svg", "</svg>"}, {".png", "IEND\xae\x42\x60\x82"}, {".gif", ";"}, {".webp", ""}};
+} endings[] = {{".svg", "</svg>"},
+               {".png", "IEND\xae\x42\x60\x82"},
+               {".pdf", "%%EOF"},
+               {".gif", ";"},
+               {".webp", ""}};
 
 static bool ends_with(const char *path, const char *ending)
 {
@@ -111,7 +114,7 @@ enum br_status br_picture_check(const char *path, struct br_error *err)
 /* The i-th picture of a script; false: there are no more. */
 static bool picture(const char *folder, const char *script, size_t i, char *path, size_t size)
 {
-    static const char *const extensions[] = {"svg", "png"};
+    static const char *const extensions[] = {"svg", "png", "pdf"};
     const char *dot = strrchr(script, '.');
     const int stem = (int)(dot ? (size_t)(dot - script) : strlen(script));
     if (i < sizeof extensions / sizeof *extensions)
@@ -121,12 +124,21 @@ static bool picture(const char *folder, const char *script, size_t i, char *path
 
 enum { PATH = 4096 + BR_SCRIPT_NAME + 8 };
 
+/* A script draws no PDF where gnuplot has no terminal for it; where it has one, gnuplot itself
+ * fails if it cannot make the file. */
+static bool is_missing_pdf(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && strcmp(dot, ".pdf") == 0 && access(path, F_OK) != 0;
+}
+
 static enum br_status check_pictures(const char *folder, const char *script, struct br_error *err)
 {
     char path[PATH];
     enum br_status status = BR_OK;
     for (size_t i = 0; !status && picture(folder, script, i, path, sizeof path); i++)
-        status = br_picture_check(path, err);
+        if (!is_missing_pdf(path))
+            status = br_picture_check(path, err);
     return status;
 }
 
@@ -239,16 +251,23 @@ static enum br_status end(const struct br_rendering *r, struct br_error *err)
     return status;
 }
 
+/* Starts gnuplot on a script whose name has room. */
+static enum br_status begin_named(struct br_rendering *r, const char *folder, const char *script,
+                                  bool *missing, struct br_error *err)
+{
+    const int folder_length = snprintf(r->folder, sizeof r->folder, "%s", folder);
+    const int script_length = snprintf(r->script, sizeof r->script, "%s", script);
+    if ((size_t)folder_length >= sizeof r->folder || (size_t)script_length >= sizeof r->script)
+        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
+    return begin(r, missing, err);
+}
+
 enum br_status br_gnuplot_run(const char *folder, const char *script, bool *missing,
                               struct br_error *err)
 {
     struct br_rendering r = {0};
     *missing = false;
-    const int folder_length = snprintf(r.folder, sizeof r.folder, "%s", folder);
-    const int script_length = snprintf(r.script, sizeof r.script, "%s", script);
-    if ((size_t)folder_length >= sizeof r.folder || (size_t)script_length >= sizeof r.script)
-        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
-    const enum br_status status = begin(&r, missing, err);
+    const enum br_status status = begin_named(&r, folder, script, missing, err);
     return status ? status : wait_for(&r, err);
 }
 
@@ -268,13 +287,7 @@ enum br_status br_renderer_add(struct br_renderer *r, const char *folder, const 
         if (status)
             return status;
     }
-    struct br_rendering *next = &r->at_work[r->count];
-    const int folder_length = snprintf(next->folder, sizeof next->folder, "%s", folder);
-    const int script_length = snprintf(next->script, sizeof next->script, "%s", script);
-    if ((size_t)folder_length >= sizeof next->folder ||
-        (size_t)script_length >= sizeof next->script)
-        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
-    const enum br_status status = begin(next, missing, err);
+    const enum br_status status = begin_named(&r->at_work[r->count], folder, script, missing, err);
     r->count += status == BR_OK;
     return status;
 }

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "plots/split.h"
-
+/* Parts of the error over the time step, or over the mesh: where one of them takes over. */
 #include <math.h>
 #include <string.h>
 
+#include "plots/pictures.h"
+#include "study/trade/split.h"
+
 enum { PANELS = 2 };
 
-/* Runs of one method along one axis, by ascending k or h. */
+/* Runs of one method: over k on the finest of its meshes, or over h at its smallest k. */
 struct line {
-    const struct br_split **run; /* owned */
-    size_t count;
+    const struct br_split *split, *first; /* of all count; of the method */
+    size_t count, finest;                 /* n, or steps */
     bool over_k;
 };
 
@@ -27,61 +29,58 @@ static double abscissa(const struct br_split *s, bool over_k)
     return over_k ? br_time_step(s->scene, s->at.steps) : br_mesh_size(s->scene, s->at.n);
 }
 
-static void insert(struct line *line, const struct br_split *s)
+static size_t fixed(const struct br_split *s, bool over_k)
 {
-    size_t i = line->count++;
-    for (; i > 0 && abscissa(line->run[i - 1], line->over_k) > abscissa(s, line->over_k); i--)
-        line->run[i] = line->run[i - 1];
-    line->run[i] = s;
+    return over_k ? s->at.n : s->at.steps;
 }
 
-/* The runs of the method of `first`, on the finest of its meshes or at its smallest step. */
-static void collect(const struct br_split *split, size_t count, const struct br_split *first,
-                    struct line *line)
+static bool is_on(const struct line *line, const struct br_split *s)
 {
-    size_t finest = 0;
-    line->count = 0;
-    for (size_t i = 0; i < count; i++) {
-        const size_t other = line->over_k ? split[i].at.n : split[i].at.steps;
-        if (same_method(&split[i], first) && other > finest)
-            finest = other;
-    }
-    for (size_t i = 0; i < count; i++)
-        if (same_method(&split[i], first) &&
-            (line->over_k ? split[i].at.n : split[i].at.steps) == finest)
-            insert(line, &split[i]);
+    return same_method(s, line->first) && fixed(s, line->over_k) == line->finest;
 }
 
-/* One part along the line, or the whole; a gap where it cannot be told. Parts that are nowhere
- * have no curve. */
-static bool draw_part(const struct line *line, size_t share, enum br_stroke stroke,
-                      struct br_panel *panel)
+/* The run of the line with the smallest k or h above `after`; NULL: there is none. */
+static const struct br_split *next(const struct line *line, double after)
 {
-    const bool whole = share >= line->run[0]->shares;
-    bool anywhere = false;
-    for (size_t i = 0; i < line->count && !whole; i++)
-        anywhere |= br_share_told(&line->run[i]->share[share], 0, BR_PART_TOTAL);
-    if (!anywhere && !whole)
-        return true;
-    double(*point)[2] = br_chart_curve(panel, stroke, line->count, "%s",
-                                       whole ? "whole" : line->run[0]->share[share].source->name);
-    if (point) { /* a source looks the same in both panels */
-        panel->curve[panel->curves - 1].pen = share + 1;
-        panel->curve[panel->curves - 1].pens = line->run[0]->shares;
+    const struct br_split *best = NULL;
+    for (size_t i = 0; i < line->count; i++) {
+        const struct br_split *s = &line->split[i];
+        const double x = abscissa(s, line->over_k);
+        if (is_on(line, s) && x > after && (!best || x < abscissa(best, line->over_k)))
+            best = s;
     }
-    for (size_t i = 0; point && i < line->count; i++) {
-        const struct br_split *s = line->run[i];
-        const struct br_share *part = whole ? &s->whole : &s->share[share];
-        point[i][0] = abscissa(s, line->over_k);
-        point[i][1] = br_share_told(part, 0, BR_PART_TOTAL) ? part->error[0][BR_PART_TOTAL] : NAN;
+    return best;
+}
+
+/* Part i of a run; past the last, the whole. */
+static const struct br_share *share_of(const struct br_split *s, size_t i)
+{
+    return i < s->shares ? &s->share[i] : &s->whole;
+}
+
+/* A gap where it cannot be told. */
+static void add_points(const struct line *line, size_t share, struct br_series *series)
+{
+    for (const struct br_split *s = next(line, 0); s; s = next(line, abscissa(s, line->over_k))) {
+        const struct br_share *part = share_of(s, share);
+        const bool told = br_share_told(part, 0, BR_PART_TOTAL);
+        br_point_add(series, abscissa(s, line->over_k),
+                     told ? part->error[0][BR_PART_TOTAL] : (double)NAN, NULL);
     }
-    return point;
+}
+
+static bool is_anywhere(const struct line *line, size_t share)
+{
+    for (const struct br_split *s = next(line, 0); s; s = next(line, abscissa(s, line->over_k)))
+        if (br_share_told(share_of(s, share), 0, BR_PART_TOTAL))
+            return true;
+    return false;
 }
 
 /* The method, as far as it is not the default, and what all runs of the line share. */
 static void name_panel(const struct line *line, char *title, size_t size)
 {
-    const struct br_split *s = line->run[0];
+    const struct br_split *s = line->first;
     const struct br_method *m = &s->method;
     size_t used = (size_t)snprintf(title, size, "%s", m->scheme->name);
     if (s->scene->contact.modelled)
@@ -93,89 +92,53 @@ static void name_panel(const struct line *line, char *title, size_t size)
     if (m->axial_degree != 1)
         used += (size_t)snprintf(title + used, size - used, ", P%d", m->axial_degree);
     if (line->over_k)
-        snprintf(title + used, size - used, ", n = %zu", s->at.n);
+        snprintf(title + used, size - used, ", n = %zu", line->finest);
     else
-        snprintf(title + used, size - used, ", k = %.3g s", br_time_step(s->scene, s->at.steps));
+        snprintf(title + used, size - used, ", k = %.3g s", br_time_step(s->scene, line->finest));
 }
 
-static bool draw_panel(const struct line *line, struct br_panel *panel)
+/* A source looks the same in both panels; the whole is a band behind them. */
+static void fill_panel(const struct line *line, struct br_panel *p)
 {
-    const struct br_split *s = line->run[0];
-    panel->log_x = panel->log_y = true;
-    panel->columns = 4;
-    name_panel(line, panel->title, sizeof panel->title);
-    snprintf(panel->x_label, sizeof panel->x_label, "%s",
-             line->over_k ? "time step k (s)" : "element length h (m)");
-    snprintf(panel->y_label, sizeof panel->y_label, "%s (%s)", s->norm[0]->symbol,
-             s->norm[0]->unit_markup);
-    panel->x_low = abscissa(s, line->over_k) / 1.3;
-    panel->x_high = abscissa(line->run[line->count - 1], line->over_k) * 1.3;
-    bool drawn = true;
-    for (size_t i = 0; i < s->shares && drawn; i++)
-        drawn = draw_part(line, i, BR_STROKE_MARKED, panel);
-    return drawn && draw_part(line, s->shares, BR_STROKE_DOTS, panel); /* above all */
-}
-
-/* One range for all panels: their heights can be compared. */
-static void share_range(struct br_chart *chart)
-{
-    double low = INFINITY, high = 0;
-    for (size_t i = 0; i < chart->panels; i++)
-        for (size_t j = 0; j < chart->panel[i].curves; j++)
-            for (size_t k = 0; k < chart->panel[i].curve[j].count; k++) {
-                const double y = chart->panel[i].curve[j].point[k][1];
-                low = y > 0 && y < low ? y : low;
-                high = y > high ? y : high;
-            }
-    for (size_t i = 0; i < chart->panels && low <= high; i++) {
-        chart->panel[i].y_low = pow(10, floor(log10(low / 1.5)));
-        chart->panel[i].y_high = pow(10, ceil(log10(1.5 * high)));
+    const struct br_split *first = line->first;
+    p->log_x = p->log_y = true;
+    name_panel(line, p->title, sizeof p->title);
+    BR_SAY(p->x_label, line->over_k ? "time step k (s)" : "mesh size h (m)");
+    BR_SAY(p->y_label, "%s (%s)", first->norm[0]->symbol, first->norm[0]->unit_markup);
+    add_points(line, first->shares, br_series_add(p, BR_PEN_BAND, "whole"));
+    for (size_t i = 0; i < first->shares; i++) {
+        if (!is_anywhere(line, i))
+            continue;
+        struct br_series *s = br_series_add(p, BR_PEN_CURVE, "%s", first->share[i].source->name);
+        if (s)
+            s->hue = 1 + i % BR_HUES;
+        add_points(line, i, s);
     }
 }
 
-/* The first runs of up to two methods; how many. */
-static size_t first_runs(const struct br_split *split, size_t count,
-                         const struct br_split *first[PANELS])
+enum br_status br_split_draw(const struct br_split *split, size_t count, struct br_figure *f,
+                             struct br_error *err)
 {
-    size_t found = 0;
-    for (size_t i = 0; i < count && found < PANELS; i++)
-        if (found == 0 || !same_method(&split[i], first[0]))
-            first[found++] = &split[i];
-    return found;
-}
-
-static bool draw(const struct br_split *split, size_t count, struct line *line,
-                 struct br_chart *chart)
-{
-    const struct br_split *first[PANELS];
-    const size_t panels = first_runs(split, count, first);
-    br_chart_lay_out(chart, panels);
-    snprintf(chart->stem, sizeof chart->stem, "%.100s-split", split->scene->name);
-    snprintf(chart->title, sizeof chart->title, "Where the error comes from: %s",
-             split->scene->title);
-    bool drawn = true;
-    for (size_t i = 0; i < panels && drawn; i++) {
-        collect(split, count, first[i], line);
-        drawn = draw_panel(line, &chart->panel[i]);
-    }
-    share_range(chart);
-    return drawn;
-}
-
-enum br_status br_split_chart(const struct br_split *split, size_t count, struct br_chart *chart,
-                              struct br_error *err)
-{
-    struct line line = {0};
+    struct line line = {.split = split, .count = count};
     bool meshes = false;
-    *chart = (struct br_chart){0};
+    *f = (struct br_figure){.one_y = true};
     for (size_t i = 1; i < count; i++) {
         line.over_k |= split[i].at.steps != split[0].at.steps;
         meshes |= split[i].at.n != split[0].at.n;
     }
     if (!line.over_k && !meshes)
         return BR_OK;
-    line.run = br_allocate(count, sizeof(struct br_split *));
-    const bool drawn = line.run && draw(split, count, &line, chart);
-    free(line.run);
-    return drawn ? BR_OK : br_no_memory(err, "the plot");
+    BR_SAY(f->stem, "%.100s-split", split->scene->name);
+    BR_SAY(f->title, "Where the error comes from: %s", split->scene->title);
+    for (size_t i = 0; i < count && f->panels < PANELS; i++) {
+        if (line.first && same_method(&split[i], line.first))
+            continue;
+        line.first = &split[i];
+        line.finest = 0;
+        for (size_t j = 0; j < count; j++)
+            if (same_method(&split[j], line.first) && fixed(&split[j], line.over_k) > line.finest)
+                line.finest = fixed(&split[j], line.over_k);
+        fill_panel(&line, br_panel_add(f));
+    }
+    return br_figure_check(f, err);
 }

@@ -56,31 +56,43 @@ static bool read_case(const json_t *o, const char *scene_name, struct br_old_cas
            read_verdict(json_object_get(o, "verdict"), &c->verdict);
 }
 
-/* A key that is not there means what there was before it: the default. */
+/* A value of a method as br_method_field_text has it. */
+static bool read_value(const json_t *o, char value[BR_METHOD_VALUE])
+{
+    double number;
+    *value = '\0';
+    if (json_is_null(o))
+        return true;
+    if (json_is_string(o))
+        return read_word(o, value, BR_METHOD_VALUE);
+    if (!read_number(o, -INFINITY, &number))
+        return false;
+    br_shortest(number, value, BR_METHOD_VALUE);
+    return true;
+}
+
+/* A key that is not there means what there was before it: the default. The rows of the registries
+ * were always there, but for the time schemes. */
 static bool read_method(const json_t *o, struct br_old_method *m)
 {
     const struct br_method method = br_method_default();
-    const json_t *scheme = json_object_get(o, "scheme"),
-                 *degree = json_object_get(o, "axial_degree"),
-                 *tolerance = json_object_get(o, "tolerance"),
-                 *scaling = json_object_get(o, "scaling"),
-                 *refinement = json_object_get(o, "refinement");
-    *m = (struct br_old_method){.known = o != NULL,
-                                .tolerance = NAN,
-                                .axial_degree = 1,
-
-                                .refinement = method.linear.refinement};
-    strcpy(m->scheme, method.scheme->name);
-    strcpy(m->scaling, method.linear.scaling);
-    return !m->known ||
-           ((!scheme || read_word(scheme, m->scheme, sizeof m->scheme)) &&
-            (!tolerance || read_number(tolerance, 0, &m->tolerance)) &&
-            (!degree || read_number(degree, 1, &m->axial_degree)) &&
-            (!scaling || read_word(scaling, m->scaling, sizeof m->scaling)) &&
-            (!refinement || read_number(refinement, 0, &m->refinement)) &&
-            read_word(json_object_get(o, "solver"), m->solver, sizeof m->solver) &&
-            read_word(json_object_get(o, "contact"), m->contact, sizeof m->contact) &&
-            read_word(json_object_get(o, "friction"), m->friction, sizeof m->friction));
+    bool good = true;
+    br_old_method_of(&method, m);
+    m->known = o != NULL;
+    for (size_t i = 0; i < BR_METHOD_FIELDS && m->known; i++) {
+        const struct br_method_field *f = &br_method_fields[i];
+        const json_t *in = f->group ? json_object_get(o, f->group) : o;
+        char key[BR_METHOD_VALUE];
+        const json_t *value =
+            json_object_get(in, f->group ? f->member : br_method_field_key(f, key));
+        const bool needed =
+            i == BR_METHOD_SOLVER || i == BR_METHOD_CONTACT || i == BR_METHOD_FRICTION;
+        if (value)
+            good &= read_value(value, m->value[i]);
+        else
+            good &= !needed;
+    }
+    return good;
 }
 
 static bool read_methods(const json_t *o, struct br_old_cost *cost)

@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
+#include "study/scene/method_fields.h"
 #include "study/scene/quote.h"
 
 static atomic_bool lacked;
@@ -50,26 +51,36 @@ json_t *br_json_estimate(const struct br_estimate *e)
                      br_json_number(e->low), "high", br_json_number(e->high));
 }
 
-/* null: the friction rule does not iterate */
-static json_t *iteration(const struct br_method *m)
+/* null: it is not heeded, and has no value then */
+static json_t *method_value(const struct br_method_field *f, const struct br_method *m)
 {
-    const struct br_iteration *i = &m->iteration;
-    if (!m->friction->iterates)
+    char text[BR_METHOD_VALUE];
+    if (!br_method_field_reported(f, m))
         return json_null();
-    return json_pack("{s:o, s:o, s:I}", "parameter", br_json_number(i->parameter), "tolerance",
-                     br_json_number(i->tolerance), "most", (json_int_t)i->most);
+    br_method_field_text(f, m, text);
+    if (f == &br_method_fields[BR_METHOD_DEGREE] || (!f->words && f->range.whole))
+        return json_integer(atoll(text));
+    return f->words ? br_json_string(text) : br_json_number(f->get(m));
 }
 
+/* Fields of a group are members of one object, null where they are not heeded. */
 json_t *br_json_method(const struct br_method *m)
 {
-    const struct br_kernel *kernel = br_linear_solver_kernel(m->solver, &m->linear);
-    return json_pack("{s:s, s:o, s:i, s:s, s:o, s:s, s:i, s:s, s:s, s:o}", "scheme",
-                     m->scheme->name, "tolerance",
-                     m->scheme->adaptive ? br_json_number(m->tolerance) : json_null(),
-                     "axial_degree", m->axial_degree, "solver", m->solver->name, "kernel",
-                     br_json_string(kernel ? kernel->name : NULL), "scaling", m->linear.scaling,
-                     "refinement", m->linear.refinement, "contact", m->contact->name, "friction",
-                     m->friction->name, "iteration", iteration(m));
+    json_t *o = json_object();
+    for (const struct br_method_field *f = br_method_fields;
+         f < br_method_fields + BR_METHOD_FIELDS; f++) {
+        char key[BR_METHOD_VALUE];
+        json_t *group = f->group ? json_object_get(o, f->group) : NULL;
+        if (f->group && !group) {
+            group = br_method_field_heeded(f, m) ? json_object() : json_null();
+            json_object_set_new(o, f->group, group);
+        }
+        if (!f->group)
+            json_object_set_new(o, br_method_field_key(f, key), method_value(f, m));
+        else if (json_is_object(group))
+            json_object_set_new(group, f->member, method_value(f, m));
+    }
+    return o;
 }
 
 json_t *br_json_provenance(const struct br_provenance *p)

@@ -1,34 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tables/report_method.h"
 
+#include <stdlib.h>
+
+#include "study/scene/method_fields.h"
+
+static struct br_value value_of(const struct br_method_field *f, const struct br_method *m,
+                                char text[BR_METHOD_VALUE])
+{
+    if (!br_method_field_reported(f, m))
+        return br_nothing();
+    br_method_field_text(f, m, text);
+    if (f == &br_method_fields[BR_METHOD_DEGREE] || (!f->words && f->range.whole))
+        return br_count((size_t)atoll(text));
+    return f->words ? br_text(text) : br_number(f->get(m));
+}
+
+/* Fields of a group are members of one object, which is null where they are not heeded. */
 void br_put_method(struct br_document *d, const char *key, const struct br_method *m)
 {
-    const struct br_kernel *kernel = br_linear_solver_kernel(m->solver, &m->linear);
-    const bool iterates = m->friction->iterates;
-    const struct {
-        const char *name;
-        struct br_value value;
-    } rows[] = {
-        {"scheme", br_text(m->scheme->name)},
-        {"tolerance", m->scheme->adaptive ? br_number(m->tolerance) : br_nothing()},
-        {"axial_degree", br_count((size_t)m->axial_degree)},
-        {"solver", br_text(m->solver->name)},
-        {"kernel", br_text(kernel ? kernel->name : NULL)},
-        {"scaling", br_text(m->linear.scaling)},
-        {"refinement", br_count((size_t)m->linear.refinement)},
-        {"contact", br_text(m->contact->name)},
-        {"friction", br_text(m->friction->name)},
-        {"iteration.parameter", br_number(m->iteration.parameter)},
-        {"iteration.tolerance", br_number(m->iteration.tolerance)},
-        {"iteration.most", br_count(m->iteration.most)},
-    };
-    const size_t all = sizeof rows / sizeof *rows;
-    char name[100];
-    for (size_t i = 0; i < (iterates ? all : all - 3); i++) {
-        snprintf(name, sizeof name, "%s.%s", key, rows[i].name);
-        br_put_fact(d, &(struct br_column){.key = name, .flags = BR_FOR_PROGRAMS}, rows[i].value);
+    const char *group = "";
+    for (const struct br_method_field *f = br_method_fields;
+         f < br_method_fields + BR_METHOD_FIELDS; f++) {
+        const bool lacks = f->group && !br_method_field_heeded(f, m);
+        char name[100], text[BR_METHOD_VALUE];
+        if (lacks && f->group == group)
+            continue;
+        group = f->group ? f->group : "";
+        snprintf(name, sizeof name, "%s.%s%s%s", key, group, f->group && !lacks ? "." : "",
+                 lacks      ? ""
+                 : f->group ? f->member
+                            : br_method_field_key(f, text));
+        br_put_fact(d, &(struct br_column){.key = name, .flags = BR_FOR_PROGRAMS},
+                    lacks ? br_nothing() : value_of(f, m, text));
     }
-    snprintf(name, sizeof name, "%s.iteration", key);
-    if (!iterates)
-        br_put_fact(d, &(struct br_column){.key = name, .flags = BR_FOR_PROGRAMS}, br_nothing());
 }

@@ -5,7 +5,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "tables/method_text.h"
+#include "study/scene/method_fields.h"
 #include "tables/report_method.h"
 
 enum { KEY = 80, LABEL = 120, VALUE = 80, SENTENCE = 1000 };

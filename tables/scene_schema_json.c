@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "study/scene/method_fields.h"
 #include "study/scene/schema.h"
 #include "study/verify/verify.h"
 #include "tables/scene_format.h"
@@ -67,34 +70,38 @@ static json_t *law(void)
 
 /* ---- verify ---- */
 
-/* The names of a registry, whose rows begin with them. */
-#define ADD_NAMES(array, type, registry)                        \
-    for (const struct type *const *row = registry; *row; row++) \
-    json_array_append_new(array, json_string((*row)->name))
+/* The rows of a registry; a number of them may be written as one. */
+static json_t *method_words(const struct br_words *words)
+{
+    json_t *names = json_array();
+    for (size_t row = 0; words->name(row); row++) {
+        if (strspn(words->name(row), "0123456789"))
+            json_array_append_new(names, json_integer(atoll(words->name(row))));
+        json_array_append_new(names, json_string(words->name(row)));
+    }
+    return json_pack("{s:o}", "enum", names);
+}
+
+static json_t *method_number(const struct br_method_field *f)
+{
+    const bool whole = f->range.whole;
+    json_t *o =
+        json_pack("{s:[s, s], s:s, s:s}", "type", whole ? "integer" : "number", "string", "pattern",
+                  whole ? "^[0-9]{1,10}$" : "^ *" NUMBER "$", "description", f->help);
+    json_object_set_new(o, whole ? "minimum" : "exclusiveMinimum", json_real(f->range.low));
+    if (isfinite(f->range.high))
+        json_object_set_new(o, whole ? "maximum" : "exclusiveMaximum", json_real(f->range.high));
+    return o;
+}
 
 static void add_methods(json_t *properties)
 {
-    json_t *scheme = json_array(), *solver = json_array(), *contact = json_array(),
-           *friction = json_array();
-    ADD_NAMES(scheme, br_time_scheme, br_time_schemes);
-    ADD_NAMES(solver, br_linear_solver, br_linear_solvers);
-    ADD_NAMES(contact, br_contact_rule, br_contact_rules);
-    ADD_NAMES(friction, br_friction_rule, br_friction_rules);
-    json_object_set_new(properties, "scheme", json_pack("{s:o}", "enum", scheme));
-    json_object_set_new(properties, "tolerance",
-                        json_pack("{s:[s, s], s:f, s:i, s:s, s:s}", "type", "number", "string",
-                                  "exclusiveMinimum", 1e-14, "exclusiveMaximum", 1, "pattern",
-                                  "^ *" NUMBER "$", "description", "of an adaptive scheme"));
-    json_object_set_new(properties, "axial_degree",
-                        json_pack("{s:[i, i, s, s]}", "enum", 1, 2, "1", "2"));
-    json_object_set_new(properties, "scaling",
-                        json_pack("{s:[s, s, s]}", "enum", "none", "sum", "max"));
-    json_object_set_new(properties, "refinement",
-                        json_pack("{s:[s, s], s:i, s:i, s:s}", "type", "integer", "string",
-                                  "minimum", 0, "maximum", 100, "pattern", "^[0-9]{1,3}$"));
-    json_object_set_new(properties, "solver", json_pack("{s:o}", "enum", solver));
-    json_object_set_new(properties, "contact", json_pack("{s:o}", "enum", contact));
-    json_object_set_new(properties, "friction", json_pack("{s:o}", "enum", friction));
+    char key[BR_METHOD_VALUE];
+    for (const struct br_method_field *f = br_method_fields;
+         f < br_method_fields + BR_METHOD_FIELDS; f++)
+        if (!f->unsaid)
+            json_object_set_new(properties, br_method_field_key(f, key),
+                                f->words ? method_words(f->words) : method_number(f));
 }
 
 /* "2 +- 0.1, at most 3e-4 m": as verify_file.c reads it. */

@@ -73,8 +73,7 @@ static void write_verify(FILE *out, const struct br_scene_key *key)
         out,
         "\n# %s: %s; without it 'beamrate check' says what it expects.\n"
         "# A line is a norm, a part (none: the total), its order, and perhaps its constant.\n"
-        "# scheme, tolerance, solver, contact, friction, axial_degree, scaling and refinement choose the\n"
-        "# method of a study.\n"
+        "# The method of a study: scheme, solver and the like, as 'beamrate help methods' lists them.\n"
         "# %s:\n",
         key->name, key->help, key->name);
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {

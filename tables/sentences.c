@@ -5,8 +5,8 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "study/scene/method_fields.h"
 #include "study/scene/quote.h"
-#include "tables/method_text.h"
 
 enum { PARAGRAPH = 4096, WIDTH = 100 };
 

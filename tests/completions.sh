@@ -41,8 +41,8 @@ commands=$("$BEAMRATE" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p
 for command in $commands; do
     offers_only "$command" beamrate "${command%?}"
     offers "$command" beamrate help ''
-    "$BEAMRATE" "$command" --help | grep -oE '^ +(-., )?--[-a-z]+(=[A-Z]+)?' | sed 's/.*--/--/' >arguments
-    grep -q -e --help arguments || failures=$((failures + 1))
+    "$BEAMRATE" "$command" --help | sed -nE 's/^ {2,6}(-., )?(--[-a-z]+)( ([A-Z]+))?.*/\2=\4/p' >arguments
+    grep -q -e --help= arguments || failures=$((failures + 1))
     [ -z "$(sort arguments | uniq -d)" ] || failures=$((failures + 1)) # each once
     while IFS='=' read -r option argument; do
         offers "$option" beamrate "$command" "$option"
@@ -52,7 +52,7 @@ for command in $commands; do
         esac
     done <arguments
 done
-names() { "$BEAMRATE" study --help | sed -n "/($1)/,/^[A-Z]/s/^  \([-a-z0-9]*\)[: ].*/\1/p"; }
+names() { "$BEAMRATE" help methods | sed -n "/^$1:/,/^[-A-Z]/s/^  \([-a-z0-9]*\)[: ].*/\1/p"; }
 for option in --scheme --contact --friction --norm --format --kernel; do
     for name in $(names "$option"); do
         offers "$name" beamrate study example1 "$option" ''
@@ -73,6 +73,8 @@ offers_only mine.yaml beamrate study mine
 offers_only '--version' beamrate --v
 offers fish beamrate completions ''
 offers_only map beamrate extremes floors ma
+offers methods beamrate help ''
+offers_only folder beamrate study -o ''
 
 if command -v fish >/dev/null; then
     # fish_offers EXPECTED LINE

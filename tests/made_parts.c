@@ -37,43 +37,35 @@ static void report_slow(const void *result, struct br_document *d)
     report(result, "slow", d);
 }
 
-static enum br_status draw_chart(struct br_extremes_picture *p, struct br_error *err)
+static void draw_curve(struct br_figure *f)
 {
-    p->chart = br_allocate(1, sizeof *p->chart);
-    if (!p->chart)
-        return br_no_memory(err, "a chart");
-    br_chart_lay_out(p->chart, 1);
-    snprintf(p->chart->stem, sizeof p->chart->stem, "fast-chart");
-    double(*point)[2] = br_chart_curve(&p->chart->panel[0], BR_STROKE_SOLID, 2, "line");
-    if (!point)
-        return br_no_memory(err, "a curve");
-    point[1][0] = point[1][1] = 1;
-    return BR_OK;
+    BR_SAY(f->stem, "fast-chart");
+    struct br_series *s = br_series_add(br_panel_add(f), BR_PEN_LINE, "line");
+    br_point_add(s, 0, 0, NULL);
+    br_point_add(s, 1, 1, NULL);
 }
 
-static enum br_status draw_heat(struct br_extremes_picture *p, struct br_error *err)
+static void draw_cells(struct br_figure *f)
 {
-    p->heat = br_allocate(1, sizeof *p->heat);
-    if (!p->heat)
-        return br_no_memory(err, "a heat map");
-    snprintf(p->heat->stem, sizeof p->heat->stem, "fast-heat");
-    p->heat->panels = 1;
-    struct br_heat_panel *panel = &p->heat->panel[0];
-    const enum br_status status = br_heat_panel_init(panel, 2, 1, err);
-    if (status)
-        return status;
+    BR_SAY(f->stem, "fast-heat");
+    struct br_panel *p = br_panel_add(f);
+    if (!br_cells_make(p, 2, 1))
+        return;
     for (int i = 0; i < 3; i++)
-        panel->x[i] = i;
-    panel->y[1] = 1;
-    panel->value[0] = 1;
-    return BR_OK;
+        p->cells.x[i] = i;
+    p->cells.y[1] = 1;
+    p->cells.value[0] = 1;
 }
 
-static enum br_status draw(const void *result, size_t i, struct br_extremes_picture *picture,
+static enum br_status draw(const void *result, size_t i, struct br_figure *figure,
                            struct br_error *err)
 {
     (void)result;
-    return i == 0 ? draw_chart(picture, err) : i == 1 ? draw_heat(picture, err) : BR_OK;
+    if (i == 0)
+        draw_curve(figure);
+    if (i == 1)
+        draw_cells(figure);
+    return br_figure_check(figure, err);
 }
 
 static enum br_status judge(const void *result, struct br_error *err)

@@ -5,7 +5,8 @@
 #define PLANTED_BUGS_H
 
 /* `beamrate COMMAND` ends with exit code 0 without the bug, and with 1 with it; or the command is a
- * test program, tests/NAME, which fails with it. The kind is what is wrong: of each kind, and of
+ * test program, tests/NAME, which fails with it; or "golden NAME", a row of golden/commands.txt,
+ * whose outputs are others with it. The kind is what is wrong: of each kind, and of
  * each file, at least one is planted by default (see is_in_sample). */
 struct planted_bug {
     const char *name, *kind, *file, *command, *text, *instead;
@@ -635,6 +636,67 @@ static const struct planted_bug planted_bugs[] = {
      "(before + (velocity ? h->unknowns[BR_AXIAL] : 0))"},
     {"spring_with_the_unit_of_a_force", "units", "study/scene/rescale.c", "tests/test_rescale",
      "spring = {0, -2, 1},", "spring = {1, -2, 1},"},
+
+    /* ---- what is printed, drawn and asked for ---- */
+    {"junit_floor_is_the_ceiling", "printed", "tables/check_junit.c", "tests/test_printed_values",
+     "number(out, \"floor\", c->expected.floor);", "number(out, \"floor\", c->expected.ceiling);"},
+    {"tap_high_is_the_low", "printed", "tables/check_tap.c", "tests/test_printed_values",
+     "print_number(out, \"high\", c->order.high);", "print_number(out, \"high\", c->order.low);"},
+    {"markdown_margin_is_the_tolerance", "printed", "tables/check_markdown.c",
+     "tests/test_printed_values", "\" %+.3f |\", c->margin);",
+     "\" %+.3f |\", c->expected.tolerance);"},
+    {"check_json_against_itself", "printed", "tables/check_json.c", "tests/test_printed_values",
+     "\"against_steps\", (json_int_t)p->against.steps", "\"against_steps\", (json_int_t)p->at.steps"},
+    {"trade_columns_exchanged", "printed", "tables/trade_csv.c", "tests/test_printed_values",
+     "relative_error,error,axial,bending,own_error,", "relative_error,error,bending,axial,own_error,"},
+    {"trade_solves_are_steps", "printed", "tables/trade_json.c", "tests/test_printed_values",
+     "put(o, \"solves\", count(c->stages));", "put(o, \"solves\", count(c->steps));"},
+    {"split_tips_exchanged", "printed", "tables/split_csv.c", "tests/test_printed_values",
+     "share,axial_tip,bending_tip", "share,bending_tip,axial_tip"},
+    {"split_floor_of_the_total", "printed", "tables/split_emitter.c", "tests/test_printed_values",
+     "line.floor[part] = share->floor[norm][part];", "line.floor[part] = share->floor[norm][0];"},
+    {"x_off_by_one_element", "printed", "tables/fields_csv.c", "tests/test_printed_values",
+     "row->time, f->h * (double)i);", "row->time, f->h * (double)(i + 1));"},
+    {"x_in_elements", "units", "tables/fields_hdf5.c", "tests/test_printed_values",
+     "f->work[i] = h * (double)i;", "f->work[i] = (double)i;"},
+    {"slope_times_h", "units", "tables/fields_file.c", "tests/test_printed_values",
+     "values[3 * nodes + i] = displacement[2 * i + 1] / field->h;",
+     "values[3 * nodes + i] = displacement[2 * i + 1];"},
+    {"history_velocities_exchanged", "printed", "tables/run_csv.c", "tests/test_printed_values",
+     "row->velocity[BR_AXIAL],\n        row->velocity[BR_BENDING],",
+     "row->velocity[BR_BENDING],\n        row->velocity[BR_AXIAL],"},
+    {"summary_has_viscosity_twice", "printed", "tables/run_json.c", "tests/test_printed_values",
+     "two(p, p->work.scheme)", "two(p, p->work.viscous)"},
+    {"cells_have_the_time_of_another_part", "printed", "tables/csv.c", "golden study",
+     "c->worst_time[BR_PART_TOTAL]", "c->worst_time[BR_PART_BENDING]"},
+    {"ratio_upside_down", "printed", "study/fit/report.c", "golden tables",
+     "r->study->cell[cell].error[BR_PART_TOTAL] / r->printed[cell]",
+     "r->printed[cell] / r->study->cell[cell].error[BR_PART_TOTAL]"},
+    {"axis_of_n", "drawn", "plots/data.c", "golden study",
+     "axis == BR_OVER_H ? br_mesh_size(scene, entry)", "axis == BR_OVER_H ? (double)entry"},
+    {"curves_of_the_total", "drawn", "plots/data.c", "golden study",
+     "is_shown(cell->error[part]) ? cell->error[part]", "is_shown(cell->error[part]) ? cell->error[0]"},
+    {"work_in_steps", "drawn", "plots/trade.c", "golden trade",
+     "(double)trial->cost.counts.stages", "(double)trial->cost.counts.steps"},
+    {"heat_cells_off_by_half", "drawn", "plots/heat.c", "tests/test_heat",
+     "return logarithmic ? sqrt(a) * sqrt(b) : (a + b) / 2;", "return a;"},
+    {"slope_lines_of_order_one", "drawn", "plots/curves.c", "golden study",
+     "(struct br_order){2, \"2  axial, P1\"}", "(struct br_order){1, \"2  axial, P1\"}"},
+    {"part_of_a_count_is_taken", "option", "study/scene/number_list.c", "golden refused",
+     " && number == floor(number)", ""},
+    {"step_that_does_not_divide", "option", "cli/run_plan.c", "golden refused",
+     "if (fabs(place - nearest) <= 1e-6)", "if (fabs(place - nearest) <= 1)"},
+    {"tolerance_goes_to_the_friction", "option", "study/scene/method_fields.c",
+     "golden run_adaptive", "NUMBER(tolerance, tolerance, double)",
+     "NUMBER(tolerance, iteration.tolerance, double)"},
+    {"reference_of_one_element_more", "option", "cli/study_request.c", "golden study_fine",
+     "r->reference_n = (size_t)n;", "r->reference_n = 2 * (size_t)n;"},
+    {"seed_is_dropped", "option", "cli/extremes.c", "golden extremes_map",
+     "*seed = value;", "*seed = value / value;"},
+    {"verdict_without_exit_code", "option", "cli/check.c", "golden check_fails",
+     "if (passed < orders)", "if (passed > orders)"},
+    {"warning_without_remedy", "option", "cli/warn.c", "golden run_warned",
+     "print_lines(w->remedy);", ""},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

@@ -14,38 +14,6 @@
     "title: a rod\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n" \
     "axial:\n  stiffness: 100 N\n  viscosity: 1 N s\n"
 
-static void test_refused(void **state)
-{
-    (void)state;
-    cli_write_file("tan.yaml", SCENE "  load: tan(pi*t) [N/m]\n");
-    cli_write_file("pole.yaml", SCENE "  load: 1/(t - 0.3333) [N/m]\n");
-    static const struct {
-        const char *line;
-        int code;
-        const char *message;
-    } rows[] = {
-        {"run tan.yaml --k 0.1", 2, "tan.yaml:8: load: it has a pole at "},
-        {"run pole.yaml --k 0.1", 2, "at t = 0.3333 s, expected a finite number everywhere"},
-        {"run exmaple2", 2, "; did you mean 'example2'?"},
-        {"study bounce", 2, "(looked for "},
-        {"run example3 --axial-degree 2", 2, "--axial-degree: no axial field is marched"},
-        {"run example3 --fields bending --axial-degree 2", 2, "--axial-degree: no axial field"},
-        {"study example3 --axial-degree 2", 2, "--axial-degree: no scene has an axial field"},
-        {"trade example1 --methods ida+umfpack", 2, "--methods: 'ida+umfpack': "},
-        {"trade example1 --methods bdf2,adaptive+uzawa+umfpack+p2+cholmod", 2, "--methods: "},
-        {"plan example1 --error 0.1 --methods ida+umfpack", 2, "--methods: 'ida+umfpack': "},
-        {"run example1 --n 1000000000 --solver banded --out never", 3,
-         "GB are available: expected"},
-        {"study example1 --n 1000000000 --solver banded --k 1 --out never", 3, "GB are available"},
-        {"trade example1 --split --methods euler+banded --n 1000000000 --k 1 --out never", 3,
-         "GB are available"},
-        {"run example1 --n 3000000 --k 1e-12 --out never", 2, "years, expected at most a hundred"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        cli_expect(rows[i].line, NULL, rows[i].code, rows[i].message);
-    assert_false(cli_is_there("never"));
-}
-
 /* What may not stand in a file's name is replaced in those of the results. */
 static void test_name(void **state)
 {
@@ -111,7 +79,6 @@ static void test_left_behind(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refused),
         cmocka_unit_test(test_name),
         cmocka_unit_test(test_warned),
         cmocka_unit_test(test_left_behind),

@@ -10,8 +10,9 @@
 
 #include "cli_driver.h"
 #include "reference/judge.h"
+#include "study/grid/norm.h"
 #include "support.h"
-#include "tables/emitter.h"
+#include "tables/document.h"
 
 /* The file without its timings: the column before the first flag. */
 static char *read_without_seconds(const char *name)
@@ -37,101 +38,6 @@ static char *read_without_seconds(const char *name)
 }
 
 #define SMALL "--n 5,10 --k 0.1,0.05 --quiet --no-plots"
-
-static void test_bad_options(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *line, *message;
-    } rows[] = {
-        {"", "Usage:"},
-        {"frobnicate", "'frobnicate' is no command"},
-        {"study", "no scene is given"},
-        {"study nowhere", "scene 'nowhere' is no file and no bundled scene"},
-        {"study example1 more", "found 'more', expected nothing more"},
-        {"tables more", "found 'more'"},
-        {"study example1 --bogus", "--bogus: unknown option"},
-        {"study example1 --n", "--n: missing argument"},
-        {"study example1 --n 0", "--n: found '0', expected positive numbers"},
-        {"study example1 --n -3", "--n: found '-3'"},
-        {"study example1 --n nan", "--n: found 'nan'"},
-        {"study example1 --n inf", "--n: found 'inf'"},
-        {"study example1 --n 2.5", "--n: found 2.5, expected whole numbers"},
-        {"study example1 --n 1e12", "--n: found 1e+12, expected whole numbers from 1 to 1e9"},
-        {"study example1 --n ''", "--n: found '', expected positive numbers"},
-        {"study example1 --n 10,", "--n: found ''"},
-        {"study example1 --n 10,10", "--n: 10 is given twice"},
-        {"study example1 --k 0", "--k: found '0'"},
-        {"study example1 --k 1e400", "--k: found '1e400'"},
-        {"study example1 --k 0.1,0.1000000000001", "--k: 0.1 is given twice"},
-        {"study example1 --k 2", "--k: k = 2 s is longer than the duration, 1 s"},
-        {"study example1 --k 0.3", "the nearest that do are 0.3333333333 and 0.25"},
-        {"study example1 --n 7 --k .1 --reference fine:100,.1",
-         "n = 7 does not nest in the reference's 100 elements; the nearest that do are 5 and 10"},
-        {"study example1 --n 10 --k .1 --reference fine:100,.04", "the nearest k that would do"},
-        {"study example1 --reference fine", "expected fine:N,K"},
-        {"study example1 --reference fine:100", "expected fine:N,K"},
-        {"study example1 --reference fine:100,", "expected fine:N,K"},
-        {"study example1 --reference fine:100,0.1x", "expected fine:N,K"},
-        {"study example1 --reference fine:0,0.1", "expected fine:N,K"},
-        {"study example1 --reference fine:100,0.3", "--reference: k = 0.3 s does not divide"},
-        {"study example1 --reference exact:3", "expected one of: exact, fine:N,K, "},
-        {"study example1 --norm l2,h1", "--norm: found 'h1', expected one of: l2, energy, tip"},
-        {"study example1 --norm tip,l2,tip", "--norm: tip is given twice"},
-        {"study example1 --norm ''", "--norm: found '', expected one of"},
-        {"study example1 --norm l2,", "--norm: found '', expected one of"},
-        {"study example1 --reference none --n 10,15", "n = 10 does not divide n = 15"},
-        {"study example1 --reference none --k .01,.004", "not all among those of k = 0.004 s"},
-        {"study example1 --reference none --n 10", "found 1 meshes and 4 time steps, expected"},
-        {"study example1 --reference guess", "--reference: found 'guess'"},
-        {"study example1 --solver lu",
-         "--solver: found 'lu', expected one of: riccati, plain, umfpack, cholmod, banded"},
-        {"study example1 --contact soft", "expected one of: lagged, implicit"},
-        {"study example1 --friction dry", "expected one of: exact, regularised"},
-        {"study example1 --format pdf", "expected one of: text, csv, markdown, latex, json"},
-        {"study example1 --scaling sum", "--scaling: solver riccati does not heed it"},
-        {"study example1 --solver cholmod --scaling sum", "solver cholmod does not heed it"},
-        {"study example1 --solver banded --scaling none", "solver banded does not heed it"},
-        {"study example1 --solver plain --refinement 1", "solver plain does not heed it"},
-        {"study example1 --solver umfpack --scaling big", "expected one of: none, sum, max"},
-        {"study example1 --solver plain --kernel portable",
-         "--kernel: solver plain does not heed it"},
-        {"study example1 --solver riccati --kernel sse2",
-         "--kernel: found 'sse2', expected one of: "},
-        {"tables --solver riccati --kernel ''", "--kernel: found '', expected one of: "},
-        {"study example1 --scheme leapfrog",
-         "--scheme: found 'leapfrog', expected one of: euler, "},
-        {"study example1 --scheme bdf2 --contact lagged",
-         "contact rule 'lagged' does not go with time scheme 'bdf2', expected 'implicit'"},
-        {"study example1 --tolerance 1e-3",
-         "--tolerance: time scheme euler does not heed it, as --scheme adaptive does"},
-        {"study example1 --scheme adaptive --tolerance 1",
-         "--tolerance: found '1', expected a number above 1e-14 and below 1"},
-        {"study example1 --scheme adaptive --tolerance nan", "--tolerance: found 'nan'"},
-        {"study example1 --friction-tolerance 1e-3",
-         "--friction-tolerance: friction rule exact does not heed it, as --friction "},
-        {"study example1 --friction uzawa --friction-parameter 2",
-         "--friction-parameter: found '2', expected a number above 0 and below 2"},
-        {"study example1 --friction penalty-duality --friction-parameter 0",
-         "--friction-parameter: found '0', expected a number above 0"},
-        {"study example1 --friction uzawa --friction-tolerance 1e-15",
-         "--friction-tolerance: found '1e-15', expected a number above 1e-14 and below 1"},
-        {"study example1 --friction-iterations 0",
-         "--friction-iterations: found '0', expected 1 or more"},
-        {"study example1 --axial-degree 3", "--axial-degree: found '3', expected 1 or 2"},
-        {"study example1 --tolernce 3", "unknown option; did you mean --tolerance?"},
-        {"study example1 --refinement -1", "--refinement: found '-1'"},
-        {"study example1 --threads -1", "--threads: found '-1'"},
-        {"study example1 --threads x",
-         "--threads: found 'x', expected a whole number from 0 to 4096"},
-        {"study example1 --out /proc/nowhere/at/all " SMALL, "--out: cannot make the folder"},
-        {"study example1 --out '' " SMALL, "--out: found ''"},
-    };
-    const size_t before = cli_count_files(".");
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        cli_expect(rows[i].line, NULL, 2, rows[i].message);
-    assert_int_equal(cli_count_files("."), before); /* nothing was begun */
-}
 
 static void test_bad_scene(void **state)
 {
@@ -257,34 +163,85 @@ static void test_norms(void **state)
     assert_true(cli_file_contains("none/example2-energy-steps.txt", "Error (25)"));
 }
 
+/* Every row of a registry, and what stands on two screens. */
 static void test_help(void **state)
 {
     (void)state;
     static struct cli_outcome out;
-    cli_run_line("--help", NULL, &out);
+    static const char *const same[] = {"--help", "-h", "help"};
+    for (size_t i = 0; i < 3; i++)
+        cli_expect(same[i], NULL, 0, "\n  tables ");
+    cli_run_line("help methods", NULL, &out);
     assert_int_equal(out.exit_code, 0);
-    assert_non_null(strstr(out.output, "tables"));
-    assert_non_null(strstr(out.output, "study"));
-    static const char *const commands[] = {"tables --help", "study --help"};
-    for (size_t i = 0; i < 2; i++) {
-        cli_run_line(commands[i], NULL, &out);
-        assert_int_equal(out.exit_code, 0);
-        assert_non_null(
-            strstr(out.output, i ? "Usage: beamrate study SCENE [" : "Usage: beamrate tables ["));
-        for (size_t j = 0; br_linear_solvers[j]; j++)
-            assert_non_null(strstr(out.output, br_linear_solvers[j]->title));
-        for (size_t j = 0; br_kernels[j]; j++)
-            assert_non_null(strstr(out.output, br_kernels[j]->name));
-        for (size_t j = 0; br_contact_rules[j]; j++)
-            assert_non_null(strstr(out.output, br_contact_rules[j]->title));
-        for (size_t j = 0; br_friction_rules[j]; j++)
-            assert_non_null(strstr(out.output, br_friction_rules[j]->title));
-        for (size_t j = 0; br_judges[j]; j++)
-            assert_non_null(strstr(out.output, br_judges[j]->title));
-        for (size_t j = 0; br_emitters[j]; j++)
-            assert_non_null(strstr(out.output, br_emitters[j]->title));
-    }
+    for (size_t j = 0; br_time_schemes[j]; j++)
+        assert_non_null(strstr(out.output, br_time_schemes[j]->title));
+    for (size_t j = 0; br_linear_solvers[j]; j++)
+        assert_non_null(strstr(out.output, br_linear_solvers[j]->title));
+    for (size_t j = 0; br_kernels[j]; j++)
+        assert_non_null(strstr(out.output, br_kernels[j]->name));
+    for (size_t j = 0; br_contact_rules[j]; j++)
+        assert_non_null(strstr(out.output, br_contact_rules[j]->title));
+    for (size_t j = 0; br_friction_rules[j]; j++)
+        assert_non_null(strstr(out.output, br_friction_rules[j]->title));
+    for (size_t j = 0; br_judges[j]; j++)
+        assert_non_null(strstr(out.output, br_judges[j]->title));
+    for (size_t j = 0; br_norms[j]; j++)
+        assert_non_null(strstr(out.output, br_norms[j]->title));
+    for (size_t j = 0; br_document_formats[j]; j++)
+        assert_non_null(strstr(out.output, br_document_formats[j]->title));
+    cli_expect("help methods", NULL, 0, "  --scaling               --solver umfpack\n");
     cli_expect("--version", NULL, 0, "beamrate ");
+}
+
+/* A command's own help: both ways to it, two screens at most, its defaults. */
+static void test_command_help(void **state)
+{
+    (void)state;
+    static const char *const commands[] = {"tables", "study",       "check",    "run",
+                                           "trade",  "plan",        "extremes", "figures",
+                                           "scenes", "completions", "help"};
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        static struct cli_outcome out, other;
+        char line[64], usage[64];
+        size_t lines = 0, width = 0;
+        snprintf(line, sizeof line, "%s -h", commands[i]);
+        snprintf(usage, sizeof usage, "Usage: beamrate %s ", commands[i]);
+        cli_run_line(line, NULL, &out);
+        assert_int_equal(out.exit_code, 0);
+        assert_int_equal(strncmp(out.output, usage, strlen(usage)), 0);
+        snprintf(line, sizeof line, "help %s", commands[i]);
+        cli_run_line(line, NULL, &other);
+        assert_string_equal(out.output, other.output);
+        for (const char *c = out.output; *c; c += strcspn(c, "\n") + 1, lines++)
+            width = strcspn(c, "\n") > width ? strcspn(c, "\n") : width;
+        assert_true(lines <= 60 && width <= 100);
+    }
+    cli_expect("study -h", NULL, 0, "elements of the meshes (default 25,50,100,200)\n");
+    cli_expect("run -h", NULL, 0, "--scheme NAME               time scheme (default euler)\n");
+    cli_expect("study -h", NULL, 0, "  -j, --threads COUNT ");
+}
+
+/* Numbers of steps, and parts of the duration, are the same cells as seconds. */
+static void test_steps(void **state)
+{
+    (void)state;
+    static char seconds[1 << 16], other[1 << 16];
+    static const char *const steps[] = {"-k 0.1,0.05", "-k T/10,T/20", "--steps 20,10"};
+    for (size_t i = 0; i < 3; i++) {
+        char line[256];
+        snprintf(line, sizeof line, "study example2 -n 5,10 %s -q --no-plots --format csv -o st",
+                 steps[i]);
+        cli_expect(line, NULL, 0, "");
+        char *text = read_without_seconds("st/example2.csv");
+        snprintf(i ? other : seconds, sizeof other, "%s", text);
+        free(text);
+        if (i)
+            assert_string_equal(seconds, other);
+    }
+    cli_expect("run example2 -n 5 -k T/10", NULL, 0, "10 steps of k = 0.1 s");
+    cli_expect("run example2 -n 5 --steps 20", NULL, 0, "20 steps of k = 0.05 s");
+    cli_expect("study example2 -n 5 -k T/10 --reference fine:10,T/20 -q --no-plots -o st", NULL, 0,
+               "");
 }
 
 static void test_data_folder(void **state)
@@ -358,12 +315,19 @@ static void test_odd_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_options), cmocka_unit_test(test_bad_scene),
-        cmocka_unit_test(test_good_run),    cmocka_unit_test(test_tables),
-        cmocka_unit_test(test_threads),     cmocka_unit_test(test_single_cell),
-        cmocka_unit_test(test_failures),    cmocka_unit_test(test_help),
-        cmocka_unit_test(test_data_folder), cmocka_unit_test(test_interrupted_plots),
-        cmocka_unit_test(test_odd_names),   cmocka_unit_test(test_norms),
+        cmocka_unit_test(test_bad_scene),
+        cmocka_unit_test(test_good_run),
+        cmocka_unit_test(test_tables),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_single_cell),
+        cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_help),
+        cmocka_unit_test(test_command_help),
+        cmocka_unit_test(test_steps),
+        cmocka_unit_test(test_data_folder),
+        cmocka_unit_test(test_interrupted_plots),
+        cmocka_unit_test(test_odd_names),
+        cmocka_unit_test(test_norms),
         cmocka_unit_test(test_kernels),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);

@@ -22,8 +22,7 @@ static struct br_old_check as_old(const struct made_check *m)
         .element_steps = m->check.element_steps,
     };
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
-        old.costs[0].method[kind] =
-            (struct br_old_method){true, "euler", "riccati", "lagged", "exact", NAN, 1, 0, "none"};
+        br_old_method_of(&m->verify.study[kind].method, &old.costs[0].method[kind]);
     for (size_t i = 0; i < old.count; i++) {
         const struct br_case *c = &m->check.cases[i];
         struct br_old_case *o = &old.cases[i];
@@ -150,33 +149,21 @@ static void test_methods(void **state)
     made_run(&m, 1);
     struct br_old_check old = as_old(&m);
     struct br_old_method *method = &old.costs[0].method[BR_VERIFY_TIME];
-    const struct br_old_method same = *method,
-                               others[] = {
-                                   {true, "bdf2", "riccati", "lagged", "exact", NAN, 1, 0, "none"},
-                                   {true, "euler", "plain", "lagged", "exact", NAN, 1, 0, "none"},
-                                   {true, "euler", "riccati", "implicit", "exact", NAN, 1, 0,
-                                    "none"},
-                                   {true, "euler", "riccati", "lagged", "regularised", NAN, 1, 0,
-                                    "none"},
-                                   {true, "euler", "riccati", "lagged", "exact", 1e-6, 1, 0,
-                                    "none"},
-                                   {true, "euler", "riccati", "lagged", "exact", NAN, 2, 0, "none"},
-                                   {true, "euler", "riccati", "lagged", "exact", NAN, 1, 1, "none"},
-                                   {true, "euler", "riccati", "lagged", "exact", NAN, 1, 0, "max"},
-                               };
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
-        *method = others[i];
-        compare(&m, &old, BR_NOTE, "made time: method");
+    const struct br_old_method same = *method;
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        strcpy(method->value[i], "another");
+        compare(&m, &old, br_method_fields[i].unsaid ? BR_SAME : BR_NOTE,
+                br_method_fields[i].unsaid ? "" : "made time: method");
+        *method = same;
     }
     *method = (struct br_old_method){0}; /* not made then */
     compare(&m, &old, BR_SAME, "");
     *method = same;
     struct br_verify_study *time = &m.verify.study[BR_VERIFY_TIME];
     time->method.scheme = br_time_scheme_find("adaptive");
-    strcpy(method->scheme, "adaptive");
-    method->tolerance = time->method.tolerance;
+    br_old_method_of(&time->method, method);
     compare(&m, &old, BR_SAME, "");
-    method->tolerance *= 2;
+    strcpy(method->value[BR_METHOD_TOLERANCE], "2e-06");
     compare(&m, &old, BR_NOTE, "made time: method");
     br_old_check_clear(&old);
     made_clear(&m);

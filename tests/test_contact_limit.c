@@ -215,11 +215,12 @@ static void test_warning(void **state)
         if (!warns(&scene, n, steps, &method, &w))
             continue;
         warned++;
-        const char *k = strstr(w.remedy, "--k "), *least = strstr(w.remedy, "stiffness of at most");
+        const char *k = strstr(w.remedy, "--k T/"),
+                   *least = strstr(w.remedy, "stiffness of at most");
         if (k) {
-            const double shorter = strtod(k + 4, NULL);
-            AT_MOST(shorter, scene.duration / (double)steps);
-            assert_false(warns(&scene, n, (size_t)lround(1 / shorter), &method, &w));
+            const double more = strtod(k + 6, NULL);
+            AT_MOST((double)steps, more);
+            assert_false(warns(&scene, n, (size_t)more, &method, &w));
             by_step++;
         }
         assert_non_null(least);

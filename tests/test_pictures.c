@@ -6,7 +6,8 @@
 #include <sys/stat.h>
 
 #include "cli_driver.h"
-#include "plots/figures.h"
+#include "plots/pictures.h"
+#include "study/paper/claims.h"
 #include "support.h"
 
 static bool has_gnuplot(void)
@@ -34,17 +35,17 @@ static void test_figures(void **state)
 {
     (void)state;
     cli_expect("figures --out figures", NULL, 0, "11 agree, 5 differ, 0 undecided");
-    for (size_t i = 0; br_figures[i]; i++) {
+    for (const struct br_paper_figure *f = br_paper_figures; f->number; f++) {
         char name[64];
         static const char *const kinds[] = {"gp", "dat", "txt", "svg", "png"};
         for (size_t k = 0; k < (has_gnuplot() ? 5 : 3); k++) {
-            snprintf(name, sizeof name, "figures/figure%d.%s", br_figures[i]->number, kinds[k]);
+            snprintf(name, sizeof name, "figures/figure%d.%s", f->number, kinds[k]);
             if (!cli_is_there(name))
                 fail_msg("%s is not there", name);
         }
-        snprintf(name, sizeof name, "figures/figure%d.txt", br_figures[i]->number);
-        assert_true(cli_file_contains(name, br_figures[i]->says));
-        snprintf(name, sizeof name, "figure%d.gp", br_figures[i]->number);
+        snprintf(name, sizeof name, "figures/figure%d.txt", f->number);
+        assert_true(cli_file_contains(name, f->says));
+        snprintf(name, sizeof name, "figure%d.gp", f->number);
         assert_true(!has_gnuplot() || is_silent("figures", name));
     }
     static const char *const tables[] = {"claims.csv", "claims.md", "claims.tex", "README.md"};

@@ -10,35 +10,6 @@
 
 #define SMALL " --methods euler+implicit,bdf2 --repeats 1 --threads 2"
 
-static void test_bad_input(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *words, *message;
-    } wrong[] = {
-        {"plan", "no scene is given"},
-        {"plan nowhere --error 1e-3", "scene 'nowhere' is no file"},
-        {"plan example1 example2 --error 1e-3", "found 'example2', expected nothing more"},
-        {"plan example1", "expected one of --error and --seconds, found none"},
-        {"plan example1 --error 1e-3 --seconds 1", "found both"},
-        {"plan example1 --error 0", "--error: found '0'"},
-        {"plan example1 --error nan", "--error: found 'nan'"},
-        {"plan example1 --error 2", "--error: found '2'"},
-        {"plan example1 --seconds -1", "--seconds: found '-1'"},
-        {"plan example1 --error 1e-3 --norm l2,tip", "--norm: found 2 norms"},
-        {"plan example1 --error 1e-3 --reference none", "--reference: found 'none'"},
-        {"plan example1 --error 1e-3 --reference fine:100,0.1", "--reference: found 'fine'"},
-        {"plan example1 --error 1e-3 --methods bdf9", "--methods: 'bdf9'"},
-        {"plan example1 --error 1e-3 --repeats 0", "--repeats: found '0'"},
-        {"plan example1 --error 1e-3 --time-limit 0", "--time-limit: found '0'"},
-        {"plan example1 --error 1e-3 --format xml", "--format: found 'xml'"},
-        {"plan example3 --error 1e-16 --out o" SMALL, "--error: example3: found 1e-16"},
-    };
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
-        cli_expect(wrong[i].words, NULL, 2, wrong[i].message);
-    assert_false(cli_is_there("o"));
-}
-
 static double number(const json_t *o, const char *key)
 {
     return json_number_value(json_object_get(o, key));
@@ -99,7 +70,6 @@ static void test_missed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_input),
         cmocka_unit_test(test_written),
         cmocka_unit_test(test_missed),
     };

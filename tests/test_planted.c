@@ -112,6 +112,13 @@ static bool is_for_a_test(const struct planted_bug *bug)
     return strncmp(bug->command, "tests/", strlen("tests/")) == 0;
 }
 
+/* The row of the golden outputs that has to see the bug; NULL: something else has to. */
+static const char *golden_row(const struct planted_bug *bug)
+{
+    const size_t size = strlen("golden ");
+    return strncmp(bug->command, "golden ", size) == 0 ? bug->command + size : NULL;
+}
+
 /* Every time the build compiles that source, for an instruction set each perhaps; and links the
  * objects before the libraries, so that they stand in for the sound ones. */
 static void build(const struct planted_bug *bug)
@@ -123,7 +130,10 @@ static void build(const struct planted_bug *bug)
     if (objects == 0)
         fail_msg("the build has no command for %s", bug->file);
     char output[256];
-    snprintf(output, sizeof output, " -o %s ", is_for_a_test(bug) ? bug->command : "cli/beamrate");
+    snprintf(output, sizeof output, " -o %s ",
+             is_for_a_test(bug) ? bug->command
+             : golden_row(bug)  ? "tests/beamrate-golden"
+                                : "cli/beamrate");
     char *link = command_with(commands, output), *rest = strstr(link, output);
     *rest = '\0';
     rest += strlen(output);
@@ -180,6 +190,17 @@ static void a_test_sees(const struct planted_bug *bug)
                  code);
 }
 
+/* Its exit code is 1 where something differs. That nothing does without the bug is another test. */
+static void golden_outputs_see(const struct planted_bug *bug)
+{
+    const char *source = environment("BEAMRATE_SOURCE");
+    const int code = run("BEAMRATE_DATA='%s' BEAMRATE=%s/planted timeout 120 "
+                         "'%s/tests/golden/run.sh' %s >%s/log 2>&1",
+                         source, folder, source, golden_row(bug), folder);
+    if (code != 1)
+        fail_msg("%s: %s: exit code %d, expected 1: another output", bug->name, bug->command, code);
+}
+
 static void bug_is_caught(void **state)
 {
     const struct planted_bug *bug = *state;
@@ -189,6 +210,8 @@ static void bug_is_caught(void **state)
     build(bug);
     if (is_for_a_test(bug))
         a_test_sees(bug);
+    else if (golden_row(bug))
+        golden_outputs_see(bug);
     else
         a_command_sees(bug);
 }

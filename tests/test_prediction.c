@@ -459,6 +459,42 @@ static void test_unseen(void **state)
     assert_null(br_warnings_find(&w, BR_WARN_INITIAL));
 }
 
+/* A layer at the tip that is far narrower than any element: what it moves grows with each finer
+ * mesh. By the exact solutions, L2, relative to the largest. */
+static void test_thin_layers(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        size_t n, steps;
+        double off;
+    } rows[] = {
+        {"length: 1 m\nduration: 0.005 s\ndensity: 1e5 kg/m\naxial:\n  stiffness: 0 N\n"
+         "  viscosity: 0.002 N s\n  tip_force: 2e-4*(exp(t/0.005) - 1) [N]\n"
+         "  displacement: -4e-7*x [m]",
+         1, 2, 2e-4},
+        {"length: 2e4 m\nduration: 2e-6 s\ndensity: 0.2 kg/m\nbending:\n  stiffness: 0 N m^2\n"
+         "  viscosity: 1000 N m^2 s\n  load: 3e-6*sin(pi*x/2e4)*(exp(t/2e-6) - 1) [N/m]\n"
+         "  tip_moment: -200 [N m]",
+         136, 267, 4.1e3},
+    };
+    const struct br_method method = br_method_default();
+    struct br_error err = {0};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[1000];
+        struct br_scene s;
+        struct br_prediction p;
+        snprintf(text, sizeof text, "title: t\n%s\n", rows[i].text);
+        MUST(br_scene_read_text("layer", text, &s, &err));
+        const struct br_outlook o = {
+            .scene = &s, .method = &method, .n = rows[i].n, .steps = rows[i].steps};
+        MUST(br_predict(&o, &p, &err));
+        if (!(!p.known || p.whole.high >= rows[i].off))
+            fail_msg("row %zu: at most %g, is %g", i, p.whole.high, rows[i].off);
+        br_scene_clear(&s);
+    }
+}
+
 /* Of each kind the first is kept, the others are counted. */
 static void test_list(void **state)
 {
@@ -486,6 +522,7 @@ int main(void)
         cmocka_unit_test(test_blow),         cmocka_unit_test(test_short_blows),
         cmocka_unit_test(test_layer),        cmocka_unit_test(test_extrapolated),
         cmocka_unit_test(test_says_unknown), cmocka_unit_test(test_unseen),
+        cmocka_unit_test(test_thin_layers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -312,9 +312,9 @@ static void is_read(const char *text)
     assert_string_equal(old.costs[1].scene, "refused");
     assert_true(m->known);
     assert_false(old.costs[0].method[BR_VERIFY_SPACE].known);
-    assert_string_equal(m->scheme, "adaptive");
-    assert_string_equal(m->solver, "banded");
-    CLOSE(m->tolerance, 0.0625, 0);
+    assert_string_equal(m->value[BR_METHOD_SCHEME], "adaptive");
+    assert_string_equal(m->value[BR_METHOD_SOLVER], "banded");
+    assert_string_equal(m->value[BR_METHOD_TOLERANCE], "0.0625");
     br_old_check_clear(&old);
 }
 

@@ -14,66 +14,6 @@
     "title: a rod\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n" \
     "axial:\n  stiffness: 100 N\n  viscosity: 1 N s\n  load: 10*t [N/m]\n"
 
-static void test_bad_input(void **state)
-{
-    (void)state;
-    cli_write_file("rod.yaml", SCENE);
-    cli_write_file("pole.yaml", SCENE "  tip_force: 1/(1 - t) [N]\n");
-    cli_write_file("clamp.yaml", SCENE "  displacement: x + 1 [m]\n");
-    cli_write_file("gap.yaml", SCENE "contact:\n  gap: -1 m\n  stiffness: 1 N/m\n");
-    cli_write_file("word.yaml", SCENE "  tip_force: sin(t [N]\n");
-    static const struct {
-        const char *line, *message;
-    } rows[] = {
-        {"run", "no scene is given"},
-        {"run nowhere", "scene 'nowhere' is no file and no bundled scene"},
-        {"run rod.yaml --solvr plain", "--solver"},
-        {"figures --ouf x", "--out"},
-        {"run rod.yaml more", "found 'more', expected nothing more"},
-        {"run pole.yaml", "pole.yaml:9: tip_force: found inf at t = 1 s, expected a finite number"},
-        {"run clamp.yaml", "clamp.yaml:9: displacement: initial axial displacement is 1 at x = 0"},
-        {"run gap.yaml", "gap.yaml:10: gap: found -1 m, expected a value >= 0 m"},
-        {"run word.yaml", "word.yaml:9: tip_force: 'sin(t' is no expression in x and t"},
-        {"run rod.yaml --n 0", "--n: found '0'"},
-        {"run rod.yaml --n 1.5", "--n: found 1.5, expected whole numbers"},
-        {"run rod.yaml --n 10,20", "--n: found '10,20', expected one number of elements"},
-        {"run rod.yaml --k 0.3", "the nearest that do are 0.3333333333 and 0.25"},
-        {"run rod.yaml --k 0", "--k: found '0', expected one time above 0"},
-        {"run rod.yaml --k 1e-3m", "--k: found '1e-3m'"},
-        {"run rod.yaml --k 0.1,0.2", "--k: found '0.1,0.2'"},
-        {"run rod.yaml --solver magic", "--solver: found 'magic'"},
-        {"run rod.yaml --scaling sum", "--scaling: solver riccati does not heed it"},
-        {"run rod.yaml --fields u", "--fields: found 'u', expected axial, bending or"},
-        {"run rod.yaml --fields bending", "the scene has no bending part"},
-        {"run example2 --fields bending", "Coulomb's friction bound"},
-        {"run rod.yaml --at 0.1", "--at needs --out"},
-        {"run rod.yaml --every 0.1", "--every needs --out"},
-        {"run rod.yaml --at 0 --every 1 --out r", "--at and --every are given"},
-        {"run rod.yaml --at 2 --out r", "--at: found 2 s, expected a time of [0, 1] s"},
-        {"run rod.yaml --at 0,-0.5 --out r", "--at: found -0.5 s, expected a time of [0, 1] s"},
-        {"run rod.yaml --at nan --out r", "--at: found 'nan'"},
-        {"run rod.yaml --at 0.5, --out r", "--at: found ''"},
-        {"run rod.yaml --at 0.5,0.5 --out r", "--at: 0.5 s is given twice"},
-        {"run rod.yaml --at 0.0005 --out r",
-         "expected a multiple of k = 0.001 s; the nearest are 0 s and 0.001 s"},
-        {"run rod.yaml --every 2 --out r", "--every: found 2 s, expected a time of [0, 1] s"},
-        {"run rod.yaml --every 0 --out r", "--every: found '0'"},
-        {"run rod.yaml --every 1e-12 --out r", "--every: found '1e-12', expected a multiple of k"},
-        {"run rod.yaml --out . --json history.csv", "outside of the folder of --out"},
-        {"run rod.yaml --out r --json r", "outside of the folder of --out"},
-        {"run rod.yaml --animate m.gif --json m.dat", "which --animate m.gif writes too"},
-        {"run rod.yaml --every 1e-4 --out r", "--every: found 0.0001 s, expected a multiple"},
-        {"run rod.yaml --rows 1 --out r", "--rows: found '1', expected 2 or more"},
-        {"run rod.yaml --json rod.yaml", "--json would replace the scene rod.yaml"},
-        {"run rod.yaml --json no/such/x", "--json: cannot write 'no/such/x'"},
-        {"run rod.yaml --out ''", "--out: found ''"},
-        {"run rod.yaml --bogus", "--bogus: unknown option"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        cli_expect(rows[i].line, NULL, 2, rows[i].message);
-    assert_false(cli_is_there("r"));
-}
-
 static void test_summary(void **state)
 {
     (void)state;
@@ -267,11 +207,10 @@ static void test_warnings(void **state)
     assert_int_equal(out.exit_code, 0);
     assert_true(cli_file_contains("errors.txt", "beamrate: warning: the predicted discretisation "
                                                 "error at n = 100, k = 1 s is 0."));
-    assert_true(cli_file_contains("errors.txt", "; remedy: --k "));
-    assert_non_null(strstr(out.output, " before the march: "));
-    assert_null(strstr(out.output, "the predicted discretisation error")); /* it stands once */
+    assert_true(cli_file_contains("errors.txt", "; remedy:\n    --k T/"));
+    assert_null(strstr(out.output, "Warning: ")); /* it stands once */
     assert_true(cli_file_contains("warned/summary.txt", "Warning: the predicted discretisation"));
-    assert_true(cli_file_contains("warned/summary.txt", "\nRemedy:\n  --k "));
+    assert_true(cli_file_contains("warned/summary.txt", "\nRemedy:\n  --k T/"));
     json_t *root = json_loads(cli_read("warned.json"), 0, NULL);
     const json_t *list = look_up(root, "tables.warnings");
     const char *last = "";
@@ -290,7 +229,7 @@ static void test_warnings(void **state)
     cli_run_line("run example2 --n 3200 --k 0.001 --solver banded", &apart, &out);
     assert_int_equal(out.exit_code, 0);
     assert_true(cli_file_contains("errors.txt", "round-off of --solver banded at n = 3200"));
-    assert_true(cli_file_contains("errors.txt", "--solver riccati ("));
+    assert_true(cli_file_contains("errors.txt", "\n    --solver riccati  # "));
     cli_run_line("run example2", &apart, &out);
     assert_int_equal(out.exit_code, 0);
     assert_false(cli_file_contains("errors.txt", "warning"));
@@ -324,7 +263,8 @@ static void test_contact_limit(void **state)
     cli_write_file("stiff.yaml", stiff);
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         cli_expect(lines[i], NULL, 0, "the lagged contact is beyond its stability limit");
-        cli_expect(lines[i], NULL, 0, "remedy: --contact implicit has no limit; or time steps of");
+        cli_expect(lines[i], NULL, 0,
+                   "; remedy:\n    --contact implicit  # has no limit\n    --k T/");
     }
     cli_expect("run stiff.yaml --n 4 --k 0.1 --quiet --json unknown.json", NULL, 0,
                "the discretisation error at n = 4, k = 0.1 s is not known: the lagged contact is "
@@ -338,7 +278,7 @@ static void test_contact_limit(void **state)
     const char *k = strstr(out.output, "--k ");
     assert_non_null(k);
     char line[128];
-    snprintf(line, sizeof line, "run stiff.yaml --n 4 --quiet %.*s", (int)strcspn(k, ";"), k);
+    snprintf(line, sizeof line, "run stiff.yaml --n 4 --quiet %.*s", (int)strcspn(k, "#\n"), k);
     cli_run_line(line, NULL, &out);
     assert_int_equal(out.exit_code, 0);
     assert_null(strstr(out.output, "stability limit"));
@@ -349,11 +289,10 @@ static void test_contact_limit(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_input),     cmocka_unit_test(test_summary),
-        cmocka_unit_test(test_json),          cmocka_unit_test(test_files),
-        cmocka_unit_test(test_middles),       cmocka_unit_test(test_blow_up),
-        cmocka_unit_test(test_interrupt),     cmocka_unit_test(test_warnings),
-        cmocka_unit_test(test_contact_limit),
+        cmocka_unit_test(test_summary),  cmocka_unit_test(test_json),
+        cmocka_unit_test(test_files),    cmocka_unit_test(test_middles),
+        cmocka_unit_test(test_blow_up),  cmocka_unit_test(test_interrupt),
+        cmocka_unit_test(test_warnings), cmocka_unit_test(test_contact_limit),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

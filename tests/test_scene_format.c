@@ -193,23 +193,6 @@ static void test_list(void **state)
     br_scene_list_free(name, count);
 }
 
-static void test_wrong_words(void **state)
-{
-    (void)state;
-    cli_expect("scenes nowhere", NULL, 2, "scene 'nowhere' is no file and no bundled scene");
-    cli_expect("scenes example1 example2", NULL, 2, "found 'example2', expected nothing more");
-    cli_expect("scenes example1 --schema", NULL, 2, "expected one of: a scene, --new, --schema");
-    cli_expect("scenes --new", NULL, 2, "--new: missing argument");
-    cli_expect("scenes --shema", NULL, 2, "--shema: unknown option; did you mean --schema?");
-    cli_expect("stduy example1", NULL, 2, "'stduy' is no command; did you mean 'study'?");
-    cli_expect("study example1 --contct=x", NULL, 2, "unknown option; did you mean --contact?");
-    cli_expect("check example1 --jnuit x", NULL, 2, "unknown option; did you mean --junit?");
-    cli_expect("help scenes", NULL, 0, "Usage: beamrate scenes");
-    cli_expect("-h", NULL, 0, "Usage: beamrate COMMAND");
-    cli_expect("completions", NULL, 2, "expected one shell: bash|zsh|fish");
-    cli_expect("completions tcsh", NULL, 2, "found 'tcsh', expected one shell");
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -218,7 +201,6 @@ int main(void)
         cmocka_unit_test(test_template),
         cmocka_unit_test(test_template_replaces_nothing),
         cmocka_unit_test(test_list),
-        cmocka_unit_test(test_wrong_words),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

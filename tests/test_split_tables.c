@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parts of an error that are made up, in every format of the registry, read back; and the chart. */
+/* Parts of an error that are made up, in every format of the registry, read back; and the figure.
+ */
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "plots/split.h"
-#include "support.h"
+#include "figure_check.h"
+#include "plots/pictures.h"
+#include "study/trade/split.h"
 #include "tables/split_emitter.h"
 
 enum { RUNS = 4 };
@@ -176,35 +178,42 @@ static void test_json(void **state)
     free(csv);
 }
 
-static void test_chart(void **state)
+static void test_figure(void **state)
 {
     (void)state;
     struct br_error err = {0};
     struct sample s;
-    struct br_chart chart;
+    struct br_figure f;
     sample_init(&s);
-    MUST(br_split_chart(s.split, RUNS, &chart, &err));
-    assert_int_equal(chart.panels, 2);
+    MUST(br_split_draw(s.split, RUNS, &f, &err));
+    assert_int_equal(f.panels, 2);
     for (size_t i = 0; i < 2; i++) {
-        const struct br_panel *p = &chart.panel[i];
-        assert_int_equal(p->curves,
-                         5); /* of six parts one is none, one below its floor; the whole */
-        assert_string_equal(p->curve[1].title, "lag");
-        assert_int_equal(p->curve[1].count, 2);
-        assert_true(p->curve[1].point[0][0] == 0.001 && p->curve[1].point[1][0] == 0.1);
-        assert_true(p->curve[1].point[1][1] == s.split[0].share[3].error[0][BR_PART_TOTAL]);
-        assert_string_equal(p->curve[4].title, "whole");
+        const struct br_panel *p = &f.panel[i];
+        const struct br_split *coarse = &s.split[2 * i], *fine = coarse + 1;
+        figure_axes(p, "time step k (s)", "error (31) (m^{3/2})");
         assert_non_null(strstr(p->title, i ? "implicit" : "lagged"));
+        assert_int_equal(p->count,
+                         5); /* of six parts one is none, one below its floor; the whole */
+        for (size_t part = 2; part < coarse->shares; part++) {
+            const struct br_series *curve = figure_series(p, br_sources[part]->name);
+            figure_point(curve, 0, 0.001, fine->share[part].error[0][BR_PART_TOTAL]);
+            figure_point(curve, 1, 0.1, coarse->share[part].error[0][BR_PART_TOTAL]);
+            assert_int_equal(curve->hue, part + 1); /* the same in both panels */
+        }
+        figure_point(figure_series(p, "whole"), 1, 0.1, coarse->whole.error[0][BR_PART_TOTAL]);
     }
-    assert_true(chart.panel[0].y_low == chart.panel[1].y_low);
-    FILE *script = tmpfile(); /* a pen for every curve: sanitizers see one too many */
-    assert_non_null(script);
-    br_chart_write_script(script, &chart);
-    assert_int_equal(fclose(script), 0);
-    br_chart_clear(&chart);
-    MUST(br_split_chart(s.split, 1, &chart, &err)); /* nothing to draw over */
-    assert_int_equal(chart.panels, 0);
-    br_chart_clear(&chart);
+    figure_check(&f);
+    br_figure_clear(&f);
+    for (size_t i = 0; i < RUNS; i++) { /* over h, where they differ by nothing else */
+        s.split[i].at = (struct br_resolution){i % 2 ? 40 : 10, 10};
+    }
+    MUST(br_split_draw(s.split, RUNS, &f, &err));
+    figure_axes(&f.panel[1], "mesh size h (m)", "error (31) (m^{3/2})");
+    figure_point(figure_series(&f.panel[1], "lag"), 0, s.scene.length / 40,
+                 s.split[3].share[3].error[0][BR_PART_TOTAL]);
+    br_figure_clear(&f);
+    MUST(br_split_draw(s.split, 1, &f, &err)); /* nothing to draw over */
+    assert_int_equal(f.panels, 0);
 }
 
 int main(void)
@@ -213,7 +222,7 @@ int main(void)
         cmocka_unit_test(test_texts),
         cmocka_unit_test(test_missing),
         cmocka_unit_test(test_json),
-        cmocka_unit_test(test_chart),
+        cmocka_unit_test(test_figure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The part `stability` of extremes: the matrix of a step, what marches say of the limit, a verdict
- * that sees what is wrong, its report and its heat map. */
+ * that sees what is wrong, its report and its figure. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "plots/extremes_stability.h"
+#include "figure_check.h"
+#include "plots/pictures.h"
 #include "solver/contact_limit.h"
 #include "study/extremes/step_matrix.h"
 #include "study/grid/observer.h"
@@ -203,28 +204,29 @@ static void test_report(void **state)
     br_document_clear(&d);
 }
 
-static void test_heat(void **state)
+static void test_figure(void **state)
 {
     (void)state;
-    static char text[1 << 18];
     struct br_error err = {0};
-    struct br_heat heat;
-    MUST(br_extremes_stability_draw(&found, &heat, &err));
-    assert_int_equal(heat.panels, BR_STABILITY_RODS);
-    for (size_t i = 0; i < heat.panels; i++) {
-        const struct br_heat_panel *p = &heat.panel[i];
-        for (size_t j = 0; j < p->columns; j++)
-            assert_true(p->x[j] < found.stiffness[j] && found.stiffness[j] < p->x[j + 1]);
-        for (size_t j = 0; j < p->rows; j++)
-            assert_true(p->y[j] < found.plane[i].row[j].k && found.plane[i].row[j].k < p->y[j + 1]);
-        CLOSE(p->line[0].point[1][0], found.plane[i].row[1].limit, 0);
-        CLOSE(p->line[0].point[1][1], found.plane[i].row[1].k, 0);
+    struct br_figure f;
+    MUST(br_stability_draw(&found, &f, &err));
+    assert_int_equal(f.panels, BR_STABILITY_RODS);
+    for (size_t i = 0; i < f.panels; i++) {
+        const struct br_cells *c = &f.panel[i].cells;
+        const struct br_stability_plane *plane = &found.plane[i];
+        figure_axes(&f.panel[i], "c_H (N/m)", "k (s)");
+        for (size_t j = 0; j < c->columns; j++)
+            assert_true(c->x[j] < found.stiffness[j] && found.stiffness[j] < c->x[j + 1]);
+        for (size_t j = 0; j < c->rows; j++) {
+            assert_true(c->y[j] < plane->row[j].k && plane->row[j].k < c->y[j + 1]);
+            figure_point(figure_series(&f.panel[i], "predicted limit"), j, plane->row[j].limit,
+                         plane->row[j].k);
+            figure_point(f.panel[i].series[1], j, plane->row[j].bouncing, plane->row[j].k);
+        }
+        assert_memory_equal(c->value, plane->radius, c->rows * c->columns * sizeof *c->value);
     }
-    FILE *file = fmemopen(text, sizeof text, "w");
-    br_heat_write_script(file, &heat);
-    assert_int_equal(fclose(file), 0);
-    assert_non_null(strstr(text, "predicted limit"));
-    br_heat_clear(&heat);
+    figure_check(&f);
+    br_figure_clear(&f);
 }
 
 int main(void)
@@ -234,7 +236,7 @@ int main(void)
         cmocka_unit_test(test_found),    cmocka_unit_test(test_verdict),
         cmocka_unit_test(test_bounce),   cmocka_unit_test(test_planted_limit),
         cmocka_unit_test(test_refusals), cmocka_unit_test(test_interrupted),
-        cmocka_unit_test(test_report),   cmocka_unit_test(test_heat),
+        cmocka_unit_test(test_report),   cmocka_unit_test(test_figure),
     };
     return cmocka_run_group_tests(tests, run_small, clear);
 }

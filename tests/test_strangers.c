@@ -96,7 +96,7 @@ static size_t files_seen;
 
 static int look_at_file(const char *path, const struct stat *info, int kind, struct FTW *place)
 {
-    static const char *const binary[] = {".png", ".svg", ".h5", ".yaml"};
+    static const char *const binary[] = {".png", ".svg", ".pdf", ".h5", ".yaml"};
     (void)info;
     if (strncmp(path + place->base, "MARK", 4) == 0)
         fail_msg("%s: something was run", path);
@@ -205,7 +205,7 @@ static int draw_script(const char *path, const struct stat *info, int kind, stru
     if (strstr(name, "-h.") || strstr(name, "-work.")) /* as -k, and as -schemes */
         return 0;
     snprintf(command, sizeof command,
-             "cd '%s' && sed \"s/'svg png'/'svg'/\" '%s' | '%s' --default-settings 2>&1", folder,
+             "cd '%s' && sed \"s/'svg png pdf'/'svg'/\" '%s' | '%s' --default-settings 2>&1", folder,
              name, getenv("GNUPLOT"));
     FILE *pipe = popen(command, "r");
     char said[256] = "";

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every emitter of the registry, read back, and the plots' files. */
+/* Every emitter of the registry, read back; and scripts that are rendered side by side. */
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "plots/plots.h"
+#include "plots/render.h"
 #include "support.h"
 #include "tables/emitter.h"
 
@@ -336,57 +336,6 @@ static bool is_there(const char *folder, const char *name)
     return stat(path, &info) == 0 && info.st_size > 0;
 }
 
-static void remove_folder(const char *folder)
-{
-    for (const struct br_plot *const *p = br_plots; *p; p++) {
-        static const char *const endings[] = {"gp", "dat", "svg", "png"};
-        for (size_t i = 0; i < 4; i++) {
-            char path[256];
-            snprintf(path, sizeof path, "%s/sample-%s.%s", folder, (*p)->name, endings[i]);
-            remove(path);
-        }
-    }
-    assert_int_equal(rmdir(folder), 0); /* and nothing else was in it */
-}
-
-/* Written with data beside it; drawn where gnuplot is; and told where it is not. */
-static void test_plots(void **state)
-{
-    (void)state;
-    struct br_error err = {0};
-    struct sample s;
-    char folder[64];
-    sample_init(&s, true);
-    make_folder(folder);
-    for (const struct br_plot *const *p = br_plots; *p; p++) {
-        char script[128], data[128], picture[128];
-        bool missing = false;
-        assert_true((*p)->applies(&s.report));
-        MUST(br_plot_file(*p, &s.report, "gp", script, sizeof script, &err));
-        MUST(br_plot_file(*p, &s.report, "dat", data, sizeof data, &err));
-        MUST(br_plot_file(*p, &s.report, "png", picture, sizeof picture, &err));
-        MUST(br_plot_write(*p, &s.report, folder, &err));
-        assert_true(is_there(folder, script) && is_there(folder, data));
-        const enum br_status status = br_plot_render(folder, script, &missing, &err);
-        if (!missing) {
-            MUST(status);
-            assert_true(is_there(folder, picture));
-        }
-    }
-    char *path = strdup(getenv("PATH"));
-    bool missing = false;
-    setenv("PATH", "/dev/null", 1);
-    REFUSED(br_plot_render(folder, "sample-h.gp", &missing, &err), BR_IO, "gnuplot");
-    setenv("PATH", path, 1);
-    free(path);
-    assert_true(missing);
-    remove_folder(folder);
-    s.report.name = "../evil";
-    char script[128];
-    REFUSED(br_plot_file(br_plots[0], &s.report, "gp", script, sizeof script, &err), BR_BAD_INPUT,
-            "evil");
-}
-
 static void write_script(const char *folder, const char *name, const char *text)
 {
     char path[256];
@@ -395,6 +344,18 @@ static void write_script(const char *folder, const char *name, const char *text)
     assert_non_null(out);
     fputs(text, out);
     assert_int_equal(fclose(out), 0);
+}
+
+static void check_missing(const char *folder)
+{
+    struct br_error err = {0};
+    bool missing = false;
+    char *path = strdup(getenv("PATH"));
+    setenv("PATH", "/dev/null", 1);
+    REFUSED(br_plot_render(folder, "s0.gp", &missing, &err), BR_IO, "gnuplot");
+    setenv("PATH", path, 1);
+    free(path);
+    assert_true(missing);
 }
 
 /* More scripts than are rendered at once; one fails, the others are done all the same, and the
@@ -427,6 +388,7 @@ static void test_renderer(void **state)
     if (!absent)
         REFUSED(br_renderer_finish(&renderer, &err), BR_IO, script);
     assert_int_equal(renderer.count, 0);
+    check_missing(folder);
     for (int i = 0; i < SCRIPTS; i++) {
         static const char *const endings[] = {"png", "svg", "gp"};
         const bool drawn = !absent && i != BAD && i != SCRIPTS - 1;
@@ -437,28 +399,7 @@ static void test_renderer(void **state)
             remove(path);
         }
     }
-    remove_folder(folder);
-}
-
-/* The data of "error against h" hold every error that is a number. */
-static void test_plot_data(void **state)
-{
-    (void)state;
-    struct sample s;
-    sample_init(&s, false);
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    br_plot_find("h")->write_data(out, &s.report);
-    fclose(out);
-    for (size_t i = 0; i < CELLS; i++) {
-        char number[32];
-        snprintf(number, sizeof number, "%.17g", s.cell[i].error[0]);
-        if (isfinite(s.cell[i].error[0]))
-            assert_non_null(strstr(text, number));
-    }
-    assert_non_null(strstr(text, "NaN"));
-    free(text);
+    assert_int_equal(rmdir(folder), 0);
 }
 
 int main(void)
@@ -466,8 +407,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_csv),       cmocka_unit_test(test_json),
         cmocka_unit_test(test_latex),     cmocka_unit_test(test_text_and_markdown),
-        cmocka_unit_test(test_one_field), cmocka_unit_test(test_plots),
-        cmocka_unit_test(test_renderer),  cmocka_unit_test(test_plot_data),
+        cmocka_unit_test(test_one_field), cmocka_unit_test(test_renderer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,47 +12,6 @@
 
 #define SMALL "--n 10,20 --k 0.1,0.05 --tolerances 1e-3 --repeats 1 --threads 2"
 
-static void test_bad_input(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *words, *message;
-    } wrong[] = {
-        {"trade", "no scene is given"},
-        {"trade nowhere", "scene 'nowhere' is no file"},
-        {"trade example1 example1", "scene example1 is given twice"},
-        {"trade example1 --methods bdf9",
-         "--methods: 'bdf9': found 'bdf9', expected a time scheme"},
-        {"trade example1 --methods ''", "--methods: '': found ''"},
-        {"trade example1 --methods bdf2,bdf2", "--methods: bdf2 is given twice"},
-        {"trade example1 --methods bdf2+lagged", "--methods: 'bdf2+lagged'"},
-        {"trade example1 --n 10,x", "--n: found 'x'"},
-        {"trade example1 --n 0", "--n"},
-        {"trade example1 --k 0.3", "--k: example1: k = 0.3 s does not divide"},
-        {"trade example1 --k 0.1,0.1000000000001", "--k: 0.1 is given twice"},
-        {"trade example1 --k nan", "--k: found 'nan'"},
-        {"trade example1 --tolerances 0", "--tolerances"},
-        {"trade example1 --tolerances 1e-3,1", "--tolerances: found 1, expected numbers above"},
-        {"trade example1 --tolerances 1e-20", "--tolerances: found 1e-20, expected numbers"},
-        {"trade example1 --methods bdf2 --tolerances 1e-3", "--tolerances: no method"},
-        {"trade example1 --methods adaptive --k 0.1", "--k: no method"},
-        {"trade example1 --norm l3", "--norm: found 'l3'"},
-        {"trade example1 --norm l2,tip", "--norm: found 2 norms, expected one"},
-        {"trade example1 --reference none", "--reference: found 'none'"},
-        {"trade example1 --reference fine:7", "--reference: found 'fine:7'"},
-        {"trade example1 --repeats 0", "--repeats: found '0'"},
-        {"trade example1 --repeats 1.5", "--repeats: found '1.5'"},
-        {"trade example1 --time-limit 0", "--time-limit: found '0'"},
-        {"trade example1 --time-limit nan", "--time-limit: found 'nan'"},
-        {"trade example1 --format xml", "--format: found 'xml'"},
-        {"trade example1 --threads -1", "--threads"},
-        {"trade example1 --metods bdf2", "--methods"},
-    };
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
-        cli_expect(wrong[i].words, NULL, 2, wrong[i].message);
-    assert_false(cli_is_there("trade"));
-}
-
 /* What the finest march does not see of a load is told before, whichever way it is marched. */
 static void test_loads(void **state)
 {
@@ -247,11 +206,10 @@ static void test_interrupt(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_loads),          cmocka_unit_test(test_bad_input),
-        cmocka_unit_test(test_formats_agree),  cmocka_unit_test(test_rules),
-        cmocka_unit_test(test_over_the_limit), cmocka_unit_test(test_unstable),
-        cmocka_unit_test(test_zero_solution),  cmocka_unit_test(test_several_scenes),
-        cmocka_unit_test(test_interrupt),
+        cmocka_unit_test(test_loads),          cmocka_unit_test(test_formats_agree),
+        cmocka_unit_test(test_rules),          cmocka_unit_test(test_over_the_limit),
+        cmocka_unit_test(test_unstable),       cmocka_unit_test(test_zero_solution),
+        cmocka_unit_test(test_several_scenes), cmocka_unit_test(test_interrupt),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

@@ -25,7 +25,7 @@ LEFT_TO_THE_PROGRAM = [
     "errors, expected at least", "does not divide", "time levels of", "expected meshes and one",
     "expected one mesh and", "expected as many meshes", "both lists from coarse",
     "nothing is expected", "an order > 0", "a tolerance below", "a constant", "contradict",
-    "does not go with time scheme", "does not heed it",
+    "does not go with time scheme", "does not heed it", "friction_parameter: found",
 ]
 
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "study/extremes/case.h"
+#include "study/scene/method_fields.h"
 #include "study/scene/schema.h"
 
 struct text {
@@ -145,31 +146,19 @@ void br_extreme_scene(const struct br_extreme_case *c, char text[BR_EXTREME_TEXT
         add(&t, "  regularisation: %.17g m/s\n", c->regularisation);
 }
 
-static bool heeds(const struct br_method *m, const char *option)
-{
-    return br_linear_solver_heeds(m->solver, option);
-}
-
 /* What the program takes: no option that the method does not heed, and every number to its last
  * bit. */
 void br_extreme_command(const struct br_extreme_case *c, const char *name,
                         char text[BR_EXTREME_COMMAND])
 {
     struct text t = {text, BR_EXTREME_COMMAND};
-    const struct br_method *m = &c->method;
-    const bool chosen = m->scheme->adaptive || m->scheme->integrator;
-    add(&t, "beamrate run %s%s --n %zu --k %.17g --scheme %s --solver %s --contact %s", name,
-        m->scheme->integrator ? "" : " --check", c->n, c->duration / (double)c->steps,
-        m->scheme->name, m->solver->name, m->contact->name);
-    add(&t, " --friction %s", m->friction->name);
-    if (m->axial_degree != 1 && c->part[BR_AXIAL].modelled)
-        add(&t, " --axial-degree %d", m->axial_degree);
-    if (chosen)
-        add(&t, " --tolerance %.17g", m->tolerance);
-    if (m->linear.refinement && heeds(m, "--refinement"))
-        add(&t, " --refinement %d", m->linear.refinement);
-    if (m->linear.scaling && heeds(m, "--scaling"))
-        add(&t, " --scaling %s", m->linear.scaling);
+    char options[BR_METHOD_TEXT];
+    const struct br_scene scene = {.axial.modelled = c->part[BR_AXIAL].modelled,
+                                   .contact.modelled = c->contact,
+                                   .friction.law = c->law};
+    add(&t, "beamrate run %s%s --n %zu --steps %zu%s", name,
+        c->method.scheme->integrator ? "" : " --check", c->n, c->steps,
+        br_method_options(&scene, &c->method, options));
     if (c->wanted)
         add(&t, " --fields axial,bending");
 }

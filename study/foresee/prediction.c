@@ -96,10 +96,33 @@ static void bracket(double observed, double q, double spoilt, double order[3])
 
 /* ---- the run itself ---- */
 
+/* How deep what happens at an end reaches into a field by t = T, by waves and by diffusion, m. */
+static double layer(const struct br_scene *s, int kind)
+{
+    const bool axial = kind == BR_AXIAL;
+    const double stiffness = axial ? s->axial.stiffness : s->bending.stiffness;
+    const double viscosity = axial ? s->axial.viscosity : s->bending.viscosity;
+    const double waves = sqrt(stiffness / s->density) * s->duration;
+    const double spread = viscosity * s->duration / s->density;
+    if (s->density == 0)
+        return INFINITY;
+    return axial ? waves + sqrt(spread) : sqrt(waves) + pow(spread, 0.25);
+}
+
+/* What a force at the tip moves on elements of h far wider than the layer weighs as much as an
+ * element: by how much the layer itself moves further, in L2. The worst is a force on a rod, whose
+ * tip moves by 1/h, and a moment on a beam, by 1/h^2. */
+static double unresolved(const struct br_scene *s, int kind, size_t n)
+{
+    const double wide = br_mesh_size(s, n) / layer(s, kind);
+    return pow(fmax(1, wide), kind == BR_AXIAL ? 0.5 : 1.5);
+}
+
 /* How far a reference may be off, of whose elements or steps two cells have 1/a and 1/b and these
  * distances from it: by the order q with (a^q - 1) / (b^q - 1) as their ratio. Where a layer is
- * narrower than all of them, finer ones change little, and the order is next to nothing. */
-static double reference_error(double coarse, double a, double finer, double b)
+ * narrower than all of them, finer ones change little, or ever more, and nothing converges: then
+ * the layer may be off by `unseen` times that. */
+static double reference_error(double coarse, double a, double finer, double b, double unseen)
 {
     double low = lowest_order, high = highest_order;
     for (int i = 0; i < 30; i++) {
@@ -109,7 +132,7 @@ static double reference_error(double coarse, double a, double finer, double b)
         else
             high = q;
     }
-    return of_check * finer / (pow(b, low) - 1);
+    return of_check * finer / (pow(b, low) - 1) * (low > lowest_order ? 1 : unseen);
 }
 
 /* What steps by a tolerance gather, in tolerances, where no switch is in the way. */
@@ -126,11 +149,12 @@ static double whole_reference_error(const struct br_probe *p, int kind)
     const double in_time =
         p->study.reference_method.scheme->adaptive
             ? fmax(of_check * steps, gathered * tolerance * p->study.reference_size[kind])
-            : reference_error(cell_error(p, BR_WHOLE_TIME, kind), shorter, steps, 2);
+            : reference_error(cell_error(p, BR_WHOLE_TIME, kind), shorter, steps, 2, 1);
     const double finer = fmax(0, cell_error(p, BR_WHOLE_CHECK, kind) - steps);
     const double coarse = fmax(0, cell_error(p, BR_WHOLE_SPACE, kind) - steps);
     const double a = (double)p->study.reference.n / (double)p->n[BR_WHOLE_RUN];
-    return in_time + reference_error(coarse, a, finer, 2);
+    return in_time +
+           reference_error(coarse, a, finer, 2, unresolved(&p->scene, kind, p->study.reference.n));
 }
 
 /* A cell's distance from the reference, and how sure that is. */
@@ -188,7 +212,7 @@ static struct br_predicted measured_time(const struct br_probe *p, int kind)
 {
     const double e = cell_error(p, 0, kind);
     const double finer = p->study.k_count > 1 ? cell_error(p, 1, kind) : e / 2;
-    return around(e, reference_error(e, p->ratio, finer, 3));
+    return around(e, reference_error(e, p->ratio, finer, 3, 1));
 }
 
 static struct br_predicted extrapolated_time(const struct br_probe *p, const struct br_outlook *o,
@@ -237,15 +261,19 @@ static struct br_predicted space_error(const struct br_probe_set *s, int kind)
         return measured(s, BR_WHOLE_SPACE, kind);
     const double q = kind == BR_AXIAL ? s->outlook->method->axial_degree + 1 : 4;
     const double fine = cell_error(p, p->study.n_count - 1, kind);
+    const double unseen = unresolved(s->outlook->scene, kind, p->study.reference.n);
     if (fine == 0) /* not modelled, or at rest */
         return (struct br_predicted){.order = NAN};
     if (p->measured)
         return around(cell_error(p, 0, kind),
-                      reference_error(cell_error(p, 0, kind), p->ratio, fine, 2));
+                      reference_error(cell_error(p, 0, kind), p->ratio, fine, 2, unseen));
     const double observed = observed_order(cell_error(p, 0, kind), fine);
     double order[3];
     bracket(observed, q, q, order);
-    return by_orders(fine / (1 - pow(p->ratio, -fmax(order[1], least_order))), p->beyond, order);
+    struct br_predicted e =
+        by_orders(fine / (1 - pow(p->ratio, -fmax(order[1], least_order))), p->beyond, order);
+    e.high *= order[0] > 0 ? 1 : unseen;
+    return e;
 }
 
 /* ---- both ---- */

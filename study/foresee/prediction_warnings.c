@@ -31,13 +31,12 @@ static void round_off_remedy(const struct br_outlook *o, double floor, char reme
     other.linear.refinement = 2;
     int used = 0;
     if (least < floor / 2)
-        used = snprintf(remedy, 400, "--solver %s (%.1e)", br_linear_solvers[0]->name, least);
+        used = snprintf(remedy, 400, "--solver %s  # %.1e\n", br_linear_solvers[0]->name, least);
     if (heeds_refinement(&other) && o->method->linear.refinement < 2 &&
         br_predict_round_off(&alternative) < floor / 2)
-        used += snprintf(remedy + used, 400 - (size_t)used, "%s--refinement 2 (%.1e)",
-                         used ? ", or " : "", br_predict_round_off(&alternative));
-    snprintf(remedy + used, 400 - (size_t)used, "%sfewer elements, which round-off grows with",
-             used ? ", or " : "");
+        used += snprintf(remedy + used, 400 - (size_t)used, "--refinement 2  # %.1e\n",
+                         br_predict_round_off(&alternative));
+    snprintf(remedy + used, 400 - (size_t)used, "fewer elements, which round-off grows with");
 }
 
 static void warn_of_round_off(const struct br_outlook *o, const struct br_prediction *p,
@@ -107,9 +106,9 @@ static void accuracy_remedy(const struct br_outlook *o, const struct br_predicti
         used =
             snprintf(remedy, 400, "--tolerance %.1g", o->method->tolerance * aim / p->time.error);
     else if (p->time.error > aim && isfinite(steps_needed(o, p)))
-        used = snprintf(remedy, 400, "--k %.10g", o->scene->duration / steps_needed(o, p));
+        used = snprintf(remedy, 400, "--k T/%.0f", steps_needed(o, p));
     if (p->space.error > aim && isfinite(elements_needed(o, p)))
-        snprintf(remedy + used, 400 - (size_t)used, "%s--n %.0f", used ? " and " : "",
+        snprintf(remedy + used, 400 - (size_t)used, "%s--n %.0f", used ? " " : "",
                  elements_needed(o, p));
 }
 

@@ -78,7 +78,7 @@ static enum br_status look(const struct br_outlook *o, struct br_warnings *w, st
         snprintf(found, sizeof found,
                  "; on a coarse mesh it gains %.2g %% of what is put into the axial field",
                  100 * share);
-    br_warn(w, BR_WARN_BOUNCE, "--contact implicit, which gains none",
+    br_warn(w, BR_WARN_BOUNCE, "--contact implicit  # gains none",
             "the lagged contact may gain energy as it opens and closes: with k = %.4g s it is sure "
             "not to up to a stiffness of %.4g N/m, the scene has %g N/m%s",
             field.k, br_contact_limit_bouncing(&field), o->scene->contact.stiffness, found);

@@ -30,12 +30,11 @@ static void remedy(const struct br_outlook *o, const struct br_field *field, cha
 {
     const double longest = br_contact_limit_step(field, o->scene->contact.stiffness);
     const double steps = br_round_steps(o->scene->duration / longest);
-    int length = snprintf(text, 400, "--contact implicit has no limit; ");
+    int length = snprintf(text, 400, "--contact implicit  # has no limit\n");
     if (longest > 0 && isfinite(steps))
         length += snprintf(text + length, 400 - (size_t)length,
-                           "or time steps of at most %.4g s, as --k %.12g; ", cut(longest),
-                           o->scene->duration / steps);
-    snprintf(text + length, 400 - (size_t)length, "or a contact stiffness of at most %.4g N/m",
+                           "--k T/%.0f  # time steps of at most %.4g s\n", steps, cut(longest));
+    snprintf(text + length, 400 - (size_t)length, "a contact stiffness of at most %.4g N/m",
              cut(br_contact_limit_stiffness(field)));
 }
 

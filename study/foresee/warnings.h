@@ -29,7 +29,8 @@ const char *br_warning_word(enum br_warning_kind kind);
 struct br_warning {
     enum br_warning_kind kind;
     char text[400];   /* what will happen, with the figures; no full stop */
-    char remedy[400]; /* what to do instead, as the command line's options; "": nothing known */
+    char remedy[400]; /* what to do instead: alternatives, a line each, options that can be typed
+                         where there are some, with "  # why"; "": nothing known */
     size_t more;      /* marches of the same study with a warning of this kind */
 };
 

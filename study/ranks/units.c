@@ -16,7 +16,7 @@ static double march_ns(const struct br_method *method)
 {
     static const struct {
         const char *solver;
-        double ns; /* README, "The linear solvers" */
+        double ns; /* docs/methods.md, "Linear solvers" */
     } known[] = {{"lanes", 4}, {"riccati", 13}, {"umfpack", 85}, {"cholmod", 100}, {"banded", 100}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strcmp(method->solver->name, known[i].solver) == 0)

@@ -3,7 +3,7 @@
 
 #include <ctype.h>
 #include <math.h>
-#include <stdbool.h>
+#include <stdio.h>
 
 enum { MOST = 1024 };
 
@@ -14,6 +14,40 @@ const char *br_read_number(const char *text, double *value)
     char *end;
     *value = strtod(text, &end);
     return end != text && isfinite(*value) ? end : NULL;
+}
+
+static enum br_status not_in_range(const char *text, const struct br_number_range *r,
+                                   struct br_error *err)
+{
+    char below[32] = "";
+    if (r->whole)
+        return br_fail(err, BR_BAD_INPUT, "found '%s', expected a whole number from %.0f to %.0f",
+                       text, r->low, r->high);
+    if (isfinite(r->high))
+        snprintf(below, sizeof below, " and below %g", r->high);
+    return br_fail(err, BR_BAD_INPUT, "found '%s', expected a number above %g%s", text, r->low,
+                   below);
+}
+
+enum br_status br_read_in_range(const char *text, const struct br_number_range *r, double *value,
+                                struct br_error *err)
+{
+    double number = NAN;
+    const char *end = br_read_number(text, &number);
+    const bool inside = r->whole ? number >= r->low && number <= r->high && number == floor(number)
+                                 : number > r->low && number < r->high;
+    if (!end || *end || !inside)
+        return not_in_range(text, r, err);
+    *value = number;
+    return BR_OK;
+}
+
+const char *br_shortest(double number, char *text, size_t size)
+{
+    snprintf(text, size, "%.15g", number);
+    if (strtod(text, NULL) != number)
+        snprintf(text, size, "%.17g", number);
+    return text;
 }
 
 static bool contains(const double *values, size_t count, double value)

@@ -5,119 +5,31 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "solver/method.h"
+#include "study/scene/method_fields.h"
 
 enum { WORD = 32 };
 
 /* ---- the words of a name ---- */
 
-/* A kind of words: take sets what the word means, if it is one of them; row i is a word, NULL
- * behind the last. */
-struct kind {
-    const char *title;
-    bool (*take)(const char *word, struct br_method *method);
-    const char *(*row)(size_t i);
-};
+/* The words of a name are rows of the registries, and the words that a field has for its values. */
+static const struct br_method_field *const kinds[] = {
+    &br_method_fields[BR_METHOD_SCHEME],    &br_method_fields[BR_METHOD_CONTACT],
+    &br_method_fields[BR_METHOD_FRICTION],  &br_method_fields[BR_METHOD_SOLVER],
+    &br_method_fields[BR_METHOD_DEGREE],    &br_method_fields[BR_METHOD_SCALING],
+    &br_method_fields[BR_METHOD_REFINEMENT]};
+enum { CONTACT = 1, KINDS = sizeof kinds / sizeof *kinds };
 
-static bool take_scheme(const char *word, struct br_method *m)
+/* Word i of a kind; NULL: behind the last. */
+static const char *word_of(const struct br_method_field *f, size_t i, double *value)
 {
-    const struct br_time_scheme *found = br_time_scheme_find(word);
-    m->scheme = found ? found : m->scheme;
-    return found;
+    *value = f->word ? f->word[i].value : (double)i;
+    return f->word ? f->word[i].word : f->words->name(i);
 }
 
-static bool take_contact(const char *word, struct br_method *m)
+static const char *title_of(const struct br_method_field *f)
 {
-    const struct br_contact_rule *found = br_contact_rule_find(word);
-    m->contact = found ? found : m->contact;
-    return found;
+    return f->words_title ? f->words_title : f->title;
 }
-
-static bool take_friction(const char *word, struct br_method *m)
-{
-    const struct br_friction_rule *found = br_friction_rule_find(word);
-    m->friction = found ? found : m->friction;
-    return found;
-}
-
-static bool take_solver(const char *word, struct br_method *m)
-{
-    const struct br_linear_solver *found = br_linear_solver_find(word);
-    m->solver = found ? found : m->solver;
-    return found;
-}
-
-static bool take_degree(const char *word, struct br_method *m)
-{
-    if (strcmp(word, "p1") != 0 && strcmp(word, "p2") != 0)
-        return false;
-    m->axial_degree = word[1] - '0';
-    return true;
-}
-
-static bool take_scaling(const char *word, struct br_method *m)
-{
-    if (strcmp(word, "scaled") != 0)
-        return false;
-    m->linear.scaling = "sum";
-    return true;
-}
-
-static bool take_refinement(const char *word, struct br_method *m)
-{
-    if (strcmp(word, "refined") != 0)
-        return false;
-    m->linear.refinement = 2;
-    return true;
-}
-
-static const char *scheme_row(size_t i)
-{
-    return br_time_schemes[i] ? br_time_schemes[i]->name : NULL;
-}
-
-static const char *contact_row(size_t i)
-{
-    return br_contact_rules[i] ? br_contact_rules[i]->name : NULL;
-}
-
-static const char *friction_row(size_t i)
-{
-    return br_friction_rules[i] ? br_friction_rules[i]->name : NULL;
-}
-
-static const char *solver_row(size_t i)
-{
-    return br_linear_solvers[i] ? br_linear_solvers[i]->name : NULL;
-}
-
-static const char *degree_row(size_t i)
-{
-    static const char *const words[] = {"p1", "p2", NULL};
-    return words[i];
-}
-
-static const char *scaling_row(size_t i)
-{
-    return i == 0 ? "scaled" : NULL;
-}
-
-static const char *refinement_row(size_t i)
-{
-    return i == 0 ? "refined" : NULL;
-}
-
-enum { SCHEME, CONTACT, FRICTION, SOLVER, DEGREE, SCALING, REFINEMENT, KINDS };
-
-static const struct kind kinds[KINDS] = {
-    [SCHEME] = {"time scheme", take_scheme, scheme_row},
-    [CONTACT] = {"contact", take_contact, contact_row},
-    [FRICTION] = {"friction", take_friction, friction_row},
-    [SOLVER] = {"linear solver", take_solver, solver_row},
-    [DEGREE] = {"axial elements", take_degree, degree_row},
-    [SCALING] = {"rows scaled by their sums", take_scaling, scaling_row},
-    [REFINEMENT] = {"two refinement steps a solve", take_refinement, refinement_row},
-};
 
 size_t br_contender_kinds(void)
 {
@@ -127,20 +39,33 @@ size_t br_contender_kinds(void)
 const char *br_contender_kind(size_t kind, char *words, size_t size)
 {
     size_t used = 0;
+    double value;
+    const char *word;
     words[0] = '\0';
-    for (size_t i = 0; kinds[kind].row(i) && used < size; i++)
-        used +=
-            (size_t)snprintf(words + used, size - used, "%s%s", i ? ", " : "", kinds[kind].row(i));
-    return kinds[kind].title;
+    for (size_t i = 0; (word = word_of(kinds[kind], i, &value)) && used < size; i++)
+        used += (size_t)snprintf(words + used, size - used, "%s%s", i ? ", " : "", word);
+    return title_of(kinds[kind]);
 }
 
 /* ---- names ---- */
+
+static bool take(const struct br_method_field *f, const char *word, struct br_method *m)
+{
+    const char *name;
+    double value;
+    size_t i = 0;
+    while ((name = word_of(f, i, &value)) && strcmp(name, word) != 0)
+        i++;
+    if (name)
+        f->set(m, value);
+    return name;
+}
 
 static enum br_status take_word(const char *word, struct br_method *m, bool taken[KINDS],
                                 struct br_error *err)
 {
     size_t i = 0;
-    while (i < KINDS && !kinds[i].take(word, m))
+    while (i < KINDS && !take(kinds[i], word, m))
         i++;
     if (i == KINDS)
         return br_fail(err, BR_BAD_INPUT,
@@ -149,7 +74,7 @@ static enum br_status take_word(const char *word, struct br_method *m, bool take
                        word);
     if (taken[i])
         return br_fail(err, BR_BAD_INPUT, "found '%s', but the %s is given already", word,
-                       kinds[i].title);
+                       title_of(kinds[i]));
     taken[i] = true;
     return BR_OK;
 }
@@ -189,10 +114,10 @@ static enum br_status check_somewhere(const struct br_method *m, struct br_error
 static enum br_status check(const struct br_method *m, const bool taken[KINDS],
                             struct br_error *err)
 {
-    if (taken[SCALING] && !br_linear_solver_heeds(m->solver, "--scaling"))
-        return br_fail(err, BR_BAD_INPUT, "solver %s does not heed 'scaled'", m->solver->name);
-    if (taken[REFINEMENT] && !br_linear_solver_heeds(m->solver, "--refinement"))
-        return br_fail(err, BR_BAD_INPUT, "solver %s does not heed 'refined'", m->solver->name);
+    for (size_t i = 0; i < KINDS; i++)
+        if (taken[i] && kinds[i]->word && !br_method_field_heeded(kinds[i], m))
+            return br_fail(err, BR_BAD_INPUT, "solver %s does not heed '%s'", m->solver->name,
+                           kinds[i]->word[0].word);
     const enum br_status status = br_method_check(m, err);
     return status ? status : check_somewhere(m, err);
 }
@@ -227,18 +152,10 @@ enum br_status br_contender_read(const char *name, struct br_contender *c, struc
 
 /* ---- lists ---- */
 
-static bool same_method(const struct br_method *a, const struct br_method *b)
-{
-    return a->scheme == b->scheme && a->solver == b->solver && a->contact == b->contact &&
-           a->friction == b->friction && a->axial_degree == b->axial_degree &&
-           strcmp(a->linear.scaling, b->linear.scaling) == 0 &&
-           a->linear.refinement == b->linear.refinement;
-}
-
 static bool contains(const struct br_contenders *all, const struct br_contender *c)
 {
     for (size_t i = 0; i < all->count; i++)
-        if (same_method(&all->list[i].method, &c->method))
+        if (br_methods_equal(&all->list[i].method, &c->method))
             return true;
     return false;
 }

@@ -7,8 +7,6 @@
 
 const char *const br_severity_names[] = {"same", "note", "warning", "serious"};
 
-enum { METHOD_PARTS = 6 }; /* differences that a method may have */
-
 /* Where each severity begins: a shift of the order in tolerances, factors otherwise. */
 static const double order_steps[] = {0.01, 0.25, 1};
 static const double constant_steps[] = {1.001, 1.05, 2};
@@ -189,44 +187,31 @@ static void report_lost(struct br_comparison *out, const struct br_check *checks
 
 /* ---- methods ---- */
 
+void br_old_method_of(const struct br_method *m, struct br_old_method *old)
+{
+    *old = (struct br_old_method){.known = true};
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
+        if (br_method_field_reported(&br_method_fields[i], m))
+            br_method_field_text(&br_method_fields[i], m, old->value[i]);
+}
+
 /* Another method is no fault, but may be why other things have moved. */
 static void compare_method(struct br_comparison *out, const struct br_check *check,
                            enum br_verify_kind kind, const struct br_old_method *old)
 {
-    const struct br_method *m = &check->verify->study[kind].method;
-    const double tolerance = m->scheme->adaptive ? m->tolerance : NAN;
     struct br_difference d = {.before = NAN, .now = NAN, .severity = BR_NOTE};
+    struct br_old_method now;
+    br_old_method_of(&check->verify->study[kind].method, &now);
     snprintf(d.subject, sizeof d.subject, "%.100s %s: method", check->scene->name,
              br_verify_names[kind]);
-    const char *const words[][3] = {
-        {"scheme", old->scheme, m->scheme->name},
-        {"solver", old->solver, m->solver->name},
-        {"contact", old->contact, m->contact->name},
-        {"friction", old->friction, m->friction->name},
-        {"scaling", old->scaling, m->linear.scaling},
-    };
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        snprintf(d.remark, sizeof d.remark, "%s %s before, %s now", words[i][0], words[i][1],
-                 words[i][2]);
-        if (strcmp(words[i][1], words[i][2]) != 0)
-            add(out, &d);
-    }
-    snprintf(d.remark, sizeof d.remark, "tolerance %g before, %g now", old->tolerance, tolerance);
-    if (factor(old->tolerance, tolerance) != 1)
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        const struct br_method_field *f = &br_method_fields[i];
+        const char *a = old->value[i], *b = now.value[i];
+        if (f->unsaid || strcmp(a, b) == 0)
+            continue;
+        snprintf(d.remark, sizeof d.remark, "%s %.40s before, %.40s now", f->name,
+                 *a ? a : "not heeded", *b ? b : "not heeded");
         add(out, &d);
-    const struct {
-        const char *name;
-        double before;
-        int now;
-    } numbers[] = {
-        {"axial degree", old->axial_degree, m->axial_degree},
-        {"refinement", old->refinement, m->linear.refinement},
-    };
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
-        snprintf(d.remark, sizeof d.remark, "%s %g before, %d now", numbers[i].name,
-                 numbers[i].before, numbers[i].now);
-        if (numbers[i].before != numbers[i].now)
-            add(out, &d);
     }
 }
 
@@ -290,7 +275,7 @@ enum br_status br_compare(const struct br_check *checks, size_t count, bool whol
     *out = (struct br_comparison){0};
     size_t most = old->count;
     for (size_t i = 0; i < count; i++)
-        most += 4 * checks[i].count + (2 + BR_VERIFY_KINDS * METHOD_PARTS) * old->scenes;
+        most += 4 * checks[i].count + (2 + BR_VERIFY_KINDS * BR_METHOD_FIELDS) * old->scenes;
     out->difference = br_allocate(most + 1, sizeof *out->difference);
     if (!out->difference)
         return br_no_memory(err, "the comparison");

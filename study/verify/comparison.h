@@ -4,6 +4,7 @@
 #ifndef BR_STUDY_VERIFY_COMPARISON_H
 #define BR_STUDY_VERIFY_COMPARISON_H
 
+#include "study/scene/method_fields.h"
 #include "study/verify/check.h"
 
 enum br_severity {
@@ -22,14 +23,14 @@ struct br_old_case {
     enum br_verdict verdict;
 };
 
-/* The method of a study; what a report from before it had a choice does not say is the default. */
+/* The method of a study, each field as br_method_field_text has it; "": it was not heeded. */
 struct br_old_method {
     bool known; /* the study was made */
-    char scheme[32], solver[32], contact[32], friction[32];
-    double tolerance; /* of an adaptive scheme; NaN: it is none */
-    double axial_degree, refinement;
-    char scaling[32];
+    char value[BR_METHOD_FIELDS][BR_METHOD_VALUE];
 };
+
+/* What a method is to a later check (out). */
+void br_old_method_of(const struct br_method *m, struct br_old_method *old);
 
 /* And what one of its scenes cost. */
 struct br_old_cost {

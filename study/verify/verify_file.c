@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/scene/method_fields.h"
 #include "study/scene/number_list.h"
-#include "study/verify/verify_method.h"
 
 /* One study on its way: its lists are put together when both are known. */
 struct block {
@@ -16,12 +16,24 @@ struct block {
     size_t *n, n_count, n_line; /* as given; line 0: not yet */
     double *k;
     size_t k_count, k_line;
-    struct br_verify_method method;
+    const char *text[BR_METHOD_FIELDS]; /* of the method; NULL: not given */
+    size_t line[BR_METHOD_FIELDS];
 };
 
-static const char expected_study[] =
-    "n, k, scheme, tolerance, solver, contact, friction, axial_degree, scaling, refinement, or a norm "
-    "(l2, energy, tip) and a part (axial, bending; without one: the total)";
+/* The keys of a study, for messages. */
+static const char *expected_study(void)
+{
+    static char text[512];
+    size_t used = (size_t)snprintf(text, sizeof text, "n, k, ");
+    char key[BR_METHOD_VALUE];
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
+        if (!br_method_fields[i].unsaid)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s, ",
+                                     br_method_field_key(&br_method_fields[i], key));
+    snprintf(text + used, sizeof text - used,
+             "or a norm (l2, energy, tip) and a part (axial, bending; without one: the total)");
+    return text;
+}
 
 /* `inner` as a refusal at a line. */
 static enum br_status pass_on(const struct br_scene_reader *r, size_t line, const char *key,
@@ -173,7 +185,7 @@ static enum br_status read_expectation(struct block *b, const char *what, const 
     struct br_expectation e = {.line = line};
     if (!parse_what(what, &e))
         return br_scene_refuse(b->r, line, what, "unknown key in verify %s, expected %s",
-                               br_verify_names[b->kind], expected_study);
+                               br_verify_names[b->kind], expected_study());
     if (!parse_expectation(br_yaml_text(node), &e))
         return br_scene_refuse(
             b->r, line, what,
@@ -189,12 +201,18 @@ static enum br_status read_expectation(struct block *b, const char *what, const 
 
 /* ---- a study ---- */
 
+static bool is_key(const struct br_method_field *f, const char *key)
+{
+    char name[BR_METHOD_VALUE];
+    return !f->unsaid && strcmp(br_method_field_key(f, name), key) == 0;
+}
+
 static enum br_status read_key(struct block *b, const yaml_node_t *name, const yaml_node_t *value)
 {
     if (name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE)
         return br_scene_refuse(b->r, br_yaml_line(name), br_verify_names[b->kind],
                                "found a list or a mapping, expected one line each of %s",
-                               expected_study);
+                               expected_study());
     const char *key = br_yaml_text(name);
     const bool is_n = strcmp(key, "n") == 0;
     if (is_n || strcmp(key, "k") == 0) {
@@ -202,18 +220,34 @@ static enum br_status read_key(struct block *b, const yaml_node_t *name, const y
             return br_scene_refuse(b->r, br_yaml_line(name), key, "given twice");
         return is_n ? read_meshes(b, value) : read_steps(b, value);
     }
-    bool is_method;
-    const enum br_status status = br_verify_method_read(b->r, key, value, &b->method, &is_method);
-    return is_method ? status : read_expectation(b, key, value);
+    size_t field = 0;
+    while (field < BR_METHOD_FIELDS && !is_key(&br_method_fields[field], key))
+        field++;
+    if (field == BR_METHOD_FIELDS)
+        return read_expectation(b, key, value);
+    if (b->text[field])
+        return br_scene_refuse(b->r, br_yaml_line(name), key, "given twice");
+    b->text[field] = br_yaml_text(value);
+    b->line[field] = br_yaml_line(value);
+    return BR_OK;
 }
 
-static enum br_status end_method(struct block *b)
+/* The fields one by one, which say in what line they are refused, then all together. */
+static enum br_status read_method(struct block *b)
 {
+    struct br_method *m = &b->study->method;
+    const struct br_method *const methods[] = {m};
     struct br_error inner = {0};
-    if (br_verify_method_end(&b->method, &inner))
-        return pass_on(b->r, b->study->line, br_verify_names[b->kind], &inner);
-    b->study->method = b->method.method;
-    return BR_OK;
+    char key[BR_METHOD_VALUE];
+    *m = br_method_default();
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
+        if (b->text[i] && br_method_field_read(&br_method_fields[i], b->text[i], m, &inner))
+            return pass_on(b->r, b->line[i], br_method_field_key(&br_method_fields[i], key),
+                           &inner);
+    enum br_status status = br_method_read(b->text, BR_METHOD_IN_SCENE, m, &inner);
+    if (!status)
+        status = br_method_check_heeded(b->text, BR_METHOD_IN_SCENE, methods, 1, &inner);
+    return status ? pass_on(b->r, b->study->line, br_verify_names[b->kind], &inner) : BR_OK;
 }
 
 static enum br_status read_block(struct block *b, const yaml_node_t *node)
@@ -223,10 +257,9 @@ static enum br_status read_block(struct block *b, const yaml_node_t *node)
     if (b->study->line)
         return br_scene_refuse(r, br_yaml_line(node), name, "given twice");
     b->study->line = br_yaml_line(node);
-    b->method.method = br_method_default();
     if (node->type != YAML_MAPPING_NODE)
         return br_scene_refuse(r, br_yaml_line(node), name, "expected a mapping with %s",
-                               expected_study);
+                               expected_study());
     enum br_status status = BR_OK;
     for (yaml_node_pair_t *p = node->data.mapping.pairs.start;
          p < node->data.mapping.pairs.top && !status; p++)
@@ -236,7 +269,7 @@ static enum br_status read_block(struct block *b, const yaml_node_t *node)
         status =
             br_scene_refuse(r, b->study->line, b->n_line ? "k" : "n", "missing in verify %s", name);
     if (!status)
-        status = end_method(b);
+        status = read_method(b);
     if (!status)
         status = check_counts(b);
     return status ? status : make_cells(b);

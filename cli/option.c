@@ -1,0 +1,350 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/option.h"
+
+#include <errno.h>
+#include <math.h>
+#include <popt.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/command.h"
+#include "study/grid/study.h"
+#include "study/scene/nearest.h"
+
+/* ---- what is refused ---- */
+
+/* The command that takes an option which this one does not; NULL: none. */
+static const struct br_command *who_takes(const char *name)
+{
+    struct br_option row[BR_OPTIONS];
+    for (const struct br_command *const *c = br_commands; *c; c++)
+        for (size_t i = 0, count = br_options_of(*c, row); i < count; i++)
+            if (strcmp(row[i].name, name) == 0)
+                return *c;
+    return NULL;
+}
+
+static enum br_status refuse(poptContext context, const struct br_option *row, size_t count,
+                             int code, struct br_error *err)
+{
+    const char *names[BR_OPTIONS], *bad = poptBadOption(context, POPT_BADOPTION_NOALIAS);
+    char word[64];
+    const char *begin = bad + strspn(bad, "-");
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(begin, "="), begin);
+    for (size_t i = 0; i < count; i++)
+        names[i] = row[i].name;
+    const bool unknown = code == POPT_ERROR_BADOPT;
+    const struct br_command *other = unknown && strncmp(bad, "--", 2) == 0 ? who_takes(word) : NULL;
+    if (other)
+        return br_fail(err, BR_BAD_INPUT, "%s: %s; it is one of 'beamrate %s'", bad,
+                       poptStrerror(code), other->name);
+    const char *nearest = unknown ? br_nearest(word, names, count) : NULL;
+    if (nearest)
+        return br_fail(err, BR_BAD_INPUT, "%s: %s; did you mean --%s?", bad, poptStrerror(code),
+                       nearest);
+    return br_fail(err, BR_BAD_INPUT, "%s: %s; '--help' lists the options", bad,
+                   poptStrerror(code));
+}
+
+/* ---- times ---- */
+
+const char *br_read_time(const char *text, double duration, double *seconds)
+{
+    const char *rest = text + strspn(text, " ");
+    if (*rest == 'T') {
+        double parts = 1;
+        if (*++rest == '/')
+            rest = br_read_number(rest + 1, &parts);
+        *seconds = duration / parts;
+        if (!rest || !(parts > 0))
+            return NULL;
+    } else {
+        rest = br_read_number(rest, seconds);
+        if (!rest)
+            return NULL;
+        rest += strspn(rest, " ");
+        rest += *rest == 's';
+    }
+    rest += strspn(rest, " ");
+    return *rest == '\0' || *rest == ',' ? rest : NULL;
+}
+
+static enum br_status check_times(const struct br_option *row, const char *text,
+                                  struct br_error *err)
+{
+    const bool one = strcmp(row->argument, "LIST") != 0;
+    for (const char *rest = text;; rest++) {
+        double seconds;
+        const char *end = br_read_time(rest, 1, &seconds);
+        if (!end || !(seconds > 0) || (one && *end))
+            return br_fail(err, BR_BAD_INPUT, "found '%s', expected %s", rest,
+                           one ? "one time above 0, like 1e-3 or T/1000"
+                               : "times above 0 separated by commas, like 0.1,T/20");
+        rest = end;
+        if (!*rest)
+            return BR_OK;
+    }
+}
+
+enum br_status br_read_step(const char *option, const char *text, const struct br_scene *scene,
+                            size_t *steps, struct br_error *err)
+{
+    double k = NAN;
+    struct br_error inner = {0};
+    br_read_time(text, scene->duration, &k);
+    if (br_steps_of(scene, k, steps, &inner))
+        return br_fail(err, BR_BAD_INPUT, "%s: %s", option, inner.message);
+    return BR_OK;
+}
+
+static enum br_status read_steps(const char *text, const struct br_scene *scene, size_t *steps,
+                                 size_t *count, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (const char *rest = text; !status; rest += strcspn(rest, ",") + 1) {
+        status = br_read_step("--k", rest, scene, &steps[*count], err);
+        for (size_t i = 0; i < *count && !status; i++)
+            if (steps[i] == steps[*count])
+                status = br_fail(err, BR_BAD_INPUT, "--k: %g is given twice",
+                                 br_time_step(scene, steps[i]));
+        ++*count;
+        if (!strchr(rest, ','))
+            break;
+    }
+    return status;
+}
+
+enum br_status br_option_steps(const struct br_options *o, const struct br_scene *scene,
+                               size_t **steps, size_t *count, struct br_error *err)
+{
+    const char *text = o->text[BR_OPT_K];
+    if (br_option_given(o, BR_OPT_STEPS))
+        return br_option_counts(o, BR_OPT_STEPS, steps, count, err);
+    *steps = NULL;
+    *count = 0;
+    if (!text)
+        return BR_OK;
+    if (!(*steps = br_allocate(strlen(text) + 1, sizeof **steps)))
+        return br_no_memory(err, "the time steps");
+    return read_steps(text, scene, *steps, count, err);
+}
+
+/* ---- values ---- */
+
+static enum br_status read_words(struct br_options *o, const struct br_option *row,
+                                 const char *text, struct br_error *err)
+{
+    double *number = o->number[row->id];
+    for (const char *rest = text;; rest++) {
+        size_t found;
+        const size_t length = row->kind == BR_TAKES_WORD ? strlen(rest) : strcspn(rest, ",");
+        const enum br_status status = br_words_read(row->words, rest, length, &found, err);
+        if (status)
+            return status;
+        for (size_t i = 0; i < o->count[row->id]; i++)
+            if (number[i] == (double)found)
+                return br_fail(err, BR_BAD_INPUT, "%s is given twice", row->words->name(found));
+        number[o->count[row->id]++] = (double)found;
+        rest += length;
+        if (!*rest)
+            return BR_OK;
+    }
+}
+
+static enum br_status read_list(struct br_options *o, const struct br_option *row, const char *text,
+                                struct br_error *err)
+{
+    size_t *whole = NULL, *count = &o->count[row->id];
+    char name[64];
+    snprintf(name, sizeof name, "--%s", row->name);
+    if (row->kind == BR_TAKES_COUNTS) { /* read as such for its refusal */
+        const enum br_status status = br_read_counts(name, text, &whole, count, err);
+        free(whole);
+        if (status)
+            return status;
+    }
+    enum br_status status = br_read_numbers(name, text, &o->number[row->id], count, err);
+    for (size_t i = 0; i < *count && row->kind == BR_TAKES_NUMBERS && !status; i++)
+        if (!(o->number[row->id][i] > row->range.low && o->number[row->id][i] < row->range.high))
+            status =
+                br_fail(err, BR_BAD_INPUT, "%s: found %g, expected numbers above %g and below %g",
+                        name, o->number[row->id][i], row->range.low, row->range.high);
+    return status;
+}
+
+static enum br_status read_one(struct br_options *o, const struct br_option *row, const char *text,
+                               struct br_error *err)
+{
+    if (row->kind == BR_TAKES_TIMES)
+        return check_times(row, text, err);
+    if (row->kind != BR_TAKES_NUMBER && row->kind != BR_TAKES_WORD &&
+        row->kind != BR_TAKES_WORD_LIST)
+        return BR_OK;
+    if (!(o->number[row->id] = br_allocate(strlen(text) + 1, sizeof(double))))
+        return br_no_memory(err, "the options");
+    if (row->kind != BR_TAKES_NUMBER)
+        return read_words(o, row, text, err);
+    o->count[row->id] = 1;
+    return br_read_in_range(text, &row->range, o->number[row->id], err);
+}
+
+static enum br_status read_value(struct br_options *o, const struct br_option *row,
+                                 struct br_error *err)
+{
+    struct br_error inner = {0};
+    const char *text = o->text[row->id];
+    if (!text || row->kind == BR_TAKES_FLAG)
+        return BR_OK;
+    if (row->kind == BR_TAKES_COUNTS || row->kind == BR_TAKES_NUMBERS)
+        return read_list(o, row, text, err);
+    const enum br_status status = read_one(o, row, text, &inner);
+    return status ? br_fail(err, status, "--%s: %s", row->name, inner.message) : BR_OK;
+}
+
+/* Names and numbers of a method must be some, whatever a scene says. */
+static enum br_status read_values(struct br_options *o, const struct br_option *row, size_t count,
+                                  struct br_error *err)
+{
+    struct br_method method = br_method_default();
+    enum br_status status = BR_OK;
+    if (br_option_given(o, BR_OPT_K) && br_option_given(o, BR_OPT_STEPS))
+        return br_fail(err, BR_BAD_INPUT, "--k and --steps are given, expected one of the two");
+    for (size_t i = 0; i < count && !status; i++) {
+        if (!o->text[row[i].id])
+            o->text[row[i].id] = row[i].standard;
+        status = read_value(o, &row[i], err);
+    }
+    return status ? status
+                  : br_method_read(&o->given[BR_OPT_METHOD], BR_METHOD_OPTION, &method, err);
+}
+
+/* ---- the command line ---- */
+
+/* One of two would be lost if an option with a value was given twice. */
+static enum br_status take(poptContext context, struct br_options *o, const struct br_option *row,
+                           struct br_error *err)
+{
+    char *text = row->kind == BR_TAKES_FLAG ? strdup("") : poptGetOptArg(context);
+    const bool twice = o->given[row->id] && row->kind != BR_TAKES_FLAG;
+    if (!text)
+        return br_no_memory(err, "the options");
+    free((char *)o->given[row->id]);
+    o->given[row->id] = o->text[row->id] = text;
+    return twice ? br_fail(err, BR_BAD_INPUT, "--%s is given twice", row->name) : BR_OK;
+}
+
+static enum br_status read_rest(poptContext context, struct br_options *o, struct br_error *err)
+{
+    const struct br_command *c = o->command;
+    const char **word = poptGetArgs(context);
+    size_t given = 0;
+    while (word && word[given])
+        given++;
+    if (given < c->least_words)
+        return br_fail(err, BR_BAD_INPUT, "no %s is given, expected %s",
+                       c->words ? "word" : "scene",
+                       c->words            ? c->arguments
+                       : c->most_words > 1 ? "files or names of bundled scenes"
+                                           : "a file or the name of a bundled scene");
+    if (given > c->most_words)
+        return br_fail(err, BR_BAD_INPUT, "found '%s', expected nothing more", word[c->most_words]);
+    if (!(o->word = br_allocate(given + 1, sizeof *o->word)))
+        return br_no_memory(err, "the options");
+    enum br_status status = BR_OK;
+    for (; o->words < given && !status; o->words++) {
+        size_t row;
+        if (c->words)
+            status = br_words_read(c->words, word[o->words], strlen(word[o->words]), &row, err);
+        if (!status && !(o->word[o->words] = strdup(word[o->words])))
+            status = br_no_memory(err, "the options");
+    }
+    return status;
+}
+
+static enum br_status read_all(poptContext context, struct br_options *o,
+                               const struct br_option *row, size_t count, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    int code;
+    while (!status && (code = poptGetNextOpt(context)) > 0) {
+        status = take(context, o, &row[code - 1], err);
+        if (row[code - 1].id == BR_OPT_HELP)
+            return status;
+    }
+    if (!status && code < -1)
+        status = refuse(context, row, count, code, err);
+    if (!status)
+        status = read_values(o, row, count, err);
+    return status ? status : read_rest(context, o, err);
+}
+
+enum br_status br_options_parse(int argc, const char **argv, const struct br_command *command,
+                                struct br_options *o, struct br_error *err)
+{
+    struct br_option row[BR_OPTIONS];
+    struct poptOption table[BR_OPTIONS + 1] = {POPT_TABLEEND};
+    *o = (struct br_options){.command = command};
+    const size_t count = br_options_of(command, row);
+    for (size_t i = 0; i < count; i++)
+        table[i] = (struct poptOption){.longName = row[i].name,
+                                       .shortName = row[i].letter,
+                                       .argInfo = row[i].kind == BR_TAKES_FLAG ? POPT_ARG_NONE
+                                                                               : POPT_ARG_STRING,
+                                       .val = (int)i + 1};
+    errno = 0;
+    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
+    enum br_status status = BR_OK;
+    if (context && errno != ENOMEM) /* without memory popt forgets words */
+        status = read_all(context, o, row, count, err);
+    if (!context || errno == ENOMEM)
+        status = br_no_memory(err, "the options");
+    poptFreeContext(context);
+    return status;
+}
+
+void br_options_clear(struct br_options *o)
+{
+    for (size_t i = 0; i < BR_OPTIONS; i++) {
+        free((char *)o->given[i]);
+        free(o->number[i]);
+    }
+    for (size_t i = 0; o->word && i < o->words; i++)
+        free(o->word[i]);
+    free(o->word);
+    *o = (struct br_options){0};
+}
+
+bool br_option_given(const struct br_options *o, enum br_option_id id)
+{
+    return o->given[id];
+}
+
+const char *br_option_text(const struct br_options *o, enum br_option_id id)
+{
+    return o->text[id];
+}
+
+double br_option_number(const struct br_options *o, enum br_option_id id, double otherwise)
+{
+    return o->count[id] ? o->number[id][0] : otherwise;
+}
+
+enum br_status br_option_counts(const struct br_options *o, enum br_option_id id, size_t **list,
+                                size_t *count, struct br_error *err)
+{
+    *count = o->count[id];
+    *list = *count ? br_allocate(*count, sizeof **list) : NULL;
+    if (*count && !*list)
+        return br_no_memory(err, "a list");
+    for (size_t i = 0; i < *count; i++)
+        (*list)[i] = (size_t)o->number[id][i];
+    return BR_OK;
+}
+
+bool br_format_wanted(const struct br_options *o, const char *name)
+{
+    for (size_t i = 0; i < o->count[BR_OPT_FORMAT]; i++)
+        if (strcmp(br_format_words.name((size_t)o->number[BR_OPT_FORMAT][i]), name) == 0)
+            return true;
+    return !o->count[BR_OPT_FORMAT];
+}

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Options: one row each (option_rows.c). From the rows come parsing, refusals, --help, the shells'
+ * completions, the man page and docs/options.md. */
+#ifndef BR_CLI_OPTION_H
+#define BR_CLI_OPTION_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "study/scene/method_fields.h"
+
+/* Who takes an option. */
+enum {
+    BR_FOR_TABLES = 1,
+    BR_FOR_STUDY = 2,
+    BR_FOR_CHECK = 4,
+    BR_FOR_RUN = 8,
+    BR_FOR_TRADE = 16,
+    BR_FOR_PLAN = 32,
+    BR_FOR_EXTREMES = 64,
+    BR_FOR_FIGURES = 128,
+    BR_FOR_SCENES = 256,
+    BR_FOR_COMPLETIONS = 512,
+    BR_FOR_HELP = 1024,
+};
+
+enum br_option_id {
+    BR_OPT_N,
+    BR_OPT_K,
+    BR_OPT_STEPS,
+    BR_OPT_REFERENCE,
+    BR_OPT_REFERENCE_SOLVER,
+    BR_OPT_NORM,
+    BR_OPT_METHODS,
+    BR_OPT_TOLERANCES,
+    BR_OPT_SPLIT,
+    BR_OPT_ERROR,
+    BR_OPT_SECONDS,
+    BR_OPT_REPEATS,
+    BR_OPT_TIME_LIMIT,
+    BR_OPT_FIELDS,
+    BR_OPT_CHECK,
+    BR_OPT_ENERGIES,
+    BR_OPT_EXPLAIN,
+    BR_OPT_AT,
+    BR_OPT_EVERY,
+    BR_OPT_ROWS,
+    BR_OPT_ANIMATE,
+    BR_OPT_PLOT,
+    BR_OPT_ALL,
+    BR_OPT_COMPARE,
+    BR_OPT_FAIL_FAST,
+    BR_OPT_JUNIT,
+    BR_OPT_JSON,
+    BR_OPT_TAP,
+    BR_OPT_MARKDOWN,
+    BR_OPT_CASES,
+    BR_OPT_SEED,
+    BR_OPT_RESUME,
+    BR_OPT_ROUNDING,
+    BR_OPT_NEW,
+    BR_OPT_SCHEMA,
+    BR_OPT_MAN,
+    BR_OPT_OUT,
+    BR_OPT_FORMAT,
+    BR_OPT_NO_PLOTS,
+    BR_OPT_THREADS,
+    BR_OPT_QUIET,
+    BR_OPT_HELP,
+    BR_OPT_METHOD, /* BR_OPT_METHOD + i: br_method_fields[i] */
+    BR_OPTIONS = BR_OPT_METHOD + BR_METHOD_FIELDS
+};
+
+/* What is read of its text while it is parsed; what needs a scene is read later. */
+enum br_option_kind {
+    BR_TAKES_FLAG,
+    BR_TAKES_TEXT, /* anything: whoever takes it reads it */
+    BR_TAKES_FILE,
+    BR_TAKES_DIR,
+    BR_TAKES_NUMBER,  /* a number of the range */
+    BR_TAKES_COUNTS,  /* whole numbers, each once */
+    BR_TAKES_NUMBERS, /* numbers of the range, each once */
+    BR_TAKES_TIMES,   /* times above 0: seconds, or parts of the duration, T/100 */
+    BR_TAKES_WORD,    /* a row of the registry */
+    BR_TAKES_WORD_LIST,
+    BR_TAKES_METHOD, /* a field of the method */
+};
+
+struct br_option {
+    enum br_option_id id;
+    const char *name; /* without -- */
+    char letter;      /* of the short option; 0: none */
+    const char *argument;
+    const char *help;     /* a line, without the default */
+    const char *standard; /* the default, read as if it was given; NULL: none */
+    enum br_option_kind kind;
+    struct br_number_range range;
+    const struct br_words *words;
+    unsigned commands; /* who takes it */
+    const char *more;  /* sentences for the manual; NULL: none */
+};
+
+struct br_command;
+
+/* The rows that a command takes, in the help's order (out); returns how many. */
+size_t br_options_of(const struct br_command *command, struct br_option row[BR_OPTIONS]);
+
+/* The default as the help shows it, or NULL. text: workspace. */
+const char *br_option_default(const struct br_option *row, char text[BR_METHOD_VALUE]);
+
+/* ---- registries that options name ---- */
+
+extern const struct br_words br_norm_words, br_judge_words, br_format_words, br_rounding_words;
+
+/* Row i of --rounding as fesetround takes it. */
+int br_rounding_mode(size_t row);
+
+/* ---- a command line ---- */
+
+/* By br_option_id. */
+struct br_options {
+    const struct br_command *command;
+    const char *given[BR_OPTIONS]; /* as given, owned; NULL: not given */
+    const char *text[BR_OPTIONS];  /* that, or the default; NULL: there is none */
+    double *number[BR_OPTIONS];    /* count of them, owned: numbers, or rows of the registry */
+    size_t count[BR_OPTIONS];
+    char **word; /* words, owned: those that are no options */
+    size_t words;
+};
+
+/* Parses argv (argv[0] is "beamrate COMMAND"). Fails with BR_BAD_INPUT, naming the option, what was
+ * found and what was expected, or BR_NO_MEMORY. With --help nothing but it is looked at. Clear the
+ * options even after a failure. */
+enum br_status br_options_parse(int argc, const char **argv, const struct br_command *command,
+                                struct br_options *options, struct br_error *err);
+void br_options_clear(struct br_options *options);
+
+bool br_option_given(const struct br_options *o, enum br_option_id id);
+
+/* As given, or the default; NULL: neither. */
+const char *br_option_text(const struct br_options *o, enum br_option_id id);
+
+/* The number, or the row; `otherwise` where there is none. */
+double br_option_number(const struct br_options *o, enum br_option_id id, double otherwise);
+
+/* Whole numbers as such: *list (out, *count values) is owned by the caller, NULL without any. Fails
+ * with BR_NO_MEMORY. */
+enum br_status br_option_counts(const struct br_options *o, enum br_option_id id, size_t **list,
+                                size_t *count, struct br_error *err);
+
+/* Whether a format is to be written: --format names it, or is not given. */
+bool br_format_wanted(const struct br_options *o, const char *name);
+
+/* ---- times: "0.1", "0.1 s", "T/20" ---- */
+
+/* Reads a time at the start of text, s, of a scene of that duration, s; returns what follows, the
+ * end or a comma, or NULL. */
+const char *br_read_time(const char *text, double duration, double *seconds);
+
+/* The steps of a time step in the option's words. Fails with BR_BAD_INPUT, naming the option. */
+enum br_status br_read_step(const char *option, const char *text, const struct br_scene *scene,
+                            size_t *steps, struct br_error *err);
+
+/* The numbers of steps by --steps, or --k, or its default: *steps (out, *count values) is owned by
+ * the caller, NULL without any. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
+enum br_status br_option_steps(const struct br_options *o, const struct br_scene *scene,
+                               size_t **steps, size_t *count, struct br_error *err);
+
+/* ---- help ---- */
+
+void br_print_command_help(FILE *out, const struct br_command *command);
+
+#endif

@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The options, a row each. An option that commands take with different defaults or arguments has a
+ * row for each of these. */
+#include <fenv.h>
+#include <math.h>
+
+#include "cli/command.h"
+#include "study/grid/study.h"
+#include "tables/document.h"
+
+/* ---- registries ---- */
+
+BR_WORDS(norm, br_norms)
+BR_WORDS(format, br_document_formats)
+BR_WORDS(judge, br_judges)
+
+/* With its arguments: fine:N,K. */
+static const char *judge_syntax(size_t row)
+{
+    return judge_name(row) ? br_judges[row]->syntax : NULL;
+}
+
+static const struct {
+    const char *name;
+    int mode;
+} roundings[] = {{"nearest", FE_TONEAREST},
+                 {"up", FE_UPWARD},
+                 {"down", FE_DOWNWARD},
+                 {"zero", FE_TOWARDZERO},
+                 {NULL, 0}};
+
+static const char *rounding_name(size_t row)
+{
+    return roundings[row].name;
+}
+
+int br_rounding_mode(size_t row)
+{
+    return roundings[row].mode;
+}
+
+const struct br_words br_norm_words = {norm_name, norm_title, NULL};
+const struct br_words br_format_words = {format_name, format_title, NULL};
+const struct br_words br_judge_words = {judge_syntax, judge_title, NULL};
+const struct br_words br_rounding_words = {rounding_name, NULL, NULL};
+
+/* ---- options ---- */
+
+enum {
+    MARCHES = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN
+}; /* who takes the method's options */
+
+#define WHOLE(low, high) \
+    {                    \
+        low, high, true  \
+    }
+#define BETWEEN(low, high) \
+    {                      \
+        low, high, false   \
+    }
+
+static const char meshes[] = "elements of the meshes",
+                  steps[] = "time steps, s, or T/100, T: duration",
+                  counts[] = "numbers of time steps, instead of --k",
+                  folder[] = "folder of the results",
+                  methods[] = "methods, by names like bdf2+implicit ('beamrate help methods')",
+                  repeats[] = "timed marches of a trial after a warm-up, at most",
+                  limit[] = "longest march and set-up, s",
+                  quiet[] = "no progress, no report on the terminal";
+static const char
+    meshes_more[] = "Each must divide a fine reference's.",
+    steps_more[] = "Each must divide the duration, and be a multiple of a fine "
+                   "reference's.",
+    names_more[] = "A name is made of words joined by +, in any order, at most one of a kind: a "
+                   "time scheme, a contact rule, a friction rule, a linear solver, p1 or p2 (the "
+                   "degree of the axial elements), scaled and refined (for a solver that heeds "
+                   "it): euler+lagged, bdf2+uzawa, bdf2+umfpack+scaled.";
+
+static const struct br_option rows[] = {
+    /* what is marched */
+    {BR_OPT_N, "n", 'n', "LIST", meshes, "100,200,400,800,1600,3200", BR_TAKES_COUNTS,
+     .commands = BR_FOR_TABLES, .more = meshes_more},
+    {BR_OPT_N, "n", 'n', "LIST", meshes, "25,50,100,200", BR_TAKES_COUNTS, .commands = BR_FOR_STUDY,
+     .more = meshes_more},
+    {BR_OPT_N, "n", 'n', "COUNT", "elements", "100", BR_TAKES_NUMBER, WHOLE(1, 1e9),
+     .commands = BR_FOR_RUN},
+    {BR_OPT_N, "n", 'n', "LIST", meshes, NULL, BR_TAKES_COUNTS,
+     .commands = BR_FOR_TRADE | BR_FOR_EXTREMES},
+    {BR_OPT_K, "k", 'k', "LIST", steps, "0.01,0.005,0.002,0.001,0.0005,0.0001", BR_TAKES_TIMES,
+     .commands = BR_FOR_TABLES, .more = steps_more},
+    {BR_OPT_K, "k", 'k', "LIST", steps, "T/100,T/200,T/400,T/800", BR_TAKES_TIMES,
+     .commands = BR_FOR_STUDY, .more = steps_more},
+    {BR_OPT_K, "k", 'k', "TIME", "time step, s, or T/100, T: duration", "T/1000", BR_TAKES_TIMES,
+     .commands = BR_FOR_RUN},
+    {BR_OPT_K, "k", 'k', "LIST", steps, NULL, BR_TAKES_TIMES, .commands = BR_FOR_TRADE},
+    {BR_OPT_K, "k", 'k', "LIST", "time steps, s", NULL, BR_TAKES_NUMBERS, BETWEEN(0, INFINITY),
+     .commands = BR_FOR_EXTREMES},
+    {BR_OPT_STEPS, "steps", 0, "LIST", counts, NULL, BR_TAKES_COUNTS,
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE},
+    {BR_OPT_STEPS, "steps", 0, "COUNT", "number of time steps, instead of --k", NULL,
+     BR_TAKES_NUMBER, WHOLE(1, 1e12), .commands = BR_FOR_RUN},
+    {BR_OPT_REFERENCE, "reference", 0, "NAME",
+     "what the cells are judged by: exact, fine:N,K, mms or none", "fine:12800,1e-5", BR_TAKES_TEXT,
+     .words = &br_judge_words, .commands = BR_FOR_TABLES,
+     .more = "The exact solution stands beside it."},
+    {BR_OPT_REFERENCE, "reference", 0, "NAME",
+     "what the cells are judged by: exact (default), fine:N,K, mms or none", NULL, BR_TAKES_TEXT,
+     .words = &br_judge_words, .commands = BR_FOR_STUDY,
+     .more =
+         "fine:N,K is a run of N elements and steps of K seconds (or T/100), whose own error is then "
+         "measured against the exact solution. mms is the default for a scene that was "
+         "manufactured from a solution. With none each cell is compared with the same scheme on "
+         "the next finer mesh and with the next smaller time step, which makes two reports, "
+         "NAME-meshes and NAME-steps."},
+    {BR_OPT_REFERENCE, "reference", 0, "NAME",
+     "judge of the errors: exact (default), mms, or fine:N,K by the scheme of the highest order",
+     NULL, BR_TAKES_TEXT, .words = &br_judge_words, .commands = BR_FOR_TRADE},
+    {BR_OPT_REFERENCE, "reference", 0, "NAME", "judge of the errors: exact (default) or mms", NULL,
+     BR_TAKES_TEXT, .words = &br_judge_words, .commands = BR_FOR_PLAN},
+    {BR_OPT_REFERENCE_SOLVER, "reference-solver", 0, "NAME",
+     "that of the reference, where it differs", NULL, BR_TAKES_WORD,
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY},
+    {BR_OPT_NORM, "norm", 0, "LIST", "norms of the error, one table each", "l2", BR_TAKES_WORD_LIST,
+     .words = &br_norm_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY,
+     .more = "Reports in other norms than l2 are called NAME-energy, NAME-tip."},
+    {BR_OPT_NORM, "norm", 0, "LIST", "norm of the error; with --split a list", "l2",
+     BR_TAKES_WORD_LIST, .words = &br_norm_words, .commands = BR_FOR_TRADE},
+    {BR_OPT_NORM, "norm", 0, "NAME", "norm of the error", "l2", BR_TAKES_WORD,
+     .words = &br_norm_words, .commands = BR_FOR_PLAN},
+    {BR_OPT_METHODS, "methods", 0, "LIST", methods, NULL, BR_TAKES_TEXT, .commands = BR_FOR_TRADE,
+     .more = names_more},
+    {BR_OPT_METHODS, "methods", 0, "LIST", methods, NULL, BR_TAKES_TEXT, .commands = BR_FOR_PLAN,
+     .more = "By default all time schemes."},
+    {BR_OPT_TOLERANCES, "tolerances", 0, "LIST", "tolerances of schemes that choose their steps",
+     NULL, BR_TAKES_NUMBERS, BETWEEN(1e-14, 1), .commands = BR_FOR_TRADE},
+    {BR_OPT_SPLIT, "split", 0, NULL,
+     "where the error of each run comes from, instead (one run: n = 100, T/1000)", NULL,
+     BR_TAKES_FLAG, .commands = BR_FOR_TRADE,
+     .more =
+         "The sources are round-off of the linear solver, tolerance of an iteration of friction, "
+         "mu, contact force from the step before, time steps, and elements. A chain of marches "
+         "leads from the run to the exact solution, each with one source less than the one "
+         "before; the parts, norms of the differences, add up to the whole as functions, and at "
+         "the tip with their signs as numbers. A part below its floor cannot be told. One "
+         "scene; by default the first scheme. With several k or n a plot shows the parts over "
+         "them."},
+    {BR_OPT_ERROR, "error", 0, "E", "relative error that is wanted, at most", NULL, BR_TAKES_NUMBER,
+     BETWEEN(0, 1), .commands = BR_FOR_PLAN,
+     .more = "The norm of the error over the norm of the solution."},
+    {BR_OPT_SECONDS, "seconds", 0, "S", "or seconds of a march, set-up included, at most", NULL,
+     BR_TAKES_NUMBER, BETWEEN(0, INFINITY), .commands = BR_FOR_PLAN},
+    {BR_OPT_REPEATS, "repeats", 0, "COUNT", repeats, "3", BR_TAKES_NUMBER, WHOLE(1, 1000),
+     .commands = BR_FOR_TRADE | BR_FOR_PLAN, .more = "Marches of more than 0.1 s are made once."},
+    {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", limit, "10", BR_TAKES_NUMBER,
+     BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
+     .more = "One that will surely take longer is ended early, and is shown as such."},
+    {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", limit, "60", BR_TAKES_NUMBER,
+     BETWEEN(0, INFINITY), .commands = BR_FOR_PLAN},
+
+    /* what `run` shows */
+    {BR_OPT_FIELDS, "fields", 0, "LIST",
+     "fields to march: axial, bending or both (default: what the scene has)", NULL, BR_TAKES_TEXT,
+     .commands = BR_FOR_RUN,
+     .more =
+         "With Tresca's friction the axial field is not marched by default: neither the friction "
+         "bound nor bending needs it."},
+    {BR_OPT_CHECK, "check", 0, NULL,
+     "certificate and energy balance of every step; exit code 1 "
+     "beyond a limit",
+     NULL, BR_TAKES_FLAG, .commands = BR_FOR_RUN,
+     .more = "Recomputes the residuals and laws of every step from nodal values, stage by stage, "
+             "with code that the solver does not share. Not with ida."},
+    {BR_OPT_ENERGIES, "energies", 0, NULL, "the energy balance alone", NULL, BR_TAKES_FLAG,
+     .commands = BR_FOR_RUN},
+    {BR_OPT_EXPLAIN, "explain", 0, NULL, "what the parts of a step cost, as measured", NULL,
+     BR_TAKES_FLAG, .commands = BR_FOR_RUN},
+    {BR_OPT_PLOT, "plot", 0, NULL, "the tip's history in the terminal, drawn with letters", NULL,
+     BR_TAKES_FLAG, .commands = BR_FOR_RUN},
+    {BR_OPT_OUT, "out", 'o', "DIR", "folder for history.csv, the fields and the summary", NULL,
+     BR_TAKES_DIR, .commands = BR_FOR_RUN,
+     .more = "history.csv has the tip, in SI units; fields.h5 (fields.csv in a build without HDF5) "
+             "the fields; summary.txt and summary.json what the terminal shows."},
+    {BR_OPT_AT, "at", 0, "LIST", "times of the fields, multiples of k", NULL, BR_TAKES_TEXT,
+     .commands = BR_FOR_RUN},
+    {BR_OPT_EVERY, "every", 0, "TIME", "the same, from 0 on, so far apart (default T/10)", NULL,
+     BR_TAKES_TEXT, .commands = BR_FOR_RUN},
+    {BR_OPT_ROWS, "rows", 0, "COUNT", "rows of history.csv, at most", "10000", BR_TAKES_NUMBER,
+     WHOLE(2, 1e9), .commands = BR_FOR_RUN},
+    {BR_OPT_ANIMATE, "animate", 0, "FILE",
+     "a moving picture: a .gif or .webp, or a folder (NAME/) of PNG frames", NULL, BR_TAKES_FILE,
+     .commands = BR_FOR_RUN,
+     .more = "Beam, obstacle, contact and friction force with its bound, at most about 120 frames, "
+             "with script and data beside it. Where it cannot be drawn, the exit code is 3; the "
+             "results are written before."},
+    {BR_OPT_JSON, "json", 0, "FILE", "the summary for programs; - is standard output", NULL,
+     BR_TAKES_FILE, .commands = BR_FOR_RUN},
+
+    /* what `check` writes: the formats but for the text */
+    {BR_OPT_ALL, "all", 0, NULL, "all bundled scenes", NULL, BR_TAKES_FLAG,
+     .commands = BR_FOR_CHECK},
+    {BR_OPT_JUNIT, "junit", 0, "FILE", "JUnit's XML, for CI systems", NULL, BR_TAKES_FILE,
+     .commands = BR_FOR_CHECK},
+    {BR_OPT_JSON, "json", 0, "FILE", "everything, for programs and for --compare", NULL,
+     BR_TAKES_FILE, .commands = BR_FOR_CHECK},
+    {BR_OPT_TAP, "tap", 0, "FILE", "the Test Anything Protocol", NULL, BR_TAKES_FILE,
+     .commands = BR_FOR_CHECK},
+    {BR_OPT_MARKDOWN, "markdown", 0, "FILE", "a summary for the page of a CI job", NULL,
+     BR_TAKES_FILE, .commands = BR_FOR_CHECK,
+     .more = "Reports are written whole or not at all; - is standard output, and then no table is "
+             "printed."},
+    {BR_OPT_COMPARE, "compare", 0, "FILE",
+     "an earlier check's JSON: what has moved since, and how serious that is", NULL, BR_TAKES_FILE,
+     .commands = BR_FOR_CHECK, .more = "Serious differences fail the check."},
+    {BR_OPT_FAIL_FAST, "fail-fast", 0, NULL,
+     "one scene after the other, the cheapest first, until one fails", NULL, BR_TAKES_FLAG,
+     .commands = BR_FOR_CHECK},
+
+    /* extremes */
+    {BR_OPT_CASES, "cases", 0, "COUNT", "cases of a map that is drawn at random", NULL,
+     BR_TAKES_NUMBER, WHOLE(1, 1e9), .commands = BR_FOR_EXTREMES},
+    {BR_OPT_SEED, "seed", 0, "SEED",
+     "of what is drawn: a whole number, or 0x and hexadecimal digits", NULL, BR_TAKES_TEXT,
+     .commands = BR_FOR_EXTREMES, .more = "The same seed draws the same cases."},
+    {BR_OPT_RESUME, "resume", 0, NULL,
+     "goes on with what an interrupted run has left in the folder", NULL, BR_TAKES_FLAG,
+     .commands = BR_FOR_EXTREMES,
+     .more =
+         "That is PART.cases, which is removed when all is written. Without --resume such a file "
+         "is refused, not overwritten."},
+    {BR_OPT_ROUNDING, "rounding", 0, "MODE",
+     "rounding mode of the marches: nearest, up, down or zero", "nearest", BR_TAKES_WORD,
+     .words = &br_rounding_words, .commands = BR_FOR_EXTREMES | BR_FOR_CHECK,
+     .more = "Not of their judges."},
+
+    /* scenes, help */
+    {BR_OPT_NEW, "new", 0, "FILE", "write a template with every key; - is standard output", NULL,
+     BR_TAKES_FILE, .commands = BR_FOR_SCENES,
+     .more =
+         "A valid scene, with the meaning, unit and default of each key. A file that is there is "
+         "not replaced."},
+    {BR_OPT_SCHEMA, "schema", 0, NULL,
+     "print the JSON schema by which an editor completes and checks scenes", NULL, BR_TAKES_FLAG,
+     .commands = BR_FOR_SCENES},
+    {BR_OPT_MAN, "man", 0, NULL, "print the manual page", NULL, BR_TAKES_FLAG,
+     .commands = BR_FOR_HELP},
+    {BR_OPT_MARKDOWN, "markdown", 0, NULL, "print docs/options.md", NULL, BR_TAKES_FLAG,
+     .commands = BR_FOR_HELP},
+
+    /* for all */
+    {BR_OPT_OUT, "out", 'o', "DIR", folder, "results", BR_TAKES_DIR,
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY},
+    {BR_OPT_OUT, "out", 'o', "DIR", folder, "trade", BR_TAKES_DIR, .commands = BR_FOR_TRADE},
+    {BR_OPT_OUT, "out", 'o', "DIR", "folder of the results (default: none are written)", NULL,
+     BR_TAKES_DIR, .commands = BR_FOR_PLAN},
+    {BR_OPT_OUT, "out", 'o', "DIR", folder, "extremes", BR_TAKES_DIR, .commands = BR_FOR_EXTREMES},
+    {BR_OPT_OUT, "out", 'o', "DIR", folder, "figures", BR_TAKES_DIR, .commands = BR_FOR_FIGURES},
+    {BR_OPT_FORMAT, "format", 0, "LIST", "formats to write (default: all)", NULL,
+     BR_TAKES_WORD_LIST, .words = &br_format_words,
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES},
+    {BR_OPT_NO_PLOTS, "no-plots", 0, NULL, "write no plots", NULL, BR_TAKES_FLAG,
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_EXTREMES},
+    {BR_OPT_THREADS, "threads", 'j', "COUNT", "threads; 0: all cores", "0", BR_TAKES_NUMBER,
+     WHOLE(0, 4096),
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_TRADE | BR_FOR_PLAN |
+                 BR_FOR_EXTREMES | BR_FOR_FIGURES,
+     .more = "The results have the same bits on any number."},
+    {BR_OPT_QUIET, "quiet", 'q', NULL, quiet, NULL, BR_TAKES_FLAG,
+     .commands = MARCHES | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES | BR_FOR_FIGURES},
+    {BR_OPT_HELP, "help", 'h', NULL, "this help", NULL, BR_TAKES_FLAG, .commands = ~0u},
+};
+enum { ROWS = sizeof rows / sizeof *rows };
+
+size_t br_options_of(const struct br_command *command, struct br_option row[BR_OPTIONS])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < ROWS; i++)
+        if (rows[i].commands & command->bit) {
+            row[count] = rows[i];
+            if (rows[i].id == BR_OPT_REFERENCE_SOLVER)
+                row[count].words = br_method_fields[BR_METHOD_SOLVER].words;
+            count++;
+        }
+    for (size_t i = 0; i < BR_METHOD_FIELDS && MARCHES & command->bit; i++) {
+        const struct br_method_field *f = &br_method_fields[i];
+        row[count++] = (struct br_option){.id = (enum br_option_id)(BR_OPT_METHOD + i),
+                                          .name = f->name,
+                                          .argument = f->argument,
+                                          .help = f->help,
+                                          .kind = BR_TAKES_METHOD,
+                                          .words = f->words,
+                                          .commands = MARCHES,
+                                          .more = f->more};
+    }
+    return count;
+}
+
+const char *br_option_default(const struct br_option *row, char text[BR_METHOD_VALUE])
+{
+    if (row->kind != BR_TAKES_METHOD)
+        return row->standard;
+    const struct br_method_field *f = &br_method_fields[row->id - BR_OPT_METHOD];
+    const struct br_method usual = br_method_default();
+    return f->standard ? f->standard : br_method_field_text(f, &usual, text);
+}

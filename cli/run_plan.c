@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/run_plan.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "study/run/history.h"
+#include "study/run/model.h"
+
+/* ---- times ---- */
+
+/* The time level at t, s; the option names where it was found. */
+static enum br_status read_level(const char *option, double t, const struct br_scene *scene,
+                                 size_t steps, size_t *level, struct br_error *err)
+{
+    const double T = scene->duration, place = t / T * (double)steps;
+    if (!(t >= 0 && t <= T))
+        return br_fail(err, BR_BAD_INPUT, "%s: found %g s, expected a time of [0, %g] s", option, t,
+                       T);
+    const double nearest = round(place);
+    *level = (size_t)nearest;
+    if (fabs(place - nearest) <= 1e-6)
+        return BR_OK;
+    const double below = floor(place);
+    return br_fail(
+        err, BR_BAD_INPUT,
+        "%s: found %.10g s, expected a multiple of k = %g s; the nearest are %.15g s and "
+        "%.15g s",
+        option, t, T / (double)steps, T * below / (double)steps, T * (below + 1) / (double)steps);
+}
+
+static enum br_status not_a_time(const char *option, const char *found, const char *example,
+                                 struct br_error *err)
+{
+    return br_fail(err, BR_BAD_INPUT, "%s: found '%s', expected %s", option, found, example);
+}
+
+static int by_level(const void *a, const void *b)
+{
+    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
+    return (x > y) - (x < y);
+}
+
+static enum br_status read_at(const char *text, const struct br_scene *scene,
+                              struct br_run_plan *plan, struct br_error *err)
+{
+    size_t most = 1;
+    for (const char *c = text; *c; c++)
+        most += *c == ',';
+    if (!(plan->level = br_allocate(most, sizeof *plan->level)))
+        return br_no_memory(err, "the output times");
+    for (const char *rest = text;; rest++) {
+        double t;
+        const char *end = br_read_time(rest, scene->duration, &t);
+        if (!end)
+            return not_a_time("--at", rest, "times separated by commas, like 0.1,0.5", err);
+        const enum br_status status =
+            read_level("--at", t, scene, plan->steps, &plan->level[plan->levels++], err);
+        if (status)
+            return status;
+        rest = end;
+        if (!*rest)
+            break;
+    }
+    qsort(plan->level, plan->levels, sizeof *plan->level, by_level);
+    for (size_t i = 1; i < plan->levels; i++)
+        if (plan->level[i] == plan->level[i - 1])
+            return br_fail(err, BR_BAD_INPUT, "--at: %g s is given twice",
+                           scene->duration * (double)plan->level[i] / (double)plan->steps);
+    return BR_OK;
+}
+
+/* Every `interval` levels from 0 on. */
+static enum br_status fill_levels(struct br_run_plan *plan, size_t interval, struct br_error *err)
+{
+    plan->levels = plan->steps / interval + 1;
+    if (!(plan->level = br_allocate(plan->levels, sizeof *plan->level)))
+        return br_no_memory(err, "the output times");
+    for (size_t i = 0; i < plan->levels; i++)
+        plan->level[i] = i * interval;
+    return BR_OK;
+}
+
+static enum br_status read_every(const char *text, const struct br_scene *scene,
+                                 struct br_run_plan *plan, struct br_error *err)
+{
+    double t;
+    size_t interval;
+    const char *end = br_read_time(text, scene->duration, &t);
+    if (!end || *end || !(t > 0))
+        return not_a_time("--every", text, "a time above 0, like 0.1", err);
+    const enum br_status status = read_level("--every", t, scene, plan->steps, &interval, err);
+    if (status)
+        return status;
+    if (interval == 0)
+        return br_fail(err, BR_BAD_INPUT, "--every: found '%s', expected a multiple of k = %g s",
+                       text, scene->duration / (double)plan->steps);
+    return fill_levels(plan, interval, err);
+}
+
+/* Ten of about the same length, whatever the number of steps. */
+static enum br_status default_levels(struct br_run_plan *plan, struct br_error *err)
+{
+    enum { PARTS = 10 };
+    if (!(plan->level = br_allocate(PARTS + 1, sizeof *plan->level)))
+        return br_no_memory(err, "the output times");
+    for (size_t i = 0; i <= PARTS; i++) {
+        const size_t level =
+            (size_t)llround((double)plan->steps * (double)i / PARTS); /* exact below 2^49 */
+        if (plan->levels == 0 || level > plan->level[plan->levels - 1])
+            plan->level[plan->levels++] = level;
+    }
+    return BR_OK;
+}
+
+static enum br_status make_levels(const struct br_options *o, const struct br_scene *scene,
+                                  struct br_run_plan *plan, struct br_error *err)
+{
+    const char *at = br_option_text(o, BR_OPT_AT), *every = br_option_text(o, BR_OPT_EVERY);
+    const bool out = br_option_given(o, BR_OPT_OUT);
+    if (at && every)
+        return br_fail(err, BR_BAD_INPUT, "--at and --every are given, expected one of the two");
+    if ((at || every) && !out)
+        return br_fail(err, BR_BAD_INPUT, "%s needs --out, the folder for the fields",
+                       at ? "--at" : "--every");
+    if (at)
+        return read_at(at, scene, plan, err);
+    if (every)
+        return read_every(every, scene, plan, err);
+    return out ? default_levels(plan, err) : BR_OK;
+}
+
+/* ---- the plan ---- */
+
+static enum br_status read_fields(const char *text, unsigned *wanted, struct br_error *err)
+{
+    static const struct {
+        const char *name;
+        unsigned bits;
+    } names[] = {{"axial", BR_WANT_AXIAL},
+                 {"bending", BR_WANT_BENDING},
+                 {"axial,bending", BR_WANT_AXIAL | BR_WANT_BENDING},
+                 {"bending,axial", BR_WANT_AXIAL | BR_WANT_BENDING}};
+    *wanted = 0;
+    for (size_t i = 0; text && i < sizeof names / sizeof *names; i++)
+        if (strcmp(text, names[i].name) == 0)
+            *wanted = names[i].bits;
+    if (text && !*wanted)
+        return br_fail(err, BR_BAD_INPUT,
+                       "--fields: found '%s', expected axial, bending or axial,bending", text);
+    return BR_OK;
+}
+
+static enum br_status read_resolution(const struct br_options *o, const struct br_scene *scene,
+                                      struct br_run_plan *plan, struct br_error *err)
+{
+    const double steps = br_option_number(o, BR_OPT_STEPS, 0);
+    plan->n = (size_t)br_option_number(o, BR_OPT_N, 0);
+    plan->steps = (size_t)steps;
+    return steps > 0 ? BR_OK
+                     : br_read_step("--k", br_option_text(o, BR_OPT_K), scene, &plan->steps, err);
+}
+
+enum br_status br_run_plan_make(const struct br_options *o, const struct br_scene *scene,
+                                struct br_run_plan *plan, struct br_error *err)
+{
+    const char *const *given = &o->given[BR_OPT_METHOD];
+    const struct br_method *const methods[] = {&plan->method};
+    *plan = (struct br_run_plan){.method = br_method_default()};
+    enum br_status status = br_method_read(given, BR_METHOD_OPTION, &plan->method, err);
+    if (!status)
+        status = br_method_check_heeded(given, BR_METHOD_OPTION, methods, 1, err);
+    if (!status)
+        status = read_fields(br_option_text(o, BR_OPT_FIELDS), &plan->wanted, err);
+    if (!status)
+        status = read_resolution(o, scene, plan, err);
+    if (!status && br_option_given(o, BR_OPT_OUT))
+        plan->stride = br_history_stride(plan->steps, (size_t)br_option_number(o, BR_OPT_ROWS, 0));
+    return status ? status : make_levels(o, scene, plan, err);
+}
+
+void br_run_plan_clear(struct br_run_plan *plan)
+{
+    free(plan->level);
+    *plan = (struct br_run_plan){0};
+}

@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/study_request.h"
+
+#include <math.h>
+#include <string.h>
+
+/* "fine:N,K": `arguments` is behind the colon. */
+static enum br_status read_fine(const char *text, const char *arguments, struct br_study_request *r,
+                                struct br_error *err)
+{
+    double n = 0, k = 0;
+    const char *comma = br_read_number(arguments, &n);
+    const char *end = comma && *comma == ',' ? br_read_time(comma + 1, 1, &k) : NULL;
+    if (!end || *end || !(n >= 1 && n <= 1e9) || n != floor(n) || !(k > 0))
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "--reference: found '%s', expected fine:N,K with a number of elements N >= 1 "
+            "and a time step K > 0 in seconds, like fine:12800,1e-5",
+            text);
+    r->reference_n = (size_t)n;
+    r->reference_k = comma + 1;
+    return BR_OK;
+}
+
+/* A judge's name, and for a fine run its arguments. */
+static enum br_status read_reference(const char *text, struct br_study_request *r,
+                                     struct br_error *err)
+{
+    char name[32], all[256];
+    const size_t length = strcspn(text, ":");
+    snprintf(name, sizeof name, "%.*s", (int)(length < 31 ? length : 31), text);
+    r->judge = br_judge_find(name);
+    if (!r->judge || (text[length] == ':' && !r->judge->nests))
+        return br_fail(err, BR_BAD_INPUT, "--reference: found '%s', expected one of: %s", text,
+                       br_words_join(&br_judge_words, ", ", all, sizeof all));
+    if (!r->judge->nests)
+        return BR_OK;
+    return read_fine(text, text + length + (text[length] == ':'), r, err);
+}
+
+static enum br_status read_method(const struct br_options *o, struct br_study_request *r,
+                                  struct br_error *err)
+{
+    const char *const *given = &o->given[BR_OPT_METHOD];
+    const double solver = br_option_number(o, BR_OPT_REFERENCE_SOLVER, NAN);
+    r->method = br_method_default();
+    const enum br_status status = br_method_read(given, BR_METHOD_OPTION, &r->method, err);
+    if (status)
+        return status;
+    r->reference_method = r->method;
+    if (isfinite(solver))
+        r->reference_method.solver = br_linear_solvers[(size_t)solver];
+    const struct br_method *const methods[] = {&r->method, &r->reference_method};
+    return br_method_check_heeded(given, BR_METHOD_OPTION, methods, isfinite(solver) ? 2 : 1, err);
+}
+
+enum br_status br_study_request_read(const struct br_options *o, struct br_study_request *r,
+                                     struct br_error *err)
+{
+    *r = (struct br_study_request){.threads = (int)br_option_number(o, BR_OPT_THREADS, 0),
+                                   .norms = o->count[BR_OPT_NORM]};
+    const char *reference = br_option_text(o, BR_OPT_REFERENCE);
+    for (size_t i = 0; i < r->norms; i++)
+        r->norm[i] = br_norms[(size_t)o->number[BR_OPT_NORM][i]];
+    enum br_status status = read_method(o, r, err);
+    if (!status)
+        status = br_option_counts(o, BR_OPT_N, &r->n, &r->n_count, err);
+    if (!status && reference)
+        status = read_reference(reference, r, err);
+    return status;
+}
+
+void br_study_request_clear(struct br_study_request *r)
+{
+    free(r->n);
+    *r = (struct br_study_request){0};
+}
+
+enum br_status br_study_request_fine(const struct br_study_request *r, const struct br_scene *scene,
+                                     struct br_resolution *fine, struct br_error *err)
+{
+    fine->n = r->reference_n;
+    return br_read_step("--reference", r->reference_k, scene, &fine->steps, err);
+}

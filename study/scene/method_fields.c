@@ -1,0 +1,511 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/scene/method_fields.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- values: rows of a registry, and numbers ---- */
+
+#define CHOICE(member, registry)                                                         \
+    BR_WORDS(member, registry)                                                           \
+    static const struct br_words member##_words = {member##_name, member##_title, NULL}; \
+    static double get_##member(const struct br_method *m)                                \
+    {                                                                                    \
+        size_t row = 0;                                                                  \
+        while ((registry)[row] && (registry)[row] != m->member)                          \
+            row++;                                                                       \
+        return (double)row;                                                              \
+    }                                                                                    \
+    static void set_##member(struct br_method *m, double row)                            \
+    {                                                                                    \
+        m->member = (registry)[(size_t)row];                                             \
+    }
+CHOICE(scheme, br_time_schemes)
+CHOICE(solver, br_linear_solvers)
+CHOICE(contact, br_contact_rules)
+CHOICE(friction, br_friction_rules)
+
+#define NUMBER(name, member, type)                            \
+    static double get_##name(const struct br_method *m)       \
+    {                                                         \
+        return (double)m->member;                             \
+    }                                                         \
+    static void set_##name(struct br_method *m, double value) \
+    {                                                         \
+        m->member = (type)value;                              \
+    }
+NUMBER(tolerance, tolerance, double)
+NUMBER(refinement, linear.refinement, int)
+NUMBER(friction_parameter, iteration.parameter, double)
+NUMBER(friction_tolerance, iteration.tolerance, double)
+NUMBER(friction_iterations, iteration.most, size_t)
+
+static const char *degree_name(size_t row)
+{
+    static const char *const names[] = {"1", "2", NULL};
+    return names[row];
+}
+static const struct br_words degrees = {degree_name, NULL, NULL};
+
+static double get_degree(const struct br_method *m)
+{
+    return m->axial_degree - 1;
+}
+
+static void set_degree(struct br_method *m, double row)
+{
+    m->axial_degree = (int)row + 1;
+}
+
+static const char *scaling_name(size_t row)
+{
+    static const char *const names[] = {"none", "sum", "max", NULL};
+    return names[row];
+}
+static const struct br_words scalings = {scaling_name, NULL, NULL};
+enum { BY_SUMS = 1 }; /* the row */
+
+static double get_scaling(const struct br_method *m)
+{
+    size_t row = 0;
+    while (scaling_name(row) && strcmp(scaling_name(row), m->linear.scaling) != 0)
+        row++;
+    return (double)row;
+}
+
+static void set_scaling(struct br_method *m, double row)
+{
+    m->linear.scaling = scaling_name((size_t)row);
+}
+
+static const char *kernel_name(size_t row)
+{
+    return br_kernels[row] ? br_kernels[row]->name : NULL;
+}
+
+static bool kernel_available(size_t row)
+{
+    return br_kernels[row]->available();
+}
+static const struct br_words kernels = {kernel_name, NULL, kernel_available};
+
+/* Not chosen: the one that is taken. */
+static double get_kernel(const struct br_method *m)
+{
+    const struct br_kernel *kernel = m->linear.kernel ? m->linear.kernel : br_kernel_best();
+    size_t row = 0;
+    while (br_kernels[row] && br_kernels[row] != kernel)
+        row++;
+    return (double)row;
+}
+
+static void set_kernel(struct br_method *m, double row)
+{
+    m->linear.kernel = br_kernels[(size_t)row];
+}
+
+/* ---- who heeds what, and what a scene models ---- */
+
+static bool heeds_tolerance(const struct br_method *m)
+{
+    return m->scheme->adaptive;
+}
+
+static bool heeds_solver(const struct br_method *m)
+{
+    return !m->scheme->integrator; /* else it solves its systems itself */
+}
+
+static bool heeds_kernel(const struct br_method *m)
+{
+    return br_linear_solver_heeds(m->solver, "--kernel");
+}
+
+static bool heeds_scaling(const struct br_method *m)
+{
+    return br_linear_solver_heeds(m->solver, "--scaling");
+}
+
+static bool heeds_refinement(const struct br_method *m)
+{
+    return br_linear_solver_heeds(m->solver, "--refinement");
+}
+
+static bool heeds_iteration(const struct br_method *m)
+{
+    return m->friction->iterates;
+}
+
+static double parameter_below(const struct br_method *m)
+{
+    return m->friction->iterates ? m->friction->parameter_below : INFINITY;
+}
+
+static bool has_axial_field(const struct br_scene *scene)
+{
+    return scene->axial.modelled;
+}
+
+static bool has_contact(const struct br_scene *scene)
+{
+    return scene->contact.modelled;
+}
+
+static bool has_friction(const struct br_scene *scene)
+{
+    return scene->friction.law != BR_FRICTIONLESS;
+}
+
+/* ---- the table ---- */
+
+static const struct br_method_word degree_words[] = {{"p1", 0}, {"p2", 1}, {NULL, 0}};
+static const struct br_method_word scaling_words[] = {{"scaled", BY_SUMS}, {NULL, 0}};
+static const struct br_method_word refinement_words[] = {{"refined", 2}, {NULL, 0}};
+
+#define ITERATION .by = BR_METHOD_FRICTION, .heeds = heeds_iteration, .in = has_friction
+
+const struct br_method_field br_method_fields[BR_METHOD_FIELDS] = {
+    [BR_METHOD_SCHEME] =
+        {.name = "scheme",
+         .title = "time scheme",
+         .argument = "NAME",
+         .help = "time scheme",
+         .more =
+             "A march is refused where vibration of too little damping would grow (bdf3), and where forces, displacements or velocities go beyond 1e150 in SI units or are lost to underflow. adaptive chooses its steps and finds the times of switching.",
+         .words = &scheme_words,
+         .get = get_scheme,
+         .set = set_scheme,
+         .by = BR_METHOD_SCHEME,
+         .before = "scheme "},
+    [BR_METHOD_TOLERANCE] = {.name = "tolerance",
+                             .title = "tolerance",
+                             .argument = "X",
+                             .help = "error a step of an adaptive scheme, relative to the largest "
+                                     "strain",
+                             .more = "Above 1e-14 and below 1.",
+                             .range = {1e-14, 1, false},
+                             .get = get_tolerance,
+                             .set = set_tolerance,
+                             .by = BR_METHOD_SCHEME,
+                             .heeds = heeds_tolerance,
+                             .before = " to "},
+    [BR_METHOD_DEGREE] =
+        {.name = "axial-degree",
+         .title = "axial elements",
+         .argument = "COUNT",
+         .help = "degree of the axial elements: 1 or 2",
+         .more =
+             "2: quadratic, of order 3 in space and 4 at the tip; solvers riccati and plain. A reference run has the same.",
+         .words = &degrees,
+         .get = get_degree,
+         .set = set_degree,
+         .by = BR_METHOD_DEGREE,
+         .in = has_axial_field,
+         .before = ", axial elements of degree ",
+         .quiet = true,
+         .word = degree_words,
+         .words_title = "axial elements"},
+    [BR_METHOD_SOLVER] = {.name = "solver",
+                          .title = "solver",
+                          .argument = "NAME",
+                          .help = "linear solver",
+                          .words = &solver_words,
+                          .get = get_solver,
+                          .set = set_solver,
+                          .by = BR_METHOD_SOLVER,
+                          .before = ", solver "},
+    [BR_METHOD_KERNEL] = {.name = "kernel",
+                          .title = "kernel",
+                          .argument = "NAME",
+                          .help = "instruction set of the solver riccati",
+                          .more = "The results record it; those of two kernels agree to round-off.",
+                          .standard = "the best",
+                          .words = &kernels,
+                          .get = get_kernel,
+                          .set = set_kernel,
+                          .by = BR_METHOD_SOLVER,
+                          .heeds = heeds_kernel,
+                          .before = " on ",
+                          .unsaid = true},
+    [BR_METHOD_SCALING] = {.name = "scaling",
+                           .title = "scaling",
+                           .argument = "NAME",
+                           .help = "umfpack's row scaling: none, sum or max",
+                           .words = &scalings,
+                           .get = get_scaling,
+                           .set = set_scaling,
+                           .by = BR_METHOD_SOLVER,
+                           .heeds = heeds_scaling,
+                           .before = ", scaling ",
+                           .quiet = true,
+                           .word = scaling_words,
+                           .words_title = "rows scaled by their sums"},
+    [BR_METHOD_REFINEMENT] =
+        {.name = "refinement",
+         .title = "refinement",
+         .argument = "COUNT",
+         .help = "refinement steps a solve of assembled solvers, at most",
+         .more =
+             "That of umfpack is its own and repairs residuals; that of the other two repairs the error itself.",
+         .range = {0, 100, true},
+         .get = get_refinement,
+         .set = set_refinement,
+         .by = BR_METHOD_SOLVER,
+         .heeds = heeds_refinement,
+         .before = ", refinement steps ",
+         .quiet = true,
+         .word = refinement_words,
+         .words_title = "two refinement steps a solve"},
+    [BR_METHOD_CONTACT] = {.name = "contact",
+                           .title = "contact",
+                           .argument = "NAME",
+                           .help = "where contact takes its force",
+                           .more = "lagged, the paper's, is for the scheme euler alone.",
+                           .standard = "the first that goes with the scheme",
+                           .words = &contact_words,
+                           .get = get_contact,
+                           .set = set_contact,
+                           .by = BR_METHOD_CONTACT,
+                           .in = has_contact,
+                           .before = ", contact "},
+    [BR_METHOD_FRICTION] = {.name = "friction",
+                            .title = "friction rule",
+                            .argument = "NAME",
+                            .help = "friction law, or its iteration",
+                            .words = &friction_words,
+                            .get = get_friction,
+                            .set = set_friction,
+                            .by = BR_METHOD_FRICTION,
+                            .in = has_friction,
+                            .before = ", friction "},
+    [BR_METHOD_FRICTION_PARAMETER] =
+        {.name = "friction-parameter",
+         .title = "friction parameter",
+         .argument = "X",
+         .help = "of a friction rule that iterates, over the one that "
+                 "converges fastest",
+         .more =
+             "Over 1/z, z being the tip's compliance; penalty-duality converges for all above 0, uzawa below 2.",
+         .range = {0, INFINITY, false},
+         .below = parameter_below,
+         .get = get_friction_parameter,
+         .set = set_friction_parameter,
+         ITERATION,
+         .before = " (parameter ",
+         .group = "iteration",
+         .member = "parameter"},
+    [BR_METHOD_FRICTION_TOLERANCE] = {.name = "friction-tolerance",
+                                      .title = "friction tolerance",
+                                      .argument = "X",
+                                      .help = "of such a rule, relative to the friction bound",
+                                      .range = {1e-14, 1, false},
+                                      .get = get_friction_tolerance,
+                                      .set = set_friction_tolerance,
+                                      ITERATION,
+                                      .before = ", to ",
+                                      .group = "iteration",
+                                      .member = "tolerance"},
+    [BR_METHOD_FRICTION_ITERATIONS] = {.name = "friction-iterations",
+                                       .title = "friction iterations",
+                                       .argument = "COUNT",
+                                       .help = "of such a rule, a step at most",
+                                       .more = "A march that needs more fails.",
+                                       .range = {1, 1e9, true},
+                                       .get = get_friction_iterations,
+                                       .set = set_friction_iterations,
+                                       ITERATION,
+                                       .before = ", at most ",
+                                       .after = " iterations)",
+                                       .group = "iteration",
+                                       .member = "most"},
+};
+
+/* ---- one field ---- */
+
+const char *br_method_field_key(const struct br_method_field *f, char key[BR_METHOD_VALUE])
+{
+    snprintf(key, BR_METHOD_VALUE, "%s", f->name);
+    for (char *c = key; *c; c++)
+        if (*c == '-')
+            *c = '_';
+    return key;
+}
+
+const char *br_method_field_text(const struct br_method_field *f, const struct br_method *m,
+                                 char text[BR_METHOD_VALUE])
+{
+    const double value = f->get(m);
+    if (f->words) {
+        const char *name = f->words->name((size_t)value);
+        snprintf(text, BR_METHOD_VALUE, "%s", name ? name : "unknown");
+        return text;
+    }
+    return br_shortest(value, text, BR_METHOD_VALUE);
+}
+
+bool br_method_field_heeded(const struct br_method_field *f, const struct br_method *m)
+{
+    return !f->heeds || f->heeds(m);
+}
+
+bool br_method_field_reported(const struct br_method_field *f, const struct br_method *m)
+{
+    return f->quiet || br_method_field_heeded(f, m);
+}
+
+bool br_methods_equal(const struct br_method *a, const struct br_method *b)
+{
+    for (const struct br_method_field *f = br_method_fields;
+         f < br_method_fields + BR_METHOD_FIELDS; f++)
+        if (f->get(a) != f->get(b))
+            return false;
+    return true;
+}
+
+enum br_status br_method_field_read(const struct br_method_field *f, const char *text,
+                                    struct br_method *m, struct br_error *err)
+{
+    struct br_number_range range = f->range;
+    double value = 0;
+    size_t row = 0;
+    enum br_status status;
+    if (f->words) {
+        status = br_words_read(f->words, text, strlen(text), &row, err);
+        value = (double)row;
+    } else {
+        range.high = f->below ? f->below(m) : range.high;
+        status = br_read_in_range(text, &range, &value, err);
+    }
+    if (!status)
+        f->set(m, value);
+    return status;
+}
+
+/* ---- a method ---- */
+
+/* As the user has written it. */
+static const char *name_of(const struct br_method_field *f, enum br_method_style style,
+                           char name[BR_METHOD_VALUE])
+{
+    if (style == BR_METHOD_IN_SCENE)
+        return br_method_field_key(f, name);
+    snprintf(name, BR_METHOD_VALUE, "--%s", f->name);
+    return name;
+}
+
+enum br_status br_method_read(const char *const text[BR_METHOD_FIELDS], enum br_method_style style,
+                              struct br_method *m, struct br_error *err)
+{
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        struct br_error inner = {0};
+        char name[BR_METHOD_VALUE];
+        if (text[i] && br_method_field_read(&br_method_fields[i], text[i], m, &inner))
+            return br_fail(err, inner.status, "%s: %s", name_of(&br_method_fields[i], style, name),
+                           inner.message);
+    }
+    if (!text[BR_METHOD_CONTACT] && !m->scheme->may_lag && !m->contact->at_new_step)
+        m->contact = br_contact_rule_of(m->scheme);
+    return br_method_check(m, err);
+}
+
+/* ", as --solver riccati does": the first row that heeds the field. */
+static const char *example(const struct br_method_field *f, enum br_method_style style,
+                           char text[2 * BR_METHOD_VALUE])
+{
+    const struct br_method_field *by = &br_method_fields[f->by];
+    struct br_method m = br_method_default();
+    char name[BR_METHOD_VALUE];
+    text[0] = '\0';
+    for (size_t row = 0; !*text && by->words->name(row); row++) {
+        by->set(&m, (double)row);
+        if (f->heeds(&m))
+            snprintf(text, 2 * BR_METHOD_VALUE, ", as %s%s %s does", name_of(by, style, name),
+                     style == BR_METHOD_IN_SCENE ? ":" : "", by->words->name(row));
+    }
+    return text;
+}
+
+static enum br_status refuse(const struct br_method_field *f, enum br_method_style style,
+                             const struct br_method *const *method, size_t count,
+                             struct br_error *err)
+{
+    const struct br_method_field *by = &br_method_fields[f->by];
+    char name[BR_METHOD_VALUE], value[BR_METHOD_VALUE], text[2 * BR_METHOD_VALUE];
+    name_of(f, style, name);
+    if (count == 1)
+        return br_fail(err, BR_BAD_INPUT, "%s: %s %s does not heed it%s", name, by->title,
+                       br_method_field_text(by, method[0], value), example(f, style, text));
+    return br_fail(err, BR_BAD_INPUT, "%s: no study here has a %s that heeds it%s", name, by->title,
+                   example(f, style, text));
+}
+
+enum br_status br_method_check_heeded(const char *const text[BR_METHOD_FIELDS],
+                                      enum br_method_style style,
+                                      const struct br_method *const *method, size_t count,
+                                      struct br_error *err)
+{
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        bool heeded = !text[i];
+        for (size_t j = 0; j < count && !heeded; j++)
+            heeded = br_method_field_heeded(&br_method_fields[i], method[j]);
+        if (!heeded)
+            return refuse(&br_method_fields[i], style, method, count, err);
+    }
+    return BR_OK;
+}
+
+/* ---- in words ---- */
+
+__attribute__((format(printf, 2, 3))) static void append(char text[BR_METHOD_TEXT],
+                                                         const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text + used, BR_METHOD_TEXT - used, format, args);
+    va_end(args);
+}
+
+static bool is_default(const struct br_method_field *f, const struct br_method *m)
+{
+    struct br_method standard = br_method_default();
+    standard.scheme = m->scheme;
+    standard.contact = br_contact_rule_of(m->scheme);
+    return f == &br_method_fields[BR_METHOD_SCHEME] ? m->scheme == br_time_schemes[0]
+                                                    : f->get(m) == f->get(&standard);
+}
+
+const char *br_method_text(const struct br_scene *scene, const struct br_method *m,
+                           char text[BR_METHOD_TEXT])
+{
+    char value[BR_METHOD_VALUE];
+    text[0] = '\0';
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        const struct br_method_field *f = &br_method_fields[i];
+        const bool solves = f->by == BR_METHOD_SOLVER, modelled = !f->in || f->in(scene);
+        if ((solves && !heeds_solver(m)) || !br_method_field_heeded(f, m) ||
+            (f->quiet && (!modelled || is_default(f, m))) || (f->heeds && !modelled))
+            continue;
+        append(text, "%s%s%s", f->before, modelled ? br_method_field_text(f, m, value) : "none",
+               f->after ? f->after : "");
+    }
+    return text;
+}
+
+const char *br_method_options(const struct br_scene *scene, const struct br_method *m,
+                              char text[BR_METHOD_TEXT])
+{
+    char value[BR_METHOD_VALUE];
+    text[0] = '\0';
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        const struct br_method_field *f = &br_method_fields[i];
+        const bool always = i == BR_METHOD_TOLERANCE; /* what a plan has chosen is to be seen */
+        if ((f->in && !f->in(scene)) || !br_method_field_heeded(f, m) || f->unsaid ||
+            (is_default(f, m) && !always))
+            continue;
+        append(text, " --%s %s", f->name, br_method_field_text(f, m, value));
+    }
+    return text;
+}

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# usage: awk -f compare.awk STORED FOUND: prints lines that differ; exit code 1 where some do.
+# Texts are equal to the byte, counts exactly. Other numbers are equal to a relative 1e-6, or to one
+# unit of the last digit of the one that is printed with more digits; and what is below 1e-11, or
+# differs by less than 1e-13, is round-off. Bits depend on processor, compiler and LAPACK. Blanks
+# may differ only beside numbers that differ.
+
+# Adding 0 makes a number of a text: texts are compared by letters.
+function abs(x) { x += 0; return x < 0 ? -x : x }
+
+# One unit of the last printed digit.
+function unit(number,    parts, mantissa) {
+    split(tolower(number), parts, "e")
+    mantissa = parts[1]
+    sub(/^[^.]*\.?/, "", mantissa)
+    return 10 ^ (parts[2] - length(mantissa))
+}
+
+function is_count(number) { return number !~ /[.eE]/ }
+
+function close_enough(a, b,    ulp, larger) {
+    if (a == b "")
+        return 1
+    if (is_count(a) && is_count(b))
+        return 0
+    larger = abs(a) > abs(b) ? abs(a) : abs(b)
+    if (larger < 1e-11 || abs(a - b) <= 1e-13 || abs(a - b) <= 1e-6 * larger)
+        return 1
+    ulp = unit(a) < unit(b) ? unit(a) : unit(b)
+    return abs(a - b) <= 1.001 * ulp
+}
+
+# The next number of a line; the text before it goes to `before`, what is behind it to `rest`.
+function next_number(line) {
+    if (!match(line, /[-+]?[0-9]+(\.[0-9]+)?([eE][-+]?[0-9]+)?/)) {
+        before = line
+        rest = ""
+        return ""
+    }
+    before = substr(line, 1, RSTART - 1)
+    rest = substr(line, RSTART + RLENGTH)
+    return substr(line, RSTART, RLENGTH)
+}
+
+# LaTeX's powers of ten as all others write them: 1.5\cdot10^{-3} is 1.5e-3}.
+function plain(line) { gsub(/\\cdot10\^\{/, "e", line); return line }
+
+function squeezed(text) { gsub(/ +/, " ", text); sub(/ $/, "", text); return text }
+
+function same(a, b,    x, y, text_a, text_b, moved) {
+    if (a == b)
+        return 1
+    a = plain(a); b = plain(b)
+    for (; a != "" || b != "";) {
+        x = next_number(a); text_a = before; a = rest
+        y = next_number(b); text_b = before; b = rest
+        if (squeezed(text_a) != squeezed(text_b) || (x == "") != (y == "") || !close_enough(x, y))
+            return 0
+        moved = moved || x != y ""
+    }
+    return moved
+}
+
+function report(line) {
+    print "#   line " line
+    print "#     stored: " stored[line]
+    print "#     found:  " found[line]
+    differ = 1
+}
+
+FILENAME == ARGV[1] { stored[lines = FNR] = $0 }
+FILENAME == ARGV[2] { found[others = FNR] = $0 }
+END {
+    for (i = 1; i <= lines || i <= others; i++)
+        if (i > lines || i > others || !same(stored[i], found[i]))
+            report(i)
+    exit differ
+}

@@ -1,0 +1,66 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Runs the command lines of commands.txt, each in an empty folder, and compares exit code, standard
+# output, standard error and files with what is stored in NAME.txt. $BEAMRATE is a program with the
+# stand-ins of stand_ins.c; there is no gnuplot.
+# usage: run.sh [--update] [NAME...]     --update rewrites what differs, and says which
+set -u
+: "${BEAMRATE:?is the program}"
+here=$(cd "$(dirname "$0")" && pwd)
+folder=$(mktemp -d) || exit 99
+trap 'rm -rf "$folder"' EXIT
+mkdir "$folder/bin"
+ln -s "$(readlink -f "$BEAMRATE")" "$folder/bin/beamrate"
+export BEAMRATE_DATA="${BEAMRATE_DATA:-$here/../..}" LC_ALL=C OMP_NUM_THREADS=1
+update=
+[ "${1:-}" = --update ] && update=yes && shift
+wanted=" $* "
+
+# What no two runs have in common, seconds on the wall, and what a build may have or not.
+mask() {
+    sed -E -e "s|$BEAMRATE_DATA/||g" -e 's/[0-9a-f]{64}/HASH/g' \
+        -e 's/"(version|commit|size|run)": ("[^"]*"|[0-9]+)/"\1": MASKED/' \
+        -e 's/"(wall_seconds|seconds)": [0-9.]+e-[6-9]/"\1": MASKED/' \
+        -e '/^  (ida|avx[0-9a-z]*|portable) /d' -e 's/, ida\b//; s/ ida( |$)/\1/'
+}
+
+# Runs a command line and prints all that it leaves, these files among it.
+run() {
+    rm -rf "$folder/work" && mkdir "$folder/work" && cd "$folder/work" || exit 99
+    (PATH="$folder/bin"; eval "$1") >../out 2>../err
+    echo "exit code $?"
+    echo "==== standard output"
+    mask <../out
+    echo "==== standard error"
+    mask <../err
+    for file in $2; do
+        echo "==== $file"
+        if [ -f "$file" ]; then mask <"$file"; else echo "is not there"; fi
+    done
+    cd "$here" || exit 99
+}
+
+number=0 failed=0
+echo "TAP version 13"
+while IFS='|' read -r name command files; do
+    name=$(echo $name)
+    case $name in '' | '#'*) continue ;; esac
+    case $wanted in '  ' | *" $name "*) ;; *) continue ;; esac
+    number=$((number + 1))
+    run "$(echo "$command" | sed 's/^ *//; s/ *$//')" "$files" >"$folder/new"
+    touch "$folder/empty"
+    stored=$here/$name.txt
+    [ -e "$stored" ] || stored=$folder/empty
+    if awk -f "$here/compare.awk" "$stored" "$folder/new" >"$folder/differences"; then
+        echo "ok $number - $name"
+    elif [ "$update" ]; then
+        cp "$folder/new" "$here/$name.txt"
+        echo "ok $number - $name # updated"
+    else
+        failed=$((failed + 1))
+        echo "not ok $number - $name"
+        head -n 20 "$folder/differences"
+    fi
+done <"$here/commands.txt"
+echo "1..$number"
+[ $failed -eq 0 ]

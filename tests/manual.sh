@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# docs/options.md and docs/beamrate.1 are what the program writes of itself; roff takes the page, where
+# it is installed. $BEAMRATE is the program, $BEAMRATE_DATA the project.
+set -u
+
+# The time scheme ida is not in every build.
+# shellcheck disable=SC2016
+without_ida() { sed '/^\.TP$/N; /^\.TP\n\.B ida$/,+1d; /^- `ida`/d'; }
+
+failures=0
+for file in options.md beamrate.1; do
+    case $file in
+    *.md) option=--markdown ;;
+    *) option=--man ;;
+    esac
+    diff <("$BEAMRATE" help "$option" | without_ida) <(without_ida <"$BEAMRATE_DATA/docs/$file") && continue
+    echo "docs/$file differs: beamrate help $option >docs/$file"
+    failures=$((failures + 1))
+done
+if grep -nE '.\.(SH|SS|TP|PP|B|nf|fi)( |$)' "$BEAMRATE_DATA/docs/beamrate.1"; then
+    echo "docs/beamrate.1: a request of roff inside of a line"
+    failures=$((failures + 1))
+fi
+if command -v groff >/dev/null; then
+    errors=$(groff -man -Tutf8 -ww "$BEAMRATE_DATA/docs/beamrate.1" 2>&1 >/dev/null)
+    [ -z "$errors" ] || { echo "$errors"; failures=$((failures + 1)); }
+fi
+[ "$failures" -eq 0 ]

@@ -1,0 +1,662 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Figures: what is filled in stands in the data file, and gnuplot draws the script; and the
+ * pictures of studies, trades and extremes have the numbers of their results, along axes that name
+ * them. No two numbers of the made results are the same. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "figure_check.h"
+#include "made_report.h"
+#include "plots/movie.h"
+#include "plots/pictures.h"
+#include "plots/render.h"
+#include "study/extremes/count.h"
+#include "study/extremes/energy_behaviour.h"
+#include "study/extremes/floors.h"
+#include "study/extremes/steps.h"
+#include "study/trade/trade.h"
+
+/* ---- any figure ---- */
+
+static void expect(const struct br_figure *f, void (*write)(FILE *, const struct br_figure *),
+                   const char *part)
+{
+    char *text = figure_written(f, write);
+    if (!strstr(text, part))
+        fail_msg("expected:\n%s\nin:\n%.3000s", part, text);
+    free(text);
+}
+
+/* Every pen, a flag, gaps, an upper axis, guides, a mark, texts with quotes. */
+static void fill_curves(struct br_panel *p)
+{
+    p->log_x = p->log_y = true;
+    BR_SAY(p->title, "it's {/:Italic n}");
+    BR_SAY(p->x_label, "time step k (s)");
+    BR_SAY(p->y_label, "isn't (m)");
+    br_series_add(p, BR_PEN_SIGNS, "in the key alone"); /* no block of the data */
+    for (int pen = 0; pen < BR_PENS; pen++) {
+        struct br_series *s = br_series_add(p, (enum br_pen)pen, "pen %d", pen);
+        for (int i = 0; i < 4; i++)
+            br_point_add(s, pow(10, i) / 3,
+                         i == 1   ? NAN
+                         : i == 2 ? -1
+                                  : 0.1 + pen + i,
+                         i == 3 ? "far" : NULL);
+    }
+    br_point_add(br_series_add(p, BR_PEN_LINE, "nowhere"), 1, INFINITY, NULL);
+    for (int i = 0; i < 3; i++)
+        br_point_add(&p->top, pow(10, i), 1000 >> i, NULL);
+    BR_SAY(p->top_label, "steps N");
+    br_guide_add(p, 1, "1");
+    br_guide_add(p, 2, "2");
+    br_mark_add(p, 10, "at %d", 10)->left = true;
+}
+
+/* 3 cells by 2, of unequal size; a line with a gap. */
+static void fill_cells(struct br_panel *p)
+{
+    static const double x[] = {1, 10, 1000, 1e4}, y[] = {1e-4, 1e-2, 1};
+    static const double value[] = {1e-3, 2, INFINITY, 0, NAN, 1e5};
+    assert_true(br_cells_make(p, 3, 2));
+    for (size_t i = 0; i < 6; i++)
+        assert_true(isnan(p->cells.value[i]));
+    memcpy(p->cells.x, x, sizeof x);
+    memcpy(p->cells.y, y, sizeof y);
+    memcpy(p->cells.value, value, sizeof value);
+    p->log_x = p->log_y = true;
+    struct br_series *line = br_series_add(p, BR_PEN_GUIDE, "limit of %s", "it");
+    br_point_add(line, 1, 1e-4, NULL);
+    br_point_add(line, NAN, 1, NULL);
+    br_point_add(line, 1e4, 1, NULL);
+}
+
+static struct br_figure made(size_t panels, bool cells, size_t kinds)
+{
+    struct br_figure f = {.stem = "made", .title = "A \"map\" of 'it'", .hollow = "not fitted"};
+    f.log_value = true;
+    f.one_key = panels > 1;
+    f.kinds = kinds;
+    for (size_t k = 0; k < kinds; k++)
+        BR_SAY(f.kind[k], "kind %zu", k);
+    for (size_t i = 0; i < panels; i++) {
+        struct br_panel *p = br_panel_add(&f);
+        cells ? fill_cells(p) : fill_curves(p);
+        if (i == 1 && !cells) {
+            p->inset_x = (struct br_range){0.2, 0.6};
+            p->inset_y = (struct br_range){0.5, 0.9};
+        }
+    }
+    return f;
+}
+
+static void test_data(void **state)
+{
+    (void)state;
+    struct br_figure curves = made(2, false, 0), cells = made(2, true, 0), kinds = made(1, true, 2);
+    figure_check(&curves);
+    figure_check(&cells);
+    figure_check(&kinds);
+    expect(&curves, br_figure_write_data, "# A flag tells why a point is not fitted");
+    expect(&curves, br_figure_write_script, "title 'in the key alone'");
+    expect(&kinds, br_figure_write_data, "# value 1: kind 1\n");
+    expect(&kinds, br_figure_write_script, "title 'no case'");
+    expect(&kinds, br_figure_write_script, "title 'limit of it'");
+    br_figure_clear(&curves);
+    br_figure_clear(&cells);
+    br_figure_clear(&kinds);
+}
+
+/* Without zero and infinity, which have the nearer end's colour. */
+static void test_values(void **state)
+{
+    (void)state;
+    struct br_figure f = made(2, true, 0);
+    f.panel[1].cells.value[1] = 1e-7;
+    struct br_range r = br_value_range(&f);
+    assert_true(r.low == 1e-7 && r.high == 1e5);
+    f.value = (struct br_range){1e-2, 10};
+    r = br_value_range(&f);
+    assert_true(r.low == 1e-2 && r.high == 10);
+    figure_check(&f);
+    expect(&f, br_figure_write_script, "set cbrange [0.01:10]");
+    br_figure_clear(&f);
+    r = br_value_range(&f); /* nothing has a colour */
+    assert_true(r.low < r.high);
+    f.kinds = 2;
+    assert_true(br_is_coloured(&f, 0) && br_is_coloured(&f, 1));
+    assert_false(br_is_coloured(&f, 2) || br_is_coloured(&f, -1) || br_is_coloured(&f, NAN));
+}
+
+/* At most six hues in a panel, and each once; of a long list the ends and what is between. */
+static void test_hues(void **state)
+{
+    (void)state;
+    struct br_figure f = {0};
+    struct br_panel *p = br_panel_add(&f);
+    for (size_t i = 0; i < 8; i++) {
+        const struct br_series *s = br_series_add(p, BR_PEN_CURVE, "%zu", i);
+        assert_int_equal(s->hue, i < BR_HUES ? i + 1 : 0);
+        assert_int_equal(s->pen, i < BR_HUES ? BR_PEN_CURVE : BR_PEN_OTHERS);
+        br_point_add(p->series[i], 1, 1, NULL);
+    }
+    expect(&f, br_figure_write_script, "title 'others'");
+    br_figure_clear(&f);
+    assert_true(br_hue_of(4, 5) == 5 && br_hue_of(0, 20) == 1 && br_hue_of(19, 20) == BR_HUES);
+    size_t hued = 0;
+    for (size_t i = 0; i < 20; i++)
+        hued += br_hue_of(i, 20) > 0;
+    assert_int_equal(hued, BR_HUES);
+}
+
+static void write_file(const char *folder, const char *name, const struct br_figure *f,
+                       void (*write)(FILE *, const struct br_figure *))
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    write(file, f);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* gnuplot takes it without a word, and all pictures are whole. */
+static void draw(const struct br_figure *f)
+{
+    static const char *const names[] = {"made.dat", "made.gp", "made.svg", "made.png", "made.pdf"};
+    char folder[] = "/tmp/beamrate-figure-XXXXXX", path[128];
+    bool missing, has_pdf;
+    struct br_error err = {0};
+    assert_non_null(mkdtemp(folder));
+    write_file(folder, names[0], f, br_figure_write_data);
+    write_file(folder, names[1], f, br_figure_write_script);
+    const enum br_status status = br_plot_render(folder, names[1], &missing, &err);
+    if (status && !missing)
+        fail_msg("%s", err.message);
+    MUST(br_gnuplot_has("pdfcairo", &has_pdf, &missing, &err));
+    for (size_t i = 0; i < 5; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        assert_int_equal(unlink(path) == 0, i < 2 || (!missing && (i < 4 || has_pdf)));
+    }
+    rmdir(folder);
+}
+
+static void test_drawn(void **state)
+{
+    (void)state;
+    for (size_t panels = 1; panels <= BR_FIGURE_PANELS; panels++)
+        for (size_t how = 0; how < 3; how++) {
+            struct br_figure f = made(panels, how > 0, how == 2 ? 2 : 0);
+            draw(&f);
+            br_figure_clear(&f);
+        }
+}
+
+static void test_no_memory(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    bool failed = true;
+    for (long i = 0; failed; i++) {
+        struct br_figure f = {0};
+        br_allocation_fails_at(i);
+        struct br_panel *p = br_panel_add(&f);
+        br_point_add(br_series_add(p, BR_PEN_LINE, "one"), 1, 1, NULL);
+        br_point_add(&p->top, 1, 1, NULL);
+        br_cells_make(p, 2, 2);
+        br_allocation_fails_at(-1);
+        failed = br_figure_check(&f, &err) == BR_NO_MEMORY;
+        assert_int_equal(failed, i < 7); /* series twice, points, ticks, edges twice, values */
+        br_figure_clear(&f);
+    }
+}
+
+/* ---- a study ---- */
+
+/* What stands at a place of an axis, by the axis' own name. */
+static double along(const struct br_report *r, const char *label, const struct br_cell *c)
+{
+    const struct br_scene *scene = br_report_fitted(r)->scene;
+    if (strncmp(label, "mesh size h (m)", 15) == 0)
+        return scene->length / (double)c->at.n;
+    assert_int_equal(strncmp(label, "time step k (s)", 15), 0);
+    return scene->duration / (double)c->at.steps;
+}
+
+/* A curve over h at one k, or over k at one n, whose cells are first, first + every, ... */
+static void check_curve(const struct br_report *r, const struct br_panel *p, const char *title,
+                        size_t first, enum br_part part, const double *printed)
+{
+    const bool over_h = p->x_label[0] == 'm';
+    const struct br_series *s = figure_series(p, title);
+    assert_int_equal(s->count, over_h ? BR_MADE_N : BR_MADE_K);
+    for (size_t i = 0; i < s->count; i++) {
+        const size_t cell = first + i * (over_h ? BR_MADE_K : 1);
+        const struct br_cell *c = &br_report_fitted(r)->cell[cell];
+        const bool lost = c->flag[part] == BR_FLAG_FAILED;
+        figure_point(s, i, along(r, p->x_label, c),
+                     printed ? printed[cell]
+                     : lost  ? (double)NAN
+                             : c->error[part]);
+        const char *flag = s->point[i].flag ? s->point[i].flag : "";
+        assert_string_equal(flag, printed ? "" : br_flag_name(c->flag[part]));
+        figure_point(&p->top, i, along(r, p->x_label, c), (double)(over_h ? c->at.n : c->at.steps));
+    }
+}
+
+static void check_h(const struct br_report *r, const struct br_figure *f)
+{
+    static const char *const titles[BR_MADE_K] = {"k = 0.12 s", "k = 0.06 s", "k = 0.03 s",
+                                                  "k = 0.015 s"};
+    figure_axes(&f->panel[0], "mesh size h (m)", "error (31) (m^{3/2})");
+    for (size_t j = 0; j < BR_MADE_K; j++)
+        check_curve(r, &f->panel[0], titles[j], j, BR_PART_TOTAL, NULL);
+}
+
+static void check_k(const struct br_report *r, const struct br_figure *f)
+{
+    static const char *const titles[BR_MADE_N] = {"n = 10", "n = 20", "n = 40"};
+    const struct br_study *s = br_report_fitted(r);
+    figure_axes(&f->panel[0], "time step k (s)", "error (31) (m^{3/2})");
+    figure_axes(&f->panel[1], "time step k (s)", "error / joint fit - 1");
+    for (size_t i = 0; i < BR_MADE_N; i++) {
+        check_curve(r, &f->panel[0], titles[i], i * BR_MADE_K, BR_PART_TOTAL, NULL);
+        const struct br_cell *c = &s->cell[i * BR_MADE_K + 1];
+        const double model =
+            br_joint_model(&r->fits[0].joint, 2.0 / (double)c->at.n, 3.0 / (double)c->at.steps,
+                           br_reference_mesh(s), br_reference_step(s));
+        const struct br_series *curve = figure_series(&f->panel[1], titles[i]);
+        assert_true(curve->point[1].x == 3.0 / (double)c->at.steps);
+        CLOSE(curve->point[1].y, c->error[0] / model - 1, 1e-12);
+    }
+}
+
+static void check_parts(const struct br_report *r, const struct br_figure *f)
+{
+    figure_axes(&f->panel[0], "mesh size h (m), at k = 0.015 s", "error (31) (m^{3/2})");
+    figure_axes(&f->panel[1], "time step k (s), at n = 40", "error (31) (m^{3/2})");
+    for (int part = 0; part < BR_PARTS; part++) {
+        const char *name = br_part_names[part];
+        check_curve(r, &f->panel[0], name, BR_MADE_K - 1, (enum br_part)part, NULL);
+        check_curve(r, &f->panel[1], name, (BR_MADE_N - 1) * BR_MADE_K, (enum br_part)part, NULL);
+    }
+}
+
+/* Hue 1 is ours, 2 printed; the marks tell which curve it is. */
+static void check_printed(const struct br_report *r, const struct br_figure *f)
+{
+    for (size_t i = 0; i < 2; i++) {
+        struct br_panel *p = (struct br_panel *)&f->panel[i];
+        const bool over_h = p->x_label[0] == 'm';
+        const size_t curves = over_h ? BR_MADE_K : BR_MADE_N;
+        figure_axes(p, over_h ? "mesh size h (m)" : "time step k (s)", "error (31) (m^{3/2})");
+        for (size_t j = 0; j < 2 * curves; j++) {
+            struct br_series *s = p->series[j];
+            const size_t first = j % curves * (over_h ? 1 : BR_MADE_K);
+            assert_int_equal(s->hue, j < curves ? 2 : 1);
+            assert_int_equal(s->mark, j % curves + 1);
+            assert_int_equal(p->series[2 * curves + j % curves]->mark, s->mark);
+            BR_SAY(s->title, "this");
+            check_curve(r, p, "this", first, BR_PART_TOTAL, j < curves ? r->printed : NULL);
+            s->title[0] = '\0';
+        }
+        assert_int_equal(figure_series(p, "computed")->hue, 1);
+        assert_int_equal(figure_series(p, "printed")->hue, 2);
+    }
+}
+
+static void test_study(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        void (*check)(const struct br_report *, const struct br_figure *);
+    } checks[] = {
+        {"h", check_h}, {"k", check_k}, {"parts", check_parts}, {"printed", check_printed}};
+    for (size_t i = 0; br_convergence_pictures[i]; i++) {
+        struct br_made_report m;
+        struct br_error err = {0};
+        struct br_figure f;
+        br_made_report(&m, i % 2);
+        m.scene.length = 2; /* h is not 1/n, nor k 1/N */
+        m.scene.duration = 3;
+        struct br_cell *failed = &m.cell[i % 2][11];
+        failed->error[0] = failed->error[1] = failed->error[2] = 3e-3; /* stopped half way */
+        assert_string_equal(br_convergence_pictures[i]->name, checks[i].name);
+        assert_true(br_convergence_pictures[i]->applies(&m.report));
+        MUST(br_convergence_draw(br_convergence_pictures[i], &m.report, &f, &err));
+        assert_string_equal(f.title, BR_MADE_CAPTION);
+        checks[i].check(&m.report, &f);
+        figure_check(&f);
+        br_figure_clear(&f);
+        br_made_report_clear(&m);
+    }
+}
+
+static void test_names(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {"", "a/b", "../a", "<a", "|a", "-a", "a\nb", " a"};
+    struct br_made_report m;
+    struct br_error err = {0};
+    struct br_figure f;
+    br_made_report(&m, false);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        m.report.name = bad[i];
+        REFUSED(br_convergence_draw(br_convergence_pictures[0], &m.report, &f, &err), BR_BAD_INPUT,
+                "expected the beginning of a file name");
+    }
+    br_made_report_clear(&m);
+}
+
+/* ---- a trade ---- */
+
+enum { TRIALS = 6 };
+
+/* Two methods; the third of each is worse than its second in both. */
+static void make_trade(struct br_trade *t, struct br_trial trial[TRIALS])
+{
+    struct br_error err = {0};
+    *t = (struct br_trade){.trial = trial, .count = TRIALS, .norm = {&br_norm_l2}};
+    MUST(br_contenders_read("--methods", "bdf2,euler+lagged", &t->contenders, &err));
+    for (size_t i = 0; i < TRIALS; i++) {
+        trial[i] = (struct br_trial){
+            .contender = &t->contenders.list[i / 3],
+            .at = {10 + i, 100 + 7 * i},
+            .cost = {.set_up = 0.25 * (double)(i + 1), .march = 1 + (double)i},
+            .scale = {2},
+            .own = {0},
+        };
+        trial[i].cost.counts.stages = 1000 + 31 * i;
+        trial[i].error[0][BR_PART_TOTAL] = i % 3 == 2 ? 0.9 : pow(10, -1.0 - (double)i);
+        trial[i].error[0][BR_PART_AXIAL] = 0.123;
+    }
+    trial[5].end = BR_TRIAL_UNSTABLE;
+    trial[4].printed = true;
+}
+
+static void check_trade(const struct br_trade *t, const struct br_trade_picture *picture,
+                        const char *label, double (*work)(const struct br_trial *))
+{
+    struct br_error err = {0};
+    struct br_figure f;
+    assert_true(br_trade_picture_applies(picture, t));
+    MUST(br_trade_draw(picture, t, "name", "caption", &f, &err));
+    const struct br_panel *p = &f.panel[0];
+    figure_axes(p, label, "relative error (31)");
+    for (size_t c = 0; c < 2; c++) {
+        const struct br_series *s = figure_series(p, t->contenders.list[c].name);
+        assert_int_equal(s->count, 2);
+        for (size_t i = 0; i < 2; i++) {
+            const struct br_trial *trial = &t->trial[3 * c + i];
+            figure_point(s, i, work(trial), trial->error[0][BR_PART_TOTAL] / 2);
+        }
+    }
+    assert_int_equal(figure_series(p, "euler+lagged")->hue, 1); /* the paper's own comes first */
+    const struct br_series *dots = figure_series(p, "other trials");
+    assert_int_equal(dots->count, 5);
+    figure_point(dots, 2, work(&t->trial[2]), 0.45);
+    figure_point(figure_series(p, "beyond the limit of lagging"), 0, work(&t->trial[5]), 0.45);
+    figure_point(figure_series(p, "printed in the paper"), 0, work(&t->trial[4]),
+                 t->trial[4].error[0][0] / 2);
+    assert_int_equal(figure_series(p, "Pareto front")->count, 4);
+    figure_check(&f);
+    br_figure_clear(&f);
+}
+
+static double seconds(const struct br_trial *t)
+{
+    return t->cost.set_up + t->cost.march;
+}
+
+static double solves(const struct br_trial *t)
+{
+    return (double)t->at.n * (double)t->cost.counts.stages;
+}
+
+static void test_trade(void **state)
+{
+    (void)state;
+    struct br_trade t;
+    struct br_trial trial[TRIALS];
+    make_trade(&t, trial);
+    assert_string_equal(br_trade_pictures[0]->name, "schemes");
+    assert_string_equal(br_trade_pictures[1]->name, "work");
+    check_trade(&t, br_trade_pictures[0], "CPU time of one thread (s)", seconds);
+    check_trade(&t, br_trade_pictures[1], "elements times linear solves a field", solves);
+    assert_false(br_trade_picture_applies(br_trade_pictures[2], &t));
+}
+
+/* ---- extremes ---- */
+
+static void test_floors(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_figure f;
+    size_t n[] = {10, 100};
+    double k[] = {0.1, 0.01, 0.001};
+    struct br_floor floor[12];
+    struct br_floors floors = {
+        .solvers = 2, .n_count = 2, .k_count = 3, .n = n, .k = k, .floor = floor};
+    MUST(br_contender_read("euler+riccati", &floors.solver[0], &err));
+    MUST(br_contender_read("euler+umfpack", &floors.solver[1], &err));
+    for (int i = 0; i < 12; i++)
+        floor[i] = (struct br_floor){.deviation = {1e-15 * (i + 1), 1e-14 * (i + 1)}};
+    br_fail(&floor[8].refused, BR_BAD_INPUT, "no");
+    MUST(br_floors_draw(&floors, 2, &f, &err));
+    assert_string_equal(f.stem, "floors-k0.001");
+    figure_axes(&f.panel[0], "elements n", "relative deviation");
+    for (size_t s = 0; s < 2; s++)
+        for (size_t i = 0; i < 2; i++)
+            figure_point(f.panel[0].series[s], i, (double)n[i],
+                         s == 1 && i == 0 ? (double)NAN : floor[(s * 2 + i) * 3 + 2].deviation[1]);
+    figure_point(figure_series(&f.panel[0], "2^{-53} n^{4}"), 1, 100, DBL_EPSILON / 2 * 1e8);
+    assert_int_equal(figure_series(&f.panel[0], "2^{-53} n")->pen, BR_PEN_GUIDE);
+    figure_check(&f);
+    br_figure_clear(&f);
+}
+
+static void test_drifts(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_figure f;
+    size_t steps[] = {10, 1000, 7};
+    struct br_drift drift[12];
+    struct br_drifts d = {
+        .contenders = 2, .solvers = 1, .k_count = 3, .steps = steps, .drift = drift};
+    MUST(br_contender_read("euler+lagged+riccati", &d.contender[0], &err));
+    MUST(br_contender_read("bdf2+riccati", &d.contender[1], &err));
+    for (int i = 0; i < 12; i++)
+        drift[i] = (struct br_drift){.steps = steps[i % 3],
+                                     .deviation = {1e-16 * (i + 1), 1e-17},
+                                     .predicted = 1e-13 * (i + 1)};
+    drift[11].steps = 0;
+    MUST(br_drifts_draw(&d, &f, &err));
+    for (size_t scene = 0; scene < 2; scene++) {
+        const struct br_panel *p = &f.panel[scene];
+        figure_axes(p, "steps N", "relative deviation");
+        for (size_t c = 0; c < 2; c++)
+            for (size_t j = 0; j < 3; j++) {
+                const size_t i = (scene * 2 + c) * 3 + j;
+                figure_point(p->series[c], j, (double)steps[j],
+                             i == 11 ? (double)NAN : drift[i].deviation[0]);
+            }
+        figure_point(figure_series(p, "predicted"), 1, 1000, drift[scene * 6 + 1].predicted);
+        assert_int_equal(figure_series(p, "predicted")->pen, BR_PEN_GUIDE);
+    }
+    figure_check(&f);
+    br_figure_clear(&f);
+}
+
+static void test_energy(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_figure f;
+    static struct br_vibration_row row[4];
+    for (int i = 0; i < 4; i++) { /* two schemes, undamped and damped */
+        row[i] = (struct br_vibration_row){
+            .scheme = br_time_schemes[i % 2], .kind = BR_AXIAL, .damping = i < 2 ? 0 : 0.01};
+        for (int r = 0; r < BR_VIBRATION_RATES; r++)
+            for (int density = 0; density < BR_VIBRATION_DENSITIES; density++)
+                row[i].at[r][density] =
+                    (struct br_vibration){.steps = 10 * (r + 1) + i,
+                                          .measured = -1e-3 * (r + 1 + 10 * i) * (density + 1),
+                                          .predicted = 1e-5 * (r + 1 + 10 * i) * (density + 1)};
+    }
+    const struct br_energy_behaviour b = {.vibration = row, .vibrations = 4};
+    MUST(br_energy_draw(&b, &f, &err));
+    for (int i = 0; i < 4; i++) {
+        const struct br_panel *p = &f.panel[i / 2];
+        figure_axes(p, "steps a period", "share lost a period, size");
+        assert_string_equal(p->series[i % 2]->title, row[i].scheme->name);
+        for (size_t r = 0; r < BR_VIBRATION_RATES; r++) {
+            const struct br_vibration *v = &row[i].at[r][BR_VIBRATION_DENSITIES / 2];
+            figure_point(p->series[i % 2], r, v->steps, v->predicted);
+            figure_point(p->series[2 + i % 2], r, v->steps, -v->measured);
+        }
+        assert_int_equal(p->series[2 + i % 2]->pen, BR_PEN_RINGS);
+    }
+    figure_check(&f);
+    br_figure_clear(&f);
+}
+
+/* The cells are those of the planes that the map counts. */
+static void test_map(void **state)
+{
+    (void)state;
+    enum { CASES = 40 };
+    struct br_error err = {0};
+    struct br_figure f;
+    static struct br_extreme_case one[CASES];
+    static struct br_extreme_verdict verdict[CASES];
+    for (size_t i = 0; i < CASES; i++) {
+        br_extreme_draw(1, i, &one[i]);
+        verdict[i].which = (enum br_extreme_class)(i % BR_EXTREME_CLASSES);
+    }
+    const struct br_extreme_map map = {.cases = CASES, .one = one, .verdict = verdict};
+    MUST(br_extreme_map_draw(&map, &f, &err));
+    assert_int_equal(f.kinds, BR_EXTREME_CLASSES);
+    for (size_t i = 0; i < f.kinds; i++)
+        assert_string_equal(f.kind[i], br_extreme_title((enum br_extreme_class)i));
+    for (size_t i = 0; i < BR_EXTREME_PLANES; i++) {
+        const struct br_extreme_plane *plane = &br_extreme_planes[i];
+        const struct br_cells *c = &f.panel[i].cells;
+        double cell[1024];
+        assert_true(c->columns == plane->x->cells && c->rows == plane->y->cells);
+        br_extreme_plane_fill(&map, plane, cell);
+        assert_memory_equal(c->value, cell, c->rows * c->columns * sizeof *cell);
+        figure_axes(&f.panel[i], plane->x->title, plane->y->title);
+        CLOSE(log10(c->x[0]), plane->x->low, 1e-12);
+        CLOSE(log10(c->x[c->columns]), plane->x->high, 1e-12);
+        CLOSE(log10(c->y[c->rows]), plane->y->high, 1e-12);
+    }
+    figure_check(&f);
+    br_figure_clear(&f);
+}
+
+/* ---- a run ---- */
+
+enum { LOOKS = 3 };
+
+/* Two elements, P1 and Hermite; as many rows as looks. */
+static void make_record(struct br_history_record *r, struct br_history_row row[LOOKS],
+                        double field[LOOKS * 18])
+{
+    for (size_t i = 0; i < LOOKS; i++) {
+        const double x = (double)i + 1;
+        row[i] = (struct br_history_row){i,      0.5 * x, {3 * x, 5 * x}, {7 * x, 11 * x},
+                                         13 * x, 17 * x,  19 * x};
+    }
+    row[0].friction_force = NAN; /* as at t = 0 */
+    for (size_t i = 0; i < LOOKS * 18; i++)
+        field[i] = 100 + (double)i;
+    *r = (struct br_history_record){.n = 2,
+                                    .unknowns = {1, 2},
+                                    .row = row,
+                                    .rows = LOOKS,
+                                    .at = row,
+                                    .looks = LOOKS,
+                                    .field = field};
+}
+
+static void test_letters(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_history_record r;
+    struct br_history_row row[LOOKS];
+    double field[LOOKS * 18];
+    struct br_figure f;
+    struct br_scene scene = br_test_bundled("example2");
+    make_record(&r, row, field);
+    MUST(br_history_draw(&scene, &r, &f, &err));
+    for (size_t i = 0; i < LOOKS; i++) {
+        const double t = row[i].time;
+        figure_point(figure_series(&f.panel[0], "u"), i, t, row[i].displacement[BR_AXIAL]);
+        figure_point(figure_series(&f.panel[1], "w"), i, t, row[i].displacement[BR_BENDING]);
+        figure_point(figure_series(&f.panel[2], "contact"), i, t, row[i].contact_force);
+        figure_point(figure_series(&f.panel[3], "friction"), i, t, row[i].friction_force);
+        figure_point(figure_series(&f.panel[3], "bound"), i, t, row[i].friction_bound);
+    }
+    figure_axes(&f.panel[0], "time (s)", "horizontal displacement of the tip, u(L) (m)");
+    figure_axes(&f.panel[1], "time (s)", "vertical displacement of the tip, w(L) (m)");
+    figure_axes(&f.panel[2], "time (s)", "contact force (N)");
+    br_figure_clear(&f);
+    br_scene_clear(&scene);
+}
+
+/* Frames have the fields of their looks, and the arrays what the tip does there. */
+static void test_movie(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "\narray time[3] = [0.5, 1, 1.5]\n",   "\narray u[3] = [3, 6, 9]\n",
+        "\narray w[3] = [5, 10, 15]\n",        "\narray speed[3] = [11, 22, 33]\n",
+        "\narray contact[3] = [13, 26, 39]\n", "\narray friction[3] = [0, 34, 51]\n",
+        "\narray bound[3] = [19, 38, 57]\n"};
+    struct br_history_record r;
+    struct br_history_row row[LOOKS];
+    double field[LOOKS * 18];
+    char text[1 << 13], frame[200];
+    struct br_scene scene = br_test_bundled("example2");
+    make_record(&r, row, field);
+    const struct br_movie movie = {&scene, &r, br_movie_format_of("m.gif"), "m"};
+    FILE *out = fmemopen(text, sizeof text, "w");
+    br_movie_write_script(out, &movie);
+    fclose(out);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        if (!strstr(text, lines[i]))
+            fail_msg("expected:%s in:\n%s", lines[i], text);
+    out = fmemopen(text, sizeof text, "w");
+    br_movie_write_data(out, &movie);
+    fclose(out);
+    for (size_t look = 0; look < LOOKS; look++) {
+        const double *u = br_history_field(&r, look, BR_AXIAL, false);
+        const double *w = br_history_field(&r, look, BR_BENDING, false);
+        snprintf(frame, sizeof frame, "t = %.9g s\n0 %g %g\n0.5 %g %g\n1 %g %g\n", row[look].time,
+                 u[0], w[0], u[1], w[2], u[2], w[4]);
+        assert_non_null(strstr(text, frame));
+    }
+    br_scene_clear(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_data),   cmocka_unit_test(test_values),
+        cmocka_unit_test(test_hues),   cmocka_unit_test(test_drawn),
+        cmocka_unit_test(test_study),  cmocka_unit_test(test_names),
+        cmocka_unit_test(test_trade),  cmocka_unit_test(test_floors),
+        cmocka_unit_test(test_drifts), cmocka_unit_test(test_energy),
+        cmocka_unit_test(test_map),    cmocka_unit_test(test_letters),
+        cmocka_unit_test(test_movie),  cmocka_unit_test(test_no_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,505 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What machines read is what was computed: every number of the CSV, JSON and HDF5 of run,
+ * trade and split stands under its own key. The structs hold a different number in
+ * every place, so that two that are exchanged are seen. */
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#ifdef BR_HAVE_HDF5
+#include <hdf5.h>
+#endif
+
+#include "tables/fields_file.h"
+#include "tables/report_run.h"
+#include "tables/split_emitter.h"
+#include "tables/trade_emitter.h"
+#include "tests/support.h"
+
+static const struct br_provenance provenance = {.version = "1",
+                                                .commit = "c",
+                                                .compiler = "cc",
+                                                .flags = "-O",
+                                                .command_line = "beamrate",
+                                                .machine = "m",
+                                                .date = "d",
+                                                .threads = 1,
+                                                .scene_path = "p",
+                                                .scene_text = "t"};
+
+/* A key with the number that belongs to it; NAN: none is printed. */
+struct expected {
+    const char *key;
+    double value;
+};
+
+/* As it is printed: with six digits at least. */
+static void is(const char *where, const char *key, double found, double expected)
+{
+    if (isnan(expected) ? !isnan(found) : !(fabs(found - expected) <= 1e-5 * fabs(expected)))
+        fail_msg("%s: %s is %.17g, expected %.17g", where, key, found, expected);
+}
+
+/* ---- reading ---- */
+
+/* The next line of a text, without its end; NULL: none. Advances *text. */
+static char *next_line(char **text)
+{
+    return *text && **text ? strsep(text, "\n") : NULL;
+}
+
+/* The place of a name among a line's fields. */
+static size_t place_of(const char *line, const char *name, char separator)
+{
+    const size_t size = strlen(name);
+    for (size_t i = 0; line; i++) {
+        line += strspn(line, " ");
+        if (strncmp(line, name, size) == 0 && strchr(" ,|", line[size]))
+            return i;
+        line = strchr(line, separator);
+        line = line ? line + 1 : NULL;
+    }
+    fail_msg("there is no column %s", name);
+    return 0;
+}
+
+/* The number in a place of a line; NAN: it is empty. */
+static double number_at(const char *line, size_t place, char separator)
+{
+    for (; place > 0 && line; place--) {
+        line = strchr(line, separator);
+        line = line ? line + 1 : NULL;
+    }
+    assert_non_null(line);
+    char *end;
+    const double value = strtod(line, &end);
+    return end == line ? NAN : value;
+}
+
+static void row_has(const char *what, const char *head, const char *row, char separator,
+                    const struct expected *e, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        is(what, e[i].key, number_at(row, place_of(head, e[i].key, separator), separator),
+           e[i].value);
+}
+
+/* The value at a path, "runs.0.parts.2.tip". */
+static const json_t *at_path(const json_t *value, const char *path)
+{
+    char key[64];
+    for (int used; value && sscanf(path, "%63[^.]%n", key, &used) == 1;) {
+        value = json_is_array(value) ? json_array_get(value, strtoul(key, NULL, 10))
+                                     : json_object_get(value, key);
+        path += used + (path[used] == '.');
+    }
+    return value;
+}
+
+static void json_has(const json_t *root, const struct expected *e, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const json_t *value = at_path(root, e[i].key);
+        if (!value)
+            fail_msg("JSON has no %s", e[i].key);
+        is("JSON", e[i].key, json_is_number(value) ? json_number_value(value) : NAN, e[i].value);
+    }
+}
+
+static json_t *read_json(char *text)
+{
+    json_error_t error;
+    json_t *root = json_loads(text, 0, &error);
+    if (!root)
+        fail_msg("%s in:\n%s", error.text, text);
+    free(text);
+    return root;
+}
+
+/* ---- trade ---- */
+
+/* Two trials whose numbers are all different. */
+static struct br_trade *made_trade(const struct br_scene *scene)
+{
+    struct br_error err = {0};
+    struct br_trade *t = calloc(1, sizeof *t);
+    assert_non_null(t);
+    MUST(br_contenders_read("--methods", "euler,adaptive", &t->contenders, &err));
+    t->request = br_trial_request_default(scene);
+    t->norm[0] = &br_norm_l2;
+    t->count = 2;
+    t->trial = calloc(2, sizeof *t->trial);
+    t->front = calloc(2, sizeof *t->front);
+    assert_true(t->trial && t->front);
+    for (size_t i = 0; i < t->count; i++)
+        t->trial[i] = (struct br_trial){
+            .contender = &t->contenders.list[i],
+            .at = {11 + i, 20 + i},
+            .tolerance = i ? 0.0625 : 0,
+            .cost = {2.5,
+                     3.75,
+                     4,
+                     {.steps = 5, .stages = 6, .rejected = 7, .set_ups = 8, .iterations = 9}},
+            .error = {{0.125, 0.25, 0.375}},
+            .scale = {1.5},
+            .own = {0.0078125},
+        };
+    t->front[1] = true;
+    return t;
+}
+
+static const struct expected trial_numbers[] = {
+    {"n", 11},         {"k", 0.05},     {"tolerance", NAN}, {"relative_error", 0.125 / 1.5},
+    {"error", 0.125},  {"axial", 0.25}, {"bending", 0.375}, {"own_error", 0.0078125},
+    {"seconds", 6.25}, {"set_up", 2.5}, {"march", 3.75},    {"repeats", 4},
+    {"steps", 5},      {"solves", 6},   {"rejected", 7},    {"set_ups", 8},
+    {"iterations", 9}};
+enum { TRIAL_NUMBERS = sizeof trial_numbers / sizeof *trial_numbers };
+
+static void trade_is_printed(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    const struct br_scene scene = br_test_bare();
+    struct br_trade *trade = made_trade(&scene);
+    const struct br_trade_page page = {"made", "Made", trade, &provenance};
+    char *csv = NULL, *json = NULL;
+    size_t size;
+    FILE *out = open_memstream(&csv, &size);
+    MUST(br_trade_csv(out, &page, &err));
+    fclose(out);
+    out = open_memstream(&json, &size);
+    MUST(br_trade_json(out, &page, &err));
+    fclose(out);
+
+    char *rest = csv, *head = next_line(&rest), *fixed = next_line(&rest);
+    row_has("CSV", head, fixed, ',', trial_numbers, TRIAL_NUMBERS);
+    const struct expected others[] = {{"steps_or_levels", 20}, {"scale", 1.5}, {"front", 0}};
+    row_has("CSV", head, fixed, ',', others, 3);
+    const struct expected adaptive[] = {{"k", NAN}, {"tolerance", 0.0625}, {"front", 1}};
+    row_has("CSV", head, next_line(&rest), ',', adaptive, 3);
+
+    json_t *root = read_json(json);
+    json_has(at_path(root, "trials.0"), trial_numbers, TRIAL_NUMBERS);
+    assert_true(json_is_false(at_path(root, "trials.0.front")));
+    json_has(at_path(root, "trials.1"), adaptive, 2);
+    json_decref(root);
+    free(csv);
+    free(trade->trial);
+    free(trade->front);
+    free(trade);
+}
+
+/* ---- split ---- */
+
+/* A split whose part i has errors, floors and tips that are i + 1 times what the first has. */
+static struct br_split made_split(struct br_scene *scene)
+{
+    struct br_split s = {
+        .scene = scene,
+        .method = br_test_method(NULL, "lagged", NULL),
+        .at = {12, 16},
+        .norm = {&br_norm_l2},
+        .norms = 1,
+        .judge = &br_judge_exact,
+        .whole = {.error = {{16, 32, 48}}, .floor = {{0.5, 0.625, 0.75}}, .tip = {17, 33}},
+        .sum = {{64, 128, 192}},
+        .tip_sum = {65, 129},
+        .tip = {66, 130},
+        .solution_tip = {67, 131},
+        .scale = {1},
+        .predicted_round_off = 0.03125,
+    };
+    for (; br_sources[s.shares]; s.shares++) {
+        const double times = (double)(s.shares + 1);
+        s.share[s.shares] = (struct br_share){
+            .source = br_sources[s.shares],
+            .error = {{times, 2 * times, 3 * times}},
+            .floor = {{0.125 * times, 0.25 * times, 0.375 * times}},
+            .tip = {5 * times, -7 * times},
+        };
+    }
+    return s;
+}
+
+/* Where CSV has a column, JSON has a path below the part. */
+static const struct {
+    struct expected csv;
+    const char *json;
+} part_numbers[] = {
+    {{"error", 3}, "norms.0.error.total"},
+    {{"axial", 6}, "norms.0.error.axial"},
+    {{"bending", 9}, "norms.0.error.bending"},
+    {{"floor", 0.375}, "norms.0.floor.total"},
+    {{"axial_floor", 0.75}, "norms.0.floor.axial"},
+    {{"bending_floor", 1.125}, "norms.0.floor.bending"},
+    {{"share", 3.0 / 64}, "norms.0.share"},
+    {{"axial_tip", 15}, "tip.axial"},
+    {{"bending_tip", -21}, "tip.bending"},
+};
+
+static char *emitted_split(const struct br_split *split, const char *format)
+{
+    struct br_error err = {0};
+    const struct br_split_page page = {split, 1, &provenance};
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    for (const struct br_split_emitter *const *e = br_split_emitters; *e; e++)
+        if (strcmp((*e)->name, format) == 0)
+            MUST((*e)->emit(out, &page, &err));
+    fclose(out);
+    return text;
+}
+
+static void split_is_printed(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bare();
+    scene.name = (char[]){"made"};
+    const struct br_split split = made_split(&scene);
+    char *csv = emitted_split(&split, "csv"), *rest = csv, *head = next_line(&rest);
+    char *third = (next_line(&rest), next_line(&rest), next_line(&rest));
+    json_t *root = read_json(emitted_split(&split, "json"));
+    for (size_t i = 0; i < sizeof part_numbers / sizeof *part_numbers; i++) {
+        const struct expected json = {part_numbers[i].json, part_numbers[i].csv.value};
+        row_has("CSV", head, third, ',', &part_numbers[i].csv, 1);
+        json_has(at_path(root, "runs.0.parts.2"), &json, 1);
+    }
+    const struct expected run[] = {{"n", 12},
+                                   {"k", 1.0 / 16},
+                                   {"steps", 16},
+                                   {"predicted_round_off", 0.03125},
+                                   {"sum.norms.0.error.axial", 128},
+                                   {"sum.tip.bending", 129},
+                                   {"whole.norms.0.error.bending", 48},
+                                   {"whole.norms.0.floor.axial", 0.625},
+                                   {"whole.tip.axial", 17},
+                                   {"tip.axial", 66},
+                                   {"solution_tip.bending", 131}};
+    row_has("CSV", head, third, ',', run, 2);
+    json_has(at_path(root, "runs.0"), run, sizeof run / sizeof *run);
+    json_decref(root);
+    free(csv);
+}
+
+/* ---- run ---- */
+
+enum { ELEMENTS = 4, STEPS = 8, LOOKS = 3, MOST_FORMATS = 4 };
+static const size_t levels[LOOKS] = {1, 5, 8};
+
+/* A march of example2, what it has told, and the files that were written meanwhile. */
+struct watched {
+    char folder[32];
+    struct br_scene scene;
+    struct br_history_record record;
+    FILE *history;
+    struct br_fields_file *file[MOST_FORMATS];
+    struct br_run_report report;
+};
+
+static enum br_status write_row(void *self, const struct br_history_row *row, struct br_error *err)
+{
+    const struct watched *w = self;
+    (void)err;
+    br_history_csv_row(w->history, row);
+    return BR_OK;
+}
+
+static enum br_status write_fields(void *self, const struct br_march *march,
+                                   const struct br_history_row *row, struct br_error *err)
+{
+    struct watched *w = self;
+    enum br_status status = BR_OK;
+    for (size_t f = 0; br_fields_formats[f] && !status; f++)
+        status = br_fields_formats[f]->look(w->file[f], march, row, err);
+    return status;
+}
+
+static void path_of(const struct watched *w, const char *name, char path[64])
+{
+    snprintf(path, 64, "%s/%s", w->folder, name);
+}
+
+static char *read_file(const struct watched *w, const char *name)
+{
+    char path[64];
+    path_of(w, name, path);
+    FILE *in = fopen(path, "r");
+    assert_non_null(in);
+    char *text = calloc(1, 1 << 16);
+    assert_non_null(text);
+    assert_true(fread(text, 1, (1 << 16) - 1, in) > 0);
+    fclose(in);
+    return text;
+}
+
+/* What the test program does as the command does it: rows and fields go to files as they come. */
+static void march_and_write(struct watched *w)
+{
+    struct br_error err = {0};
+    char path[64];
+    const struct br_history_observer output[] = {
+        br_history_recorder(&w->record, ELEMENTS),
+        {.self = w, .row = write_row, .look = write_fields},
+    };
+    const struct br_run_request request = {.scene = &w->scene,
+                                           .wanted = 3,
+                                           .method = br_test_method(NULL, NULL, NULL),
+                                           .n = ELEMENTS,
+                                           .steps = STEPS,
+                                           .stride = 1,
+                                           .level = levels,
+                                           .levels = LOOKS,
+                                           .check = true,
+                                           .energies = true,
+                                           .output = output,
+                                           .outputs = 2};
+    path_of(w, "history.csv", path);
+    w->history = fopen(path, "w");
+    assert_non_null(w->history);
+    br_history_csv_head(w->history);
+    for (size_t f = 0; br_fields_formats[f]; f++) {
+        path_of(w, br_fields_formats[f]->file_name, path);
+        const struct br_fields_request fields = {path,  &w->scene, ELEMENTS,   STEPS,
+                                                 LOOKS, 1,         &provenance};
+        MUST(br_fields_formats[f]->open(&w->file[f], &fields, &err));
+    }
+    MUST(br_run(&request, &w->report, &err));
+    fclose(w->history);
+    for (size_t f = 0; br_fields_formats[f]; f++)
+        MUST(br_fields_formats[f]->close(w->file[f], NULL, &err));
+}
+
+static int set_up(void **state)
+{
+    static struct watched w;
+    w = (struct watched){.folder = "/tmp/br_printed_XXXXXX", .scene = br_test_bundled("example2")};
+    assert_non_null(mkdtemp(w.folder));
+    march_and_write(&w);
+    *state = &w;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    struct watched *w = *state;
+    char command[64];
+    snprintf(command, sizeof command, "rm -r '%s'", w->folder);
+    br_history_record_clear(&w->record);
+    br_scene_clear(&w->scene);
+    return system(command);
+}
+
+static void history_is_printed(void **state)
+{
+    const struct watched *w = *state;
+    char *text = read_file(w, "history.csv"), *rest = text, *head = next_line(&rest);
+    assert_int_equal(w->record.rows, STEPS + 1);
+    for (size_t i = 0; i < w->record.rows; i++) {
+        const struct br_history_row *row = &w->record.row[i];
+        const struct expected numbers[] = {{"step", (double)i},
+                                           {"t", (double)i / STEPS},
+                                           {"u", row->displacement[BR_AXIAL]},
+                                           {"w", row->displacement[BR_BENDING]},
+                                           {"u_t", row->velocity[BR_AXIAL]},
+                                           {"w_t", row->velocity[BR_BENDING]},
+                                           {"contact_force", row->contact_force},
+                                           {"friction_force", row->friction_force},
+                                           {"friction_bound", row->friction_bound}};
+        row_has("history.csv", head, next_line(&rest), ',', numbers, 9);
+    }
+    free(text);
+}
+
+/* What a variable of the fields is at a node, of the march's own nodal values. */
+static double field_value(const struct watched *w, size_t look, size_t node, const char *name)
+{
+    const double h = w->scene.length / ELEMENTS;
+    const enum br_field_kind kind = name[0] == 'u' ? BR_AXIAL : BR_BENDING;
+    const bool slope = strstr(name, "slope") != NULL;
+    const double *value = br_history_field(&w->record, look, kind, strstr(name, "_t") != NULL);
+    return kind == BR_AXIAL ? value[node] : slope ? value[2 * node + 1] / h : value[2 * node];
+}
+
+/* The rows' tip is that of the fields. */
+static void tip_is_the_last_node(void **state)
+{
+    const struct watched *w = *state;
+    for (size_t look = 0; look < LOOKS; look++) {
+        const struct br_history_row *row = &w->record.row[levels[look]];
+        is("row", "u", row->displacement[BR_AXIAL], field_value(w, look, ELEMENTS, "u"));
+        is("row", "u_t", row->velocity[BR_AXIAL], field_value(w, look, ELEMENTS, "u_t"));
+        is("row", "w", row->displacement[BR_BENDING], field_value(w, look, ELEMENTS, "w"));
+        is("row", "w_t", row->velocity[BR_BENDING], field_value(w, look, ELEMENTS, "w_t"));
+    }
+}
+
+static void fields_are_printed(void **state)
+{
+    const struct watched *w = *state;
+    char *text = read_file(w, "fields.csv"), *rest = text, *head = next_line(&rest);
+    for (size_t look = 0; look < LOOKS; look++)
+        for (size_t node = 0; node <= ELEMENTS; node++) {
+            const char *row = next_line(&rest);
+            const struct expected place[] = {{"t", (double)levels[look] / STEPS},
+                                             {"x", w->scene.length * (double)node / ELEMENTS}};
+            row_has("fields.csv", head, row, ',', place, 2);
+            for (size_t v = 0; v < br_field_variable_count(1); v++) {
+                const char *name = br_field_variables[v].name;
+                const struct expected e = {name, field_value(w, look, node, name)};
+                row_has("fields.csv", head, row, ',', &e, 1);
+            }
+        }
+    free(text);
+}
+
+#ifdef BR_HAVE_HDF5
+static void read_set(hid_t file, const char *name, hssize_t size, double *values)
+{
+    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(set);
+    assert_int_equal(H5Sget_simple_extent_npoints(space), size);
+    assert_true(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+    H5Sclose(space);
+    H5Dclose(set);
+}
+
+static void fields_are_in_hdf5(void **state)
+{
+    const struct watched *w = *state;
+    double x[ELEMENTS + 1], t[LOOKS], values[LOOKS][ELEMENTS + 1];
+    char path[64];
+    path_of(w, "fields.h5", path);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    assert_true(file >= 0);
+    read_set(file, "x", ELEMENTS + 1, x);
+    read_set(file, "t", LOOKS, t);
+    for (size_t node = 0; node <= ELEMENTS; node++)
+        is("fields.h5", "x", x[node], w->scene.length * (double)node / ELEMENTS);
+    for (size_t look = 0; look < LOOKS; look++)
+        is("fields.h5", "t", t[look], (double)levels[look] / STEPS);
+    for (size_t v = 0; v < br_field_variable_count(1); v++) {
+        const char *name = br_field_variables[v].name;
+        read_set(file, name, LOOKS * (ELEMENTS + 1), &values[0][0]);
+        for (size_t look = 0; look < LOOKS; look++)
+            for (size_t node = 0; node <= ELEMENTS; node++)
+                is("fields.h5", name, values[look][node], field_value(w, look, node, name));
+    }
+    H5Fclose(file);
+}
+#endif
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(trade_is_printed),   cmocka_unit_test(split_is_printed),
+        cmocka_unit_test(history_is_printed), cmocka_unit_test(tip_is_the_last_node),
+        cmocka_unit_test(fields_are_printed),
+#ifdef BR_HAVE_HDF5
+        cmocka_unit_test(fields_are_in_hdf5),
+#endif
+    };
+    return cmocka_run_group_tests_name("printed_values", tests, set_up, tear_down);
+}
