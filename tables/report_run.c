@@ -71,16 +71,16 @@ static const char *direction(int sign)
 /* What the tip's displacement is predicted to be off, m; NAN: not known. */
 static double tip_error(const struct br_run_findings *f, int kind)
 {
-    const double most = br_predicted_most(f->prediction, (enum br_field_kind)kind);
-    const double value = f->report->end.last.displacement[kind];
-    return f->prediction->known && isfinite(most) ? most * fabs(value) : NAN;
+    const double error =
+        br_predicted_tip(f->prediction, (enum br_field_kind)kind, f->report->scene->length);
+    return f->prediction->known ? error : NAN;
 }
 
 /* "-0.2216 +- 0.014": the value to the error's second digit. */
 static const char *with_error(double value, double error, char text[VALUE])
 {
-    if (!(error > 0)) {
-        snprintf(text, VALUE, "%.6g", value);
+    if (!(error > 0) || value == 0) {
+        snprintf(text, VALUE, error > 0 ? "%.6g +- %.2g" : "%.6g", value, error);
         return text;
     }
     const int first = (int)floor(log10(fabs(value))), last = (int)floor(log10(error)) - 1;
@@ -132,7 +132,7 @@ static void answer_prediction(struct br_document *d, const struct br_prediction 
         br_put_answer(d,
                       "Predicted before the march, of each field relative to its largest (L2): "
                       "discretisation error %.1e, between %.1e and %.1e (time %.1e, space %.1e); "
-                      "round-off %.1e. +- is that share of the tip's value.",
+                      "round-off %.1e. +- is what this may make at the tip, an estimate.",
                       p->whole.error, p->whole.low, p->whole.high, p->time.error, p->space.error,
                       p->round_off);
     else if (p->bounded)

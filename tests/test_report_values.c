@@ -346,6 +346,7 @@ static const struct br_prediction made_prediction = {
     .known = true,
     .bounded = true,
     .field = {{0.125, 0.0625, 0.25, 1}, {0.375, 0.1875, 0.75, 1}},
+    .size = {0.5, 0.75},
     .space = {1.125, 1.0625, 1.25, 1},
     .time = {2.125, 2.0625, 2.25, 1},
     .whole = {3.125, 3.0625, 3.25, 1},
@@ -427,10 +428,8 @@ static void run_is_in_json(void **state)
         {"tip.step", STEPS},
         {"tip.displacement.axial", last->displacement[BR_AXIAL]},
         {"tip.displacement.bending", last->displacement[BR_BENDING]},
-        {"tip.predicted_error.axial",
-         br_predicted_most(p, BR_AXIAL) * fabs(last->displacement[BR_AXIAL])},
-        {"tip.predicted_error.bending",
-         br_predicted_most(p, BR_BENDING) * fabs(last->displacement[BR_BENDING])},
+        {"tip.predicted_error.axial", br_predicted_tip(p, BR_AXIAL, example.length)},
+        {"tip.predicted_error.bending", br_predicted_tip(p, BR_BENDING, example.length)},
         {"tip.velocity.axial", last->velocity[BR_AXIAL]},
         {"tip.velocity.bending", last->velocity[BR_BENDING]},
         {"tip.contact_force", last->contact_force},
@@ -517,12 +516,13 @@ static void answer_comes_first(void **state)
     last->displacement[BR_AXIAL] = -0.2216123;
     last->displacement[BR_BENDING] = 3.4567e-9;
     p.round_off = 0;
-    p.field[BR_AXIAL].high = 0.0631;
-    p.field[BR_BENDING].high = 0.01;
+    /* rms errors of 0.0081 and 1.5e-11 m */
+    p.field[BR_AXIAL].high = 0.0162 * sqrt(example.length);
+    p.field[BR_BENDING].high = 2e-11 * sqrt(example.length);
     report_run(&p, &none, &d);
     char *text = printed(&d, &br_document_text);
     assert_non_null(
-        strstr(text, "\nTip at t = 1 s: u = -0.222 +- 0.014 m, w = 3.457e-09 +- 3.5e-11"));
+        strstr(text, "\nTip at t = 1 s: u = -0.222 +- 0.014 m, w = 3.457e-09 +- 3.4e-11"));
     assert_non_null(strstr(text, "\naxial displacement u: -0.222 +- 0.014 m\n"));
     free(text);
     p.known = p.bounded = false;

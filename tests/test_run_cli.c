@@ -23,7 +23,7 @@ static void test_summary(void **state)
         "\nfriction force: -3000 N\n  its bound: 3000 N\n  of the bound: 100 %\n"
         "friction: slip towards -w\n",
         "slipped  towards -w ",
-        "\nTip at t = 1 s: w = -0.2488 +- 0.0013 m, friction: slip towards -w. Events: slipped 1.",
+        "\nTip at t = 1 s: w = -0.2488 +- 0.0017 m, friction: slip towards -w. Events: slipped 1.",
         "lost to friction",
         "bending field  modelled  40 unknowns, cubic Hermite elements",
         "axial field    skipped   the scene has no axial part",
