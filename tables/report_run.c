@@ -84,10 +84,10 @@ static const char *with_error(double value, double error, char text[VALUE])
         return text;
     }
     const int first = (int)floor(log10(fabs(value))), last = (int)floor(log10(error)) - 1;
-    if (first < -4 || first > 6 || last > 0)
+    if (first < -4 || first > 6 || last > 0 || last < -15)
         snprintf(text, VALUE, "%.*e +- %.1e", first > last ? first - last : 0, value, error);
     else
-        snprintf(text, VALUE, "%.*f +- %.2g", -last < 15 ? -last : 15, value, error);
+        snprintf(text, VALUE, "%.*f +- %.*f", -last, value, -last, error);
     return text;
 }
 
