@@ -38,7 +38,7 @@ static void expect_kept(const char *name)
     json_t *root = json_load_file(path, 0, NULL);
     assert_non_null(root);
     const json_t *text = json_object_get(json_object_get(root, "provenance"), "scene_text");
-    if (!text) /* not by tables/document.h yet */
+    if (!text) /* trade: not by tables/document.h yet */
         text = json_object_get(json_object_get(root, "scene"), "text");
     if (!text)
         fail_msg("%s: no text of the scene", name);
