@@ -185,7 +185,7 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
     if (r->bad_steps)
         br_put_answer(d, "%zu of %zu steps are beyond the certificate's limits; the first: %s",
                       r->bad_steps, r->end.last.step, r->verdict.message);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && r->summed && !r->work.remainder; kind++)
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && r->summed; kind++)
         answer_gain(d, r, kind);
     if (r->contact_unstable)
         br_put_answer(d, "The lagged contact is beyond its stability limit here: the tip may "
@@ -445,22 +445,16 @@ static void put_added(struct br_document *d, const struct br_run_report *r)
 static void put_works(struct br_document *d, const struct br_run_report *r)
 {
     const struct br_work *w = &r->work;
-    const bool exact = !w->remainder;
     put_two(d, r, w->loads, "work of the loads", "J", "energies.work_of_loads");
     put_two(d, r, w->viscous, "lost to viscosity", "J", "energies.lost_to_viscosity");
     put_two(d, r, w->scheme, "lost to the scheme", "J", "energies.lost_to_scheme");
-    put(d, br_truth(w->remainder), exact ? NULL : "the last two", NULL,
-        "energies.lost_to_scheme_is_the_remainder");
-    br_put_shown(d, "what the works, sums by the trapezoidal rule, leave of the balance, with that "
-                    "rule's error");
-    put(d, if_known(r->marched.contact.modelled && exact, br_number(w->scheme_contact)),
+    put(d, if_known(r->marched.contact.modelled, br_number(w->scheme_contact)),
         "  and by its contact", "J", "energies.lost_to_scheme_by_contact");
-    put(d, if_known(exact, br_number(br_energy_imbalance(&r->energy_start, &r->energy_now, w))),
+    put(d, br_number(br_energy_imbalance(&r->energy_start, &r->energy_now, w)),
         "missing in the balance, of the terms' sum", NULL, "energies.imbalance");
-    put(d, if_known(exact, br_number(r->energy_worst)), "  in one step at most", NULL,
+    put(d, br_number(r->energy_worst), "  in one step at most", NULL,
         "energies.largest_imbalance_of_a_step");
-    if (exact)
-        put_added(d, r);
+    put_added(d, r);
 }
 
 static void put_energies(struct br_document *d, const struct br_run_report *r)
