@@ -311,6 +311,11 @@ enum { BR_SHOWN = 400 };
 const char *br_document_shown(const struct br_column *column, const struct br_document_cell *cell,
                               char buffer[BR_SHOWN]);
 
+/* For programs: a number with all its digits, a text quoted for the target. */
+struct br_quoting;
+void br_document_print_value(FILE *out, const struct br_quoting *target, const char *nothing,
+                             const struct br_value *value);
+
 const struct br_document_cell *br_document_cell_at(const struct br_document_table *table,
                                                    size_t row, size_t column);
 

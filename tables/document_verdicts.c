@@ -7,27 +7,6 @@
 #include "study/scene/quote.h"
 #include "tables/document.h"
 
-static void print_value(FILE *out, const struct br_quoting *target, const struct br_value *value)
-{
-    switch (value->kind) {
-    case BR_NUMBER:
-        fprintf(out, "%.17g", value->number);
-        break;
-    case BR_COUNT:
-        fprintf(out, "%lld", value->count);
-        break;
-    case BR_TRUTH:
-        fputs(value->truth ? "true" : "false", out);
-        break;
-    case BR_TEXT:
-        br_quote(out, target, value->text);
-        break;
-    case BR_NOTHING:
-        fputs("null", out);
-        break;
-    }
-}
-
 /* "  key: value", a line a column of the verdict's row. */
 static void print_row(FILE *out, const struct br_quoting *target, const struct br_document *d,
                       const struct br_document_verdict *v)
@@ -36,7 +15,7 @@ static void print_row(FILE *out, const struct br_quoting *target, const struct b
     for (size_t c = 0; t && c < t->columns; c++)
         if (br_for_programs(t->column[c].flags)) {
             fprintf(out, "  %s: ", t->column[c].key);
-            print_value(out, target, &br_document_cell_at(t, v->row, c)->value);
+            br_document_print_value(out, target, "null", &br_document_cell_at(t, v->row, c)->value);
             fputc('\n', out);
         }
 }
