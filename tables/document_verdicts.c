@@ -150,7 +150,7 @@ const struct br_document_format br_document_junit = {
     .write = write_junit,
 };
 
-/* ---- TAP ---- */
+/* ---- TAP: without times, so that two runs of one build differ in the answer alone ---- */
 
 static void print_test(FILE *out, const struct br_document *d, size_t number)
 {
@@ -173,8 +173,6 @@ static void print_test(FILE *out, const struct br_document *d, size_t number)
         print_line(out, &br_for_yaml, "file", v->file);
     if (v->line)
         fprintf(out, "  line: %zu\n", v->line);
-    if (isfinite(v->seconds))
-        fprintf(out, "  seconds: %.6g\n", v->seconds);
     print_row(out, &br_for_yaml, d, v);
     fputs(v->details ? "  details:\n" : "", out);
     for (size_t i = 0; i < v->details; i++) {
