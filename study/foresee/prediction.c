@@ -319,6 +319,7 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
         const struct size size = solution_size(s, kind);
         if (!is_modelled(s->outlook->scene, kind))
             continue;
+        p->size[kind] = size.most;
         const struct br_predicted e = p->field[kind] = relative(whole_error(s, kind), size);
         p->bounded = p->bounded && isfinite(e.high);
         useful = useful && (e.high <= fmax(all, near * e.error) || e.high <= widest * e.low);
@@ -337,6 +338,12 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
 double br_predicted_most(const struct br_prediction *p, enum br_field_kind kind)
 {
     return p->known ? p->field[kind].high + of_round_off * p->round_off : INFINITY;
+}
+
+double br_predicted_tip(const struct br_prediction *p, enum br_field_kind kind, double length)
+{
+    const double shape = kind == BR_AXIAL ? 3 : 5;
+    return br_predicted_most(p, kind) * p->size[kind] * sqrt(shape / length);
 }
 
 double br_predict_round_off(const struct br_outlook *o)
