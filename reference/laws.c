@@ -185,6 +185,16 @@ static double bound_of(const struct br_step *s)
     return scene->friction.coefficient * positive(depth_of(s));
 }
 
+/* How far the bound is from `wanted`, N, less what rounding leaves of the axial velocities: the
+ * march has the depth from its contact force, the certificate from the nodes. */
+static double bound_error(const struct br_step *s, double wanted)
+{
+    const double way = s->scene->friction.law == BR_COULOMB && s->scene->axial.modelled
+                           ? s->k * stillness(s, BR_AXIAL)
+                           : 0;
+    return positive(fabs(s->tip.friction_bound - wanted) - s->scene->friction.coefficient * way);
+}
+
 /* What the bound is rounded to, where it is found from u_n - g. */
 static double bound_scale(const struct br_step *s)
 {
@@ -234,7 +244,7 @@ static double friction_error(const struct br_step *s)
     const double bound = bound_of(s);
     const double force = with_last_bit(s, BR_BENDING, BR_SCALE_LAW,
                                        br_worse_of(fabs(lambda), bound) + bound_scale(s));
-    const double told = ratio(fabs(s->tip.friction_bound - bound), force);
+    const double told = ratio(bound_error(s, bound), force);
     const double v = ratio(at_tip(s, BR_BENDING, nodal), speed);
     const double l = ratio(lambda, force), b = ratio(bound, force);
     const double tolerance = s->method->friction->iterates ? s->method->iteration.tolerance : 0;
@@ -273,9 +283,9 @@ static int friction_branches(const struct br_step *s, double distance[BR_MOST_BR
     const double ways = field_scale(s, BR_BENDING) + way_of(s, BR_BENDING, lambda);
     const double speed = ways / s->k;
     const double force = br_worse_of(fabs(lambda), fabs(bound)) + bound_scale(s);
-    double told = fabs(bound - bound_of(s));
+    double told = bound_error(s, bound_of(s));
     if (scene->friction.law == BR_COULOMB)
-        told = smaller(told, fabs(bound - scene->friction.coefficient * depth_of(s)));
+        told = smaller(told, bound_error(s, scene->friction.coefficient * depth_of(s)));
     told = ratio(told, force);
     const double v = fabs(at_tip(s, BR_BENDING, s->field[BR_BENDING].velocity));
     distance[0] = br_worse_of(told, ratio(positive(v - stillness(s, BR_BENDING)), speed));
