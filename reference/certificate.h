@@ -72,6 +72,8 @@ struct br_step {
                          from, m/s; 0: the step counts alone */
     double size[2];   /* the same of the norms of the equation's terms, as `size_now` told them */
     double *size_now; /* out, by br_field_kind: the sum of these norms; NULL: nobody asks */
+    double inertia_round_off; /* what inertia adds to the predicted relative round-off of the field
+                                 that is certified; 0: nothing */
 };
 
 struct br_certificate br_certify(const struct br_step *step);

@@ -136,6 +136,17 @@ static struct br_certificate excess_of(const struct br_witness *w, enum br_field
     };
 }
 
+/* What the mass adds to the predicted round-off of a field, at the stage's tau. */
+static double inertia_round_off(const struct br_witness *w, enum br_field_kind kind)
+{
+    const struct br_method *method = w->seen.method;
+    const struct br_field *field = br_march_field(w->march, kind);
+    struct br_field massless = *field;
+    massless.density = 0;
+    return method->solver->round_off(field, &method->linear) -
+           method->solver->round_off(&massless, &method->linear);
+}
+
 static void divide(struct br_certificate *c, const struct br_certificate *by)
 {
     c->axial_residual /= by->axial_residual;
@@ -162,7 +173,8 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
         .largest = w->largest,
         .speed = {largest_of(w->speed[BR_AXIAL]), largest_of(w->speed[BR_BENDING])},
         .size = {largest_of(w->size[BR_AXIAL]), largest_of(w->size[BR_BENDING])},
-        .size_now = size_now};
+        .size_now = size_now,
+        .inertia_round_off = inertia_round_off(w, told->kind)};
     step.field[told->kind] = around(&seen->field[told->kind]);
     /* The axial field lends its size to the bound's round-off. */
     if (told->kind == BR_BENDING)

@@ -5,6 +5,7 @@
  * are seen; and what a scheme adds or takes is told. */
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -296,6 +297,57 @@ static void test_random_scenes(void **state)
     }
 }
 
+/* A massless rod without damping jumps to where no load holds it, on the gap: what is left of its
+ * displacement is the round-off of the velocity of that jump, and so is Coulomb's bound. */
+static void test_jump_onto_gap(void **state)
+{
+    (void)state;
+    struct watched w = {.scene = br_test_bare()};
+    struct br_scene *s = &w.scene;
+    s->density = 0;
+    s->duration = 1;
+    s->axial.stiffness = 1e4;
+    s->axial.viscosity = 0;
+    s->axial.displacement = br_test_function("-0.30000000000000004*x");
+    s->bending.stiffness = 0;
+    s->bending.viscosity = 50;
+    s->contact = (struct br_contact){true, 0, 90};
+    s->friction = (struct br_friction){.law = BR_COULOMB, .coefficient = 0.02};
+    w.method = method_of(br_time_scheme_find("adaptive"), NULL, s);
+    w.method.tolerance = 4.6965672746957507e-08;
+    passes(&w, "a jump onto the gap", 1, 1);
+}
+
+/* A beam that starts bent, and so heavy that only its tip moves. */
+static struct br_scene heavy_scene(double length)
+{
+    struct br_scene s = br_test_bare();
+    char bent[64], slope[64];
+    snprintf(bent, sizeof bent, "-2*(x/%g)^2", length);
+    snprintf(slope, sizeof slope, "-4*x/%g^2", length);
+    s.length = length;
+    s.duration = 1;
+    s.density = 5e4;
+    s.axial.modelled = false;
+    s.bending.stiffness = 100;
+    s.bending.viscosity = 0;
+    s.bending.displacement = br_test_function(bent);
+    s.bending.displacement_slope = br_test_function(slope);
+    return s;
+}
+
+static void test_heavy_beams(void **state)
+{
+    (void)state;
+    static const size_t meshes[] = {1, 20, 21, 40, 59, 100, 150, 200, 400};
+    for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++)
+        for (double length = 1e3; length < 1e6; length *= 10)
+            for (size_t steps = 1; steps <= 100; steps *= 10) {
+                struct watched w = {.scene = heavy_scene(length), .method = br_method_default()};
+                passes(&w, "a heavy beam", meshes[i], steps);
+            }
+}
+
 /* To be watched changes nothing. */
 static void test_watched_is_unwatched(void **state)
 {
@@ -360,6 +412,26 @@ static void test_spoilt_scenes(void **state)
                 fail_msg("%s: value %zu that is off passed", staged(i)->name, v);
             finish(&w);
         }
+}
+
+/* Where only the tip moves, round-off hides more, but not much more. */
+static void test_spoilt_heavy_beams(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t n;
+        double by;
+    } meshes[] = {{20, 1e-9}, {40, 1e-6}, {59, 1e-6}, {200, 2e-5}};
+    for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++) {
+        struct watched w = {.scene = heavy_scene(1e5), .method = br_method_default()};
+        const struct br_scene off =
+            spoilt(&w.scene, offsetof(struct br_scene, bending.stiffness), meshes[i].by);
+        assert_true(start(&w, meshes[i].n, 2, &(struct told){&off, NULL, NULL}));
+        advance(&w, 2);
+        if (!w.certified.status)
+            fail_msg("n = %zu: a stiffness that is off passed", meshes[i].n);
+        finish(&w);
+    }
 }
 
 static bool same_tables(const struct br_time_scheme *a, const struct br_time_scheme *b)
@@ -514,8 +586,11 @@ int main(void)
         cmocka_unit_test(test_rules_and_meshes),
         cmocka_unit_test(test_solvers_and_meshes),
         cmocka_unit_test(test_random_scenes),
+        cmocka_unit_test(test_jump_onto_gap),
+        cmocka_unit_test(test_heavy_beams),
         cmocka_unit_test(test_watched_is_unwatched),
         cmocka_unit_test(test_spoilt_scenes),
+        cmocka_unit_test(test_spoilt_heavy_beams),
         cmocka_unit_test(test_other_scheme),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_every_term),
