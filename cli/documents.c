@@ -34,15 +34,35 @@ static enum br_status write_format(const struct br_output *output,
     return status;
 }
 
-enum br_status br_documents_write(const struct br_output *output, const struct br_options *options,
+/* One file of all, when the pictures are there. */
+static enum br_status write_page(struct br_picture_files *pictures,
+                                 const struct br_document *documents, size_t count,
+                                 struct br_error *err)
+{
+    static const char name[] = "report.html";
+    FILE *file;
+    enum br_status status = br_picture_files_finish(pictures, err);
+    if (!status)
+        status = br_output_file(pictures->output, name, &file, err);
+    if (status)
+        return status;
+    status = br_document_print_page(file, documents, count, pictures->output->staging, err);
+    const enum br_status closed = br_output_close(file, name, status ? NULL : err);
+    return status ? status : closed;
+}
+
+enum br_status br_documents_write(struct br_picture_files *pictures,
+                                  const struct br_options *options,
                                   const struct br_document *documents, size_t count,
                                   struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (const struct br_document_format *const *f = br_document_formats; *f; f++)
         for (size_t i = 0; i < count && !status; i++)
-            if (br_format_wanted(options, (*f)->name))
-                status = write_format(output, *f, &documents[i], err);
+            if (*f != &br_document_html && br_format_wanted(options, (*f)->name))
+                status = write_format(pictures->output, *f, &documents[i], err);
+    if (!status && count && br_format_wanted(options, br_document_html.name))
+        status = write_page(pictures, documents, count, err);
     return status;
 }
 
