@@ -4,20 +4,21 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "cli/documents.h"
 #include "cli/picture_files.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/warn_marches.h"
 #include "plots/pictures.h"
 #include "study/ranks/ranks.h"
-#include "tables/claims_emitter.h"
+#include "tables/report_study.h"
 
 struct run {
     const struct br_options *options;
     struct br_paper paper;
     struct br_finding finding[BR_MOST_CLAIMS];
     struct br_output output;
-    struct br_provenance provenance;
+    struct br_document claims;
     struct br_picture_files pictures;
 };
 
@@ -57,34 +58,9 @@ static enum br_status write_readme(struct run *r, struct br_error *err)
     return br_output_close(file, "README.md", err);
 }
 
-static enum br_status write_claims(struct run *r, const struct br_claims_page *page,
-                                   struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (const struct br_claims_emitter *const *e = br_claims_emitters; *e && !status; e++) {
-        char name[64];
-        FILE *file;
-        if (!(*e)->extension)
-            continue;
-        snprintf(name, sizeof name, "claims%s", (*e)->extension);
-        status = br_output_file(&r->output, name, &file, err);
-        if (status)
-            return status;
-        (*e)->emit(file, page);
-        status = br_output_close(file, name, err);
-    }
-    return status;
-}
-
 /* The figures first: they are rendered while the tables are written. */
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
-    const struct br_claims_page page = {
-        .finding = r->finding,
-        .n = r->paper.request.n,
-        .per_second = r->paper.request.per_second,
-        .provenance = &r->provenance,
-    };
     enum br_status status = BR_OK;
     r->pictures.output = &r->output;
     for (const struct br_paper_figure *f = br_paper_figures; f->number && !status; f++)
@@ -92,17 +68,25 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     if (!status)
         status = write_readme(r, err);
     if (!status)
-        status = write_claims(r, &page, err);
+        status = br_documents_write(&r->output, r->options, &r->claims, 1, err);
     const enum br_status drawn = br_picture_files_finish(&r->pictures, status ? NULL : err);
     if (!status)
         status = drawn;
     if (!status)
         status = br_output_commit(&r->output, err);
     if (!status && !br_option_given(r->options, BR_OPT_QUIET)) {
-        br_claims_emitters[0]->emit(stdout, &page);
+        status = br_documents_show(&r->claims, 1, err);
         br_output_announce(&r->output);
     }
     return status;
+}
+
+static void report(struct run *r)
+{
+    struct br_provenance provenance;
+    br_provenance_fill(&provenance, (int)br_option_number(r->options, BR_OPT_THREADS, 0));
+    br_report_claims(r->finding, r->paper.request.n, r->paper.request.per_second, &r->claims);
+    br_put_provenance(&r->claims, &provenance);
 }
 
 static enum br_status compute(struct run *r, struct br_error *err)
@@ -115,6 +99,8 @@ static enum br_status compute(struct run *r, struct br_error *err)
     br_progress_end();
     for (size_t i = 0; br_claims[i] && !status; i++)
         r->finding[i] = br_claim_measure(br_claims[i], &r->paper);
+    if (!status)
+        report(r);
     return status;
 }
 
@@ -127,11 +113,11 @@ static enum br_status run(const struct br_options *options, struct br_error *err
         status = br_output_open(&r.output, br_option_text(options, BR_OPT_OUT), err);
     if (writes && !status)
         status = br_warn_of_paper(err);
-    br_provenance_fill(&r.provenance, (int)br_option_number(options, BR_OPT_THREADS, 0));
     if (!status)
         status = compute(&r, err); /* on every rank: it takes a second */
     if (writes && !status)
         status = write_all(&r, err);
+    br_document_clear(&r.claims);
     br_paper_clear(&r.paper);
     br_output_discard(&r.output);
     return status;
@@ -145,7 +131,7 @@ const struct br_command br_command_figures = {
     .about =
         "Figures 2 to 10 of the paper from Examples 1 to 4 at h = k = 1e-3, each as a gnuplot "
         "script, data, SVG and PNG with a caption; and every statement of section 3.2 with our "
-        "value, its error bar, and whether they agree (claims.csv, .md, .tex). README.md shows "
+        "value, its error bar, and whether they agree (claims.txt, .csv, .md, .tex, .json). README.md shows "
         "them all.",
     .example = {"beamrate figures --out figures"},
     .run = run,

@@ -273,21 +273,15 @@ static enum br_status read_json(json_t *json, const char *name, struct br_manife
 enum br_status br_manifest_read(int folder, const char *name, struct br_manifest *m,
                                 struct br_error *err)
 {
-    json_error_t why = {.line = 0};
     const int file = openat(folder, name, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (file < 0)
         return errno == ENOENT ? BR_OK : br_fail(err, BR_IO, "%s: %s", name, strerror(errno));
     struct stat info;
     const bool plain = fstat(file, &info) == 0 && S_ISREG(info.st_mode) && info.st_size < LARGEST;
-    errno = 0;
-    json_t *json = plain ? json_loadfd(file, 0, &why) : NULL;
-    const bool memory = errno == ENOMEM || json_error_code(&why) == json_error_out_of_memory;
+    json_error_t why;
+    json_t *json = plain ? br_json_read(file, &why) : NULL;
     close(file);
-    enum br_status status;
-    if (plain && memory) /* jansson forgets members that it has no memory for */
-        status = br_no_memory(err, "a manifest");
-    else
-        status = read_json(json, name, m, err);
+    const enum br_status status = read_json(json, name, m, err);
     json_decref(json);
     return status;
 }

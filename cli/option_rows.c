@@ -169,7 +169,7 @@ static const struct br_option rows[] = {
      "beyond a limit",
      NULL, BR_TAKES_FLAG, .commands = BR_FOR_RUN,
      .more = "Recomputes the residuals and laws of every step from nodal values, stage by stage, "
-             "with code that the solver does not share. Not with ida."},
+             "with code that the solver does not share."},
     {BR_OPT_ENERGIES, "energies", 0, NULL, "the energy balance alone", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_RUN},
     {BR_OPT_EXPLAIN, "explain", 0, NULL, "what the parts of a step cost, as measured", NULL,

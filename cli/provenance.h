@@ -3,7 +3,7 @@
 #ifndef BR_CLI_PROVENANCE_H
 #define BR_CLI_PROVENANCE_H
 
-#include "tables/emitter.h"
+#include "tables/document.h"
 
 const char *br_version(void);
 const char *br_commit(void);

@@ -2,8 +2,9 @@
 #include "cli/study_run.h"
 
 #include <stdio.h>
-#include <string.h>
+#include <stdlib.h>
 
+#include "cli/documents.h"
 #include "cli/picture_files.h"
 #include "cli/provenance.h"
 #include "cli/study_session.h"
@@ -11,42 +12,43 @@
 #include "plots/pictures.h"
 #include "study/foresee/resources.h"
 #include "study/ranks/ranks.h"
-#include "tables/emitter.h"
+#include "tables/report_study.h"
 
 /* A run on its way to its files. */
 struct run {
     const struct br_options *options;
     struct br_session session;
+    struct br_document *document; /* session.pages; owned */
     struct br_output output;
-    struct br_provenance provenance;
     struct br_picture_files pictures;
 };
 
-static void describe(struct run *r, size_t page)
+/* Names the pictures, which stand beside the report. */
+static void put_pictures(struct br_document *d, const struct br_report *report)
 {
-    const struct br_work *w = br_session_work(&r->session, page);
-    r->provenance.scene_path = w->path;
-    r->provenance.scene_text = w->text;
+    char stem[600];
+    for (const struct br_convergence_picture *const *p = br_convergence_pictures; *p; p++)
+        if ((*p)->applies(report)) {
+            snprintf(stem, sizeof stem, "%s-%s", report->name, (*p)->name);
+            br_put_picture(d, stem, (*p)->title);
+        }
 }
 
-static enum br_status write_tables(struct run *r, size_t i, struct br_error *err)
+static enum br_status build_reports(struct run *r, struct br_error *err)
 {
-    describe(r, i);
-    for (const struct br_emitter *const *e = br_emitters; *e; e++) {
-        if (!br_format_wanted(r->options, (*e)->name))
-            continue;
-        char name[512];
-        snprintf(name, sizeof name, "%s%s", r->session.page[i].report.name, (*e)->extension);
-        FILE *file;
-        enum br_status status = br_output_file(&r->output, name, &file, err);
-        if (status)
-            return status;
-        status = (*e)->emit(file, &r->session.page[i].report, &r->provenance, err);
-        struct br_error closing = {0};
-        if (br_output_close(file, name, &closing) && !status)
-            status = br_fail(err, closing.status, "%s", closing.message);
-        if (status)
-            return status;
+    struct br_provenance provenance;
+    br_provenance_fill(&provenance, r->session.request.threads);
+    r->document = br_allocate(r->session.pages, sizeof *r->document);
+    if (!r->document)
+        return br_no_memory(err, "the reports");
+    for (size_t i = 0; i < r->session.pages; i++) {
+        const struct br_work *w = br_session_work(&r->session, i);
+        provenance.scene_path = w->path;
+        provenance.scene_text = w->text;
+        br_report_study(&r->session.page[i].report, &r->document[i]);
+        if (!br_option_given(r->options, BR_OPT_NO_PLOTS))
+            put_pictures(&r->document[i], &r->session.page[i].report);
+        br_put_provenance(&r->document[i], &provenance);
     }
     return BR_OK;
 }
@@ -76,24 +78,12 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     for (size_t i = 0;
          i < r->session.pages && !status && !br_option_given(r->options, BR_OPT_NO_PLOTS); i++)
         status = write_plots(r, i, err);
-    for (size_t i = 0; i < r->session.pages && !status; i++)
-        status = write_tables(r, i, err);
+    if (!status)
+        status = br_documents_write(&r->output, r->options, r->document, r->session.pages, err);
     const enum br_status drawn = br_picture_files_finish(&r->pictures, status ? NULL : err);
     if (!status)
         status = drawn;
     return status ? status : br_output_commit(&r->output, err);
-}
-
-static enum br_status show(struct run *r, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (size_t i = 0;
-         i < r->session.pages && !status && !br_option_given(r->options, BR_OPT_QUIET); i++) {
-        describe(r, i);
-        status = br_emitters[0]->emit(stdout, &r->session.page[i].report, &r->provenance, err);
-        putchar('\n');
-    }
-    return status;
 }
 
 /* A failed cell fails the run, after everything has been written. */
@@ -141,17 +131,21 @@ enum br_status br_study_run_jobs(const struct br_study_job *jobs, size_t count,
         status = br_output_open(&r.output, br_option_text(options, BR_OPT_OUT), err);
     if (!status && writes)
         status = br_warn_of_studies(r.session.study, r.session.jobs, err);
-    br_provenance_fill(&r.provenance, r.session.request.threads);
     if (!status)
         status = br_session_compute(&r.session, quiet || !writes, err);
     if (!status && writes)
-        status = show(&r, err);
+        status = build_reports(&r, err);
+    if (!status && writes && !quiet)
+        status = br_documents_show(r.document, r.session.pages, err);
     if (!status && writes)
         status = write_all(&r, err);
     if (!status && writes && !quiet)
         br_output_announce(&r.output);
     if (!status)
         status = check_cells(&r.session, err);
+    for (size_t i = 0; r.document && i < r.session.pages; i++)
+        br_document_clear(&r.document[i]);
+    free(r.document);
     br_session_clear(&r.session);
     br_output_discard(&r.output);
     return status;

@@ -15,10 +15,6 @@
  *     sum_i b_i k r_i u_t,i(L) - the change of the contact's potential,
  * negative where it gives energy, as a lagged one may. What viscosity and friction take in one step
  * is signed like b_i, too.
- *
- * A scheme with an integrator of its own (ida) has no stages: its works are summed by the
- * trapezoidal rule, and D_scheme is what the balance leaves, with that rule's error in it. Nothing
- * is then checked by it.
  */
 #ifndef BR_REFERENCE_ENERGY_H
 #define BR_REFERENCE_ENERGY_H

@@ -50,8 +50,7 @@ struct br_energy_meter {
     struct br_march *march;
     const struct br_scene *scene;
     const struct br_method *method;
-    bool staged;                    /* else by the trapezoidal rule */
-    struct br_watched seen;         /* where staged */
+    struct br_watched seen;
     struct br_meter_field field[2]; /* by br_field_kind */
     double time;                    /* of the last look, s, where it is not */
     double limit, worst;            /* of the imbalance; worst: since the last call */
@@ -62,10 +61,6 @@ struct br_energy_meter {
 
 /* By the scheme's own sums: watching. Fails as br_energy_meter_create. */
 enum br_status br_meter_watch(struct br_energy_meter *meter, struct br_error *err);
-
-/* By the trapezoidal rule: at t = 0, and after every step. */
-enum br_status br_meter_start_trapezoid(struct br_energy_meter *meter, struct br_error *err);
-void br_meter_add_trapezoid(struct br_energy_meter *meter);
 
 /* c'v, and the sum of the sizes of its terms (out). */
 real br_nodal_product(const double *c, const double *v, size_t size, real *sizes);

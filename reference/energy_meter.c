@@ -49,7 +49,7 @@ static enum br_status set_up(struct br_energy_meter *m, struct br_error *err)
             f->start = f->now =
                 br_energy_of_field(&f->field, &m->scene->contact, f->scratch[0], f->scratch[1]);
     }
-    return m->staged ? br_meter_watch(m, err) : br_meter_start_trapezoid(m, err);
+    return br_meter_watch(m, err);
 }
 
 enum br_status br_energy_meter_create(struct br_energy_meter **out, struct br_march *march,
@@ -59,8 +59,7 @@ enum br_status br_energy_meter_create(struct br_energy_meter **out, struct br_ma
     struct br_energy_meter *m = *out = br_allocate(1, sizeof *m);
     if (!m)
         return br_no_memory(err, "the energies");
-    *m = (struct br_energy_meter){
-        .march = march, .scene = scene, .method = method, .staged = !method->scheme->integrator};
+    *m = (struct br_energy_meter){.march = march, .scene = scene, .method = method};
     m->limit = br_energy_limit(br_march_field(march, BR_AXIAL)->n, br_march_round_off(march));
     m->update = br_certificate_limits(method->scheme, br_march_field(march, BR_AXIAL)->n,
                                       br_march_round_off(march))
@@ -89,10 +88,6 @@ void br_energy_meter_free(struct br_energy_meter *m)
 
 double br_energy_meter_step(struct br_energy_meter *m)
 {
-    if (!m->staged) {
-        br_meter_add_trapezoid(m);
-        return 0;
-    }
     const double worst = m->any ? m->worst : NAN;
     m->worst = 0;
     m->any = false;
@@ -106,26 +101,19 @@ static void put(struct br_energy *to, enum br_field_kind kind, const struct br_f
     to->contact += (double)e->contact;
 }
 
-static real total(const struct br_field_energy *e)
-{
-    return e->kinetic + e->stored + e->contact;
-}
-
 void br_energy_meter_read(const struct br_energy_meter *m, struct br_energy *start,
                           struct br_energy *now, struct br_work *work)
 {
     *start = *now = (struct br_energy){0};
-    *work = (struct br_work){.remainder = !m->staged};
+    *work = (struct br_work){0};
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const struct br_meter_field *f = &m->field[kind];
         const struct br_field_work *w = &f->work;
         put(start, (enum br_field_kind)kind, &f->start);
         put(now, (enum br_field_kind)kind, &f->now);
-        const real remains = w->load - w->viscous - (kind == BR_BENDING ? w->tip : 0) -
-                             (total(&f->now) - total(&f->start));
         work->loads[kind] = (double)w->load;
         work->viscous[kind] = (double)w->viscous;
-        work->scheme[kind] = (double)(m->staged ? w->scheme : remains);
+        work->scheme[kind] = (double)w->scheme;
         work->noise[kind] = (double)w->noise;
         work->steps[kind] = w->steps;
         work->gaining[kind] = w->gaining;

@@ -44,7 +44,7 @@ static enum br_status fine_create(void **self, const struct br_judge_request *r,
         return br_no_memory(err, "the reference");
     const double start = br_seconds();
     f->method = r->method;
-    f->together = r->method.scheme->adaptive || r->method.scheme->integrator;
+    f->together = r->method.scheme->adaptive;
     enum br_status status = create_march(f, BR_AXIAL, r, err);
     if (!status && f->together)
         status = create_march(f, BR_BENDING, r, err);
@@ -82,8 +82,7 @@ static double round_off(const struct fine *f)
 {
     double largest = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (br_march_models(f->march[kind], (enum br_field_kind)kind) &&
-            !f->method.scheme->integrator)
+        if (br_march_models(f->march[kind], (enum br_field_kind)kind))
             largest = fmax(largest, f->method.solver->round_off(
                                         br_march_field(f->march[kind], (enum br_field_kind)kind),
                                         &f->method.linear));

@@ -40,13 +40,7 @@ static enum br_status common_step(struct br_march *m, enum br_field_kind kind, s
 {
     if (kind == BR_BENDING)
         return BR_OK;
-    if (!m->foreign)
-        return br_adaptive_advance(m, err);
-    const struct br_integrator *integrator = m->method.scheme->integrator;
-    const enum br_status status = integrator->advance(m->foreign, m->part[BR_AXIAL].done + 1, err);
-    if (!status)
-        integrator->tip(m->foreign, &m->tip);
-    return status;
+    return br_adaptive_advance(m, err);
 }
 
 static enum br_status step_field(struct br_march *m, enum br_field_kind kind, struct br_error *err)
@@ -67,7 +61,7 @@ static enum br_status step_field(struct br_march *m, enum br_field_kind kind, st
 enum br_status br_march_step_field(struct br_march *m, enum br_field_kind kind,
                                    struct br_error *err)
 {
-    const int traps = m->foreign ? br_traps_lift() : br_traps_set();
+    const int traps = br_traps_set();
     const int rounding = br_rounding_set(m->method.rounding);
     const enum br_status status = step_field(m, kind, err);
     br_rounding_restore(rounding);
@@ -84,9 +78,7 @@ enum br_status br_march_step(struct br_march *m, struct br_error *err)
 struct br_counts br_march_counts(const struct br_march *m)
 {
     struct br_counts counts = m->counts;
-    if (m->foreign)
-        m->method.scheme->integrator->counts(m->foreign, &counts);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !m->foreign; kind++) {
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const struct br_counts *own = &m->part[kind].counts;
         counts.steps = own->steps > counts.steps ? own->steps : counts.steps;
         counts.stages = own->stages > counts.stages ? own->stages : counts.stages;
@@ -137,8 +129,6 @@ size_t br_march_switches(const struct br_march *m, const struct br_switch **firs
 {
     if (m->adaptive)
         return br_adaptive_switches(m->adaptive, first);
-    if (m->foreign)
-        return m->method.scheme->integrator->switches(m->foreign, first);
     *first = NULL;
     return 0;
 }
@@ -167,8 +157,6 @@ const struct br_tip *br_march_tip(const struct br_march *m)
 double br_march_tip_displacement(const struct br_march *m, enum br_field_kind kind)
 {
     const struct br_part *part = &m->part[kind];
-    if (m->foreign && part->modelled)
-        return m->method.scheme->integrator->tip_displacement(m->foreign, kind);
     return part->modelled ? part->solver->tip_displacement(part->state) : 0;
 }
 
@@ -176,10 +164,6 @@ void br_march_get(const struct br_march *m, enum br_field_kind kind, double *dis
                   double *velocity)
 {
     const struct br_part *part = &m->part[kind];
-    if (part->modelled && m->foreign) {
-        m->method.scheme->integrator->get(m->foreign, kind, displacement, velocity);
-        return;
-    }
     if (part->modelled) {
         part->solver->get(part->state, displacement, velocity);
         return;
@@ -194,9 +178,7 @@ void br_march_get(const struct br_march *m, enum br_field_kind kind, double *dis
 void br_march_strain_rate(const struct br_march *m, enum br_field_kind kind, double *rate)
 {
     const struct br_part *part = &m->part[kind];
-    if (part->modelled && m->foreign)
-        m->method.scheme->integrator->strain_rate(m->foreign, kind, rate);
-    else if (part->modelled)
+    if (part->modelled)
         part->solver->strain_rate(part->state, rate);
     else
         memset(rate, 0, part->field.n * br_field_unknowns(&part->field) * sizeof *rate);
@@ -231,7 +213,7 @@ double br_march_compliance(const struct br_march *m, enum br_field_kind kind)
 
 bool br_march_contact_unstable(const struct br_march *m)
 {
-    if (!m->was_closed || m->method.contact->at_new_step || m->foreign)
+    if (!m->was_closed || m->method.contact->at_new_step)
         return false;
     return br_contact_grows(&m->part[BR_AXIAL].field, m->scene->contact.stiffness);
 }

@@ -132,8 +132,7 @@ struct br_march_watcher {
 
 enum { BR_MOST_WATCHERS = 4 };
 
-/* From now on, beside those that look already; false: there is no room for one more. Schemes with
- * an integrator of their own tell nothing. */
+/* From now on, beside those that look already; false: there is no room for one more. */
 bool br_march_watch(struct br_march *march, const struct br_march_watcher *watcher);
 
 /* The watcher of that `self` looks no more. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Setting a march up, by parts or as an integrator's own. */
+/* Setting a march up. */
 #include "solver/damping.h"
 #include "solver/march_state.h"
 #include "solver/rounding.h"
@@ -34,19 +34,6 @@ static enum br_status create_parts(struct br_march *m, size_t n, struct br_error
     return status;
 }
 
-/* Of a scheme that marches by itself: the fields are here only for their meshes. */
-static enum br_status create_foreign(struct br_march *m, size_t n, struct br_error *err)
-{
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_part *part = &m->part[kind];
-        part->field = br_field_of_scene(m->scene, (enum br_field_kind)kind, n,
-                                        m->scene->duration / (double)m->steps);
-        part->modelled = kind == BR_AXIAL ? m->scene->axial.modelled : m->scene->bending.modelled;
-    }
-    return m->method.scheme->integrator->create(&m->foreign, m->scene, n, m->steps, &m->method,
-                                                err);
-}
-
 enum br_status br_march_create(struct br_march **out, const struct br_scene *scene, size_t n,
                                size_t steps, const struct br_method *method, struct br_error *err)
 {
@@ -61,7 +48,7 @@ enum br_status br_march_create(struct br_march **out, const struct br_scene *sce
     m->method = *method;
     m->steps = steps;
     const int rounding = br_rounding_set(method->rounding);
-    status = method->scheme->integrator ? create_foreign(m, n, err) : create_parts(m, n, err);
+    status = create_parts(m, n, err);
     br_rounding_restore(rounding);
     if (status) {
         br_march_free(m);
@@ -76,8 +63,6 @@ void br_march_free(struct br_march *m)
 {
     if (!m)
         return;
-    if (m->method.scheme->integrator)
-        m->method.scheme->integrator->free(m->foreign);
     br_adaptive_free(m->adaptive);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         br_part_clear(&m->part[kind]);

@@ -3,7 +3,6 @@
 #ifndef BR_SOLVER_MARCH_STATE_H
 #define BR_SOLVER_MARCH_STATE_H
 
-#include "solver/integrator.h"
 #include "solver/margins.h"
 #include "solver/part.h"
 
@@ -42,7 +41,6 @@ struct br_march {
     size_t lead;
     struct br_counts counts;      /* what the parts do not count */
     struct br_adaptive *adaptive; /* NULL: fixed steps */
-    void *foreign;                /* of a scheme's own integrator; NULL: none */
     bool (*stop)(void *self);     /* NULL: nobody is asked */
     void *stop_self;
     struct br_march_watcher watcher[BR_MOST_WATCHERS];
@@ -52,7 +50,7 @@ struct br_march {
 /* Whether a scheme takes both fields through its steps together. */
 static inline bool br_fields_go_together(const struct br_march *march)
 {
-    return march->method.scheme->adaptive || march->method.scheme->integrator;
+    return march->method.scheme->adaptive;
 }
 
 /* All stages of a step of one field, with the contact or the friction law in each; path: of the

@@ -85,11 +85,6 @@ static enum br_status check_elements(const struct br_method *m, struct br_error 
 {
     if (m->axial_degree == 1)
         return BR_OK;
-    if (m->scheme->integrator)
-        return br_fail(err, BR_BAD_INPUT,
-                       "scheme %s has no quadratic axial elements, expected another scheme or an "
-                       "axial degree of 1",
-                       m->scheme->name);
     return m->solver->axial_quadratic ? BR_OK : refuse_degree(m->solver, err);
 }
 

@@ -280,12 +280,8 @@ static const struct br_time_scheme adaptive = {
     .stages = esdirk4_stages,
 };
 
-const struct br_time_scheme *const br_time_schemes[] = {&euler,  &bdf2,    &bdf3,    &trbdf2,
-                                                        &sdirk2, &esdirk3, &esdirk4, &adaptive,
-#ifdef BR_IDA
-                                                        &br_ida,
-#endif
-                                                        NULL};
+const struct br_time_scheme *const br_time_schemes[] = {
+    &euler, &bdf2, &bdf3, &trbdf2, &sdirk2, &esdirk3, &esdirk4, &adaptive, NULL};
 
 const struct br_time_scheme *br_time_scheme_find(const char *name)
 {

@@ -38,8 +38,6 @@ struct br_stages {
     double error[BR_KNOWN]; /* weights of an estimate of the step's error; all 0: none */
 };
 
-struct br_integrator;
-
 struct br_time_scheme {
     const char *name;  /* as on the command line */
     const char *title; /* one line for a person */
@@ -54,11 +52,7 @@ struct br_time_scheme {
      * solution switched (stick, slip, contact opens or closes), 2 or more being alike. Nothing
      * before that is given a weight, nor is Y' of 0. */
     void (*stages)(size_t since, struct br_stages *stages);
-    const struct br_integrator *integrator; /* of its own, instead of stages; NULL: none */
-    double bytes; /* an element, of an integrator of its own, both fields; as measured */
 };
-
-extern const struct br_time_scheme br_ida; /* where SUNDIALS IDA is built in */
 
 /* NULL-terminated; the first is the default, the paper's. */
 extern const struct br_time_scheme *const br_time_schemes[];

@@ -4,7 +4,7 @@
 #define BR_TABLES_CHECK_EMITTER_H
 
 #include "study/verify/comparison.h"
-#include "tables/emitter.h"
+#include "tables/document.h"
 
 /* A scene that this build cannot check, and why. Borrowed. */
 struct br_skipped {

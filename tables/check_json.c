@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A check for programs, and for --compare, which reads it again. */
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "tables/check_emitter.h"
 #include "tables/json_value.h"
@@ -285,7 +288,11 @@ enum br_status br_check_read_json(const char *path, struct br_old_check *old, st
 {
     *old = (struct br_old_check){0};
     json_error_t problem;
-    json_t *root = json_load_file(path, 0, &problem);
+    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+        return br_fail(err, BR_BAD_INPUT, "%s:1: unable to open: %s", path, strerror(errno));
+    json_t *root = br_json_read(file, &problem);
+    close(file);
     if (!root)
         return br_fail(err, BR_BAD_INPUT, "%s:%d: %s", path, problem.line > 0 ? problem.line : 1,
                        problem.text);

@@ -446,7 +446,7 @@ enum br_status br_document_print(FILE *out, const struct br_document_format *for
 
 const struct br_document_table *br_document_next_table(const struct br_document *d, size_t *block)
 {
-    while (*block < d->blocks) {
+    while (!d->failure.status && *block < d->blocks) {
         const struct br_block *b = &d->block[(*block)++];
         if (b->kind == BR_BLOCK_TABLE && br_for_programs(b->table->flags))
             return b->table;

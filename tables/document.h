@@ -290,7 +290,8 @@ enum br_status br_document_print_page(FILE *out, const struct br_document *docum
 enum br_status br_document_show(FILE *out, const struct br_document *d, struct br_error *err);
 
 /* The table that the file of a by_table format would have next, from block *block on (in/out,
- * begins as 0); NULL: no more. */
+ * begins as 0); NULL: no more, or the document has
+ * failed. */
 const struct br_document_table *br_document_next_table(const struct br_document *d, size_t *block);
 
 /* ---- for formats ---- */

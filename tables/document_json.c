@@ -108,9 +108,22 @@ static json_t *verdict(struct page *p, const struct br_document_verdict *v)
 
 static json_t *provenance(struct page *p)
 {
-    json_t *o = br_json_provenance(&p->d->provenance);
-    put(p, o, "scene_path", br_json_string(p->d->provenance.scene_path));
-    put(p, o, "scene_text", br_json_string(p->d->provenance.scene_text));
+    const struct br_provenance *from = &p->d->provenance;
+    const char *const rows[][2] = {
+        {"version", from->version},
+        {"commit", from->commit},
+        {"compiler", from->compiler},
+        {"flags", from->flags},
+        {"command_line", from->command_line},
+        {"machine", from->machine},
+        {"date", from->date},
+        {"scene_path", from->scene_path},
+        {"scene_text", from->scene_text},
+    };
+    json_t *o = json_object();
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        put(p, o, rows[i][0], br_json_string(rows[i][1]));
+    put(p, o, "threads", json_integer(from->threads));
     return o;
 }
 
@@ -170,20 +183,16 @@ static enum br_status write(FILE *out, const struct br_document *d,
     (void)table;
     struct page p = {.d = d};
     json_t *root = root_of(&p);
-    char *text =
-        p.lacked || *p.twice
-            ? NULL
-            : json_dumps(root, JSON_INDENT(1) | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(17));
+    const size_t flags = JSON_INDENT(1) | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(17);
     enum br_status status = BR_OK;
     if (*p.twice)
         status =
             br_fail(err, BR_IO, "the report %.100s has two values for '%.100s'", d->name, p.twice);
-    else if (!text)
+    /* Not json_dumps: it drops a key that its buffer has no room for. */
+    else if (p.lacked || (json_dumpf(root, out, flags) != 0 && !ferror(out)))
         status = br_no_memory(err, "the JSON text");
-    else
-        fprintf(out, "%s\n", text);
+    fputc('\n', out);
     json_decref(root);
-    free(text);
     return status;
 }
 

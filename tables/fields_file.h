@@ -5,7 +5,7 @@
 #define BR_TABLES_FIELDS_FILE_H
 
 #include "study/run/run.h"
-#include "tables/emitter.h"
+#include "tables/document.h"
 
 /* What is being written. Borrowed. */
 struct br_fields_request {

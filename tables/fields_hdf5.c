@@ -45,7 +45,7 @@ static void give_up(void)
 
 static void meet_signal(int number)
 {
-    if (errno == ENOMEM)
+    if (without_memory || errno == ENOMEM)
         give_up();
     signal(number, SIG_DFL);
     raise(number);
@@ -71,7 +71,7 @@ static void guard_begin(struct guard *g)
 
 static enum br_status guard_end(const struct guard *g, enum br_status status)
 {
-    if (status && without_memory)
+    if (without_memory || errno == ENOMEM) /* even where HDF5 says that all went well */
         give_up();
     sigaction(SIGSEGV, &g->action[0], NULL);
     sigaction(SIGABRT, &g->action[1], NULL);

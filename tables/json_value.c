@@ -4,15 +4,25 @@
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "study/scene/method_fields.h"
 #include "study/scene/quote.h"
 
-static atomic_bool lacked;
+static atomic_bool lacked, parsing;
+
+static void give_up(void)
+{
+    static const char message[] = "beamrate: out of memory for reading JSON\n";
+    (void)!write(STDERR_FILENO, message, sizeof message - 1);
+    _exit(br_status_exit_code(BR_NO_MEMORY));
+}
 
 static void *remembering_malloc(size_t size)
 {
     void *p = malloc(size);
+    if (!p && atomic_load(&parsing))
+        give_up();
     if (!p)
         atomic_store(&lacked, true);
     return p;
@@ -22,6 +32,15 @@ bool br_json_lacked_memory(void)
 {
     json_set_alloc_funcs(remembering_malloc, free);
     return atomic_load(&lacked);
+}
+
+json_t *br_json_read(int file, json_error_t *why)
+{
+    br_json_lacked_memory();
+    atomic_store(&parsing, true);
+    json_t *json = json_loadfd(file, 0, why);
+    atomic_store(&parsing, false);
+    return json;
 }
 
 json_t *br_json_number(double value)
@@ -41,8 +60,9 @@ static json_t *not_utf8(const char *text)
 
 json_t *br_json_string(const char *text)
 {
-    json_t *o = text ? json_string(text) : json_null();
-    return o ? o : not_utf8(text);
+    if (!text)
+        return json_null();
+    return br_is_utf8(text) ? json_string(text) : not_utf8(text);
 }
 
 json_t *br_json_estimate(const struct br_estimate *e)

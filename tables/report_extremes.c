@@ -256,7 +256,7 @@ static void put_schemes(struct br_document *d, const struct br_stability *s)
         br_put(d, "scheme", br_text(c->scheme->name));
         br_put(d, "marches", br_count(c->marches));
         br_put(d, "failed", br_count(c->failed));
-        br_put(d, "uncertain", c->certified ? br_count(c->uncertain) : br_nothing());
+        br_put(d, "uncertain", br_count(c->uncertain));
         br_put(d, "force", br_number(c->force));
         br_put(d, "depth", br_number(c->depth));
     }

@@ -135,9 +135,7 @@ static struct br_value share(const struct br_balance_row *row, double part, doub
 
 static void put_outcome(struct br_document *d, const struct br_balance_row *row)
 {
-    if (row->scheme->integrator)
-        br_put(d, "balance", br_text("not told apart"));
-    else if (row->end == BR_VIBRATION_REFUSED)
+    if (row->end == BR_VIBRATION_REFUSED)
         br_put(d, "balance", br_text("refused"));
     else if (row->end == BR_VIBRATION_FAILED)
         br_put_text(d, "balance", "ended after step %zu", row->marched);

@@ -5,7 +5,7 @@
 
 #include "study/foresee/prediction.h"
 #include "study/run/run.h"
-#include "tables/emitter.h"
+#include "tables/document.h"
 
 /* All that a run's summary is made of. Borrowed. */
 struct br_run_page {

@@ -4,7 +4,7 @@
 #ifndef BR_TABLES_SHEET_H
 #define BR_TABLES_SHEET_H
 
-#include "tables/emitter.h"
+#include "tables/document.h"
 #include "tables/sentences.h"
 
 enum { BR_CELL = 160 };

@@ -4,7 +4,7 @@
 #define BR_TABLES_SPLIT_EMITTER_H
 
 #include "study/trade/split.h"
-#include "tables/emitter.h"
+#include "tables/document.h"
 #include "tables/sentences.h"
 
 struct br_split_page {

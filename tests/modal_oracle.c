@@ -42,7 +42,7 @@ static void make_solver(struct solver *s, size_t most)
         fastest = fmaxl(fastest, fabs(term->time.p[0]));
     s->by_steps = !term->moving && term->time.kind == ORACLE_STEPS;
     if (!s->by_steps)
-        oracle_panels(&s->panels, term, p->length, (p->finer ? 1 : 2) / fastest, s->times, s->t);
+        oracle_panels(&s->panels, term, p->length, 2 / fastest, s->times, s->t);
     const size_t nodes = s->panels.count * NODES, rests = term->moving ? nodes : 1;
     s->time = calloc(nodes + 1, sizeof *s->time);
     s->shift = calloc(nodes + 1, sizeof *s->shift);
@@ -217,7 +217,7 @@ static bool settled(size_t times, const struct oracle_tip *before, struct oracle
 void oracle_term(const struct oracle_problem *problem, const struct oracle_term *term, size_t times,
                  const double *t, struct oracle_tip *tip)
 {
-    const size_t least = problem->finer ? 64 : 32;
+    const size_t least = 32;
     const size_t most = (term->moving ? 4 : problem->bending ? 8 : 32) * least;
     struct solver s = {.problem = problem, .term = term, .times = times, .t = t};
     make_solver(&s, most);

@@ -47,7 +47,6 @@ struct oracle_problem {
         viscosity;                 /* m, kg/m, N or N m^2, the same times s; all > 0 */
     double displacement, velocity; /* initial: these times the first eigenfunction whose mean square
                                       over the beam is 1, m, m/s */
-    bool finer;                    /* half as long panels and twice as many modes */
 };
 
 /* The tip at one time, with what two numbers of modes differ by. */

@@ -545,9 +545,9 @@ static const struct planted_bug planted_bugs[] = {
      "inverse[0][1] = inverse[1][0] = s[0][1] / det;"},
     {"unstable_fine_run_unsaid", "lost", "reference/fine.c", "tests/test_study",
      ".unstable = br_march_contact_unstable(f->march[BR_AXIAL]),", ".unstable = false,"},
-    {"work_of_the_last_state", "time level", "reference/energy_trapezoid.c", "tests/test_energy",
+    {"work_of_the_last_state", "time level", "reference/energy_trapezoid.c", "tests/test_watched",
      "half * (f->before.load + now.load);", "2 * half * now.load;"},
-    {"energy_of_the_spring", "coefficient", "reference/energy.c", "tests/test_energy",
+    {"energy_of_the_spring", "coefficient", "reference/energy.c", "tests/test_watched",
      "contact->stiffness * depth * depth / 2;", "contact->stiffness * depth * depth;"},
 
     /* ---- in studies ---- */

@@ -154,6 +154,31 @@ struct br_test_end br_test_run(const struct br_scene *scene, size_t n, size_t st
     return end;
 }
 
+struct br_study br_test_study(const struct br_scene *scene, const struct br_judge *judge,
+                              size_t n_count, const size_t *n, size_t k_count, const size_t *steps)
+{
+    return (struct br_study){
+        .scene = scene,
+        .norm = br_norms[0],
+        .method = br_method_default(),
+        .judge = judge,
+        .reference_method = br_method_default(),
+        .n_count = n_count,
+        .k_count = k_count,
+        .n = n,
+        .steps = steps,
+    };
+}
+
+void br_test_all_norms(struct br_study s[BR_TEST_NORMS])
+{
+    for (size_t m = 0; m < BR_TEST_NORMS; m++) {
+        s[m] = s[0];
+        s[m].norm = br_norms[m];
+        s[m].next_norm = m + 1 < BR_TEST_NORMS ? &s[m + 1] : NULL;
+    }
+}
+
 size_t br_test_golden(struct br_test_golden rows[BR_TEST_MOST_GOLDEN])
 {
     char path[1024], line[256];
@@ -189,54 +214,37 @@ double br_test_deviation(const struct br_test_end *end, const struct br_test_end
     return most;
 }
 
-/* ---- the L2 distance ---- */
+/* ---- finite element functions ---- */
 
-/* Value and scaled slope (per fine element: ratio of the coarse one) at xi. */
-static void hermite(const double *node, long double xi, long double ratio, long double out[2])
+long double br_test_value(enum br_field_kind kind, const double *nodal, size_t e, long double xi)
 {
-    const long double w0 = node[0], s0 = node[1], w1 = node[2], s1 = node[3];
-    const long double c2 = 3 * (w1 - w0) - 2 * s0 - s1, c3 = 2 * (w0 - w1) + s0 + s1;
-    out[0] = w0 + xi * (s0 + xi * (c2 + xi * c3));
-    out[1] = (s0 + xi * (2 * c2 + 3 * xi * c3)) / ratio;
+    const long double eta = 1 - xi;
+    if (kind == BR_AXIAL)
+        return eta * nodal[e] + xi * nodal[e + 1];
+    const double *w = nodal + 2 * e;
+    return eta * eta * (1 + 2 * xi) * w[0] + xi * eta * eta * w[1] + xi * xi * (3 - 2 * xi) * w[2] -
+           xi * xi * eta * w[3];
 }
 
-static void coarse_at(enum br_field_kind kind, const double *coarse, size_t j, size_t ratio,
-                      long double out[2])
-{
-    size_t e = j / ratio;
-    long double xi = (long double)(j % ratio) / (long double)ratio;
-    if (j > 0 && j % ratio == 0) { /* the end of an element, not beyond the last */
-        e--;
-        xi = 1;
-    }
-    if (kind == BR_BENDING) {
-        hermite(coarse + 2 * e, xi, (long double)ratio, out);
-        return;
-    }
-    out[0] = (1 - xi) * coarse[e] + xi * coarse[e + 1];
-    out[1] = 0;
-}
-
+/* Four Gauss points an element of the fine mesh: exact for the square of cubics. */
 double br_test_distance(enum br_field_kind kind, double length, size_t coarse_n,
                         const double *coarse, size_t fine_n, const double *fine)
 {
-    static const int rod[4][4] = {{2, 0, 1, 0}, {0, 0, 0, 0}, {1, 0, 2, 0}, {0, 0, 0, 0}};
-    static const int beam[4][4] = {
-        {156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}};
-    const bool axial = kind == BR_AXIAL;
-    const size_t unknowns = axial ? 1 : 2;
-    long double difference[4] = {0}, sum = 0;
-    for (size_t j = 0; j <= fine_n; j++) {
-        long double here[2];
-        coarse_at(kind, coarse, j, fine_n / coarse_n, here);
-        memmove(difference, difference + 2, 2 * sizeof *difference);
-        for (size_t i = 0; i < 2; i++)
-            difference[2 + i] = i < unknowns ? fine[j * unknowns + i] - here[i] : 0;
-        for (int a = 0; a < 4 && j > 0; a++)
-            for (int b = 0; b < 4; b++)
-                sum += difference[a] * difference[b] * (axial ? rod[a][b] : beam[a][b]);
-    }
-    return (double)sqrtl(fmaxl(sum, 0) * length / (long double)fine_n / (axial ? 6 : 420));
+    const long double a = sqrtl(3.0L / 7 - 2.0L / 7 * sqrtl(1.2L)),
+                      b = sqrtl(3.0L / 7 + 2.0L / 7 * sqrtl(1.2L));
+    const long double x[4] = {(1 - b) / 2, (1 - a) / 2, (1 + a) / 2, (1 + b) / 2};
+    const long double wa = (18 + sqrtl(30)) / 72, wb = (18 - sqrtl(30)) / 72;
+    const long double weight[4] = {wb, wa, wa, wb};
+    const size_t ratio = fine_n / coarse_n;
+    long double sum = 0;
+    for (size_t e = 0; e < fine_n; e++)
+        for (int q = 0; q < 4; q++) {
+            const long double xi = ((long double)(e % ratio) + x[q]) / (long double)ratio;
+            const long double difference =
+                br_test_value(kind, fine, e, x[q]) - br_test_value(kind, coarse, e / ratio, xi);
+            sum += weight[q] * difference * difference;
+        }
+    return (double)sqrtl(sum * length / (long double)fine_n);
 }
 
 bool br_test_quick(void)
@@ -255,16 +263,81 @@ double br_test_slack(void)
     return one + tiny == one ? 1e4 : 1;
 }
 
-void br_test_keep_wrong(const char *scene, const char *message)
+/* ---- scenes as files ---- */
+
+static char scene_file[] = "/tmp/br_test_scene_XXXXXX.yaml";
+
+static void remove_scene_file(void)
+{
+    remove(scene_file);
+}
+
+static void write_file(const char *path, const char *remark, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "%s%s", remark, text);
+    assert_int_equal(fclose(file), 0);
+}
+
+const char *br_test_scene_file(const char *text)
+{
+    static bool made;
+    if (!made) {
+        const int descriptor = mkstemps(scene_file, 5);
+        assert_true(descriptor >= 0 && close(descriptor) == 0);
+        assert_int_equal(atexit(remove_scene_file), 0);
+        made = true;
+    }
+    write_file(scene_file, "", text);
+    return scene_file;
+}
+
+static void keep_wrong(const char *scene, const char *message)
 {
     static int count;
     const char *folder = getenv("BR_WRONG_SCENES");
+    char path[1024], remark[2048];
     if (!folder)
         return;
-    char path[1024];
     snprintf(path, sizeof path, "%s/%d-%03d.yaml", folder, (int)getpid(), count++);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fprintf(file, "# %s\n%s", message, scene);
-    assert_int_equal(fclose(file), 0);
+    snprintf(remark, sizeof remark, "# %s\n", message);
+    write_file(path, remark, scene);
+}
+
+void br_test_scene_refused(const char *text, bool verify, const char *message)
+{
+    struct br_error err = {0};
+    struct br_scene scene;
+    struct br_verify v = {0};
+    const char *path = br_test_scene_file(text);
+    const enum br_status status =
+        verify ? br_scene_read_verify(path, &scene, &v, &err) : br_scene_read(path, &scene, &err);
+    br_verify_clear(&v);
+    br_scene_clear(&scene);
+    keep_wrong(text, err.message);
+    if (status != BR_BAD_INPUT || err.status != BR_BAD_INPUT || !strstr(err.message, message) ||
+        strncmp(err.message, path, strlen(path)) != 0)
+        fail_msg("%s\nsaid '%s', expected '%s'", text, err.message, message);
+}
+
+/* ---- memory ---- */
+
+void br_test_without_memory(enum br_status (*attempt)(const void *data, struct br_error *err),
+                            const void *data, long least)
+{
+    long failed = 0;
+    for (long i = 0, good = 0; good < 40; i++) {
+        struct br_error err = {0};
+        br_allocation_fails_at(i);
+        const enum br_status status = attempt(data, &err);
+        br_allocation_fails_at(-1);
+        if (status)
+            REFUSED(status, BR_NO_MEMORY, "out of memory");
+        failed += status != BR_OK;
+        good = status ? 0 : good + 1;
+        assert_true(i < 10000);
+    }
+    if (failed < least)
+        fail_msg("%ld allocations failed, expected at least %ld", failed, least);
 }

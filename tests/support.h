@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "solver/march.h"
+#include "study/grid/study.h"
 
 /* |actual - expected| <= tolerance; `what` goes into the message. */
 #define CLOSE(actual, expected, tolerance) \
@@ -61,6 +62,15 @@ struct br_march *br_test_march(const struct br_scene *scene, size_t n, size_t st
                                const struct br_method *method);
 void br_test_advance(struct br_march *march, size_t until);
 
+/* A study in the L2 norm, by the default method and, where the judge is a fine run, with a
+ * reference by it; the lists are borrowed. */
+struct br_study br_test_study(const struct br_scene *scene, const struct br_judge *judge,
+                              size_t n_count, const size_t *n, size_t k_count, const size_t *steps);
+
+/* s[0] becomes a chain of studies in all norms of the registry (in/out). */
+enum { BR_TEST_NORMS = 3 };
+void br_test_all_norms(struct br_study s[BR_TEST_NORMS]);
+
 /* Tip values at the end: u(L), w(L) and w(L/2) of an even mesh, m. */
 struct br_test_end {
     double u_tip, w_tip, w_middle;
@@ -80,15 +90,27 @@ size_t br_test_golden(struct br_test_golden rows[BR_TEST_MOST_GOLDEN]);
 /* Largest error of the three values, relative to the largest golden value of its field. */
 double br_test_deviation(const struct br_test_end *end, const struct br_test_end *golden);
 
-/* sum of squares -> L2 distance of two finite element functions on nested meshes, the
- * coarse one interpolated exactly, with the textbook mass matrix in long double. Nodal
- * arrays as in solver/field.h; length L, m. */
+/* A finite element function at xi in [0, 1] of element e, by the textbook's shape functions. */
+long double br_test_value(enum br_field_kind kind, const double *nodal, size_t e, long double xi);
+
+/* L2 distance of two finite element functions on nested meshes, in long double. Nodal arrays as in
+ * solver/field.h; length L, m. */
 double br_test_distance(enum br_field_kind kind, double length, size_t coarse_n,
                         const double *coarse, size_t fine_n, const double *fine);
 
-/* Puts a scene that is refused with a message into the folder $BR_WRONG_SCENES, if that is set: the
- * scene schema is tested with them. */
-void br_test_keep_wrong(const char *scene, const char *message);
+/* The path of a file, one a program, that now has this text: for scenes. */
+const char *br_test_scene_file(const char *text);
+
+/* Reading the scene, with its verify part or without, is refused with a message that begins with
+ * the file and contains `message`. The text is put into the folder $BR_WRONG_SCENES, if that is
+ * set: the scene schema is tested with them. */
+void br_test_scene_refused(const char *text, bool verify, const char *message);
+
+/* Fails every allocation of an attempt in turn until some attempts in a row succeed (a few
+ * allocations can be done without): at least `least` fail, and each says so. attempt: allocates,
+ * and cleans up after itself whatever happens. */
+void br_test_without_memory(enum br_status (*attempt)(const void *data, struct br_error *err),
+                            const void *data, long least);
 
 /* Whether long tests are to be left out (BR_TEST_QUICK is set: valgrind). */
 bool br_test_quick(void);

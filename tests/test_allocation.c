@@ -12,27 +12,6 @@
 #include "study/scene/file.h"
 #include "support.h"
 
-/* Fails every allocation in turn until the attempt succeeds; at least `least` of them.
- * attempt: allocates, and cleans up after itself whatever happens. */
-static void sweep(enum br_status (*attempt)(const void *data, struct br_error *err),
-                  const void *data, long least)
-{
-    long i = 0;
-    for (;; i++) {
-        struct br_error err = {0};
-        br_allocation_fails_at(i);
-        const enum br_status status = attempt(data, &err);
-        br_allocation_fails_at(-1);
-        if (!status)
-            break;
-        assert_int_equal(status, BR_NO_MEMORY);
-        REFUSED(status, BR_NO_MEMORY, "out of memory");
-        assert_true(i < 10000);
-    }
-    if (i < least)
-        fail_msg("%ld allocations failed, expected at least %ld", i, least);
-}
-
 static enum br_status read_scene(const void *path, struct br_error *err)
 {
     struct br_scene scene;
@@ -64,37 +43,18 @@ static const char *const full_scene =
     "contact: {gap: 0 m, stiffness: 1 N/m}\n"
     "friction: {law: coulomb, coefficient: 1 N/m, regularisation: 1e-3 m/s}\n";
 
-static char scene_path[] = "/tmp/br_test_allocation_XXXXXX";
-
-static int write_scene(void **state)
-{
-    (void)state;
-    const int descriptor = mkstemp(scene_path);
-    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
-    if (!file)
-        return -1;
-    fputs(full_scene, file);
-    return fclose(file);
-}
-
-static int remove_scene(void **state)
-{
-    (void)state;
-    return remove(scene_path);
-}
-
 static struct br_scene full(void)
 {
     struct br_error err = {0};
     struct br_scene scene;
-    MUST(br_scene_read(scene_path, &scene, &err));
+    MUST(br_scene_read_text("full.yaml", full_scene, &scene, &err));
     return scene;
 }
 
 static void test_scene(void **state)
 {
     (void)state;
-    sweep(read_scene, scene_path, 10);
+    br_test_without_memory(read_scene, br_test_scene_file(full_scene), 10);
 }
 
 struct march_data {
@@ -124,7 +84,7 @@ static void test_march(void **state)
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
         struct march_data data = {full(), br_method_default()};
         data.method.solver = *s;
-        sweep(march, &data, 15);
+        br_test_without_memory(march, &data, 15);
         br_scene_clear(&data.scene);
     }
 }
@@ -143,25 +103,17 @@ static enum br_status ladder(const void *data, struct br_error *err)
 static void test_ladder(void **state)
 {
     (void)state;
-    sweep(ladder, NULL, 5);
+    br_test_without_memory(ladder, NULL, 5);
 }
 
 static enum br_status study(const void *data, struct br_error *err)
 {
     const struct march_data *d = data;
     static const size_t n[] = {2, 4}, steps[] = {5, 10};
-    struct br_study s = {
-        .scene = &d->scene,
-        .norm = br_norms[0],
-        .method = d->method,
-        .judge = &br_judge_fine,
-        .reference_method = d->method,
-        .reference = {8, 10},
-        .n_count = 2,
-        .k_count = 2,
-        .n = n,
-        .steps = steps,
-    };
+    struct br_study s = br_test_study(&d->scene, &br_judge_fine, 2, n, 2, steps);
+    s.method = d->method;
+    s.reference_method = d->method;
+    s.reference = (struct br_resolution){8, 10};
     enum br_status status = br_study_run(&s, 1, 1, NULL, err);
     /* In the middle of a march it costs a cell, not the study. */
     for (size_t i = 0; !status && i < 4; i++)
@@ -179,7 +131,7 @@ static void test_study(void **state)
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
         struct march_data data = {full(), br_method_default()};
         data.method.solver = *s;
-        sweep(study, &data, 60);
+        br_test_without_memory(study, &data, 60);
         br_scene_clear(&data.scene);
     }
 }
@@ -213,8 +165,8 @@ static void test_run(void **state)
     (void)state;
     struct br_error err = {0};
     struct br_scene scene;
-    MUST(br_scene_read(scene_path, &scene, &err));
-    sweep(run_scene, &scene, 20);
+    MUST(br_scene_read_text("full.yaml", full_scene, &scene, &err));
+    br_test_without_memory(run_scene, &scene, 20);
     br_scene_clear(&scene);
 }
 
@@ -253,5 +205,5 @@ int main(void)
         cmocka_unit_test(test_ladder), cmocka_unit_test(test_study),
         cmocka_unit_test(test_run),
     };
-    return cmocka_run_group_tests(tests, write_scene, remove_scene);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

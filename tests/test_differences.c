@@ -10,23 +10,14 @@
 
 /* ---- differences ---- */
 
-enum { NORMS = 3 };
+enum { NORMS = BR_TEST_NORMS };
 static const size_t meshes[] = {3, 6, 24}, steps[] = {10, 20, 60, 120};
 enum { ROWS = sizeof meshes / sizeof *meshes, COLUMNS = sizeof steps / sizeof *steps };
 
 static void make_grid(const struct br_scene *scene, struct br_study grid[NORMS])
 {
-    for (size_t m = 0; m < NORMS; m++)
-        grid[m] = (struct br_study){
-            .scene = scene,
-            .norm = br_norms[m],
-            .method = br_method_default(),
-            .n_count = ROWS,
-            .k_count = COLUMNS,
-            .n = meshes,
-            .steps = steps,
-            .next_norm = m + 1 < NORMS ? &grid[m + 1] : NULL,
-        };
+    grid[0] = br_test_study(scene, NULL, ROWS, meshes, COLUMNS, steps);
+    br_test_all_norms(grid);
 }
 
 /* One cell against a finer one, in one norm. */

@@ -40,8 +40,6 @@ static bool goes(const struct br_scene *s, size_t n, size_t steps, const struct 
 {
     struct br_error err;
     struct br_march *march;
-    if (method->scheme->integrator)
-        return false;
     const enum br_status status = br_march_create(&march, s, n, steps, method, &err);
     br_march_free(march);
     return status == BR_OK;

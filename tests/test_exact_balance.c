@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What every solution must obey, whatever it is: the energy balance, the weak
- * form with other test functions, the laws at the tip, mirrors and units. */
+ * form with other test functions, the laws at the tip. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -223,69 +223,6 @@ static void test_laws(void **unused)
     check_laws(&scene);
 }
 
-/* Compares two solutions with w_b = sign w_a in units of their own. */
-static void compare(const struct br_exact *a, const struct br_exact *b, double length, double time,
-                    double sign)
-{
-    size_t count, other;
-    const struct br_exact_event *x = br_exact_events(a, &count), *y = br_exact_events(b, &other);
-    assert_int_equal(count, other);
-    const enum br_phase mirrored[] = {BR_FREE,  BR_OPEN,      BR_CLOSED,
-                                      BR_STICK, BR_SLIP_DOWN, BR_SLIP_UP};
-    for (size_t i = 0; i < count; i++) {
-        assert_near(y[i].time, time * x[i].time, time * 10 * x[i].error);
-        assert_int_equal(y[i].phase, sign > 0 ? x[i].phase : mirrored[x[i].phase]);
-    }
-    struct br_exact_state *p = new_state(a), *q = new_state(b);
-    const double u = br_exact_report(a, BR_EXACT_AXIAL).largest.displacement;
-    const double w = br_exact_report(a, BR_EXACT_BENDING).largest.displacement;
-    for (int n = 0; n <= 100; n++) {
-        br_exact_at(a, 3.0 * n / 100, p);
-        br_exact_at(b, time * 3.0 * n / 100, q);
-        assert_near(q->tip[0].displacement / length, p->tip[0].displacement, 1e-10 * u);
-        assert_near(q->tip[1].displacement / length * sign, p->tip[1].displacement, 1e-10 * w);
-    }
-    br_exact_state_free(p);
-    br_exact_state_free(q);
-}
-
-static void test_mirror(void **unused)
-{
-    (void)unused;
-    const struct br_scene up = lively_scene();
-    struct br_scene down = up;
-    down.bending.load.term[0].space.constant *= -1;
-    struct br_exact *a = solve(&up, 1e-8), *b = solve(&down, 1e-8);
-    compare(a, b, 1, 1, -1);
-    br_exact_free(a);
-    br_exact_free(b);
-}
-
-static void test_units(void **unused)
-{
-    (void)unused;
-    const double l = 2.54, t = 7e6, m = 0.3, force = m * l / (t * t);
-    const struct br_scene s = lively_scene();
-    struct formula slow_push = {f_sine, {push.p[0] / t}}, slow_shake = {f_sine, {shake.p[0] / t}};
-    struct br_scene r = s;
-    r.length *= l;
-    r.duration *= t;
-    r.density *= m / l;
-    r.axial.stiffness *= force;
-    r.axial.viscosity *= force * t;
-    r.axial.load = formula_load(s.axial.load.term[0].space.constant * force / l, &slow_push);
-    r.bending.stiffness *= force * l * l;
-    r.bending.viscosity *= force * l * l * t;
-    r.bending.load = formula_load(s.bending.load.term[0].space.constant * force / l, &slow_shake);
-    r.contact.gap *= l;
-    r.contact.stiffness *= force / l;
-    r.friction.coefficient *= force / l;
-    struct br_exact *a = solve(&s, 1e-8), *b = solve(&r, 1e-8);
-    compare(a, b, l, t, 1);
-    br_exact_free(a);
-    br_exact_free(b);
-}
-
 /* Solutions that are asked to be worse must know how bad they are. */
 static void test_honest(void **unused)
 {
@@ -325,9 +262,10 @@ static void test_honest(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_energy), cmocka_unit_test(test_weak_form),
-        cmocka_unit_test(test_laws),   cmocka_unit_test(test_mirror),
-        cmocka_unit_test(test_units),  cmocka_unit_test(test_honest),
+        cmocka_unit_test(test_energy),
+        cmocka_unit_test(test_weak_form),
+        cmocka_unit_test(test_laws),
+        cmocka_unit_test(test_honest),
     };
     return cmocka_run_group_tests_name("exact: balances", tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The exact reference under loads that are short in x or t, that jump, or whose fronts move,
- * against closed forms; and its elements against one. */
+ * without inertia, against closed forms; and its elements against one. With inertia: test_blows. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -155,90 +155,6 @@ static void test_peaks(void **unused)
     }
 }
 
-/* ---- jumps and blows in time, with inertia: a sum over the rod's modes ---- */
-
-/* q'' + d q' + w q = 0: `fall` from 1 at rest, `rise` from 0 with velocity 1. */
-struct free_motion {
-    double fall, rise;
-};
-
-static struct free_motion move_freely(double d, double w, double t)
-{
-    const double discriminant = d * d / 4 - w;
-    struct free_motion m;
-    if (discriminant < 0) {
-        const double omega = sqrt(-discriminant), decay = exp(-d * t / 2);
-        m.fall = decay * (cos(omega * t) + d / (2 * omega) * sin(omega * t));
-        m.rise = decay * sin(omega * t) / omega;
-    } else {
-        const double fast = -d / 2 - sqrt(discriminant), slow = w / fast;
-        m.fall = (fast * exp(slow * t) - slow * exp(fast * t)) / (fast - slow);
-        m.rise = (exp(slow * t) - exp(fast * t)) / (slow - fast);
-    }
-    return m;
-}
-
-/* The tip of a rod of rod() under a uniform load of 1 N/m: since a time t it has acted, or t after
- * a blow of 1 N s/m. The mean of two sums that end in either sign. */
-static double uniform_tip(const struct br_scene *s, double t, bool blow)
-{
-    enum { MODES = 40000 };
-    long double sum = 0, last = 0;
-    for (int i = 0; i < MODES && t > 0; i++) {
-        const double k = (i + 0.5) * acos(-1) / s->length, square = k * k / s->density;
-        const struct free_motion m =
-            move_freely(square * s->axial.viscosity, square * s->axial.stiffness, t);
-        const double load = 2 / (k * s->length * s->density);
-        last = (i % 2 ? -1 : 1) *
-               (blow ? load * m.rise : load / (square * s->axial.stiffness) * (1 - m.fall));
-        sum += last;
-    }
-    return (double)(sum - last / 2);
-}
-
-static void test_jump_in_time(void **unused)
-{
-    (void)unused;
-    struct br_scene s = rod(1.7, 0.4);
-    s.axial.load = load_of(TEXT("-4*step(t-1/3)+9*step(t-1.4)*step(1.4+1e-6-t)"));
-    struct br_exact *exact = solve(&s, 1e-10);
-    struct br_exact_state *state = new_state(exact);
-    const double from = 1.4 + 1e-6;
-    for (int n = 0; n <= 60; n++) {
-        const double t = s.duration * n / 60;
-        br_exact_at(exact, t, state);
-        const double tip = -4 * uniform_tip(&s, t - 1.0 / 3, false) +
-                           9 * (uniform_tip(&s, t - 1.4, false) - uniform_tip(&s, t - from, false));
-        assert_near(state->tip[BR_EXACT_AXIAL].displacement, tip,
-                    allowed(exact, BR_EXACT_AXIAL, 1e-10));
-    }
-    br_exact_state_free(state);
-    br_exact_free(exact);
-    br_scene_clear(&s);
-}
-
-static void test_blows(void **unused)
-{
-    (void)unused;
-    static const double width[] = {1e-7, 1e-8}, at[] = {0.1234567, 1.7};
-    for (size_t i = 0; i < 4; i++) {
-        struct br_scene s = rod(1.7, 0.4);
-        const double w = width[i / 2] * s.duration, t = at[i % 2];
-        s.axial.load = load_of(TEXT("-2.5/sqrt(pi)/%.17g*exp(-((t-%.17g)/%.17g)^2)", w, t, w));
-        struct br_exact *exact = solve_sharp(&s);
-        struct br_exact_state *state = new_state(exact);
-        for (int n = 0; n <= 20; n++) {
-            br_exact_at(exact, s.duration * n / 20, state);
-            const double tip = -2.5 * uniform_tip(&s, state->time - t, true);
-            assert_near(state->tip[BR_EXACT_AXIAL].displacement, tip,
-                        allowed(exact, BR_EXACT_AXIAL, 1e-9));
-        }
-        br_exact_state_free(state);
-        br_exact_free(exact);
-        br_scene_clear(&s);
-    }
-}
-
 /* ---- a front ---- */
 
 /* A load of -3 N/m on all x < 2 t of a rod without inertia: c u' + a u = -3 (2 t)^2 / 2 at the tip
@@ -341,27 +257,6 @@ static void test_projection_of_pieces(void **unused)
     br_pieces_clear(&pieces);
 }
 
-/* x^2 / 2 lies in the elements' space; a straight line leaves its share of p_2 out of each. */
-static void test_rest_of_pieces(void **unused)
-{
-    (void)unused;
-    struct br_error err = {0};
-    struct br_pieces pieces = new_pieces();
-    double series[44], c[3 * 97], rest = NAN;
-    fill_kink(&pieces, 0, series);
-    br_pieces_integrate(&pieces, 1, series);
-    for (size_t degree = 1; degree <= 2; degree++) {
-        const struct br_exact_mesh mesh = {97, degree};
-        struct br_piecewise *piecewise = NULL;
-        MUST(br_piecewise_create(&piecewise, &pieces, 2, &mesh, &err));
-        br_piecewise_apply(piecewise, series, c, &rest);
-        br_piecewise_free(piecewise);
-        const double expected = degree == 1 ? 2.5 / (4 * 180 * pow(97, 4)) : 0;
-        assert_near(rest, expected, 1e-12 * expected + 1e-30);
-    }
-    br_pieces_clear(&pieces);
-}
-
 /* A guard that changes nothing cuts the beam and the time: the solution stays. */
 static void test_needless_ends(void **unused)
 {
@@ -396,12 +291,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_patches),
         cmocka_unit_test(test_peaks),
-        cmocka_unit_test(test_jump_in_time),
-        cmocka_unit_test(test_blows),
         cmocka_unit_test(test_front),
         cmocka_unit_test(test_modes_on_pieces),
         cmocka_unit_test(test_projection_of_pieces),
-        cmocka_unit_test(test_rest_of_pieces),
         cmocka_unit_test(test_needless_ends),
     };
     return cmocka_run_group_tests_name("exact: pieces", tests, NULL, NULL);

@@ -3,10 +3,9 @@
  * and honest, its events are those that the scene is about, and other units or a mirror
  * change nothing but the numbers' scale and sign. */
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "reference/exact/exact.h"
+#include "study/scene/rescale.h"
 #include "support.h"
 
 static const char *const scenes[] = {"example1", "example2", "example3",  "example4", "impact",
@@ -121,106 +120,75 @@ static void test_events(void **state)
 
 /* ---- other units, and a mirror ---- */
 
-/* value(x, t) = factor * inner(x / length, t / time) */
-struct rescaled {
-    struct br_function inner; /* borrowed */
-    double factor, length, time;
-};
-
-static void rescaled_evaluate(void *self, size_t count, const double *x, double t, double *value)
+/* The same with the other sign; borrows it. */
+static void negated_evaluate(void *self, size_t count, const double *x, double t, double *value)
 {
-    const struct rescaled *r = self;
-    for (size_t i = 0; i < count; i++) {
-        const double inner_x = x[i] / r->length;
-        br_function_evaluate(&r->inner, 1, &inner_x, t / r->time, &value[i]);
-        value[i] *= r->factor;
-    }
+    br_function_evaluate(self, count, x, t, value);
+    for (size_t i = 0; i < count; i++)
+        value[i] = -value[i];
 }
 
-static void *rescaled_clone(const void *self)
+static void *negated_clone(const void *self)
 {
-    struct rescaled *copy = malloc(sizeof *copy);
-    assert_non_null(copy);
-    memcpy(copy, self, sizeof *copy);
-    return copy;
+    return (void *)(uintptr_t)self;
 }
 
-static const struct br_function_ops rescaled_ops = {
-    .evaluate = rescaled_evaluate, .clone = rescaled_clone, .free = free};
-
-/* How many of a unit one old unit is. */
-struct units {
-    double length, time, mass;
-    double mirror; /* of bending: 1 or -1 */
-};
-
-static struct br_function rescale(const struct br_function *f, double factor, const struct units *u)
+static void negated_free(void *self)
 {
+    (void)self;
+}
+
+static struct br_function negated(const struct br_function *f)
+{
+    static const struct br_function_ops ops = {
+        .evaluate = negated_evaluate, .clone = negated_clone, .free = negated_free};
     struct br_function out = *f;
-    if (!f->ops) {
-        out.constant *= factor;
-        return out;
+    out.constant = -f->constant;
+    if (f->ops) {
+        out.ops = &ops;
+        out.self = (void *)(uintptr_t)f;
     }
-    const struct rescaled r = {*f, factor, u->length, u->time};
-    out.ops = &rescaled_ops;
-    out.self = rescaled_clone(&r);
     return out;
 }
 
-/* The same scene in other units; its functions borrow from the old one's. */
-static struct br_scene convert(const struct br_scene *s, const struct units *u)
+/* The scene with the beam upside down; its functions borrow from the old one's. */
+static struct br_scene mirrored(const struct br_scene *s)
 {
-    const double l = u->length, t = u->time, force = u->mass * l / (t * t), m = u->mirror;
     struct br_scene out = *s;
-    out.name = out.title = out.remark = NULL;
-    out.length *= l;
-    out.duration *= t;
-    out.density *= u->mass / l;
-    out.axial.stiffness *= force;
-    out.axial.viscosity *= force * t;
-    out.axial.load.term[0].space = rescale(&s->axial.load.term[0].space, 1, u);
-    out.axial.load.term[0].time = rescale(&s->axial.load.term[0].time, force / l, u);
-    out.axial.displacement = rescale(&s->axial.displacement, l, u);
-    out.axial.velocity = rescale(&s->axial.velocity, l / t, u);
-    out.bending.stiffness *= force * l * l;
-    out.bending.viscosity *= force * l * l * t;
-    out.bending.load.term[0].space = rescale(&s->bending.load.term[0].space, 1, u);
-    out.bending.load.term[0].time = rescale(&s->bending.load.term[0].time, m * force / l, u);
-    out.bending.displacement = rescale(&s->bending.displacement, m * l, u);
-    out.bending.displacement_slope = rescale(&s->bending.displacement_slope, m, u);
-    out.bending.velocity = rescale(&s->bending.velocity, m * l / t, u);
-    out.bending.velocity_slope = rescale(&s->bending.velocity_slope, m / t, u);
-    out.contact.gap *= l;
-    out.contact.stiffness *= force / l;
-    out.friction.coefficient *= s->friction.law == BR_TRESCA ? force : force / l;
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
+        out.bending.load.term[i].time = negated(&s->bending.load.term[i].time);
+    out.bending.tip_force = negated(&s->bending.tip_force);
+    out.bending.tip_moment = negated(&s->bending.tip_moment);
+    out.bending.displacement = negated(&s->bending.displacement);
+    out.bending.displacement_slope = negated(&s->bending.displacement_slope);
+    out.bending.velocity = negated(&s->bending.velocity);
+    out.bending.velocity_slope = negated(&s->bending.velocity_slope);
     return out;
 }
 
-/* Largest deviation of the converted solution from the old one, relative to the largest
- * value of each, over displacements and forces of the tip. */
-static double deviation(const struct solved *old, const struct solved *converted, double duration,
-                        const struct units *u)
+/* Largest deviation of the other solution from the old one, relative to the largest value of each,
+ * over displacements and forces of the tip. sign: of bending. */
+static double deviation(const struct solved *old, const struct solved *other, double duration,
+                        const struct br_units_change *u, double sign)
 {
-    const double force = u->mass * u->length / (u->time * u->time);
-    double most[2][2] = {{0}}, off[2][2] = {{0}};
+    const double force = u->kilogram * u->metre / (u->second * u->second);
+    double most[2][2] = {{0}}, off[2][2] = {{0}}, worst = 0;
     for (int i = 0; i <= TIMES; i++) {
         const double t = duration * i / TIMES;
+        const struct br_exact_state *x = old->state, *y = other->state;
         br_exact_at(old->exact, t, old->state);
-        br_exact_at(converted->exact, t * u->time, converted->state);
-        const double a[2][2] = {
-            {old->state->tip[0].displacement, old->state->contact_force},
-            {u->mirror * old->state->tip[1].displacement, u->mirror * old->state->friction_force}};
-        const double b[2][2] = {
-            {converted->state->tip[0].displacement, converted->state->contact_force},
-            {converted->state->tip[1].displacement, converted->state->friction_force}};
+        br_exact_at(other->exact, t * u->second, other->state);
+        const double a[2][2] = {{x->tip[0].displacement, x->contact_force},
+                                {sign * x->tip[1].displacement, sign * x->friction_force}};
+        const double b[2][2] = {{y->tip[0].displacement, y->contact_force},
+                                {y->tip[1].displacement, y->friction_force}};
         for (int f = 0; f < 2; f++)
             for (int v = 0; v < 2; v++) {
-                const double d = fabs(b[f][v] / (v ? force : u->length) - a[f][v]);
+                const double d = fabs(b[f][v] / (v ? force : u->metre) - a[f][v]);
                 off[f][v] = d <= off[f][v] ? off[f][v] : d;
                 most[f][v] = fmax(most[f][v], fabs(a[f][v]));
             }
     }
-    double worst = 0;
     for (int f = 0; f < 2; f++)
         for (int v = 0; v < 2; v++)
             if (off[f][v] != 0 && !(off[f][v] / most[f][v] <= worst))
@@ -228,21 +196,39 @@ static double deviation(const struct solved *old, const struct solved *converted
     return worst;
 }
 
-static void check_conversion(const char *name, const struct units *u, double allowed)
+/* The same events; where the beam is upside down, slips go the other way. */
+static void compare_events(const struct br_exact *a, const struct br_exact *b, double second,
+                           double sign)
 {
-    struct br_scene scene = br_test_bundled(name);
-    struct br_scene other = convert(&scene, u);
-    struct solved a = solve(&scene, 1e-10), b = solve(&other, 1e-10);
-    const double worst = deviation(&a, &b, scene.duration, u);
+    static const enum br_phase mirror[] = {BR_FREE,  BR_OPEN,      BR_CLOSED,
+                                           BR_STICK, BR_SLIP_DOWN, BR_SLIP_UP};
+    size_t count, other;
+    const struct br_exact_event *x = br_exact_events(a, &count), *y = br_exact_events(b, &other);
+    assert_int_equal(count, other);
+    for (size_t i = 0; i < count; i++) {
+        CLOSE(y[i].time, second * x[i].time, second * 10 * x[i].error);
+        assert_int_equal(y[i].phase, sign > 0 ? x[i].phase : mirror[x[i].phase]);
+    }
+}
+
+static void compare(const char *name, const struct br_scene *scene, const struct br_scene *other,
+                    const struct br_units_change *u, double sign, double allowed)
+{
+    struct solved a = solve(scene, 1e-10), b = solve(other, 1e-10);
+    const double worst = deviation(&a, &b, scene->duration, u, sign);
     if (!(worst <= allowed))
-        fail_msg("%s in other units is off by %g", name, worst);
-    size_t count, other_count;
-    br_exact_events(a.exact, &count);
-    br_exact_events(b.exact, &other_count);
-    assert_int_equal(count, other_count);
+        fail_msg("%s in other units, or mirrored, is off by %g", name, worst);
+    compare_events(a.exact, b.exact, u->second, sign);
     release(&a);
     release(&b);
-    other.axial.solution = other.bending.solution = NULL; /* borrowed */
+}
+
+static void check_units(const char *name, const struct br_units_change *u)
+{
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled(name), other;
+    MUST(br_rescale(&scene, u, &other, &err));
+    compare(name, &scene, &other, u, 1, 1e-8);
     br_scene_clear(&other);
     br_scene_clear(&scene);
 }
@@ -251,17 +237,21 @@ static void test_units(void **state)
 {
     (void)state;
     for (size_t i = 0; i < SCENES; i++) {
-        check_conversion(scenes[i], &(struct units){39.37, 1e3, 2.2046, 1}, 1e-8);
+        check_units(scenes[i], &(struct br_units_change){39.37, 1e3, 2.2046});
         if (i % 2) /* a nanoworld */
-            check_conversion(scenes[i], &(struct units){3e-9, 7e-12, 1.1e-20, 1}, 1e-8);
+            check_units(scenes[i], &(struct br_units_change){3e-9, 7e-12, 1.1e-20});
     }
 }
 
 static void test_mirror(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < SCENES; i++)
-        check_conversion(scenes[i], &(struct units){1, 1, 1, -1}, 1e-11);
+    for (size_t i = 0; i < SCENES; i++) {
+        struct br_scene scene = br_test_bundled(scenes[i]);
+        const struct br_scene other = mirrored(&scene);
+        compare(scenes[i], &scene, &other, &(struct br_units_change){1, 1, 1}, -1, 1e-11);
+        br_scene_clear(&scene);
+    }
 }
 
 int main(void)

@@ -2,13 +2,24 @@
 /* What stands behind the figures, against values from elsewhere: closed forms, and the exact
  * discrete solution. */
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
 #include "figure_check.h"
 #include "plots/pictures.h"
+#include "study/grid/observer.h"
 #include "study/paper/claims.h"
 
 static struct br_paper paper;
+
+static atomic_size_t told;
+
+static void hear(void *self, double share)
+{
+    (void)self;
+    if (share >= 0 && share <= 1)
+        told++;
+}
 
 static int run_paper(void **state)
 {
@@ -17,7 +28,7 @@ static int run_paper(void **state)
     struct br_paper_request request = br_paper_request_default();
     if (br_test_quick())
         request.n = request.per_second = 100, request.per_decade = 1;
-    if (br_paper_run(&paper, &request, NULL, &err) == BR_OK)
+    if (br_paper_run(&paper, &request, &(struct br_observer){.preparing = hear}, &err) == BR_OK)
         return 0;
     print_error("%s\n", err.message);
     return -1;
@@ -43,6 +54,13 @@ static const struct br_history_row *last_row(size_t example)
 {
     const struct br_history_record *r = &paper.example[example].record;
     return &r->row[r->rows - 1];
+}
+
+/* The display hears of every step of an exact solution, and of those that judge the tables. */
+static void test_progress(void **state)
+{
+    (void)state;
+    assert_true(told > 100);
 }
 
 /* Closed forms at t = 1 s; of Example 2 also the exact discrete solution at k = 1e-3 s, from
@@ -316,11 +334,11 @@ static void test_charts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ends),       cmocka_unit_test(test_release),
-        cmocka_unit_test(test_early_slip), cmocka_unit_test(test_tables),
-        cmocka_unit_test(test_sweep),      cmocka_unit_test(test_verdicts),
-        cmocka_unit_test(test_nan),        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_charts),
+        cmocka_unit_test(test_progress), cmocka_unit_test(test_ends),
+        cmocka_unit_test(test_release),  cmocka_unit_test(test_early_slip),
+        cmocka_unit_test(test_tables),   cmocka_unit_test(test_sweep),
+        cmocka_unit_test(test_verdicts), cmocka_unit_test(test_nan),
+        cmocka_unit_test(test_threads),  cmocka_unit_test(test_charts),
     };
     return cmocka_run_group_tests(tests, run_paper, clear_paper);
 }

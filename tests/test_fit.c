@@ -297,6 +297,63 @@ static void test_round_off(void **state)
     }
 }
 
+static void same_estimate(const struct br_estimate *a, const struct br_estimate *b,
+                          double tolerance)
+{
+    assert_int_equal(isnan(a->value), isnan(b->value));
+    if (!isnan(a->value))
+        CLOSE(a->value, b->value, tolerance);
+    if (isfinite(a->high - a->low) || isfinite(b->high - b->low))
+        CLOSE(a->high - a->low, b->high - b->low, 1e-6 * (1 + b->high - b->low));
+}
+
+static void same_orders(const struct br_joint_fit *a, const struct br_joint_fit *b)
+{
+    assert_int_equal(a->kind, b->kind);
+    same_estimate(&a->p, &b->p, 1e-9);
+    same_estimate(&a->q, &b->q, 1e-9);
+    same_estimate(&a->r, &b->r, 1e-7);
+    CLOSE(a->misfit, b->misfit, 1e-9);
+}
+
+/* Where the minimum is flat (the space error is lost in noise, or three meshes are all there are),
+ * the orders are still the same in other units of length, time and error. */
+static void test_units(void **state)
+{
+    (void)state;
+    static const double unit[] = {1, 1e3, 1e-3, 1e6, 1e-6}; /* m in mm, km; s in ms, us */
+    static const struct truth truths[] = {
+        {20, 2, 0.2, 1, 0.3}, {1e-4, 2, 0.1, 1, -0.9}, {0.06, 1, 0.08, 1, 0.95}};
+    struct br_observation base[CELLS], scaled[CELLS];
+    for (size_t i = 0; i < 3 * 4; i++) {
+        struct grid g;
+        grid_init(&g, true);
+        fill(&g, &truths[i % 3], 0.005, 3 + i);
+        const size_t rows = i < 6 ? ROWS : 3;
+        struct br_joint_fit first = {0};
+        for (size_t j = 0; j < rows * COLUMNS; j++)
+            base[j] =
+                (struct br_observation){1 / (double)g.cell[j].at.n, 1 / (double)g.cell[j].at.steps,
+                                        1 / 12800.0, 1e-5, g.cell[j].error[BR_PART_TOTAL]};
+        for (size_t u = 0; u < 5 * 5; u++) {
+            const double m = unit[u / 5], s = unit[u % 5], e = u ? 31.6 : 1;
+            for (size_t j = 0; j < rows * COLUMNS; j++)
+                scaled[j] = (struct br_observation){base[j].h * m, base[j].k * s, base[j].h_ref * m,
+                                                    base[j].k_ref * s, base[j].error * e};
+            struct br_error err = {0};
+            struct br_joint_fit fit;
+            MUST(br_joint_fit_solve(scaled, rows * COLUMNS, &fit, &err));
+            if (u == 0)
+                first = fit;
+            same_orders(&fit, &first);
+            if (isfinite(fit.p.value))
+                CLOSE(fit.c_h.value * pow(m, fit.p.value) / e / first.c_h.value, 1, 1e-7);
+            if (isfinite(fit.q.value))
+                CLOSE(fit.c_k.value * pow(s, fit.q.value) / e / first.c_k.value, 1, 1e-7);
+        }
+    }
+}
+
 /* Hurvich and Tsai's criterion, by hand: n log(S / n) + 2 u n / (n - u - 1) with u unknowns, of
  * which the variance is one. */
 static void test_few_points(void **state)
@@ -398,6 +455,7 @@ int main(void)
         cmocka_unit_test(test_left_out),
         cmocka_unit_test(test_flags),
         cmocka_unit_test(test_round_off),
+        cmocka_unit_test(test_units),
         cmocka_unit_test(test_few_points),
         cmocka_unit_test(test_slope),
         cmocka_unit_test(test_noise_is_no_order),

@@ -139,25 +139,15 @@ static void test_agreement(void **state)
 
 /* ---- the fourth: a solution that was there first ---- */
 
-enum { NORMS = 3 };
+enum { NORMS = BR_TEST_NORMS };
 
 static void run_by(const struct br_judge *judge, const struct br_scene *scene,
                    struct br_study s[NORMS])
 {
     static const size_t n[] = {7, 12}, steps[] = {40, 100};
     struct br_error err = {0};
-    for (size_t m = 0; m < NORMS; m++)
-        s[m] = (struct br_study){
-            .scene = scene,
-            .norm = br_norms[m],
-            .method = br_method_default(),
-            .judge = judge,
-            .n_count = 2,
-            .k_count = 2,
-            .n = n,
-            .steps = steps,
-            .next_norm = m + 1 < NORMS ? &s[m + 1] : NULL,
-        };
+    s[0] = br_test_study(scene, judge, 2, n, 2, steps);
+    br_test_all_norms(s);
     MUST(br_study_run(s, 1, 2, NULL, &err));
 }
 

@@ -5,39 +5,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "reference/mms/projection.h"
+#include "solver/proof.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
 #include "study/scene/file.h"
 #include "support.h"
 
 /* ---- scenes ---- */
-
-static char path[] = "/tmp/br_test_mms_XXXXXX.yaml";
-
-static int make_file(void **state)
-{
-    (void)state;
-    const int descriptor = mkstemps(path, 5);
-    return descriptor < 0 ? -1 : close(descriptor);
-}
-
-static int remove_file(void **state)
-{
-    (void)state;
-    return remove(path);
-}
-
-static enum br_status read_text(const char *text, struct br_scene *scene, struct br_error *err)
-{
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
-    return br_scene_read(path, scene, err);
-}
 
 #define TOP "title: t\nlength: 2 m\nduration: 1 s\ndensity: 3 kg/m\n"
 #define AXIAL "axial:\n  stiffness: 5 N\n  viscosity: 7 N s\n"
@@ -88,14 +64,8 @@ static void test_refusals(void **state)
                    "  stick_force: 1 [N]\n" CONTACT COULOMB,
          ":12: solution: stick_force is 1 N at t = 0.923828 s, where the tip rests"},
     };
-    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
-        struct br_error err = {0};
-        struct br_scene scene;
-        const enum br_status status = read_text(refusals[i].text, &scene, &err);
-        br_scene_clear(&scene);
-        REFUSED(status, BR_BAD_INPUT, refusals[i].message);
-        REFUSED(status, BR_BAD_INPUT, path);
-    }
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++)
+        br_test_scene_refused(refusals[i].text, false, refusals[i].message);
 }
 
 static double at(const struct br_function *f, double x, double t)
@@ -109,7 +79,7 @@ static struct br_scene scene_of(const char *text)
 {
     struct br_error err = {0};
     struct br_scene scene;
-    MUST(read_text(text, &scene, &err));
+    MUST(br_scene_read_text("made.yaml", text, &scene, &err));
     return scene;
 }
 
@@ -206,16 +176,9 @@ static void test_projection(void **state)
 
 static struct br_study study_of(const struct br_scene *scene, const size_t *n, const size_t *steps)
 {
-    return (struct br_study){
-        .scene = scene,
-        .norm = br_norms[0],
-        .method = br_test_method(NULL, "implicit", NULL),
-        .judge = &br_judge_mms,
-        .n_count = 2,
-        .k_count = 2,
-        .n = n,
-        .steps = steps,
-    };
+    struct br_study s = br_test_study(scene, &br_judge_mms, 2, n, 2, steps);
+    s.method = br_test_method(NULL, "implicit", NULL);
+    return s;
 }
 
 /* What both the elements and the Euler steps hold exactly has no error at all: with contact,
@@ -281,11 +244,11 @@ static void test_threads(void **state)
 
 /* ---- out of memory ---- */
 
-static enum br_status attempt(struct br_error *err)
+static enum br_status attempt(const void *text, struct br_error *err)
 {
     static const size_t n[] = {2, 3}, steps[] = {2, 3};
     struct br_scene scene;
-    enum br_status status = br_scene_read(path, &scene, err);
+    enum br_status status = br_scene_read_text("made.yaml", text, &scene, err);
     if (!status) {
         struct br_study s = study_of(&scene, n, steps);
         status = br_study_run(&s, 1, 1, NULL, err);
@@ -298,22 +261,89 @@ static enum br_status attempt(struct br_error *err)
 static void test_allocation(void **state)
 {
     (void)state;
-    struct br_scene scene = scene_of(TOP AXIAL "  solution: x*(1 + t) [m]\n" BENDING
-                                               "  solution: x^4*t [m]\n" CONTACT COULOMB);
-    br_scene_clear(&scene);
-    long failed = 0;
-    for (long i = 0, good = 0; good < 40; i++) { /* a few allocations can be done without */
+    br_test_without_memory(attempt,
+                           TOP AXIAL "  solution: x*(1 + t) [m]\n" BENDING
+                                     "  solution: x^4*t [m]\n" CONTACT COULOMB,
+                           60);
+}
+
+/* ---- what is proved of tip forces ---- */
+
+static const struct forced {
+    const char *text;
+    enum br_field_kind kind;
+    size_t breaks;
+    double at[3]; /* s: where the force bends or jumps */
+} forced[] = {
+    {TOP AXIAL "  solution: x*t^2 [m]\n" CONTACT, BR_AXIAL, 1, {0.22360679774997896}},
+    {TOP AXIAL "  solution: x*sin(pi*t) [m]\n" CONTACT, BR_AXIAL, 2, {0.0159221332, 0.9840778668}},
+    {TOP BENDING "  solution: x^4*(t^2 - t) [m]\n" TRESCA, BR_BENDING, 1, {0.5}},
+    {TOP BENDING "  solution: x^4*(1 + (t - 0.4)^2*step(t - 0.4)) [m]\n"
+                 "  stick_force: 3*cos(9*t) [N]\n" TRESCA,
+     BR_BENDING,
+     1,
+     {0.4}},
+    {TOP AXIAL "  solution: x*t [m]\n" BENDING "  solution: x^4*(t^3 - t) [m]\n" CONTACT COULOMB,
+     BR_BENDING,
+     2,
+     {0.05, 0.57735026918962576}},
+};
+
+/* The places where a tip force bends or jumps are found, and no others. */
+static void test_tip_breaks(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof forced / sizeof *forced; i++) {
         struct br_error err = {0};
-        br_allocation_fails_at(i);
-        const enum br_status status = attempt(&err);
-        br_allocation_fails_at(-1);
-        if (status)
-            REFUSED(status, BR_NO_MEMORY, "out of memory");
-        failed += status != BR_OK;
-        good = status ? 0 : good + 1;
-        assert_true(i < 2000);
+        struct br_scene s = scene_of(forced[i].text);
+        struct br_breaks breaks = {0};
+        const struct br_function *f =
+            forced[i].kind == BR_AXIAL ? &s.axial.tip_force : &s.bending.tip_force;
+        MUST(br_breaks_add(f, BR_T, (struct br_box){{0, 2}, {0, 1}}, &breaks, &err));
+        assert_int_equal(breaks.count, forced[i].breaks);
+        for (size_t k = 0; k < breaks.count; k++)
+            CLOSE(breaks.at[k].low, forced[i].at[k], 1e-8);
+        br_breaks_free(&breaks);
+        br_scene_clear(&s);
     }
-    assert_true(failed > 60);
+}
+
+/* In random boxes: all values lie within the bounds, and the series from one end reaches the other
+ * within its remainder. Bounds and series are there, but for boxes that hold a break. */
+static void test_tip_bounds(void **state)
+{
+    (void)state;
+    enum { ORDER = 4, TRIALS = 400 };
+    struct br_test_random random = {5};
+    for (size_t i = 0; i < TRIALS; i++) {
+        const struct forced *row = &forced[i % (sizeof forced / sizeof *forced)];
+        struct br_scene s = scene_of(row->text);
+        const struct br_function *f =
+            row->kind == BR_AXIAL ? &s.axial.tip_force : &s.bending.tip_force;
+        const double low = br_test_uniform(&random, 0, 1), wide = (1 - low) * 0.05,
+                     high = low + wide;
+        const struct br_box box = {{0, 0}, {low, high}}, start = {{0, 0}, {low, low}};
+        struct br_interval value, c[ORDER + 1], at_start[ORDER + 1];
+        bool broken = false;
+        for (size_t k = 0; k < row->breaks; k++)
+            broken |= low - 1e-6 < row->at[k] && row->at[k] < high + 1e-6;
+        assert_true(br_function_bound(f, box, &value));
+        for (int k = 0; k <= 16; k++) {
+            const double y = at(f, 0, low + wide * k / 16);
+            assert_true(value.low <= y && y <= value.high);
+        }
+        assert_true(br_function_taylor(f, BR_T, box, ORDER, c) != broken);
+        if (!broken && br_function_taylor(f, BR_T, start, ORDER, at_start)) {
+            double least = 0, most = 0;
+            for (size_t k = ORDER + 1; k-- > 0;) {
+                least = least * wide + (k == ORDER ? c[k].low : at_start[k].low);
+                most = most * wide + (k == ORDER ? c[k].high : at_start[k].high);
+            }
+            const double y = at(f, 0, high), round_off = 1e-13 * (fabs(y) + fabs(value.high));
+            assert_true(least - round_off <= y && y <= most + round_off);
+        }
+        br_scene_clear(&s);
+    }
 }
 
 int main(void)
@@ -323,9 +353,10 @@ int main(void)
         cmocka_unit_test(test_refusals),      cmocka_unit_test(test_data),
         cmocka_unit_test(test_friction_data), cmocka_unit_test(test_projection),
         cmocka_unit_test(test_exact),         cmocka_unit_test(test_judge),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_threads),       cmocka_unit_test(test_tip_breaks),
+        cmocka_unit_test(test_tip_bounds),
 
         cmocka_unit_test(test_allocation),
     };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

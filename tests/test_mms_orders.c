@@ -19,18 +19,10 @@ static void measure(const char *name, const char *contact, const struct br_judge
 {
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled(name);
-    struct br_study s = {
-        .scene = &scene,
-        .norm = br_norms[0],
-        .method = br_test_method(NULL, contact, NULL),
-        .judge = judge,
-        .reference_method = br_test_method(NULL, contact, NULL),
-        .reference = {768, steps[0]},
-        .n_count = n_count,
-        .k_count = k_count,
-        .n = n,
-        .steps = steps,
-    };
+    struct br_study s = br_test_study(&scene, judge, n_count, n, k_count, steps);
+    s.method = br_test_method(NULL, contact, NULL);
+    s.reference_method = br_test_method(NULL, contact, NULL);
+    s.reference = (struct br_resolution){768, steps[0]};
     MUST(br_study_run(&s, 1, 2, NULL, &err));
     for (size_t c = 0; c < n_count * k_count; c++)
         for (int p = 0; p < BR_PARTS; p++)
@@ -132,16 +124,9 @@ static void test_intervals(void **state)
     for (size_t i = 0; i < sizeof fitted / sizeof *fitted; i++) {
         struct br_error err = {0};
         struct br_scene scene = br_test_bundled(fitted[i]);
-        struct br_study s = {
-            .scene = &scene,
-            .norm = br_norms[0],
-            .method = br_test_method(NULL, "implicit", NULL),
-            .judge = br_judge_find("mms"),
-            .n_count = sizeof n / sizeof *n,
-            .k_count = sizeof steps / sizeof *steps,
-            .n = n,
-            .steps = steps,
-        };
+        struct br_study s = br_test_study(&scene, br_judge_find("mms"), sizeof n / sizeof *n, n,
+                                          sizeof steps / sizeof *steps, steps);
+        s.method = br_test_method(NULL, "implicit", NULL);
         struct br_fits axial, bending;
         MUST(br_study_run(&s, 1, 2, NULL, &err));
         MUST(br_fit(&s, BR_PART_AXIAL, &axial, &err));

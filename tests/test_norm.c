@@ -224,35 +224,16 @@ static struct expected direct(const struct br_study *s, struct br_resolution at)
     return (struct expected){sums.level, sqrt(sums.velocity + sums.rates), sums.tip};
 }
 
-/* Studies in all norms of the registry, chained. */
-enum { NORMS = 3 };
-
-static void chain(struct br_study s[NORMS])
-{
-    for (size_t m = 0; m < NORMS; m++) {
-        s[m] = s[0];
-        s[m].norm = br_norms[m];
-        s[m].next_norm = m + 1 < NORMS ? &s[m + 1] : NULL;
-    }
-}
+enum { NORMS = BR_TEST_NORMS };
 
 static void check_study(const char *name, const struct br_judge *judge)
 {
     static const size_t n[] = {4, 10}, steps[] = {8, 20};
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled(name);
-    struct br_study s[NORMS] = {{
-        .scene = &scene,
-        .method = br_method_default(),
-        .judge = judge,
-        .reference_method = br_method_default(),
-        .reference = {20, 40},
-        .n_count = 2,
-        .k_count = 2,
-        .n = n,
-        .steps = steps,
-    }};
-    chain(s);
+    struct br_study s[NORMS] = {br_test_study(&scene, judge, 2, n, 2, steps)};
+    s[0].reference = (struct br_resolution){20, 40};
+    br_test_all_norms(s);
     MUST(br_study_run(s, 1, 2, NULL, &err));
     for (size_t c = 0; c < 4; c++) {
         const struct expected e = direct(&s[0], s[0].cell[c].at);
@@ -285,16 +266,8 @@ static void test_company(void **state)
     static const size_t n = 6, steps = 30;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example4");
-    struct br_study s[NORMS] = {{
-        .scene = &scene,
-        .method = br_method_default(),
-        .judge = &br_judge_exact,
-        .n_count = 1,
-        .k_count = 1,
-        .n = &n,
-        .steps = &steps,
-    }};
-    chain(s);
+    struct br_study s[NORMS] = {br_test_study(&scene, &br_judge_exact, 1, &n, 1, &steps)};
+    br_test_all_norms(s);
     MUST(br_study_run(s, 1, 2, NULL, &err));
     struct br_march *march = br_test_march(&scene, n, steps, &s[0].method);
     br_test_advance(march, steps);
@@ -363,19 +336,9 @@ static void test_nan_audit(void **state)
                                         .look = odd_look};
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
-    struct br_study s = {
-        .scene = &scene,
-        .norm = br_norms[0],
-        .method = br_method_default(),
-        .judge = &br_judge_fine,
-        .reference_method = br_method_default(),
-        .reference = {1, 8},
-        .auditor = &odd,
-        .n_count = 1,
-        .k_count = 1,
-        .n = &n,
-        .steps = &steps,
-    };
+    struct br_study s = br_test_study(&scene, &br_judge_fine, 1, &n, 1, &steps);
+    s.reference = (struct br_resolution){1, 8};
+    s.auditor = &odd;
     MUST(br_study_run(&s, 1, 1, NULL, &err));
     assert_true(isnan(s.reference_error[BR_PART_TOTAL]));
     br_study_clear(&s);

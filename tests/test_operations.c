@@ -9,89 +9,9 @@
 #include "study/scene/elementary.h"
 #include "study/scene/expression.h"
 #include "support.h"
+#include "tests/operation_oracle.h"
 
 typedef long double real;
-
-static real truth(bool is)
-{
-    return is ? 1 : 0;
-}
-
-/* One operation, by other means. */
-static real apply(enum br_operation operation, const real a[3], double number, real x, real t)
-{
-    switch (operation) {
-#define ONE(OP, f)   \
-    case BR_OP_##OP: \
-        return f(a[0]);
-        ONE(SIN, sinl)
-        ONE(COS, cosl) ONE(TAN, tanl) ONE(ASIN, asinl) ONE(ACOS, acosl) ONE(ATAN, atanl)
-            ONE(SINH, sinhl) ONE(COSH, coshl) ONE(TANH, tanhl) ONE(ASINH, asinhl) ONE(ACOSH, acoshl)
-                ONE(ATANH, atanhl) ONE(EXP, expl) ONE(EXPM1, expm1l) ONE(LOG, logl) ONE(LOG2, log2l)
-                    ONE(LOG10, log10l) ONE(SQRT, sqrtl) ONE(ABS, fabsl)
-#undef ONE
-                        case BR_OP_NUMBER : return number;
-    case BR_OP_X:
-        return x;
-    case BR_OP_T:
-        return t;
-    case BR_OP_NEGATE:
-        return -a[0];
-    case BR_OP_NOT:
-        return truth(a[0] == 0);
-    case BR_OP_SIGN:
-        return truth(a[0] > 0) - truth(a[0] < 0);
-    case BR_OP_STEP:
-        return truth(a[0] >= 0);
-    case BR_OP_ADD:
-        return a[0] + a[1];
-    case BR_OP_SUBTRACT:
-        return a[0] - a[1];
-    case BR_OP_MULTIPLY:
-        return a[0] * a[1];
-    case BR_OP_DIVIDE:
-        return a[0] / a[1];
-    case BR_OP_POW:
-        return powl(a[0], a[1]);
-    case BR_OP_MIN:
-        return fminl(a[0], a[1]);
-    case BR_OP_MAX:
-        return fmaxl(a[0], a[1]);
-    case BR_OP_LESS:
-        return truth(a[0] < a[1]);
-    case BR_OP_LESS_EQUAL:
-        return truth(a[0] <= a[1]);
-    case BR_OP_GREATER:
-        return truth(a[0] > a[1]);
-    case BR_OP_GREATER_EQUAL:
-        return truth(a[0] >= a[1]);
-    case BR_OP_EQUAL:
-        return truth(a[0] == a[1]);
-    case BR_OP_NOT_EQUAL:
-        return truth(a[0] != a[1]);
-    case BR_OP_AND:
-        return truth(a[0] != 0 && a[1] != 0);
-    case BR_OP_OR:
-        return truth(a[0] != 0 || a[1] != 0);
-    case BR_OP_CHOOSE:
-        return a[0] != 0 ? a[1] : a[2];
-    }
-    return NAN;
-}
-
-static real value_of(const struct br_tree *tree, real x, real t)
-{
-    real value[1000];
-    assert_true(tree->count <= 1000);
-    for (size_t i = 0; i < tree->count; i++) {
-        const struct br_node *n = &tree->node[i];
-        real a[3] = {0};
-        for (unsigned k = 0; k < br_operation_arguments(n->operation); k++)
-            a[k] = value[n->argument[k]];
-        value[i] = apply(n->operation, a, n->number, x, t);
-    }
-    return value[tree->count - 1];
-}
 
 /* ---- accuracy ---- */
 
@@ -154,7 +74,7 @@ static void test_accuracy(void **state)
             const double a[] = {draw(&r), draw(&r), draw(&r)};
             const real exact[] = {a[0], a[1], a[2]};
             const double found = br_operation_value(o, a[0], a[1], a[2]);
-            const double error = error_of(found, apply(o, exact, 0, 0, 0));
+            const double error = error_of(found, oracle_operation(o, exact));
             if (!(error <= allowed(o, a)))
                 fail_msg("'%s' of %.17g, %.17g, %.17g is %.17g, off by %g units in the last place",
                          br_operation_word(o), a[0], a[1], a[2], found, error);
@@ -194,9 +114,9 @@ static void test_sets(void **state)
 static real difference(const struct br_tree *tree, enum br_variable by, real x, real t)
 {
     const real h = 1e-3L, dx = by == BR_X ? h : 0, dt = by == BR_T ? h : 0;
-    const real one = value_of(tree, x + dx, t + dt) - value_of(tree, x - dx, t - dt);
+    const real one = oracle_tree(tree, x + dx, t + dt) - oracle_tree(tree, x - dx, t - dt);
     const real two =
-        value_of(tree, x + 2 * dx, t + 2 * dt) - value_of(tree, x - 2 * dx, t - 2 * dt);
+        oracle_tree(tree, x + 2 * dx, t + 2 * dt) - oracle_tree(tree, x - 2 * dx, t - 2 * dt);
     return (8 * one - two) / (12 * h);
 }
 
@@ -207,7 +127,7 @@ static void check_derivative(const char *text, const struct br_tree *tree, enum 
     MUST(br_tree_derive(tree, by, derivative, &err));
     for (real x = 0.15L; x < 0.9L; x += 0.1L)
         for (real t = 0.17L; t < 0.9L; t += 0.1L) {
-            const real expected = difference(tree, by, x, t), found = value_of(derivative, x, t);
+            const real expected = difference(tree, by, x, t), found = oracle_tree(derivative, x, t);
             if (!(fabsl(found - expected) <= 1e-8L * (1 + fabsl(expected))))
                 fail_msg("d/d%s of %s at x = %.3Lg, t = %.3Lg is %.12Lg, expected %.12Lg",
                          by == BR_X ? "x" : "t", text, x, t, found, expected);

@@ -28,18 +28,11 @@ static void differences(const char *name, const struct br_norm *norm, size_t ste
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled(name);
     for (size_t i = 0; i < MESHES; i++) {
-        struct br_study s = {
-            .scene = &scene,
-            .norm = norm,
-            .method = method_of("implicit"),
-            .judge = &br_judge_fine,
-            .reference_method = method_of("implicit"),
-            .reference = {n[i + 1], steps},
-            .n_count = 1,
-            .k_count = 1,
-            .n = &n[i],
-            .steps = &steps,
-        };
+        struct br_study s = br_test_study(&scene, &br_judge_fine, 1, &n[i], 1, &steps);
+        s.norm = norm;
+        s.method = method_of("implicit");
+        s.reference_method = method_of("implicit");
+        s.reference = (struct br_resolution){n[i + 1], steps};
         MUST(br_study_run(&s, 1, 2, NULL, &err));
         error[i] = s.cell[0].error[BR_PART_AXIAL];
         br_study_clear(&s);
@@ -88,17 +81,9 @@ static void test_joint_orders(void **state)
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes && br_judge_find("mms"); i++) {
         struct br_error err = {0};
         struct br_scene scene = br_test_bundled(scenes[i]);
-        struct br_study s = {
-            .scene = &scene,
-            .norm = &br_norm_l2,
-            .method = method_of("implicit"),
-            .judge = br_judge_find("mms"),
-            .n_count = 3,
-            .k_count = 3,
-            .path = true,
-            .n = n,
-            .steps = steps,
-        };
+        struct br_study s = br_test_study(&scene, br_judge_find("mms"), 3, n, 3, steps);
+        s.method = method_of("implicit");
+        s.path = true;
         MUST(br_study_run(&s, 1, 2, NULL, &err));
         for (int c = 1; c < 3; c++) {
             const double a = s.cell[c - 1].error[BR_PART_AXIAL], b = s.cell[c].error[BR_PART_AXIAL];
@@ -125,16 +110,8 @@ static void test_against_exact(void **state)
     scene.bending.modelled = false;
     scene.friction.law = BR_FRICTIONLESS;
     for (int degree = 1; degree <= 2; degree++) {
-        struct br_study s = {
-            .scene = &scene,
-            .norm = &br_norm_l2,
-            .method = method_of("implicit"),
-            .judge = &br_judge_exact,
-            .n_count = 2,
-            .k_count = 1,
-            .n = n,
-            .steps = &steps,
-        };
+        struct br_study s = br_test_study(&scene, &br_judge_exact, 2, n, 1, &steps);
+        s.method = method_of("implicit");
         s.method.axial_degree = degree;
         MUST(br_study_run(&s, 1, 2, NULL, &err));
         for (int i = 0; i < 2; i++)
@@ -253,18 +230,9 @@ static void test_other_degree(void **state)
     static const size_t n = 4, steps = 10;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
-    struct br_study s = {
-        .scene = &scene,
-        .norm = &br_norm_l2,
-        .method = method_of(NULL),
-        .judge = &br_judge_fine,
-        .reference_method = br_method_default(),
-        .reference = {8, 20},
-        .n_count = 1,
-        .k_count = 1,
-        .n = &n,
-        .steps = &steps,
-    };
+    struct br_study s = br_test_study(&scene, &br_judge_fine, 1, &n, 1, &steps);
+    s.method = method_of(NULL);
+    s.reference = (struct br_resolution){8, 20};
     REFUSED(br_study_run(&s, 1, 1, NULL, &err), BR_BAD_INPUT,
             "the cells have axial elements of degree 2 and the reference of degree 1");
     br_scene_clear(&scene);
@@ -282,21 +250,11 @@ static void test_one_element(void **state)
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_study chain[3];
-    for (int i = 0; i < 3; i++)
-        chain[i] = (struct br_study){
-            .scene = &scene,
-            .norm = br_norms[i],
-            .method = method_of(NULL),
-            .judge = &br_judge_fine,
-            .reference_method = method_of(NULL),
-            .reference = {1, 8},
-            .auditor = &br_judge_exact,
-            .n_count = 1,
-            .k_count = 1,
-            .n = &n,
-            .steps = &steps,
-            .next_norm = i < 2 ? &chain[i + 1] : NULL,
-        };
+    chain[0] = br_test_study(&scene, &br_judge_fine, 1, &n, 1, &steps);
+    chain[0].method = chain[0].reference_method = method_of(NULL);
+    chain[0].reference = (struct br_resolution){1, 8};
+    chain[0].auditor = &br_judge_exact;
+    br_test_all_norms(chain);
     MUST(br_study_run(chain, 1, 1, NULL, &err));
     for (int i = 0; i < 3; i++) {
         AT_MOST(chain[i].cell[0].error[BR_PART_AXIAL], 1);

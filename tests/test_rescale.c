@@ -11,7 +11,7 @@
 #include "study/scene/rescale.h"
 #include "support.h"
 
-enum { NORMS = 3, MESHES = 3, STEPS = 3 };
+enum { NORMS = BR_TEST_NORMS, MESHES = 3, STEPS = 3 };
 static const size_t meshes[MESHES] = {3, 6, 12}, steps[STEPS] = {10, 20, 40};
 
 /* Both fields and laws, loads of x and t, forces at the tip, and a beam that moves at first; `up`
@@ -178,22 +178,12 @@ static void run(const struct br_scene *scene, const struct br_judge *judge,
                 struct br_study s[NORMS])
 {
     struct br_error err = {0};
-    for (size_t m = 0; m < NORMS; m++)
-        s[m] = (struct br_study){
-            .scene = scene,
-            .norm = br_norms[m],
-            .method = br_method_default(),
-            .judge = judge,
-            .reference_method = br_method_default(),
-            .reference = judge == &br_judge_fine ? (struct br_resolution){24, 160}
-                                                 : (struct br_resolution){0, 0},
-            .auditor = judge == &br_judge_fine ? &br_judge_exact : NULL,
-            .n_count = MESHES,
-            .k_count = STEPS,
-            .n = meshes,
-            .steps = steps,
-            .next_norm = m + 1 < NORMS ? &s[m + 1] : NULL,
-        };
+    s[0] = br_test_study(scene, judge, MESHES, meshes, STEPS, steps);
+    if (judge == &br_judge_fine) {
+        s[0].reference = (struct br_resolution){24, 160};
+        s[0].auditor = &br_judge_exact;
+    }
+    br_test_all_norms(s);
     MUST(br_study_run(s, 1, 2, NULL, &err));
 }
 

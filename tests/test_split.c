@@ -120,16 +120,10 @@ static void test_whole(void **state)
     struct br_scene scene = br_test_bundled("example2");
     const struct br_split split = split_of(&scene, 30, 40, br_method_default());
     for (size_t m = 0; m < split.norms; m++) {
-        struct br_study study = {
-            .scene = &scene,
-            .norm = split.norm[m],
-            .method = split.method,
-            .judge = &br_judge_exact,
-            .n_count = 1,
-            .k_count = 1,
-            .n = &split.at.n,
-            .steps = &split.at.steps,
-        };
+        struct br_study study =
+            br_test_study(&scene, &br_judge_exact, 1, &split.at.n, 1, &split.at.steps);
+        study.norm = split.norm[m];
+        study.method = split.method;
         MUST(br_study_run(&study, 1, 1, NULL, &err));
         for (int part = 0; part < BR_PARTS; part++)
             assert_true(split.whole.error[m][part] == study.cell[0].error[part]);

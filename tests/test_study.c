@@ -14,18 +14,9 @@ static struct br_study study_of(const struct br_scene *scene, struct br_resoluti
                                 size_t n_count, const size_t *n, size_t k_count,
                                 const size_t *steps)
 {
-    return (struct br_study){
-        .scene = scene,
-        .norm = br_norms[0],
-        .method = br_method_default(),
-        .judge = &br_judge_fine,
-        .reference_method = br_method_default(),
-        .reference = reference,
-        .n_count = n_count,
-        .k_count = k_count,
-        .n = n,
-        .steps = steps,
-    };
+    struct br_study s = br_test_study(scene, &br_judge_fine, n_count, n, k_count, steps);
+    s.reference = reference;
+    return s;
 }
 
 /* ---- the oracle ---- */

@@ -178,16 +178,10 @@ static void test_errors_are_a_study_s(void **state)
     MUST(br_trials_hold(trial, COUNT, &request, &err));
     for (size_t i = 0; i < COUNT; i++)
         for (size_t m = 0; m < 2; m++) {
-            struct br_study study = {
-                .scene = &scene,
-                .norm = norm[m],
-                .method = br_trial_method(&trial[i]),
-                .judge = &br_judge_exact,
-                .n_count = 1,
-                .k_count = 1,
-                .n = &trial[i].at.n,
-                .steps = &trial[i].at.steps,
-            };
+            struct br_study study =
+                br_test_study(&scene, &br_judge_exact, 1, &trial[i].at.n, 1, &trial[i].at.steps);
+            study.norm = norm[m];
+            study.method = br_trial_method(&trial[i]);
             MUST(br_study_run(&study, 1, 1, NULL, &err));
             for (int part = 0; part < BR_PARTS; part++)
                 CLOSE(trial[i].error[m][part], study.cell[0].error[part],

@@ -17,16 +17,7 @@ static const size_t n[3] = {10, 20, 40}, steps[3] = {10, 20, 100};
 static struct br_study run(const struct br_scene *scene)
 {
     struct br_error err = {0};
-    struct br_study s = {
-        .scene = scene,
-        .norm = br_norms[0],
-        .method = br_method_default(),
-        .judge = &br_judge_exact,
-        .n_count = 3,
-        .k_count = 3,
-        .n = n,
-        .steps = steps,
-    };
+    struct br_study s = br_test_study(scene, &br_judge_exact, 3, n, 3, steps);
     MUST(br_study_run(&s, 1, 1, NULL, &err));
     return s;
 }
@@ -187,18 +178,9 @@ static void test_printed_tables(void **state)
                  rows[i].file);
         struct br_printed printed;
         MUST(br_printed_read(path, &printed, &err));
-        struct br_study s = {
-            .scene = &scene,
-            .norm = br_norms[0],
-            .method = br_method_default(),
-            .judge = &br_judge_fine,
-            .reference_method = br_method_default(),
-            .reference = rows[i].b,
-            .n_count = 1,
-            .k_count = 1,
-            .n = &rows[i].a.n,
-            .steps = &rows[i].a.steps,
-        };
+        struct br_study s =
+            br_test_study(&scene, &br_judge_fine, 1, &rows[i].a.n, 1, &rows[i].a.steps);
+        s.reference = rows[i].b;
         MUST(br_study_run(&s, 1, 1, NULL, &err));
         const double a = br_printed_error(&printed, rows[i].a.n, 1.0 / (double)rows[i].a.steps);
         const double b = br_printed_error(&printed, rows[i].b.n, 1.0 / (double)rows[i].b.steps);

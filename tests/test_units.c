@@ -17,18 +17,8 @@ static const size_t grid_n[] = {10, 20, 30, 40}, grid_steps[] = {20, 50, 100, 20
 static struct br_study prepared(const struct br_scene *scene, const struct br_judge *judge,
                                 struct br_resolution reference)
 {
-    struct br_study s = {
-        .scene = scene,
-        .norm = &br_norm_l2,
-        .method = br_method_default(),
-        .judge = judge,
-        .reference_method = br_method_default(),
-        .reference = reference,
-        .n_count = 4,
-        .k_count = 4,
-        .n = grid_n,
-        .steps = grid_steps,
-    };
+    struct br_study s = br_test_study(scene, judge, 4, grid_n, 4, grid_steps);
+    s.reference = reference;
     s.cell = br_allocate(16, sizeof *s.cell);
     assert_non_null(s.cell);
     for (size_t i = 0; i < 16; i++)

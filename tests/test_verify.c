@@ -4,12 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "study/scene/file.h"
 #include "support.h"
-
-static char path[] = "/tmp/br_verify_XXXXXX";
 
 /* A scene of 1 s; its verify part begins on line 14. */
 static const char scene_text[] = "title: A scene\n"
@@ -26,14 +23,18 @@ static const char scene_text[] = "title: A scene\n"
                                  "  load: 1 [N/m]\n"
                                  "# the part that is checked:\n";
 
+/* The scene's text with a verify part (out). */
+static const char *with(const char *part)
+{
+    static char text[4096];
+    snprintf(text, sizeof text, "%s%s", scene_text, part);
+    return text;
+}
+
 static enum br_status read_part(const char *part, struct br_scene *scene, struct br_verify *verify,
                                 struct br_error *err)
 {
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fprintf(file, "%s%s", scene_text, part);
-    assert_int_equal(fclose(file), 0);
-    return br_scene_read_verify(path, scene, verify, err);
+    return br_scene_read_verify(br_test_scene_file(with(part)), scene, verify, err);
 }
 
 static void test_whole(void **state)
@@ -236,20 +237,8 @@ static void test_refusals(void **state)
          "    l2: 2 +- .1\n    l2 axial: 1 +- .1\n    l2 bending: 2 +- .1\n",
          ":18: verify: 2 +- 0.1 contradicts what is expected of the parts"},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_scene scene;
-        struct br_verify v;
-        struct br_error err = {0};
-        char text[2048];
-        const enum br_status status = read_part(rows[i].part, &scene, &v, &err);
-        snprintf(text, sizeof text, "%s%s", scene_text, rows[i].part);
-        br_test_keep_wrong(text, err.message);
-        if (status != BR_BAD_INPUT || !strstr(err.message, rows[i].message) ||
-            strncmp(err.message, path, strlen(path)) != 0)
-            fail_msg("%s\nsaid '%s', expected '%s'", rows[i].part, err.message, rows[i].message);
-        br_verify_clear(&v);
-        br_scene_clear(&scene);
-    }
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        br_test_scene_refused(with(rows[i].part), true, rows[i].message);
 }
 
 /* A part that the scene does not model has no order. */
@@ -277,21 +266,8 @@ static void test_ignored_by_others(void **state)
     assert_int_equal(read_part("verify: 3\n", &scene, &v, &err), BR_BAD_INPUT);
     br_verify_clear(&v);
     br_scene_clear(&scene);
-    MUST(br_scene_read(path, &scene, &err));
+    MUST(br_scene_read(br_test_scene_file(with("verify: 3\n")), &scene, &err));
     br_scene_clear(&scene);
-}
-
-static int make_file(void **state)
-{
-    (void)state;
-    const int file = mkstemp(path);
-    return file < 0 ? -1 : close(file);
-}
-
-static int remove_file(void **state)
-{
-    (void)state;
-    return unlink(path);
 }
 
 int main(void)
@@ -301,5 +277,5 @@ int main(void)
         cmocka_unit_test(test_default),      cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_missing_part), cmocka_unit_test(test_ignored_by_others),
     };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -262,17 +262,17 @@ static void test_several_sets(void **state)
     clear_set();
     cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set", NULL, 0, "");
     cli_expect("study example2 --n 4 --k 0.1 --no-plots --quiet --out set", NULL, 0, "");
-    assert_int_equal(cli_count_files("set"), 10);
+    assert_int_equal(cli_count_files("set"), 16);
     cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --norm tip", NULL, 0, "");
-    assert_int_equal(cli_count_files("set"), 15);
+    assert_int_equal(cli_count_files("set"), 24);
     assert_true(cli_file_contains("set/manifest.json", "study example2"));
     cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --format csv", NULL, 0,
                "");
-    assert_int_equal(cli_count_files("set"), 11);
+    assert_int_equal(cli_count_files("set"), 20);
     cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --format json", NULL, 0,
                "");
     assert_true(cli_is_there("set/example1.json") && !cli_is_there("set/example1.csv"));
-    assert_int_equal(cli_count_files("set"), 11);
+    assert_int_equal(cli_count_files("set"), 17);
 }
 
 /* A movie's set and the other one do not disturb one another. */

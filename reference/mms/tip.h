@@ -13,6 +13,7 @@ struct br_tip_parts {
     struct br_function stick;    /* lambda while that is zero, N; bending only */
     struct br_contact contact;
     struct br_friction friction;
+    struct br_function above_gap; /* u - g, m; made from u, owns nothing */
 };
 
 void br_tip_parts_clear(struct br_tip_parts *parts);

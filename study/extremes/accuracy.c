@@ -65,7 +65,7 @@ static enum br_status march_finer(struct br_extreme_trial *t, size_t finer, doub
 {
     struct br_track_request request = br_extreme_request(t);
     struct br_method fine = t->method;
-    const bool chosen = fine.scheme->adaptive || fine.scheme->integrator;
+    const bool chosen = fine.scheme->adaptive;
     fine.solver = br_linear_solvers[0];
     fine.contact = implicit_contact();
     if (fine.friction->iterates) /* what an iteration leaves adds up over many steps */

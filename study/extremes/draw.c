@@ -195,11 +195,9 @@ static void draw_method(struct br_random *r, struct br_extreme_case *c)
         c->wanted = 3;
 }
 
-/* Linear solves a step, about; integrators choose their steps by themselves. */
+/* Linear solves a step, about. */
 static double solves(const struct br_method *m)
 {
-    if (m->scheme->integrator)
-        return 400;
     return m->scheme->adaptive ? 60 : br_time_scheme_stages(m->scheme);
 }
 

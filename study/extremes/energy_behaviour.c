@@ -128,10 +128,8 @@ static enum br_status run_balance(struct br_balance_row *row, struct br_error *e
     b.method.scheme = row->scheme;
     b.method.contact = contact ? br_contact_rule_find(contact) : br_contact_rule_of(row->scheme);
     b.method.tolerance = tolerance;
-    if (row->scheme->integrator)
-        row->end = BR_VIBRATION_REFUSED;
-    else if (!status && (br_method_check(&b.method, &row->failure) ||
-                         br_method_check_scene(&b.method, &b.scene, &row->failure)))
+    if (!status && (br_method_check(&b.method, &row->failure) ||
+                    br_method_check_scene(&b.method, &b.scene, &row->failure)))
         row->end = BR_VIBRATION_REFUSED;
     else if (!status)
         status = measure(&b, err);

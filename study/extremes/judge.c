@@ -109,12 +109,12 @@ static enum br_status read_case(struct br_extreme_trial *t, struct br_error *err
 
 /* ---- the march ---- */
 
-/* The march with everything that checks it; none of the watchers knows an integrator's stages. */
+/* The march with everything that checks it. */
 static enum br_status march(struct br_extreme_trial *t, struct br_error *err)
 {
     struct br_track_request request = br_extreme_request(t);
     const struct br_track *own = t->own;
-    request.check = !t->method.scheme->integrator;
+    request.check = true;
     enum br_status status = br_track_march(&request, t->own, err);
     if (status)
         return status;

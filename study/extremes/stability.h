@@ -51,7 +51,6 @@ struct br_stability_scheme {
     size_t marches;
     size_t failed;    /* marches that failed, or were refused */
     size_t uncertain; /* marches with a step beyond its certificate's limits */
-    bool certified;   /* this scheme's steps have certificates */
     double force;     /* largest error of the contact force at the end, over its value */
     double depth;     /* of the penetration, over the free rod's displacement */
 };

@@ -35,7 +35,7 @@ static enum br_status try_one(const struct br_scene *scene, size_t n, size_t ste
         .method = br_method_default(),
         .n = n,
         .steps = steps,
-        .check = c->certified,
+        .check = true,
     };
     struct br_error failure = {0};
     request.method.scheme = c->scheme;
@@ -87,7 +87,7 @@ enum br_status br_stability_schemes(struct br_stability *s, struct br_error *err
         if (s->schemes == BR_STABILITY_SCHEMES)
             break;
         struct br_stability_scheme *c = &s->scheme[s->schemes++];
-        *c = (struct br_stability_scheme){.scheme = *t, .certified = !(*t)->integrator};
+        *c = (struct br_stability_scheme){.scheme = *t};
         status = try_scheme(c, report, err);
     }
     free(report);

@@ -40,8 +40,7 @@ static void add_contenders(struct br_drifts *d)
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
         for (size_t c = 0; br_contact_rules[c]; c++)
             for (size_t i = 0; i < SOLVERS; i++)
-                if (!(*s)->adaptive && !(*s)->integrator &&
-                    ((*s)->may_lag || br_contact_rules[c]->at_new_step))
+                if (!(*s)->adaptive && ((*s)->may_lag || br_contact_rules[c]->at_new_step))
                     add_contender(d, (*s)->name, br_contact_rules[c]->name, solvers[i]);
 }
 

@@ -156,8 +156,7 @@ void br_extreme_command(const struct br_extreme_case *c, const char *name,
     const struct br_scene scene = {.axial.modelled = c->part[BR_AXIAL].modelled,
                                    .contact.modelled = c->contact,
                                    .friction.law = c->law};
-    add(&t, "beamrate run %s%s --n %zu --steps %zu%s", name,
-        c->method.scheme->integrator ? "" : " --check", c->n, c->steps,
+    add(&t, "beamrate run %s --check --n %zu --steps %zu%s", name, c->n, c->steps,
         br_method_options(&scene, &c->method, options));
     if (c->wanted)
         add(&t, " --fields axial,bending");

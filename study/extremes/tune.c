@@ -38,7 +38,7 @@ void br_extreme_tune(struct br_extreme_case *c, double little)
     struct br_extreme_case trial = *c;
     struct br_scene scene = {0}, marched;
     const bool bound = c->trick == BR_TRICK_AT_REACTION;
-    if (c->method.scheme->integrator || (bound ? c->law != BR_TRESCA : !c->contact))
+    if (bound ? c->law != BR_TRESCA : !c->contact)
         return;
     if (bound)
         trial.friction = 1e300;

@@ -40,12 +40,13 @@ static enum br_status march_in_other_units(struct br_extreme_trial *t, bool *exi
     return status == BR_BAD_INPUT ? BR_OK : status; /* there are no such units for it */
 }
 
-/* The most that little noise does to the answer. */
+/* The most that little noise does to the answer. Where a last bit decides between stick and slip,
+ * half of the tries decide otherwise. */
 static enum br_status march_with_noise(struct br_extreme_trial *t, double *most,
                                        struct br_error *err)
 {
     *most = 0;
-    for (unsigned try = 0; try < 3; try++) {
+    for (unsigned try = 0; try < 8; try++) {
         struct br_scene changed = {0};
         double distance = 0;
         enum br_status status =
@@ -68,7 +69,7 @@ static const double of_tolerance = 100;
 
 static double control(const struct br_extreme_trial *t)
 {
-    if (!t->method.scheme->adaptive && !t->method.scheme->integrator)
+    if (!t->method.scheme->adaptive)
         return 0;
     double stated = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)

@@ -124,11 +124,6 @@ static double predicted_round_off(const struct br_vibration *v)
 
 static enum br_status refuse(const struct trial *t, struct br_error *err)
 {
-    if (t->v->scheme->integrator)
-        return br_fail(err, BR_BAD_INPUT,
-                       "scheme %s has no stages: what it takes is not told apart from the error of "
-                       "a sum over its steps",
-                       t->v->scheme->name);
     return br_method_check_scene(&t->method, &t->scene, err);
 }
 

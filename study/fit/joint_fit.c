@@ -19,10 +19,13 @@ static const struct {
     [BR_JOINT_SPACE] = {{LOG_C_H, P}, 2},
 };
 
+/* The observations are in units of their own, so that no result depends on the units of a scene:
+ * the largest h, the largest k and the largest error are one. */
 struct problem {
     const struct br_observation *observation;
     size_t count;
     enum br_joint_kind kind;
+    double log_h, log_k, log_error; /* logarithms of those units in m, s, m^(3/2) */
 };
 
 struct br_estimate br_estimate_of(double value, double deviation, size_t freedom)
@@ -124,42 +127,68 @@ static int jacobian(const gsl_vector *v, void *params, gsl_matrix *out)
     return GSL_SUCCESS;
 }
 
-/* The least and the largest error stand for the two scales. */
-static void start_at(const struct problem *problem, double p, double r, double full[UNKNOWNS])
+/* What the logarithm of a constant in m and s lacks per unit of its order, else 0. */
+static double log_unit(const struct problem *problem, int unknown)
 {
-    double h = 0, k = 0, at_coarse_h = INFINITY, at_coarse_k = INFINITY;
-    for (size_t i = 0; i < problem->count; i++) {
-        h = fmax(h, problem->observation[i].h);
-        k = fmax(k, problem->observation[i].k);
-    }
-    for (size_t i = 0; i < problem->count; i++) {
-        const struct br_observation *o = &problem->observation[i];
-        if (o->h == h)
-            at_coarse_h = fmin(at_coarse_h, o->error);
-        if (o->k == k)
-            at_coarse_k = fmin(at_coarse_k, o->error);
-    }
-    full[LOG_C_H] = log(at_coarse_h) - p * log(h);
-    full[P] = p;
-    full[LOG_C_K] = log(at_coarse_k) - log(k);
-    full[Q] = 1;
-    full[THETA] = asin(r);
+    return unknown == LOG_C_H ? problem->log_h : unknown == LOG_C_K ? problem->log_k : 0;
 }
 
-/* One start of one kind; returns the sum of squares, or infinity. */
+/* What is to be added to an unknown of the scene's units in the problem's own; a constant stands
+ * before its order. */
+static double shift(const struct problem *problem, int unknown, const double full[UNKNOWNS])
+{
+    if (unknown != LOG_C_H && unknown != LOG_C_K)
+        return 0;
+    return full[unknown + 1] * log_unit(problem, unknown) - problem->log_error;
+}
+
+/* The least errors at the largest h and k, which are one, stand for the two scales. */
+static void start_at(const struct problem *problem, double p, double r, double full[UNKNOWNS])
+{
+    double at_coarse_h = INFINITY, at_coarse_k = INFINITY;
+    for (size_t i = 0; i < problem->count; i++) {
+        const struct br_observation *o = &problem->observation[i];
+        if (o->h == 1)
+            at_coarse_h = fmin(at_coarse_h, o->error);
+        if (o->k == 1)
+            at_coarse_k = fmin(at_coarse_k, o->error);
+    }
+    full[P] = p;
+    full[Q] = 1;
+    full[THETA] = asin(r);
+    full[LOG_C_H] = log(at_coarse_h) - shift(problem, LOG_C_H, full);
+    full[LOG_C_K] = log(at_coarse_k) - shift(problem, LOG_C_K, full);
+}
+
+/* One start of one kind. */
 struct attempt {
-    double sum;
-    double value[UNKNOWNS], deviation[UNKNOWNS]; /* NaN where not in the model */
+    double sum, worst; /* of the squared residuals, or infinity; their largest magnitude */
+    double value[UNKNOWNS], deviation[UNKNOWNS]; /* in m and s; NaN where not in the model */
 };
+
+/* The variance of unknown i in m and s: of log C - order log_unit for a constant. Not positive:
+ * rank deficient. */
+static double variance_of(const struct problem *problem, const gsl_matrix *covariance, size_t i)
+{
+    const double c = gsl_matrix_get(covariance, i, i);
+    const double unit = log_unit(problem, kinds[problem->kind].unknown[i]);
+    if (unit == 0 || !(c > 0))
+        return c;
+    const double order = gsl_matrix_get(covariance, i + 1, i + 1);
+    return order > 0 ? c + unit * unit * order - 2 * unit * gsl_matrix_get(covariance, i, i + 1)
+                     : 0;
+}
 
 static void read_attempt(const struct problem *problem, gsl_multifit_nlinear_workspace *w,
                          struct attempt *out)
 {
     const size_t unknowns = kinds[problem->kind].count;
     const gsl_vector *f = gsl_multifit_nlinear_residual(w);
-    double sum = 0;
-    for (size_t i = 0; i < f->size; i++)
+    double sum = 0, worst = 0;
+    for (size_t i = 0; i < f->size; i++) {
         sum += gsl_vector_get(f, i) * gsl_vector_get(f, i);
+        worst = fmax(worst, fabs(gsl_vector_get(f, i)));
+    }
     if (!isfinite(sum))
         return;
     gsl_matrix *covariance = gsl_matrix_alloc(unknowns, unknowns);
@@ -167,17 +196,20 @@ static void read_attempt(const struct problem *problem, gsl_multifit_nlinear_wor
         return;
     gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(w), 1e-12, covariance);
     const double variance = sum / (double)(problem->count - unknowns);
+    double full[UNKNOWNS];
+    spread(problem, gsl_multifit_nlinear_position(w), full);
     for (size_t i = 0; i < unknowns; i++) {
         const int u = kinds[problem->kind].unknown[i];
-        const double c = gsl_matrix_get(covariance, i, i);
-        out->value[u] = gsl_vector_get(gsl_multifit_nlinear_position(w), i);
-        out->deviation[u] = c > 0 ? sqrt(variance * c) : INFINITY; /* 0: rank deficient */
+        const double c = variance_of(problem, covariance, i);
+        out->value[u] = full[u] - shift(problem, u, full);
+        out->deviation[u] = c > 0 ? sqrt(variance * c) : INFINITY;
     }
     out->sum = sum;
+    out->worst = worst;
     gsl_matrix_free(covariance);
 }
 
-/* A fit that starts from the given values of all unknowns. */
+/* A fit that starts from the given values of all unknowns, in m and s. */
 static struct attempt attempt_from(const struct problem *problem, const double full[UNKNOWNS])
 {
     struct attempt out = {.sum = INFINITY};
@@ -189,8 +221,10 @@ static struct attempt attempt_from(const struct problem *problem, const double f
         gsl_multifit_nlinear_trust, &parameters, problem->count, unknowns);
     gsl_vector *start = gsl_vector_alloc(unknowns);
     if (w && start) {
-        for (size_t i = 0; i < unknowns; i++)
-            gsl_vector_set(start, i, full[kinds[problem->kind].unknown[i]]);
+        for (size_t i = 0; i < unknowns; i++) {
+            const int u = kinds[problem->kind].unknown[i];
+            gsl_vector_set(start, i, full[u] + shift(problem, u, full));
+        }
         gsl_multifit_nlinear_fdf fdf = {.f = residuals,
                                         .df = jacobian,
                                         .n = problem->count,
@@ -198,7 +232,7 @@ static struct attempt attempt_from(const struct problem *problem, const double f
                                         .params = (void *)problem};
         int info;
         if (gsl_multifit_nlinear_init(start, &fdf, w) == GSL_SUCCESS) {
-            gsl_multifit_nlinear_driver(500, 1e-10, 1e-10, 0, NULL, NULL, &info, w);
+            gsl_multifit_nlinear_driver(500, 1e-13, 1e-13, 0, NULL, NULL, &info, w);
             read_attempt(problem, w, &out);
         }
     }
@@ -325,17 +359,13 @@ static void describe(const struct problem *problem, const struct attempt *a,
     fit->q = br_estimate_of(a->value[Q], a->deviation[Q], freedom);
     fit->r = correlation(a->value[THETA], a->deviation[THETA], freedom);
 
-    double mean = 0, total = 0, worst = 0;
+    double mean = 0, total = 0;
     for (size_t i = 0; i < problem->count; i++)
         mean += log(problem->observation[i].error) / (double)problem->count;
-    for (size_t i = 0; i < problem->count; i++) {
-        const struct br_observation *o = &problem->observation[i];
-        total += pow(log(o->error) - mean, 2);
-        worst =
-            fmax(worst, fabs(log(br_joint_model(fit, o->h, o->k, o->h_ref, o->k_ref) / o->error)));
-    }
+    for (size_t i = 0; i < problem->count; i++)
+        total += pow(log(problem->observation[i].error) - mean, 2);
     fit->misfit = sqrt(a->sum / (double)problem->count);
-    fit->worst = worst;
+    fit->worst = a->worst;
     fit->r_squared = total > 0 ? 1 - a->sum / total : NAN;
 }
 
@@ -390,19 +420,45 @@ static bool is_told(const struct br_joint_fit *fit)
            (fit->kind == BR_JOINT_SPACE || br_order_determined(&fit->q));
 }
 
+/* A problem in units of its own; own: out, its observations, count. */
+static struct problem problem_of(const struct br_observation *observation, size_t count,
+                                 struct br_observation *own)
+{
+    double h = 0, k = 0, error = 0;
+    for (size_t i = 0; i < count; i++) {
+        h = fmax(h, observation[i].h);
+        k = fmax(k, observation[i].k);
+        error = fmax(error, observation[i].error);
+    }
+    for (size_t i = 0; i < count; i++) {
+        const struct br_observation *o = &observation[i];
+        own[i] = (struct br_observation){o->h / h, o->k / k, o->h_ref / h, o->k_ref / k,
+                                         o->error / error};
+    }
+    return (struct problem){
+        .observation = own,
+        .count = count,
+        .log_h = log(h),
+        .log_k = log(k),
+        .log_error = log(error),
+    };
+}
+
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
                                   struct br_joint_fit *fit, struct br_error *err)
 {
     nothing_fitted(fit);
     fit->points = count;
-    struct br_observation *workspace = br_allocate(count, sizeof *workspace);
-    if (!workspace)
+    struct br_observation *own = br_allocate(2 * count, sizeof *own);
+    if (!own)
         return br_no_memory(err, "the fits");
+    struct br_observation *workspace = own + count;
+    struct problem problem = problem_of(observation, count, own);
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     struct br_joint_fit both = {0};
     double best = INFINITY;
     for (int kind = BR_JOINT_BOTH; kind <= BR_JOINT_SPACE; kind++) {
-        const struct problem problem = {observation, count, (enum br_joint_kind)kind};
+        problem.kind = (enum br_joint_kind)kind;
         if (!enough(&problem))
             continue;
         struct attempt a = best_attempt(&problem);
@@ -427,6 +483,6 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
         (br_order_determined(&both.p) || br_order_determined(&both.q)))
         *fit = both;
     gsl_set_error_handler(handler);
-    free(workspace);
+    free(own);
     return BR_OK;
 }

@@ -245,7 +245,7 @@ static struct br_predicted time_error(const struct br_probe_set *s, int kind)
     struct br_predicted e;
     if (is_measured(s))
         e = measured(s, BR_WHOLE_TIME, kind);
-    else if (s->outlook->method->scheme->adaptive || s->outlook->method->scheme->integrator)
+    else if (s->outlook->method->scheme->adaptive)
         e = by_orders(cell_error(p, 0, kind), p->beyond, by_tolerance);
     else
         e = p->measured ? measured_time(p, kind) : extrapolated_time(p, s->outlook, kind);

@@ -40,7 +40,7 @@ static const double tight = 1e-6;
 
 static bool by_tolerance(const struct br_method *m)
 {
-    return m->scheme->adaptive || m->scheme->integrator;
+    return m->scheme->adaptive;
 }
 
 static double stages(const struct br_method *m)

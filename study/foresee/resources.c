@@ -19,11 +19,11 @@ double br_march_bytes(const struct br_outlook *o)
     const struct br_linear_solver *l = o->method->solver;
     const bool quadratic = o->method->axial_degree == 2;
     const double states = br_time_scheme_kept(o->method->scheme);
-    double element = nodal_arrays + o->method->scheme->bytes;
-    if (o->scene->axial.modelled && !o->method->scheme->integrator)
+    double element = nodal_arrays;
+    if (o->scene->axial.modelled)
         element += (quadratic ? l->bytes.quadratic : l->bytes.axial) +
                    states * (quadratic ? l->state_bytes.quadratic : l->state_bytes.axial);
-    if (o->scene->bending.modelled && !o->method->scheme->integrator)
+    if (o->scene->bending.modelled)
         element += l->bytes.bending + states * l->state_bytes.bending;
     return element * (double)o->n;
 }

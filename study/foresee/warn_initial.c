@@ -108,6 +108,7 @@ static enum br_status look_at(const struct data *d, double share, struct br_warn
                               struct br_error *err)
 {
     double square[2] = {0};
+    char text[BR_SHARE_TEXT];
     if (!d->value->uses_x || (d->value->ops && !d->value->ops->bound))
         return BR_OK; /* of a solution that was given: nothing is proved of it */
     const enum br_status status = measure(d, square, err);
@@ -119,8 +120,8 @@ static enum br_status look_at(const struct data *d, double share, struct br_warn
                 d->name, d->n);
     else if (!status && !(missed <= share * size))
         br_warn(w, BR_WARN_INITIAL, "more elements, as short as what happens there",
-                "%s does between the nodes what they do not see: with n = %zu %.2g %% of its norm",
-                d->name, d->n, 100 * missed / size);
+                "%s does between the nodes what they do not see: with n = %zu %s of its norm",
+                d->name, d->n, br_share_text(missed / size, text));
     return status == BR_NO_MEMORY ? status : BR_OK;
 }
 

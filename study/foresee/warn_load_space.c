@@ -116,6 +116,7 @@ static enum br_status measure(struct sight *s, const struct br_product *p, struc
 static void tell(const char *name, const struct sight *s, double share, struct br_warnings *w)
 {
     const struct missed *m = &s->missed;
+    char text[BR_SHARE_TEXT];
     if (!s->known)
         br_warn(w, BR_WARN_LOAD_SPACE, "more elements, as short as what happens there",
                 "%s changes so often in x that it is not known how much of it the elements' "
@@ -123,9 +124,9 @@ static void tell(const char *name, const struct sight *s, double share, struct b
                 name, s->field.n);
     else if (!(m->force <= share * m->size))
         br_warn(w, BR_WARN_LOAD_SPACE, "more elements, as short as what happens there",
-                "%s does inside of elements what their quadrature does not see: with n = %zu %.2g "
-                "%% of it, most of it near x = %.4g m",
-                name, s->field.n, 100 * m->force / m->size, m->place);
+                "%s does inside of elements what their quadrature does not see: with n = %zu %s "
+                "of it, most of it near x = %.4g m",
+                name, s->field.n, br_share_text(m->force / m->size, text), m->place);
 }
 
 static enum br_status look_at(const struct br_load *load, const char *name,

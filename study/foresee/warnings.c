@@ -32,6 +32,14 @@ const struct br_warning *br_warnings_find(const struct br_warnings *w, enum br_w
     return NULL;
 }
 
+const char *br_share_text(double share, char text[BR_SHARE_TEXT])
+{
+    if (share > 0.995)
+        return share > 1.005 ? "more than all" : "all";
+    snprintf(text, BR_SHARE_TEXT, "%.2g %%", 100 * share);
+    return text;
+}
+
 void br_warn(struct br_warnings *w, enum br_warning_kind kind, const char *remedy,
              const char *format, ...)
 {

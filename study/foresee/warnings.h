@@ -45,6 +45,10 @@ __attribute__((format(printf, 4, 5))) void br_warn(struct br_warnings *warnings,
                                                    enum br_warning_kind kind, const char *remedy,
                                                    const char *format, ...);
 
+/* "31 %", "all" or "more than all", of something; kept in text where it is a number. */
+enum { BR_SHARE_TEXT = 16 };
+const char *br_share_text(double share, char text[BR_SHARE_TEXT]);
+
 /* The warning of that kind, or NULL. */
 const struct br_warning *br_warnings_find(const struct br_warnings *warnings,
                                           enum br_warning_kind kind);

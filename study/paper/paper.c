@@ -105,10 +105,11 @@ struct work {
 };
 
 /* The long ones first: exact solutions, examples, the sweep, the rest. */
-static enum br_status run_task(const struct work *w, size_t task, struct br_error *err)
+static enum br_status run_task(const struct work *w, size_t task,
+                               const struct br_observer *observer, struct br_error *err)
 {
     if (task < BR_EXAMPLES)
-        return br_paper_exact(w->paper, task, err);
+        return br_paper_exact(w->paper, task, observer, err);
     task -= BR_EXAMPLES;
     if (task < BR_EXAMPLES)
         return run_example(w->paper, task, err);
@@ -133,7 +134,7 @@ static enum br_status run_tasks(const struct work *w, const struct br_observer *
         if (observer && observer->stop && observer->stop(observer->self))
             br_fail(&failure, BR_INTERRUPTED, "interrupted");
         else
-            run_task(w, i, &failure);
+            run_task(w, i, observer, &failure);
 #pragma omp critical(paper)
         {
             if (failure.status && i < failed) {

@@ -58,11 +58,17 @@ static enum br_status keep_events(struct br_example *e, const struct br_exact *e
     return BR_OK;
 }
 
-enum br_status br_paper_exact(struct br_paper *p, size_t i, struct br_error *err)
+enum br_status br_paper_exact(struct br_paper *p, size_t i, const struct br_observer *observer,
+                              struct br_error *err)
 {
     struct br_exact *exact = NULL;
-    enum br_status status =
-        br_exact_create(&exact, &p->example[i].scene, &(struct br_exact_options){0}, err);
+    struct br_exact_options options = {0};
+    if (observer) {
+        options.stop = observer->stop;
+        options.progress = observer->preparing;
+        options.stop_self = observer->self;
+    }
+    enum br_status status = br_exact_create(&exact, &p->example[i].scene, &options, err);
     if (!status)
         status = keep_events(&p->example[i], exact, err);
     if (!status)
@@ -106,11 +112,12 @@ enum br_status br_paper_tables(struct br_paper *p, const struct br_observer *obs
         };
         status = read_printed(t, file[i], err);
         if (!status)
-            status = br_study_run(
-                &t->study, 1, p->request.threads,
-                observer ? &(struct br_observer){.stop = observer->stop, .self = observer->self}
-                         : NULL,
-                err);
+            status = br_study_run(&t->study, 1, p->request.threads,
+                                  observer ? &(struct br_observer){.stop = observer->stop,
+                                                                   .self = observer->self,
+                                                                   .preparing = observer->preparing}
+                                           : NULL,
+                                  err);
     }
     return status;
 }

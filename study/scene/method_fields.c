@@ -113,11 +113,6 @@ static bool heeds_tolerance(const struct br_method *m)
     return m->scheme->adaptive;
 }
 
-static bool heeds_solver(const struct br_method *m)
-{
-    return !m->scheme->integrator; /* else it solves its systems itself */
-}
-
 static bool heeds_kernel(const struct br_method *m)
 {
     return br_linear_solver_heeds(m->solver, "--kernel");
@@ -484,9 +479,9 @@ const char *br_method_text(const struct br_scene *scene, const struct br_method 
     text[0] = '\0';
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const struct br_method_field *f = &br_method_fields[i];
-        const bool solves = f->by == BR_METHOD_SOLVER, modelled = !f->in || f->in(scene);
-        if ((solves && !heeds_solver(m)) || !br_method_field_heeded(f, m) ||
-            (f->quiet && (!modelled || is_default(f, m))) || (f->heeds && !modelled))
+        const bool modelled = !f->in || f->in(scene);
+        if (!br_method_field_heeded(f, m) || (f->quiet && (!modelled || is_default(f, m))) ||
+            (f->heeds && !modelled))
             continue;
         append(text, "%s%s%s", f->before, modelled ? br_method_field_text(f, m, value) : "none",
                f->after ? f->after : "");

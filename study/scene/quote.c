@@ -116,6 +116,17 @@ static size_t decode(const unsigned char *text, unsigned long *code)
     return *code < least[length] || surrogate || *code > 0x10ffff ? 0 : length;
 }
 
+bool br_is_utf8(const char *text)
+{
+    unsigned long code;
+    for (size_t length; *text; text += length) {
+        length = decode((const unsigned char *)text, &code);
+        if (!length)
+            return false;
+    }
+    return true;
+}
+
 /* What shows nothing, or changes how its neighbours are shown. */
 static bool is_hidden(unsigned long code)
 {

@@ -50,6 +50,9 @@ char *br_quoted(char *buffer, size_t size, const struct br_quoting *target, cons
 /* A comment of a gnuplot script or a data file, to the end of its line. */
 void br_write_comment(FILE *out, const char *text);
 
+/* Whether a text is UTF-8 throughout. */
+bool br_is_utf8(const char *text);
+
 /* Whether a text may be a file's name, or begin one: letters, digits, blanks, _ . - + and what is
  * not ASCII and can be seen, with no blank and none of . - + at the start. Such a name is no
  * command, no option and no pattern to anybody. */

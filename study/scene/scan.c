@@ -12,8 +12,21 @@ static double value_at(const struct br_function *f, double at)
     return value;
 }
 
+/* By how much a value at a place may differ from those beside it, one number farther: by a jump,
+ * and, where the function bends or is zero, by round-off of its values nearby. */
+static double usual_difference(const struct br_function *f, const struct br_interval *place,
+                               struct br_interval all)
+{
+    const double near = 1e-9 * (all.high - all.low);
+    const double before = value_at(f, nextafter(place->low, -INFINITY));
+    const double after = value_at(f, nextafter(place->high, INFINITY));
+    const double size = fabs(value_at(f, fmax(all.low, place->low - near))) +
+                        fabs(value_at(f, fmin(all.high, place->high + near)));
+    return 1e-6 * (fabs(before) + fabs(after) + size) + 4 * fabs(after - before);
+}
+
 /* A value that a function of x or of t has at one place alone, as t == 0.5 ? 1 : 0 has: no integral
- * sees it, but a time level or a node may. Beside it, one number farther, are the other values. */
+ * sees it, but a time level or a node may. */
 static enum br_status refuse_single_values(const struct br_function *f, enum br_variable along,
                                            struct br_box box, struct br_error *err)
 {
@@ -27,8 +40,7 @@ static enum br_status refuse_single_values(const struct br_function *f, enum br_
     for (size_t i = 0; i < breaks.count && !status; i++) {
         const double places[] = {breaks.at[i].low, breaks.at[i].high};
         const double before = value_at(f, nextafter(places[0], -INFINITY));
-        const double after = value_at(f, nextafter(places[1], INFINITY));
-        const double usual = 1e-6 * (fabs(before) + fabs(after)) + 4 * fabs(after - before);
+        const double usual = usual_difference(f, &breaks.at[i], along == BR_X ? box.x : box.t);
         for (size_t k = 0; k < 2 && !status; k++)
             if (!(fabs(value_at(f, places[k]) - before) <= usual))
                 status =

@@ -4,6 +4,8 @@
 #include <gsl/gsl_deriv.h>
 #include <math.h>
 
+#include "solver/proof.h"
+
 #define AT(member) offsetof(struct br_scene, member)
 
 const char *const br_friction_law_names[BR_FRICTION_LAWS] = {
@@ -83,6 +85,7 @@ struct initial {
     const char *slope_name; /* NULL: needs none */
     const struct br_function *slope;
     double length;
+    bool continuous; /* it must be, as its slope: strains are squared */
 };
 
 static double value_at(double x, void *f)
@@ -125,8 +128,41 @@ static enum br_status check_slope(const struct initial *d, double scale, struct 
     return BR_OK;
 }
 
-static enum br_status check_initial(const struct initial *d, struct br_error *err)
+/* The most that a function may change within a place that is so wide, where it bends. */
+static double usual_change(double scale, double width, double length)
 {
+    return (1e-9 + 100 * width / length) * scale;
+}
+
+static enum br_status refuse_jumps(const struct initial *d, const struct br_function *f,
+                                   const char *name, struct br_error *err)
+{
+    const struct br_box box = {{0, d->length}, {0, 0}};
+    const double scale = largest(f, d->length);
+    struct br_breaks breaks = {0};
+    struct br_error failure;
+    enum br_status status = br_breaks_add(f, BR_X, box, &breaks, &failure);
+    status = status == BR_NO_MEMORY ? br_no_memory(err, "initial data") : BR_OK;
+    for (size_t i = 0; i < breaks.count && !status; i++) {
+        const struct br_interval at = breaks.at[i];
+        const struct br_box place = {{nextafter(at.low, -INFINITY), nextafter(at.high, INFINITY)},
+                                     {0, 0}};
+        struct br_interval v;
+        const bool bounded = br_function_bound(f, place, &v);
+        if (!bounded || !(v.high - v.low <= usual_change(scale, at.high - at.low, d->length)))
+            status = br_fail(err, BR_BAD_INPUT,
+                             "initial %s jumps by %g at x = %.10g m, expected a continuous one",
+                             name, v.high - v.low, at.low);
+    }
+    br_breaks_free(&breaks);
+    return status;
+}
+
+/* *fault: out, whose fault it is. */
+static enum br_status check_initial(const struct initial *d, const struct br_function **fault,
+                                    struct br_error *err)
+{
+    *fault = d->value;
     const double scale = largest(d->value, d->length);
     if (!isfinite(scale))
         return br_fail(err, BR_BAD_INPUT, "initial %s is not finite everywhere in [0, L]", d->name);
@@ -135,25 +171,20 @@ static enum br_status check_initial(const struct initial *d, struct br_error *er
         return br_fail(err, BR_BAD_INPUT,
                        "initial %s is %g at x = 0, expected 0 where the beam is clamped", d->name,
                        clamp);
-    if (!d->slope || scale == 0)
-        return BR_OK;
+    enum br_status status = d->continuous ? refuse_jumps(d, d->value, d->name, err) : BR_OK;
+    if (status || !d->slope || scale == 0)
+        return status;
     if (br_function_is_zero(d->slope))
         return br_fail(err, BR_BAD_INPUT, "initial %s needs %s, its derivative", d->name,
                        d->slope_name);
+    *fault = d->slope;
     const double slope = value_at(0, (void *)d->slope);
     if (!(fabs(slope) <= 1e-12 * scale / d->length))
         return br_fail(err, BR_BAD_INPUT,
                        "initial %s is %g at x = 0, expected 0 where the beam is clamped",
                        d->slope_name, slope);
-    return check_slope(d, scale, err);
-}
-
-/* Whose fault it is: the slope's, where there is one and the value is sound at the clamp. */
-static const struct br_function *fault_of(const struct initial *d)
-{
-    const double scale = largest(d->value, d->length);
-    const bool sound = fabs(value_at(0, (void *)d->value)) <= 1e-12 * scale;
-    return sound && d->slope && !br_function_is_zero(d->slope) ? d->slope : d->value;
+    status = d->continuous ? refuse_jumps(d, d->slope, d->slope_name, err) : BR_OK;
+    return status ? status : check_slope(d, scale, err);
 }
 
 enum br_status br_scene_check_initial(const struct br_scene *s, size_t *culprit,
@@ -161,11 +192,11 @@ enum br_status br_scene_check_initial(const struct br_scene *s, size_t *culprit,
 {
     const struct br_bending *b = &s->bending;
     const struct initial data[] = {
-        {"axial displacement", &s->axial.displacement, NULL, NULL, s->length},
-        {"axial velocity", &s->axial.velocity, NULL, NULL, s->length},
+        {"axial displacement", &s->axial.displacement, NULL, NULL, s->length, true},
+        {"axial velocity", &s->axial.velocity, NULL, NULL, s->length, false},
         {"bending displacement", &b->displacement, "displacement_slope", &b->displacement_slope,
-         s->length},
-        {"bending velocity", &b->velocity, "velocity_slope", &b->velocity_slope, s->length},
+         s->length, true},
+        {"bending velocity", &b->velocity, "velocity_slope", &b->velocity_slope, s->length, false},
     };
     if (s->density == 0 &&
         !(br_function_is_zero(&s->axial.velocity) && br_function_is_zero(&b->velocity))) {
@@ -181,9 +212,10 @@ enum br_status br_scene_check_initial(const struct br_scene *s, size_t *culprit,
                        "bending stick_force belongs to friction and a solution, expected both");
     }
     for (size_t i = 0; i < sizeof data / sizeof *data; i++) {
-        const enum br_status status = check_initial(&data[i], err);
+        const struct br_function *fault;
+        const enum br_status status = check_initial(&data[i], &fault, err);
         if (status) {
-            *culprit = (size_t)((const char *)fault_of(&data[i]) - (const char *)s);
+            *culprit = (size_t)((const char *)fault - (const char *)s);
             return status;
         }
     }

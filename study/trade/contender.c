@@ -245,7 +245,7 @@ void br_contenders_default(const struct br_scene *scene, struct br_contenders *a
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
         add_scheme(scene, *s, all);
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
-        if (scene->axial.modelled && !(*s)->integrator && (*s == base || (*s)->order > 2))
+        if (scene->axial.modelled && (*s == base || (*s)->order > 2))
             add_named(scene, all, "%s+p2", (*s)->name);
     for (size_t i = 1; br_friction_rules[i] && scene->friction.law != BR_FRICTIONLESS; i++)
         add_named(scene, all, "%s+%s", base->name, br_friction_rules[i]->name);

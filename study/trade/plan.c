@@ -14,9 +14,6 @@ const double br_plan_band = 3;
 /* Between E/3 and E something may cost this much more than the cheapest that is at most E. */
 static const double worth_the_band = 1.25;
 
-/* A general-purpose solver that is there to be compared with: a thousand times as dear. */
-static const char peer[] = "ida";
-
 /* After so many rounds without anything better there is none more. */
 static const size_t most_idle_rounds = 3;
 
@@ -44,8 +41,7 @@ void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
     br_contenders_default(scene, &all);
     for (size_t i = 0; i < all.count; i++)
         if (all.list[i].method.solver == usual.solver &&
-            all.list[i].method.friction == usual.friction &&
-            all.list[i].method.scheme != br_time_scheme_find(peer))
+            all.list[i].method.friction == usual.friction)
             plan->contenders.list[plan->contenders.count++] = all.list[i];
 }
 

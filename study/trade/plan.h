@@ -67,7 +67,7 @@ struct br_plan {
 };
 
 /* A request with its defaults: l2, marches of at most 60 s, 8 rounds, seconds as measured. The
- * contenders of br_contenders_default that keep the default solver and friction rule, without ida.
+ * contenders of br_contenders_default that keep the default solver and friction rule.
  * Trials point to the contenders, so a plan that is made is not to be moved. */
 void br_plan_default(struct br_plan *plan, const struct br_scene *scene);
 

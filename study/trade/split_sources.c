@@ -135,9 +135,9 @@ size_t br_refinements(const struct br_split *split, size_t most, struct br_refin
     const struct br_time_scheme *highest = br_time_schemes[0];
     size_t count = 0;
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
-        if ((*s)->adaptive && !(*s)->integrator && count + 1 < most)
+        if ((*s)->adaptive && count + 1 < most)
             out[count++] = by_tolerance(split, *s);
-        if (!(*s)->adaptive && !(*s)->integrator && (*s)->order > highest->order)
+        if (!(*s)->adaptive && (*s)->order > highest->order)
             highest = *s;
     }
     if (count < most)

@@ -15,7 +15,7 @@ enum { LEVELS = 20 };
 /* Element-stages of a trial in a default grid at most, by the default solver, and by the others,
  * which are some 20 times slower; steps of an adaptive scheme where they are not known yet, and of
  * one that marches by itself and solves for more than a step. */
-static const double most_work = 4e6, most_slow_work = 4e5, guessed_steps = 100, guessed_own = 1000;
+static const double most_work = 4e6, most_slow_work = 4e5, guessed_steps = 100;
 
 struct lists {
     const size_t *n, *steps;
@@ -75,16 +75,15 @@ static void add(struct br_trade *t, const struct br_trial *trial)
 static bool is_light(const struct lists *l, const struct br_contender *c, size_t n, double steps)
 {
     const double work = (double)n * steps * (double)br_time_scheme_stages(c->method.scheme);
-    const bool quick = c->method.solver == br_linear_solvers[0] && !c->method.scheme->integrator;
+    const bool quick = c->method.solver == br_linear_solvers[0];
     return !(l->capped_n || l->capped_steps) || work <= (quick ? most_work : most_slow_work);
 }
 
 static void add_adaptive(struct br_trade *t, const struct lists *l, const struct br_contender *c)
 {
-    const double steps = c->method.scheme->integrator ? guessed_own : guessed_steps;
     for (size_t i = 0; i < l->n_count; i++)
         for (size_t j = 0; j < l->tolerances; j++)
-            if (!l->capped_n || is_light(l, c, l->n[i], steps))
+            if (!l->capped_n || is_light(l, c, l->n[i], guessed_steps))
                 add(t, &(struct br_trial){
                            .contender = c, .at = {l->n[i], LEVELS}, .tolerance = l->tolerance[j]});
 }

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The linear solvers one by one, without a march: that they agree to what they predict, what
- * schemes of more than an Euler step ask of them, and what they refuse. */
+/* The linear solvers one by one: what schemes of more than an Euler step ask of them, their options
+ * and kernels, and what they refuse. That marches by them are right is in test_extreme_marches. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "support.h"
 
-enum { STEPS = 30, MOST_N = 60, MOST_SIZE = 2 * (MOST_N + 1), SOLVERS = 8 };
+enum { STEPS = 30, MOST_N = 60, MOST_SIZE = 2 * (MOST_N + 1) };
 
 static const struct br_linear_solver *const assembled[] = {&br_umfpack, &br_cholmod, &br_banded};
 
@@ -30,16 +30,18 @@ static struct problem random_problem(struct br_test_random *r)
                   .k = br_test_log_uniform(r, 1e-4, 0.1)},
         .force = br_test_uniform(r, -1, 1),
     };
+    p.field.degree = 1 + (p.field.kind == BR_AXIAL && br_test_index(r, 2));
     /* 1 + x^2, lumped */
     for (size_t i = 1, u = br_field_unknowns(&p.field); i <= p.field.n; i++)
         p.vector[i * u] = p.field.h * (1 + pow((double)i * p.field.h, 2));
     return p;
 }
 
+/* NULL: the solver has none for elements of that degree. */
 static const struct br_field_solver *functions(const struct br_linear_solver *solver,
                                                const struct problem *p)
 {
-    return p->field.kind == BR_AXIAL ? solver->axial : solver->bending;
+    return br_linear_solver_for(solver, &p->field);
 }
 
 static void *created(const struct br_linear_solver *solver, const struct problem *p, int refinement)
@@ -78,78 +80,6 @@ static double largest(const double *x, size_t count)
         if (!(fabs(x[i]) <= most)) /* a NaN stays */
             most = fabs(x[i]);
     return most;
-}
-
-/* ---- agreement ---- */
-
-/* What is predicted was measured in the examples. Of 1000 problems with data at random, on meshes
- * of up to 60 elements, some need 3.9 times as much. */
-static const double random_data = 5;
-
-struct runner {
-    const struct br_linear_solver *solver;
-    int refinement;
-    void *self;
-    double round_off, w[MOST_SIZE];
-};
-
-static size_t runners(const struct problem *p, struct runner out[SOLVERS])
-{
-    size_t count = 0;
-    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
-        for (int refinement = 0; refinement < 4; refinement += 3) {
-            if (refinement && (!br_linear_solver_heeds(*s, "--refinement") || *s == &br_umfpack))
-                continue;
-            const struct br_linear_options options = {.scaling = "none", .refinement = refinement};
-            assert_true(count < SOLVERS);
-            out[count++] = (struct runner){.solver = *s,
-                                           .refinement = refinement,
-                                           .self = created(*s, p, refinement),
-                                           .round_off = (*s)->round_off(&p->field, &options)};
-        }
-    return count;
-}
-
-/* Every pair, after every step, relative to the largest displacement so far. */
-static void check_agreement(uint64_t seed)
-{
-    struct br_test_random r = {seed};
-    const struct problem p = random_problem(&r);
-    const size_t size = br_field_size(&p.field);
-    struct runner run[SOLVERS];
-    const size_t count = runners(&p, run);
-    double scale = 0;
-    for (size_t step = 1; step <= STEPS; step++) {
-        for (size_t i = 0; i < count; i++) {
-            take_step(functions(run[i].solver, &p), run[i].self, &p, step);
-            functions(run[i].solver, &p)->get(run[i].self, run[i].w, NULL);
-            scale = fmax(scale, largest(run[i].w, size));
-        }
-        for (size_t i = 0; i < count; i++)
-            for (size_t j = 0; j < i; j++) {
-                const double allowed =
-                    random_data * br_test_slack() * (run[i].round_off + run[j].round_off);
-                double difference[MOST_SIZE];
-                for (size_t c = 0; c < size; c++)
-                    difference[c] = run[i].w[c] - run[j].w[c];
-                if (!(largest(difference, size) <= allowed * scale))
-                    fail_msg("seed %ju, n = %zu, %s and %s (refinement %d, %d): they differ by %g, "
-                             "allowed are %g",
-                             (uintmax_t)seed, p.field.n, run[i].solver->name, run[j].solver->name,
-                             run[i].refinement, run[j].refinement,
-                             largest(difference, size) / scale, allowed);
-            }
-    }
-    for (size_t i = 0; i < count; i++)
-        functions(run[i].solver, &p)->free(run[i].self);
-}
-
-static void test_agreement(void **state)
-{
-    (void)state;
-    const uint64_t cases = br_test_quick() ? 20 : 1000;
-    for (uint64_t seed = 1; seed <= cases; seed++)
-        check_agreement(seed);
 }
 
 /* Refinement by elements repairs the error itself. */
@@ -224,8 +154,9 @@ static void test_step_lengths(void **state)
     for (uint64_t seed = 1; seed <= 20; seed++) {
         struct br_test_random r = {seed};
         const struct problem p = random_problem(&r);
-        for (size_t i = 0; i < sizeof assembled / sizeof *assembled; i++)
-            check_step_lengths(assembled[i], &p);
+        for (size_t i = 0; br_linear_solvers[i]; i++)
+            if (functions(br_linear_solvers[i], &p))
+                check_step_lengths(br_linear_solvers[i], &p);
     }
 }
 
@@ -313,7 +244,7 @@ static void test_states(void **state)
         for
             EACH_SOLVER(s)
             {
-                if (!functions(*s, &p)->keep)
+                if (!functions(*s, &p) || !functions(*s, &p)->keep)
                     continue;
                 check_keeping(*s, &p);
                 check_combining(*s, &p);
@@ -321,43 +252,56 @@ static void test_states(void **state)
     }
 }
 
-/* u = x^2, interpolated: u_x = (2i + 1) h on element i; w = x^3: w_xx = 6 x. */
+/* Nodal values (out) of u = x^2 or w = x^3; a bubble of h^2 makes the one on elements exact. */
+static void fill_powers(const struct br_field *f, double *nodal)
+{
+    const size_t d = br_field_unknowns(f);
+    for (size_t i = 1; i <= f->n; i++) {
+        const double x = (double)i * f->h;
+        nodal[d * i] = f->kind == BR_BENDING ? x * x * x : x * x;
+        if (d == 2)
+            nodal[2 * i + 1] = f->kind == BR_BENDING ? f->h * 3 * x * x : f->h * f->h;
+    }
+}
+
+/* On L = 3: u_x = 2 x, its mean on each of 12 linear elements; w_xx = 6 x. */
+static void check_size(const struct br_linear_solver *solver, enum br_field_kind kind, int degree)
+{
+    const struct problem p = {.field = {.kind = kind,
+                                        .n = 12,
+                                        .h = 0.25,
+                                        .density = 1,
+                                        .stiffness = 2,
+                                        .viscosity = 3,
+                                        .k = 0.1,
+                                        .degree = degree}};
+    const double whole = kind == BR_AXIAL ? 36 : 324, lost = 3 * 0.25 * 0.25 / 3;
+    const double expected = sqrt(kind == BR_AXIAL && degree == 1 ? whole - lost : whole);
+    const struct br_field_solver *f = functions(solver, &p);
+    double w[MOST_SIZE] = {0}, v[MOST_SIZE], size[2];
+    if (!f || !f->size)
+        return;
+    fill_powers(&p.field, w);
+    for (size_t i = 0; i < br_field_size(&p.field); i++)
+        v[i] = -7 * w[i];
+    void *self = created(solver, &p, 0);
+    f->set(self, w, v);
+    f->size(self, 0, size);
+    CLOSE(size[0], expected, 1e-12 * expected);
+    CLOSE(size[1], 7 * expected, 7e-12 * expected);
+    f->free(self);
+}
+
 static void test_size(void **state)
 {
     (void)state;
     for
         EACH_SOLVER(s)
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct problem p = {.field = {.kind = (enum br_field_kind)kind,
-                                      .n = 12,
-                                      .h = 0.25,
-                                      .density = 1,
-                                      .stiffness = 2,
-                                      .viscosity = 3,
-                                      .k = 0.1}};
-        const struct br_field_solver *f = functions(*s, &p);
-        if (!f->size)
-            continue;
-        double w[MOST_SIZE] = {0}, v[MOST_SIZE] = {0}, squares = 0, size[2];
-        for (size_t i = 0; i <= p.field.n; i++) {
-            const double x = (double)i * p.field.h;
-            if (kind == BR_BENDING) {
-                w[2 * i] = x * x * x;
-                w[2 * i + 1] = p.field.h * 3 * x * x;
-            } else
-                w[i] = x * x;
-            squares += i ? p.field.h * pow((2 * (double)i - 1) * p.field.h, 2) : 0;
+        {
+            check_size(*s, BR_AXIAL, 1);
+            check_size(*s, BR_AXIAL, 2);
+            check_size(*s, BR_BENDING, 1);
         }
-        for (size_t i = 0; i < br_field_size(&p.field); i++)
-            v[i] = -7 * w[i];
-        void *self = created(*s, &p, 0);
-        f->set(self, w, v);
-        f->size(self, 0, size);
-        const double expected = kind == BR_AXIAL ? sqrt(squares) : sqrt(12 * pow(3, 3));
-        CLOSE(size[0], expected, 1e-12 * expected);
-        CLOSE(size[1], 7 * expected, 7e-12 * expected);
-        f->free(self);
-    }
 }
 
 /* ---- refusals ---- */
@@ -382,6 +326,7 @@ static void test_refusals(void **state)
         for (uint64_t seed = 1; seed <= 40; seed++) {
             struct br_test_random r = {seed};
             struct problem p = random_problem(&r);
+            p.field.degree = 1;
             void *self = created(assembled[i], &p, 0);
             struct br_error err = {0};
             REFUSED(functions(assembled[i], &p)->set_step(self, NAN, &err), BR_SINGULAR,
@@ -413,13 +358,184 @@ static void test_too_fine(void **state)
         refuses(assembled[i], &p, 5, assembled[i]->name);
 }
 
+static void test_marches_refused(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_march *march;
+    struct br_scene scene = br_test_bare();
+    struct br_method method = br_test_method("umfpack", NULL, NULL);
+    method.linear.scaling = "rows";
+    REFUSED(br_march_create(&march, &scene, 4, 4, &method, &err), BR_BAD_INPUT,
+            "scaling is 'rows', expected none, sum or max");
+    assert_null(march);
+    method = br_method_default();
+    REFUSED(br_march_create(&march, &scene, 0, 4, &method, &err), BR_BAD_INPUT, "n is 0");
+    REFUSED(br_march_create(&march, &scene, 4, 0, &method, &err), BR_BAD_INPUT, "no time steps");
+    scene.friction.law = BR_TRESCA;
+    method.friction = br_friction_rule_find("regularised");
+    REFUSED(br_march_create(&march, &scene, 4, 4, &method, &err), BR_BAD_INPUT, "mu > 0");
+    assert_null(march);
+    scene.bending.stiffness = scene.bending.viscosity = 0;
+    scene.friction.law = BR_FRICTIONLESS;
+    REFUSED(br_march_create(&march, &scene, 4, 4, &method, &err), BR_BAD_INPUT,
+            "stiffness plus viscosity is 0");
+}
+
+/* A load that is no number, and a march that blows up, are told at once. */
+static void test_not_finite(void **state)
+{
+    (void)state;
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
+        struct br_error err = {0};
+        struct br_method method = br_method_default();
+        method.solver = *s;
+        struct br_scene scene = br_test_bare();
+        scene.bending.load = (struct br_load){.term[0].space = {.constant = 1},
+                                              .term[0].time = br_test_function("sqrt(0.55 - t)")};
+        struct br_march *march = br_test_march(&scene, 3, 10, &method);
+        br_test_advance(march, 5);
+        REFUSED(br_march_step(march, &err), BR_NOT_FINITE, "t = 0.59999999999999998 s");
+        br_march_free(march);
+        br_scene_clear(&scene);
+
+        scene = br_test_bare(); /* unstable: the lagged contact, without viscosity */
+        scene.duration = 1000;
+        scene.axial.viscosity = 0;
+        scene.axial.load = br_test_load("1");
+        scene.contact = (struct br_contact){.modelled = true, .gap = 0.1, .stiffness = 1000};
+        march = br_test_march(&scene, 4, 800, &method);
+        enum br_status status = BR_OK;
+        while (!status && br_march_steps_done(march) < 800)
+            status = br_march_step(march, &err);
+        REFUSED(status, BR_NOT_FINITE, "the march blew up at t = ");
+        REFUSED(status, BR_NOT_FINITE, "of 800, k = 1.25 s): the axial ");
+        br_march_free(march);
+        br_scene_clear(&scene);
+    }
+}
+
+static void test_degrees_refused(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bare();
+    struct br_method method = br_test_method("umfpack", "implicit", NULL);
+    struct br_march *march;
+    method.axial_degree = 2;
+    REFUSED(br_march_create(&march, &scene, 4, 4, &method, &err), BR_BAD_INPUT,
+            "'umfpack' has no quadratic axial elements, expected one of riccati, plain");
+    assert_null(march);
+    scene.axial.modelled = false; /* nothing to refuse */
+    MUST(br_march_create(&march, &scene, 4, 4, &method, &err));
+    br_march_free(march);
+    for (int degree = 0; degree <= 3; degree += 3) {
+        method = br_method_default();
+        method.axial_degree = degree;
+        REFUSED(br_march_create(&march, &scene, 4, 4, &method, &err), BR_BAD_INPUT,
+                "expected 1 or 2");
+    }
+}
+
+/* ---- options and kernels ---- */
+
+/* Every scaling and refinement that the options offer gives the same march. */
+static void test_options(void **state)
+{
+    (void)state;
+    static const char *const scalings[] = {"none", "sum", "max"};
+    struct br_scene scene = br_test_bundled("example2");
+    const struct br_method reference = br_method_default();
+    const struct br_test_end expected = br_test_run(&scene, 20, 50, &reference);
+    for (size_t i = 0; i < 3; i++)
+        for (int refinement = 0; refinement < 3; refinement++) {
+            struct br_method method = br_test_method("umfpack", NULL, NULL);
+            method.linear =
+                (struct br_linear_options){.scaling = scalings[i], .refinement = refinement};
+            const struct br_test_end end = br_test_run(&scene, 20, 50, &method);
+            AT_MOST(br_test_deviation(&end, &expected), 1e-9);
+        }
+    br_scene_clear(&scene);
+}
+
+static void test_find(void **state)
+{
+    (void)state;
+    for (const struct br_kernel *const *k = br_kernels; *k; k++)
+        assert_ptr_equal(br_kernel_find((*k)->name), *k);
+    assert_null(br_kernel_find("sse2"));
+    assert_null(br_kernel_find(""));
+}
+
+static bool never(void)
+{
+    return false;
+}
+
+/* One that the machine has not is refused, not run. */
+static void test_unavailable(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_march *march;
+    const struct br_kernel none = {.name = "none", .available = never};
+    const struct br_scene scene = br_test_bare();
+    struct br_method method = br_test_method("riccati", NULL, NULL);
+    method.linear.kernel = &none;
+    REFUSED(br_march_create(&march, &scene, 9, 4, &method, &err), BR_BAD_INPUT,
+            "kernel none is not available on this machine");
+}
+
+static size_t steps_counted;
+
+static bool always(void)
+{
+    return true;
+}
+
+static void count_step(const struct br_strip *strip, const struct br_strip_drive *drive,
+                       const struct br_strip_ends *ends)
+{
+    steps_counted++;
+    br_kernel_find("portable")->advance(strip, drive, ends);
+}
+
+/* The one that is asked for does the work. */
+static void test_heeded(void **state)
+{
+    (void)state;
+    struct br_kernel counting = *br_kernel_find("portable");
+    counting.name = "counting";
+    counting.available = always;
+    counting.advance = count_step;
+    const struct br_scene scene = br_test_bare();
+    struct br_method method = br_test_method("riccati", NULL, NULL);
+    method.linear.kernel = &counting;
+    struct br_march *march = br_test_march(&scene, 7, 4, &method);
+    br_test_advance(march, 4);
+    br_march_free(march);
+    assert_true(steps_counted >= 4);
+    assert_ptr_equal(br_linear_solver_kernel(&br_riccati, &method.linear), &counting);
+    assert_ptr_equal(br_linear_solver_kernel(&br_riccati, &br_linear_defaults), br_kernel_best());
+    assert_null(br_linear_solver_kernel(&br_plain, &method.linear));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_agreement),    cmocka_unit_test(test_refinement),
-        cmocka_unit_test(test_step_lengths), cmocka_unit_test(test_states),
-        cmocka_unit_test(test_size),         cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_refinement),
+        cmocka_unit_test(test_step_lengths),
+        cmocka_unit_test(test_states),
+        cmocka_unit_test(test_size),
+        cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_too_fine),
+        cmocka_unit_test(test_marches_refused),
+        cmocka_unit_test(test_not_finite),
+        cmocka_unit_test(test_degrees_refused),
+        cmocka_unit_test(test_options),
+        cmocka_unit_test(test_find),
+        cmocka_unit_test(test_unavailable),
+        cmocka_unit_test(test_heeded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

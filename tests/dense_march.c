@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "quad_march.h"
+#include "tests/dense_march.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,24 +15,24 @@ typedef long double real;
 
 enum { STATES = BR_KNOWN + 1, Z = BR_KNOWN }; /* Y by what it is, and where a stage starts */
 
-struct quad_field {
-    bool modelled;
+struct dense_field {
     size_t u, order, band; /* unknowns a node; of the matrix, without the clamped node */
-    real *factor;          /* L and D of A = L D L', lower band by rows */
-    real *response;        /* z */
-    real *rhs, *free;      /* workspace */
-    real *state[STATES];   /* displacement, and behind it velocity; clamped node left out */
+    const real (*mass)[4], (*stiffness)[4]; /* of an element: see below */
+    real *factor;                           /* L and D of A = L D L', lower band by rows */
+    real *response;                         /* z */
+    real *rhs, *free;                       /* workspace */
+    real *state[STATES]; /* displacement, and behind it velocity; clamped node left out */
     real tau, rate_tau;
     size_t since;
     real largest[2];
 };
 
-struct br_quad_march {
+struct dense_march {
     struct br_march *march;
     const struct br_scene *scene;
     struct br_method method;
-    size_t n, steps;
-    struct quad_field field[2];
+    size_t n;
+    struct dense_field field[2];
     int stage_count;
     real stage_time[BR_MOST_STAGES], penetration[BR_MOST_STAGES]; /* of the axial field's step */
     real path[4];                                                 /* u, k u_t at both ends */
@@ -46,47 +46,74 @@ static real absolute(real x)
 
 /* ---- the matrix ---- */
 
-static const int axial_mass[2][2] = {{2, 1}, {1, 2}};
-static const int axial_stiffness[2][2] = {{1, -1}, {-1, 1}};
-static const int bending_mass[4][4] = {
-    {156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}};
-static const int bending_stiffness[4][4] = {
+/* Of an element, for its unknowns at both nodes: (u), (u, b) with the bubble b of the element that
+ * ends there, u = (1 - xi) u0 + xi u1 - xi (1 - xi) b, or (w, h w_x); mass over rho h, stiffness
+ * over that of the material and h or h^3. */
+static const real linear_mass[4][4] = {{1 / 3.0Q, 1 / 6.0Q}, {1 / 6.0Q, 1 / 3.0Q}};
+static const real linear_stiffness[4][4] = {{1, -1}, {-1, 1}};
+static const real quadratic_mass[4][4] = {{1 / 3.0Q, 0, 1 / 6.0Q, -1 / 12.0Q},
+                                          {0},
+                                          {1 / 6.0Q, 0, 1 / 3.0Q, -1 / 12.0Q},
+                                          {-1 / 12.0Q, 0, -1 / 12.0Q, 1 / 30.0Q}};
+static const real quadratic_stiffness[4][4] = {
+    {1, 0, -1, 0}, {0}, {-1, 0, 1, 0}, {0, 0, 0, 1 / 3.0Q}};
+static const real bending_mass[4][4] = {{156 / 420.0Q, 22 / 420.0Q, 54 / 420.0Q, -13 / 420.0Q},
+                                        {22 / 420.0Q, 4 / 420.0Q, 13 / 420.0Q, -3 / 420.0Q},
+                                        {54 / 420.0Q, 13 / 420.0Q, 156 / 420.0Q, -22 / 420.0Q},
+                                        {-13 / 420.0Q, -3 / 420.0Q, -22 / 420.0Q, 4 / 420.0Q}};
+static const real bending_stiffness[4][4] = {
     {12, 6, -12, 6}, {6, 4, -6, 2}, {-12, -6, 12, -6}, {6, 2, -6, 4}};
 
-static real length_of(const struct br_quad_march *q)
+/* Of the same unknowns at xi. */
+static void fill_shape(const struct dense_field *f, real xi, real shape[4])
+{
+    const real eta = 1 - xi;
+    if (f->mass == bending_mass) {
+        shape[0] = eta * eta * (1 + 2 * xi);
+        shape[1] = xi * eta * eta;
+        shape[2] = xi * xi * (1 + 2 * eta);
+        shape[3] = -xi * xi * eta;
+        return;
+    }
+    memset(shape, 0, 4 * sizeof *shape);
+    shape[0] = eta;
+    shape[f->u] = xi;
+    if (f->u == 2)
+        shape[3] = -xi * eta;
+}
+
+static real length_of(const struct dense_march *q)
 {
     return (real)q->scene->length / (real)q->n;
 }
 
-/* An element's rho h mass, or K over the stiffness; for (w, h w_x). */
-static real mass_entry(const struct br_quad_march *q, int kind, size_t a, size_t b)
+static real mass_entry(const struct dense_march *q, int kind, size_t a, size_t b)
 {
-    const real factor = (real)q->scene->density * length_of(q);
-    return kind == BR_AXIAL ? factor * axial_mass[a][b] / 6 : factor * bending_mass[a][b] / 420;
+    return (real)q->scene->density * length_of(q) * q->field[kind].mass[a][b];
 }
 
-static real stiffness_entry(const struct br_quad_march *q, int kind, size_t a, size_t b)
+static real stiffness_entry(const struct dense_march *q, int kind, size_t a, size_t b)
 {
     const real h = length_of(q);
-    return kind == BR_AXIAL ? axial_stiffness[a][b] / h : bending_stiffness[a][b] / (h * h * h);
+    return q->field[kind].stiffness[a][b] / (kind == BR_AXIAL ? h : h * h * h);
 }
 
-static real stiffness_of(const struct br_quad_march *q, int kind)
+static real stiffness_of(const struct dense_march *q, int kind)
 {
     return kind == BR_AXIAL ? q->scene->axial.stiffness : q->scene->bending.stiffness;
 }
 
-static real viscosity_of(const struct br_quad_march *q, int kind)
+static real viscosity_of(const struct dense_march *q, int kind)
 {
     return kind == BR_AXIAL ? q->scene->axial.viscosity : q->scene->bending.viscosity;
 }
 
-static real *at(struct quad_field *f, size_t i, size_t j)
+static real *at(struct dense_field *f, size_t i, size_t j)
 {
     return &f->factor[i * (f->band + 1) + i - j];
 }
 
-static void solve(struct quad_field *f, real *x)
+static void solve(struct dense_field *f, real *x)
 {
     for (size_t i = 0; i < f->order; i++)
         for (size_t j = i > f->band ? i - f->band : 0; j < i; j++)
@@ -98,9 +125,9 @@ static void solve(struct quad_field *f, real *x)
             x[i] -= *at(f, j, i) * x[j];
 }
 
-static void factorise(struct br_quad_march *q, int kind, real tau)
+static void factorise(struct dense_march *q, int kind, real tau)
 {
-    struct quad_field *f = &q->field[kind];
+    struct dense_field *f = &q->field[kind];
     const real stiff = viscosity_of(q, kind) + tau * stiffness_of(q, kind);
     if (tau == f->tau)
         return;
@@ -130,39 +157,56 @@ static void factorise(struct br_quad_march *q, int kind, real tau)
 
 /* ---- a stage ---- */
 
-static real constant_load(const struct br_load *load, double t)
+/* Five Gauss points an element, as the solver has them: exact for polynomials of x. */
+static void add_load(const struct dense_march *q, struct dense_field *f, const struct br_load *load,
+                     double t)
 {
-    double factor;
-    const double x = 0;
-    br_function_evaluate(&load->term[0].time, 1, &x, t, &factor);
-    return (real)load->term[0].space.constant * factor;
+    static const real weight[5] = {0.118463442528094543757132020359958681Q,
+                                   0.239314335249683234020645757417819097Q, 64 / 225.0Q,
+                                   0.239314335249683234020645757417819097Q,
+                                   0.118463442528094543757132020359958681Q};
+    static const real point[5] = {
+        0.0469100770306680036011865608503035174Q, 0.230765344947158454481842789649895597Q, 0.5Q,
+        0.769234655052841545518157210350104403Q, 0.953089922969331996398813439149696483Q};
+    const real h = length_of(q);
+    for (size_t e = 0; e < q->n; e++)
+        for (int g = 0; g < 5; g++) {
+            real shape[4];
+            const double x = (double)(h * (e + point[g]));
+            const real force = h * weight[g] * br_load_value(load, x, t);
+            fill_shape(f, point[g], shape);
+            for (size_t a = e > 0 ? 0 : f->u; a < 2 * f->u; a++)
+                f->rhs[(e - 1) * f->u + a] += force * shape[a];
+        }
+}
+
+static real value_at(const struct br_function *f, real x, double t)
+{
+    const double at = (double)x;
+    double value;
+    br_function_evaluate(f, 1, &at, t, &value);
+    return value;
 }
 
 /* f + M v / tau - K w, in f->rhs. */
-static void form_rhs(struct br_quad_march *q, int kind, double t)
+static void form_rhs(struct dense_march *q, int kind, double t)
 {
-    static const real rod[2] = {0.5Q, 0.5Q};
-    static const real beam[4] = {0.5Q, 1 / 12.0Q, 0.5Q, -1 / 12.0Q};
-    struct quad_field *f = &q->field[kind];
+    struct dense_field *f = &q->field[kind];
     const struct br_scene *s = q->scene;
-    const real load = constant_load(kind == BR_AXIAL ? &s->axial.load : &s->bending.load, t);
+    const bool axial = kind == BR_AXIAL;
     const real *w = f->state[Z], *v = w + f->order, stiff = stiffness_of(q, kind);
-    double tip;
-    const double x = 0;
-    br_function_evaluate(kind == BR_AXIAL ? &s->axial.tip_force : &s->bending.tip_force, 1, &x, t,
-                         &tip);
     memset(f->rhs, 0, f->order * sizeof *f->rhs);
+    add_load(q, f, axial ? &s->axial.load : &s->bending.load, t);
     for (size_t e = 0; e < q->n; e++)
-        for (size_t a = e > 0 ? 0 : f->u; a < 2 * f->u; a++) {
-            real *sum = &f->rhs[(e - 1) * f->u + a];
-            *sum += load * length_of(q) * (kind == BR_AXIAL ? rod[a] : beam[a]);
+        for (size_t a = e > 0 ? 0 : f->u; a < 2 * f->u; a++)
             for (size_t b = e > 0 ? 0 : f->u; b < 2 * f->u; b++) {
                 const size_t j = (e - 1) * f->u + b;
-                *sum += mass_entry(q, kind, a, b) / f->tau * v[j] -
-                        stiff * stiffness_entry(q, kind, a, b) * w[j];
+                f->rhs[(e - 1) * f->u + a] += mass_entry(q, kind, a, b) / f->tau * v[j] -
+                                              stiff * stiffness_entry(q, kind, a, b) * w[j];
             }
-        }
-    f->rhs[f->order - f->u] += tip;
+    f->rhs[f->order - f->u] += value_at(axial ? &s->axial.tip_force : &s->bending.tip_force, 0, t);
+    if (!axial)
+        f->rhs[f->order - 1] += value_at(&s->bending.tip_moment, 0, t) / length_of(q);
 }
 
 static real positive(real x)
@@ -170,7 +214,7 @@ static real positive(real x)
     return x > 0 ? x : 0;
 }
 
-static real contact_force(const struct br_quad_march *q, real u, real v, real z, real tau)
+static real contact_force(const struct dense_march *q, real u, real v, real z, real tau)
 {
     const struct br_contact *c = &q->scene->contact;
     if (!c->modelled)
@@ -180,7 +224,7 @@ static real contact_force(const struct br_quad_march *q, real u, real v, real z,
     return c->stiffness * positive(u + tau * v - c->gap) / (1 + c->stiffness * tau * z);
 }
 
-static real penetration_at(const struct br_quad_march *q, real part)
+static real penetration_at(const struct dense_march *q, real part)
 {
     for (int i = 0; i < q->stage_count; i++)
         if (q->stage_time[i] == part)
@@ -191,7 +235,7 @@ static real penetration_at(const struct br_quad_march *q, real part)
                     q->scene->contact.gap);
 }
 
-static real friction_force(const struct br_quad_march *q, real part, real v, real z)
+static real friction_force(const struct dense_march *q, real part, real v, real z)
 {
     const struct br_friction *law = &q->scene->friction;
     if (law->law == BR_FRICTIONLESS)
@@ -203,19 +247,19 @@ static real friction_force(const struct br_quad_march *q, real part, real v, rea
     return mu > 0 ? bound * v / (mu + bound * z) : v / z;
 }
 
-static void add(struct quad_field *f, int into, real weight, int of)
+static void add(struct dense_field *f, int into, real weight, int of)
 {
     for (size_t i = 0; i < 2 * f->order && weight != 0; i++)
         f->state[into][i] += weight * f->state[of][i];
 }
 
-static void copy(struct quad_field *f, int into, int of)
+static void copy(struct dense_field *f, int into, int of)
 {
     memcpy(f->state[into], f->state[of], 2 * f->order * sizeof **f->state);
 }
 
 /* Z of a stage; BR_RATE is tau Y' of the step's end, with that step's tau. */
-static void start(struct quad_field *f, const struct br_stage *stage)
+static void start(struct dense_field *f, const struct br_stage *stage)
 {
     memset(f->state[Z], 0, 2 * f->order * sizeof **f->state);
     for (int i = 0; i < BR_KNOWN; i++)
@@ -232,7 +276,7 @@ static void see(real value, real *most)
 }
 
 /* What is subtracted is seen, too: round-off is relative to it. */
-static void finish(struct quad_field *f, real force, real *to)
+static void finish(struct dense_field *f, real force, real *to)
 {
     for (size_t i = 0; i < f->order; i++) {
         to[f->order + i] = f->free[i] - force * f->response[i];
@@ -248,8 +292,8 @@ static void finish(struct quad_field *f, real force, real *to)
 
 static void follow_stage(void *self, const struct br_march_stage *told)
 {
-    struct br_quad_march *q = self;
-    struct quad_field *f = &q->field[told->kind];
+    struct dense_march *q = self;
+    struct dense_field *f = &q->field[told->kind];
     struct br_stages stages;
     q->method.scheme->stages(f->since, &stages);
     const struct br_stage *stage = &stages.stage[told->index];
@@ -280,8 +324,8 @@ static void follow_stage(void *self, const struct br_march_stage *told)
 
 static void follow_step(void *self, enum br_field_kind kind, bool switched)
 {
-    struct br_quad_march *q = self;
-    struct quad_field *f = &q->field[kind];
+    struct dense_march *q = self;
+    struct dense_field *f = &q->field[kind];
     struct br_stages stages;
     q->method.scheme->stages(f->since, &stages);
     const int last = BR_STAGE + stages.count - 1;
@@ -296,16 +340,14 @@ static void follow_step(void *self, enum br_field_kind kind, bool switched)
 
 /* ---- from outside ---- */
 
-static void clear_field(struct quad_field *f)
+static bool init_field(struct dense_field *f, enum br_field_kind kind, int degree, size_t n)
 {
-    free(f->factor);
-}
-
-static bool init_field(struct quad_field *f, size_t u, size_t n)
-{
-    f->u = u;
-    f->order = u * n;
-    f->band = 2 * u - 1;
+    const bool quadratic = kind == BR_AXIAL && degree == 2, linear = kind == BR_AXIAL && !quadratic;
+    f->mass = linear ? linear_mass : quadratic ? quadratic_mass : bending_mass;
+    f->stiffness = linear ? linear_stiffness : quadratic ? quadratic_stiffness : bending_stiffness;
+    f->u = linear ? 1 : 2;
+    f->order = f->u * n;
+    f->band = 2 * f->u - 1;
     const size_t count = f->order * (f->band + 1 + 3 + 2 * STATES);
     real *p = f->factor = calloc(count, sizeof *p);
     if (!p)
@@ -318,44 +360,67 @@ static bool init_field(struct quad_field *f, size_t u, size_t n)
     return true;
 }
 
-struct br_quad_march *br_quad_follow(struct br_march *march, const struct br_scene *scene,
-                                     const struct br_method *method, size_t steps)
+/* The interpolant of a function of x, with its slope for bending. */
+static void interpolate(const struct dense_march *q, const struct dense_field *f,
+                        const struct br_function *value, const struct br_function *slope, real *to)
 {
-    struct br_quad_march *q = BR_HAS_QUAD ? calloc(1, sizeof *q) : NULL;
+    const real h = length_of(q);
+    for (size_t i = 1; i <= q->n; i++) {
+        real *node = to + (i - 1) * f->u;
+        node[0] = value_at(value, h * i, 0);
+        if (slope)
+            node[1] = h * value_at(slope, h * i, 0);
+        else if (f->u == 2)
+            node[1] =
+                2 * (node[0] + (i > 1 ? node[-2] : 0)) - 4 * value_at(value, h * i - h / 2, 0);
+    }
+}
+
+static void start_from(struct dense_march *q)
+{
+    const struct br_axial *a = &q->scene->axial;
+    const struct br_bending *b = &q->scene->bending;
+    struct dense_field *rod = &q->field[BR_AXIAL], *beam = &q->field[BR_BENDING];
+    interpolate(q, rod, &a->displacement, NULL, rod->state[BR_NOW]);
+    interpolate(q, rod, &a->velocity, NULL, rod->state[BR_NOW] + rod->order);
+    interpolate(q, beam, &b->displacement, &b->displacement_slope, beam->state[BR_NOW]);
+    interpolate(q, beam, &b->velocity, &b->velocity_slope, beam->state[BR_NOW] + beam->order);
+}
+
+struct dense_march *dense_follow(struct br_march *march, const struct br_scene *scene,
+                                 const struct br_method *method)
+{
+    struct dense_march *q = BR_HAS_QUAD ? calloc(1, sizeof *q) : NULL;
     if (!q)
         return NULL;
     q->march = march;
     q->scene = scene;
     q->method = *method;
-    q->steps = steps;
     q->n = br_march_field(march, BR_AXIAL)->n;
     q->nodal = calloc(4 * (q->n + 1), sizeof *q->nodal);
-    bool made = q->nodal;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        made = made && init_field(&q->field[kind], kind == BR_AXIAL ? 1 : 2, q->n);
-        q->field[kind].modelled = br_march_models(march, (enum br_field_kind)kind);
-    }
-    if (!made) {
-        br_quad_free(q);
+    if (!q->nodal || !init_field(&q->field[BR_AXIAL], BR_AXIAL, method->axial_degree, q->n) ||
+        !init_field(&q->field[BR_BENDING], BR_BENDING, 1, q->n)) {
+        dense_free(q);
         return NULL;
     }
+    start_from(q);
     br_march_watch(march, &(struct br_march_watcher){q, follow_stage, follow_step});
     return q;
 }
 
-void br_quad_free(struct br_quad_march *q)
+void dense_free(struct dense_march *q)
 {
     if (!q)
         return;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        clear_field(&q->field[kind]);
+        free(q->field[kind].factor);
     free(q->nodal);
     free(q);
 }
 
-double br_quad_deviation(struct br_quad_march *q, enum br_field_kind kind, int derivative)
+double dense_deviation(struct dense_march *q, enum br_field_kind kind, int derivative)
 {
-    struct quad_field *f = &q->field[kind];
+    struct dense_field *f = &q->field[kind];
     const real *exact = f->state[BR_NOW] + (derivative ? f->order : 0);
     real most = 0;
     br_march_get(q->march, kind, derivative ? NULL : q->nodal, derivative ? q->nodal : NULL);
@@ -370,7 +435,8 @@ double br_quad_deviation(struct br_quad_march *q, enum br_field_kind kind, int d
     return isnan(deviation) ? INFINITY : deviation;
 }
 
-double br_quad_largest(const struct br_quad_march *q, enum br_field_kind kind, int derivative)
+long double dense_displacement(const struct dense_march *q, enum br_field_kind kind, size_t node)
 {
-    return (double)q->field[kind].largest[derivative];
+    const struct dense_field *f = &q->field[kind];
+    return node == 0 ? 0 : (long double)f->state[BR_NOW][(node - 1) * f->u];
 }

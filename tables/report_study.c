@@ -1,0 +1,762 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tables/report_study.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include "study/scene/method_fields.h"
+#include "tables/report_method.h"
+
+enum { TEXT = 1200 };
+
+/* Appends to a text of TEXT bytes. */
+__attribute__((format(printf, 2, 3))) static void append(char *text, const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + used, TEXT - used, format, arguments);
+    va_end(arguments);
+}
+
+/* A scene of one field has the total alone. */
+static bool is_shown(const struct br_report *r, enum br_part part)
+{
+    const struct br_scene *s = r->study->scene;
+    return part == BR_PART_TOTAL || (s->axial.modelled && s->bending.modelled);
+}
+
+static double step_of(const struct br_study *s, const struct br_cell *c)
+{
+    return br_time_step(s->scene, c->at.steps);
+}
+
+/* An error over the norm of the solution, or of its field; not finite where that is not known. */
+static double relative_of(const struct br_study *s, const struct br_cell *c, enum br_part part)
+{
+    const double size = part == BR_PART_TOTAL   ? s->reference_scale
+                        : part == BR_PART_AXIAL ? s->reference_size[BR_AXIAL]
+                                                : s->reference_size[BR_BENDING];
+    return c->error[part] / size;
+}
+
+/* ---- the answer ---- */
+
+/* Appends "1.99 [1.94, 2.04]", or why there is none. */
+static void append_order(char *text, const struct br_estimate *order, bool fitted)
+{
+    char buffer[64];
+    const char *value = br_order_text(order, buffer, sizeof buffer);
+    if (!fitted)
+        append(text, "no error is seen");
+    else if (br_order_determined(order))
+        append(text, "%s", value);
+    else
+        append(text, "not determined (%s)", value);
+}
+
+static void answer_orders(struct br_document *d, const struct br_report *r)
+{
+    const struct br_joint_fit *fit = &r->fits[BR_PART_TOTAL].joint;
+    char text[TEXT] = "";
+    if (!fit->converged) {
+        br_put_answer(d, "No joint fit: %zu usable cells tell no order.", fit->points);
+    } else if (!br_joint_describes(fit)) {
+        br_put_answer(d,
+                      "The joint model does not describe these errors (misfit %.0f %%, %zu cells): "
+                      "no orders are claimed.",
+                      100 * fit->misfit, fit->points);
+    } else {
+        append(text, "Order in h: ");
+        append_order(text, &fit->p, fit->kind != BR_JOINT_TIME);
+        append(text, ", in k: ");
+        append_order(text, &fit->q, fit->kind != BR_JOINT_SPACE);
+        br_put_answer(d, "%s; 95 %% intervals, misfit %.2g %% in %zu cells.", text,
+                      100 * fit->misfit, fit->points);
+    }
+    br_put_answer(d, "Theory: %s", r->study->norm->theory);
+}
+
+static void answer_error(struct br_document *d, const struct br_study *s)
+{
+    const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
+    const double error = c->error[BR_PART_TOTAL], relative = relative_of(s, c, BR_PART_TOTAL);
+    char text[TEXT] = "";
+    append(text, "%s of the finest cell (n = %zu, k = %g s): ",
+           s->judge == &br_judge_none ? "Difference" : "Error", c->at.n, step_of(s, c));
+    if (isfinite(error))
+        append(text, "%.3e %s", error, s->norm->unit);
+    else
+        append(text, "none, the march failed");
+    if (isfinite(relative))
+        append(text, ", relative %.2e", relative);
+    br_put_answer(d, "%s.", text);
+}
+
+/* Appends how well a reference is known. own: its own error; NaN: not known. */
+static void append_own_error(char *text, const struct br_study *s, double own)
+{
+    const double floor = s->judged_by.round_off * s->reference_scale;
+    const double told =
+        br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, BR_PART_TOTAL);
+    if (s->judge == &br_judge_none)
+        return;
+    if (!isfinite(own))
+        append(text, "Its own error is not known: the joint fit does not describe the errors");
+    else if (s->auditor)
+        append(text, "Its own error is about %.1e, measured against the %s solution", own,
+               s->auditor->name);
+    else
+        append(text, "Its own error is about %.1e, by %s", own,
+               isfinite(told) ? "its own estimate" : "the joint fit");
+    if (floor > 0)
+        append(text, "; its round-off is about %.0e", floor);
+    append(text, ". ");
+}
+
+static size_t count_flag(const struct br_study *s, enum br_flag flag)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < s->n_count * s->k_count; i++)
+        count += s->cell[i].flag[BR_PART_TOTAL] == flag;
+    return count;
+}
+
+/* Appends how many cells are left out of fits, and why. */
+static void append_flags(char *text, const struct br_study *s)
+{
+    static const struct {
+        enum br_flag flag;
+        const char *why;
+    } rows[] = {
+        {BR_FLAG_REFERENCE, "R, too near the reference's own error"},
+        {BR_FLAG_ROUND_OFF, "F, too near the predicted round-off"},
+        {BR_FLAG_FAILED, "X, failed"},
+        {BR_FLAG_UNSTABLE, "U, beyond the stability limit of the lagged contact: the tip may "
+                           "chatter; smaller k or --contact implicit mends it"},
+    };
+    const size_t cells = s->n_count * s->k_count, good = count_flag(s, BR_FLAG_NONE);
+    if (good == cells) {
+        append(text, "All %zu cells count.", cells);
+        return;
+    }
+    append(text, "%zu of %zu cells are left out of fits:", cells - good, cells);
+    const char *separator = " ";
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const size_t count = count_flag(s, rows[i].flag);
+        if (count)
+            append(text, "%s%zu %s", separator, count, rows[i].why);
+        separator = count ? "; " : separator;
+    }
+    append(text, ".");
+}
+
+static void answer_unstable(struct br_document *d, const struct br_study *s)
+{
+    if (s->judged_by.unstable)
+        br_put_answer(d,
+                      "The %s reference itself is beyond the stability limit of the lagged "
+                      "contact: do not trust it.",
+                      s->judge->name);
+}
+
+static size_t count_contradictions(const struct br_report *r)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < r->triangles; i++)
+        count += r->triangle[i].contradiction;
+    return count;
+}
+
+static void answer_printed(struct br_document *d, const struct br_report *r)
+{
+    const struct br_study *s = r->study;
+    size_t differ = 0, compared = 0, farthest = 0;
+    double least = INFINITY, most = 0, distance = -1;
+    for (size_t i = 0; r->printed && i < s->n_count * s->k_count; i++) {
+        const double ratio = br_report_ratio(r, i);
+        if (!isfinite(ratio))
+            continue;
+        compared++;
+        least = fmin(least, ratio);
+        most = fmax(most, ratio);
+        differ += !(ratio >= 0.95 && ratio <= 1.05);
+        farthest = fabs(log(ratio)) > distance ? i : farthest;
+        distance = fmax(distance, fabs(log(ratio)));
+    }
+    if (!compared)
+        return;
+    if (!differ)
+        br_put_answer(d, "Ours and the printed errors agree within 5 %% in all %zu cells.",
+                      compared);
+    else
+        br_put_answer(
+            d,
+            "Ours (against %s) DIFFER from the printed errors by more than 5 %% in %zu of "
+            "%zu cells, ours over printed is %.2g to %.2g; the farthest (n = %zu, "
+            "k = %g s) is %.3e, printed %.3e.",
+            s->judge->name, differ, compared, least, most, s->cell[farthest].at.n,
+            step_of(s, &s->cell[farthest]), s->cell[farthest].error[BR_PART_TOTAL],
+            r->printed[farthest]);
+    if (differ && count_contradictions(r))
+        br_put_answer(
+            d,
+            "No reference can repair that: at least %zu pairs of printed errors break the "
+            "triangle inequality.",
+            count_contradictions(r));
+}
+
+static bool is_outside(const struct br_report *r, enum br_field_kind kind)
+{
+    const struct br_study *s = br_report_fitted(r);
+    const struct br_estimate *e = &r->tip[kind];
+    return s->judge != &br_judge_none && isfinite(e->high - e->low) &&
+           !(s->reference_tip[kind] >= e->low && s->reference_tip[kind] <= e->high);
+}
+
+static bool is_modelled(const struct br_report *r, enum br_field_kind kind)
+{
+    const struct br_scene *s = r->study->scene;
+    return kind == BR_AXIAL ? s->axial.modelled : s->bending.modelled;
+}
+
+static void answer_tips(struct br_document *d, const struct br_report *r)
+{
+    const struct br_study *s = br_report_fitted(r);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (is_modelled(r, kind) && is_outside(r, kind))
+            br_put_answer(d,
+                          "The cells alone (Richardson) give %s(L, T) = %.10g +- %.1e m, and the "
+                          "%s reference's %.10g is OUTSIDE that: the cells are too coarse to see "
+                          "all of the solution, or one of the two is wrong.",
+                          kind == BR_AXIAL ? "u" : "w", r->tip[kind].value,
+                          (r->tip[kind].high - r->tip[kind].low) / 2, s->judge->name,
+                          s->reference_tip[kind]);
+}
+
+static void put_answers(struct br_document *d, const struct br_report *r)
+{
+    const struct br_study *s = br_report_fitted(r);
+    char text[TEXT] = "";
+    answer_orders(d, r);
+    answer_error(d, s);
+    append(text, "Judged by: %s. ",
+           s->judge == &br_judge_none ? "the next finer cell" : s->judge->name);
+    append_own_error(text, s, r->fits[BR_PART_TOTAL].reference_error);
+    append_flags(text, s);
+    br_put_answer(d, "%s", text);
+    answer_unstable(d, s);
+    if (r->exact)
+        answer_unstable(d, r->study);
+    answer_tips(d, r);
+    answer_printed(d, r);
+}
+
+/* ---- grids, for people: a row a mesh, a column a time step ---- */
+
+struct grid {
+    const char *key;
+    const struct br_study *study;
+    enum br_part part;
+    const struct br_fits *fits; /* whose slopes stand beside the errors; NULL: none do */
+    double (*value)(const struct br_report *r, size_t cell); /* NULL: the study's errors */
+    const char *format;
+    unsigned flags;
+};
+
+static void begin_grid(struct br_document *d, const struct grid *g, const char *title)
+{
+    const struct br_study *s = g->study;
+    char key[32], heading[32];
+    br_put_table(d, g->key, title, BR_FOR_PEOPLE | g->flags, &(struct br_column){.key = "n"}, 1);
+    for (size_t j = 0; j < s->k_count; j++) {
+        snprintf(key, sizeof key, "steps%zu", s->steps[j]);
+        snprintf(heading, sizeof heading, "k = %g", br_time_step(s->scene, s->steps[j]));
+        br_put_column(d, &(struct br_column){key, heading, .format = g->format});
+    }
+    if (g->fits)
+        br_put_column(d, &(struct br_column){.key = "slope", .heading = "slope in k [95 %]"});
+}
+
+static void put_grid_row(struct br_document *d, const struct br_report *r, const struct grid *g,
+                         size_t i)
+{
+    static const char *const marks[] = {"", "R", "F", "X", "U"};
+    char buffer[64];
+    br_put_row(d);
+    br_put(d, "n", br_count(g->study->n[i]));
+    for (size_t j = 0; j < g->study->k_count; j++) {
+        const struct br_cell *c = br_study_cell(g->study, i, j);
+        const size_t cell = i * g->study->k_count + j;
+        br_put(d, NULL, br_number(g->value ? g->value(r, cell) : c->error[g->part]));
+        if (!g->value)
+            br_put_mark(d, marks[c->flag[g->part]]);
+    }
+    if (g->fits)
+        br_put(d, "slope", br_text(br_order_text(&g->fits->by_n[i].order, buffer, sizeof buffer)));
+}
+
+static void put_slopes_in_h(struct br_document *d, const struct grid *g)
+{
+    br_put_row(d);
+    br_put_rule(d);
+    br_put(d, "n", br_nothing());
+    br_put_shown(d, "slope in h");
+    for (size_t j = 0; j < g->study->k_count; j++) {
+        const double slope = g->fits->by_k[j].order.value;
+        br_put(d, NULL, br_number(slope));
+        if (isfinite(slope))
+            br_put_shown(d, "%.2f", slope);
+    }
+}
+
+static void put_grid(struct br_document *d, const struct br_report *r, const struct grid *g,
+                     const char *title)
+{
+    begin_grid(d, g, title);
+    for (size_t i = 0; i < g->study->n_count; i++)
+        put_grid_row(d, r, g, i);
+    if (g->fits)
+        put_slopes_in_h(d, g);
+}
+
+static double printed_of(const struct br_report *r, size_t cell)
+{
+    return r->printed[cell];
+}
+
+static void put_error_grid(struct br_document *d, const struct br_report *r,
+                           const struct br_study *s, enum br_part part)
+{
+    const bool fitted = s == br_report_fitted(r), none = s->judge == &br_judge_none;
+    static const char *const names[] = {"Total", "Axial", "Bending"};
+    char title[TEXT];
+    const struct grid g = {
+        .key = fitted ? br_part_names[part] : s->judge->name,
+        .study = s,
+        .part = part,
+        .fits = fitted ? &r->fits[part] : NULL,
+        .format = "%.3e",
+        .flags = part == BR_PART_TOTAL && fitted ? 0 : BR_FILES_ONLY,
+    };
+    snprintf(title, sizeof title, "%s %s%s, %s", names[part],
+             none ? "difference" : "error against ", none ? "" : s->judge->name, s->norm->unit);
+    put_grid(d, r, &g, title);
+}
+
+static void put_grids(struct br_document *d, const struct br_report *r)
+{
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        if (is_shown(r, part))
+            put_error_grid(d, r, br_report_fitted(r), part);
+    if (r->exact)
+        put_error_grid(d, r, r->study, BR_PART_TOTAL);
+    if (!r->printed)
+        return;
+    char title[64];
+    struct grid g = {.key = "printed",
+                     .study = r->study,
+                     .value = printed_of,
+                     .format = "%.3e",
+                     .flags = BR_FILES_ONLY};
+    put_grid(d, r, &g, "Printed error, m^(3/2)");
+    g = (struct grid){
+        .key = "ratio", .study = r->study, .value = br_report_ratio, .format = "%.3f"};
+    snprintf(title, sizeof title, "Ours (against %s) over printed", r->study->judge->name);
+    put_grid(d, r, &g, title);
+}
+
+/* ---- lists ---- */
+
+/* The order that a cell and its coarser neighbour show; not finite where there is none. */
+static double rate_of(double coarse, double fine, size_t from, size_t to)
+{
+    return log(coarse / fine) / log((double)to / (double)from);
+}
+
+static void put_rates(struct br_document *d, const struct br_study *s, size_t cell,
+                      enum br_part part)
+{
+    const size_t i = cell / s->k_count, j = cell % s->k_count;
+    const double error = s->cell[cell].error[part];
+    if (i > 0)
+        br_put(d, "rate_h",
+               br_number(
+                   rate_of(br_study_cell(s, i - 1, j)->error[part], error, s->n[i - 1], s->n[i])));
+    if (j > 0)
+        br_put(d, "rate_k",
+               br_number(rate_of(br_study_cell(s, i, j - 1)->error[part], error, s->steps[j - 1],
+                                 s->steps[j])));
+}
+
+static void put_cell(struct br_document *d, const struct br_report *r, const struct br_study *s,
+                     enum br_part part, size_t cell)
+{
+    const struct br_cell *c = &s->cell[cell];
+    const bool printed = s == r->study && part == BR_PART_TOTAL && r->printed;
+    const bool failed = c->failure.status != BR_OK;
+    const struct br_scene *scene = s->scene;
+    br_put_row(d);
+    br_put(d, "reference", br_text(s->judge->name));
+    br_put(d, "part", br_text(br_part_names[part]));
+    br_put(d, "n", br_count(c->at.n));
+    br_put(d, "h", br_number(br_mesh_size(scene, c->at.n)));
+    br_put(d, "steps", br_count(c->at.steps));
+    br_put(d, "k", br_number(step_of(s, c)));
+    br_put(d, "error", br_number(c->error[part]));
+    br_put(d, "relative", br_number(relative_of(s, c, part)));
+    br_put(d, "flag", br_text(c->flag[part] ? br_flag_name(c->flag[part]) : NULL));
+    put_rates(d, s, cell, part);
+    br_put(d, "printed", br_number(printed ? r->printed[cell] : NAN));
+    br_put(d, "ratio", br_number(printed ? br_report_ratio(r, cell) : NAN));
+    br_put(d, "worst_time", br_number(c->worst_time[part]));
+    br_put(d, "tip_axial", br_number(scene->axial.modelled && !failed ? c->tip[BR_AXIAL] : NAN));
+    br_put(d, "tip_bending",
+           br_number(scene->bending.modelled && !failed ? c->tip[BR_BENDING] : NAN));
+    br_put(d, "seconds", br_number(c->seconds));
+    br_put(d, "failure", br_text(failed ? c->failure.message : NULL));
+}
+
+static void put_cells(struct br_document *d, const struct br_report *r)
+{
+    const char *unit = r->study->norm->unit;
+    const struct br_column columns[] = {
+        {.key = "reference"},
+        {.key = "part"},
+        {.key = "n"},
+        {.key = "h", .unit = "m"},
+        {.key = "steps"},
+        {.key = "k", .unit = "s"},
+        {.key = "error", .unit = unit},
+        {.key = "relative"},
+        {.key = "flag"},
+        {.key = "rate_h"},
+        {.key = "rate_k"},
+        {.key = "printed", .unit = unit},
+        {.key = "ratio"},
+        {.key = "worst_time", .unit = "s"},
+        {.key = "tip_axial", .unit = "m"},
+        {.key = "tip_bending", .unit = "m"},
+        {.key = "seconds", .unit = "s"},
+        {.key = "failure"},
+    };
+    br_put_table(d, "cells", "Every cell, part and reference", BR_FOR_PROGRAMS | BR_MAIN,
+                 BR_COLUMNS(columns));
+    const struct br_study *const studies[] = {r->study, r->exact};
+    for (size_t i = 0; i < 2 && studies[i]; i++)
+        for (enum br_part part = 0; part < BR_PARTS; part++)
+            for (size_t c = 0; is_shown(r, part) && c < r->study->n_count * r->study->k_count; c++)
+                put_cell(d, r, studies[i], part, c);
+}
+
+/* ---- slopes, fits and tips ---- */
+
+/* A number, and its interval in columns of their own. */
+#define ESTIMATE(name, head)                              \
+    {.key = (name), .heading = (head), .format = "%.3g"}, \
+        {.key = name "_low", .flags = BR_FOR_PROGRAMS},   \
+    {                                                     \
+        .key = name "_high", .flags = BR_FOR_PROGRAMS     \
+    }
+
+/* shown: to people; NULL: the number. */
+static void put_estimate(struct br_document *d, const char *key, const struct br_estimate *e,
+                         const char *shown)
+{
+    br_put(d, key, br_number(e->value));
+    if (shown && isfinite(e->value))
+        br_put_shown(d, "%s", shown);
+    br_put(d, NULL, br_number(e->low));
+    br_put(d, NULL, br_number(e->high));
+}
+
+/* claimed: whether people may see it. */
+static void put_order(struct br_document *d, const char *key, const struct br_estimate *e,
+                      bool claimed)
+{
+    char buffer[64];
+    put_estimate(d, key, e, claimed ? br_order_text(e, buffer, sizeof buffer) : "not claimed");
+}
+
+static void put_slope(struct br_document *d, enum br_part part, const char *over,
+                      const struct br_slope *slope)
+{
+    br_put_row(d);
+    br_put(d, "part", br_text(br_part_names[part]));
+    br_put(d, "over", br_text(over));
+    put_order(d, "order", &slope->order, true);
+    br_put(d, "points", br_count(slope->points));
+}
+
+static void put_slopes(struct br_document *d, const struct br_report *r)
+{
+    static const struct br_column columns[] = {
+        {.key = "part"},
+        {.key = "over"},
+        {.key = "n"},
+        {.key = "k", .unit = "s"},
+        ESTIMATE("order", "slope [95 %]"),
+        {.key = "points", .heading = "cells"},
+    };
+    const struct br_study *s = r->study;
+    br_put_table(d, "slopes", "Slopes of the grids' rows (over k) and columns (over h)",
+                 BR_FILES_ONLY, BR_COLUMNS(columns));
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
+        for (size_t i = 0; is_shown(r, part) && i < s->n_count; i++) {
+            put_slope(d, part, "k", &r->fits[part].by_n[i]);
+            br_put(d, "n", br_count(s->n[i]));
+        }
+        for (size_t j = 0; is_shown(r, part) && j < s->k_count; j++) {
+            put_slope(d, part, "h", &r->fits[part].by_k[j]);
+            br_put(d, "k", br_number(br_time_step(s->scene, s->steps[j])));
+        }
+    }
+}
+
+static void put_fit(struct br_document *d, const struct br_fits *f, enum br_part part)
+{
+    static const char *const kinds[] = {"space and time", "time", "space"};
+    const struct br_joint_fit *j = &f->joint;
+    const bool claims = br_joint_describes(j);
+    char r[64];
+    snprintf(r, sizeof r, "%.3f [%.3f, %.3f]", j->r.value, j->r.low, j->r.high);
+    br_put_row(d);
+    br_put(d, "part", br_text(br_part_names[part]));
+    br_put(d, "model", br_text(kinds[j->kind]));
+    if (!j->converged)
+        br_put_shown(d, "none");
+    put_order(d, "p", &j->p, claims);
+    put_estimate(d, "C_h", &j->c_h, claims ? NULL : "-");
+    put_order(d, "q", &j->q, claims);
+    put_estimate(d, "C_k", &j->c_k, claims ? NULL : "-");
+    put_estimate(d, "r", &j->r, claims ? r : "-");
+    br_put(d, "misfit", br_number(j->misfit));
+    br_put(d, "worst", br_number(j->worst));
+    br_put(d, "r_squared", br_number(j->r_squared));
+    br_put(d, "points", br_count(j->points));
+    br_put(d, "degrees_of_freedom", br_count(j->freedom));
+    br_put(d, "converged", br_truth(j->converged));
+    br_put(d, "describes_the_errors", br_truth(claims));
+    br_put(d, "reference_error", br_number(f->reference_error));
+}
+
+static void put_fits(struct br_document *d, const struct br_report *r)
+{
+    const struct br_column columns[] = {
+        {.key = "part"},
+        {.key = "model", .heading = "error in", .flags = BR_FILES_ONLY},
+        ESTIMATE("p", "p [95 %]"),
+        ESTIMATE("C_h", "C_h"),
+        ESTIMATE("q", "q [95 %]"),
+        ESTIMATE("C_k", "C_k"),
+        ESTIMATE("r", "r [95 %]"),
+        {.key = "misfit", .format = "%.2g"},
+        {.key = "worst", .format = "%.2g", .flags = BR_FILES_ONLY},
+        {.key = "r_squared", .heading = "R^2", .format = "%.6f", .flags = BR_FILES_ONLY},
+        {.key = "points", .heading = "cells"},
+        {.key = "degrees_of_freedom", .flags = BR_FOR_PROGRAMS},
+        {.key = "converged", .flags = BR_FILES_ONLY},
+        {.key = "describes_the_errors", .heading = "describes them", .flags = BR_FILES_ONLY},
+        {.key = "reference_error", .unit = r->study->norm->unit, .flags = BR_FOR_PROGRAMS},
+    };
+    br_put_table(d, "fits", "Joint fit of the signed errors C_h h^p and C_k k^q",
+                 r->printed ? BR_FILES_ONLY : 0, BR_COLUMNS(columns));
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        if (is_shown(r, part))
+            put_fit(d, &r->fits[part], part);
+}
+
+static void put_tips(struct br_document *d, const struct br_report *r)
+{
+    const struct br_column columns[] = {
+        {.key = "field"},
+        {.key = "extrapolated", .unit = "m"},
+        {.key = "extrapolated_low", .unit = "m", .flags = BR_FOR_PROGRAMS},
+        {.key = "extrapolated_high", .unit = "m", .flags = BR_FOR_PROGRAMS},
+        {.key = "reference", .unit = "m", .format = "%.10g"},
+        {.key = "reference_is", .heading = "it is"},
+    };
+    const struct br_study *s = br_report_fitted(r);
+    br_put_table(d, "tips", "Tip at t = T from the cells alone (Richardson, h and k to 0)",
+                 r->printed ? BR_FILES_ONLY : 0, BR_COLUMNS(columns));
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_estimate *e = &r->tip[kind];
+        const bool judged = s->judge != &br_judge_none;
+        char shown[64];
+        snprintf(shown, sizeof shown, "%.10g +- %.1e", e->value, (e->high - e->low) / 2);
+        if (!is_modelled(r, kind))
+            continue;
+        br_put_row(d);
+        br_put(d, "field", br_text(kind == BR_AXIAL ? "axial" : "bending"));
+        put_estimate(d, "extrapolated", e, shown);
+        br_put(d, "reference", br_number(judged ? s->reference_tip[kind] : NAN));
+        if (judged && isfinite(e->high - e->low))
+            br_put(d, "reference_is", br_text(is_outside(r, kind) ? "OUTSIDE" : "within"));
+    }
+}
+
+/* ---- the printed table against itself ---- */
+
+static void put_triangles(struct br_document *d, const struct br_report *r)
+{
+    static const struct br_column columns[] = {
+        {.key = "a_n", .heading = "n"},
+        {.key = "a_k", .heading = "k", .unit = "s"},
+        {.key = "b_n", .heading = "and n"},
+        {.key = "b_k", .heading = "k", .unit = "s"},
+        {.key = "printed_a", .heading = "printed", .format = "%.3e"},
+        {.key = "printed_b", .heading = "and", .format = "%.3e"},
+        {.key = "least", .heading = "need at least", .format = "%.2e"},
+        {.key = "most", .heading = "at most", .format = "%.2e"},
+        {.key = "distance", .heading = "are apart", .format = "%.2e"},
+        {.key = "contradiction"},
+    };
+    if (!r->printed)
+        return;
+    br_put_table(d, "triangles", "Pairs of printed cells (triangle inequality), m^(3/2)",
+                 BR_FILES_ONLY, BR_COLUMNS(columns));
+    for (size_t i = 0; i < r->triangles; i++) {
+        const struct br_triangle *t = &r->triangle[i];
+        br_put_row(d);
+        br_put(d, "a_n", br_count(t->a.n));
+        br_put(d, "a_k", br_number(br_time_step(r->study->scene, t->a.steps)));
+        br_put(d, "b_n", br_count(t->b.n));
+        br_put(d, "b_k", br_number(br_time_step(r->study->scene, t->b.steps)));
+        br_put(d, "printed_a", br_number(t->printed_a));
+        br_put(d, "printed_b", br_number(t->printed_b));
+        br_put(d, "least", br_number(t->least));
+        br_put(d, "most", br_number(t->most));
+        br_put(d, "distance", br_number(t->distance));
+        br_put(d, "contradiction", br_truth(t->contradiction));
+    }
+    br_put_note(d, "Whatever the reference, two printed errors need solutions that are at least "
+                   "their difference and at most their sum apart. The scheme's own solutions are "
+                   "as far apart as the column before the last one says.");
+}
+
+/* ---- notes and facts ---- */
+
+static void put_events(struct br_document *d, const struct br_report *r)
+{
+    const char *line = br_report_fitted(r)->events, *remark = r->study->scene->remark;
+    if ((line && *line) || remark)
+        br_put_section(d, "Events");
+    while (line && *line) {
+        const size_t length = strcspn(line, "\n");
+        br_put_note(d, "%.*s", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+    if (remark)
+        br_put_note(d, "%s", remark);
+}
+
+/* Who judges. */
+static void put_judge(struct br_document *d, const char *label, const struct br_study *s)
+{
+    char method[BR_METHOD_TEXT];
+    if (s->judge->nests)
+        br_put_note(d, "%s %s: %s: N = %zu, K = %g s; %s.", label, s->judge->name, s->judge->title,
+                    s->reference.n, br_reference_step(s),
+                    br_method_text(s->scene, &s->reference_method, method));
+    else
+        br_put_note(d, "%s %s: %s.", label, s->judge->name, s->judge->title);
+}
+
+/* The study that is not fitted. */
+static void put_beside(struct br_document *d, const struct br_study *s)
+{
+    char text[TEXT] = "";
+    put_judge(d, "Beside it,", s);
+    append_own_error(text, s, s->reference_error[BR_PART_TOTAL]);
+    append_flags(text, s);
+    br_put_note(d, "%s", text);
+}
+
+static void put_notes(struct br_document *d, const struct br_report *r)
+{
+    const struct br_study *s = r->study;
+    char method[BR_METHOD_TEXT];
+    br_put_section(d, "What was measured");
+    br_put_note(d, "%s", s->norm->title);
+    br_put_note(d, "Cells: %s.", br_method_text(s->scene, &s->method, method));
+    put_judge(d, "Reference,", br_report_fitted(r));
+    if (r->exact)
+        put_beside(d, s);
+    br_put_note(d,
+                "Too near: below %g times the own error of the reference (R) or the predicted "
+                "round-off (F).",
+                br_flag_margin);
+    br_put_note(d, "Joint fit with 95 %% intervals: e^2 = a^2 + 2 r a b + b^2, "
+                   "a = C_h (h^p - h_ref^p), b = C_k (k^q - k_ref^q).");
+    for (size_t i = 0; i < s->n_count * s->k_count; i++)
+        if (s->cell[i].failure.status)
+            br_put_note(d, "Failed: n = %zu, k = %g s: %s.", s->cell[i].at.n,
+                        step_of(s, &s->cell[i]), s->cell[i].failure.message);
+}
+
+/* A fact of an object, for programs. */
+static void put_fact(struct br_document *d, const char *object, const char *key, const char *unit,
+                     struct br_value value)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%s.%s", object, key);
+    br_put_fact(d, &(struct br_column){.key = name, .unit = unit, .flags = BR_FOR_PROGRAMS}, value);
+}
+
+static void put_reference(struct br_document *d, const char *key, const struct br_study *s)
+{
+    static const char *const own[] = {"own_error", "own_axial_error", "own_bending_error"};
+    const char *unit = s->norm->unit;
+    char name[64];
+    put_fact(d, key, "kind", NULL, br_text(s->judge->name));
+    put_fact(d, key, "title", NULL, br_text(s->judge->title));
+    if (s->judge->nests) {
+        put_fact(d, key, "at.n", NULL, br_count(s->reference.n));
+        put_fact(d, key, "at.h", "m", br_number(br_reference_mesh(s)));
+        put_fact(d, key, "at.steps", NULL, br_count(s->reference.steps));
+        put_fact(d, key, "at.k", "s", br_number(br_reference_step(s)));
+        snprintf(name, sizeof name, "%s.method", key);
+        br_put_method(d, name, &s->reference_method);
+    }
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        put_fact(d, key, own[part], unit,
+                 br_number(br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, part)));
+    put_fact(d, key, "audited_error", unit, br_number(s->reference_error[BR_PART_TOTAL]));
+    put_fact(d, key, "scale", unit, br_number(s->reference_scale));
+    put_fact(d, key, "round_off", NULL, br_number(s->judged_by.round_off));
+    put_fact(d, key, "seconds", "s", br_number(s->judged_by.seconds));
+}
+
+static void put_facts(struct br_document *d, const struct br_report *r)
+{
+    const struct br_study *s = r->study;
+    put_fact(d, "scene", "name", NULL, br_text(s->scene->name));
+    put_fact(d, "norm", "name", NULL, br_text(s->norm->name));
+    put_fact(d, "norm", "unit", NULL, br_text(s->norm->unit));
+    put_fact(d, "norm", "title", NULL, br_text(s->norm->title));
+    br_put_method(d, "method", &s->method);
+    put_reference(d, "reference", s);
+    if (r->exact)
+        put_reference(d, "exact_reference", r->exact);
+    br_put_fact(d, &(struct br_column){.key = "fitted", .flags = BR_FOR_PROGRAMS},
+                br_text(br_report_fitted(r)->judge->name));
+    br_put_fact(d,
+                &(struct br_column){.key = "wall_seconds", .unit = "s", .flags = BR_FOR_PROGRAMS},
+                br_number(r->wall_seconds));
+}
+
+void br_report_study(const struct br_report *r, struct br_document *d)
+{
+    br_document_begin(d, r->name, "beamrate study", 2, r->caption);
+    put_answers(d, r);
+    put_grids(d, r);
+    put_fits(d, r);
+    put_tips(d, r);
+    put_triangles(d, r);
+    put_slopes(d, r);
+    put_cells(d, r);
+    put_notes(d, r);
+    put_events(d, r);
+    put_facts(d, r);
+}

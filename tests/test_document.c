@@ -1,0 +1,660 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One made-up document that has everything, read back from every format: each cell at its place,
+ * numbers to the bit, awkward texts as they are. Documents that are built wrongly, or without
+ * memory, are not printed. */
+#include <float.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "support.h"
+#include "tables/document.h"
+
+/* What is awkward, as it is, and as it must come out. A text stays on its line in all formats but
+ * JSON, and what cannot be seen becomes visible. */
+static const struct {
+    const char *text, *csv, *plain, *markdown, *latex;
+} texts[] = {
+    {"say", "say", "say", "say", "say"},
+    {"a,b \"c\"", "a,b \"c\"", "a,b \"c\"", "a,b \"c\"", "a,b \"c\""},
+    {"two\nlines\tand", "two lines and", "two lines and", "two lines and", "two lines and"},
+    {"50% & a_b #1 {x} $y^2$ \\ ~", "50% & a_b #1 {x} $y^2$ \\ ~", "50% & a_b #1 {x} $y^2$ \\ ~",
+     "50% \\& a\\_b #1 {x} $y^2$ \\\\ ~",
+     "50\\% \\& a\\_b \\#1 \\{x\\} \\$y\\^{}2\\$ \\textbackslash{} \\textasciitilde{}"},
+    {"a|b *c* `d` <e> [f]", "a|b *c* `d` <e> [f]", "a|b *c* `d` <e> [f]",
+     "a\\|b \\*c\\* \\`d\\` \\<e\\> \\[f\\]", "a$|$b *c* `d` $<$e$>$ {[}f]"},
+    {"=1+1", "'=1+1", "=1+1", "=1+1", "=1+1"},
+    {"\x1b[2J\x7f\xe2\x80\xae", "\\x1b[2J\\x7f\\u202e", "\\x1b[2J\\x7f\\u202e",
+     "\\\\x1b\\[2J\\\\x7f\\\\u202e",
+     "\\textbackslash{}x1b{[}2J\\textbackslash{}x7f"
+     "\\textbackslash{}u202e"},
+    {"gr\xc3\xbc\xc3\x9f 2e-3", "gr\xc3\xbc\xc3\x9f 2e-3", "gr\xc3\xbc\xc3\x9f 2e-3",
+     "gr\xc3\xbc\xc3\x9f 2e-3", "gr\xc3\xbc\xc3\x9f 2e-3"},
+    {"b\xe4m", "b\\xe4m", "b\\xe4m", "b\\\\xe4m", "b\\textbackslash{}xe4m"},
+    {"1.5", "1.5", "1.5", "1.5", "1.5"},
+};
+enum { ROWS = sizeof texts / sizeof *texts, NO_UTF8 = ROWS - 2 };
+
+static const double numbers[ROWS] = {1.0 / 3, -0.0, 5e-324,   DBL_MAX, 0.1,
+                                     -1e300,  NAN,  INFINITY, 1.25e-5};
+static const size_t counts[ROWS] = {0, 1, 7, 9007199254740993, 4, 5, 6, 1000000, INT64_MAX};
+
+static const struct br_provenance provenance = {
+    .version = "v1",
+    .commit = "c2",
+    .compiler = "gcc3",
+    .flags = "-O4",
+    .command_line = "beamrate 'a`b'",
+    .machine = "m6",
+    .date = "d7",
+    .threads = 8,
+    .scene_path = "p9",
+    .scene_text = "title: \"t10\"\n",
+};
+
+static void put_all_kinds(struct br_document *d)
+{
+    static const struct br_column columns[] = {
+        {.key = "text"},
+        {.key = "number", .heading = "a_number", .unit = "m^(3/2)", .format = "%.3e"},
+        {.key = "count"},
+        {.key = "truth"},
+        {.key = "empty"},
+        {.key = "hidden", .flags = BR_FOR_PROGRAMS},
+        {.key = "seen", .flags = BR_FOR_PEOPLE},
+        {.key = "long", .flags = BR_WRAP | BR_FILES_ONLY},
+    };
+    br_put_table(d, "all", "All & sundry", BR_MAIN, BR_COLUMNS(columns));
+    for (size_t i = 0; i < ROWS; i++) {
+        br_put_row(d);
+        br_put(d, "text", br_text(texts[i].text));
+        br_put(d, NULL, br_number(numbers[i]));
+        br_put_mark(d, i == 0 ? "R" : NULL);
+        br_put(d, NULL, br_count(counts[i]));
+        br_put(d, NULL, br_truth(i % 2));
+        br_put(d, "empty", br_nothing());
+        br_put(d, "seen", br_number((double)i));
+        br_put_shown(d, "shown %zu", i);
+        br_put(d, "hidden", br_text(i ? "only for programs" : NULL));
+        br_put_text(d, "long", "many words %zu that a person gets on several lines of a cell", i);
+    }
+    br_put_rule(d);
+}
+
+/* A report of everything. */
+static void build(struct br_document *d)
+{
+    br_document_begin(d, "made", "beamrate made", 3, "A caption, 100 % made_up");
+    for (int i = 1; i <= BR_MOST_ANSWERS + 1; i++)
+        br_put_answer(d, "Answer %d is %s.", i, i == 2 ? "50 % & a_b" : "short");
+    br_put_fact(d, &(struct br_column){.key = "tip.u", .heading = "tip", .unit = "m"},
+                br_number(0.1));
+    br_put_fact(d, &(struct br_column){.key = "tip.steps", .flags = BR_FOR_PROGRAMS}, br_count(40));
+    br_put_command(d, "again", "To do it again", "cd 'a b'\nrun \\\n  --all");
+    put_all_kinds(d);
+    br_put_table(d, "none", "No rows", 0, &(struct br_column){.key = "x"}, 1);
+    br_put_table(d, "grid", "For people", BR_FOR_PEOPLE, &(struct br_column){.heading = "k = 1"},
+                 1);
+    br_put_row(d);
+    br_put(d, NULL, br_count(77));
+    br_put_table(d, "list", "For programs", BR_FOR_PROGRAMS, &(struct br_column){.key = "y"}, 1);
+    for (int i = 0; i < 30; i++) {
+        br_put_row(d);
+        br_put(d, "y", br_number(i / 7.0));
+    }
+    br_put_table(d, "deep", "Too long for a terminal", 0, &(struct br_column){.key = "z"}, 1);
+    for (size_t i = 0; i < 30; i++) {
+        br_put_row(d);
+        br_put(d, "z", br_count(i));
+    }
+    br_put_section(d, "A section");
+    br_put_note(d, "A note of %d %%.", 100);
+    br_put_picture(d, "made-h", "Error_h");
+    br_put_verdict(d, &(struct br_document_verdict){BR_OUTCOME_FAIL, "scene_a", "order", "too low",
+                                                    NULL, 0, .seconds = 0.5});
+    br_put_verdict_detail(d, "found %g", 0.5);
+    br_put_verdict(d, &(struct br_document_verdict){.name = "silent", .seconds = NAN});
+    br_put_provenance(d, &provenance);
+}
+
+/* What a format prints (NULL: the terminal), of one table where it has a file each; to be freed. */
+static char *printed(const struct br_document_format *format, const char *table)
+{
+    struct br_error err = {0};
+    struct br_document d = {NULL};
+    const struct br_document_table *t;
+    char *text = NULL;
+    size_t size, block = 0;
+    FILE *out = open_memstream(&text, &size);
+    build(&d);
+    while ((t = br_document_next_table(&d, &block)) && table && strcmp(t->key, table) != 0)
+        ;
+    if (format)
+        MUST(br_document_print(out, format, &d, table ? t : NULL, &err));
+    else
+        MUST(br_document_show(out, &d, &err));
+    assert_int_equal(fclose(out), 0);
+    br_document_clear(&d);
+    return text;
+}
+
+static void expect(const char *text, const char *part)
+{
+    if (!strstr(text, part))
+        fail_msg("expected:\n%s\nin:\n%s\n", part, text);
+}
+
+static void check_bits(double found, double expected)
+{
+    if (memcmp(&found, &expected, sizeof found) != 0)
+        fail_msg("found %.17g, expected %.17g", found, expected);
+}
+
+/* ---- JSON ---- */
+
+static const json_t *member(const json_t *object, const char *key)
+{
+    const json_t *value = json_object_get(object, key);
+    if (!value)
+        fail_msg("no '%s'", key);
+    return value;
+}
+
+static void check_json_row(const json_t *row, size_t i)
+{
+    assert_int_equal(json_object_size(row), 7); /* all but what is for people */
+    assert_string_equal(json_string_value(member(row, "text")),
+                        i == NO_UTF8 ? texts[i].plain : texts[i].text);
+    if (isfinite(numbers[i]))
+        check_bits(json_real_value(member(row, "number")), numbers[i]);
+    else
+        assert_true(json_is_null(member(row, "number")));
+    assert_true(json_integer_value(member(row, "count")) == (json_int_t)counts[i]);
+    assert_true(json_boolean_value(member(row, "truth")) == (i % 2 == 1));
+    assert_true(json_is_boolean(member(row, "truth")) && json_is_null(member(row, "empty")));
+    assert_true(json_is_null(member(row, "hidden")) == (i == 0));
+}
+
+static void check_json_frame(const json_t *root)
+{
+    assert_string_equal(json_string_value(member(root, "format")), "beamrate made");
+    assert_int_equal(json_integer_value(member(root, "version")), 3);
+    assert_string_equal(json_string_value(member(root, "caption")), "A caption, 100 % made_up");
+    assert_int_equal(json_array_size(member(root, "answer")), BR_MOST_ANSWERS);
+    const json_t *notes = member(root, "notes"), *tip = member(root, "tip");
+    assert_int_equal(json_array_size(notes), 2);
+    assert_string_equal(json_string_value(json_array_get(notes, 0)), "Answer 11 is short.");
+    check_bits(json_real_value(member(tip, "u")), 0.1);
+    assert_int_equal(json_integer_value(member(tip, "steps")), 40);
+    assert_string_equal(json_string_value(member(root, "again")), "cd 'a b'\nrun \\\n  --all");
+    const json_t *verdict = json_array_get(member(root, "verdicts"), 0);
+    assert_string_equal(json_string_value(member(verdict, "verdict")), "FAIL");
+    assert_string_equal(json_string_value(json_array_get(member(verdict, "details"), 0)),
+                        "found 0.5");
+    assert_string_equal(
+        json_string_value(member(json_array_get(member(root, "pictures"), 0), "stem")), "made-h");
+    static const char *const told[][2] = {
+        {"version", "v1"}, {"commit", "c2"},     {"compiler", "gcc3"},
+        {"flags", "-O4"},  {"machine", "m6"},    {"command_line", "beamrate 'a`b'"},
+        {"date", "d7"},    {"scene_path", "p9"}, {"scene_text", "title: \"t10\"\n"}};
+    const json_t *p = member(root, "provenance");
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        assert_string_equal(json_string_value(member(p, told[i][0])), told[i][1]);
+    assert_int_equal(json_integer_value(member(p, "threads")), 8);
+}
+
+static void test_json(void **state)
+{
+    (void)state;
+    char *text = printed(&br_document_json, NULL);
+    json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
+    assert_non_null(root);
+    check_json_frame(root);
+    const json_t *tables = member(root, "tables"), *all = member(tables, "all");
+    assert_int_equal(json_object_size(tables), 4);
+    assert_null(json_object_get(tables, "grid"));
+    assert_int_equal(json_array_size(member(tables, "none")), 0);
+    assert_int_equal(json_array_size(all), ROWS);
+    for (size_t i = 0; i < ROWS; i++)
+        check_json_row(json_array_get(all, i), i);
+    for (size_t i = 0; i < 30; i++)
+        check_bits(json_real_value(member(json_array_get(member(tables, "list"), i), "y")),
+                   (double)i / 7.0);
+    const json_t *units = member(member(member(root, "about_tables"), "all"), "units");
+    assert_string_equal(json_string_value(member(units, "number")), "m^(3/2)");
+    json_decref(root);
+    free(text);
+}
+
+/* ---- CSV ---- */
+
+/* The next field (RFC 4180) from *at on, which it moves behind the field and its separator. */
+static const char *next_field(const char **at)
+{
+    static char field[400];
+    size_t length = 0;
+    const bool quoted = **at == '"';
+    *at += quoted;
+    while (quoted ? **at != '"' || (*at)[1] == '"' : !strchr(",\n", **at)) {
+        assert_true(**at && length + 1 < sizeof field);
+        *at += quoted && **at == '"';
+        field[length++] = *(*at)++;
+    }
+    field[length] = '\0';
+    *at += quoted;
+    assert_true(**at == ',' || **at == '\n');
+    ++*at;
+    return field;
+}
+
+static void check_csv_row(const char **at, size_t i)
+{
+    char expected[100], *end;
+    assert_string_equal(next_field(at), texts[i].csv);
+    const char *number = next_field(at);
+    if (isfinite(numbers[i]))
+        check_bits(strtod(number, &end), numbers[i]);
+    else
+        assert_string_equal(number, "");
+    snprintf(expected, sizeof expected, "%zu", counts[i]);
+    assert_string_equal(next_field(at), expected);
+    assert_string_equal(next_field(at), i % 2 ? "true" : "false");
+    assert_string_equal(next_field(at), "");
+    assert_string_equal(next_field(at), i ? "only for programs" : "");
+    snprintf(expected, sizeof expected,
+             "many words %zu that a person gets on several lines of a cell", i);
+    assert_string_equal(next_field(at), expected);
+    assert_true((*at)[-1] == '\n');
+}
+
+static void test_csv(void **state)
+{
+    (void)state;
+    static const char *const keys[] = {"text",  "number [m^(3/2)]", "count", "truth",
+                                       "empty", "hidden",           "long"};
+    char *text = printed(&br_document_csv, "all");
+    const char *at = text;
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        assert_string_equal(next_field(&at), keys[i]);
+    for (size_t i = 0; i < ROWS; i++)
+        check_csv_row(&at, i);
+    assert_string_equal(at, "");
+    free(text);
+    text = printed(&br_document_csv, "none"); /* a head without rows */
+    assert_string_equal(text, "x\n");
+    free(text);
+    text = printed(&br_document_csv, "list");
+    at = text;
+    assert_string_equal(next_field(&at), "y");
+    for (size_t i = 0; i < 30; i++)
+        check_bits(strtod(next_field(&at), NULL), (double)i / 7.0);
+    assert_string_equal(at, "");
+    free(text);
+    struct br_document d = {NULL};
+    size_t block = 0, tables = 0;
+    build(&d);
+    while (br_document_next_table(&d, &block))
+        tables++;
+    assert_int_equal(tables, 4); /* none for people alone */
+    br_document_clear(&d);
+}
+
+/* ---- for people ---- */
+
+/* What people see of a number; NULL of one that is not there. */
+static const char *seen(size_t i)
+{
+    static char text[32];
+    snprintf(text, sizeof text, "%.3e", numbers[i]);
+    return isfinite(numbers[i]) ? text : "-";
+}
+
+/* Below each other, numbers to the right. */
+static void check_text_row(const char *text, size_t i)
+{
+    char row[400], count[32];
+    int columns = 0, missing = (int)strlen("a_number, m^(3/2)") - (int)strlen(seen(i));
+    for (const char *c = texts[i].plain; *c; c++)
+        columns += ((unsigned char)*c & 0xc0) != 0x80;
+    snprintf(count, sizeof count, "%zu", counts[i]);
+    snprintf(row, sizeof row, "\n%s%*s  %*s%s%s  %19s  %-5s  shown %zu", texts[i].plain,
+             (int)strlen(texts[3].plain) - columns, "", missing, "", seen(i), i ? " " : "R", count,
+             i % 2 ? "yes" : "no", i);
+    expect(text, row);
+}
+
+static void test_text(void **state)
+{
+    (void)state;
+    char *text = printed(&br_document_text, NULL);
+    expect(text, "A caption, 100 % made_up\n========================\nAnswer 1 is short.\n"
+                 "Answer 2 is 50 % & a_b.\n");
+    expect(text, "\ntip: 0.1 m\n");
+    expect(text, "\nTo do it again:\n  cd 'a b'\n  run \\\n    --all\n");
+    expect(text, "\nAll & sundry\ntext ");
+    for (size_t i = 0; i < ROWS; i++)
+        check_text_row(text, i);
+    expect(text, "shown 0  many words 0 that a person gets on several\n");
+    expect(text, "\nFor people\nk = 1\n   77\n");
+    expect(text, "\nA section\n---------\nA note of 100 %.\n");
+    expect(text, "\nPicture made-h: Error_h\n");
+    expect(text, "\nFAIL  scene_a, order: too low\n  found 0.5\n");
+    expect(text, "Too long for a terminal");
+    assert_null(strstr(text, "For programs"));
+    assert_null(strstr(text, "No rows"));
+    assert_null(strstr(text, "only for programs"));
+    assert_null(strstr(text, "silent"));
+    free(text);
+    text = printed(NULL, NULL); /* the terminal: what is short, and last the answer */
+    expect(text, "\nAll & sundry\ntext ");
+    expect(text, "shown 8\n");
+    assert_ptr_equal(strstr(text, "Answer 1 "), strstr(text, "Answer 1 is short.\nAnswer 2"));
+    assert_true(strstr(text, "Answer 1 ") > strstr(text, "shown 8\n"));
+    assert_null(strstr(text, "many words"));
+    assert_null(strstr(text, "Too long for a terminal"));
+    assert_null(strstr(text, "A note"));
+    expect(text, "found 0.5\n\nAnswer 1 is short.\n");
+    expect(text, "Answer 10 is short.\nTo do it again:\n  cd 'a b'\n  run \\\n    --all\n");
+    free(text);
+}
+
+static void test_markdown(void **state)
+{
+    (void)state;
+    char *text = printed(&br_document_markdown, NULL), row[500];
+    expect(text, "# A caption, 100 % made\\_up\n\n- Answer 1 is short.\n- Answer 2 is 50 % \\& ");
+    expect(text,
+           "\n## All \\& sundry\n\n| text | a\\_number, m^(3/2) | count | truth | seen | long "
+           "|\n|---|---:|---:|---|---:|---|\n");
+    for (size_t i = 0; i < ROWS; i++) {
+        snprintf(row, sizeof row, "\n| %s | %s%s | %zu | %s | shown %zu | many words %zu that",
+                 texts[i].markdown, seen(i), i ? "" : " (R)", counts[i], i % 2 ? "yes" : "no", i,
+                 i);
+        expect(text, row);
+    }
+    expect(text, "\n- tip: 0.1 m\n");
+    expect(text, "\n````\ncd 'a b'\nrun \\\n  --all\n````\n");
+    expect(text, "\n## For people\n\n| k = 1 |\n|---:|\n| 77 |\n");
+    expect(text, "\n![Error\\_h](<made-h.svg>)\n");
+    expect(text, "\n- **FAIL** scene\\_a, order: too low\n  - found 0.5\n");
+    expect(text, "\nbeamrate v1 (c2), d7: beamrate 'a\\`b'\n");
+    assert_null(strstr(text, "For programs"));
+    free(text);
+}
+
+/* Braces and environments that are opened are closed. */
+static void check_latex_closes(const char *text)
+{
+    long depth = 0, open = 0;
+    for (const char *c = text; *c; c++) {
+        const bool escaped = c > text && c[-1] == '\\';
+        depth += (*c == '{' && !escaped) - (*c == '}' && !escaped);
+        open += (strncmp(c, "\\begin{", 7) == 0) - (strncmp(c, "\\end{", 5) == 0);
+        assert_true(depth >= 0 && open >= 0);
+    }
+    assert_int_equal(depth, 0);
+    assert_int_equal(open, 0);
+}
+
+/* 1.250e-05 as $1.250\cdot10^{-5}$ */
+static const char *seen_in_latex(size_t i)
+{
+    static char text[64];
+    const char *number = seen(i), *e = strchr(number, 'e');
+    snprintf(text, sizeof text, "$%.*s\\cdot10^{%d}$", e ? (int)(e - number) : 0, number,
+             e ? atoi(e + 1) : 0);
+    return e ? text : number;
+}
+
+static void test_latex(void **state)
+{
+    (void)state;
+    char *text = printed(&br_document_latex, NULL), row[500];
+    expect(text, "% beamrate v1 (c2), d7; needs \\usepackage{booktabs,longtable}\n"
+                 "Answer 1 is short.\\par\nAnswer 2 is 50 \\% \\& a\\_b.\\par\n");
+    expect(text, "\n\\begin{longtable}{lrrlrp{0.25\\textwidth}}\n"
+                 "\\caption{A caption, 100 \\% made\\_up: All \\& sundry}\\\\\n\\toprule\n"
+                 "text & a\\_number, m$^{3/2}$ & count & truth & seen & long \\\\\n\\midrule\n");
+    for (size_t i = 0; i < ROWS; i++) {
+        snprintf(row, sizeof row, "\n%s & %s%s & %zu & %s & shown %zu & many words %zu that",
+                 texts[i].latex, seen_in_latex(i), i ? "" : "$^{\\mathrm{R}}$", counts[i],
+                 i % 2 ? "yes" : "no", i, i);
+        expect(text, row);
+    }
+    expect(text, " \\\\\n\\midrule\n1.5 & "); /* the rule above the last row */
+    expect(text, "\ntip: 0.1 m\\par\n");
+    expect(text, "\n\\texttt{cd 'a b'}\\par\n\\texttt{run \\textbackslash{}}\\par\n");
+    expect(text, "\\caption{Error\\_h}");
+    expect(text, "\n\\textbf{FAIL} scene\\_a, order: too low\\par\nfound 0.5\\par\n");
+    check_latex_closes(text);
+    assert_null(strstr(text, "For programs"));
+    free(text);
+}
+
+/* ---- what is not printed ---- */
+
+static void unknown_key(struct br_document *d)
+{
+    br_put_table(d, "t", "T", 0, &(struct br_column){.key = "a"}, 1);
+    br_put_row(d);
+    br_put(d, "b", br_count(1));
+}
+
+static void too_many_cells(struct br_document *d)
+{
+    br_put_table(d, "t", "T", 0, &(struct br_column){.key = "a"}, 1);
+    br_put_row(d);
+    br_put(d, NULL, br_count(1));
+    br_put(d, NULL, br_count(2));
+}
+
+static void no_row(struct br_document *d)
+{
+    br_put_table(d, "t", "T", 0, &(struct br_column){.key = "a"}, 1);
+    br_put(d, "a", br_count(1));
+}
+
+static void no_table(struct br_document *d)
+{
+    br_put_note(d, "outside");
+    br_put_row(d);
+}
+
+static void same_key(struct br_document *d)
+{
+    br_put_table(d, "t", "T", 0, &(struct br_column){.key = "a"}, 1);
+    br_put_column(d, &(struct br_column){.key = "a", .heading = "another"});
+}
+
+static void late_column(struct br_document *d)
+{
+    br_put_table(d, "t", "T", 0, &(struct br_column){.key = "a"}, 1);
+    br_put_row(d);
+    br_put_column(d, &(struct br_column){.key = "late"});
+}
+
+static void no_key(struct br_document *d)
+{
+    br_put_table(d, "t", "T", 0, &(struct br_column){.heading = "two words"}, 1);
+}
+
+static void key_of_two_words(struct br_document *d)
+{
+    br_put_fact(d, &(struct br_column){.key = "two words"}, br_count(1));
+}
+
+static void wrong_format(struct br_document *d)
+{
+    br_put_fact(d, &(struct br_column){.key = "a", .format = "%s of it"}, br_number(1));
+}
+
+static void two_numbers(struct br_document *d)
+{
+    br_put_fact(d, &(struct br_column){.key = "a", .format = "%g of %g"}, br_number(1));
+}
+
+static void shown_nothing(struct br_document *d)
+{
+    br_put_shown(d, "early");
+}
+
+static void marked_nothing(struct br_document *d)
+{
+    br_put_mark(d, "R");
+}
+
+static void detail_of_nothing(struct br_document *d)
+{
+    br_put_verdict_detail(d, "why");
+}
+
+static void verdict_without_row(struct br_document *d)
+{
+    br_put_table(d, "t", "T", 0, &(struct br_column){.key = "a"}, 1);
+    br_put_verdict(d, &(struct br_document_verdict){.name = "v", .of_row = true});
+}
+
+static void test_built_wrongly(void **state)
+{
+    (void)state;
+    static const struct {
+        void (*put)(struct br_document *d);
+        const char *message;
+    } rows[] = {
+        {unknown_key, "no cell for 'b'"},
+        {too_many_cells, "no cell for 't'"},
+        {no_row, "no cell for 'a'"},
+        {no_table, "a cell outside of a table, after 'outside'"},
+        {same_key, "two columns with the key 'a'"},
+        {late_column, "a column after the first row: 'late'"},
+        {no_key, "no key for programs: ''"},
+        {key_of_two_words, "no key for programs: 'two words'"},
+        {wrong_format, "no format of a number: '%s of it'"},
+        {two_numbers, "no format of a number: '%g of %g'"},
+        {shown_nothing, "no value that is shown as 'early'"},
+        {marked_nothing, "no value before the mark 'R'"},
+        {detail_of_nothing, "no verdict before 'why'"},
+        {verdict_without_row, "no row for the verdict 'v'"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_error err = {0};
+        struct br_document d = {NULL};
+        br_document_begin(&d, "wrong", "f", 1, "c");
+        MUST(br_document_status(&d, &err));
+        rows[i].put(&d);
+        br_put_note(&d, "what follows does not repair it");
+        for (size_t f = 0; br_document_formats[f]; f++)
+            REFUSED(br_document_print(stderr, br_document_formats[f], &d, NULL, &err), BR_IO,
+                    rows[i].message);
+        REFUSED(br_document_show(stderr, &d, &err), BR_IO, "the report wrong was built wrongly");
+        br_document_clear(&d);
+    }
+}
+
+/* Two values of one name would be one in JSON. */
+static void test_two_values(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_document d = {NULL};
+    br_document_begin(&d, "twice", "f", 1, "c");
+    br_put_fact(&d, &(struct br_column){.key = "a.b"}, br_count(1));
+    br_put_fact(&d, &(struct br_column){.key = "a.b"}, br_count(2));
+    REFUSED(br_document_print(stderr, &br_document_json, &d, NULL, &err), BR_IO,
+            "the report twice has two values for 'b'");
+    br_document_clear(&d);
+}
+
+/* ---- without memory ---- */
+
+static long until; /* allocations of jansson's until one fails */
+
+static void *failing_malloc(size_t size)
+{
+    return until-- == 0 ? NULL : malloc(size);
+}
+
+static void check_whole(const char *text, const char *whole, long failed)
+{
+    size_t same = 0;
+    while (text[same] && text[same] == whole[same])
+        same++;
+    if (text[same] || whole[same])
+        fail_msg("allocation %ld failed: found '%.60s', expected '%.60s'", failed, text + same,
+                 whole + same);
+}
+
+/* Builds and prints; `fails`: which allocation, of jansson's or of all others. What is printed in
+ * spite of that must be whole. */
+static enum br_status print_without(const struct br_document_format *format, const char *whole,
+                                    long fails, bool jansson)
+{
+    struct br_error err = {0};
+    struct br_document d = {NULL};
+    size_t block = 0, size;
+    char *text = NULL;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    until = jansson ? fails : -1;
+    br_allocation_fails_at(jansson ? -1 : fails);
+    build(&d);
+    const struct br_document_table *table = br_document_next_table(&d, &block);
+    const enum br_status status =
+        format ? br_document_print(out, format, &d, table, &err) : br_document_show(out, &d, &err);
+    br_allocation_fails_at(-1);
+    assert_int_equal(fclose(out), 0);
+    if (status)
+        REFUSED(status, BR_NO_MEMORY, "out of memory");
+    else
+        check_whole(text, whole, fails);
+    br_document_clear(&d);
+    free(text);
+    return status;
+}
+
+/* Every allocation fails in turn: each time it is told when the report is printed. */
+static void sweep(const struct br_document_format *format, bool jansson, long least)
+{
+    const bool by_table = format && format->by_table;
+    char *whole = printed(format, by_table ? "all" : NULL);
+    long i = 0;
+    while (print_without(format, whole, i, jansson))
+        assert_true(++i < 10000);
+    if (i < least)
+        fail_msg("%s: %ld allocations failed, expected at least %ld",
+                 format ? format->name : "the terminal", i, least);
+    free(whole);
+}
+
+static void test_no_memory(void **state)
+{
+    (void)state;
+    for (size_t f = 0; br_document_formats[f]; f++)
+        sweep(br_document_formats[f], false, 1);
+    sweep(NULL, false, 3); /* and the buffers of texts and tables */
+    json_set_alloc_funcs(failing_malloc, free);
+    sweep(&br_document_json, true, 500);
+    json_set_alloc_funcs(malloc, free);
+}
+
+static void test_formats(void **state)
+{
+    (void)state;
+    for (size_t f = 0; br_document_formats[f]; f++)
+        assert_ptr_equal(br_document_format_find(br_document_formats[f]->name),
+                         br_document_formats[f]);
+    assert_null(br_document_format_find("pdf"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_json),       cmocka_unit_test(test_csv),
+        cmocka_unit_test(test_text),       cmocka_unit_test(test_markdown),
+        cmocka_unit_test(test_latex),      cmocka_unit_test(test_built_wrongly),
+        cmocka_unit_test(test_two_values), cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(test_formats),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

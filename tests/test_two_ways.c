@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The exact reference agrees with itself: contact and Coulomb scenes that are written in two ways
+ * have the same tip, within the errors that are stated for both. The ways differ in what the
+ * reference does: a load as a product or as a function of x and t, a place where nothing breaks,
+ * other units, a load in pieces, a gap that is closed by a load or by the initial data. */
+#include <math.h>
+#include <stdio.h>
+
+#include "reference/exact/exact.h"
+#include "study/scene/rescale.h"
+#include "support.h"
+
+enum { TEXT = 200, TIMES = 23 };
+
+/* A load amplitude (1 + rise x) sin(rate t + phase) on each field, N/m. */
+struct drawn {
+    double amplitude[2], rise[2], rate[2], phase[2];
+    double tip; /* s: the tip is displaced by s L at first, where the second way says so */
+};
+
+static struct br_scene bare(struct br_test_random *random, struct drawn *d)
+{
+    struct br_scene s = br_test_bare();
+    s.length = br_test_log_uniform(random, 0.2, 5);
+    s.duration = br_test_log_uniform(random, 0.5, 2);
+    s.density = br_test_log_uniform(random, 0.1, 3);
+    s.axial.stiffness = br_test_log_uniform(random, 1, 20);
+    s.axial.viscosity = br_test_log_uniform(random, 0.2, 2);
+    s.bending.stiffness = br_test_log_uniform(random, 1, 20) * s.length * s.length;
+    s.bending.viscosity = br_test_log_uniform(random, 0.1, 1) * s.length * s.length;
+    s.contact = (struct br_contact){.modelled = true,
+                                    .gap = br_test_uniform(random, 0.02, 0.08) * s.length,
+                                    .stiffness = br_test_log_uniform(random, 5, 200) / s.length};
+    s.friction.law = br_test_index(random, 2) ? BR_COULOMB : BR_FRICTIONLESS;
+    if (s.friction.law)
+        s.friction.coefficient = br_test_log_uniform(random, 0.5, 20) / s.length;
+    for (int kind = 0; kind < 2; kind++) {
+        d->amplitude[kind] =
+            (kind ? br_test_uniform(random, -3, 3) : 4) *
+            (kind ? s.bending.stiffness / s.length / s.length : s.axial.stiffness) / s.length;
+        d->rise[kind] = br_test_uniform(random, 0, 1) / s.length;
+        d->rate[kind] = br_test_uniform(random, 2, 12) / s.duration;
+        d->phase[kind] = br_test_uniform(random, 0, 1);
+    }
+    d->tip = br_test_uniform(random, -0.1, 0.05);
+    return s;
+}
+
+static struct br_load *load_of(struct br_scene *s, int kind)
+{
+    return kind ? &s->bending.load : &s->axial.load;
+}
+
+static void print_space(char *text, const struct drawn *d, int kind, double factor)
+{
+    snprintf(text, TEXT, "%.17g*(1 + %.17g*x)", factor * d->amplitude[kind], d->rise[kind]);
+}
+
+static void print_time(char *text, const struct drawn *d, int kind)
+{
+    snprintf(text, TEXT, "sin(%.17g*t + %.17g)", d->rate[kind], d->phase[kind]);
+}
+
+/* Two factors. */
+static void as_product(struct br_scene *s, const struct drawn *d, int kind)
+{
+    char space[TEXT], time[TEXT];
+    print_space(space, d, kind, 1);
+    print_time(time, d, kind);
+    load_of(s, kind)->term[0] =
+        (struct br_product){.space = br_test_function(space), .time = br_test_function(time)};
+}
+
+/* The load as one function of x and t; format has the place for it once or several times. */
+static void as_function(struct br_scene *s, const struct drawn *d, int kind, const char *before,
+                        const char *after, bool twice)
+{
+    char space[TEXT], time[TEXT], all[6 * TEXT];
+    print_space(space, d, kind, 1);
+    print_time(time, d, kind);
+    snprintf(all, sizeof all, "%s%s*%s%s%s%s%s%s", before, space, time, after, twice ? space : "",
+             twice ? "*" : "", twice ? time : "", twice ? ")" : "");
+    *load_of(s, kind) = br_test_load(all);
+}
+
+/* ---- the ways ---- */
+
+static void function_of_both(struct br_scene *s, const struct drawn *d, int kind)
+{
+    as_function(s, d, kind, "", "", false);
+}
+
+static void same_on_both_sides(struct br_scene *s, const struct drawn *d, int kind)
+{
+    char before[TEXT];
+    snprintf(before, sizeof before, "(t < %.17g ? ", 0.377 * s->duration);
+    as_function(s, d, kind, before, " : ", true);
+}
+
+static void nothing_at_a_place(struct br_scene *s, const struct drawn *d, int kind)
+{
+    char after[TEXT];
+    snprintf(after, sizeof after, " + 0*abs(x - %.17g)", 0.31 * s->length);
+    as_function(s, d, kind, "", after, false);
+}
+
+/* Three eighths and five, the second of them in two pieces of time. */
+static void in_pieces(struct br_scene *s, const struct drawn *d, int kind)
+{
+    char space[TEXT], time[TEXT], piece[2 * TEXT];
+    struct br_load *load = load_of(s, kind);
+    print_time(time, d, kind);
+    for (int i = 0; i < 3; i++) {
+        const char *const form[] = {"%s", "(t < %.17g ? %s : 0)", "(t < %.17g ? 0 : %s)"};
+        print_space(space, d, kind, i ? 0.625 : 0.375);
+        if (i == 0)
+            snprintf(piece, sizeof piece, "%s", time);
+        else
+            snprintf(piece, sizeof piece, i == 1 ? form[1] : form[2], 0.61 * s->duration, time);
+        load->term[i] =
+            (struct br_product){.space = br_test_function(space), .time = br_test_function(piece)};
+    }
+}
+
+static const struct way {
+    const char *title;
+    void (*write)(struct br_scene *s, const struct drawn *d, int kind);
+    struct br_units_change units;
+    bool displaced; /* a strain s that a tip force holds, and a gap that is wider by s L */
+} ways[] = {
+    {"a function of x and t", function_of_both, {1, 1, 1}, false},
+    {"the same before and after a time", same_on_both_sides, {1, 1, 1}, false},
+    {"nothing at a place", nothing_at_a_place, {1, 1, 1}, false},
+    {"three pieces", in_pieces, {1, 1, 1}, false},
+    {"other units", as_product, {1000, 60, 0.45359237}, false},
+    {"displaced at first", as_product, {1, 1, 1}, true},
+};
+enum { WAYS = sizeof ways / sizeof *ways };
+
+static void displace(struct br_scene *s, const struct drawn *d)
+{
+    char text[TEXT];
+    snprintf(text, sizeof text, "%.17g*x", d->tip);
+    s->axial.displacement = br_test_function(text);
+    s->axial.tip_force = (struct br_function){.constant = d->tip * s->axial.stiffness};
+    s->contact.gap += d->tip * s->length;
+}
+
+/* ---- the comparison ---- */
+
+struct answer {
+    struct br_exact *exact;
+    struct br_exact_state *state;
+};
+
+static bool solve(const struct br_scene *s, struct answer *a)
+{
+    struct br_error err = {0};
+    *a = (struct answer){NULL, NULL};
+    const struct br_exact_options options = {.tolerance = 1e-7, .acceptable = 1e-5};
+    if (br_exact_create(&a->exact, s, &options, &err))
+        return false; /* refused */
+    MUST(br_exact_state_create(&a->state, a->exact, &err));
+    return true;
+}
+
+static void compare(const char *title, const struct answer *a, const struct answer *b,
+                    const struct br_scene *s, const struct way *w, double moved)
+{
+    for (int i = 0; i <= TIMES; i++) {
+        const double t = s->duration * i / TIMES;
+        br_exact_at(a->exact, t, a->state);
+        br_exact_at(b->exact, t * w->units.second, b->state);
+        for (int f = 0; f < 2; f++) {
+            const struct br_exact_report x = br_exact_report(a->exact, (enum br_exact_field)f),
+                                         y = br_exact_report(b->exact, (enum br_exact_field)f);
+            const double off = a->state->tip[f].displacement + (f ? 0 : moved) -
+                               b->state->tip[f].displacement / w->units.metre;
+            const double allowed = x.error.displacement + y.error.displacement / w->units.metre +
+                                   1e-15 * (x.largest.displacement + fabs(moved));
+            if (!(fabs(off) <= allowed))
+                fail_msg("%s, field %d, t = %g s: %g m apart, expected at most %g m", title, f, t,
+                         off, allowed);
+        }
+    }
+}
+
+static void write_loads(struct br_scene *s, const struct drawn *d,
+                        void (*write)(struct br_scene *, const struct drawn *, int))
+{
+    for (int kind = 0; kind < 2; kind++)
+        write(s, d, kind);
+}
+
+static struct br_scene second_way(const struct br_scene *plain, const struct drawn *d,
+                                  const struct way *w)
+{
+    struct br_error err = {0};
+    struct br_scene s = *plain, rescaled;
+    s.axial.load = s.bending.load = (struct br_load){0};
+    write_loads(&s, d, w->write);
+    if (w->displaced)
+        displace(&s, d);
+    MUST(br_rescale(&s, &w->units, &rescaled, &err));
+    br_scene_clear(&s);
+    return rescaled;
+}
+
+static void test_pairs(void **state)
+{
+    (void)state;
+    const size_t pairs = br_test_long() ? 300 : 30;
+    size_t refused = 0, closed = 0;
+    for (size_t i = 0; i < pairs; i++) {
+        struct br_test_random random = {1000 + i};
+        const struct way *w = &ways[i % WAYS];
+        struct drawn d;
+        struct br_scene s = bare(&random, &d);
+        if (w->displaced && s.contact.gap + d.tip * s.length < 0)
+            d.tip = -d.tip;
+        write_loads(&s, &d, as_product);
+        struct br_scene other = second_way(&s, &d, w);
+        struct answer a, b;
+        const bool both = solve(&s, &a) & solve(&other, &b);
+        refused += !both;
+        size_t events = 0;
+        if (both) {
+            compare(w->title, &a, &b, &s, w, w->displaced ? d.tip * s.length : 0);
+            br_exact_events(a.exact, &events);
+        }
+        closed += events > 2;
+        br_exact_state_free(a.state);
+        br_exact_state_free(b.state);
+        br_exact_free(a.exact);
+        br_exact_free(b.exact);
+        br_scene_clear(&s);
+        br_scene_clear(&other);
+    }
+    print_message("# %zu pairs, %zu refused, %zu with switches\n", pairs, refused, closed);
+    assert_true(20 * refused <= pairs);
+    assert_true(2 * closed >= pairs);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pairs)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

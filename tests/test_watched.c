@@ -1,0 +1,526 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Marches that are watched step by step, by certificates and by energy balances. The tables of the
+ * literature are of the order that the registry claims; sound marches pass with every scheme,
+ * solver, rule and degree; a scheme taken for another, a law or a coefficient that is a little off
+ * are seen; and what a scheme adds or takes is told. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "reference/certificate.h"
+#include "reference/energy.h"
+#include "reference/textbook.h"
+#include "study/scene/file.h"
+#include "support.h"
+
+/* ---- the tables ---- */
+
+/* sum_i b_i c_i^power, b being the last row. */
+static double moment(const struct br_textbook *t, int row, int power)
+{
+    double sum = 0;
+    for (int j = 0; j < t->rows; j++)
+        sum += (double)t->a[row][j] * (power == 0 ? 1 : pow((double)t->c[j], power));
+    return sum;
+}
+
+/* Quadrature and, for order 3 and 4, sum b a c = 1/6, sum b a c^2 = 1/12, sum b c a c = 1/8,
+ * sum b a a c = 1/24 (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.2).
+ */
+static void check_order(const struct br_textbook *t, int order)
+{
+    const int last = t->rows - 1;
+    double bac = 0, bacc = 0, bcac = 0, baac = 0;
+    for (int i = 0; i < t->rows; i++) {
+        CLOSE(moment(t, i, 0), (double)t->c[i], 4e-15);
+        bac += (double)t->a[last][i] * moment(t, i, 1);
+        bacc += (double)t->a[last][i] * moment(t, i, 2);
+        bcac += (double)(t->a[last][i] * t->c[i]) * moment(t, i, 1);
+        for (int j = 0; j < t->rows; j++)
+            baac += (double)(t->a[last][i] * t->a[i][j]) * moment(t, j, 1);
+    }
+    assert_true(t->c[last] == 1);
+    for (int power = 0; power < order; power++)
+        CLOSE(moment(t, last, power), 1.0 / (power + 1), 4e-15);
+    if (order >= 3)
+        CLOSE(bac, 1.0 / 6, 4e-15);
+    if (order >= 4) {
+        CLOSE(bacc, 1.0 / 12, 4e-15);
+        CLOSE(bcac, 1.0 / 8, 4e-15);
+        CLOSE(baac, 1.0 / 24, 4e-15);
+    }
+}
+
+/* Y_n = sum past_j Y_{n-1-j} + beta k Y'_n is exact for t^p at t = 0, -1, -2, ... */
+static void check_differences(const struct br_textbook *t, int order)
+{
+    for (int p = 0; p <= order; p++) {
+        double sum = p == 1 ? (double)t->beta : 0;
+        for (int j = 0; j < t->back; j++)
+            sum += (double)t->past[j] * pow(-(j + 1), p);
+        CLOSE(sum, p == 0 ? 1 : 0, 4e-15);
+    }
+}
+
+/* A start of one order less costs no order: it is a single step. */
+static void test_tables(void **state)
+{
+    (void)state;
+    for (size_t i = 0; br_time_schemes[i]; i++) {
+        const struct br_time_scheme *scheme = br_time_schemes[i];
+        for (size_t since = 0; since < 4; since++) {
+            const struct br_textbook *t = br_textbook_step(scheme->name, since);
+            assert_non_null(t);
+            const int order =
+                scheme->order - (t->rows > 0 && t->c[0] != 0 && scheme->order == 3 && t->rows == 2);
+            if (t->rows > 0)
+                check_order(t, order);
+            else
+                check_differences(t, t->back);
+            assert_true(since < 2 || t->rows > 0 || t->back == scheme->order);
+        }
+    }
+    assert_null(br_textbook_step("no such scheme", 0));
+}
+
+/* ---- marches and their judges ---- */
+
+struct watched {
+    struct br_scene scene;
+    struct br_method method;
+    struct br_march *march;
+    struct br_witness *witness;
+    struct br_energy_meter *meter;
+    struct br_certificate limits;
+    double energy_limit;
+    double worst;              /* energy balance of a step so far, over its limit */
+    struct br_error certified; /* of the first step whose certificate is refused */
+};
+
+/* Each scheme of the registry that is made of stages. */
+static const struct br_time_scheme *staged(size_t i)
+{
+    size_t seen = 0;
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
+        if (seen++ == i)
+            return *s;
+    return NULL;
+}
+
+static struct br_method method_of(const struct br_time_scheme *scheme, const char *solver,
+                                  const struct br_scene *scene)
+{
+    struct br_method m = br_test_method(solver, br_contact_rule_of(scheme)->name, NULL);
+    m.scheme = scheme;
+    if (scene->friction.regularisation > 0)
+        m.friction = br_friction_rule_find("regularised");
+    return m;
+}
+
+/* What the judges are told, where that is not the truth. */
+struct told {
+    const struct br_scene *certificate, *energy;
+    const struct br_method *method;
+};
+
+/* False: the method does not go with the scene. */
+static bool start(struct watched *w, size_t n, size_t steps, const struct told *told)
+{
+    struct br_error err = {0};
+    struct told t = told ? *told : (struct told){0};
+    const struct br_method *method = t.method ? t.method : &w->method;
+    if (br_method_check_scene(&w->method, &w->scene, &err))
+        return false;
+    const enum br_status status = br_march_create(&w->march, &w->scene, n, steps, &w->method, &err);
+    if (status == BR_BAD_INPUT)
+        return false;
+    br_test_must(status, &err, "a march", __FILE__, __LINE__);
+    const double round_off = br_march_round_off(w->march);
+    w->limits = br_certificate_limits(method->scheme, n, br_test_slack() * round_off);
+    w->energy_limit = br_energy_limit(n, round_off) * br_test_slack();
+    MUST(br_witness_create(&w->witness, w->march, t.certificate ? t.certificate : &w->scene, method,
+                           &err));
+    MUST(
+        br_energy_meter_create(&w->meter, w->march, t.energy ? t.energy : &w->scene, method, &err));
+    return true;
+}
+
+/* Up to the end, or where the march ends by itself. */
+static void advance(struct watched *w, size_t steps)
+{
+    struct br_error err = {0};
+    for (size_t step = 0; step < steps && !br_march_step(w->march, &err); step++) {
+        const struct br_certificate c = br_witness_step(w->witness);
+        const double over = br_energy_meter_step(w->meter) / w->energy_limit;
+        if (isnan(over) || over > w->worst)
+            w->worst = over;
+        if (!w->certified.status)
+            br_certificate_check(&c, &w->limits, &w->certified);
+    }
+}
+
+static void finish(struct watched *w)
+{
+    br_energy_meter_free(w->meter);
+    br_witness_free(w->witness);
+    br_march_free(w->march);
+    br_scene_clear(&w->scene);
+    *w = (struct watched){0};
+}
+
+/* Both judges pass all steps; clears it. */
+static void passes(struct watched *w, const char *name, size_t n, size_t steps)
+{
+    const struct br_method *m = &w->method;
+    if (start(w, n, steps, NULL))
+        advance(w, steps);
+    if (w->certified.status || !(w->worst <= 1))
+        fail_msg("%s, %s, %s, %s, %s, degree %d, n = %zu, %zu steps: %s; a balance is off by %.3g "
+                 "of its limit",
+                 name, m->scheme->name, m->solver->name, m->contact->name, m->friction->name,
+                 m->axial_degree, n, steps, w->certified.message, w->worst);
+    finish(w);
+}
+
+/* ---- sound marches ---- */
+
+static void pass_scene(const char *name, const char *solver, int degree, size_t n, size_t steps)
+{
+    for (size_t i = 0; staged(i); i++) {
+        struct watched w = {.scene = br_test_bundled(name)};
+        w.method = method_of(staged(i), solver, &w.scene);
+        w.method.tolerance = 1e-3;
+        w.method.axial_degree = degree;
+        passes(&w, name, n, steps);
+    }
+}
+
+static void test_bundled_scenes(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    char **names;
+    size_t count;
+    MUST(br_scene_list(&names, &count, &err));
+    for (size_t s = 0; s < count; s++) {
+        pass_scene(names[s], "riccati", 1, 1, 30);
+        pass_scene(names[s], "riccati", 2, 9, 60);
+        pass_scene(names[s], "plain", 1, 7, 60);
+        pass_scene(names[s], "plain", 2, 40, 20);
+    }
+    br_scene_list_free(names, count);
+}
+
+/* A switch on a time level, as at 0.8 s of Example 3: no step is left that is so short that its
+ * force is noise. A load that jumps just behind a switch: the search for that jump does not begin
+ * with such a step, either. */
+static void test_switches(void **state)
+{
+    (void)state;
+    for (size_t n = 10; n <= 100; n += 6) {
+        pass_scene("example3", NULL, 1, n, 100);
+        pass_scene("mms_reversal", NULL, 1, n, 100);
+    }
+}
+
+/* Every rule, from one element to very fine meshes. */
+static void test_rules_and_meshes(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"example1", "example2", "example3", "example4"};
+    static const size_t meshes[] = {1, 2, 7, 100, 400, 3200, 12800};
+    for (size_t i = 0; i < 4 * 7 * 2; i++)
+        for (size_t rule = 0; br_friction_rules[rule]; rule++) {
+            struct watched w = {.scene = br_test_bundled(scenes[i / 14]),
+                                .method = br_method_default()};
+            const size_t n = meshes[i / 2 % 7];
+            w.method.contact = br_contact_rules[i % 2];
+            w.method.friction = br_friction_rules[rule];
+            if ((n > 100 && (br_test_quick() || w.method.friction->iterates)) ||
+                (n > 3200 && !br_test_long()))
+                br_scene_clear(&w.scene);
+            else
+                passes(&w, scenes[i / 14], n, 40);
+        }
+}
+
+static void test_solvers_and_meshes(void **state)
+{
+    (void)state;
+    static const size_t meshes[] = {3, 100, 2000};
+    for (size_t i = 0; staged(i) && !staged(i)->adaptive; i++)
+        for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
+            for (size_t n = 0; n < 3; n++) {
+                struct watched w = {.scene = br_test_bundled("heavy_damping")};
+                w.method = method_of(staged(i), (*s)->name, &w.scene);
+                passes(&w, "heavy_damping", meshes[n], 5);
+            }
+}
+
+/* Loads, laws, density and damping by chance, over decades; by equal steps, since adaptive ones
+ * would be too many. */
+static void random_scene(struct br_test_random *random, struct br_scene *s)
+{
+    *s = br_test_bare();
+    s->duration = br_test_log_uniform(random, 0.1, 10);
+    s->density = br_test_index(random, 4) ? br_test_log_uniform(random, 1e-6, 1e6) : 0;
+    s->axial.viscosity = br_test_log_uniform(random, 1e-6, 1e2);
+    s->bending.viscosity = br_test_log_uniform(random, 1e-6, 1e2);
+    s->axial.stiffness = br_test_log_uniform(random, 1e-3, 1e3);
+    s->bending.stiffness = br_test_log_uniform(random, 1e-3, 1e3);
+    s->axial.load = br_test_load("cos(7*t)+x");
+    s->bending.load = br_test_load("sin(5*t)-0.2*x*t");
+    s->bending.tip_moment = br_test_function("cos(3*t)");
+    s->contact = (struct br_contact){true, br_test_index(random, 2) ? 0 : 0.01,
+                                     br_test_log_uniform(random, 1e-3, 1e9)};
+    s->friction = (struct br_friction){
+        .law = br_test_index(random, 2) ? BR_TRESCA : BR_COULOMB,
+        .coefficient = br_test_log_uniform(random, 1e-6, 1e6),
+    };
+}
+
+static void test_random_scenes(void **state)
+{
+    (void)state;
+    struct br_test_random random = {20061};
+    for (int trial = 0; trial < 300; trial++) {
+        struct watched w = {0};
+        random_scene(&random, &w.scene);
+        const struct br_time_scheme *scheme = staged(br_test_index(&random, 7));
+        w.method = method_of(scheme, NULL, &w.scene);
+        if (scheme->may_lag && br_test_index(&random, 2))
+            w.method.contact = br_contact_rule_find("lagged");
+        w.method.axial_degree = 1 + (int)br_test_index(&random, 2);
+        passes(&w, "a random scene", 1 + br_test_index(&random, 40), 40);
+    }
+}
+
+/* To be watched changes nothing. */
+static void test_watched_is_unwatched(void **state)
+{
+    (void)state;
+    enum { N = 21, SIZE = 2 * (N + 1) };
+    for (size_t i = 0; staged(i); i++)
+        for (int solver = 0; solver < 2; solver++) {
+            struct watched w = {.scene = br_test_bundled("chatter")};
+            double a[2][SIZE], b[2][SIZE];
+            w.method = method_of(staged(i), solver ? "plain" : "riccati", &w.scene);
+            assert_true(start(&w, N, 100, NULL));
+            advance(&w, 100);
+            struct br_march *alone = br_test_march(&w.scene, N, 100, &w.method);
+            br_test_advance(alone, 100);
+            br_march_get(w.march, BR_BENDING, a[0], a[1]);
+            br_march_get(alone, BR_BENDING, b[0], b[1]);
+            assert_memory_equal(a, b, sizeof a);
+            br_march_free(alone);
+            finish(&w);
+        }
+}
+
+/* ---- what is off is seen ---- */
+
+/* The place of a value of a scene, and which judge has to see it off by one part in a million (the
+ * certificate) or in ten millions (the balance). */
+static const struct {
+    size_t offset;
+    bool certificate, energy;
+} values[] = {
+    {offsetof(struct br_scene, axial.stiffness), true, true},
+    {offsetof(struct br_scene, axial.viscosity), true, true},
+    {offsetof(struct br_scene, bending.stiffness), true, true},
+    {offsetof(struct br_scene, bending.viscosity), true, true},
+    {offsetof(struct br_scene, contact.stiffness), true, false},
+    {offsetof(struct br_scene, contact.gap), true, false},
+    {offsetof(struct br_scene, friction.coefficient), true, false},
+    {offsetof(struct br_scene, density), false, true},
+    {offsetof(struct br_scene, length), false, true},
+};
+
+static struct br_scene spoilt(const struct br_scene *scene, size_t offset, double by)
+{
+    struct br_scene out = *scene;
+    *(double *)((char *)&out + offset) *= 1 + by;
+    return out;
+}
+
+static void test_spoilt_scenes(void **state)
+{
+    (void)state;
+    for (size_t i = 0; staged(i); i++)
+        for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
+            struct watched w = {.scene = br_test_bundled("chatter")};
+            const struct br_scene certificate = spoilt(&w.scene, values[v].offset, 1e-6),
+                                  energy = spoilt(&w.scene, values[v].offset, 1e-7);
+            w.method = method_of(staged(i), NULL, &w.scene);
+            assert_true(start(&w, 10, 200, &(struct told){&certificate, &energy, NULL}));
+            advance(&w, 200);
+            if ((values[v].certificate && !w.certified.status) ||
+                (values[v].energy && w.worst <= 1))
+                fail_msg("%s: value %zu that is off passed", staged(i)->name, v);
+            finish(&w);
+        }
+}
+
+static bool same_tables(const struct br_time_scheme *a, const struct br_time_scheme *b)
+{
+    for (size_t since = 0; since < 3; since++)
+        if (br_textbook_step(a->name, since) != br_textbook_step(b->name, since))
+            return false;
+    return true;
+}
+
+/* The march of one scheme taken for another's; the balances of adaptive ones end at switches. */
+static void check_other_scheme(const char *scene, const struct br_time_scheme *is,
+                               const struct br_time_scheme *other)
+{
+    struct watched w = {.scene = br_test_bundled(scene)};
+    w.method = method_of(is, NULL, &w.scene);
+    w.method.contact = br_contact_rule_find("implicit");
+    struct br_method method = w.method;
+    method.scheme = other;
+    assert_true(start(&w, 10, 50, &(struct told){.method = &method}));
+    advance(&w, 50);
+    if (!w.certified.status || (!is->adaptive && !other->adaptive && w.worst <= 1))
+        fail_msg("a march by %s passed for one by %s", is->name, other->name);
+    finish(&w);
+}
+
+static void test_other_scheme(void **state)
+{
+    (void)state;
+    for (size_t i = 0; staged(i); i++)
+        for (size_t j = 0; staged(j); j++)
+            if (!same_tables(staged(i), staged(j))) {
+                check_other_scheme("chatter", staged(i), staged(j));
+            }
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_witness *witness;
+    struct watched w = {.scene = br_test_bundled("release"), .method = br_method_default()};
+    const struct br_time_scheme unknown = {.name = "unknown"};
+    assert_true(start(&w, 4, 10, NULL));
+    struct br_method method = w.method;
+    method.scheme = &unknown;
+    REFUSED(br_witness_create(&witness, w.march, &w.scene, &method, &err), BR_BAD_INPUT,
+            "scheme unknown has no certificate");
+    assert_null(witness);
+    const struct br_certificate none = br_witness_step(w.witness);
+    assert_true(isnan(none.update) && isnan(none.bending_residual));
+    finish(&w);
+}
+
+/* ---- the sums of a whole march ---- */
+
+/* Each term of the sums of a whole march is needed; a NaN in one is seen. */
+static void test_every_term(void **state)
+{
+    (void)state;
+    static const size_t offsets[] = {
+        offsetof(struct br_work, loads[0]),   offsetof(struct br_work, loads[1]),
+        offsetof(struct br_work, viscous[0]), offsetof(struct br_work, viscous[1]),
+        offsetof(struct br_work, scheme[0]),  offsetof(struct br_work, scheme[1]),
+        offsetof(struct br_work, friction),   offsetof(struct br_work, scheme_contact)};
+    for (size_t i = 0; staged(i); i++) {
+        struct watched m = {.scene = br_test_bundled("chatter")};
+        m.method = method_of(staged(i), NULL, &m.scene);
+        assert_true(start(&m, 10, 200, NULL));
+        advance(&m, 200);
+        struct br_energy begin, now;
+        struct br_work work;
+        br_energy_meter_read(m.meter, &begin, &now, &work);
+        AT_MOST(fabs(br_energy_imbalance(&begin, &now, &work)), 1e-13 * br_test_slack());
+        for (size_t o = 0; o < sizeof offsets / sizeof *offsets; o++) {
+            struct br_work spoilt = work;
+            *(double *)((char *)&spoilt + offsets[o]) = 0;
+            if (fabs(br_energy_imbalance(&begin, &now, &spoilt)) <= 1e-10)
+                fail_msg("%s: term %zu is not needed", staged(i)->name, o);
+            *(double *)((char *)&spoilt + offsets[o]) = NAN;
+            assert_true(isnan(br_energy_imbalance(&begin, &now, &spoilt)));
+        }
+        finish(&m);
+    }
+}
+
+/* Undamped, unloaded: what a scheme has taken is what is gone; Euler's by itself, the others of
+ * higher order less. bdf3 is refused. */
+static void test_free_vibration(void **state)
+{
+    (void)state;
+    double lost[8] = {0};
+    for (size_t i = 0; staged(i); i++) {
+        struct watched m = {.scene = br_test_bare()};
+        struct br_energy begin, now;
+        struct br_work work;
+        m.scene.axial.viscosity = m.scene.bending.viscosity = 0;
+        m.scene.duration = 4; /* one period of the rod */
+        m.scene.bending.modelled = false;
+        m.scene.axial.displacement = br_test_function("0.1*sin(1.5707963267948966*x)");
+        m.method = method_of(staged(i), NULL, &m.scene);
+        if (!start(&m, 20, 40, NULL)) {
+            assert_true(staged(i)->needs_damping);
+            finish(&m);
+            continue;
+        }
+        advance(&m, 40);
+        AT_MOST(m.worst, 1);
+        assert_int_equal(m.certified.status, BR_OK);
+        br_energy_meter_read(m.meter, &begin, &now, &work);
+        lost[i] = work.scheme[BR_AXIAL] / br_energy_total(&begin);
+        CLOSE(1 - br_energy_total(&now) / br_energy_total(&begin), lost[i], 1e-13);
+        assert_true(lost[i] > 0 && br_energy_added(&work, BR_AXIAL) == 0);
+        finish(&m);
+    }
+    assert_true(lost[0] > 0.5 && lost[1] < 0.2 * lost[0]);
+}
+
+/* Contact force of the step before, six times beyond its limit of stability: it adds. */
+static void lag(const char *contact, double stiffness, struct br_work *work)
+{
+    struct watched m = {.scene = br_test_bundled("example2")};
+    struct br_energy begin, now;
+    m.scene.contact.stiffness = stiffness;
+    m.method = br_test_method(NULL, contact, NULL);
+    assert_true(start(&m, 20, 1000, NULL));
+    advance(&m, 1000);
+    AT_MOST(m.worst, 1);
+    br_energy_meter_read(m.meter, &begin, &now, work);
+    finish(&m);
+}
+
+static void test_lagged_contact_adds(void **state)
+{
+    (void)state;
+    struct br_work work;
+    lag("lagged", 2e4, &work);
+    assert_true(br_energy_added(&work, BR_AXIAL) > 0 && work.gaining[BR_AXIAL] > 100);
+    assert_true(work.scheme_contact < 0 && work.scheme[BR_AXIAL] > 0);
+    assert_true(br_energy_added(&work, BR_BENDING) == 0);
+    CLOSE(br_energy_added(&work, BR_AXIAL), -(work.scheme_contact + work.scheme[BR_AXIAL]), 0);
+    lag("implicit", 2e4, &work);
+    assert_true(br_energy_added(&work, BR_AXIAL) == 0 && work.gaining[BR_AXIAL] == 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_tables),
+        cmocka_unit_test(test_bundled_scenes),
+        cmocka_unit_test(test_switches),
+        cmocka_unit_test(test_rules_and_meshes),
+        cmocka_unit_test(test_solvers_and_meshes),
+        cmocka_unit_test(test_random_scenes),
+        cmocka_unit_test(test_watched_is_unwatched),
+        cmocka_unit_test(test_spoilt_scenes),
+        cmocka_unit_test(test_other_scheme),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_every_term),
+        cmocka_unit_test(test_free_vibration),
+        cmocka_unit_test(test_lagged_contact_adds),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
