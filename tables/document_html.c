@@ -18,7 +18,7 @@ struct page {
     size_t pictures;
 };
 
-/* All colours of letters have a contrast of at least 4.5 to both grounds (tests/html.py). */
+/* All colours of letters have a contrast of at least 4.5 to both grounds (tests/html_page.py). */
 static const char style[] =
     ":root { color-scheme: light dark; --ground: #ffffff; --shade: #f3f5f7; --line: #ccd1d6;\n"
     "  --ink: #1a1c1f; --quiet: #53585d; --link: #0a55a8;\n"
@@ -125,7 +125,7 @@ static void print_head(const struct page *p, const struct br_document_table *t)
     fputs("</tr></thead>\n", p->out);
 }
 
-/* A verdict's word is its class, too; "" for any other text. */
+/* The words of verdicts are their classes, too; "" of any other text. */
 static const char *class_of_word(const char *text)
 {
     for (int i = BR_OUTCOME_PASS; i <= BR_OUTCOME_SKIPPED; i++)
@@ -154,9 +154,9 @@ static void print_row(const struct page *p, const struct br_document_table *t, s
         const struct br_document_cell *cell = br_document_cell_at(t, r, c);
         if (!br_document_is_seen(t, c))
             continue;
-        fprintf(p->out, "<td class=\"%s%s %s\">", br_document_is_text(t, c) ? "text" : "number",
-                t->column[c].flags & BR_WRAP ? " wrap" : "",
-                class_of_word(br_document_shown(&t->column[c], cell, buffer)));
+        const char *word = class_of_word(br_document_shown(&t->column[c], cell, buffer));
+        fprintf(p->out, "<td class=\"%s%s%s%s\">", br_document_is_text(t, c) ? "text" : "number",
+                t->column[c].flags & BR_WRAP ? " wrap" : "", *word ? " " : "", word);
         print_value(p, &t->column[c], cell);
         fputs("</td>", p->out);
     }
@@ -422,7 +422,7 @@ static void print_title(const struct page *p, const struct br_document *d, size_
                 (int)(first + blank + strcspn(d->format + first + blank, " ")), d->format, count);
 }
 
-/* The reports with the first sentence of each. */
+/* The reports, and what is said first of each. */
 static void print_contents(const struct page *p, const struct br_document *d, size_t count)
 {
     fputs("<h1>", p->out);
@@ -431,7 +431,9 @@ static void print_contents(const struct page *p, const struct br_document *d, si
     for (size_t i = 0; i < count; i++) {
         fprintf(p->out, "<li><a href=\"#report%zu\">", i + 1);
         print(p, d[i].caption);
-        fputs("</a><br>", p->out);
+        fputs("</a> (", p->out);
+        print(p, d[i].name);
+        fputs(")<br>", p->out);
         print(p, d[i].answers ? d[i].answer[0] : "");
         fputs("</li>\n", p->out);
     }
