@@ -39,15 +39,14 @@ static enum br_status write_page(struct br_picture_files *pictures,
                                  const struct br_document *documents, size_t count,
                                  struct br_error *err)
 {
-    static const char name[] = "report.html";
     FILE *file;
     enum br_status status = br_picture_files_finish(pictures, err);
     if (!status)
-        status = br_output_file(pictures->output, name, &file, err);
+        status = br_output_file(pictures->output, BR_PAGE, &file, err);
     if (status)
         return status;
     status = br_document_print_page(file, documents, count, pictures->output->staging, err);
-    const enum br_status closed = br_output_close(file, name, status ? NULL : err);
+    const enum br_status closed = br_output_close(file, BR_PAGE, status ? NULL : err);
     return status ? status : closed;
 }
 
