@@ -30,6 +30,7 @@ static const char style[] =
     "body { margin: 0 auto; max-width: 75rem; padding: 1rem; background: var(--ground);\n"
     "  color: var(--ink); font: 1rem/1.5 system-ui, sans-serif; overflow-wrap: anywhere; }\n"
     "h1, h2, h3, h4 { line-height: 1.25; margin: 1.6em 0 0.5em; }\n"
+    "h1 { margin-top: 0; }\n"
     "nav ~ article { border-top: 2px solid var(--line); margin-top: 3rem; }\n"
     "a { color: var(--link); }\n"
     ".answer { border-left: 0.25rem solid var(--link); font-size: 1.1rem; list-style: none;\n"
@@ -42,7 +43,7 @@ static const char style[] =
     "table { border-collapse: collapse; font-variant-numeric: tabular-nums; }\n"
     "th, td { overflow-wrap: normal; padding: 0.15rem 0.6rem; text-align: right;\n"
     "  vertical-align: top; white-space: nowrap; }\n"
-    "th { border-bottom: 2px solid var(--line); }\n"
+    "th { border-bottom: 2px solid var(--line); vertical-align: bottom; white-space: normal; }\n"
     ".rule td { border-top: 2px solid var(--line); }\n"
     ".text { text-align: left; }\n"
     ".wrap { min-width: 18rem; white-space: normal; }\n"
@@ -53,7 +54,7 @@ static const char style[] =
     "dl div { display: flex; flex-wrap: wrap; gap: 0 0.6rem; }\n"
     "dd, figure { margin: 0; }\n"
     ".card { background: #ffffff; color: #000000; margin: 1.5rem 0; max-width: 60rem; }\n"
-    "svg { display: block; height: auto; min-width: 44rem; pointer-events: none; }\n"
+    "svg { display: block; height: auto; min-width: 44rem; }\n"
     "@media print {\n"
     ".scroll, .card, pre { overflow: visible; }\n"
     "pre { white-space: pre-wrap; }\n"
@@ -204,14 +205,19 @@ static enum br_status read_svg(const struct page *p, const char *stem, char **sv
 }
 
 /* What is behind a picture's opening tag. All pictures of gnuplot have the same ids: within tags,
- * each id and each reference to one gets a prefix. */
+ * each id and each reference to one gets a prefix. Of texts only those in the picture stay, no
+ * titles, which would be shown under the mouse. */
 static void print_unique(const struct page *p, const char *svg)
 {
     static const char *const before[] = {" id='", " id=\"", "href='#", "href=\"#", "url(#"};
-    bool in_tag = false;
+    bool in_tag = false, in_text = false;
     for (const char *c = svg; *c; c++) {
-        fputc(*c, p->out);
-        in_tag = *c == '<' || (in_tag && *c != '>');
+        in_tag |= *c == '<';
+        if (*c == '<')
+            in_text = strncmp(c, "<text", 5) == 0 || (in_text && strncmp(c, "</text", 6) != 0);
+        if (in_tag || in_text || *c == '\n')
+            fputc(*c, p->out);
+        in_tag &= *c != '>';
         for (size_t i = 0; in_tag && i < sizeof before / sizeof *before; i++) {
             const size_t size = strlen(before[i]);
             if ((size_t)(c - svg) >= size && memcmp(c + 1 - size, before[i], size) == 0)
@@ -220,8 +226,7 @@ static void print_unique(const struct page *p, const char *svg)
     }
 }
 
-/* Letters of a picture have the size of those of the page where there is room for it: it keeps its
- * shape, not its size. Whether it is one. */
+/* In a frame that keeps its shape, not its size. Whether it is a picture. */
 static bool print_svg(const struct page *p, const char *svg, const char *caption)
 {
     static const char key[] = "viewBox=\"";

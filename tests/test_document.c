@@ -523,7 +523,8 @@ static void test_page(void **state)
 {
     (void)state;
     char *text = made_page("<?xml?><svg width=\"9\" viewBox=\"0 0 9 5\" xmlns=\"http://x\">"
-                           "<g id='a'/><g id=\"b\" fill='url(#a)'/><text> id='t'</text>"
+                           "<title>a title</title><g id='a'/>Z<g id=\"b\" fill='url(#a)'/>"
+                           "<text> id=<tspan>'t'</tspan></text>"
                            "<use xlink:href='#a'/></svg>\n");
     expect(text, "<h1>beamrate made: 2 reports</h1>");
     expect(text, "<li><a href=\"#report2\">A caption, 100 % made_up</a> (made)<br>Answer 1 is ");
@@ -531,11 +532,12 @@ static void test_page(void **state)
     expect(text, "<h3>All &amp; sundry</h3>");
     for (int i = 1; i <= 2; i++) {
         char picture[300];
-        snprintf(picture, sizeof picture,
-                 "<svg viewBox=\"0 0 9 5\" role=\"img\" aria-label=\"Error_h\">"
-                 "<g id='picture%d-a'/><g id=\"picture%d-b\" fill='url(#picture%d-a)'/>"
-                 "<text> id='t'</text><use xlink:href='#picture%d-a'/></svg>\n</div>",
-                 i, i, i, i);
+        snprintf(
+            picture, sizeof picture,
+            "<svg viewBox=\"0 0 9 5\" role=\"img\" aria-label=\"Error_h\">"
+            "<title></title><g id='picture%d-a'/><g id=\"picture%d-b\" fill='url(#picture%d-a)'/>"
+            "<text> id=<tspan>'t'</tspan></text><use xlink:href='#picture%d-a'/></svg>\n</div>",
+            i, i, i, i);
         expect(text, picture);
     }
     assert_null(strstr(strstr(text, "<dt>Version") + 1, "<dt>Version"));
