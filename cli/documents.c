@@ -21,9 +21,9 @@ static enum br_status write_file(const struct br_output *output, const struct br
     return status ? status : closed;
 }
 
-static enum br_status write_format(const struct br_output *output,
-                                   const struct br_document_format *f, const struct br_document *d,
-                                   struct br_error *err)
+enum br_status br_documents_write_as(const struct br_output *output,
+                                     const struct br_document_format *f,
+                                     const struct br_document *d, struct br_error *err)
 {
     enum br_status status = br_document_status(d, err);
     if (!f->by_table)
@@ -34,18 +34,15 @@ static enum br_status write_format(const struct br_output *output,
     return status;
 }
 
-/* One file of all, when the pictures are there. */
-static enum br_status write_page(struct br_picture_files *pictures,
-                                 const struct br_document *documents, size_t count,
-                                 struct br_error *err)
+enum br_status br_documents_write_page(const struct br_output *output,
+                                       const struct br_document *documents, size_t count,
+                                       struct br_error *err)
 {
     FILE *file;
-    enum br_status status = br_picture_files_finish(pictures, err);
-    if (!status)
-        status = br_output_file(pictures->output, BR_PAGE, &file, err);
+    enum br_status status = br_output_file(output, BR_PAGE, &file, err);
     if (status)
         return status;
-    status = br_document_print_page(file, documents, count, pictures->output->staging, err);
+    status = br_document_print_page(file, documents, count, output->staging, err);
     const enum br_status closed = br_output_close(file, BR_PAGE, status ? NULL : err);
     return status ? status : closed;
 }
@@ -59,10 +56,11 @@ enum br_status br_documents_write(struct br_picture_files *pictures,
     for (const struct br_document_format *const *f = br_document_formats; *f; f++)
         for (size_t i = 0; i < count && !status; i++)
             if (*f != &br_document_html && br_format_wanted(options, (*f)->name))
-                status = write_format(pictures->output, *f, &documents[i], err);
-    if (!status && count && br_format_wanted(options, br_document_html.name))
-        status = write_page(pictures, documents, count, err);
-    return status;
+                status = br_documents_write_as(pictures->output, *f, &documents[i], err);
+    if (status || !count || !br_format_wanted(options, br_document_html.name))
+        return status;
+    status = br_picture_files_finish(pictures, err);
+    return status ? status : br_documents_write_page(pictures->output, documents, count, err);
 }
 
 enum br_status br_documents_show(const struct br_document *documents, size_t count,

@@ -16,6 +16,16 @@ enum br_status br_documents_write(struct br_picture_files *pictures,
                                   const struct br_document *documents, size_t count,
                                   struct br_error *err);
 
+/* The same of one document in one format. */
+enum br_status br_documents_write_as(const struct br_output *output,
+                                     const struct br_document_format *format,
+                                     const struct br_document *document, struct br_error *err);
+
+/* report.html alone, of at least one document, with the pictures that are drawn by now. */
+enum br_status br_documents_write_page(const struct br_output *output,
+                                       const struct br_document *documents, size_t count,
+                                       struct br_error *err);
+
 /* Shows them on standard output, with an empty line between two. */
 enum br_status br_documents_show(const struct br_document *documents, size_t count,
                                  struct br_error *err);
