@@ -52,6 +52,7 @@ static const char style[] =
     "summary :is(h2, h3, h4) { display: inline; }\n"
     "details { margin: 1rem 0; }\n"
     "dl div { display: flex; flex-wrap: wrap; gap: 0 0.6rem; }\n"
+    "dt { flex: 0 1 16rem; }\n"
     "dd, figure { margin: 0; }\n"
     ".card { background: #ffffff; color: #000000; margin: 1.5rem 0; max-width: 60rem; }\n"
     "svg { display: block; height: auto; min-width: 44rem; }\n"
