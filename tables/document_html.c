@@ -217,7 +217,7 @@ static void print_unique(const struct page *p, const char *svg)
         if (*c == '<')
             in_text = strncmp(c, "<text", 5) == 0 || (in_text && strncmp(c, "</text", 6) != 0);
         if (in_tag || in_text || *c == '\n')
-            fputc(*c, p->out);
+            fputc(*c == '\t' ? ' ' : *c, p->out);
         in_tag &= *c != '>';
         for (size_t i = 0; in_tag && i < sizeof before / sizeof *before; i++) {
             const size_t size = strlen(before[i]);
