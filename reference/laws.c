@@ -267,7 +267,7 @@ static int contact_branches(const struct br_step *s, double distance[BR_MOST_BRA
         return 0;
     const double force = s->tip.contact_force;
     const double depth = at_tip(s, BR_AXIAL, s->field[BR_AXIAL].displacement) - c->gap;
-    const double scale = contact_scale(s, force);
+    const double scale = with_last_bit(s, BR_AXIAL, BR_SCALE_LAW, contact_scale(s, force));
     distance[0] = ratio(fabs(force), scale);
     distance[1] = ratio(force_error(s, force, c->stiffness * depth), scale);
     return BR_CONTACT_BRANCHES;
@@ -281,8 +281,9 @@ static int friction_branches(const struct br_step *s, double distance[BR_MOST_BR
         return 0;
     const double lambda = s->tip.friction_force, bound = s->tip.friction_bound;
     const double ways = field_scale(s, BR_BENDING) + way_of(s, BR_BENDING, lambda);
-    const double speed = ways / s->k;
-    const double force = br_worse_of(fabs(lambda), fabs(bound)) + bound_scale(s);
+    const double speed = with_last_bit(s, BR_BENDING, BR_SCALE_FIELD, ways) / s->k;
+    const double force = with_last_bit(s, BR_BENDING, BR_SCALE_LAW,
+                                       br_worse_of(fabs(lambda), fabs(bound)) + bound_scale(s));
     double told = bound_error(s, bound_of(s));
     if (scene->friction.law == BR_COULOMB)
         told = smaller(told, bound_error(s, scene->friction.coefficient * depth_of(s)));
