@@ -273,6 +273,13 @@ static int contact_branches(const struct br_step *s, double distance[BR_MOST_BRA
     return BR_CONTACT_BRANCHES;
 }
 
+/* The bound of a contact that is prolonged beyond its end: none of one that stays open. */
+static double prolonged_bound(const struct br_step *s)
+{
+    const bool open = s->scene->contact.stiffness > 0 && s->tip.contact_force == 0;
+    return open ? 0 : s->scene->friction.coefficient * depth_of(s);
+}
+
 /* The bound is that of a contact which may be prolonged, too. */
 static int friction_branches(const struct br_step *s, double distance[BR_MOST_BRANCHES])
 {
@@ -286,7 +293,7 @@ static int friction_branches(const struct br_step *s, double distance[BR_MOST_BR
                                        br_worse_of(fabs(lambda), fabs(bound)) + bound_scale(s));
     double told = bound_error(s, bound_of(s));
     if (scene->friction.law == BR_COULOMB)
-        told = smaller(told, bound_error(s, scene->friction.coefficient * depth_of(s)));
+        told = smaller(told, bound_error(s, prolonged_bound(s)));
     told = ratio(told, force);
     const double v = fabs(at_tip(s, BR_BENDING, s->field[BR_BENDING].velocity));
     distance[0] = br_worse_of(told, ratio(positive(v - stillness(s, BR_BENDING)), speed));
