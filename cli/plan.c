@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cli/command.h"
-#include "cli/output.h"
+#include "cli/documents.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/signals.h"
@@ -13,7 +13,7 @@
 #include "cli/warn_marches.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
-#include "tables/plan_emitter.h"
+#include "tables/report_plan.h"
 
 struct work {
     const struct br_options *options;
@@ -21,10 +21,10 @@ struct work {
     struct br_contenders contenders; /* count 0: not said */
     char path[1024];                 /* of the scene */
     char *text;
-    char caption[512];
     struct br_scene scene;
     struct br_plan plan;
     struct br_provenance provenance;
+    struct br_document document;
     struct br_output output;
 };
 
@@ -35,7 +35,6 @@ static enum br_status prepare(struct work *w, struct br_error *err)
     if (status)
         return status;
     struct br_plan *p = &w->plan;
-    snprintf(w->caption, sizeof w->caption, "A plan: %.400s", w->scene.title);
     br_plan_default(p, &w->scene);
     p->goal = (struct br_plan_goal){br_option_number(w->options, BR_OPT_ERROR, NAN),
                                     br_option_number(w->options, BR_OPT_SECONDS, NAN)};
@@ -67,33 +66,13 @@ static enum br_status make(struct work *w, struct br_error *err)
 
 /* ---- results ---- */
 
-static enum br_status write_one(struct work *w, const struct br_page_emitter *e,
-                                const struct br_plan_page *page, struct br_error *err)
+static enum br_status write_all(struct work *w, struct br_error *err)
 {
-    char name[600];
-    FILE *file;
-    snprintf(name, sizeof name, "%.500s-plan%s", w->scene.name, e->extension);
-    enum br_status status = br_output_file(&w->output, name, &file, err);
-    if (status)
-        return status;
-    status = br_plan_emit(e, file, page, err);
-    const enum br_status closed = br_output_close(file, name, status ? NULL : err);
-    return status ? status : closed;
-}
-
-static enum br_status write_all(struct work *w, const struct br_plan_page *page,
-                                struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (const struct br_page_emitter *const *e = br_page_emitters; *e && !status; e++)
-        if (br_format_wanted(w->options, (*e)->name))
-            status = write_one(w, *e, page, err);
+    enum br_status status = br_documents_write(&w->output, w->options, &w->document, 1, err);
     if (!status)
         status = br_output_commit(&w->output, err);
-    if (!status && !br_option_given(w->options, BR_OPT_QUIET)) {
-        putchar('\n');
+    if (!status && !br_option_given(w->options, BR_OPT_QUIET))
         br_output_announce(&w->output);
-    }
     return status;
 }
 
@@ -102,19 +81,12 @@ static enum br_status show(struct work *w, struct br_error *err)
     br_provenance_fill(&w->provenance, w->study.threads);
     w->provenance.scene_path = w->path;
     w->provenance.scene_text = w->text;
-    const struct br_plan_page page = {
-        .name = w->scene.name,
-        .scene_word = w->options->word[0],
-        .caption = w->caption,
-        .plan = &w->plan,
-        .provenance = &w->provenance,
-    };
-    enum br_status status = BR_OK;
     br_warn_of_plan(&w->plan);
-    if (!br_option_given(w->options, BR_OPT_QUIET))
-        status = br_plan_emit(&br_page_text, stdout, &page, err);
+    br_report_plan(&w->plan, w->options->word[0], &w->provenance, &w->document);
+    enum br_status status =
+        br_option_given(w->options, BR_OPT_QUIET) ? BR_OK : br_documents_show(&w->document, 1, err);
     if (!status && br_option_given(w->options, BR_OPT_OUT))
-        status = write_all(w, &page, err);
+        status = write_all(w, err);
     if (!status && w->plan.end == BR_PLAN_MISSED)
         status = br_fail(err, BR_NOT_FINITE, "%s: the goal was missed by all %zu trials",
                          w->scene.name, w->plan.count);
@@ -157,6 +129,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
     if (!status)
         status = show(&w, err);
     br_output_discard(&w.output);
+    br_document_clear(&w.document);
     br_plan_clear(&w.plan);
     br_study_request_clear(&w.study);
     br_scene_clear(&w.scene);

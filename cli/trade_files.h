@@ -5,13 +5,13 @@
 
 #include "cli/option.h"
 #include "cli/picture_files.h"
-#include "tables/trade_emitter.h"
+#include "study/trade/trade.h"
+#include "tables/document.h"
 
 /* A scene on its way; not to be moved once its trade is laid out. Begins as zeros. */
 struct br_trade_item {
     char path[1024]; /* the scene's file */
     char *text;      /* its contents */
-    char caption[512];
     struct br_scene scene;
     struct br_printed printed; /* the paper's table of it; empty: none */
     size_t *steps;             /* as --k has them; owned */
@@ -30,7 +30,7 @@ struct br_trade_files {
     struct br_trade_item *item; /* items; borrowed */
     size_t items;
     const struct br_options *options;
-    struct br_trade_page *page; /* items; owned */
+    struct br_document *document; /* of each item, then of all; owned */
     struct br_output output;
     struct br_picture_files pictures;
 };

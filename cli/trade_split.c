@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/output.h"
+#include "cli/documents.h"
 #include "cli/picture_files.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
@@ -16,7 +16,7 @@
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 #include "study/trade/contender.h"
-#include "tables/split_emitter.h"
+#include "tables/report_split.h"
 
 struct work {
     const struct br_options *options;
@@ -32,6 +32,7 @@ struct work {
     struct br_split *split; /* splits; owned */
     size_t splits;
     struct br_provenance provenance;
+    struct br_document document;
     struct br_output output;
 };
 
@@ -154,20 +155,6 @@ static enum br_status split_all(struct work *w, struct br_error *err)
     return !status && br_signals_caught() ? br_fail(err, BR_INTERRUPTED, "interrupted") : status;
 }
 
-static enum br_status write_table(struct work *w, const struct br_split_emitter *emitter,
-                                  const struct br_split_page *page, struct br_error *err)
-{
-    char name[600];
-    FILE *file;
-    snprintf(name, sizeof name, "%.500s-split%s", w->scene.name, emitter->extension);
-    enum br_status status = br_output_file(&w->output, name, &file, err);
-    if (status)
-        return status;
-    status = emitter->emit(file, page, err);
-    const enum br_status closed = br_output_close(file, name, status ? NULL : err);
-    return status ? status : closed;
-}
-
 static enum br_status write_plot(struct work *w, const struct br_figure *figure,
                                  struct br_error *err)
 {
@@ -178,26 +165,34 @@ static enum br_status write_plot(struct work *w, const struct br_figure *figure,
 }
 
 /* Over k or h, where the runs differ by one of them. */
-static enum br_status plot(struct work *w, const struct br_split_page *page, struct br_error *err)
+static enum br_status plot(struct work *w, struct br_error *err)
 {
     struct br_figure figure;
-    enum br_status status = br_split_draw(page->split, page->count, &figure, err);
-    if (!status && figure.panels)
+    enum br_status status = br_split_draw(w->split, w->splits, &figure, err);
+    if (!status && figure.panels) {
+        br_put_picture(&w->document, figure.stem, figure.title);
         status = write_plot(w, &figure, err);
+    }
     br_figure_clear(&figure);
     return status;
 }
 
-static enum br_status write_all(struct work *w, const struct br_split_page *page,
-                                struct br_error *err)
+static enum br_status write_all(struct work *w, struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    for (const struct br_split_emitter *const *e = br_split_emitters; *e && !status; e++)
-        if (br_format_wanted(w->options, (*e)->name))
-            status = write_table(w, *e, page, err);
-    if (!status && !br_option_given(w->options, BR_OPT_NO_PLOTS))
-        status = plot(w, page, err);
-    return status ? status : br_output_commit(&w->output, err);
+    br_provenance_fill(&w->provenance, w->request.threads);
+    w->provenance.scene_path = w->path;
+    w->provenance.scene_text = w->text;
+    br_report_split(w->split, w->splits, &w->provenance, &w->document);
+    enum br_status status = br_option_given(w->options, BR_OPT_NO_PLOTS) ? BR_OK : plot(w, err);
+    if (!status)
+        status = br_documents_write(&w->output, w->options, &w->document, 1, err);
+    if (!status && !br_option_given(w->options, BR_OPT_QUIET))
+        status = br_documents_show(&w->document, 1, err);
+    if (!status)
+        status = br_output_commit(&w->output, err);
+    if (!status && !br_option_given(w->options, BR_OPT_QUIET))
+        br_output_announce(&w->output);
+    return status;
 }
 
 static enum br_status run(struct work *w, struct br_error *err)
@@ -215,21 +210,7 @@ static enum br_status run(struct work *w, struct br_error *err)
         status = br_warn_of_splits(w->split, w->splits, err);
     if (!status)
         status = split_all(w, err);
-    if (status || !writes)
-        return status;
-    br_provenance_fill(&w->provenance, w->request.threads);
-    w->provenance.scene_path = w->path;
-    w->provenance.scene_text = w->text;
-    const struct br_split_page page = {w->split, w->splits, &w->provenance};
-    if (!br_option_given(w->options, BR_OPT_QUIET))
-        status = br_split_emitters[0]->emit(stdout, &page, err);
-    if (!status)
-        status = write_all(w, &page, err);
-    if (!status && !br_option_given(w->options, BR_OPT_QUIET)) {
-        putchar('\n');
-        br_output_announce(&w->output);
-    }
-    return status;
+    return status || !writes ? status : write_all(w, err);
 }
 
 enum br_status br_trade_split(const struct br_options *options, struct br_error *err)
@@ -238,6 +219,7 @@ enum br_status br_trade_split(const struct br_options *options, struct br_error 
     const enum br_status status = run(&w, err);
     br_output_discard(&w.output);
     br_study_request_clear(&w.request);
+    br_document_clear(&w.document);
     br_scene_clear(&w.scene);
     free(w.steps);
     free(w.split);

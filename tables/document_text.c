@@ -251,8 +251,7 @@ static bool is_shown(const struct page *p, const struct br_block *b)
         return true;
     if (b->kind == BR_BLOCK_TABLE && b->table->rows > LONG_TABLE)
         return false;
-    return !(flags & BR_FILES_ONLY) &&
-           (b->kind == BR_BLOCK_TABLE || b->kind == BR_BLOCK_FACT || b->kind == BR_BLOCK_COMMAND);
+    return !(flags & BR_FILES_ONLY) && (b->kind == BR_BLOCK_TABLE || b->kind == BR_BLOCK_FACT);
 }
 
 static enum br_status print_block(const struct page *p, const struct br_block *b,

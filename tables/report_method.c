@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tables/report_method.h"
 
-#include "study/scene/method_fields.h"
-
-/* Nothing where the method does not heed it. */
-static struct br_value value_of(const struct br_method_field *f, const struct br_method *m,
+struct br_value br_method_value(const struct br_method_field *f, const struct br_method *m,
                                 char text[BR_METHOD_VALUE])
 {
     const bool whole = f == &br_method_fields[BR_METHOD_DEGREE] || (!f->words && f->range.whole);
@@ -30,10 +27,10 @@ void br_put_method(struct br_document *d, const char *key, const struct br_metho
         const struct br_method_field *f = &br_method_fields[i];
         char text[BR_METHOD_VALUE], name[BR_METHOD_VALUE];
         if (!f->group) {
-            put(d, key, br_method_field_key(f, name), value_of(f, m, text));
+            put(d, key, br_method_field_key(f, name), br_method_value(f, m, text));
         } else if (br_method_field_heeded(f, m)) {
             snprintf(name, sizeof name, "%s.%s", f->group, f->member);
-            put(d, key, name, value_of(f, m, text));
+            put(d, key, name, br_method_value(f, m, text));
         } else if (f->group != group) {
             put(d, key, f->group, br_nothing());
         }

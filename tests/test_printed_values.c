@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What machines read is what was computed: every number of the CSV, JSON, JUnit, TAP and HDF5 of
- * run, check, trade and split stands under its own key. The structs hold a different number in
- * every place, so that two that are exchanged are seen. */
+ * run, check, trade, split and plan stands under its own key. The structs hold a different number
+ * in every place, so that two that are exchanged are seen. */
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -14,9 +14,10 @@
 
 #include "tables/check_emitter.h"
 #include "tables/fields_file.h"
+#include "tables/report_plan.h"
+#include "tables/report_split.h"
+#include "tables/report_trade.h"
 #include "tables/run_page.h"
-#include "tables/split_emitter.h"
-#include "tables/trade_emitter.h"
 #include "tests/support.h"
 
 static const struct br_provenance provenance = {.version = "1",
@@ -66,7 +67,7 @@ static size_t place_of(const char *line, const char *name, char separator)
     return 0;
 }
 
-/* The number in a place of a line; NAN: it is empty. */
+/* The number in a place of a line, 1 or 0 for a truth; NAN: it is empty. */
 static double number_at(const char *line, size_t place, char separator)
 {
     for (; place > 0 && line; place--) {
@@ -74,6 +75,8 @@ static double number_at(const char *line, size_t place, char separator)
         line = line ? line + 1 : NULL;
     }
     assert_non_null(line);
+    if (strncmp(line, "true", 4) == 0 || strncmp(line, "false", 5) == 0)
+        return *line == 't';
     char *end;
     const double value = strtod(line, &end);
     return end == line ? NAN : value;
@@ -105,7 +108,11 @@ static void json_has(const json_t *root, const struct expected *e, size_t count)
         const json_t *value = at_path(root, e[i].key);
         if (!value)
             fail_msg("JSON has no %s", e[i].key);
-        is("JSON", e[i].key, json_is_number(value) ? json_number_value(value) : NAN, e[i].value);
+        is("JSON", e[i].key,
+           json_is_number(value)    ? json_number_value(value)
+           : json_is_boolean(value) ? json_is_true(value)
+                                    : NAN,
+           e[i].value);
     }
 }
 
@@ -117,6 +124,83 @@ static json_t *read_json(char *text)
         fail_msg("%s in:\n%s", error.text, text);
     free(text);
     return root;
+}
+
+/* ---- documents ---- */
+
+/* A document as JSON, which is released with json_decref, or a table of it as CSV, which is freed.
+ */
+static char *printed(const struct br_document *d, const struct br_document_format *format,
+                     const struct br_document_table *table)
+{
+    struct br_error err = {0};
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    MUST(br_document_print(out, format, d, table, &err));
+    fclose(out);
+    return text;
+}
+
+static json_t *document_json(const struct br_document *d)
+{
+    return read_json(printed(d, &br_document_json, NULL));
+}
+
+static char *document_csv(const struct br_document *d, const char *key)
+{
+    const struct br_document_table *t;
+    for (size_t block = 0; (t = br_document_next_table(d, &block));)
+        if (strcmp(t->key, key) == 0)
+            return printed(d, &br_document_csv, t);
+    fail_msg("there is no table %s", key);
+    return NULL;
+}
+
+/* The numbers of a row under their keys, in both formats. */
+static void table_has(const struct br_document *d, const char *key, size_t row,
+                      const struct expected *e, size_t count)
+{
+    char path[64];
+    char *csv = document_csv(d, key), *rest = csv, *head = next_line(&rest);
+    for (size_t i = 0; i < row; i++)
+        next_line(&rest);
+    row_has("CSV", head, next_line(&rest), ',', e, count);
+    json_t *root = document_json(d);
+    snprintf(path, sizeof path, "tables.%s.%zu", key, row);
+    json_has(at_path(root, path), e, count);
+    json_decref(root);
+    free(csv);
+}
+
+/* Texts of a row in JSON; pairs of keys and texts, ended by NULL. */
+static void row_says(const struct br_document *d, const char *key, size_t row,
+                     const char *const pairs[])
+{
+    char path[128];
+    json_t *root = document_json(d);
+    for (size_t i = 0; pairs[i]; i += 2) {
+        snprintf(path, sizeof path, "tables.%s.%zu.%s", key, row, pairs[i]);
+        const char *found = json_string_value(at_path(root, path));
+        if (!found || strcmp(found, pairs[i + 1]) != 0)
+            fail_msg("%s is %s, expected %s", path, found ? found : "no text", pairs[i + 1]);
+    }
+    json_decref(root);
+}
+
+static void facts_are(const struct br_document *d, const struct expected *e, size_t count)
+{
+    json_t *root = document_json(d);
+    json_has(root, e, count);
+    json_decref(root);
+}
+
+static void answers(const struct br_document *d, const char *sentence)
+{
+    for (size_t i = 0; i < d->answers; i++)
+        if (strcmp(d->answer[i], sentence) == 0)
+            return;
+    fail_msg("the answer lacks '%s'; it begins with '%s'", sentence, d->answer[0]);
 }
 
 /* ---- trade ---- */
@@ -139,8 +223,9 @@ static struct br_trade *made_trade(const struct br_scene *scene)
             .contender = &t->contenders.list[i],
             .at = {11 + i, 20 + i},
             .tolerance = i ? 0.0625 : 0,
-            .cost = {2.5,
-                     3.75,
+            .printed = i == 0,
+            .cost = {i ? 0.5 : 2.5,
+                     i ? 0.75 : 3.75,
                      4,
                      {.steps = 5, .stages = 6, .rejected = 7, .set_ups = 8, .iterations = 9}},
             .error = {{0.125, 0.25, 0.375}},
@@ -148,6 +233,11 @@ static struct br_trade *made_trade(const struct br_scene *scene)
             .own = {0.0078125},
         };
     t->front[1] = true;
+    t->wall_seconds = 10.5;
+    for (size_t d = 0; d < BR_TRADE_DIGITS; d++) {
+        t->best[d] = d == 1 || d == 3 ? 1 : 2;
+        t->best_of[0][d] = t->best_of[1][d] = d == 3 ? 0 : 2;
+    }
     return t;
 }
 
@@ -162,32 +252,42 @@ enum { TRIAL_NUMBERS = sizeof trial_numbers / sizeof *trial_numbers };
 static void trade_is_printed(void **state)
 {
     (void)state;
-    struct br_error err = {0};
-    const struct br_scene scene = br_test_bare();
+    struct br_scene scene = br_test_bare();
+    scene.name = (char[]){"made"};
     struct br_trade *trade = made_trade(&scene);
-    const struct br_trade_page page = {"made", "Made", trade, &provenance};
-    char *csv = NULL, *json = NULL;
-    size_t size;
-    FILE *out = open_memstream(&csv, &size);
-    MUST(br_trade_csv(out, &page, &err));
-    fclose(out);
-    out = open_memstream(&json, &size);
-    MUST(br_trade_json(out, &page, &err));
-    fclose(out);
-
-    char *rest = csv, *head = next_line(&rest), *fixed = next_line(&rest);
-    row_has("CSV", head, fixed, ',', trial_numbers, TRIAL_NUMBERS);
-    const struct expected others[] = {{"steps_or_levels", 20}, {"scale", 1.5}, {"front", 0}};
-    row_has("CSV", head, fixed, ',', others, 3);
-    const struct expected adaptive[] = {{"k", NAN}, {"tolerance", 0.0625}, {"front", 1}};
-    row_has("CSV", head, next_line(&rest), ',', adaptive, 3);
-
-    json_t *root = read_json(json);
-    json_has(at_path(root, "trials.0"), trial_numbers, TRIAL_NUMBERS);
-    assert_true(json_is_false(at_path(root, "trials.0.front")));
-    json_has(at_path(root, "trials.1"), adaptive, 2);
-    json_decref(root);
-    free(csv);
+    struct br_document d = {.name = NULL};
+    br_report_trade(trade, &provenance, &d);
+    table_has(&d, "trials", 0, trial_numbers, TRIAL_NUMBERS);
+    const struct expected others[] = {
+        {"steps_or_levels", 20}, {"scale", 1.5}, {"digits_per_second", -log10(0.125 / 1.5) / 6.25}};
+    table_has(&d, "trials", 0, others, 3);
+    const struct expected adaptive[] = {{"k", NAN}, {"tolerance", 0.0625}, {"n", 12}};
+    table_has(&d, "trials", 1, adaptive, 3);
+    const struct expected cheapest[] = {
+        {"target", 1e-3}, {"trial", 1}, {"n", 12}, {"tolerance", 0.0625}, {"error", 0.125}};
+    table_has(&d, "cheapest", 1, cheapest, 5);
+    const struct expected none[] = {{"target", 1e-2}, {"trial", NAN}, {"n", NAN}, {"k", NAN}};
+    table_has(&d, "cheapest", 0, none, 4);
+    const struct expected seconds[] = {
+        {"axial_degree", 1}, {"seconds_to_1e-05", 6.25}, {"seconds_to_1e-04", NAN}};
+    table_has(&d, "methods", 0, seconds, 3);
+    const struct expected facts[] = {
+        {"wall_seconds", 10.5}, {"repeats", 3}, {"repeat_seconds", 0.1}, {"time_limit", 10}};
+    facts_are(&d, facts, 4);
+    answers(&d, "To an error of 1e-03: adaptive, n = 12, tolerance 0.0625; 1.25 CPU s, relative "
+                "error 8.33e-02.");
+    answers(&d, "No trial has an error of 1e-06 or less.");
+    answers(&d, "Fastest and most accurate: adaptive, n = 12, tolerance 0.0625; 1.25 CPU s, "
+                "relative error 8.33e-02.");
+    answers(&d, "The paper's way, euler, reaches 1e-05 in 6.25 CPU s, 5 times as much as the "
+                "cheapest.");
+    answers(&d, "Trials: 2 done.");
+    const struct expected truths[][2] = {{{"front", 0}, {"printed", 1}},
+                                         {{"front", 1}, {"printed", 0}}};
+    for (size_t i = 0; i < 2; i++)
+        table_has(&d, "trials", i, truths[i], 2);
+    row_says(&d, "trials", 0, (const char *const[]){"method", "euler", "end", "done", NULL});
+    br_document_clear(&d);
     free(trade->trial);
     free(trade->front);
     free(trade);
@@ -200,7 +300,9 @@ static struct br_split made_split(struct br_scene *scene)
 {
     struct br_split s = {
         .scene = scene,
-        .method = br_test_method(NULL, "lagged", NULL),
+        .method = br_test_method("umfpack", "implicit", "uzawa"),
+        .unstable = true,
+        .refined = {.name = "made finer"},
         .at = {12, 16},
         .norm = {&br_norm_l2},
         .norms = 1,
@@ -210,9 +312,13 @@ static struct br_split made_split(struct br_scene *scene)
         .tip_sum = {65, 129},
         .tip = {66, 130},
         .solution_tip = {67, 131},
-        .scale = {1},
+        .scale = {4},
         .predicted_round_off = 0.03125,
     };
+    s.method.scheme = br_time_scheme_find("adaptive");
+    s.method.tolerance = 0.0009765625;
+    s.method.linear.refinement = 3;
+    s.method.iteration = (struct br_iteration){0.25, 0.0001220703125, 77};
     for (; br_sources[s.shares]; s.shares++) {
         const double times = (double)(s.shares + 1);
         s.share[s.shares] = (struct br_share){
@@ -225,65 +331,183 @@ static struct br_split made_split(struct br_scene *scene)
     return s;
 }
 
-/* Where CSV has a column, JSON has a path below the part. */
-static const struct {
-    struct expected csv;
-    const char *json;
-} part_numbers[] = {
-    {{"error", 3}, "norms.0.error.total"},
-    {{"axial", 6}, "norms.0.error.axial"},
-    {{"bending", 9}, "norms.0.error.bending"},
-    {{"floor", 0.375}, "norms.0.floor.total"},
-    {{"axial_floor", 0.75}, "norms.0.floor.axial"},
-    {{"bending_floor", 1.125}, "norms.0.floor.bending"},
-    {{"share", 3.0 / 64}, "norms.0.share"},
-    {{"axial_tip", 15}, "tip.axial"},
-    {{"bending_tip", -21}, "tip.bending"},
-};
-
-static char *emitted_split(const struct br_split *split, const char *format)
+static void split_is_printed(void **state)
 {
-    struct br_error err = {0};
-    const struct br_split_page page = {split, 1, &provenance};
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    for (const struct br_split_emitter *const *e = br_split_emitters; *e; e++)
-        if (strcmp((*e)->name, format) == 0)
-            MUST((*e)->emit(out, &page, &err));
-    fclose(out);
-    return text;
+    (void)state;
+    static const struct expected third[] = {{"run", 0},
+                                            {"n", 12},
+                                            {"steps", 16},
+                                            {"k", 1.0 / 16},
+                                            {"error", 3},
+                                            {"axial", 6},
+                                            {"bending", 9},
+                                            {"floor", 0.375},
+                                            {"axial_floor", 0.75},
+                                            {"bending_floor", 1.125},
+                                            {"share", 3.0 / 64},
+                                            {"relative", 0.75},
+                                            {"axial_tip", 15},
+                                            {"bending_tip", -21},
+                                            {"applies", 1},
+                                            {"tolerance", 0.0009765625},
+                                            {"axial_degree", 1},
+                                            {"refinement", 3},
+                                            {"friction_parameter", 0.25},
+                                            {"friction_tolerance", 0.0001220703125},
+                                            {"friction_iterations", 77}};
+    static const struct expected sum[] = {{"error", 64},     {"axial", 128},      {"bending", 192},
+                                          {"floor", NAN},    {"share", 1},        {"relative", 16},
+                                          {"axial_tip", 65}, {"bending_tip", 129}};
+    static const struct expected whole[] = {
+        {"error", 16},          {"axial", 32},           {"bending", 48}, {"floor", 0.5},
+        {"axial_floor", 0.625}, {"bending_floor", 0.75}, {"share", NAN},  {"relative", 4},
+        {"axial_tip", 17},      {"bending_tip", 33}};
+    static const struct expected run[] = {{"n", 12},
+                                          {"steps", 16},
+                                          {"predicted_round_off", 0.03125},
+                                          {"axial_tip", 66},
+                                          {"bending_tip", 130},
+                                          {"solution_axial_tip", 67},
+                                          {"solution_bending_tip", 131},
+                                          {"unstable", 1}};
+    struct br_scene scene = br_test_bare();
+    scene.name = (char[]){"made"};
+    const struct br_split split = made_split(&scene);
+    struct br_document d = {.name = NULL};
+    br_report_split(&split, 1, &provenance, &d);
+    row_says(&d, "parts", 2,
+             (const char *const[]){"scheme", "adaptive", "contact", "implicit", "friction", "uzawa",
+                                   "solver", "umfpack", "scaling", "none", "norm", "l2", "unit",
+                                   "m^(3/2)", "part", "mu", NULL});
+    row_says(&d, "runs", 0,
+             (const char *const[]){"reference", "exact", "refined", "made finer", NULL});
+    answers(&d,
+            "n = 12, k = 0.0625 s: scheme adaptive to 0.0009765625, solver umfpack, refinement "
+            "steps 3, contact none, friction none. Error 1.600e+01 m^(3/2), by parts: "
+            "round-off 1.6 %, iteration 3.1 %, mu 4.7 %, lag 6.2 %, time 7.8 %, space 9.4 %. The "
+            "lagged contact is beyond its stability limit: its part is bounded chatter.");
+    table_has(&d, "parts", 2, third, sizeof third / sizeof *third);
+    table_has(&d, "parts", split.shares, sum, sizeof sum / sizeof *sum);
+    table_has(&d, "parts", split.shares + 1, whole, sizeof whole / sizeof *whole);
+    table_has(&d, "runs", 0, run, sizeof run / sizeof *run);
+    br_document_clear(&d);
 }
 
-static void split_is_printed(void **state)
+/* ---- plan ---- */
+
+static double seconds_of_plan(const struct br_trial *trial)
+{
+    return 2 * br_trial_seconds(trial);
+}
+
+/* Two trials and models of two methods; the second is not known. */
+static struct br_plan *made_plan(const struct br_scene *scene)
+{
+    struct br_error err = {0};
+    struct br_plan *p = calloc(1, sizeof *p);
+    assert_non_null(p);
+    br_plan_default(p, scene);
+    MUST(br_contenders_read("--methods", "euler,bdf2", &p->contenders, &err));
+    p->goal = (struct br_plan_goal){0.5, NAN};
+    p->norm[0] = &br_norm_l2;
+    p->seconds = seconds_of_plan;
+    p->count = 2;
+    p->trial = calloc(2, sizeof *p->trial);
+    p->forecast = calloc(2, sizeof *p->forecast);
+    assert_true(p->trial && p->forecast);
+    for (size_t i = 0; i < p->count; i++) {
+        p->trial[i] = (struct br_trial){
+            .contender = &p->contenders.list[0],
+            .at = {11 + i, 20 + i},
+            .cost = {2.5, 3.75, 4, {.steps = 5, .stages = 6, .set_ups = 8}},
+            .error = {{0.125, 0.25, 0.375}},
+            .scale = {1.5},
+            .own = {0.25},
+        };
+        p->forecast[i] = (struct br_plan_forecast){i, 0.0625, 7.5};
+    }
+    p->first = 0;
+    p->chosen = 1;
+    p->rounds = 9;
+    p->own = 0.0078125;
+    p->wall_seconds = 10.5;
+    struct br_plan_models *m = &p->model[0];
+    m->known = true;
+    m->error = (struct br_plan_model){.r = 0.75, .scatter = 0.875, .points = 13};
+    m->error.space = m->error.time = (struct br_plan_curve){1, {1.25}, {-2.25}};
+    m->error.time.value[0] = -3.25;
+    m->cost =
+        (struct br_plan_cost){.c = {1, 2, 3, 4}, .scatter = 0.9375, .solves = {1, {4.25}, {5.25}}};
+    return p;
+}
+
+static void plan_is_printed(void **state)
 {
     (void)state;
     struct br_scene scene = br_test_bare();
     scene.name = (char[]){"made"};
-    const struct br_split split = made_split(&scene);
-    char *csv = emitted_split(&split, "csv"), *rest = csv, *head = next_line(&rest);
-    char *third = (next_line(&rest), next_line(&rest), next_line(&rest));
-    json_t *root = read_json(emitted_split(&split, "json"));
-    for (size_t i = 0; i < sizeof part_numbers / sizeof *part_numbers; i++) {
-        const struct expected json = {part_numbers[i].json, part_numbers[i].csv.value};
-        row_has("CSV", head, third, ',', &part_numbers[i].csv, 1);
-        json_has(at_path(root, "runs.0.parts.2"), &json, 1);
-    }
-    const struct expected run[] = {{"n", 12},
-                                   {"k", 1.0 / 16},
-                                   {"steps", 16},
-                                   {"predicted_round_off", 0.03125},
-                                   {"sum.norms.0.error.axial", 128},
-                                   {"sum.tip.bending", 129},
-                                   {"whole.norms.0.error.bending", 48},
-                                   {"whole.norms.0.floor.axial", 0.625},
-                                   {"whole.tip.axial", 17},
-                                   {"tip.axial", 66},
-                                   {"solution_tip.bending", 131}};
-    row_has("CSV", head, third, ',', run, 2);
-    json_has(at_path(root, "runs.0"), run, sizeof run / sizeof *run);
+    struct br_plan *plan = made_plan(&scene);
+    struct br_document d = {.name = NULL};
+    br_report_plan(plan, "made", &provenance, &d);
+    answers(&d, "Proposal: euler, n = 12, k = 0.047619 s. Error 2.500e-01 (predicted 6.250e-02), "
+                "CPU 12.5 s (predicted 7.5 s), 5 steps.");
+    answers(&d, "First proposal, by the cheap trials alone: euler, n = 11, k = 0.05 s. Error "
+                "2.500e-01 (predicted 6.250e-02), CPU 12.5 s (predicted 7.5 s), 5 steps.");
+    answers(&d, "Met: the achieved error is 0.50 of the goal, a relative error of 0.5.");
+    json_t *root = document_json(&d);
+    assert_string_equal(json_string_value(json_object_get(root, "run")),
+                        "beamrate run made --n 12 --k T/21");
+    assert_string_equal(json_string_value(json_object_get(root, "trade")),
+                        "beamrate trade made --methods euler --n 12 --k T/21");
     json_decref(root);
-    free(csv);
+    const struct expected trial[] = {
+        {"round", 1},
+        {"n", 12},
+        {"steps_or_levels", 21},
+        {"k", 1.0 / 21},
+        {"tolerance", NAN},
+        {"predicted_error", 0.0625},
+        {"relative_error", 0.375 / 1.5},
+        {"predicted_seconds", 7.5},
+        {"seconds", 12.5},
+        {"steps", 5},
+        {"solves", 6},
+        {"set_ups", 8},
+        {"chosen", 1},
+    };
+    row_says(&d, "trials", 1, (const char *const[]){"method", "euler", "end", "done", NULL});
+    row_says(&d, "curves", 2,
+             (const char *const[]){"method", "euler", "curve", "log_solves", NULL});
+    table_has(&d, "trials", 1, trial, sizeof trial / sizeof *trial);
+    const struct expected model[] = {{"trials", 13},           {"r", 0.75},
+                                     {"error_scatter", 0.875}, {"cost_scatter", 0.9375},
+                                     {"seconds_set_up", 1},    {"seconds_element", 2},
+                                     {"seconds_solve", 3},     {"seconds_element_solve", 4}};
+    table_has(&d, "models", 0, model, sizeof model / sizeof *model);
+    table_has(&d, "models", 1, &(struct expected){"r", NAN}, 1);
+    const struct expected curve[][2] = {{{"at", 1.25}, {"value", -2.25}},
+                                        {{"at", 1.25}, {"value", -3.25}},
+                                        {{"at", 4.25}, {"value", 5.25}}};
+    for (size_t i = 0; i < 3; i++)
+        table_has(&d, "curves", i, curve[i], 2);
+    const struct br_plan_parts parts = br_plan_chosen_parts(plan);
+    const struct expected facts[] = {{"goal_error", 0.5},
+                                     {"goal_seconds", NAN},
+                                     {"own_error", 0.0078125},
+                                     {"rounds", 9},
+                                     {"first", 0},
+                                     {"chosen", 1},
+                                     {"marched_seconds", br_plan_spent(plan)},
+                                     {"wall_seconds", 10.5},
+                                     {"space_error", parts.space},
+                                     {"time_error", parts.time},
+                                     {"space_order", parts.p},
+                                     {"time_order", parts.q}};
+    facts_are(&d, facts, sizeof facts / sizeof *facts);
+    br_document_clear(&d);
+    free(plan->trial);
+    free(plan->forecast);
+    free(plan);
 }
 
 /* ---- check ---- */
@@ -705,14 +929,20 @@ static void summary_is_printed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(trade_is_printed),      cmocka_unit_test(split_is_printed),
-        cmocka_unit_test(check_is_printed),      cmocka_unit_test(check_is_printed_for_people),
-        cmocka_unit_test(check_is_in_json),      cmocka_unit_test(history_is_printed),
-        cmocka_unit_test(tip_is_the_last_node),  cmocka_unit_test(fields_are_printed),
+        cmocka_unit_test(trade_is_printed),
+        cmocka_unit_test(split_is_printed),
+        cmocka_unit_test(plan_is_printed),
+        cmocka_unit_test(check_is_printed),
+        cmocka_unit_test(check_is_printed_for_people),
+        cmocka_unit_test(check_is_in_json),
+        cmocka_unit_test(history_is_printed),
+        cmocka_unit_test(tip_is_the_last_node),
+        cmocka_unit_test(fields_are_printed),
 #ifdef BR_HAVE_HDF5
         cmocka_unit_test(fields_are_in_hdf5),
 #endif
-        cmocka_unit_test(prediction_is_printed), cmocka_unit_test(summary_is_printed),
+        cmocka_unit_test(prediction_is_printed),
+        cmocka_unit_test(summary_is_printed),
     };
     return cmocka_run_group_tests_name("printed_values", tests, set_up, tear_down);
 }

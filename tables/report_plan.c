@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tables/report_plan.h"
+
+#include <math.h>
+
+#include "study/scene/method_fields.h"
+#include "study/scene/quote.h"
+#include "tables/report_trial.h"
+
+/* ---- the answer ---- */
+
+static double error_of(const struct br_plan *p, size_t i)
+{
+    return br_trial_bound(&p->trial[i], 0);
+}
+
+static void answer_trial(struct br_document *d, const struct br_plan *p, const char *what, size_t i)
+{
+    char trial[BR_TRIAL_TEXT];
+    br_put_answer(
+        d, "%s: %s. Error %.3e (predicted %.3e), CPU %.3g s (predicted %.3g s), %zu steps.", what,
+        br_trial_text(p->request.scene, &p->trial[i], trial), error_of(p, i), p->forecast[i].error,
+        p->seconds(&p->trial[i]), p->forecast[i].seconds, p->trial[i].cost.counts.steps);
+}
+
+static void answer_missed(struct br_document *d, const struct br_plan *p)
+{
+    char trial[BR_TRIAL_TEXT];
+    size_t best = p->count;
+    if (isfinite(p->goal.error))
+        br_put_answer(d,
+                      "Missed: nothing that was tried has a relative error of %g within the time "
+                      "limit of %g s a march.",
+                      p->goal.error, p->request.time_limit);
+    else
+        br_put_answer(d, "Missed: nothing that was tried takes at most %g CPU s.", p->goal.seconds);
+    for (size_t i = 0; i < p->count; i++)
+        if (isfinite(error_of(p, i)) && (best == p->count || error_of(p, i) < error_of(p, best)))
+            best = i;
+    if (best < p->count)
+        br_put_answer(d, "Most accurate: %s. Error %.3e, CPU %.3g s.",
+                      br_trial_text(p->request.scene, &p->trial[best], trial), error_of(p, best),
+                      p->seconds(&p->trial[best]));
+}
+
+/* How the goal was met. */
+static void answer_met(struct br_document *d, const struct br_plan *p)
+{
+    const double share = error_of(p, p->chosen) / p->goal.error;
+    if (!isfinite(p->goal.error))
+        br_put_answer(d, "Met: the least error that was found within %g CPU s.", p->goal.seconds);
+    else if (p->end == BR_PLAN_MET)
+        br_put_answer(d, "Met: the achieved error is %.2f of the goal, a relative error of %g.",
+                      share, p->goal.error);
+    else
+        br_put_answer(d,
+                      "Met, and better: the achieved error is %.2g of the goal, a relative error "
+                      "of %g; %s.",
+                      share, p->goal.error,
+                      p->end == BR_PLAN_COARSEST
+                          ? "the mesh is the coarsest, nothing costs less"
+                          : "nothing nearer to the goal was found that costs as little");
+}
+
+static void answer_work(struct br_document *d, const struct br_plan *p)
+{
+    size_t cheap = 0, failed = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        cheap += p->forecast[i].round == 0;
+        failed += isfinite(error_of(p, i)) ? 0 : 1;
+    }
+    br_put_answer(
+        d,
+        "The planning took %.3g s: %zu cheap trials and %zu proposals (%zu failed), which "
+        "take %.3g CPU s when marched once.",
+        p->wall_seconds, cheap, p->count - cheap, failed, br_plan_spent(p));
+}
+
+/* Command lines that repeat the chosen trial: its march, and its error and seconds. */
+static void put_commands(struct br_document *d, const struct br_plan *p, const char *scene_word)
+{
+    if (p->chosen == p->count)
+        return;
+    const struct br_trial *t = &p->trial[p->chosen];
+    const struct br_method method = br_trial_method(t);
+    const bool usual = p->norm[0] == br_norms[0];
+    char scene[1024], options[BR_METHOD_TEXT], step[64], line[2048];
+    br_quoted(scene, sizeof scene, &br_for_shell, scene_word);
+    snprintf(line, sizeof line, "beamrate run %s --n %zu --k T/%zu%s", scene, t->at.n, t->at.steps,
+             br_method_options(p->request.scene, &method, options));
+    br_put_command(d, "run", "To march it", line);
+    if (br_contender_adaptive(t->contender))
+        snprintf(step, sizeof step, "--tolerances %.15g", t->tolerance);
+    else
+        snprintf(step, sizeof step, "--k T/%zu", t->at.steps);
+    snprintf(line, sizeof line, "beamrate trade %s --methods %s --n %zu %s%s%s", scene,
+             t->contender->name, t->at.n, step, usual ? "" : " --norm ",
+             usual ? "" : p->norm[0]->name);
+    br_put_command(d, "trade", "To measure it again", line);
+}
+
+/* The commands stand first: a file has them below the answer. */
+static void put_answer(struct br_document *d, const struct br_plan *p, const char *scene_word)
+{
+    if (p->end == BR_PLAN_MISSED)
+        answer_missed(d, p);
+    else
+        answer_met(d, p);
+    if (p->chosen < p->count)
+        answer_trial(d, p, "Proposal", p->chosen);
+    if (p->first < p->count && p->first != p->chosen)
+        answer_trial(d, p, "First proposal, by the cheap trials alone", p->first);
+    answer_work(d, p);
+    put_commands(d, p, scene_word);
+}
+
+/* ---- tables ---- */
+
+static const char *remark_on(const struct br_plan *p, size_t i)
+{
+    if (p->trial[i].end != BR_TRIAL_DONE)
+        return br_trial_end_name(p->trial[i].end);
+    if (i == p->chosen)
+        return i == p->first ? "first, chosen" : "chosen";
+    return i == p->first ? "first" : NULL;
+}
+
+static void put_trial(struct br_document *d, const struct br_plan *p, size_t i)
+{
+    const struct br_trial *t = &p->trial[i];
+    const struct br_counts *c = &t->cost.counts;
+    struct br_row row = {.cells = 0};
+    BR_ADD(&row, br_count(p->forecast[i].round), .key = "round");
+    br_row_add_trial(&row, p->request.scene, t);
+    BR_ADD(&row, br_number(p->forecast[i].error), .key = "predicted_error",
+           .heading = "predicted error", .format = "%.3e");
+    BR_ADD(&row, br_number(error_of(p, i)), .key = "relative_error", .heading = "relative error",
+           .format = "%.3e");
+    BR_ADD(&row, br_number(p->forecast[i].seconds), .key = "predicted_seconds",
+           .heading = "predicted CPU", .unit = "s", .format = "%.3g");
+    BR_ADD(&row, br_number(p->seconds(t)), .key = "seconds", .heading = "CPU", .unit = "s",
+           .format = "%.3g");
+    BR_ADD(&row, br_count(c->steps), .key = "steps");
+    br_row_hide(&row, "solves", NULL, br_count(c->stages));
+    br_row_hide(&row, "set_ups", NULL, br_count(c->set_ups));
+    br_row_hide(&row, "end", NULL, br_text(br_trial_end_name(t->end)));
+    br_row_hide(&row, "chosen", NULL, br_truth(i == p->chosen));
+    br_row_hide(&row, "failure", NULL, br_text(t->failure.status ? t->failure.message : NULL));
+    BR_ADD(&row, br_text(remark_on(p, i)), .key = "remark", .flags = BR_FOR_PEOPLE);
+    br_put_whole_row(d, &row);
+}
+
+/* Proposals come after the cheap trials of round 0. */
+static void put_proposals(struct br_document *d, const struct br_plan *p)
+{
+    br_put_table(d, "proposals", "What was proposed", BR_FOR_PEOPLE, NULL, 0);
+    for (size_t i = 0; i < p->count; i++)
+        if (p->forecast[i].round > 0)
+            put_trial(d, p, i);
+}
+
+static void put_trials(struct br_document *d, const struct br_plan *p)
+{
+    br_put_table(d, "trials", "All trials", BR_FOR_PROGRAMS | BR_MAIN, NULL, 0);
+    for (size_t i = 0; i < p->count; i++)
+        put_trial(d, p, i);
+}
+
+/* A root mean square of logarithms, which people see in per cent; NaN: not known. */
+static void add_scatter(struct br_row *row, const char *key, const char *heading, double scatter)
+{
+    BR_ADD(row, br_number(scatter), .key = key, .heading = heading);
+    if (isfinite(scatter))
+        br_row_shown(row, "%.2g %%", 100 * expm1(scatter));
+}
+
+static void put_models(struct br_document *d, const struct br_plan *p)
+{
+    static const double unknown[BR_PLAN_COSTS] = {NAN, NAN, NAN, NAN};
+    br_put_table(d, "models", "How far the models are off (root mean square over the trials)", 0,
+                 NULL, 0);
+    for (size_t i = 0; i < p->contenders.count; i++) {
+        const struct br_plan_models *m = &p->model[i];
+        const double *c = m->known ? m->cost.c : unknown;
+        struct br_row row = {.cells = 0};
+        BR_ADD(&row, br_text(p->contenders.list[i].name), .key = "method");
+        BR_ADD(&row, br_count(m->error.points), .key = "trials");
+        BR_ADD(&row, br_number(m->known ? m->error.r : NAN), .key = "r", .format = "%.2f");
+        add_scatter(&row, "error_scatter", "error", m->known ? m->error.scatter : (double)NAN);
+        add_scatter(&row, "cost_scatter", "CPU", m->known ? m->cost.scatter : (double)NAN);
+        br_row_hide(&row, "seconds_set_up", "s", br_number(c[0]));
+        br_row_hide(&row, "seconds_element", "s", br_number(c[1]));
+        BR_ADD(&row, br_number(c[2]), .key = "seconds_solve", .heading = "a solve", .unit = "s",
+               .format = "%.3g");
+        BR_ADD(&row, br_number(c[3]), .key = "seconds_element_solve",
+               .heading = "an element and solve", .unit = "s", .format = "%.3g");
+        br_put_whole_row(d, &row);
+    }
+}
+
+static void put_curve(struct br_document *d, const char *method, const char *name,
+                      const struct br_plan_curve *c)
+{
+    for (size_t i = 0; i < c->count; i++) {
+        br_put_row(d);
+        br_put(d, "method", br_text(method));
+        br_put(d, "curve", br_text(name));
+        br_put(d, "at", br_number(c->at[i]));
+        br_put(d, "value", br_number(c->value[i]));
+    }
+}
+
+/* Logarithms: of n, steps or 1/tolerance; and of an error or solves. */
+static void put_curves(struct br_document *d, const struct br_plan *p)
+{
+    static const struct br_column columns[] = {
+        {.key = "method"}, {.key = "curve"}, {.key = "at"}, {.key = "value"}};
+    br_put_table(d, "curves", "Knots of the models", BR_FOR_PROGRAMS, BR_COLUMNS(columns));
+    for (size_t i = 0; i < p->contenders.count; i++) {
+        const struct br_plan_models *m = &p->model[i];
+        if (!m->known)
+            continue;
+        put_curve(d, p->contenders.list[i].name, "log_space_error", &m->error.space);
+        put_curve(d, p->contenders.list[i].name, "log_time_error", &m->error.time);
+        put_curve(d, p->contenders.list[i].name, "log_solves", &m->cost.solves);
+    }
+}
+
+/* ---- facts and notes ---- */
+
+static void put_facts(struct br_document *d, const struct br_plan *p)
+{
+    const struct br_plan_parts parts = br_plan_chosen_parts(p);
+    br_put_hidden_fact(d, "scene.name", br_text(p->request.scene->name));
+    br_put_hidden_fact(d, "goal_error", br_number(p->goal.error));
+    br_put_hidden_fact(d, "goal_seconds", br_number(p->goal.seconds));
+    br_put_hidden_fact(d, "norm", br_text(p->norm[0]->name));
+    br_put_hidden_fact(d, "end", br_text(br_plan_end_name(p->end)));
+    br_put_hidden_fact(d, "own_error", br_number(p->own));
+    br_put_hidden_fact(d, "rounds", br_count(p->rounds));
+    br_put_hidden_fact(d, "first", p->first < p->count ? br_count(p->first) : br_nothing());
+    br_put_hidden_fact(d, "chosen", p->chosen < p->count ? br_count(p->chosen) : br_nothing());
+    br_put_hidden_fact(d, "marched_seconds", br_number(br_plan_spent(p)));
+    br_put_hidden_fact(d, "wall_seconds", br_number(p->wall_seconds));
+    br_put_hidden_fact(d, "space_error", br_number(parts.space));
+    br_put_hidden_fact(d, "time_error", br_number(parts.time));
+    br_put_hidden_fact(d, "space_order", br_number(parts.p));
+    br_put_hidden_fact(d, "time_order", br_number(parts.q));
+}
+
+static void put_notes(struct br_document *d, const struct br_plan *p, const char *machine)
+{
+    const struct br_plan_parts parts = br_plan_chosen_parts(p);
+    br_put_section(d, "What is measured");
+    if (isfinite(parts.space))
+        br_put_note(
+            d,
+            "By the model, the proposal has a space error of %.2e and a time error of %.2e, "
+            "both relative. The observed order in h is %.2f, in %s it is %.2f.",
+            parts.space, parts.time, parts.p,
+            br_contender_adaptive(p->trial[p->chosen].contender) ? "the tolerance" : "k", parts.q);
+    br_put_note(d, "%s", p->norm[0]->title);
+    br_put_note(d,
+                "Relative errors are over the norm of the solution; the judge's own error, %.1e, "
+                "is added.",
+                isfinite(p->own) ? p->own : 0.0);
+    br_put_note(d, "An error is the largest at a run's own time levels: nobody asks long steps "
+                   "about what happens between them. There are at least 10 steps, and 20 levels "
+                   "where the scheme chooses its steps.");
+    br_put_note(d,
+                "CPU: set-up and march, seconds of the processor in one thread, the least of up to "
+                "%zu marches after a warm-up. On %s.",
+                p->request.repeats, machine);
+}
+
+void br_report_plan(const struct br_plan *p, const char *scene_word,
+                    const struct br_provenance *provenance, struct br_document *d)
+{
+    const struct br_scene *scene = p->request.scene;
+    char name[512], caption[512];
+    snprintf(name, sizeof name, "%.500s-plan", scene->name);
+    snprintf(caption, sizeof caption, "A plan: %.400s", scene->title);
+    br_document_begin(d, name, "beamrate plan", 1, caption);
+    put_answer(d, p, scene_word);
+    put_proposals(d, p);
+    put_models(d, p);
+    put_trials(d, p);
+    put_curves(d, p);
+    put_facts(d, p);
+    put_notes(d, p, provenance->machine);
+    br_put_provenance(d, provenance);
+}

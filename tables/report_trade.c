@@ -1,0 +1,330 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tables/report_trade.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "tables/report_trial.h"
+
+/* ---- the answer ---- */
+
+enum { TEXT = 1024 };
+
+/* "bdf2, n = 100, k = 0.01 s; 1.2e-05 CPU s, relative error 3.45e-04" */
+static const char *describe(const struct br_trade *t, size_t i, char text[TEXT])
+{
+    char trial[BR_TRIAL_TEXT];
+    snprintf(text, TEXT, "%s; %.3g CPU s, relative error %.2e",
+             br_trial_text(t->request.scene, &t->trial[i], trial), br_trial_seconds(&t->trial[i]),
+             br_trial_relative(&t->trial[i], 0, BR_PART_TOTAL));
+    return text;
+}
+
+/* Errors that an answer names: 1e-3, 1e-6, 1e-9. */
+static const size_t answered[] = {1, 4, 7};
+enum { ANSWERED = sizeof answered / sizeof *answered };
+
+static void answer_cheapest(struct br_document *d, const struct br_trade *t)
+{
+    char text[TEXT];
+    for (size_t i = 0; i < ANSWERED; i++) {
+        const size_t best = t->best[answered[i]];
+        const double target = br_trade_target(answered[i]);
+        if (best == t->count) {
+            br_put_answer(d, "No trial has an error of %.0e or less.", target);
+            return;
+        }
+        br_put_answer(d, "To an error of %.0e: %s.", target, describe(t, best, text));
+    }
+}
+
+/* The next trial on the Pareto front, by seconds, after `last`; count: the first, and the end. */
+static size_t next_on_front(const struct br_trade *t, size_t last)
+{
+    const double after = last < t->count ? br_trial_seconds(&t->trial[last]) : -INFINITY;
+    size_t next = t->count;
+    for (size_t i = 0; i < t->count; i++) {
+        const double seconds = br_trial_seconds(&t->trial[i]);
+        if (t->front[i] && seconds > after &&
+            (next == t->count || seconds < br_trial_seconds(&t->trial[next])))
+            next = i;
+    }
+    return next;
+}
+
+static void answer_front(struct br_document *d, const struct br_trade *t)
+{
+    char text[TEXT];
+    const size_t fastest = next_on_front(t, t->count);
+    size_t best = fastest;
+    for (size_t i = best; i < t->count; i = next_on_front(t, i))
+        best = i;
+    if (best == t->count)
+        return;
+    br_put_answer(d, "Fastest%s: %s.", best == fastest ? " and most accurate" : "",
+                  describe(t, fastest, text));
+    if (best != fastest)
+        br_put_answer(d, "Most accurate: %s.", describe(t, best, text));
+}
+
+/* What the paper's way costs to the smallest error that it reaches. */
+static void answer_paper(struct br_document *d, const struct br_trade *t)
+{
+    for (size_t c = 0; c < t->contenders.count; c++) {
+        const struct br_contender *paper = &t->contenders.list[c];
+        size_t digit = BR_TRADE_DIGITS;
+        if (!br_trade_is_printed_method(paper))
+            continue;
+        while (digit > 0 && t->best_of[c][digit - 1] == t->count)
+            digit--;
+        if (digit == 0) {
+            br_put_answer(d, "The paper's way, %s, reaches none of the errors.", paper->name);
+            return;
+        }
+        const double seconds = br_trial_seconds(&t->trial[t->best_of[c][digit - 1]]);
+        const double least = br_trial_seconds(&t->trial[t->best[digit - 1]]);
+        br_put_answer(d,
+                      "The paper's way, %s, reaches %.0e in %.3g CPU s, %.3g times as much as the "
+                      "cheapest.",
+                      paper->name, br_trade_target(digit - 1), seconds, seconds / least);
+        return;
+    }
+}
+
+static void answer_ends(struct br_document *d, const struct br_trade *t)
+{
+    char text[256];
+    size_t used = 0;
+    for (int i = BR_TRIAL_DONE; i < BR_TRIAL_ENDS; i++) {
+        const enum br_trial_end end = (enum br_trial_end)i;
+        if (br_trade_tally(t, end))
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%zu %s", used ? ", " : "",
+                                     br_trade_tally(t, end), br_trial_end_name(end));
+    }
+    br_put_answer(d, "Trials: %s.", text);
+}
+
+/* ---- tables ---- */
+
+/* A trial and what came of it. */
+static void add_outcome(struct br_row *row, const struct br_trade *t, size_t i)
+{
+    const struct br_trial *trial = &t->trial[i];
+    const struct br_counts *c = &trial->cost.counts;
+    const char *unit = t->norm[0]->unit;
+    br_row_add_trial(row, t->request.scene, trial);
+    BR_ADD(row, br_number(br_trial_relative(trial, 0, BR_PART_TOTAL)), .key = "relative_error",
+           .heading = "relative error", .format = "%.2e");
+    BR_ADD(row, br_number(trial->error[0][BR_PART_TOTAL]), .key = "error", .unit = unit,
+           .format = "%.3e");
+    br_row_hide(row, "axial", unit, br_number(trial->error[0][BR_PART_AXIAL]));
+    br_row_hide(row, "bending", unit, br_number(trial->error[0][BR_PART_BENDING]));
+    br_row_hide(row, "own_error", unit, br_number(trial->own[0]));
+    br_row_hide(row, "scale", unit, br_number(trial->scale[0]));
+    BR_ADD(row, br_number(br_trial_seconds(trial)), .key = "seconds", .heading = "CPU", .unit = "s",
+           .format = "%.3g");
+    br_row_hide(row, "set_up", "s", br_number(trial->cost.set_up));
+    br_row_hide(row, "march", "s", br_number(trial->cost.march));
+    br_row_hide(row, "repeats", NULL, br_count(trial->cost.repeats));
+    br_row_hide(row, "steps", NULL, br_count(c->steps));
+    br_row_hide(row, "rejected", NULL, br_count(c->rejected));
+    BR_ADD(row, br_count(c->stages), .key = "solves");
+    BR_ADD(row, br_count(c->iterations), .key = "iterations");
+    br_row_hide(row, "set_ups", NULL, br_count(c->set_ups));
+    BR_ADD(row, br_number(br_trade_digits_per_second(trial)), .key = "digits_per_second",
+           .heading = "digits/s", .format = "%.3g", .flags = BR_FILES_ONLY);
+    br_row_hide(row, "end", NULL, br_text(br_trial_end_name(trial->end)));
+    br_row_hide(row, "front", NULL, br_truth(t->front[i]));
+    br_row_hide(row, "printed", NULL, br_truth(trial->printed));
+    br_row_hide(row, "failure", NULL,
+                br_text(trial->failure.status ? trial->failure.message : NULL));
+}
+
+/* A row for each target. Without a trial that is good enough only the target is there. scene: of
+ * the rows; NULL: no such column. */
+static void put_targets(struct br_document *d, const struct br_trade *t, const char *scene)
+{
+    for (size_t digit = 0; digit < BR_TRADE_DIGITS; digit++) {
+        const size_t best = t->best[digit];
+        struct br_row row = {.cells = 0};
+        if (scene)
+            BR_ADD(&row, br_text(scene), .key = "scene");
+        BR_ADD(&row, br_number(br_trade_target(digit)), .key = "target", .heading = "to error",
+               .format = "%.0e");
+        const size_t first = row.cells;
+        /* its place in the list of all trials, which begins with 0 */
+        br_row_hide(&row, "trial", NULL, br_count(best));
+        add_outcome(&row, t, best < t->count ? best : 0);
+        if (best == t->count)
+            br_row_empty(&row, first);
+        br_put_whole_row(d, &row);
+    }
+}
+
+static void put_front(struct br_document *d, const struct br_trade *t)
+{
+    br_put_table(d, "front", "Pareto front: no trial is better in error and in seconds",
+                 BR_FOR_PEOPLE, NULL, 0);
+    for (size_t i = next_on_front(t, t->count); i < t->count; i = next_on_front(t, i)) {
+        struct br_row row = {.cells = 0};
+        add_outcome(&row, t, i);
+        br_put_whole_row(d, &row);
+    }
+}
+
+static void put_methods(struct br_document *d, const struct br_trade *t)
+{
+    br_put_table(d, "methods", "CPU seconds to an error, by method", BR_FILES_ONLY, NULL, 0);
+    for (size_t c = 0; c < t->contenders.count; c++) {
+        char key[BR_TRADE_DIGITS][32];
+        struct br_row row = {.cells = 0};
+        BR_ADD(&row, br_text(t->contenders.list[c].name), .key = "method");
+        br_row_add_method(&row, &t->contenders.list[c].method);
+        for (size_t i = 0; i < BR_TRADE_DIGITS; i++) {
+            const size_t best = t->best_of[c][i];
+            const double seconds =
+                best < t->count ? br_trial_seconds(&t->trial[best]) : (double)NAN;
+            snprintf(key[i], sizeof *key, "seconds_to_%.0e", br_trade_target(i));
+            BR_ADD(&row, br_number(seconds), .key = key[i],
+                   .heading = key[i] + strlen("seconds_to_"), .unit = "s", .format = "%.2g");
+        }
+        br_put_whole_row(d, &row);
+    }
+}
+
+static void put_failures(struct br_document *d, const struct br_trade *t)
+{
+    br_put_table(d, "failures", "Trials that did not come to their end", BR_FOR_PEOPLE, NULL, 0);
+    for (size_t i = 0; i < t->count; i++) {
+        const struct br_trial *trial = &t->trial[i];
+        struct br_row row = {.cells = 0};
+        if (!trial->failure.status)
+            continue;
+        br_row_add_trial(&row, t->request.scene, trial);
+        BR_ADD(&row, br_text(br_trial_end_name(trial->end)), .key = "end");
+        BR_ADD(&row, br_text(trial->failure.message), .key = "why", .flags = BR_WRAP);
+        br_put_whole_row(d, &row);
+    }
+}
+
+static void put_trials(struct br_document *d, const struct br_trade *t)
+{
+    br_put_table(d, "trials", "All trials", BR_FOR_PROGRAMS | BR_MAIN, NULL, 0);
+    for (size_t i = 0; i < t->count; i++) {
+        struct br_row row = {.cells = 0};
+        add_outcome(&row, t, i);
+        br_put_whole_row(d, &row);
+    }
+}
+
+/* ---- what was measured ---- */
+
+static const struct br_judge *judge_of(const struct br_trade *t)
+{
+    return t->request.judge ? t->request.judge : br_judge_best(t->request.scene);
+}
+
+/* The first trial that has an error: it knows the solution and the judge's own error. */
+static void note_judge(struct br_document *d, const struct br_trade *t)
+{
+    const struct br_trial *known = t->trial;
+    while (known < t->trial + t->count && !isfinite(known->scale[0]))
+        known++;
+    br_put_note(d, "%s", t->norm[0]->title);
+    br_put_note(d, "Judged by: %s.", judge_of(t)->title);
+    if (known == t->trial + t->count)
+        return;
+    br_put_note(d, "Relative errors are over the norm of the solution, %.4g %s.", known->scale[0],
+                t->norm[0]->unit);
+    if (isfinite(known->own[0]))
+        br_put_note(d,
+                    "The judge's own error is at most %.1e of that. It is added before a trial "
+                    "counts as good enough.",
+                    known->own[0] / known->scale[0]);
+}
+
+static void put_notes(struct br_document *d, const struct br_trade *t, const char *machine)
+{
+    br_put_section(d, "What is measured");
+    note_judge(d, t);
+    br_put_note(d,
+                "CPU: set-up and march, seconds of the processor in one thread, the least of up to "
+                "%zu marches after a warm-up. A march longer than %g s is not repeated. On %s.",
+                t->request.repeats, t->request.repeat_seconds, machine);
+    br_put_note(d, "Digits/s: -log10 of the relative error, over these seconds.");
+    br_put_note(d, "An error is the largest at a trial's own time levels: nobody asks long steps "
+                   "about what happens between them.");
+    br_put_note(d, "A method is its time scheme and what is not the default with it. A scheme that "
+                   "chooses its steps has a tolerance (tol) instead of k.");
+    if (br_trade_tally(t, BR_TRIAL_DOUBTFUL))
+        br_put_note(d, "Doubtful: the judge's own error is more than a third of the trial's.");
+    if (br_trade_tally(t, BR_TRIAL_UNSTABLE))
+        br_put_note(d, "Unstable: beyond the stability limit of the lagged contact.");
+    br_put_note(d, "All trials are in the CSV and JSON files.");
+}
+
+static void put_facts(struct br_document *d, const struct br_trade *t)
+{
+    br_put_hidden_fact(d, "scene.name", br_text(t->request.scene->name));
+    br_put_hidden_fact(d, "norm", br_text(t->norm[0]->name));
+    br_put_hidden_fact(d, "unit", br_text(t->norm[0]->unit));
+    br_put_hidden_fact(d, "judge", br_text(judge_of(t)->name));
+    br_put_hidden_fact(d, "repeats", br_count(t->request.repeats));
+    br_put_hidden_fact(d, "repeat_seconds", br_number(t->request.repeat_seconds));
+    br_put_hidden_fact(d, "time_limit", br_number(t->request.time_limit));
+    br_put_hidden_fact(d, "wall_seconds", br_number(t->wall_seconds));
+}
+
+void br_report_trade(const struct br_trade *t, const struct br_provenance *provenance,
+                     struct br_document *d)
+{
+    char caption[512];
+    snprintf(caption, sizeof caption, "What a digit costs: %.400s", t->request.scene->title);
+    br_document_begin(d, t->request.scene->name, "beamrate trade", 1, caption);
+    answer_cheapest(d, t);
+    answer_front(d, t);
+    answer_paper(d, t);
+    answer_ends(d, t);
+    br_put_table(d, "cheapest", "Cheapest way to an error",
+                 t->best[0] < t->count ? 0 : BR_FOR_PROGRAMS, NULL, 0);
+    put_targets(d, t, NULL);
+    put_front(d, t);
+    put_methods(d, t);
+    put_failures(d, t);
+    put_trials(d, t);
+    put_facts(d, t);
+    put_notes(d, t, provenance->machine);
+    br_put_provenance(d, provenance);
+}
+
+/* ---- several scenes ---- */
+
+/* "example1: to 1e-03 bdf2, n = 100, k = 0.01 s (1e-05 CPU s); to 1e-06 ..." */
+static void answer_scene(struct br_document *d, const struct br_trade *t)
+{
+    char text[TEXT], trial[BR_TRIAL_TEXT];
+    size_t used = 0;
+    for (size_t i = 0; i < ANSWERED; i++) {
+        const size_t best = t->best[answered[i]];
+        if (best == t->count)
+            continue;
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s to %.0e %s (%.3g CPU s)",
+                                 used ? ";" : "", br_trade_target(answered[i]),
+                                 br_trial_text(t->request.scene, &t->trial[best], trial),
+                                 br_trial_seconds(&t->trial[best]));
+    }
+    br_put_answer(d, "%s:%s.", t->request.scene->name,
+                  used ? text : " no trial has an error of 1e-03 or less");
+}
+
+void br_report_trade_summary(const struct br_trade *const *trade, size_t scenes,
+                             const struct br_provenance *provenance, struct br_document *d)
+{
+    br_document_begin(d, "summary", "beamrate trade, several scenes", 1, "What a digit costs");
+    for (size_t i = 0; i < scenes; i++)
+        answer_scene(d, trade[i]);
+    br_put_table(d, "cheapest", "Cheapest way to an error, by scene", BR_MAIN, NULL, 0);
+    for (size_t i = 0; i < scenes; i++)
+        put_targets(d, trade[i], trade[i]->request.scene->name);
+    br_put_provenance(d, provenance);
+}
