@@ -12,16 +12,16 @@
 #include "solver/clock.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
-#include "tables/check_emitter.h"
+#include "tables/report_check.h"
 
-/* A scene on its way; checks and skips point into it. */
+/* A scene on its way; checks point into it. */
 struct item {
     char path[1024];
     struct br_scene scene;
     struct br_verify verify;
 };
 
-/* An emitter's name is an option's. */
+/* A format's name is an option's. */
 enum { MOST_FORMATS = 8 };
 
 struct run {
@@ -30,8 +30,7 @@ struct run {
     struct item *item; /* most */
     size_t most;
     struct br_check *check; /* of the items that can be checked */
-    struct br_skipped *skipped;
-    size_t count, skips;
+    size_t count;
     size_t done; /* checks that have been run */
     double wall_seconds;
     struct br_whole_file file[MOST_FORMATS];
@@ -110,8 +109,7 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
         return status;
     r->item = br_allocate(r->most + 1, sizeof *r->item);
     r->check = br_allocate(r->most + 1, sizeof *r->check);
-    r->skipped = br_allocate(r->most + 1, sizeof *r->skipped);
-    if (!r->item || !r->check || !r->skipped)
+    if (!r->item || !r->check)
         return br_no_memory(err, "the scenes");
     for (size_t i = 0; i < r->most && !status; i++)
         status = read_scene(r, i, name[i], err);
@@ -179,22 +177,22 @@ static enum br_status compute(struct run *r, struct br_error *err)
 static enum br_status open_files(struct run *r, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t i = 1; br_check_emitters[i] && !status; i++)
-        status = br_whole_file_open(&r->file[i], br_check_emitters[i]->name,
-                                    file_of(r, br_check_emitters[i]->name), err);
+    for (size_t i = 1; br_check_formats[i] && !status; i++)
+        status = br_whole_file_open(&r->file[i], br_check_formats[i]->name,
+                                    file_of(r, br_check_formats[i]->name), err);
     return status;
 }
 
 /* No report may end where another one does, or in the place of what is read. */
 static enum br_status check_places(const struct run *r, struct br_error *err)
 {
-    for (size_t i = 1; br_check_emitters[i]; i++) {
+    for (size_t i = 1; br_check_formats[i]; i++) {
         const struct br_whole_file *f = &r->file[i];
-        const char *name = br_check_emitters[i]->name;
+        const char *name = br_check_formats[i]->name;
         for (size_t j = 1; j < i; j++)
             if (br_whole_file_same(f, &r->file[j]))
                 return br_fail(err, BR_BAD_INPUT, "--%s and --%s both write %s",
-                               br_check_emitters[j]->name, name, f->path);
+                               br_check_formats[j]->name, name, f->path);
         for (size_t s = 0; s < r->count; s++)
             if (br_whole_file_replaces(f, r->check[s].path))
                 return br_fail(err, BR_BAD_INPUT, "--%s would replace the scene %s", name, f->path);
@@ -207,34 +205,41 @@ static enum br_status check_places(const struct run *r, struct br_error *err)
 
 static bool uses_stdout(const struct run *r)
 {
-    for (size_t i = 1; br_check_emitters[i]; i++)
+    for (size_t i = 1; br_check_formats[i]; i++)
         if (r->file[i].file == stdout)
             return true;
     return false;
 }
 
+static enum br_status write_report(struct run *r, const struct br_document *d, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    if (!br_option_given(r->options, BR_OPT_QUIET) && !uses_stdout(r))
+        status = br_document_show(stdout, d, err);
+    for (size_t i = 1; br_check_formats[i] && !status; i++)
+        if (r->file[i].file)
+            status = br_document_print(r->file[i].file, br_check_formats[i], d, NULL, err);
+    for (size_t i = 1; br_check_formats[i] && !status; i++)
+        status = br_whole_file_commit(&r->file[i], err);
+    return status;
+}
+
 static enum br_status write_results(struct run *r, struct br_error *err)
 {
     struct br_provenance provenance = {0};
+    struct br_document d = {0};
     br_provenance_fill(&provenance, threads_of(r));
-    const struct br_check_page page = {
+    const struct br_check_findings findings = {
         .checks = r->check,
         .count = r->done,
-        .skipped = r->skipped,
-        .skips = r->skips,
         .stopped = r->done < r->count,
         .wall_seconds = r->wall_seconds,
         .comparison = compare_with(r) ? &r->comparison : NULL,
         .provenance = &provenance,
     };
-    enum br_status status = BR_OK;
-    if (!br_option_given(r->options, BR_OPT_QUIET) && !uses_stdout(r))
-        status = br_check_emitters[0]->emit(stdout, &page, err);
-    for (size_t i = 1; br_check_emitters[i] && !status; i++)
-        if (r->file[i].file)
-            status = br_check_emitters[i]->emit(r->file[i].file, &page, err);
-    for (size_t i = 1; br_check_emitters[i] && !status; i++)
-        status = br_whole_file_commit(&r->file[i], err);
+    br_report_check(&findings, &d);
+    const enum br_status status = write_report(r, &d, err);
+    br_document_clear(&d);
     return status;
 }
 
@@ -303,11 +308,10 @@ static void clear(struct run *r)
         br_verify_clear(&r->item[i].verify);
         br_scene_clear(&r->item[i].scene);
     }
-    for (size_t i = 1; br_check_emitters[i]; i++)
+    for (size_t i = 1; br_check_formats[i]; i++)
         br_whole_file_discard(&r->file[i]);
     free(r->item);
     free(r->check);
-    free(r->skipped);
     br_old_check_clear(&r->old);
     br_comparison_clear(&r->comparison);
     br_scene_list_free(r->listed, r->listed ? r->most : 0);

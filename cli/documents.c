@@ -21,9 +21,9 @@ static enum br_status write_file(const struct br_output *output, const struct br
     return status ? status : closed;
 }
 
-static enum br_status write_format(const struct br_output *output,
-                                   const struct br_document_format *f, const struct br_document *d,
-                                   struct br_error *err)
+enum br_status br_documents_write_as(const struct br_output *output,
+                                     const struct br_document_format *f,
+                                     const struct br_document *d, struct br_error *err)
 {
     enum br_status status = br_document_status(d, err);
     if (!f->by_table)
@@ -42,7 +42,7 @@ enum br_status br_documents_write(const struct br_output *output, const struct b
     for (const struct br_document_format *const *f = br_document_formats; *f; f++)
         for (size_t i = 0; i < count && !status; i++)
             if (br_format_wanted(options, (*f)->name))
-                status = write_format(output, *f, &documents[i], err);
+                status = br_documents_write_as(output, *f, &documents[i], err);
     return status;
 }
 

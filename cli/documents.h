@@ -14,6 +14,11 @@ enum br_status br_documents_write(const struct br_output *output, const struct b
                                   const struct br_document *documents, size_t count,
                                   struct br_error *err);
 
+/* The same of one document in one format. */
+enum br_status br_documents_write_as(const struct br_output *output,
+                                     const struct br_document_format *format,
+                                     const struct br_document *document, struct br_error *err);
+
 /* Shows them on standard output, with an empty line between two. */
 enum br_status br_documents_show(const struct br_document *documents, size_t count,
                                  struct br_error *err);

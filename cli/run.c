@@ -138,24 +138,32 @@ static enum br_status march(struct run *r, struct br_error *err)
     return status;
 }
 
+static enum br_status write_report(struct run *r, const struct br_document *d, struct br_error *err)
+{
+    const struct br_error *failure = &r->report.failure;
+    enum br_status status = BR_OK;
+    if (br_option_given(r->options, BR_OPT_OUT))
+        status = br_run_files_commit(&r->files, d, failure->status ? failure->message : NULL, err);
+    if (!status && r->json.file)
+        status = br_document_print(r->json.file, &br_document_json, d, NULL, err);
+    if (!status && !br_option_given(r->options, BR_OPT_QUIET) && r->json.file != stdout)
+        status = br_document_show(stdout, d, err);
+    return status;
+}
+
 static enum br_status write_results(struct run *r, double start, struct br_error *err)
 {
-    const struct br_run_page page = {
+    const struct br_run_findings findings = {
         .report = &r->report,
         .prediction = &r->prediction,
         .warnings = &r->warnings,
         .provenance = &r->provenance,
         .wall_seconds = br_seconds() - start,
     };
-    enum br_status status = BR_OK;
-    if (br_option_given(r->options, BR_OPT_OUT))
-        status = br_run_files_commit(&r->files, &page, err);
-    if (!status && r->json.file)
-        status = br_run_json(r->json.file, &page, err);
-    struct br_run_page shown = page;
-    shown.warnings = &(const struct br_warnings){.count = 0}; /* said before the march */
-    if (!status && !br_option_given(r->options, BR_OPT_QUIET) && r->json.file != stdout)
-        br_run_text(stdout, &shown);
+    struct br_document d = {0};
+    br_report_run(&findings, &d);
+    enum br_status status = write_report(r, &d, err);
+    br_document_clear(&d);
     FILE *letters = r->json.file == stdout ? NULL : stdout;
     if (!status)
         status = br_whole_file_commit(&r->json, err);

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "cli/documents.h"
+
 enum br_status br_run_files_open(struct br_run_files *f, const char *folder,
                                  const struct br_fields_request *request, struct br_error *err)
 {
@@ -68,41 +70,16 @@ static enum br_status close_fields(struct br_run_files *f, const char *stopped,
     return f->format->close(fields, stopped, err);
 }
 
-static enum br_status write_text(const struct br_run_files *f, const struct br_run_page *page,
-                                 struct br_error *err)
+enum br_status br_run_files_commit(struct br_run_files *f, const struct br_document *summary,
+                                   const char *stopped, struct br_error *err)
 {
-    FILE *out;
-    const enum br_status status = br_output_file(&f->output, "summary.txt", &out, err);
-    if (status)
-        return status;
-    br_run_text(out, page);
-    return br_output_close(out, "summary.txt", err);
-}
-
-static enum br_status write_json(const struct br_run_files *f, const struct br_run_page *page,
-                                 struct br_error *err)
-{
-    FILE *out;
-    enum br_status status = br_output_file(&f->output, "summary.json", &out, err);
-    if (status)
-        return status;
-    status = br_run_json(out, page, err);
-    const enum br_status closed = br_output_close(out, "summary.json", status ? NULL : err);
-    return status ? status : closed;
-}
-
-enum br_status br_run_files_commit(struct br_run_files *f, const struct br_run_page *page,
-                                   struct br_error *err)
-{
-    const struct br_error *failure = &page->report->failure;
-    const char *stopped = failure->status ? failure->message : NULL;
     enum br_status status = close_history(f, stopped, err);
     if (!status)
         status = close_fields(f, stopped, err);
     if (!status)
-        status = write_text(f, page, err);
+        status = br_documents_write_as(&f->output, &br_document_text, summary, err);
     if (!status)
-        status = write_json(f, page, err);
+        status = br_documents_write_as(&f->output, &br_document_json, summary, err);
     if (!status)
         status = br_output_commit(&f->output, err);
     return status;

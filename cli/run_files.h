@@ -6,7 +6,7 @@
 
 #include "cli/output.h"
 #include "tables/fields_file.h"
-#include "tables/run_page.h"
+#include "tables/report_run.h"
 
 struct br_run_files {
     struct br_output output;
@@ -25,9 +25,10 @@ enum br_status br_run_files_open(struct br_run_files *files, const char *folder,
 /* An observer that writes them; they must outlive the march. */
 struct br_history_observer br_run_files_observer(struct br_run_files *files);
 
-/* Writes the summary, and puts all in place. Fails with BR_IO or BR_NO_MEMORY. */
-enum br_status br_run_files_commit(struct br_run_files *files, const struct br_run_page *page,
-                                   struct br_error *err);
+/* Writes the summary, and puts all in place. stopped: why the march did not reach T; NULL: it did.
+ * Fails with BR_IO or BR_NO_MEMORY. */
+enum br_status br_run_files_commit(struct br_run_files *files, const struct br_document *summary,
+                                   const char *stopped, struct br_error *err);
 void br_run_files_discard(struct br_run_files *files);
 
 #endif

@@ -33,7 +33,6 @@ struct br_work {
     double friction;
     double scheme[2];      /* D_scheme of each field, without the next */
     double scheme_contact; /* that of the contact force, of the axial field */
-    bool remainder;        /* scheme is what the balance leaves; the rest is then 0 */
     double noise[2];       /* of each field's sum, by round-off: the sum of the steps' limits */
     size_t steps[2];       /* the scheme's own */
     size_t gaining[2];     /* of those: D_scheme with that of the contact is negative */
@@ -43,8 +42,7 @@ struct br_work {
 double br_energy_total(const struct br_energy *energy);
 
 /* E_now - E_start - (W - D_viscous - D_friction - D_scheme) relative to the sum of the sizes of
- * all terms: round-off. 0 where all are zero, NAN where one is not a number; without meaning where
- * the works have a remainder. */
+ * all terms: round-off. 0 where all are zero, NAN where one is not a number. */
 double br_energy_imbalance(const struct br_energy *start, const struct br_energy *now,
                            const struct br_work *work);
 
@@ -90,7 +88,7 @@ void br_energy_meter_free(struct br_energy_meter *meter); /* accepts NULL */
 
 /* To be called after every step of the march: the largest imbalance of a field in one of the
  * scheme's steps since the last call, as br_energy_limit has it. NAN where there was no step or one
- * that is not of the textbook; 0 where the works have a remainder. */
+ * that is not of the textbook. */
 double br_energy_meter_step(struct br_energy_meter *meter);
 
 /* When it was created, at its last look, and between. */

@@ -6,6 +6,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "study/scene/quote.h"
+
 const char *const br_outcome_names[] = {"PASS", "FAIL", "INCONCLUSIVE", "ERROR", "SKIPPED"};
 
 const struct br_document_format *const br_document_formats[] = {
@@ -468,6 +470,28 @@ const char *br_document_shown(const struct br_column *column, const struct br_do
         return cell->value.text;
     default:
         return "-";
+    }
+}
+
+void br_document_print_value(FILE *out, const struct br_quoting *target, const char *nothing,
+                             const struct br_value *value)
+{
+    switch (value->kind) {
+    case BR_NUMBER:
+        fprintf(out, "%.17g", value->number);
+        break;
+    case BR_COUNT:
+        fprintf(out, "%lld", value->count);
+        break;
+    case BR_TRUTH:
+        fputs(value->truth ? "true" : "false", out);
+        break;
+    case BR_TEXT:
+        br_quote(out, target, value->text);
+        break;
+    case BR_NOTHING:
+        fputs(nothing, out);
+        break;
     }
 }
 

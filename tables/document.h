@@ -84,6 +84,7 @@ enum {
     BR_WRAP = 16,        /* a column of long texts, which people get on several lines */
     BR_FILLED = 32,      /* a column with a value; set by br_put */
     BR_TEXTUAL = 64,     /* a column with a text or a truth; set by br_put */
+    BR_LONG = 128,       /* a table that a terminal shows however long it is */
 };
 
 /* A column of a table, or what a fact is. Strings may be NULL, but for the key of what programs
@@ -267,7 +268,11 @@ struct br_document_format {
 extern const struct br_document_format br_document_text, br_document_csv, br_document_markdown,
     br_document_latex, br_document_json;
 
-/* NULL-terminated. */
+/* Of the verdicts alone, with the numbers of their rows by their keys, for CI systems: JUnit's XML
+ * (a suite a group) and the Test Anything Protocol, version 14. */
+extern const struct br_document_format br_document_junit, br_document_tap;
+
+/* NULL-terminated; those of any report. */
 extern const struct br_document_format *const br_document_formats[];
 const struct br_document_format *br_document_format_find(const char *name);
 
@@ -305,6 +310,11 @@ static inline bool br_for_programs(unsigned flags)
 enum { BR_SHOWN = 400 };
 const char *br_document_shown(const struct br_column *column, const struct br_document_cell *cell,
                               char buffer[BR_SHOWN]);
+
+/* For programs: a number with all its digits, a text quoted for the target. */
+struct br_quoting;
+void br_document_print_value(FILE *out, const struct br_quoting *target, const char *nothing,
+                             const struct br_value *value);
 
 const struct br_document_cell *br_document_cell_at(const struct br_document_table *table,
                                                    size_t row, size_t column);

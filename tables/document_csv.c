@@ -4,26 +4,6 @@
 #include "study/scene/quote.h"
 #include "tables/document.h"
 
-static void print_cell(FILE *out, const struct br_value *value)
-{
-    switch (value->kind) {
-    case BR_NUMBER:
-        fprintf(out, "%.17g", value->number);
-        break;
-    case BR_COUNT:
-        fprintf(out, "%lld", value->count);
-        break;
-    case BR_TRUTH:
-        fputs(value->truth ? "true" : "false", out);
-        break;
-    case BR_TEXT:
-        br_quote(out, &br_for_csv, value->text);
-        break;
-    case BR_NOTHING:
-        break;
-    }
-}
-
 static void print_head(FILE *out, const struct br_document_table *t)
 {
     const char *separator = "";
@@ -49,7 +29,7 @@ static enum br_status write(FILE *out, const struct br_document *d,
             if (!br_for_programs(t->column[c].flags))
                 continue;
             fputs(separator, out);
-            print_cell(out, &br_document_cell_at(t, r, c)->value);
+            br_document_print_value(out, &br_for_csv, "", &br_document_cell_at(t, r, c)->value);
             separator = ",";
         }
         fputc('\n', out);

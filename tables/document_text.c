@@ -8,7 +8,7 @@
 enum {
     WIDTH = 100,    /* columns of a paragraph */
     WRAPPED = 44,   /* of a cell in a column that is wrapped */
-    LONG_TABLE = 24 /* rows: a terminal does not show more */
+    LONG_TABLE = 24 /* rows: a terminal does not show more, but of a BR_LONG table */
 };
 
 /* A report on its way out. */
@@ -249,7 +249,7 @@ static bool is_shown(const struct page *p, const struct br_block *b)
         return false;
     if (!p->terminal)
         return true;
-    if (b->kind == BR_BLOCK_TABLE && b->table->rows > LONG_TABLE)
+    if (b->kind == BR_BLOCK_TABLE && b->table->rows > LONG_TABLE && !(flags & BR_LONG))
         return false;
     return !(flags & BR_FILES_ONLY) && (b->kind == BR_BLOCK_TABLE || b->kind == BR_BLOCK_FACT);
 }
@@ -286,10 +286,19 @@ static enum br_status print_blocks(const struct page *p, struct br_error *err)
 {
     enum br_status status = BR_OK;
     enum br_block_kind before = BR_BLOCK_TABLE;
+    const struct br_block *section = NULL; /* on a terminal: a title that facts will need */
     for (size_t i = 0; i < p->d->blocks && !status; i++) {
         const struct br_block *b = &p->d->block[i];
+        if (p->terminal && b->kind == BR_BLOCK_SECTION)
+            section = b;
         if (!is_shown(p, b))
             continue;
+        if (section && b->kind == BR_BLOCK_FACT) {
+            fputc('\n', p->out);
+            status = print_block(p, section, err);
+            before = BR_BLOCK_SECTION;
+        }
+        section = NULL;
         if (b->kind != BR_BLOCK_TABLE && b->kind != before && before != BR_BLOCK_SECTION)
             fputc('\n', p->out);
         status = print_block(p, b, err);

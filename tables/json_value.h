@@ -20,8 +20,5 @@ json_t *br_json_read(int file, json_error_t *why);
 
 json_t *br_json_number(double value);     /* what is not finite is null */
 json_t *br_json_string(const char *text); /* NULL is null; what is not UTF-8 gets '?' */
-json_t *br_json_estimate(const struct br_estimate *e);
-json_t *br_json_method(const struct br_method *m);
-json_t *br_json_provenance(const struct br_provenance *p);
 
 #endif

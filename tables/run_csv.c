@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "study/scene/quote.h"
-#include "tables/run_page.h"
+#include "tables/report_run.h"
 
 void br_history_csv_head(FILE *out)
 {

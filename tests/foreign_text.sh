@@ -15,7 +15,7 @@ allowed=$(sed 's/ *#.*//' <<'END'
 cli/help.c s->title|list\[i\]\.title|title    # headings
 plots/[fs]*.c (p|p->series\[j\])->title       # a panel's and a curve's; the figure's own is quoted
 plots/paper.c (figure|f)->title               # captions of the paper
-tables/document_csv.c t->column\[c\]\.key     # a column's
+tables/document_*.c t->column\[c\]\.key       # a column's
 tables/document_latex.c b->what\.key          # a picture's file: br_is_name
 tables/scene_template.c (key|br_norms\[0\])->name # of the schema
 tables/sheet_text.c t->title                  # a table's

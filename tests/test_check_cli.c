@@ -73,9 +73,7 @@ static double last_error(const char *name)
     cli_path(name, path);
     json_t *root = json_load_file(path, 0, NULL);
     assert_non_null(root);
-    const json_t *scene = json_array_get(json_object_get(root, "scenes"), 0);
-    const json_t *order = json_array_get(json_object_get(scene, "cases"), 0);
-    const json_t *points = json_object_get(order, "points");
+    const json_t *points = json_object_get(json_object_get(root, "tables"), "points");
     const json_t *last = json_array_get(points, json_array_size(points) - 1);
     const double value = json_real_value(json_object_get(last, "error"));
     json_decref(root);
@@ -109,7 +107,8 @@ static void test_refusals(void **state)
     cli_expect("check good.yaml beyond.yaml --junit b.xml --tap b.tap", NULL, 2,
                "1 PASS, 0 FAIL, 0 INCONCLUSIVE, 1 cannot be verified");
     assert_true(cli_file_contains("b.xml", "tests=\"2\" failures=\"0\" errors=\"1\""));
-    assert_true(cli_file_contains("b.tap", "1..2\nnot ok 1 - beyond\n"));
+    assert_true(cli_file_contains("b.tap", "1..2\nok 1 - good, space l2 total: PASS\n"));
+    assert_true(cli_file_contains("b.tap", "\nnot ok 2 - beyond, verify: ERROR\n"));
 }
 
 /* A JSON that is none of a check's. */
@@ -121,6 +120,12 @@ static void test_strange_baselines(void **state)
         "{}",
         "[]",
         "{\"format\": \"beamrate check 9\", \"scenes\": []}",
+        "{\"format\": \"beamrate check\", \"version\": 9, \"tables\": {\"scenes\": []}}",
+        "{\"format\": \"beamrate check\", \"version\": 2, \"scenes\": []}",
+        "{\"format\": \"beamrate check\", \"version\": 2, \"tables\": {\"scenes\": [3]}}",
+        "{\"format\": \"beamrate check\", \"version\": 2, \"tables\": {\"orders\": "
+        "[{\"scene\": \"a\"}], \"scenes\": [{\"scene\": \"a\", \"seconds\": 1, "
+        "\"element_steps\": 1}]}}",
         "{\"format\": \"beamrate check 1\"}",
         "{\"format\": \"beamrate check 1\", \"scenes\": [3]}",
         "{\"format\": \"beamrate check 1\", \"scenes\": [{\"scene\": \"a\", \"seconds\": 1, "
@@ -162,10 +167,11 @@ static size_t count(const char *text, const char *word)
     return found;
 }
 
-static double attribute(const char *text, const char *name)
+/* The number behind the first "  key: ". */
+static double number(const char *text, const char *key)
 {
     char pattern[128];
-    snprintf(pattern, sizeof pattern, "name=\"%s\" value=\"", name);
+    snprintf(pattern, sizeof pattern, "\n  %s: ", key);
     const char *at = strstr(text, pattern);
     assert_non_null(at);
     return strtod(at + strlen(pattern), NULL);
@@ -219,15 +225,18 @@ static void test_reports(void **state)
     assert_int_equal(count(xml, "<testcase "), 3);
     assert_int_equal(count(xml, "<failure "), 1);
     assert_non_null(strstr(xml, "tests=\"3\" failures=\"1\""));
-    assert_non_null(strstr(xml, "file=\"a &amp; &lt;b&gt; &quot;c&quot;.yaml\""));
-    CLOSE(attribute(xml, "order"), 2, 0.01);
-    CLOSE(attribute(xml, "expected"), 3, 0);
-    CLOSE(attribute(xml, "tolerance"), 0.1, 1e-15);
-    AT_MOST(attribute(xml, "margin"), -0.8);
-    CLOSE(attribute(xml, "ceiling"), 1, 0);
+    assert_non_null(strstr(xml, "\n  file: a &amp; &lt;b&gt; &quot;c&quot;.yaml\n"));
+    CLOSE(number(xml, "line"), 13, 0);
+    assert_null(strstr(xml, "<propert")); /* the schemas have none in a test case */
+    assert_null(strstr(xml, " time=\"0.000000\""));
+    CLOSE(number(xml, "order"), 2, 0.01);
+    CLOSE(number(xml, "expected"), 3, 0);
+    CLOSE(number(xml, "tolerance"), 0.1, 1e-15);
+    AT_MOST(number(xml, "margin"), -0.8);
+    CLOSE(number(xml, "ceiling"), 1, 0);
 
     const char *tap = contents("r.tap");
-    assert_int_equal(strncmp(tap, "TAP version 13\n1..3\nnot ok 1 - ", 31), 0);
+    assert_int_equal(strncmp(tap, "TAP version 14\n1..3\nnot ok 1 - ", 31), 0);
     assert_int_equal(count(tap, "\nok "), 2);
     assert_int_equal(count(tap, "\n  ---\n"), 3);
     assert_int_equal(count(tap, "\n  ...\n"), 3);
@@ -240,12 +249,11 @@ static void test_reports(void **state)
     cli_path("r.json", path);
     json_t *root = json_load_file(path, 0, NULL);
     assert_non_null(root);
-    const json_t *scenes = json_object_get(root, "scenes");
-    assert_int_equal(json_array_size(scenes), 2);
-    const json_t *cases = json_object_get(json_array_get(scenes, 0), "cases");
-    const json_t *first = json_array_get(cases, 0);
+    const json_t *tables = json_object_get(root, "tables");
+    assert_int_equal(json_array_size(json_object_get(tables, "scenes")), 2);
+    assert_int_equal(json_array_size(json_object_get(tables, "points")), 3 * 4);
+    const json_t *first = json_array_get(json_object_get(tables, "orders"), 0);
     assert_string_equal(json_string_value(json_object_get(first, "verdict")), "FAIL");
-    assert_int_equal(json_array_size(json_object_get(first, "points")), 4);
     assert_true(json_is_null(json_object_get(first, "floor")));
     assert_int_equal(json_integer_value(json_object_get(json_object_get(root, "tally"), "PASS")),
                      2);
@@ -261,7 +269,7 @@ static void test_standard_output(void **state)
     assert_non_null(out);
     cli_run_line("check good.yaml --tap -", NULL, out);
     assert_int_equal(out->exit_code, 0);
-    assert_int_equal(strncmp(out->output, "TAP version 13\n", 15), 0);
+    assert_int_equal(strncmp(out->output, "TAP version 14\n", 15), 0);
     assert_null(strstr(out->output, "scene   "));
     free(out);
     cli_expect("check good.yaml --tap /dev/null", NULL, 0, "PASS");
@@ -324,7 +332,7 @@ static void test_compare(void **state)
                                 "    l2: 2 +- 0.1\n    tip: 2 +- 0.5\n");
     cli_expect("check good.yaml --compare old.json", NULL, 1, "2 serious");
     cli_expect("check good.yaml --compare old.json", NULL, 1,
-               "serious  good space l2 total: constant");
+               "serious   good space l2 total: constant");
     cli_write_file("good.yaml", SCENE SPACE "    l2: 2 +- 0.1\n");
     cli_expect("check good.yaml --compare old.json", NULL, 1, "good space tip total: gone");
     cli_expect("check good.yaml --compare old.json --json old.json", NULL, 2,

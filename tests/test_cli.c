@@ -238,8 +238,8 @@ static void test_steps(void **state)
         if (i)
             assert_string_equal(seconds, other);
     }
-    cli_expect("run example2 -n 5 -k T/10", NULL, 0, "10 steps of k = 0.1 s");
-    cli_expect("run example2 -n 5 --steps 20", NULL, 0, "20 steps of k = 0.05 s");
+    cli_expect("run example2 -n 5 -k T/10", NULL, 0, "\nsteps: 10\ntime step k: 0.1 s\n");
+    cli_expect("run example2 -n 5 --steps 20", NULL, 0, "\nsteps: 20\ntime step k: 0.05 s\n");
     cli_expect("study example2 -n 5 -k T/10 --reference fine:10,T/20 -q --no-plots -o st", NULL, 0,
                "");
 }

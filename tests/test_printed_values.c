@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What machines read is what was computed: every number of the CSV, JSON, JUnit, TAP and HDF5 of
- * run, check, trade, split and plan stands under its own key. The structs hold a different number
+/* What machines read is what was computed: every number of the CSV, JSON and HDF5 of run,
+ * trade, split and plan stands under its own key. The structs hold a different number
  * in every place, so that two that are exchanged are seen. */
 #include <jansson.h>
 #include <math.h>
@@ -12,12 +12,11 @@
 #include <hdf5.h>
 #endif
 
-#include "tables/check_emitter.h"
 #include "tables/fields_file.h"
 #include "tables/report_plan.h"
+#include "tables/report_run.h"
 #include "tables/report_split.h"
 #include "tables/report_trade.h"
-#include "tables/run_page.h"
 #include "tests/support.h"
 
 static const struct br_provenance provenance = {.version = "1",
@@ -510,110 +509,6 @@ static void plan_is_printed(void **state)
     free(plan);
 }
 
-/* ---- check ---- */
-
-static const struct expected case_numbers[] = {
-    {"order", 2.25},   {"low", 2.125},    {"high", 2.5},   {"expected", 2.75}, {"tolerance", 0.375},
-    {"margin", 0.625}, {"constant", 3.5}, {"floor", 0.75}, {"ceiling", 7.5}};
-enum { CASE_NUMBERS = sizeof case_numbers / sizeof *case_numbers };
-
-static char *emitted_check(const char *format)
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bare();
-    struct br_verify verify = {0};
-    struct br_point point = {
-        .at = {21, 22}, .against = {23, 24}, .error = 1.5, .constant = 1.75, .used = true};
-    struct br_case c = {
-        .kind = BR_VERIFY_TIME,
-        .expected = {&br_norm_l2, BR_PART_AXIAL, 2.75, 0.375, 0.75, 7.5, 26},
-        .point = &point,
-        .points = 1,
-        .used = 1,
-        .order = {2.25, 2.125, 2.5},
-        .constant = 3.5,
-        .margin = 0.625,
-    };
-    scene.name = (char[]){"made"};
-    const struct br_check check = {"made.yaml", &scene, &verify, {0}, &c, 1, 4.25, 5.25};
-    const struct br_check_page page = {
-        .checks = &check, .count = 1, .wall_seconds = 8.5, .provenance = &provenance};
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    for (const struct br_check_emitter *const *e = br_check_emitters; *e; e++)
-        if (strcmp((*e)->name, format) == 0)
-            MUST((*e)->emit(out, &page, &err));
-    fclose(out);
-    return text;
-}
-
-/* The number behind a key, as `pattern` puts it. */
-static double number_behind(const char *text, const char *pattern, const char *key)
-{
-    char wanted[64];
-    snprintf(wanted, sizeof wanted, pattern, key);
-    const char *at = strstr(text, wanted);
-    if (!at)
-        fail_msg("'%s' is not in:\n%s", wanted, text);
-    return strtod(at + strlen(wanted), NULL);
-}
-
-static void check_is_printed(void **state)
-{
-    (void)state;
-    char *junit = emitted_check("junit"), *tap = emitted_check("tap");
-    for (size_t i = 0; i < CASE_NUMBERS; i++) {
-        const struct expected *e = &case_numbers[i];
-        is("JUnit", e->key, number_behind(junit, "<property name=\"%s\" value=\"", e->key),
-           e->value);
-        if (strcmp(e->key, "expected") != 0)
-            is("TAP", e->key, number_behind(tap, "\n  %s: ", e->key), e->value);
-    }
-    assert_non_null(strstr(tap, "expected 2.75 +- 0.375: PASS"));
-    is("JUnit", "line", number_behind(junit, " %s=\"", "line"), 26);
-    is("JUnit", "tests", number_behind(junit, " %s=\"", "tests"), 1);
-    is("JUnit", "failures", number_behind(junit, " %s=\"", "failures"), 0);
-    free(junit);
-    free(tap);
-}
-
-static void check_is_printed_for_people(void **state)
-{
-    (void)state;
-    char *text = emitted_check("markdown");
-    char *rest = strstr(text, "| scene |"), *head = next_line(&rest);
-    next_line(&rest);
-    char *row = next_line(&rest);
-    const struct expected numbers[] = {{"expected", 2.75},
-                                       {"observed order", 2.25},
-                                       {"margin", 0.625},
-                                       {"constant", 3.5},
-                                       {"its range", 0.75}};
-    row_has("Markdown", head, row, '|', numbers, sizeof numbers / sizeof *numbers);
-    assert_non_null(strstr(row, "| 2.75 +- 0.375 |"));
-    assert_non_null(strstr(row, "[2.12, 2.50]"));
-    assert_non_null(strstr(row, "| 0.75 to 7.5 |"));
-    free(text);
-}
-
-static void check_is_in_json(void **state)
-{
-    (void)state;
-    json_t *root = read_json(emitted_check("json"));
-    const json_t *scene = at_path(root, "scenes.0"), *c = at_path(scene, "cases.0");
-    const struct expected order[] = {{"value", 2.25}, {"low", 2.125}, {"high", 2.5}};
-    const struct expected point[] = {{"n", 21},         {"steps", 22},
-                                     {"against_n", 23}, {"against_steps", 24},
-                                     {"error", 1.5},    {"constant", 1.75}};
-    const struct expected cost[] = {{"seconds", 4.25}, {"element_steps", 5.25}};
-    json_has(at_path(c, "order"), order, 3);
-    json_has(c, case_numbers + 3, CASE_NUMBERS - 3);
-    json_has(at_path(c, "points.0"), point, 6);
-    json_has(scene, cost, 2);
-    json_decref(root);
-}
-
 /* ---- run ---- */
 
 enum { ELEMENTS = 4, STEPS = 8, LOOKS = 3, MOST_FORMATS = 4 };
@@ -820,129 +715,15 @@ static void fields_are_in_hdf5(void **state)
 }
 #endif
 
-static json_t *summary(const struct watched *w, const struct br_prediction *prediction)
-{
-    struct br_error err = {0};
-    const struct br_warnings warnings = {0};
-    const struct br_run_page page = {&w->report, prediction, &warnings, &provenance, 12.5};
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    MUST(br_run_json(out, &page, &err));
-    fclose(out);
-    return read_json(text);
-}
-
-static void prediction_is_printed(void **state)
-{
-    const struct br_prediction made = {
-        .known = true,
-        .bounded = true,
-        .field = {{0.125, 0.0625, 0.25, 1}, {0.375, 0.1875, 0.75, 1}},
-        .space = {1.125, 1.0625, 1.25, 1},
-        .time = {2.125, 2.0625, 2.25, 1},
-        .whole = {3.125, 3.0625, 3.25, 1},
-        .round_off = 0.03125,
-        .seconds = 4.5,
-    };
-    const struct expected numbers[] = {
-        {"prediction.discretisation.error", 3.125},
-        {"prediction.discretisation.low", 3.0625},
-        {"prediction.discretisation.high", 3.25},
-        {"prediction.axial.error", 0.125},
-        {"prediction.axial.low", 0.0625},
-        {"prediction.axial.high", 0.25},
-        {"prediction.bending.error", 0.375},
-        {"prediction.bending.high", 0.75},
-        {"prediction.bending.most", br_predicted_most(&made, BR_BENDING)},
-        {"prediction.axial.most", br_predicted_most(&made, BR_AXIAL)},
-        {"prediction.time.error", 2.125},
-        {"prediction.time.high", 2.25},
-        {"prediction.space.low", 1.0625},
-        {"prediction.space.error", 1.125},
-        {"prediction.round_off", 0.03125},
-        {"prediction.seconds", 4.5},
-        {"seconds.wall", 12.5}};
-    json_t *root = summary(*state, &made);
-    json_has(root, numbers, sizeof numbers / sizeof *numbers);
-    json_decref(root);
-}
-
-static void summary_is_printed(void **state)
-{
-    const struct watched *w = *state;
-    const struct br_run_report *p = &w->report;
-    const struct br_history_row *last = &w->record.row[STEPS];
-    const struct br_work *work = &p->work;
-    const struct expected numbers[] = {
-        {"n", ELEMENTS},
-        {"steps", STEPS},
-        {"h", w->scene.length / ELEMENTS},
-        {"k", 1.0 / STEPS},
-        {"tip.t", 1},
-        {"tip.step", STEPS},
-        {"tip.displacement.axial", last->displacement[BR_AXIAL]},
-        {"tip.displacement.bending", last->displacement[BR_BENDING]},
-        {"tip.velocity.axial", last->velocity[BR_AXIAL]},
-        {"tip.velocity.bending", last->velocity[BR_BENDING]},
-        {"tip.contact_force", last->contact_force},
-        {"tip.friction_force", last->friction_force},
-        {"tip.friction_bound", last->friction_bound},
-        {"events.largest_contact_force.value", p->watch.contact_force.value},
-        {"events.largest_contact_force.t", p->watch.contact_force.time},
-        {"events.largest_friction_force.value", p->watch.friction_force.value},
-        {"events.counts.slipped", (double)p->watch.count[BR_TIP_SLIPPED]},
-        {"events.steps.slip", (double)p->watch.regime_steps[BR_TIP_SLIP]},
-        {"events.steps.closed", (double)p->watch.closed_steps},
-        {"energies.end.kinetic.axial", p->energy_now.kinetic[BR_AXIAL]},
-        {"energies.end.kinetic.bending", p->energy_now.kinetic[BR_BENDING]},
-        {"energies.end.stored.axial", p->energy_now.stored[BR_AXIAL]},
-        {"energies.end.stored.bending", p->energy_now.stored[BR_BENDING]},
-        {"energies.end.contact", p->energy_now.contact},
-        {"energies.end.total", br_energy_total(&p->energy_now)},
-        {"energies.lost_to_friction", work->friction},
-        {"energies.work_of_loads.axial", work->loads[BR_AXIAL]},
-        {"energies.work_of_loads.bending", work->loads[BR_BENDING]},
-        {"energies.lost_to_viscosity.axial", work->viscous[BR_AXIAL]},
-        {"energies.lost_to_viscosity.bending", work->viscous[BR_BENDING]},
-        {"energies.lost_to_scheme.axial", work->scheme[BR_AXIAL]},
-        {"energies.lost_to_scheme.bending", work->scheme[BR_BENDING]},
-        {"energies.lost_to_scheme_by_contact", work->scheme_contact},
-        {"energies.largest_imbalance_of_a_step", p->energy_worst},
-        {"certificate.worst.axial", p->worst.axial_residual},
-        {"certificate.worst.bending", p->worst.bending_residual},
-        {"certificate.worst.update", p->worst.update},
-        {"certificate.worst.friction", p->worst.friction},
-        {"certificate.worst.contact", p->worst.contact},
-        {"certificate.worst.energy", p->energy_worst},
-        {"certificate.limits.axial", p->limits.axial_residual},
-        {"certificate.limits.energy", p->energy_limit},
-        {"seconds.set_up", p->end.set_up_seconds},
-        {"seconds.march", p->end.march_seconds},
-        {"seconds.per_step", p->end.march_seconds / STEPS}};
-    const struct br_prediction none = {0};
-    json_t *root = summary(w, &none);
-    json_has(root, numbers, sizeof numbers / sizeof *numbers);
-    json_decref(root);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(trade_is_printed),
-        cmocka_unit_test(split_is_printed),
-        cmocka_unit_test(plan_is_printed),
-        cmocka_unit_test(check_is_printed),
-        cmocka_unit_test(check_is_printed_for_people),
-        cmocka_unit_test(check_is_in_json),
-        cmocka_unit_test(history_is_printed),
-        cmocka_unit_test(tip_is_the_last_node),
-        cmocka_unit_test(fields_are_printed),
+        cmocka_unit_test(trade_is_printed),     cmocka_unit_test(split_is_printed),
+        cmocka_unit_test(plan_is_printed),      cmocka_unit_test(history_is_printed),
+        cmocka_unit_test(tip_is_the_last_node), cmocka_unit_test(fields_are_printed),
 #ifdef BR_HAVE_HDF5
         cmocka_unit_test(fields_are_in_hdf5),
 #endif
-        cmocka_unit_test(prediction_is_printed),
-        cmocka_unit_test(summary_is_printed),
     };
     return cmocka_run_group_tests_name("printed_values", tests, set_up, tear_down);
 }

@@ -38,8 +38,6 @@ static void expect_kept(const char *name)
     json_t *root = json_load_file(path, 0, NULL);
     assert_non_null(root);
     const json_t *text = json_object_get(json_object_get(root, "provenance"), "scene_text");
-    if (!text) /* not yet a document */
-        text = json_object_get(json_object_get(root, "scene"), "text");
     if (!text)
         fail_msg("%s: no text of the scene", name);
     assert_string_equal(json_string_value(text), cli_read("scene.yaml"));

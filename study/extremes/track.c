@@ -3,13 +3,15 @@
 
 #include <math.h>
 
-/* Even ones of `count`, then ever nearer to the tip, which is the last. */
-static size_t choose_places(size_t count, size_t place[BR_TRACK_POINTS])
+/* Even ones of `count`, `parts` of which make up an element, then ever nearer to the tip, which is
+ * the last. The even ones are in all parts of the elements: nodes alone may be far better, or
+ * worse, than what is between them. */
+static size_t choose_places(size_t count, size_t parts, size_t place[BR_TRACK_POINTS])
 {
     const size_t even = count < BR_TRACK_EVEN ? count : BR_TRACK_EVEN;
     size_t points = 0;
     for (size_t i = 0; i + 1 < even; i++)
-        place[points++] = (i + 1) * count / even;
+        place[points++] = (i + 1) * count / even - i * parts / even;
     for (size_t from_tip = count / (2 * BR_TRACK_EVEN);
          from_tip > 0 && points + 1 < BR_TRACK_POINTS; from_tip /= 2)
         place[points++] = count - from_tip;
@@ -24,7 +26,7 @@ struct br_track_places br_track_places(size_t n, size_t steps)
     while (n * p.parts < 64 * BR_TRACK_EVEN) /* room for those near the tip */
         p.parts *= 2;
     p.levels = parts + 1;
-    p.points = choose_places(n * p.parts, p.place);
+    p.points = choose_places(n * p.parts, p.parts, p.place);
     for (size_t i = 0; i < p.levels; i++)
         p.level[i] = i * steps / parts;
     return p;

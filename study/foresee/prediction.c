@@ -14,6 +14,12 @@ static const double doubt = 3;
  * in elements of the run alone. */
 static const double measured_doubt = 2;
 
+static bool can_switch(const struct br_scene *scene)
+{
+    return (scene->contact.modelled && scene->contact.stiffness > 0) ||
+           scene->friction.law != BR_FRICTIONLESS;
+}
+
 /* A reference of order one is off by at most so many times what its check differs from it. */
 static const double of_check = 1.5;
 
@@ -161,10 +167,12 @@ static double whole_reference_error(const struct br_probe *p, int kind)
 static struct br_predicted distance(const struct br_probe *p, enum br_whole_cell cell, int kind)
 {
     const double e = cell_error(p, cell, kind), unsure = whole_reference_error(p, kind);
+    /* Where a tip comes to rest decides more than a finer reference can tell. */
+    const double factor = can_switch(&p->scene) ? doubt : measured_doubt;
     return (struct br_predicted){
         .error = e,
-        .low = fmax(0, (e - unsure) / measured_doubt),
-        .high = measured_doubt * (e + unsure),
+        .low = fmax(0, (e - unsure) / factor),
+        .high = factor * (e + unsure),
         .order = NAN,
     };
 }
@@ -189,12 +197,6 @@ static struct br_predicted measured(const struct br_probe_set *s, enum br_whole_
 }
 
 /* ---- time ---- */
-
-static bool can_switch(const struct br_scene *scene)
-{
-    return (scene->contact.modelled && scene->contact.stiffness > 0) ||
-           scene->friction.law != BR_FRICTIONLESS;
-}
 
 static double order_in_time(const struct br_outlook *o)
 {
@@ -317,6 +319,7 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
         const struct size size = solution_size(s, kind);
         if (!is_modelled(s->outlook->scene, kind))
             continue;
+        p->size[kind] = size.most;
         const struct br_predicted e = p->field[kind] = relative(whole_error(s, kind), size);
         p->bounded = p->bounded && isfinite(e.high);
         useful = useful && (e.high <= fmax(all, near * e.error) || e.high <= widest * e.low);
@@ -335,6 +338,12 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
 double br_predicted_most(const struct br_prediction *p, enum br_field_kind kind)
 {
     return p->known ? p->field[kind].high + of_round_off * p->round_off : INFINITY;
+}
+
+double br_predicted_tip(const struct br_prediction *p, enum br_field_kind kind, double length)
+{
+    const double shape = kind == BR_AXIAL ? 3 : 5;
+    return br_predicted_most(p, kind) * p->size[kind] * sqrt(shape / length);
 }
 
 double br_predict_round_off(const struct br_outlook *o)

@@ -30,8 +30,10 @@ struct br_prediction {
     bool known;
     char why[200]; /* not known: why */
     bool bounded;  /* low and high of `whole` mean something, also where it is not known */
-    struct br_predicted field[2];           /* of discretisation, by br_field_kind; zeros: not
-                                               modelled */
+    struct br_predicted field[2]; /* of discretisation, by br_field_kind; zeros: not
+                                     modelled */
+    double size[2]; /* of the fields, by br_field_kind: their largest L2 norms in the marches that
+                       it is predicted from, m^(3/2) */
     struct br_predicted space, time, whole; /* of the field whose upper bound is the larger */
     double round_off; /* relative to the exact discrete solution: br_predict_round_off */
     double seconds;   /* that the prediction took */
@@ -46,6 +48,12 @@ enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction
 /* The most that a field is stated to be off, relative to its solution: the upper bound of the
  * discretisation error, and what round-off adds. INFINITY where nothing is stated. */
 double br_predicted_most(const struct br_prediction *prediction, enum br_field_kind kind);
+
+/* The same at the tip of a beam of that length, m, for an error that is largest there and grows
+ * like x (axial) or x^2 (bending): the field's rms error times 3^(1/2) or 5^(1/2). It is an
+ * estimate. */
+double br_predicted_tip(const struct br_prediction *prediction, enum br_field_kind kind,
+                        double length);
 
 /* Round-off of the displacements, relative to the exact discrete solution, as the linear solver
  * predicts it: the larger of the modelled fields'. */

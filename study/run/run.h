@@ -53,8 +53,7 @@ struct br_run_report {
 
     bool checked;
     struct br_certificate worst, limits;
-    double energy_worst, energy_limit; /* imbalance of a step; 0 and INFINITY where the works have
-                                          a remainder */
+    double energy_worst, energy_limit; /* imbalance of a step */
     struct br_error verdict;           /* BR_OK, or the first step beyond a limit */
     size_t bad_steps;
 

@@ -51,11 +51,11 @@ void bench_record_skipped(struct bench *b, const char *reason, const char *name,
 
 enum br_status bench_write(const struct bench *b, const char *path, struct br_error *err)
 {
-    struct br_provenance provenance;
-    br_provenance_fill(&provenance, 1);
-    json_t *root = json_object();
-    json_object_set_new(root, "provenance", br_json_provenance(&provenance));
-    json_object_set(root, "rows", b->rows);
+    struct br_provenance p;
+    br_provenance_fill(&p, 1);
+    json_t *root = json_pack("{s:{s:s, s:s, s:s, s:s, s:s, s:s}, s:O}", "provenance", "version",
+                             p.version, "commit", p.commit, "compiler", p.compiler, "flags",
+                             p.flags, "machine", p.machine, "date", p.date, "rows", b->rows);
     const int failed = json_dump_file(root, path, JSON_INDENT(1) | JSON_REAL_PRECISION(6));
     json_decref(root);
     return failed ? br_fail(err, BR_BAD_INPUT, "%s: cannot be written", path) : BR_OK;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A run of one scene as text and as files. Nothing is computed here. */
-#ifndef BR_TABLES_RUN_PAGE_H
-#define BR_TABLES_RUN_PAGE_H
+/* The report of `run`, and the tip's history as CSV. */
+#ifndef BR_TABLES_REPORT_RUN_H
+#define BR_TABLES_REPORT_RUN_H
 
 #include "study/foresee/prediction.h"
 #include "study/run/run.h"
 #include "tables/document.h"
 
 /* All that a run's summary is made of. Borrowed. */
-struct br_run_page {
+struct br_run_findings {
     const struct br_run_report *report;
     const struct br_prediction *prediction;
     const struct br_warnings *warnings;
@@ -16,11 +16,9 @@ struct br_run_page {
     double wall_seconds;
 };
 
-/* The summary for a person: write errors stay in `out`. */
-void br_run_text(FILE *out, const struct br_run_page *page);
-
-/* The same for programs. Fails with BR_NO_MEMORY. */
-enum br_status br_run_json(FILE *out, const struct br_run_page *page, struct br_error *err);
+/* Builds the report: what happened at the tip and how far off that is, then all that was found. In
+ * JSON what is not known or not modelled is null. */
+void br_report_run(const struct br_run_findings *findings, struct br_document *document);
 
 /* The tip's history: a head, one line a row, SI units; a number that is not there is an empty
  * field (RFC 4180). */

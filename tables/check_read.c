@@ -1,150 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A check for programs, and for --compare, which reads it again. */
+/* A check's JSON, read for --compare. */
 #include <errno.h>
 #include <fcntl.h>
+#include <jansson.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "tables/check_emitter.h"
 #include "tables/json_value.h"
-
-static const char format_name[] = "beamrate check 1";
-
-/* ---- writing ---- */
-
-static json_t *point(const struct br_point *p)
-{
-    return json_pack("{s:I, s:I, s:I, s:I, s:o, s:o, s:s, s:o}", "n", (json_int_t)p->at.n, "steps",
-                     (json_int_t)p->at.steps, "against_n", (json_int_t)p->against.n,
-                     "against_steps", (json_int_t)p->against.steps, "error",
-                     br_json_number(p->error), "constant", br_json_number(p->constant), "flag",
-                     br_flag_name(p->flag), "failure", br_json_string(p->failure));
-}
-
-/* Appends, or makes the array NULL: without memory there is no document. */
-static void append(json_t **array, json_t *value)
-{
-    if (json_array_append_new(*array, value) == 0)
-        return;
-    json_decref(*array);
-    *array = NULL;
-}
-
-static json_t *points(const struct br_case *c)
-{
-    json_t *a = json_array();
-    for (size_t i = 0; i < c->points; i++)
-        append(&a, point(&c->point[i]));
-    return a;
-}
-
-static json_t *case_object(const struct br_case *c)
-{
-    const struct br_expectation *e = &c->expected;
-    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
-                     "study", br_verify_names[c->kind], "norm", e->norm->name, "part",
-                     br_part_names[e->part], "verdict", br_verdict_names[c->verdict], "order",
-                     br_json_estimate(&c->order), "expected", br_json_number(e->order), "tolerance",
-                     br_json_number(e->tolerance), "margin", br_json_number(c->margin), "constant",
-                     br_json_number(c->constant), "floor", br_json_number(e->floor), "ceiling",
-                     br_json_number(e->ceiling), "reason", br_json_string(c->reason), "note",
-                     br_json_string(c->note), "points", points(c));
-}
-
-static json_t *cases(const struct br_check *check)
-{
-    json_t *a = json_array();
-    for (size_t i = 0; i < check->count; i++)
-        append(&a, case_object(&check->cases[i]));
-    return a;
-}
-
-static json_t *methods(const struct br_check *check)
-{
-    json_t *o = json_object();
-    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
-        if (check->verify->study[kind].count)
-            json_object_set_new(o, br_verify_names[kind],
-                                br_json_method(&check->verify->study[kind].method));
-    return o;
-}
-
-static json_t *scene(const struct br_check *check)
-{
-    return json_pack("{s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:o}", "scene",
-                     br_json_string(check->scene->name), "failure",
-                     br_json_string(check->failure.status ? check->failure.message : NULL), "path",
-                     br_json_string(check->path), "by_default", check->verify->by_default,
-                     "methods", methods(check), "seconds", br_json_number(check->seconds),
-                     "element_steps", br_json_number(check->element_steps), "cases", cases(check));
-}
-
-static json_t *scenes(const struct br_check_page *page)
-{
-    json_t *a = json_array();
-    for (size_t i = 0; i < page->count; i++)
-        append(&a, scene(&page->checks[i]));
-    return a;
-}
-
-static json_t *skipped(const struct br_check_page *page)
-{
-    json_t *a = json_array();
-    for (size_t i = 0; i < page->skips; i++)
-        append(&a, json_pack("{s:o, s:o}", "scene", br_json_string(page->skipped[i].scene),
-                             "reason", br_json_string(page->skipped[i].reason)));
-    return a;
-}
-
-static json_t *differences(const struct br_comparison *c)
-{
-    if (!c)
-        return json_null();
-    json_t *a = json_array();
-    for (size_t i = 0; i < c->count; i++) {
-        const struct br_difference *d = &c->difference[i];
-        json_array_append_new(
-            a, json_pack("{s:s, s:o, s:o, s:o, s:o}", "severity", br_severity_names[d->severity],
-                         "subject", br_json_string(d->subject), "before", br_json_number(d->before),
-                         "now", br_json_number(d->now), "remark", br_json_string(d->remark)));
-    }
-    return a;
-}
-
-static json_t *tally(const struct br_check_page *page)
-{
-    json_t *o = json_object();
-    for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
-        json_object_set_new(o, br_verdict_names[v],
-                            json_integer((json_int_t)br_check_tally(page->checks, page->count,
-                                                                    (enum br_verdict)v)));
-    return o;
-}
-
-static enum br_status emit(FILE *out, const struct br_check_page *page, struct br_error *err)
-{
-    json_t *o = json_pack("{s:s, s:o, s:o, s:o, s:b, s:o, s:o, s:o}", "format", format_name,
-                          "provenance", br_json_provenance(page->provenance), "tally", tally(page),
-                          "wall_seconds", br_json_number(page->wall_seconds), "stopped",
-                          page->stopped, "scenes", scenes(page), "skipped", skipped(page),
-                          "differences", differences(page->comparison));
-    if (!o)
-        return br_no_memory(err, "the JSON document");
-    const int failed =
-        json_dumpf(o, out, JSON_INDENT(1) | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(17));
-    fputc('\n', out);
-    json_decref(o);
-    return failed ? br_no_memory(err, "the JSON document") : BR_OK;
-}
-
-const struct br_check_emitter br_check_emit_json = {
-    .name = "json",
-    .title = "everything, for programs and for --compare",
-    .emit = emit,
-};
-
-/* ---- reading ---- */
+#include "tables/report_check.h"
 
 static enum br_status refuse(const char *path, const char *where, const char *expected,
                              struct br_error *err)
@@ -180,12 +44,14 @@ static bool read_verdict(const json_t *o, enum br_verdict *verdict)
 
 static bool read_case(const json_t *o, const char *scene_name, struct br_old_case *c)
 {
+    const json_t *order = json_object_get(o, "order");
+    if (json_is_object(order)) /* of format 1 */
+        order = json_object_get(order, "value");
     strcpy(c->scene, scene_name);
     return read_word(json_object_get(o, "study"), c->study, sizeof c->study) &&
            read_word(json_object_get(o, "norm"), c->norm, sizeof c->norm) &&
            read_word(json_object_get(o, "part"), c->part, sizeof c->part) &&
-           read_number(json_object_get(json_object_get(o, "order"), "value"), -INFINITY,
-                       &c->order) &&
+           read_number(order, -INFINITY, &c->order) &&
            read_number(json_object_get(o, "constant"), 0, &c->constant) &&
            read_number(json_object_get(o, "expected"), 0, &c->expected) &&
            read_number(json_object_get(o, "tolerance"), 0, &c->tolerance) &&
@@ -263,14 +129,45 @@ static enum br_status read_scene(const char *path, const json_t *o, struct br_ol
     return BR_OK;
 }
 
+/* The scenes as format 1 has them, each with its methods and a list of its cases. */
+static enum br_status gather(const json_t *root, json_t *scenes, struct br_error *err)
+{
+    const json_t *orders = json_object_get(json_object_get(root, "tables"), "orders");
+    const json_t *methods = json_object_get(root, "methods");
+    bool lacked = false;
+    for (size_t i = 0; i < json_array_size(scenes); i++) {
+        json_t *scene = json_array_get(scenes, i);
+        const json_t *name = json_object_get(scene, "scene");
+        char number[32];
+        if (!json_is_object(scene))
+            continue; /* read_scene refuses it */
+        json_t *cases = json_array();
+        for (size_t j = 0; j < json_array_size(orders); j++) {
+            json_t *row = json_array_get(orders, j);
+            if (json_equal(json_object_get(row, "scene"), name))
+                lacked |= json_array_append(cases, row) != 0;
+        }
+        snprintf(number, sizeof number, "%zu", i);
+        if (json_object_get(methods, number))
+            lacked |= json_object_set(scene, "methods", json_object_get(methods, number)) != 0;
+        lacked |= json_object_set_new(scene, "cases", cases) != 0;
+    }
+    return lacked ? br_no_memory(err, "the earlier check") : BR_OK;
+}
+
 static enum br_status read_document(const char *path, const json_t *root, struct br_old_check *old,
                                     struct br_error *err)
 {
-    const json_t *format = json_object_get(root, "format"), *list = json_object_get(root, "scenes");
-    if (!json_is_string(format) || strcmp(json_string_value(format), format_name) != 0)
-        return refuse(path, "format", format_name, err);
+    const char *format = json_string_value(json_object_get(root, "format"));
+    const bool first = format && strcmp(format, "beamrate check 1") == 0;
+    const bool present = format && strcmp(format, "beamrate check") == 0 &&
+                         json_integer_value(json_object_get(root, "version")) == 2;
+    json_t *list = json_object_get(first ? root : json_object_get(root, "tables"), "scenes");
+    if (!first && !present)
+        return refuse(path, "format", "beamrate check, version 2, or beamrate check 1", err);
     if (!json_is_array(list))
         return refuse(path, "scenes", "a list", err);
+    enum br_status status = present ? gather(root, list, err) : BR_OK;
     size_t count = 0;
     for (size_t i = 0; i < json_array_size(list); i++)
         count += json_array_size(json_object_get(json_array_get(list, i), "cases"));
@@ -278,7 +175,6 @@ static enum br_status read_document(const char *path, const json_t *root, struct
     old->cases = br_allocate(count + 1, sizeof *old->cases);
     if (!old->costs || !old->cases)
         return br_no_memory(err, "the earlier check");
-    enum br_status status = BR_OK;
     for (size_t i = 0; i < json_array_size(list) && !status; i++)
         status = read_scene(path, json_array_get(list, i), old, err);
     return status;

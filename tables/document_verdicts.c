@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A report's verdicts for CI systems: JUnit's XML and TAP. Both have the numbers of a verdict's row
+ * by their keys, and the lines that explain it. */
+#include <math.h>
+#include <string.h>
+
+#include "study/scene/quote.h"
+#include "tables/document.h"
+
+/* "  key: value", a line a column of the verdict's row. */
+static void print_row(FILE *out, const struct br_quoting *target, const struct br_document *d,
+                      const struct br_document_verdict *v)
+{
+    const struct br_document_table *t = v->of_row ? d->block[v->table].table : NULL;
+    for (size_t c = 0; t && c < t->columns; c++)
+        if (br_for_programs(t->column[c].flags)) {
+            fprintf(out, "  %s: ", t->column[c].key);
+            br_document_print_value(out, target, "null", &br_document_cell_at(t, v->row, c)->value);
+            fputc('\n', out);
+        }
+}
+
+/* "  name: text" */
+static void print_line(FILE *out, const struct br_quoting *target, const char *name,
+                       const char *text)
+{
+    fprintf(out, "  %s: ", name);
+    br_quote(out, target, text);
+    fputc('\n', out);
+}
+
+/* ---- JUnit ---- */
+
+/* Verdicts from `begin` to `end`. */
+struct suite {
+    size_t begin, end;
+    size_t of[BR_OUTCOME_SKIPPED + 1];
+    double seconds;
+};
+
+static struct suite count(const struct br_document *d, size_t begin, size_t end)
+{
+    struct suite s = {.begin = begin, .end = end};
+    for (size_t i = begin; i < end; i++) {
+        s.of[d->verdict[i].outcome]++;
+        s.seconds += isfinite(d->verdict[i].seconds) ? d->verdict[i].seconds : 0;
+    }
+    return s;
+}
+
+static void print_attribute(FILE *out, const char *name, const char *text)
+{
+    fprintf(out, " %s=\"", name);
+    br_quote(out, &br_for_xml, text);
+    fputc('"', out);
+}
+
+static void print_counts(FILE *out, const struct suite *s)
+{
+    fprintf(out, " tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" time=\"%.6f\"", s->end - s->begin,
+            s->of[BR_OUTCOME_FAIL] + s->of[BR_OUTCOME_INCONCLUSIVE], s->of[BR_OUTCOME_ERROR],
+            s->seconds);
+}
+
+/* Where it is expected, and the lines that explain. The schemas have no attributes for a place. */
+static void print_details(FILE *out, const struct br_document_verdict *v)
+{
+    if (v->file)
+        print_line(out, &br_for_xml, "file", v->file);
+    if (v->line)
+        fprintf(out, "  line: %zu\n", v->line);
+    for (size_t i = 0; i < v->details; i++)
+        print_line(out, &br_for_xml, "detail", v->detail[i]);
+}
+
+static void print_testcase(FILE *out, const struct br_document *d,
+                           const struct br_document_verdict *v)
+{
+    static const char *const elements[] = {NULL, "failure", "failure", "error", "skipped"};
+    const char *element = elements[v->outcome];
+    fprintf(out, "    <testcase classname=\"beamrate%s", v->group ? "." : "");
+    br_quote(out, &br_for_xml, v->group ? v->group : "");
+    fputc('"', out);
+    print_attribute(out, "name", v->name);
+    if (isfinite(v->seconds))
+        fprintf(out, " time=\"%.6f\"", v->seconds);
+    fputs(">\n", out);
+    if (element) {
+        fprintf(out, "      <%s", element);
+        if (v->outcome != BR_OUTCOME_SKIPPED)
+            print_attribute(out, "type", br_outcome_names[v->outcome]);
+        print_attribute(out, "message", v->message ? v->message : "");
+        fputs(">\n", out);
+        print_details(out, v);
+        fprintf(out, "      </%s>\n", element);
+    }
+    fputs("      <system-out>\n", out);
+    if (!element && v->message)
+        print_line(out, &br_for_xml, "message", v->message);
+    if (!element)
+        print_details(out, v);
+    print_row(out, &br_for_xml, d, v);
+    fputs("      </system-out>\n    </testcase>\n", out);
+}
+
+static void print_suite(FILE *out, const struct br_document *d, const struct suite *s)
+{
+    const char *group = d->verdict[s->begin].group;
+    fputs("  <testsuite", out);
+    print_attribute(out, "name", group ? group : d->name);
+    print_counts(out, s);
+    fprintf(out, " skipped=\"%zu\"", s->of[BR_OUTCOME_SKIPPED]);
+    if (d->provenance.date)
+        fprintf(out, " timestamp=\"%.19s\"", d->provenance.date);
+    fputs(">\n", out);
+    for (size_t i = s->begin; i < s->end; i++)
+        print_testcase(out, d, &d->verdict[i]);
+    fputs("  </testsuite>\n", out);
+}
+
+static bool is_same(const char *a, const char *b)
+{
+    return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+static enum br_status write_junit(FILE *out, const struct br_document *d,
+                                  const struct br_document_table *table, struct br_error *err)
+{
+    (void)table, (void)err;
+    const struct suite all = count(d, 0, d->verdicts);
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites", out);
+    print_attribute(out, "name", d->format);
+    print_counts(out, &all);
+    fputs(">\n", out);
+    for (size_t begin = 0, end; begin < d->verdicts; begin = end) {
+        for (end = begin + 1; end < d->verdicts; end++)
+            if (!is_same(d->verdict[end].group, d->verdict[begin].group))
+                break;
+        const struct suite s = count(d, begin, end);
+        print_suite(out, d, &s);
+    }
+    fputs("</testsuites>\n", out);
+    return BR_OK;
+}
+
+const struct br_document_format br_document_junit = {
+    .name = "junit",
+    .extension = ".xml",
+    .title = "JUnit's XML, for CI systems",
+    .write = write_junit,
+};
+
+/* ---- TAP: without times, so that two runs of one build differ in the answer alone ---- */
+
+static void print_test(FILE *out, const struct br_document *d, size_t number)
+{
+    const struct br_document_verdict *v = &d->verdict[number];
+    const bool skipped = v->outcome == BR_OUTCOME_SKIPPED;
+    fprintf(out, "%s %zu - ", skipped || v->outcome == BR_OUTCOME_PASS ? "ok" : "not ok",
+            number + 1);
+    br_quote(out, &br_for_tap, v->group ? v->group : "");
+    fputs(v->group ? ", " : "", out);
+    br_quote(out, &br_for_tap, v->name);
+    fputs(skipped ? " # SKIP " : ": ", out);
+    br_quote(out, &br_for_tap,
+             !skipped     ? br_outcome_names[v->outcome]
+             : v->message ? v->message
+                          : "");
+    fputs("\n  ---\n", out);
+    if (v->message)
+        print_line(out, &br_for_yaml, "message", v->message);
+    if (v->file)
+        print_line(out, &br_for_yaml, "file", v->file);
+    if (v->line)
+        fprintf(out, "  line: %zu\n", v->line);
+    print_row(out, &br_for_yaml, d, v);
+    fputs(v->details ? "  details:\n" : "", out);
+    for (size_t i = 0; i < v->details; i++) {
+        fputs("    - ", out);
+        br_quote(out, &br_for_yaml, v->detail[i]);
+        fputc('\n', out);
+    }
+    fputs("  ...\n", out);
+}
+
+static enum br_status write_tap(FILE *out, const struct br_document *d,
+                                const struct br_document_table *table, struct br_error *err)
+{
+    (void)table, (void)err;
+    fprintf(out, "TAP version 14\n1..%zu\n", d->verdicts);
+    for (size_t i = 0; i < d->verdicts; i++)
+        print_test(out, d, i);
+    for (size_t i = 0; i < d->answers; i++) {
+        fputs("# ", out);
+        br_quote(out, &br_for_text, d->answer[i]);
+        fputc('\n', out);
+    }
+    return BR_OK;
+}
+
+const struct br_document_format br_document_tap = {
+    .name = "tap",
+    .extension = ".tap",
+    .title = "the Test Anything Protocol",
+    .write = write_tap,
+};

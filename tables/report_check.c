@@ -1,0 +1,323 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tables/report_check.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include "tables/report_method.h"
+
+const struct br_document_format *const br_check_formats[] = {
+    &br_document_text, &br_document_junit,    &br_document_json,
+    &br_document_tap,  &br_document_markdown, NULL,
+};
+
+enum { NAME = 64, LINES = 4000, FIRST_FAILURES = 3 };
+
+/* "space l2 axial" */
+static const char *name_of(const struct br_case *c, char name[NAME])
+{
+    snprintf(name, NAME, "%s %s %s", br_verify_names[c->kind], c->expected.norm->name,
+             br_part_names[c->expected.part]);
+    return name;
+}
+
+/* ---- the answer ---- */
+
+static void answer_tally(struct br_document *d, const struct br_check_findings *f)
+{
+    const struct br_check *first;
+    const size_t refused = br_check_failures(f->checks, f->count, &first);
+    size_t orders = 0, of[BR_INCONCLUSIVE + 1];
+    char and_refused[64] = "";
+    for (size_t i = 0; i < f->count; i++)
+        orders += f->checks[i].count;
+    for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
+        of[v] = br_check_tally(f->checks, f->count, (enum br_verdict)v);
+    if (refused)
+        snprintf(and_refused, sizeof and_refused, ", %zu cannot be verified", refused);
+    br_put_answer(d, "%zu order%s in %zu scene%s: %zu PASS, %zu FAIL, %zu INCONCLUSIVE%s%s; %.1f s",
+                  orders, orders == 1 ? "" : "s", f->count, f->count == 1 ? "" : "s", of[BR_PASS],
+                  of[BR_FAIL], of[BR_INCONCLUSIVE], and_refused,
+                  f->stopped ? "; stopped at the first scene that failed" : "", f->wall_seconds);
+}
+
+/* The first of what does not pass. */
+static void answer_failures(struct br_document *d, const struct br_check_findings *f)
+{
+    char name[NAME], place[1100];
+    size_t failures = 0;
+    for (size_t i = 0; i < f->count; i++)
+        if (f->checks[i].failure.status && ++failures <= FIRST_FAILURES)
+            br_put_answer(d, "%s cannot be verified: %s", f->checks[i].scene->name,
+                          f->checks[i].failure.message);
+    for (size_t i = 0; i < f->count; i++)
+        for (size_t j = 0; j < f->checks[i].count; j++) {
+            const struct br_case *c = &f->checks[i].cases[j];
+            if (c->expected.line)
+                snprintf(place, sizeof place, " (%s:%zu)", f->checks[i].path, c->expected.line);
+            else
+                *place = '\0';
+            if (c->verdict != BR_PASS && ++failures <= FIRST_FAILURES)
+                br_put_answer(d, "%s, %s, %s%s: %s", br_verdict_names[c->verdict],
+                              f->checks[i].scene->name, name_of(c, name), place, c->reason);
+        }
+    if (failures > FIRST_FAILURES)
+        br_put_answer(d, "%zu more do not pass: see the verdicts.", failures - FIRST_FAILURES);
+}
+
+static void put_tally(struct br_document *d, const struct br_check_findings *f)
+{
+    for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++) {
+        char key[NAME];
+        snprintf(key, sizeof key, "tally.%s", br_verdict_names[v]);
+        br_put_fact(d, &(struct br_column){.key = key, .flags = BR_FOR_PROGRAMS},
+                    br_count(br_check_tally(f->checks, f->count, (enum br_verdict)v)));
+    }
+    br_put_fact(d, &(struct br_column){.key = "wall_seconds", .flags = BR_FOR_PROGRAMS},
+                br_number(f->wall_seconds));
+    br_put_fact(d, &(struct br_column){.key = "stopped", .flags = BR_FOR_PROGRAMS},
+                br_truth(f->stopped));
+}
+
+/* ---- orders ---- */
+
+/* Its points, and for the writers of verdicts what was found. */
+static void put_verdict(struct br_document *d, const struct br_check *check,
+                        const struct br_case *c)
+{
+    static const enum br_outcome outcomes[] = {BR_OUTCOME_PASS, BR_OUTCOME_FAIL,
+                                               BR_OUTCOME_INCONCLUSIVE};
+    char name[NAME], against[NAME];
+    br_put_verdict(d, &(struct br_document_verdict){
+                          .outcome = outcomes[c->verdict],
+                          .group = check->scene->name,
+                          .name = name_of(c, name),
+                          .message = c->verdict == BR_PASS ? c->note : c->reason,
+                          .file = check->path,
+                          .line = c->expected.line,
+                          /* the orders of a study share its marches */
+                          .seconds = check->seconds / (double)check->count,
+                          .of_row = true,
+                      });
+    for (size_t i = 0; i < c->points; i++) {
+        const struct br_point *p = &c->point[i];
+        snprintf(against, sizeof against, "n = %zu, k = T/%zu", p->against.n, p->against.steps);
+        br_put_verdict_detail(d, "n = %zu, k = T/%zu against %s: error %.4e, constant %.4e%s%s",
+                              p->at.n, p->at.steps, p->against.n ? against : "the solution",
+                              p->error, p->constant,
+                              p->flag    ? ", left out: "
+                              : !p->used ? ", coarser than those that count"
+                                         : "",
+                              br_flag_name(p->flag));
+    }
+}
+
+static void put_order(struct br_document *d, const struct br_check *check, const struct br_case *c)
+{
+    const struct br_expectation *e = &c->expected;
+    char order[NAME];
+    br_put_row(d);
+    br_put(d, "scene", br_text(check->scene->name));
+    br_put(d, "study", br_text(br_verify_names[c->kind]));
+    br_put(d, "norm", br_text(e->norm->name));
+    br_put(d, "part", br_text(br_part_names[e->part]));
+    br_put(d, "expected", br_number(e->order));
+    br_put_shown(d, "%g +- %g", e->order, e->tolerance);
+    br_put(d, "tolerance", br_number(e->tolerance));
+    br_put(d, "order", br_number(c->order.value));
+    br_put_shown(d, "%s", br_order_text(&c->order, order, sizeof order));
+    br_put(d, "low", br_number(c->order.low));
+    br_put(d, "high", br_number(c->order.high));
+    br_put(d, "margin", br_number(c->margin));
+    br_put(d, "constant", br_number(c->constant));
+    br_put(d, "floor", br_number(e->floor));
+    br_put(d, "ceiling", br_number(e->ceiling));
+    if (isfinite(e->floor))
+        br_put_shown(d, "%g to %g", e->floor, e->ceiling);
+    else if (isfinite(e->ceiling))
+        br_put_shown(d, "at most %g", e->ceiling);
+    br_put(d, "verdict", br_text(br_verdict_names[c->verdict]));
+}
+
+static void put_orders(struct br_document *d, const struct br_check_findings *f)
+{
+    static const struct br_column columns[] = {
+        {.key = "scene"},
+        {.key = "study"},
+        {.key = "norm"},
+        {.key = "part"},
+        {.key = "expected"},
+        {.key = "tolerance", .flags = BR_FOR_PROGRAMS},
+        {.key = "order", .heading = "observed order"},
+        {.key = "low", .flags = BR_FOR_PROGRAMS},
+        {.key = "high", .flags = BR_FOR_PROGRAMS},
+        {.key = "margin", .format = "%+.3f", .flags = BR_FILES_ONLY},
+        {.key = "constant", .format = "%.3e"},
+        {.key = "floor", .flags = BR_FOR_PROGRAMS},
+        {.key = "ceiling", .heading = "its range"},
+        {.key = "verdict"},
+    };
+    br_put_table(d, "orders", "All orders", BR_MAIN | BR_LONG, BR_COLUMNS(columns));
+    for (size_t i = 0; i < f->count; i++) {
+        const struct br_check *check = &f->checks[i];
+        if (check->failure.status)
+            br_put_verdict(d, &(struct br_document_verdict){.outcome = BR_OUTCOME_ERROR,
+                                                            .group = check->scene->name,
+                                                            .name = "verify",
+                                                            .message = check->failure.message,
+                                                            .file = check->path,
+                                                            .seconds = check->seconds});
+        for (size_t j = 0; j < check->count; j++) {
+            put_order(d, check, &check->cases[j]);
+            put_verdict(d, check, &check->cases[j]);
+        }
+    }
+}
+
+static void put_point(struct br_document *d, const struct br_check *check, const struct br_case *c,
+                      const struct br_point *p)
+{
+    br_put_row(d);
+    br_put(d, "scene", br_text(check->scene->name));
+    br_put(d, "study", br_text(br_verify_names[c->kind]));
+    br_put(d, "norm", br_text(c->expected.norm->name));
+    br_put(d, "part", br_text(br_part_names[c->expected.part]));
+    br_put(d, "n", br_count(p->at.n));
+    br_put(d, "steps", br_count(p->at.steps));
+    br_put(d, "against_n", br_count(p->against.n));
+    br_put(d, "against_steps", br_count(p->against.steps));
+    br_put(d, "error", br_number(p->error));
+    br_put(d, "constant", br_number(p->constant));
+    br_put(d, "used", br_truth(p->used));
+    br_put(d, "flag", br_text(br_flag_name(p->flag)));
+    br_put(d, "failure", br_text(p->failure));
+}
+
+/* People see them with the verdicts. */
+static void put_points(struct br_document *d, const struct br_check_findings *f)
+{
+    static const struct br_column columns[] = {
+        {.key = "scene"},   {.key = "study"},    {.key = "norm"},      {.key = "part"},
+        {.key = "n"},       {.key = "steps"},    {.key = "against_n"}, {.key = "against_steps"},
+        {.key = "error"},   {.key = "constant"}, {.key = "used"},      {.key = "flag"},
+        {.key = "failure"},
+    };
+    br_put_table(d, "points", "Errors", BR_FOR_PROGRAMS, BR_COLUMNS(columns));
+    for (size_t i = 0; i < f->count; i++)
+        for (size_t j = 0; j < f->checks[i].count; j++)
+            for (size_t p = 0; p < f->checks[i].cases[j].points; p++)
+                put_point(d, &f->checks[i], &f->checks[i].cases[j],
+                          &f->checks[i].cases[j].point[p]);
+}
+
+/* ---- scenes ---- */
+
+__attribute__((format(printf, 2, 3))) static void append(char text[LINES], const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + used, LINES - used, format, arguments);
+    va_end(arguments);
+}
+
+static void append_cells(char text[LINES], const struct br_scene *scene,
+                         const struct br_verify_study *v)
+{
+    const size_t last = v->count - 1;
+    for (size_t i = 0; i < (v->n[last] != v->n[0] ? v->count : 1); i++)
+        append(text, i ? ", %zu" : "    n: %zu", v->n[i]);
+    for (size_t i = 0; i < (v->steps[last] != v->steps[0] ? v->count : 1); i++)
+        append(text, i ? ", %.10g" : "\n    k: %.10g", br_time_step(scene, v->steps[i]));
+    append(text, " s\n");
+}
+
+/* Of a scene that does not say what to expect: the defaults, as its file would have them. */
+static void put_defaults(struct br_document *d, const struct br_check *check, size_t number)
+{
+    char text[LINES] = "verify:\n", key[NAME], label[1200];
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+        const struct br_verify_study *v = &check->verify->study[kind];
+        append(text, "  %s:\n", br_verify_names[kind]);
+        append_cells(text, check->scene, v);
+        for (size_t i = 0; i < v->expectations; i++) {
+            const struct br_expectation *e = &v->expectation[i];
+            append(text, "    %s%s%s: %g +- %g\n", e->norm->name, e->part ? " " : "",
+                   e->part ? br_part_names[e->part] : "", e->order, e->tolerance);
+        }
+    }
+    snprintf(key, sizeof key, "defaults.%zu", number);
+    snprintf(label, sizeof label,
+             "%s has no verify part; these are the defaults, to begin one with", check->path);
+    br_put_command(d, key, label, text);
+}
+
+/* The methods are facts: "methods.0.space" is that of the first scene's study over h. */
+static void put_scenes(struct br_document *d, const struct br_check_findings *f)
+{
+    static const struct br_column columns[] = {
+        {.key = "scene"},   {.key = "path"},          {.key = "by_default"},
+        {.key = "seconds"}, {.key = "element_steps"}, {.key = "failure"},
+    };
+    char key[NAME];
+    br_put_table(d, "scenes", "Scenes", BR_FOR_PROGRAMS, BR_COLUMNS(columns));
+    for (size_t i = 0; i < f->count; i++) {
+        const struct br_check *check = &f->checks[i];
+        br_put_row(d);
+        br_put(d, "scene", br_text(check->scene->name));
+        br_put(d, "path", br_text(check->path));
+        br_put(d, "by_default", br_truth(check->verify->by_default));
+        br_put(d, "seconds", br_number(check->seconds));
+        br_put(d, "element_steps", br_number(check->element_steps));
+        br_put(d, "failure", br_text(check->failure.status ? check->failure.message : NULL));
+    }
+    for (size_t i = 0; i < f->count; i++)
+        for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+            snprintf(key, sizeof key, "methods.%zu.%s", i, br_verify_names[kind]);
+            if (f->checks[i].verify->study[kind].count)
+                br_put_method(d, key, &f->checks[i].verify->study[kind].method);
+        }
+    for (size_t i = 0; i < f->count; i++)
+        if (f->checks[i].verify->by_default)
+            put_defaults(d, &f->checks[i], i);
+}
+
+/* ---- against an earlier check ---- */
+
+static void put_comparison(struct br_document *d, const struct br_comparison *c)
+{
+    static const struct br_column columns[] = {
+        {.key = "severity"}, {.key = "subject", .heading = "what"},
+        {.key = "before"},   {.key = "now"},
+        {.key = "remark"},
+    };
+    br_put_answer(d,
+                  "Against the earlier check: %zu serious, %zu warnings, %zu notes, %zu the same",
+                  c->tally[BR_SERIOUS], c->tally[BR_WARNING], c->tally[BR_NOTE], c->tally[BR_SAME]);
+    br_put_table(d, "differences", "Against the earlier check", BR_LONG, BR_COLUMNS(columns));
+    for (size_t i = 0; i < c->count; i++) {
+        const struct br_difference *x = &c->difference[i];
+        br_put_row(d);
+        br_put(d, "severity", br_text(br_severity_names[x->severity]));
+        br_put(d, "subject", br_text(x->subject));
+        br_put(d, "before", br_number(x->before));
+        br_put(d, "now", br_number(x->now));
+        br_put(d, "remark", br_text(*x->remark ? x->remark : NULL));
+        br_put_shown(d, "%s", x->remark);
+    }
+}
+
+void br_report_check(const struct br_check_findings *f, struct br_document *d)
+{
+    br_document_begin(d, "check", "beamrate check", 2, "Orders of convergence");
+    answer_tally(d, f);
+    answer_failures(d, f);
+    put_tally(d, f);
+    put_orders(d, f);
+    if (f->comparison)
+        put_comparison(d, f->comparison);
+    put_points(d, f);
+    put_scenes(d, f);
+    br_put_provenance(d, f->provenance);
+}
