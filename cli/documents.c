@@ -34,16 +34,33 @@ enum br_status br_documents_write_as(const struct br_output *output,
     return status;
 }
 
-enum br_status br_documents_write(const struct br_output *output, const struct br_options *options,
+enum br_status br_documents_write_page(const struct br_output *output,
+                                       const struct br_document *documents, size_t count,
+                                       struct br_error *err)
+{
+    FILE *file;
+    enum br_status status = br_output_file(output, BR_PAGE, &file, err);
+    if (status)
+        return status;
+    status = br_document_print_page(file, documents, count, output->staging, err);
+    const enum br_status closed = br_output_close(file, BR_PAGE, status ? NULL : err);
+    return status ? status : closed;
+}
+
+enum br_status br_documents_write(struct br_picture_files *pictures,
+                                  const struct br_options *options,
                                   const struct br_document *documents, size_t count,
                                   struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (const struct br_document_format *const *f = br_document_formats; *f; f++)
         for (size_t i = 0; i < count && !status; i++)
-            if (br_format_wanted(options, (*f)->name))
-                status = br_documents_write_as(output, *f, &documents[i], err);
-    return status;
+            if (*f != &br_document_html && br_format_wanted(options, (*f)->name))
+                status = br_documents_write_as(pictures->output, *f, &documents[i], err);
+    if (status || !count || !br_format_wanted(options, br_document_html.name))
+        return status;
+    status = br_picture_files_finish(pictures, err);
+    return status ? status : br_documents_write_page(pictures->output, documents, count, err);
 }
 
 enum br_status br_documents_show(const struct br_document *documents, size_t count,

@@ -238,7 +238,7 @@ static enum br_status write_all(struct work *w, struct br_error *err)
         if (w->part[i]->draw)
             status = draw(w, i, &files, err);
     if (!status)
-        status = br_documents_write(&w->output, w->options, w->document, w->parts, err);
+        status = br_documents_write(&files, w->options, w->document, w->parts, err);
     const enum br_status drawn = br_picture_files_finish(&files, status ? NULL : err);
     return status ? status : drawn;
 }

@@ -42,6 +42,7 @@ static enum br_status write_figure(struct run *r, const struct br_paper_figure *
     enum br_status status = br_paper_figure_draw(f, &r->paper, &figure, err);
     if (!status)
         status = br_picture_files_draw(&r->pictures, &figure, err);
+    br_put_picture(&r->claims, figure.stem, figure.title);
     if (!status)
         status = write_caption(r, f, figure.stem, err);
     br_figure_clear(&figure);
@@ -68,7 +69,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     if (!status)
         status = write_readme(r, err);
     if (!status)
-        status = br_documents_write(&r->output, r->options, &r->claims, 1, err);
+        status = br_documents_write(&r->pictures, r->options, &r->claims, 1, err);
     const enum br_status drawn = br_picture_files_finish(&r->pictures, status ? NULL : err);
     if (!status)
         status = drawn;

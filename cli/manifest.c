@@ -319,10 +319,23 @@ static bool is_superseded(const struct br_manifest *old, size_t set, const struc
     for (size_t i = 0; i < old->count; i++)
         for (size_t j = 0; j < new->count && old->file[i].set == set; j++) {
             const char *a = old->file[i].name, *b = new->file[j].name;
-            if (stem_of(a) == stem_of(b) && strncmp(a, b, stem_of(a)) == 0)
+            const bool page = strcmp(a, BR_PAGE) == 0 || strcmp(b, BR_PAGE) == 0;
+            if (!page && stem_of(a) == stem_of(b) && strncmp(a, b, stem_of(a)) == 0)
                 return true;
         }
     return false;
+}
+
+/* Takes the page from an old set where the new one has it. Whether the old one has a file left. */
+static bool give_up_page(json_t *set, const struct br_manifest *new)
+{
+    json_t *files = json_object_get(set, "files");
+    for (size_t i = json_array_size(files); i > 0 && br_manifest_find(new, BR_PAGE); i--) {
+        const json_t *name = json_object_get(json_array_get(files, i - 1), "name");
+        if (strcmp(json_string_value(name), BR_PAGE) == 0)
+            json_array_remove(files, i - 1);
+    }
+    return json_array_size(files) > 0;
 }
 
 enum br_status br_manifest_list(int folder, const char *run, const struct br_manifest *old,
@@ -330,9 +343,11 @@ enum br_status br_manifest_list(int folder, const char *run, const struct br_man
 {
     struct br_manifest new = {.sets = NULL};
     enum br_status status = list_files(folder, &new, err);
-    for (size_t i = 0; i < json_array_size(old->sets) && !status; i++)
-        if (!is_superseded(old, i, &new))
-            status = add_set(json_array_get(old->sets, i), "it", m, err);
+    for (size_t i = 0; i < json_array_size(old->sets) && !status; i++) {
+        json_t *other = json_array_get(old->sets, i);
+        if (!is_superseded(old, i, &new) && give_up_page(other, &new))
+            status = add_set(other, "it", m, err);
+    }
     json_t *set = status ? NULL : json_of(&new, run);
     if (!status)
         status = set ? add_set(set, "it", m, err) : br_no_memory(err, "the manifest");

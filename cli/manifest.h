@@ -12,6 +12,9 @@
 
 enum { BR_RUN_ID = 40 };
 
+/* The page that every run writes: it is that of the run that was last, and of no other set. */
+#define BR_PAGE "report.html"
+
 /* Begins as zeros. */
 struct br_manifest {
     json_t *sets; /* an array, as it is in the file; owned; NULL: none */
@@ -28,8 +31,9 @@ struct br_manifest {
 enum br_status br_run_id_make(char run[BR_RUN_ID], struct br_error *err);
 
 /* Lists a new set after those of the old manifest with which it shares no name (but for what
- * follows a name's last dot): the files of an open folder whose names do not begin with a dot; and
- * waits until the disk has them. Fails with BR_IO or BR_NO_MEMORY; clear it even then. */
+ * follows a name's last dot; the page does not count, they lose it): the files of an open folder
+ * whose names do not begin with a dot; and waits until the disk has them. Fails with BR_IO or
+ * BR_NO_MEMORY; clear it even then. */
 enum br_status br_manifest_list(int folder, const char *run, const struct br_manifest *old,
                                 struct br_manifest *manifest, struct br_error *err);
 

@@ -63,8 +63,10 @@ enum br_status br_picture_files_finish(struct br_picture_files *f, struct br_err
             status = BR_INTERRUPTED;
     if (br_signals_caught())
         status = br_fail(err, BR_INTERRUPTED, "interrupted");
-    if (!status && f->missing)
+    if (!status && f->missing && !f->said) {
+        f->said = true;
         fprintf(stderr, "beamrate: gnuplot is not installed: the pictures are written as scripts "
                         "(*.gp) and data, but not rendered\n");
+    }
     return status;
 }

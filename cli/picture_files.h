@@ -12,6 +12,7 @@ struct br_picture_files {
     const struct br_output *output;
     struct br_renderer renderer;
     bool missing; /* gnuplot */
+    bool said;    /* that it is */
 };
 
 /* Writes a figure's data and script to the output and starts gnuplot on it, where there is one.
@@ -24,7 +25,8 @@ enum br_status br_picture_files_draw(struct br_picture_files *files, const struc
 enum br_status br_picture_failed(const struct br_error *why, const char *what,
                                  struct br_error *err);
 
-/* Waits for all pictures, and says where gnuplot is missing. Fails with BR_INTERRUPTED. */
+/* Waits for all pictures, and says once where gnuplot is missing. May be called again. Fails with
+ * BR_INTERRUPTED. */
 enum br_status br_picture_files_finish(struct br_picture_files *files, struct br_error *err);
 
 #endif

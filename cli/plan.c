@@ -68,7 +68,8 @@ static enum br_status make(struct work *w, struct br_error *err)
 
 static enum br_status write_all(struct work *w, struct br_error *err)
 {
-    enum br_status status = br_documents_write(&w->output, w->options, &w->document, 1, err);
+    struct br_picture_files none = {.output = &w->output};
+    enum br_status status = br_documents_write(&none, w->options, &w->document, 1, err);
     if (!status)
         status = br_output_commit(&w->output, err);
     if (!status && !br_option_given(w->options, BR_OPT_QUIET))

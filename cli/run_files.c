@@ -81,6 +81,8 @@ enum br_status br_run_files_commit(struct br_run_files *f, const struct br_docum
     if (!status)
         status = br_documents_write_as(&f->output, &br_document_json, summary, err);
     if (!status)
+        status = br_documents_write_page(&f->output, summary, 1, err);
+    if (!status)
         status = br_output_commit(&f->output, err);
     return status;
 }

@@ -79,7 +79,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
          i < r->session.pages && !status && !br_option_given(r->options, BR_OPT_NO_PLOTS); i++)
         status = write_plots(r, i, err);
     if (!status)
-        status = br_documents_write(&r->output, r->options, r->document, r->session.pages, err);
+        status = br_documents_write(&r->pictures, r->options, r->document, r->session.pages, err);
     const enum br_status drawn = br_picture_files_finish(&r->pictures, status ? NULL : err);
     if (!status)
         status = drawn;

@@ -121,7 +121,7 @@ enum br_status br_trade_files_write(struct br_trade_files *f, struct br_error *e
     if (!status)
         status = draw_all(f, err);
     if (!status)
-        status = br_documents_write(&f->output, f->options, f->document, documents(f), err);
+        status = br_documents_write(&f->pictures, f->options, f->document, documents(f), err);
     const enum br_status drawn = br_picture_files_finish(&f->pictures, status ? NULL : err);
     if (!status)
         status = drawn;

@@ -155,26 +155,28 @@ static enum br_status split_all(struct work *w, struct br_error *err)
     return !status && br_signals_caught() ? br_fail(err, BR_INTERRUPTED, "interrupted") : status;
 }
 
-static enum br_status write_plot(struct work *w, const struct br_figure *figure,
-                                 struct br_error *err)
-{
-    struct br_picture_files files = {.output = &w->output};
-    const enum br_status status = br_picture_files_draw(&files, figure, err);
-    const enum br_status finished = br_picture_files_finish(&files, status ? NULL : err);
-    return status ? status : finished;
-}
-
 /* Over k or h, where the runs differ by one of them. */
-static enum br_status plot(struct work *w, struct br_error *err)
+static enum br_status plot(struct work *w, struct br_picture_files *files, struct br_error *err)
 {
     struct br_figure figure;
     enum br_status status = br_split_draw(w->split, w->splits, &figure, err);
     if (!status && figure.panels) {
         br_put_picture(&w->document, figure.stem, figure.title);
-        status = write_plot(w, &figure, err);
+        status = br_picture_files_draw(files, &figure, err);
     }
     br_figure_clear(&figure);
     return status;
+}
+
+static enum br_status write_files(struct work *w, struct br_error *err)
+{
+    struct br_picture_files files = {.output = &w->output};
+    enum br_status status =
+        br_option_given(w->options, BR_OPT_NO_PLOTS) ? BR_OK : plot(w, &files, err);
+    if (!status)
+        status = br_documents_write(&files, w->options, &w->document, 1, err);
+    const enum br_status drawn = br_picture_files_finish(&files, status ? NULL : err);
+    return status ? status : drawn;
 }
 
 static enum br_status write_all(struct work *w, struct br_error *err)
@@ -183,9 +185,7 @@ static enum br_status write_all(struct work *w, struct br_error *err)
     w->provenance.scene_path = w->path;
     w->provenance.scene_text = w->text;
     br_report_split(w->split, w->splits, &w->provenance, &w->document);
-    enum br_status status = br_option_given(w->options, BR_OPT_NO_PLOTS) ? BR_OK : plot(w, err);
-    if (!status)
-        status = br_documents_write(&w->output, w->options, &w->document, 1, err);
+    enum br_status status = write_files(w, err);
     if (!status && !br_option_given(w->options, BR_OPT_QUIET))
         status = br_documents_show(&w->document, 1, err);
     if (!status)

@@ -10,9 +10,13 @@
 
 const char *const br_outcome_names[] = {"PASS", "FAIL", "INCONCLUSIVE", "ERROR", "SKIPPED"};
 
-const struct br_document_format *const br_document_formats[] = {
-    &br_document_text,  &br_document_csv,  &br_document_markdown,
-    &br_document_latex, &br_document_json, NULL};
+const struct br_document_format *const br_document_formats[] = {&br_document_text,
+                                                                &br_document_csv,
+                                                                &br_document_markdown,
+                                                                &br_document_latex,
+                                                                &br_document_json,
+                                                                &br_document_html,
+                                                                NULL};
 
 const struct br_document_format *br_document_format_find(const char *name)
 {

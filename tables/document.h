@@ -266,7 +266,7 @@ struct br_document_format {
 };
 
 extern const struct br_document_format br_document_text, br_document_csv, br_document_markdown,
-    br_document_latex, br_document_json;
+    br_document_latex, br_document_json, br_document_html;
 
 /* Of the verdicts alone, with the numbers of their rows by their keys, for CI systems: JUnit's XML
  * (a suite a group) and the Test Anything Protocol, version 14. */
@@ -284,6 +284,11 @@ enum br_status br_document_status(const struct br_document *d, struct br_error *
 enum br_status br_document_print(FILE *out, const struct br_document_format *format,
                                  const struct br_document *d, const struct br_document_table *table,
                                  struct br_error *err);
+
+/* One page of HTML with all of them, at least one, of one command, and with the pictures that are
+ * drawn in `folder` (NULL: none). Fails as print. */
+enum br_status br_document_print_page(FILE *out, const struct br_document *documents, size_t count,
+                                      const char *folder, struct br_error *err);
 
 /* For a terminal: the tables that are short and not for files only, facts, verdicts that did not
  * pass, and last the answer and the commands. Fails as print. */

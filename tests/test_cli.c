@@ -62,9 +62,9 @@ static void test_good_run(void **state)
                                         "r/example2.tex", "r/example2.json", "r/example2-fits.csv"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         assert_true(cli_is_there(files[i]));
-    assert_int_equal(cli_count_files("r"), 8);                /* no hidden folder is left */
+    assert_int_equal(cli_count_files("r"), 9);                /* no hidden folder is left */
     cli_expect("study example2 --out r " SMALL, NULL, 0, ""); /* replaces them */
-    assert_int_equal(cli_count_files("r"), 8);
+    assert_int_equal(cli_count_files("r"), 9);
     cli_expect("study example3 --out one --format csv " SMALL, NULL, 0, "");
     assert_int_equal(cli_count_files("one"), 4); /* cells, slopes, fits, tips */
 }

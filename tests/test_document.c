@@ -432,6 +432,122 @@ static void test_latex(void **state)
     free(text);
 }
 
+/* ---- HTML ---- */
+
+/* A plain text as it stands in the page. */
+static const char *in_html(const char *plain)
+{
+    static char text[200];
+    size_t used = 0;
+    for (const char *c = plain; *c; c++) {
+        const char as_it_is[] = {*c, '\0'};
+        const char *stead = *c == '<'   ? "&lt;"
+                            : *c == '>' ? "&gt;"
+                            : *c == '&' ? "&amp;"
+                            : *c == '"' ? "&quot;"
+                                        : as_it_is;
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s", stead);
+    }
+    return text;
+}
+
+static void check_html_table(const char *text)
+{
+    char row[700];
+    expect(text, "<h2>All &amp; sundry</h2>\n<div ");
+    expect(text, "<th scope=\"col\" class=\"text\">text</th>\n"
+                 "<th scope=\"col\">a_number, m^(3/2)</th>\n<th scope=\"col\">count</th>\n"
+                 "<th scope=\"col\" class=\"text\">truth</th>\n<th scope=\"col\">seen</th>\n"
+                 "<th scope=\"col\" class=\"text\">long</th>\n</tr>");
+    for (size_t i = 0; i < ROWS; i++) {
+        snprintf(row, sizeof row,
+                 "\n<tr%s><td class=\"text\">%s</td><td class=\"number\">%s%s</td>"
+                 "<td class=\"number\">%zu</td><td class=\"text\">%s</td>"
+                 "<td class=\"number\">shown %zu</td><td class=\"text wrap\">many words %zu that",
+                 i + 1 == ROWS ? " class=\"rule\"" : "", in_html(texts[i].plain), seen(i),
+                 i ? "" : " <sup>R</sup>", counts[i], i % 2 ? "yes" : "no", i, i);
+        expect(text, row);
+    }
+}
+
+static void test_html(void **state)
+{
+    (void)state;
+    char *text = printed(&br_document_html, NULL);
+    expect(text, "<title>A caption, 100 % made_up</title>");
+    expect(text, "<h1>A caption, 100 % made_up</h1>\n<ul class=\"answer\">\n"
+                 "<li>Answer 1 is short.</li>\n<li>Answer 2 is 50 % &amp; a_b.</li>\n");
+    expect(text, "</ul>\n<h2>Verdicts</h2>\n<p>1 <strong class=\"PASS\">PASS</strong> "
+                 "1 <strong class=\"FAIL\">FAIL</strong> </p>\n<ul>\n"
+                 "<li><strong class=\"FAIL\">FAIL</strong> scene_a, order: too low"
+                 "<pre>found 0.5\n</pre>\n</li>\n</ul>\n");
+    check_html_table(text);
+    expect(text, "<dl>\n<div><dt>tip</dt>\n<dd>0.1 m</dd></div>\n</dl>\n");
+    expect(text, "<p>To do it again</p>\n<pre>cd 'a b'\nrun \\\n  --all\n</pre>\n");
+    expect(text, "<details><summary><h2>Too long for a terminal</h2>\n(30 rows)</summary>");
+    expect(text, "<h2>A section</h2>\n<p>A note of 100 %.</p>\n");
+    expect(text, "Not drawn here: Error_h. Where gnuplot is installed, its script draws it: "
+                 "<code>gnuplot made-h.gp</code>");
+    expect(text, "<summary>Scene p9</summary>\n<pre>title: &quot;t10&quot;\n</pre>");
+    expect(text, "<pre>beamrate 'a`b'\n</pre>\n<dl>\n<div><dt>Version</dt>\n<dd>v1</dd>\n");
+    expect(text, "<div><dt>Threads</dt><dd>8</dd></div>\n");
+    assert_null(strstr(text, "For programs"));
+    assert_null(strstr(text, "No rows"));
+    assert_null(strstr(text, "silent"));
+    free(text);
+}
+
+/* Two reports on one page, with what is drawn of their picture. */
+static char *made_page(const char *svg)
+{
+    struct br_error err = {0};
+    struct br_document d[2] = {{NULL}, {NULL}};
+    char folder[] = "/tmp/beamrate-page-XXXXXX", path[100], *text = NULL;
+    size_t size;
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/made-h.svg", folder);
+    FILE *file = fopen(path, "w"), *out = open_memstream(&text, &size);
+    fputs(svg, file);
+    assert_int_equal(fclose(file), 0);
+    for (size_t i = 0; i < 2; i++)
+        build(&d[i]);
+    MUST(br_document_print_page(out, d, 2, folder, &err));
+    assert_int_equal(fclose(out), 0);
+    assert_int_equal(remove(path) + remove(folder), 0);
+    for (size_t i = 0; i < 2; i++)
+        br_document_clear(&d[i]);
+    return text;
+}
+
+static void test_page(void **state)
+{
+    (void)state;
+    char *text = made_page("<?xml?><svg width=\"9\" viewBox=\"0 0 9 5\" xmlns=\"http://x\">"
+                           "<title>a title</title><g id='a'/>Z<g id=\"b\" fill='url(#a)'/>"
+                           "<text> id=<tspan>'t'</tspan></text>"
+                           "<use xlink:href='#a'/></svg>\n");
+    expect(text, "<h1>beamrate made: 2 reports</h1>");
+    expect(text, "<li><a href=\"#report2\">A caption, 100 % made_up</a> (made)<br>Answer 1 is ");
+    expect(text, "<article id=\"report2\">\n<h2>A caption");
+    expect(text, "<h3>All &amp; sundry</h3>");
+    for (int i = 1; i <= 2; i++) {
+        char picture[300];
+        snprintf(
+            picture, sizeof picture,
+            "<svg viewBox=\"0 0 9 5\" role=\"img\" aria-label=\"Error_h\">"
+            "<title></title><g id='picture%d-a'/><g id=\"picture%d-b\" fill='url(#picture%d-a)'/>"
+            "<text> id=<tspan>'t'</tspan></text><use xlink:href='#picture%d-a'/></svg>\n</div>",
+            i, i, i, i);
+        expect(text, picture);
+    }
+    assert_null(strstr(strstr(text, "<dt>Version") + 1, "<dt>Version"));
+    free(text);
+    text = made_page("<svg viewBox=\"0 0 9 5\"><g id='a'"); /* cut off */
+    expect(text, "Not drawn here: Error_h.");
+    assert_null(strstr(text, "<svg"));
+    free(text);
+}
+
 /* ---- what is not printed ---- */
 
 static void unknown_key(struct br_document *d)
@@ -652,7 +768,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_json),       cmocka_unit_test(test_csv),
         cmocka_unit_test(test_text),       cmocka_unit_test(test_markdown),
-        cmocka_unit_test(test_latex),      cmocka_unit_test(test_built_wrongly),
+        cmocka_unit_test(test_latex),      cmocka_unit_test(test_html),
+        cmocka_unit_test(test_page),       cmocka_unit_test(test_built_wrongly),
         cmocka_unit_test(test_two_values), cmocka_unit_test(test_no_memory),
         cmocka_unit_test(test_formats),
     };

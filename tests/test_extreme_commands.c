@@ -31,13 +31,13 @@ static void repeat(const struct br_extreme_case *one, const struct br_extreme_ve
     assert_int_equal(strncmp(command, "beamrate ", 9), 0);
     cli_run_line(command + 9, NULL, &out);
     const bool refused = verdict->which == BR_EXTREME_REFUSED;
-    const char *stated = strstr(out.output, "discretisation error  ");
+    const char *stated = strstr(out.output, "\ndiscretisation error: ");
     bool same = refused ? out.exit_code == 2 || out.exit_code == 3 : out.exit_code == 0;
     if (refused)
         same = same && says(out.output, verdict->why);
     else
         same = same && stated &&
-               verdict->known == (strncmp(stated, "discretisation error  not known", 31) != 0);
+               verdict->known == (strncmp(stated, "\ndiscretisation error: not known", 32) != 0);
     if (!same)
         fail_msg("case %zu was judged %s (%s)\n%s\nexit code %d\n%s", one->index,
                  br_extreme_word(verdict->which), verdict->why, command, out.exit_code, out.output);

@@ -46,9 +46,9 @@ static void test_files(void **state)
 {
     (void)state;
     cli_expect("extremes fast --out files", NULL, 0, "Written to files/");
-    static const char *const all[] = {"fast.txt",       "fast.csv",     "fast.md",
-                                      "fast.tex",       "fast.json",    "fast-chart.gp",
-                                      "fast-chart.dat", "fast-heat.gp", "fast-heat.dat"};
+    static const char *const all[] = {
+        "fast.txt",      "fast.csv",       "fast.md",      "fast.tex",      "fast.json",
+        "fast-chart.gp", "fast-chart.dat", "fast-heat.gp", "fast-heat.dat", "report.html"};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         char name[64];
         snprintf(name, sizeof name, "files/%s", all[i]);
@@ -73,7 +73,7 @@ static void test_files(void **state)
     size_t pictures = 0; /* gnuplot may be missing, or its terminal for PDF */
     pictures += cli_is_there("files/fast-heat.svg") ? 4 : 0;
     pictures += cli_is_there("files/fast-heat.pdf") ? 2 : 0;
-    assert_int_equal(cli_count_files("files"), 9 + pictures);
+    assert_int_equal(cli_count_files("files"), 10 + pictures);
     cli_expect("extremes fast --out some --format csv,json --no-plots --quiet", NULL, 0, "");
     assert_int_equal(cli_count_files("some"), 2);
 }

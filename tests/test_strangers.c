@@ -118,6 +118,8 @@ static int look_at_file(const char *path, const struct stat *info, int kind, str
         assert_true(!strstr(text, "\\input") && !strstr(text, "\\write"));
     if (ends_with(path, ".md") || ends_with(path, ".xml"))
         assert_false(has_markup(text));
+    if (ends_with(path, ".html"))
+        assert_true(!strstr(text, "<img") && !strstr(text, "<script"));
     return 0;
 }
 

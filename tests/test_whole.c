@@ -275,24 +275,29 @@ static void test_scene_in_the_way(void **state)
     assert_true(cli_file_contains("set/manifest.json", "somebody"));
 }
 
-/* Sets that share no name live side by side; one of other formats takes the old one's place. */
+/* Sets that share no name live side by side, but for the page, which is of the last one; one of
+ * other formats takes the old one's place. */
 static void test_several_sets(void **state)
 {
     (void)state;
     clear_set();
     cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set", NULL, 0, "");
     cli_expect("study example2 --n 4 --k 0.1 --no-plots --quiet --out set", NULL, 0, "");
-    assert_int_equal(cli_count_files("set"), 16);
+    assert_int_equal(cli_count_files("set"), 17);
+    assert_true(cli_file_contains("set/report.html", "<title>Example 2"));
     cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --norm tip", NULL, 0, "");
-    assert_int_equal(cli_count_files("set"), 24);
+    assert_int_equal(cli_count_files("set"), 25);
+    assert_true(cli_file_contains("set/report.html", "<title>Example 1"));
+    const char *page = strstr(cli_read("set/manifest.json"), "report.html");
+    assert_true(page && !strstr(page + 1, "report.html")); /* in one set */
     assert_true(cli_file_contains("set/manifest.json", "study example2"));
     cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --format csv", NULL, 0,
                "");
-    assert_int_equal(cli_count_files("set"), 20);
+    assert_int_equal(cli_count_files("set"), 21);
     cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --format json", NULL, 0,
                "");
     assert_true(cli_is_there("set/example1.json") && !cli_is_there("set/example1.csv"));
-    assert_int_equal(cli_count_files("set"), 17);
+    assert_int_equal(cli_count_files("set"), 18);
 }
 
 /* A movie's set and the other one do not disturb one another. */
