@@ -187,11 +187,8 @@ double br_energy_put_in(const struct br_energy *start, const struct br_work *w,
     return first + fmax(w->loads[kind], 0);
 }
 
-/* A balance that round-off may spoil by more than this says nothing. */
-static const double useless = 1e-3;
-
 double br_energy_limit(size_t n, double round_off)
 {
     const double nodes = (double)n + 1, noise = 64 * DBL_EPSILON * nodes * nodes;
-    return fmin(64 * DBL_EPSILON * nodes + 16 * round_off + noise * noise, useless);
+    return 64 * DBL_EPSILON * nodes + 16 * round_off + noise * noise;
 }

@@ -43,6 +43,33 @@ static void become_program(const char *const *word, const struct cli_circumstanc
     _exit(121);
 }
 
+/* Whether the program has come so far that it catches SIGINT, or has ended. */
+static bool hears(pid_t child)
+{
+    char path[64], line[256];
+    unsigned long long caught;
+    bool heard = false;
+    snprintf(path, sizeof path, "/proc/%d/status", (int)child);
+    FILE *status = fopen(path, "r");
+    if (!status)
+        return true; /* not on this system */
+    while (fgets(line, sizeof line, status)) {
+        heard = heard || strncmp(line, "State:\tZ", 8) == 0;
+        if (sscanf(line, "SigCgt: %llx", &caught) == 1)
+            heard = heard || (caught >> (SIGINT - 1) & 1);
+    }
+    fclose(status);
+    return heard;
+}
+
+static void interrupt(pid_t child, int after)
+{
+    while (!hears(child))
+        usleep(1000);
+    usleep((useconds_t)after * 1000);
+    kill(child, SIGINT);
+}
+
 /* Runs `beamrate word...` (in, NULL-terminated). */
 void cli_run(const char *const *word, const struct cli_circumstances *c, struct cli_outcome *out)
 {
@@ -54,10 +81,8 @@ void cli_run(const char *const *word, const struct cli_circumstances *c, struct 
     if (child == 0)
         become_program(word, c ? c : &usual, ends[1]);
     close(ends[1]);
-    if (c && c->interrupt_after) {
-        usleep((useconds_t)c->interrupt_after * 1000);
-        kill(child, SIGINT);
-    }
+    if (c && c->interrupt_after)
+        interrupt(child, c->interrupt_after);
     size_t used = 0;
     for (ssize_t got; (got = read(ends[0], out->output + used, CLI_MOST_OUTPUT - 1 - used)) > 0;)
         used += (size_t)got;

@@ -14,7 +14,7 @@ struct cli_circumstances {
     const char *path;    /* PATH; NULL: as it is */
     const char *data;    /* BEAMRATE_DATA; NULL: as it is */
     rlim_t file_size;    /* largest file, bytes; 0: any */
-    int interrupt_after; /* ms; 0: never */
+    int interrupt_after; /* ms, from when it catches signals on; 0: never */
     const char *errors;  /* the file that standard error goes to; NULL: to the output */
 };
 

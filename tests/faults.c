@@ -3,8 +3,8 @@
  *     BR_FAULT="KIND N WHAT"
  * KIND memory: malloc and its kind, also those of libraries; disk: what changes a folder, fsync and
  * the opening of the program's own files. N: which call since main, from 1 on; 0: every one. WHAT:
- * fail (ENOMEM, EIO), from (so do all later ones), kill, slow. $BR_FAULT_LOG is then made where the
- * call was reached. */
+ * fail (ENOMEM, EIO), from (so do all later ones), kill, stop (SIGTERM), slow. $BR_FAULT_LOG is
+ * then made where the call was reached. */
 #include <errno.h>
 #include <fcntl.h>
 #include <malloc.h>
@@ -46,9 +46,11 @@ static bool fails(const char *of)
         syscall(SYS_close, syscall(SYS_openat, AT_FDCWD, record, O_CREAT | O_WRONLY, 0600));
     if (strcmp(what, "kill") == 0)
         syscall(SYS_kill, getpid(), SIGKILL);
+    if (strcmp(what, "stop") == 0)
+        syscall(SYS_kill, getpid(), SIGTERM);
     if (strcmp(what, "slow") == 0)
         syscall(SYS_nanosleep, &(struct timespec){.tv_nsec = 20000000}, NULL);
-    return strcmp(what, "slow") != 0;
+    return strcmp(what, "slow") != 0 && strcmp(what, "stop") != 0;
 }
 
 /* ---- memory ---- */

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Every link between pages leads to a file, and to a heading where it names one; every file that a
-# page names in backquotes with its folder is there. usage: links.sh ROOT
+# page names in backquotes with its folder is there; and every test is built. usage: links.sh ROOT
 set -u
 root=$1
 failures=0
@@ -52,6 +52,12 @@ for page in "$root"/*.md "$root"/docs/*.md "$root"/solver/*.md; do
     for name in $(names "$root/$page"); do
         [ -e "$root/$name" ] || complain "$page" "no such file: $name"
     done
+done
+for test in "$root"/tests/test_*.c; do
+    name=$(basename "$test" .c)
+    name=${name#test_}
+    grep -qE "'(test_)?($name|${name#exact_})['.]" "$root/tests/meson.build" ||
+        complain tests/meson.build "no test: $name"
 done
 [ $pages -gt 10 ] || complain links.sh "only $pages pages in $root"
 [ "$failures" -eq 0 ] || exit 1

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "reference/exact/modes.h"
+#include "reference/exact/outline.h"
 #include "reference/exact/piecewise.h"
 #include "tests/exact_scenes.h"
 #include "tests/support.h"
@@ -286,6 +287,154 @@ static void test_needless_ends(void **unused)
     br_scene_clear(&cut);
 }
 
+/* ---- what is known before ---- */
+
+/* Interpolation misses e^{2 x}, or e^{2 t}, by 2 (w/2)^(d+1) / (d+1)! at most, but for a factor
+ * e^{2 w}. */
+static void test_sight_of_errors(void **unused)
+{
+    (void)unused;
+    const char *text[] = {"exp(2*x)", "exp(2*t)"};
+    for (enum br_variable v = BR_X; v <= BR_T; v++) {
+        struct br_function f = br_test_function(text[v]);
+        for (size_t degree = 1; degree <= 15; degree++)
+            for (double w = 0.5; w > 0.01; w /= 2) {
+                struct br_box box = {{0, 0}, {0, 0}};
+                (v == BR_X ? &box.x : &box.t)->high = w;
+                const double order = (double)degree + 1;
+                const double least = 2 * pow(w / 2, order) / tgamma(order + 1);
+                const double error = br_sight_error(&f, v, box, degree);
+                AT_MOST(least, error * (1 + 1e-9));
+                AT_MOST(error, least * exp(2 * w) * (1 + 1e-9));
+            }
+        br_function_free(&f);
+    }
+}
+
+/* Of x t it is half of both sides' product, of which at least half is told. */
+static void test_sight_of_means(void **unused)
+{
+    (void)unused;
+    struct br_function f = br_test_function("x*t");
+    for (double length = 1e-3; length < 1e4; length *= 100) {
+        const double mean = length / 2 * 3 / 2;
+        const double seen = br_sight_mean(&f, (struct br_box){{0, length}, {0, 3}});
+        AT_MOST(seen, mean * (1 + 1e-9));
+        AT_MOST(mean / 2, seen);
+    }
+    br_function_free(&f);
+}
+
+/* A root is never smooth at 0: its last cell holds what it holds, unseen. */
+static void test_sight_of_a_root(void **unused)
+{
+    (void)unused;
+    struct br_error err;
+    struct br_function f = br_test_function("sqrt(t)");
+    struct br_list ends = {0};
+    struct br_sight sight = {
+        .f = &f, .degree = {15, 8}, .mean = 1, .most_missed = 1e-6, .least = 1e-15, .most = 1000};
+    MUST(br_sight_along(&sight, BR_T, (struct br_box){{0, 0}, {0, 2}}, &ends, &err));
+    br_list_sort(&ends, 0);
+    assert_true(ends.count > 10);
+    AT_MOST(pow(ends.at[0], 1.5) * (1 - 1e-9),
+            sight.missed); /* its width times its values' range */
+    AT_MOST(sight.missed, (double)ends.count * 1e-6);
+    for (size_t i = 1; i < ends.count; i++)
+        AT_MOST(ends.at[i], 2.1 * ends.at[i - 1]);
+    br_list_free(&ends);
+    br_function_free(&f);
+}
+
+/* A peak on a front, where nothing finds it: all of it in one box may be missed, or twice that. */
+static void test_sight_of_a_front(void **unused)
+{
+    (void)unused;
+    struct br_error err;
+    struct br_function f = br_test_function("step(x-t)*(1+exp(-((x-0.5003)/1e-5)^2))");
+    struct br_list ends[2] = {{0}, {0}};
+    struct br_sight sight = {.f = &f, .degree = {15, 8}, .mean = 1};
+    MUST(br_sight_both(&sight, (struct br_box){{0, 1}, {0, 1}}, ends, &err));
+    const double box = pow(0.5, 20);
+    AT_MOST(0.9 * box, sight.missed);
+    AT_MOST(sight.missed, 2.1 * box);
+    for (int v = 0; v < 2; v++)
+        br_list_free(&ends[v]);
+    br_function_free(&f);
+}
+
+static struct br_outline outline_of(const struct br_scene *scene, size_t degree)
+{
+    struct br_error err;
+    struct br_outline o;
+    MUST(br_outline_init(&o, scene, degree, &err));
+    return o;
+}
+
+static bool has(const struct br_list *list, double value)
+{
+    for (size_t i = 0; i < list->count; i++)
+        if (fabs(list->at[i] - value) <= 1e-12 * value)
+            return true;
+    return false;
+}
+
+/* A blow is seen where it is, whichever factor it is of; a step begins in the later cell. */
+static void test_outline_of_a_blow(void **unused)
+{
+    (void)unused;
+    struct br_scene s = rod(1, 0.7);
+    s.axial.load = br_test_load("(1+x)*exp(-((t-1.2)/1e-3)^2)");
+    struct br_outline o = outline_of(&s, 1);
+    assert_int_equal(o.cells, 1);
+    assert_true(br_outline_is_sharp(&o, 1.2, 0.01));
+    assert_false(br_outline_is_sharp(&o, 0.3, 0.01));
+    AT_MOST(br_outline_cell(&o, 1.2), 2e-3);
+    AT_MOST(0.1, br_outline_cell(&o, 0.3));
+    const struct br_list *cell = &o.cell[0];
+    for (size_t i = 0; i + 1 < cell->count; i++) {
+        CLOSE(br_outline_cell(&o, cell->at[i]), cell->at[i + 1] - cell->at[i], 0);
+        AT_MOST(br_outline_reach(&o, cell->at[i]), s.duration - cell->at[i]);
+        AT_MOST(cell->at[i] + br_outline_reach(&o, cell->at[i]), 1.2);
+        if (cell->at[i + 1] > 1.19)
+            break;
+    }
+    br_outline_clear(&o);
+    br_scene_clear(&s);
+}
+
+/* When a front leaves, and that it moves; where initial data bend; what a jump in a force at the
+ * tip leaves there; and what is proved, and what is not, of data that no polynomial is. */
+static void test_outline_of_places(void **unused)
+{
+    (void)unused;
+    struct br_scene s = rod(1, 0.7);
+    s.axial.load = br_test_load("-3*step(2*t-x)");
+    struct br_outline o = outline_of(&s, 1);
+    assert_true(o.fronts);
+    bool found = false;
+    for (size_t i = 0; i < o.jump.count; i++)
+        found = found || fabs(o.jump.at[i].low - 1.25) < 1e-12;
+    assert_true(found);
+    br_outline_clear(&o);
+    br_scene_clear(&s);
+
+    s = rod(1, 0.7);
+    s.axial.displacement = br_test_function("abs(x-1.1)-1.1+sqrt(x)");
+    s.axial.tip_force = br_test_function("exp(t)*step(t-1)");
+    o = outline_of(&s, 1);
+    assert_true(!o.fronts && has(&o.end, 1.1));
+    const double layer = sqrt(0.7 * 1e-6 * s.duration);
+    const double last = s.length - o.end.at[o.end.count - 2];
+    AT_MOST(last, 1.01 * layer);
+    AT_MOST(1e-18, o.missed);
+    AT_MOST(o.missed, 1e-10);
+    AT_MOST(1e-18, o.proved);
+    AT_MOST(o.proved, 1e-10);
+    br_outline_clear(&o);
+    br_scene_clear(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -295,6 +444,12 @@ int main(void)
         cmocka_unit_test(test_modes_on_pieces),
         cmocka_unit_test(test_projection_of_pieces),
         cmocka_unit_test(test_needless_ends),
+        cmocka_unit_test(test_sight_of_errors),
+        cmocka_unit_test(test_sight_of_means),
+        cmocka_unit_test(test_sight_of_a_root),
+        cmocka_unit_test(test_sight_of_a_front),
+        cmocka_unit_test(test_outline_of_a_blow),
+        cmocka_unit_test(test_outline_of_places),
     };
     return cmocka_run_group_tests_name("exact: pieces", tests, NULL, NULL);
 }

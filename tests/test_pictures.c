@@ -159,12 +159,30 @@ static void test_plot(void **state)
     cli_expect("run example3 --n 10 --plot", NULL, 0, "vertical displacement of the tip");
 }
 
+/* A gnuplot of our own tells where it was started; of that folder nothing stays. */
+static void test_folder_for_plots(void **state)
+{
+    (void)state;
+    char path[512];
+    cli_write_file("gnuplot", "#!/bin/sh\npwd >../where\necho dumb >output\n");
+    cli_path("gnuplot", path);
+    assert_int_equal(chmod(path, 0700), 0);
+    cli_path("moment", path);
+    assert_int_equal(mkdir(path, 0777), 0);
+    assert_int_equal(setenv("TMPDIR", path, 1), 0);
+    cli_expect("run example4 --n 10 --k 0.1 --plot",
+               &(struct cli_circumstances){.path = cli_folder()}, 0, "dumb");
+    assert_true(cli_file_contains("moment/where", "/moment/beamrate-"));
+    assert_int_equal(cli_count_files("moment"), 1);
+    assert_int_equal(unsetenv("TMPDIR"), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_figures),     cmocka_unit_test(test_without_gnuplot),
         cmocka_unit_test(test_bad_options), cmocka_unit_test(test_animation),
-        cmocka_unit_test(test_plot),
+        cmocka_unit_test(test_plot),        cmocka_unit_test(test_folder_for_plots),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

@@ -74,7 +74,17 @@ static size_t count(const char *text, const char *part)
 
 /* ---- the same bits ---- */
 
-/* A result file without times, dates and the command. The seconds of a CSV are behind its comma 15. */
+/* Commas before the seconds in the heading of a CSV file; -1: there are none. */
+static int column_of_seconds(const char *heading)
+{
+    const char *found = strstr(heading, ",seconds [s]");
+    int column = found ? 1 : -1;
+    for (const char *c = heading; found && c < found; c++)
+        column += *c == ',';
+    return column;
+}
+
+/* A result file without times, dates and the command. */
 static char *read_without_times(const char *name)
 {
     static const char *const varies[] = {"seconds", "date", "command", "threads"};
@@ -86,14 +96,17 @@ static char *read_without_times(const char *name)
     if (!in)
         fail_msg("%s is not there", path);
     assert_non_null(memory);
+    int seconds = -2; /* not known yet */
     while (fgets(line, sizeof line, in)) {
         bool keep = true;
+        if (seconds == -2)
+            seconds = column_of_seconds(line);
         for (size_t i = 0; i < sizeof varies / sizeof *varies && !csv; i++)
             keep &= !strstr(line, varies[i]);
         int column = 0;
         for (const char *c = line; keep && *c; c++) {
             column += *c == ',';
-            if (!csv || column != 15)
+            if (!csv || column != seconds)
                 fputc(*c, memory);
         }
     }

@@ -8,6 +8,7 @@
 
 #include "study/grid/differences.h"
 #include "study/grid/sweep.h"
+#include "study/run/run.h"
 #include "study/scene/rescale.h"
 #include "support.h"
 
@@ -274,6 +275,110 @@ static struct br_scene in_units(const struct br_units_change *units)
     return now;
 }
 
+/* ---- certificates and energies of a march ---- */
+
+/* Scenes, NULL: the made one; how they are marched. */
+static const struct march {
+    const char *scene, *scheme, *contact;
+    size_t n, steps;
+} marches[] = {
+    {NULL, "euler", "lagged", 12, 40},
+    {"chatter", "esdirk4", "implicit", 10, 200},
+    {"impact", "trbdf2", "implicit", 20, 200},
+};
+
+static struct br_run_report watched(const struct br_scene *scene, const struct march *m)
+{
+    struct br_error err = {0};
+    struct br_run_report report;
+    struct br_method method = br_test_method(NULL, m->contact, NULL);
+    method.scheme = br_time_scheme_find(m->scheme);
+    const struct br_run_request request = {
+        .scene = scene,
+        .method = method,
+        .n = m->n,
+        .steps = m->steps,
+        .check = true,
+        .energies = true,
+    };
+    MUST(br_run(&request, &report, &err));
+    assert_int_equal(report.failure.status, BR_OK);
+    assert_int_equal(report.verdict.status, BR_OK);
+    assert_true(report.checked && report.summed);
+    return report;
+}
+
+enum { ENERGIES = 21, PURE = 12 };
+
+/* All that is in joules. */
+static void list_energies(const struct br_run_report *p, double list[ENERGIES])
+{
+    const struct br_energy *start = &p->energy_start, *now = &p->energy_now;
+    const struct br_work *w = &p->work;
+    double *to = list;
+    for (int kind = 0; kind < 2; kind++) {
+        *to++ = start->kinetic[kind];
+        *to++ = start->stored[kind];
+        *to++ = now->kinetic[kind];
+        *to++ = now->stored[kind];
+        *to++ = w->loads[kind];
+        *to++ = w->viscous[kind];
+        *to++ = w->scheme[kind];
+        *to++ = w->noise[kind];
+        *to++ = w->gained[kind];
+    }
+    *to++ = now->contact;
+    *to++ = w->friction;
+    *to++ = w->scheme_contact;
+    assert_ptr_equal(to, list + ENERGIES);
+}
+
+/* All that has no unit: what a march is off by, and by how much it may be. */
+static void list_pure(const struct br_run_report *p, double list[PURE])
+{
+    memcpy(list, &p->worst, sizeof p->worst);
+    list[5] = p->energy_worst;
+    memcpy(list + 6, &p->limits, sizeof p->limits);
+    list[11] = p->energy_limit;
+}
+
+/* Where no digit is rounded, what is round-off is the same; else it is of its size. */
+static void compare_marches(const struct march *m, const struct br_units_change *units,
+                            double tolerance)
+{
+    struct br_error err = {0};
+    struct br_scene scene = m->scene ? br_test_bundled(m->scene) : made(1), now;
+    MUST(br_rescale(&scene, units, &now, &err));
+    const struct br_run_report a = watched(&scene, m), b = watched(&now, m);
+    const double joule = units->kilogram * pow(units->metre / units->second, 2);
+    double x[ENERGIES], y[ENERGIES], p[PURE], q[PURE];
+    list_energies(&a, x);
+    list_energies(&b, y);
+    list_pure(&a, p);
+    list_pure(&b, q);
+    for (size_t i = 0; i < ENERGIES; i++)
+        expect("an energy", y[i], x[i], joule, tolerance);
+    for (size_t i = 0; i < PURE; i++)
+        if (tolerance == 0 || i >= PURE / 2)
+            expect("a pure number", q[i], p[i], 1, tolerance);
+        else
+            expect_about("a certificate's number", q[i], p[i], 1);
+    assert_memory_equal(a.work.steps, b.work.steps, sizeof a.work.steps);
+    assert_memory_equal(a.work.gaining, b.work.gaining, sizeof a.work.gaining);
+    br_scene_clear(&now);
+    br_scene_clear(&scene);
+}
+
+static void test_certificates(void **state)
+{
+    (void)state;
+    static const struct br_units_change fours = {1024, 0.25, 16}, thousand = {1000, 1e-3, 1e3};
+    for (size_t i = 0; i < sizeof marches / sizeof *marches; i++) {
+        compare_marches(&marches[i], &fours, 0);
+        compare_marches(&marches[i], &thousand, 1e-9);
+    }
+}
+
 /* Powers of two round nothing: a beam of 1024 m has the digits of one of 1 m. */
 static void test_powers_of_two(void **state)
 {
@@ -311,6 +416,7 @@ int main(void)
         cmocka_unit_test(test_powers_of_two),
         cmocka_unit_test(test_other_units),
         cmocka_unit_test(test_upside_down),
+        cmocka_unit_test(test_certificates),
     };
     return cmocka_run_group_tests_name("rescale", tests, run_once, forget);
 }

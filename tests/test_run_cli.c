@@ -190,6 +190,11 @@ static void test_blow_up(void **state)
     assert_true(cli_file_contains("b/summary.json", "\"stopped\": \"the march blew up"));
     assert_true(cli_file_contains("b/summary.txt", "STOPPED: the march blew up"));
     assert_int_equal(cli_count_files("b"), 5);
+    cli_write_file("tiny.yaml", "title: t\nlength: 1 m\nduration: 1 s\ndensity: 1e-9 kg/m\n"
+                                "axial:\n  stiffness: 1e300 N\n  viscosity: 0 N s\n"
+                                "  load: 1e-20*t [N/m]\n");
+    cli_expect("run tiny.yaml --n 10 --out u", NULL, 3, "the axial motion is lost to underflow");
+    assert_true(cli_file_contains("u/summary.json", "\"stopped\": \"the axial motion is lost to"));
     cli_expect("run pole.yaml", NULL, 2, "pole.yaml:9: tip_force: found -inf at t = 1 s");
     /* for a short time only */
     cli_write_file("thin.yaml", SCENE "  tip_force: 1 + sqrt(abs(t - 0.70065) - 3e-9) [N]\n");

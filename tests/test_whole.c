@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <jansson.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -168,6 +169,25 @@ static void test_dead_disk(void **state)
     assert_true(try_everywhere("from", br_test_long() ? 1 : 4) > 0);
 }
 
+/* A signal is never lost: it comes in time, or when all is written. */
+static void test_stopped(void **state)
+{
+    (void)state;
+    size_t in_time = 0, late = 0;
+    for (long n = 1;; n++) {
+        make_old();
+        if (!run_with(new_line, "disk", n, "stop"))
+            break;
+        const bool written = set_that_is_there() == 'r';
+        const char *said = written ? "interrupted when all was written" : "no file is half written";
+        if (out.exit_code != -SIGTERM || !strstr(out.output, said) || cli_is_there("set/.beamrate"))
+            fail_msg("disk %ld stop: exit code %d: %s", n, out.exit_code, out.output);
+        *(written ? &late : &in_time) += 1;
+    }
+    print_message("# stop: %zu in time, %zu late\n", in_time, late);
+    assert_true(in_time > 0 && late > 0);
+}
+
 /* ---- two at once ---- */
 
 static pid_t start_slow(const char *line)
@@ -307,6 +327,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_killed),           cmocka_unit_test(test_broken_disk),
         cmocka_unit_test(test_dead_disk),        cmocka_unit_test(test_two_at_once),
+        cmocka_unit_test(test_stopped),
+
         cmocka_unit_test(test_many_at_once),     cmocka_unit_test(test_foreign),
         cmocka_unit_test(test_scene_in_the_way), cmocka_unit_test(test_two_sets),
         cmocka_unit_test(test_several_sets),

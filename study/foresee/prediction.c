@@ -368,10 +368,13 @@ static const char *too_short(const struct br_outlook *o)
     struct br_error err;
     finer.steps *= FINER_LEVELS;
     finer.n *= FINER_ELEMENTS;
-    finer.share = least_share;
-    if (!br_look_at_loads(&finer, &unseen, &err) && unseen.count == 0)
-        return NULL;
-    return br_warnings_find(&unseen, BR_WARN_INITIAL) ? "the initial data are" : "a load is";
+    if (br_look_at_loads(&finer, &unseen, &err))
+        return "a load is";
+    if (unseen.unseen[BR_WARN_INITIAL] > least_share)
+        return "the initial data are";
+    return fmax(unseen.unseen[BR_WARN_LOAD_TIME], unseen.unseen[BR_WARN_LOAD_SPACE]) > least_share
+               ? "a load is"
+               : NULL;
 }
 
 enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction *p,

@@ -104,25 +104,26 @@ static enum br_status measure(const struct data *d, double square[2], struct br_
     return most > 0 ? br_fail(err, BR_BAD_INPUT, "it cannot be resolved") : BR_OK;
 }
 
-static enum br_status look_at(const struct data *d, double share, struct br_warnings *w,
-                              struct br_error *err)
+static enum br_status look_at(const struct data *d, struct br_warnings *w, struct br_error *err)
 {
     double square[2] = {0};
-    char text[BR_SHARE_TEXT];
     if (!d->value->uses_x || (d->value->ops && !d->value->ops->bound))
         return BR_OK; /* of a solution that was given: nothing is proved of it */
     const enum br_status status = measure(d, square, err);
-    const double missed = sqrt(square[0]), size = sqrt(square[1]);
-    if (status == BR_BAD_INPUT)
+    if (status == BR_NO_MEMORY)
+        return status;
+    const double missed = status ? INFINITY : sqrt(square[0]);
+    const char *share = br_unseen(w, BR_WARN_INITIAL, missed, sqrt(square[1]), large);
+    if (status)
         br_warn(w, BR_WARN_INITIAL, "more elements, as short as what happens there",
                 "%s changes so often that it is not known how much of it lies between the nodes, "
                 "with n = %zu",
                 d->name, d->n);
-    else if (!status && !(missed <= share * size))
+    else if (share)
         br_warn(w, BR_WARN_INITIAL, "more elements, as short as what happens there",
                 "%s does between the nodes what they do not see: with n = %zu %s of its norm",
-                d->name, d->n, br_share_text(missed / size, text));
-    return status == BR_NO_MEMORY ? status : BR_OK;
+                d->name, d->n, share);
+    return BR_OK;
 }
 
 static enum br_status look(const struct br_outlook *o, struct br_warnings *w, struct br_error *err)
@@ -139,7 +140,7 @@ static enum br_status look(const struct br_outlook *o, struct br_warnings *w, st
     enum br_status status = BR_OK;
     for (size_t i = 0; i < sizeof rows / sizeof *rows && !status; i++)
         if (i < 2 ? a->modelled : b->modelled)
-            status = look_at(&rows[i], o->share > 0 ? o->share : large, w, err);
+            status = look_at(&rows[i], w, err);
     return status;
 }
 

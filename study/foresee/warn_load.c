@@ -122,14 +122,14 @@ static void tell(const char *name, const struct missed *m, bool known, const str
                  struct br_warnings *w)
 {
     const double k = o->scene->duration / (double)o->steps;
-    char share[BR_SHARE_TEXT];
-    if (m->impulse <= (o->share > 0 ? o->share : large) * m->size)
+    const char *share = br_unseen(w, BR_WARN_LOAD_TIME, m->impulse, m->size, large);
+    if (!share)
         return;
     if (known)
         br_warn(w, BR_WARN_LOAD_TIME, "time steps that are shorter than what happens there",
                 "%s does between the time levels what they do not see: with k = %.4g s %s of its "
                 "impulse, most of it near t = %.4g s",
-                name, k, br_share_text(m->impulse / m->size, share), m->time);
+                name, k, share, m->time);
     else
         br_warn(w, BR_WARN_LOAD_TIME, "time steps that are shorter than what happens there",
                 "%s changes so often that it is not known how much of it happens between the time "

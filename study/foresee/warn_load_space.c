@@ -113,20 +113,21 @@ static enum br_status measure(struct sight *s, const struct br_product *p, struc
     return status;
 }
 
-static void tell(const char *name, const struct sight *s, double share, struct br_warnings *w)
+static void tell(const char *name, const struct sight *s, struct br_warnings *w)
 {
     const struct missed *m = &s->missed;
-    char text[BR_SHARE_TEXT];
+    const double missed = s->known ? m->force : INFINITY;
+    const char *share = br_unseen(w, BR_WARN_LOAD_SPACE, missed, m->size, large);
     if (!s->known)
         br_warn(w, BR_WARN_LOAD_SPACE, "more elements, as short as what happens there",
                 "%s changes so often in x that it is not known how much of it the elements' "
                 "quadrature sees, with n = %zu",
                 name, s->field.n);
-    else if (!(m->force <= share * m->size))
+    else if (share)
         br_warn(w, BR_WARN_LOAD_SPACE, "more elements, as short as what happens there",
                 "%s does inside of elements what their quadrature does not see: with n = %zu %s "
                 "of it, most of it near x = %.4g m",
-                name, s->field.n, br_share_text(m->force / m->size, text), m->place);
+                name, s->field.n, share, m->place);
 }
 
 static enum br_status look_at(const struct br_load *load, const char *name,
@@ -146,7 +147,7 @@ static enum br_status look_at(const struct br_load *load, const char *name,
             status = measure(&s, &load->term[i], err);
     free(s.vector);
     if (!status)
-        tell(name, &s, o->share > 0 ? o->share : large, w);
+        tell(name, &s, w);
     return status;
 }
 

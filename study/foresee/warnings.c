@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/foresee/warnings.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -32,12 +33,17 @@ const struct br_warning *br_warnings_find(const struct br_warnings *w, enum br_w
     return NULL;
 }
 
-const char *br_share_text(double share, char text[BR_SHARE_TEXT])
+const char *br_unseen(struct br_warnings *w, enum br_warning_kind kind, double missed, double size,
+                      double large)
 {
+    const double ratio = missed / size, share = missed == 0 ? 0 : isnan(ratio) ? INFINITY : ratio;
+    w->unseen[kind] = fmax(w->unseen[kind], share);
+    if (share <= large)
+        return NULL;
     if (share > 0.995)
         return share > 1.005 ? "more than all" : "all";
-    snprintf(text, BR_SHARE_TEXT, "%.2g %%", 100 * share);
-    return text;
+    snprintf(w->share, sizeof w->share, "%.2g %%", 100 * share);
+    return w->share;
 }
 
 void br_warn(struct br_warnings *w, enum br_warning_kind kind, const char *remedy,

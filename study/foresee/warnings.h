@@ -38,6 +38,8 @@ struct br_warning {
 struct br_warnings {
     struct br_warning list[BR_WARNINGS];
     size_t count;
+    double unseen[BR_WARNINGS]; /* by kind: the largest share of a load, or of initial data */
+    char share[16];             /* room for a text of br_unseen */
 };
 
 /* Adds a warning; its text is the formatted one. The remedy may be NULL. */
@@ -45,9 +47,11 @@ __attribute__((format(printf, 4, 5))) void br_warn(struct br_warnings *warnings,
                                                    enum br_warning_kind kind, const char *remedy,
                                                    const char *format, ...);
 
-/* "31 %", "all" or "more than all", of something; kept in text where it is a number. */
-enum { BR_SHARE_TEXT = 16 };
-const char *br_share_text(double share, char text[BR_SHARE_TEXT]);
+/* Notes that levels, elements or nodes miss so much of a load or of initial data of that size;
+ * INFINITY: it is not known how much. Where that is a larger share than `large` it returns it as
+ * "31 %", "all" or "more than all", else NULL. */
+const char *br_unseen(struct br_warnings *warnings, enum br_warning_kind kind, double missed,
+                      double size, double large);
 
 /* The warning of that kind, or NULL. */
 const struct br_warning *br_warnings_find(const struct br_warnings *warnings,
@@ -62,7 +66,6 @@ struct br_outlook {
     size_t n, steps;
     struct br_prediction *prediction; /* out: the errors to expect; NULL: nobody asks */
     double budget; /* elements times solves that a prediction may take; 0: as prediction.h says */
-    double share;  /* of a load that is warned of if it is not seen; 0: as the sources say */
 };
 
 /* A source of warnings: a row of the registry. */
