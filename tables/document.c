@@ -456,6 +456,12 @@ const struct br_document_table *br_document_next_table(const struct br_document 
     return NULL;
 }
 
+/* What rounds to zero has no sign. */
+static const char *without_sign_of_zero(const char *text)
+{
+    return *text == '-' && !text[strcspn(text, "123456789")] ? text + 1 : text;
+}
+
 const char *br_document_shown(const struct br_column *column, const struct br_document_cell *cell,
                               char buffer[BR_SHOWN])
 {
@@ -464,7 +470,7 @@ const char *br_document_shown(const struct br_column *column, const struct br_do
     switch (cell->value.kind) {
     case BR_NUMBER:
         snprintf(buffer, BR_SHOWN, column->format, cell->value.number);
-        return buffer;
+        return without_sign_of_zero(buffer);
     case BR_COUNT:
         snprintf(buffer, BR_SHOWN, "%lld", cell->value.count);
         return buffer;

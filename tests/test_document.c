@@ -306,7 +306,8 @@ static void test_csv(void **state)
 static const char *seen(size_t i)
 {
     static char text[32];
-    snprintf(text, sizeof text, "%.3e", numbers[i]);
+    snprintf(text, sizeof text, "%.3e", numbers[i] == 0 ? 0.0 : numbers[i]); /* zero has no sign */
+    ;
     return isfinite(numbers[i]) ? text : "-";
 }
 
