@@ -318,6 +318,8 @@ double br_track_error(const struct br_track *track, const struct br_track *refer
     const double own = mean_size(reference, kind);
     const double size = own > 0 ? own : mean_size(reference, (enum br_field_kind)(1 - kind));
     const double error = largest_mean(track, reference, kind);
+    if (!(size > 0)) /* the squares are lost to underflow */
+        return br_track_distance(track, reference, kind, 1);
     *sure_to = reference->own_error[kind] == 0 ? 0 : reference->own_error[kind] / size;
     return error == 0 ? 0 : error / size;
 }
