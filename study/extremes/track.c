@@ -265,16 +265,19 @@ double br_track_distance(const struct br_track *track, const struct br_track *re
 /* ---- errors ---- */
 
 /* The mean square of a field less another's, or alone, at a level: by trapezes from the clamped
- * end, where nothing moves. */
+ * end, where nothing moves. The last one, at the tip, is as low as its lower end: a layer there may
+ * be far narrower than it is. */
 static double square(const struct br_track *a, const struct br_track *b, int value, size_t level)
 {
     const struct br_track_places *at = &a->places;
-    double sum = 0;
+    double sum = 0, left = 0;
+    size_t from = 0;
     for (size_t p = 0; p < at->points; p++) {
         const double d = a->value[value][level][p] - (b ? b->value[value][level][p] : 0);
-        const size_t before = p > 0 ? at->place[p - 1] : 0;
-        const size_t after = p + 1 < at->points ? at->place[p + 1] : at->n * at->parts;
-        sum += d * d * (double)(after - before) / 2;
+        const bool tip = p > 0 && p + 1 == at->points && d * d > left;
+        sum += (left + (tip ? left : d * d)) * (double)(at->place[p] - from) / 2;
+        left = d * d;
+        from = at->place[p];
     }
     return sum / (double)(at->n * at->parts);
 }
