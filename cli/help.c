@@ -70,7 +70,7 @@ void br_print_command_help(FILE *out, const struct br_command *c)
     fprintf(out, "\nOptions:\n");
     for (size_t i = 0; i < count; i++) {
         if (row[i].id == BR_OPT_METHOD)
-            fprintf(out, "Method:\n");
+            fprintf(out, "\nMethod:\n");
         print_option(out, &row[i]);
     }
     if (c->words && c->words->title) {

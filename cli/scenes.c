@@ -11,9 +11,18 @@
 #include "study/scene/file.h"
 #include "study/scene/quote.h"
 #include "tables/scene_format.h"
-#include "tables/sentences.h"
 
 /* ---- the list ---- */
+
+/* How many columns a text takes on a terminal: characters, not bytes. */
+static int width_of(const char *text)
+{
+    char visible[4096];
+    int width = 0;
+    for (const char *c = br_quoted(visible, sizeof visible, &br_for_text, text); *c; c++)
+        width += ((unsigned char)*c & 0xc0) != 0x80;
+    return width;
+}
 
 static enum br_status print_line(const char *name, size_t width, struct br_error *err)
 {
@@ -24,7 +33,7 @@ static enum br_status print_line(const char *name, size_t width, struct br_error
         status = br_scene_read(path, &scene, err);
     if (!status) {
         br_quote(stdout, &br_for_text, name);
-        printf("%*s", (int)width + 2 - br_width_of(name), "");
+        printf("%*s", (int)width + 2 - width_of(name), "");
         br_quote(stdout, &br_for_text, scene.title);
         puts("");
     }

@@ -187,8 +187,10 @@ double br_energy_put_in(const struct br_energy *start, const struct br_work *w,
     return first + fmax(w->loads[kind], 0);
 }
 
+const double br_energy_useless = 1e-3;
+
 double br_energy_limit(size_t n, double round_off)
 {
     const double nodes = (double)n + 1, noise = 64 * DBL_EPSILON * nodes * nodes;
-    return 64 * DBL_EPSILON * nodes + 16 * round_off + noise * noise;
+    return fmin(64 * DBL_EPSILON * nodes + 16 * round_off + noise * noise, br_energy_useless);
 }

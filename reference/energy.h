@@ -70,8 +70,9 @@ enum br_status br_energy_look(const struct br_march *march, const struct br_scen
  * nodal values are rounded, which costs 2^-53 where forces are smooth, and 2^-53 n^2 squared in the
  * energy of their noise; and what the certificate allows residuals to do. The terms are those
  * of the balance and, stage by stage, those that a residual is relative to, times k and the
- * velocity they work on. Where a march is predicted to lose much, the balance is held to no more
- * than that. */
+ * velocity they work on. At most br_energy_useless: where round-off alone may be more, a balance
+ * says nothing, good or bad. */
+extern const double br_energy_useless;
 double br_energy_limit(size_t n, double round_off);
 
 /* Sums the works of a march. */

@@ -493,7 +493,7 @@ static void put_certificate(struct br_document *d, const struct br_run_report *r
         {"update", "update of the state", c->update, limit->update, true},
         {"contact", "contact law (10)", c->contact, limit->contact, r->marched.contact.modelled},
         {"friction", "friction law (12)", c->friction, limit->friction, has_friction(r)},
-        {"energy", "energy balance", r->energy_worst, r->energy_limit, isfinite(r->energy_limit)},
+        {"energy", "energy balance", r->energy_worst, r->energy_limit, true},
     };
     if (!r->checked) {
         put(d, br_nothing(), NULL, NULL, "certificate");
@@ -505,8 +505,11 @@ static void put_certificate(struct br_document *d, const struct br_run_report *r
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         put(d, br_number(rows[i].worst), rows[i].modelled ? rows[i].name : NULL, NULL,
             "certificate.worst.%s", rows[i].key);
-        br_put_shown(d, "%.3g of at most %.3g: %s", rows[i].worst, rows[i].limit,
-                     rows[i].worst <= rows[i].limit ? "good" : "BAD");
+        if (isfinite(rows[i].limit))
+            br_put_shown(d, "%.3g of at most %.3g: %s", rows[i].worst, rows[i].limit,
+                         rows[i].worst <= rows[i].limit ? "good" : "BAD");
+        else
+            br_put_shown(d, "%.3g: not judged, round-off alone may be more", rows[i].worst);
         put(d, br_number(rows[i].limit), NULL, NULL, "certificate.limits.%s", rows[i].key);
     }
     put(d, br_count(r->bad_steps), "steps beyond a limit", NULL, "certificate.bad_steps");

@@ -7,6 +7,7 @@
 
 #include "study/extremes/count.h"
 #include "study/extremes/shrink.h"
+#include "study/extremes/track.h"
 #include "study/scene/file.h"
 #include "study/scene/rescale.h"
 #include "tests/support.h"
@@ -282,6 +283,69 @@ static void test_boast(void **state)
     AT_MOST(0.5 * known, wrong);
 }
 
+/* ---- how far marches are from each other ---- */
+
+/* Nodes alone would be far better, or worse, than what is between them. */
+static void test_places(void **state)
+{
+    (void)state;
+    const size_t meshes[] = {1, 7, 112, 1000};
+    for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++) {
+        const struct br_track_places p = br_track_places(meshes[i], 10);
+        size_t inside = 0;
+        for (size_t j = 0; j + 1 < p.points; j++) {
+            assert_true(p.place[j] > 0 && p.place[j] < p.place[j + 1]);
+            inside += p.place[j] % p.parts != 0;
+        }
+        assert_int_equal(p.place[p.points - 1], meshes[i] * p.parts);
+        assert_true(p.parts == 1 || inside >= BR_TRACK_EVEN / 2);
+    }
+}
+
+/* A rod that is `rest` everywhere, and `tip` at its end. */
+static struct br_track *made_track(double rest, double tip)
+{
+    struct br_track *t = br_allocate(1, sizeof *t);
+    assert_non_null(t);
+    t->places = br_track_places(3, 10);
+    t->seen = t->places.levels;
+    t->largest[BR_AXIAL] = fmax(fabs(rest), fabs(tip));
+    for (size_t i = 0; i < t->places.levels; i++)
+        for (size_t p = 0; p < t->places.points; p++)
+            t->value[BR_AXIAL][i][p] = p + 1 < t->places.points ? rest : tip;
+    return t;
+}
+
+/* What is far narrower than the last interval weighs nothing in the mean; squares that are lost to
+ * underflow are not; what is no number is not right. */
+static void test_errors(void **state)
+{
+    (void)state;
+    static const struct {
+        double own[2], reference[2], least, most;
+    } rows[] = {
+        {{1, 1}, {2, 2}, 0.5, 0.5},
+        {{1, 5}, {1, 1}, 0, 0},
+        {{1, 1}, {1, 5}, 0, 0},
+        {{1, 1}, {0.5, 5}, 0.9, 1.1},
+        {{1e-170, 1e-170}, {2e-170, 2e-170}, 0.5, 0.5},
+        {{0, 0}, {0, 0}, 0, 0},
+        {{1, NAN}, {1, 1}, NAN, NAN},
+        {{NAN, 1}, {1, 1}, NAN, NAN},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_track *own = made_track(rows[i].own[0], rows[i].own[1]);
+        struct br_track *reference = made_track(rows[i].reference[0], rows[i].reference[1]);
+        double sure;
+        const double e = br_track_error(own, reference, BR_AXIAL, &sure);
+        if (isnan(rows[i].least) ? !isnan(e)
+                                 : !(e >= rows[i].least - 1e-12 && e <= rows[i].most + 1e-12))
+            fail_msg("row %zu: %g", i, e);
+        free(own);
+        free(reference);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -290,6 +354,7 @@ int main(void)
         cmocka_unit_test(test_counts),      cmocka_unit_test(test_other_units),
         cmocka_unit_test(test_sound_cases), cmocka_unit_test(test_hard_cases),
         cmocka_unit_test(test_rate),        cmocka_unit_test(test_boast),
+        cmocka_unit_test(test_places),      cmocka_unit_test(test_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

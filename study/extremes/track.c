@@ -9,9 +9,10 @@
 static size_t choose_places(size_t count, size_t parts, size_t place[BR_TRACK_POINTS])
 {
     const size_t even = count < BR_TRACK_EVEN ? count : BR_TRACK_EVEN;
+    const size_t within = count / even < parts ? 0 : parts; /* an element, where it is shorter */
     size_t points = 0;
     for (size_t i = 0; i + 1 < even; i++)
-        place[points++] = (i + 1) * count / even - i * parts / even;
+        place[points++] = (i + 1) * count / even - i * within / even;
     for (size_t from_tip = count / (2 * BR_TRACK_EVEN);
          from_tip > 0 && points + 1 < BR_TRACK_POINTS; from_tip /= 2)
         place[points++] = count - from_tip;

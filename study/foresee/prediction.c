@@ -106,12 +106,12 @@ static void bracket(double observed, double q, double spoilt, double order[3])
 static double layer(const struct br_scene *s, int kind)
 {
     const bool axial = kind == BR_AXIAL;
+    if (s->density == 0)
+        return INFINITY;
     const double stiffness = axial ? s->axial.stiffness : s->bending.stiffness;
     const double viscosity = axial ? s->axial.viscosity : s->bending.viscosity;
     const double waves = sqrt(stiffness / s->density) * s->duration;
     const double spread = viscosity * s->duration / s->density;
-    if (s->density == 0)
-        return INFINITY;
     return axial ? waves + sqrt(spread) : sqrt(waves) + pow(spread, 0.25);
 }
 

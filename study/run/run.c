@@ -26,7 +26,8 @@ static enum br_status start_checks(void *self, struct br_march *march, struct br
         br_march_stop_when(march, r->request->progress->stop, r->request->progress->self);
     report->round_off = br_march_round_off(march);
     report->limits = br_certificate_limits(report->method.scheme, report->n, report->round_off);
-    report->energy_limit = br_energy_limit(report->n, report->round_off);
+    const double limit = br_energy_limit(report->n, report->round_off);
+    report->energy_limit = limit < br_energy_useless ? limit : INFINITY;
     enum br_status status =
         report->summed
             ? br_energy_meter_create(&r->meter, march, &report->marched, &report->method, err)
