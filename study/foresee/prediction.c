@@ -229,6 +229,17 @@ static struct br_predicted extrapolated_time(const struct br_probe *p, const str
     return predicted;
 }
 
+/* What the steps of an iteration leave adds up, if it always points the same way. */
+static struct br_predicted and_iterated(const struct br_probe_set *s, struct br_predicted e,
+                                        int kind)
+{
+    const struct br_probe *p = &s->probe[BR_PROBE_ITERATION];
+    const double left = p->held ? p->beyond * cell_error(p, 0, kind) : 0;
+    e.error += left;
+    e.high += doubt * left;
+    return e;
+}
+
 /* What the run's first steps are off by, it is off by somewhere. */
 static struct br_predicted and_at_start(const struct br_probe_set *s, struct br_predicted e,
                                         int kind)
@@ -250,7 +261,8 @@ static struct br_predicted time_error(const struct br_probe_set *s, int kind)
     else if (s->outlook->method->scheme->adaptive)
         e = by_orders(cell_error(p, 0, kind), p->beyond, by_tolerance);
     else
-        e = p->measured ? measured_time(p, kind) : extrapolated_time(p, s->outlook, kind);
+        e = p->measured ? measured_time(p, kind)
+                        : and_iterated(s, extrapolated_time(p, s->outlook, kind), kind);
     return and_at_start(s, e, kind);
 }
 

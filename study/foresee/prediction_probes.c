@@ -286,6 +286,25 @@ static void set_time(struct br_probe *p, const struct br_outlook *o)
         extrapolate_time(p, o, most);
 }
 
+static bool iterates_friction(const struct br_outlook *o)
+{
+    return o->scene->friction.law != BR_FRICTIONLESS && o->method->friction->iterates;
+}
+
+/* What an iteration leaves in a step adds up over the steps, and is lost among the errors of the
+ * few steps of an extrapolation. */
+static void set_iteration(struct br_probe *p, const struct br_probe *time,
+                          const struct br_outlook *o)
+{
+    struct br_method direct = *o->method;
+    direct.friction = br_friction_rules[0];
+    p->scene = *o->scene;
+    p->beyond = time->beyond;
+    p->n[0] = time->n[0];
+    p->steps[0] = time->steps[1];
+    set_study(p, o->method, &direct, (struct br_resolution){p->n[0], p->steps[0]});
+}
+
 /* The run's first steps against steps by a tolerance, which find what dies away within a step; if
  * `equal`, and more of them, against smaller equal ones. */
 static void set_start(struct br_probe *p, const struct br_outlook *o, bool equal)
@@ -480,6 +499,8 @@ enum br_status br_probes_hold(struct br_probe_set *set, const struct br_outlook 
         return status;
     if (!probe[BR_PROBE_WHOLE].held) {
         set_time(&probe[BR_PROBE_TIME], outlook);
+        if (!probe[BR_PROBE_TIME].measured && iterates_friction(outlook))
+            set_iteration(&probe[BR_PROBE_ITERATION], &probe[BR_PROBE_TIME], outlook);
         set_space(&probe[BR_PROBE_SPACE], outlook);
         status = march(set, BR_PROBE_TIME, BR_PROBE_SPACE, err);
     }

@@ -7,11 +7,13 @@
 #include "study/grid/study.h"
 
 enum br_probe_kind {
-    BR_PROBE_TIGHT, /* the run itself against steps by a tolerance, on a finer mesh */
-    BR_PROBE_WHOLE, /* the same against equal steps that are smaller */
-    BR_PROBE_TIME,  /* steps against finer steps, on a coarse mesh, from 0 to T */
-    BR_PROBE_START, /* the run's own first steps against finer ones */
-    BR_PROBE_SPACE, /* a mesh against a finer one, at few steps */
+    BR_PROBE_TIGHT,     /* the run itself against steps by a tolerance, on a finer mesh */
+    BR_PROBE_WHOLE,     /* the same against equal steps that are smaller */
+    BR_PROBE_TIME,      /* steps against finer steps, on a coarse mesh, from 0 to T */
+    BR_PROBE_START,     /* the run's own first steps against finer ones */
+    BR_PROBE_ITERATION, /* the last cell of BR_PROBE_TIME against the same steps with a friction
+                           rule that does not iterate */
+    BR_PROBE_SPACE,     /* a mesh against a finer one, at few steps */
     BR_PROBES
 };
 
