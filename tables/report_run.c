@@ -79,6 +79,10 @@ static double tip_error(const struct br_run_findings *f, int kind)
 /* "-0.2216 +- 0.014": the value to the error's second digit. */
 static const char *with_error(double value, double error, char text[VALUE])
 {
+    if (isinf(error)) {
+        snprintf(text, VALUE, "%.1g (perhaps no digit is right)", value);
+        return text;
+    }
     if (!(error > 0) || value == 0) {
         snprintf(text, VALUE, error > 0 ? "%.6g +- %.2g" : "%.6g", value, error);
         return text;
@@ -128,12 +132,13 @@ static void answer_tip(struct br_document *d, const struct br_run_findings *f)
 
 static void answer_prediction(struct br_document *d, const struct br_prediction *p)
 {
+    char interval[BR_PREDICTED_TEXT];
     if (p->known)
         br_put_answer(d,
                       "Predicted before the march, of each field relative to its largest (L2): "
-                      "discretisation error %.1e, between %.1e and %.1e (time %.1e, space %.1e); "
-                      "round-off %.1e. +- is what this may make at the tip, an estimate.",
-                      p->whole.error, p->whole.low, p->whole.high, p->time.error, p->space.error,
+                      "discretisation error %s (time %.2g, space %.2g); round-off %.2g. +- is what "
+                      "this may make at the tip, an estimate.",
+                      br_predicted_interval(&p->whole, interval), p->time.error, p->space.error,
                       p->round_off);
     else if (p->bounded)
         br_put_answer(d,
@@ -216,12 +221,13 @@ static void put_march(struct br_document *d, const struct br_run_findings *f)
     put(d, br_truth(r->contact_unstable), NULL, NULL, "contact_beyond_stability_limit");
 }
 
-/* "1.4e-03, between 4.6e-04 and 4.2e-03" */
+/* "0.0014, between 0.00046 and 0.0042" */
 static void put_predicted(struct br_document *d, bool known, const char *key, const char *label,
                           const struct br_predicted *e)
 {
+    char interval[BR_PREDICTED_TEXT];
     put(d, if_known(known, br_number(e->error)), label, NULL, "prediction.%s.error", key);
-    br_put_shown(d, "%.1e, between %.1e and %.1e", e->error, e->low, e->high);
+    br_put_shown(d, "%s", br_predicted_interval(e, interval));
     put(d, if_known(known, br_number(e->low)), NULL, NULL, "prediction.%s.low", key);
     put(d, if_known(known, br_number(e->high)), NULL, NULL, "prediction.%s.high", key);
 }

@@ -26,6 +26,7 @@ static void count_one(struct tally *t, const struct br_prediction *p, int kind, 
     t->all++;
     if (!p->known)
         return;
+    assert_false(e->high > 1 && e->high < INFINITY);
     t->known++;
     t->within_3 += ratio >= 1.0 / 3 && ratio <= 3;
     t->within_10 += ratio >= 0.1 && ratio <= 10;
@@ -479,6 +480,9 @@ static void test_thin_layers(void **state)
          "  viscosity: 1000 N m^2 s\n  load: 3e-6*sin(pi*x/2e4)*(exp(t/2e-6) - 1) [N/m]\n"
          "  tip_moment: -200 [N m]",
          136, 267, 4.1e3},
+        {"length: 2e4 m\nduration: 6e-6 s\ndensity: 30 kg/m\nbending:\n  stiffness: 0 N m^2\n"
+         "  viscosity: 2e4 N m^2 s\n  tip_moment: -4e4 [N m]",
+         10027, 1, 1.4e4},
     };
     const struct br_method method = br_method_default();
     struct br_error err = {0};

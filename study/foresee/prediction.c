@@ -319,6 +319,17 @@ static bool is_modelled(const struct br_scene *scene, int kind)
     return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
 }
 
+/* Where an error may be as large as the solution itself, nothing of the answer need be right, and
+ * by how much more it may be off is not told by marches that are as far off. */
+static void drop_what_means_nothing(struct br_prediction *p)
+{
+    struct br_predicted *const each[] = {&p->field[0], &p->field[1], &p->space, &p->time,
+                                         &p->whole};
+    for (size_t i = 0; i < sizeof each / sizeof *each; i++)
+        if (each[i]->high > all)
+            each[i]->high = INFINITY;
+}
+
 static void judge(struct br_prediction *p, const struct br_probe_set *s)
 {
     for (int i = BR_PROBE_TIME; i < BR_PROBES; i++)
@@ -342,9 +353,21 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
         p->space = relative(space_error(s, kind), size);
     }
     p->known = p->bounded && useful;
-    if (!p->known)
+    if (p->known)
+        drop_what_means_nothing(p);
+    else
         snprintf(p->why, sizeof p->why,
                  "the marches that it is compared with differ too much among themselves");
+}
+
+const char *br_predicted_interval(const struct br_predicted *e, char text[BR_PREDICTED_TEXT])
+{
+    if (isfinite(e->high))
+        snprintf(text, BR_PREDICTED_TEXT, "%.2g, between %.2g and %.2g", e->error, e->low, e->high);
+    else
+        snprintf(text, BR_PREDICTED_TEXT, "%.2g, at least %.2g, perhaps more than the solution",
+                 e->error, e->low);
+    return text;
 }
 
 double br_predicted_most(const struct br_prediction *p, enum br_field_kind kind)

@@ -20,16 +20,18 @@
 
 #include "study/foresee/warnings.h"
 
+enum { BR_PREDICTED_TEXT = 120 };
+
 /* A part of the error, relative to the solution. */
 struct br_predicted {
-    double error, low, high;
-    double order; /* as it was observed; NaN: it was not, or not needed */
+    double error, low, high; /* high: INFINITY where it may be as large as the solution */
+    double order;            /* as it was observed; NaN: it was not, or not needed */
 };
 
 struct br_prediction {
     bool known;
     char why[200]; /* not known: why */
-    bool bounded;  /* low and high of `whole` mean something, also where it is not known */
+    bool bounded;  /* low and high of `whole` were found, also where it is not known */
     struct br_predicted field[2]; /* of discretisation, by br_field_kind; zeros: not
                                      modelled */
     double size[2]; /* of the fields, by br_field_kind: their largest L2 norms in the marches that
@@ -38,6 +40,9 @@ struct br_prediction {
     double round_off; /* relative to the exact discrete solution: br_predict_round_off */
     double seconds;   /* that the prediction took */
 };
+
+/* "0.0014, between 0.00046 and 0.0042": an error as people read it. */
+const char *br_predicted_interval(const struct br_predicted *e, char text[BR_PREDICTED_TEXT]);
 
 /* Predicts (out). Takes some ten milliseconds, and less than the run itself where that takes
  * longer, or what outlook->budget allows; what it cannot tell is no failure. Fails with

@@ -115,15 +115,15 @@ static void accuracy_remedy(const struct br_outlook *o, const struct br_predicti
 static void warn_of_inaccuracy(const struct br_outlook *o, const struct br_prediction *p,
                                struct br_warnings *w)
 {
-    char remedy[400];
+    char remedy[400], interval[BR_PREDICTED_TEXT];
     const bool likely = p->whole.error > large || p->whole.high > doubtful;
     if (!p->bounded || !(p->known ? likely : p->whole.low > large))
         return;
     accuracy_remedy(o, p, remedy);
     br_warn(w, BR_WARN_INACCURATE, remedy,
-            "the predicted discretisation error at n = %zu, k = %.4g s is %.2g of the solution "
-            "(between %.2g and %.2g; of time %.2g, of space %.2g)",
-            o->n, br_time_step(o->scene, o->steps), p->whole.error, p->whole.low, p->whole.high,
+            "the predicted discretisation error at n = %zu, k = %.4g s, relative to the "
+            "solution, is %s (of time %.2g, of space %.2g)",
+            o->n, br_time_step(o->scene, o->steps), br_predicted_interval(&p->whole, interval),
             p->time.error, p->space.error);
 }
 
