@@ -517,6 +517,8 @@ static const struct planted_bug planted_bugs[] = {
     {"manufactured_one_level_late", "time level", "reference/mms/judge.c", "check mms_smooth",
      "j->duration * (double)i / (double)j->levels;",
      "j->duration * ((double)i - 1) / (double)j->levels;"},
+    {"tip_at_rest_too_early", "switch", "reference/exact/march.c", "tests/test_exact_tip",
+     "at_rest = s->tip_velocity == 0;", "at_rest = true;"},
     {"radau_of_another_order", "coefficient", "reference/exact/radau.c", "tests/test_exact_parts",
      "1.0 / (4 * S - 2);", "1.0 / (4 * S + 2);"},
     {"integral_without_what_came_before", "lost", "reference/exact/pieces.c",

@@ -208,6 +208,46 @@ static void test_rest(void **state)
     br_exact_free(exact);
 }
 
+static double f_square(const double *p, double x, double t)
+{
+    (void)t;
+    return p[0] * x * x;
+}
+
+static double f_linear(const double *p, double x, double t)
+{
+    (void)t;
+    return p[0] * x;
+}
+
+/* A beam with next to no stiffness goes on as it was thrown, but for a layer of 6 cm at a tip that
+ * friction stops within 1e-8 T to 1e-22 T: w = t x^2. */
+static void test_stopped_tip(void **state)
+{
+    (void)state;
+    static const double bounds[] = {1e5, 1e8, 1e10, 1e12, 1e18};
+    struct formula thrown = {f_square, {1}}, slope = {f_linear, {2}};
+    struct br_scene scene = bare_scene(1);
+    scene.length = scene.duration = 1;
+    scene.axial.modelled = false;
+    scene.bending.stiffness = 0;
+    scene.bending.viscosity = 1e-5;
+    scene.bending.velocity = formula_function(&thrown);
+    scene.bending.velocity_slope = formula_function(&slope);
+    scene.friction.law = BR_TRESCA;
+    for (size_t i = 0; i < sizeof bounds / sizeof *bounds; i++) {
+        scene.friction.coefficient = bounds[i];
+        struct br_exact *exact = solve(&scene, 1e-8);
+        struct br_exact_state *now = new_state(exact);
+        br_exact_at(exact, 1, now);
+        for (double x = 0.25; x < 0.6; x += 0.25)
+            assert_near(value_of(exact, now, w, x), x * x, 0.01 * x * x);
+        assert_near(now->tip[BR_EXACT_BENDING].displacement, 0, 1e-7);
+        br_exact_state_free(now);
+        br_exact_free(exact);
+    }
+}
+
 /* ---- stopping ---- */
 
 static bool count_down(void *self)
@@ -235,9 +275,10 @@ static void test_stop(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_creep),   cmocka_unit_test(test_pressed),
-        cmocka_unit_test(test_inertia), cmocka_unit_test(test_stick),
-        cmocka_unit_test(test_stop),    cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_creep),       cmocka_unit_test(test_pressed),
+        cmocka_unit_test(test_inertia),     cmocka_unit_test(test_stick),
+        cmocka_unit_test(test_stop),        cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_stopped_tip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

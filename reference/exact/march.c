@@ -192,14 +192,17 @@ static double time_error(const struct march *m)
 }
 
 /* The phase ends at sample i of the trial step; at once, if it is the first one
- * of the phase's first step. */
+ * of the phase's first step. A slip that ends at once with a velocity is shorter than any step: then
+ * nothing is at rest yet, and the phase that follows stops the tip, as its force does. */
 static void end_phase(struct march *m, size_t i)
 {
     struct br_stepper *s = m->s;
+    bool at_rest = true;
     const double h = s->tip.length;
     const struct br_tip_state over = br_tip_at(&s->tip, (double)i / SAMPLES);
     double error = 0;
     if (m->fresh && i == 1) {
+        at_rest = s->tip_velocity == 0;
         if (++m->at_once > MAX_PHASES_AT_ONCE)
             m->status =
                 br_fail(m->err, BR_NOT_FINITE, "the tip's phase at %.17g s is undecided", s->time);
@@ -210,7 +213,8 @@ static void end_phase(struct march *m, size_t i)
         error = time_error(m);
         accept(m, s->time + root);
     }
-    br_stepper_settle(s);
+    if (at_rest)
+        br_stepper_settle(s);
     enter(m, br_law_next(&over), error);
 }
 

@@ -245,11 +245,22 @@ static void measure_time(struct br_probe *p, const struct br_outlook *o, double 
     p->study.k_count = ratio > 3 ? 2 : 1;
 }
 
-/* a, 2a against 8a steps, a odd: their levels are not those at which a periodic load is zero. */
+static bool is_prime(size_t a)
+{
+    size_t divisor = 2;
+    while (divisor * divisor <= a && a % divisor > 0)
+        divisor++;
+    return a > 1 && divisor * divisor > a;
+}
+
+/* a, 2a against 8a steps, a prime: their levels are not those at which a periodic load is zero or
+ * largest. */
 static void extrapolate_time(struct br_probe *p, const struct br_outlook *o, double most)
 {
     const struct br_method best = best_method(o->method);
-    const size_t a = (size_t)(most / (3 * stages(o->method) + 8 * stages(&best))) | 1;
+    size_t a = (size_t)(most / (3 * stages(o->method) + 8 * stages(&best))) | 1;
+    while (a > 3 && !is_prime(a))
+        a -= 2;
     p->ratio = 4;
     p->beyond = (double)o->steps / (2 * (double)a);
     p->steps[0] = a;
