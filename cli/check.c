@@ -7,7 +7,7 @@
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/signals.h"
-#include "cli/warn_marches.h"
+#include "cli/warn.h"
 #include "cli/whole_file.h"
 #include "solver/clock.h"
 #include "study/ranks/ranks.h"

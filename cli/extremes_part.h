@@ -41,10 +41,11 @@ struct br_extremes_part {
     const char *name;  /* one word, as on the command line, and of its files */
     const char *title; /* one line for a person */
     unsigned heeds;    /* of the options: BR_HEEDS_... */
-    /* Computes; *result (out) is owned by the caller. What is found wrong is a result, no failure.
-     * Fails with BR_BAD_INPUT, BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */
-    enum br_status (*run)(const struct br_extremes_job *job, void **result, struct br_error *err);
-    void (*free)(void *result); /* accepts NULL */
+    size_t size;       /* of its result, bytes */
+    /* Computes the result (out: zeros before). What is found wrong is a result, no failure. Fails
+     * with BR_BAD_INPUT, BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */
+    enum br_status (*run)(const struct br_extremes_job *job, void *result, struct br_error *err);
+    void (*clear)(void *result); /* also after a failure; NULL: the result owns nothing */
     /* Begins the report and puts all into it but pictures and provenance; its name is the part's.
      */
     void (*report)(const void *result, struct br_document *d);
@@ -57,10 +58,7 @@ struct br_extremes_part {
     enum br_status (*verdict)(const void *result, struct br_error *err);
 };
 
-extern const struct br_extremes_part br_extremes_part_floors, br_extremes_part_steps,
-    br_extremes_part_stability, br_extremes_part_energy, br_extremes_part_map;
-
-/* NULL-terminated, in the order in which they run. */
+/* NULL-terminated, in the order in which they run (cli/extremes_parts.c). */
 extern const struct br_extremes_part *const br_extremes_parts[];
 
 #endif

@@ -41,6 +41,11 @@ struct br_output {
  * behind cannot be finished. */
 enum br_status br_output_open(struct br_output *output, const char *folder, struct br_error *err);
 
+static inline bool br_output_is_open(const struct br_output *output)
+{
+    return output->staging[0];
+}
+
 /* Opens a file in the hidden folder for writing. Its name must not begin with a dot. */
 enum br_status br_output_file(const struct br_output *output, const char *name, FILE **file,
                               struct br_error *err);

@@ -198,7 +198,7 @@ static enum br_status run_scene(struct run *r, struct br_error *err)
     if (!status)
         status = open_files(r, err);
     if (!status)
-        br_print_warnings(&r->warnings);
+        br_print_warnings("", &r->warnings);
     if (!status)
         status = march(r, err);
     if (!status)

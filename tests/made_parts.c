@@ -87,15 +87,13 @@ static enum br_status write_scene(const char *folder, struct br_error *err)
     return fclose(file) == 0 ? BR_OK : br_fail(err, BR_IO, "%s", path);
 }
 
-static enum br_status run_fast(const struct br_extremes_job *j, void **result, struct br_error *err)
+static enum br_status run_fast(const struct br_extremes_job *j, void *result, struct br_error *err)
 {
     if (j->seed == 14)
         return br_fail(err, BR_BAD_INPUT, "14 is refused");
     if (j->seed == 15)
         return br_fail(err, BR_NOT_FINITE, "15 failed");
-    struct heard *h = br_allocate(1, sizeof *h);
-    if (!(*result = h))
-        return br_no_memory(err, "the made part");
+    struct heard *h = result;
     snprintf(h->line, sizeof h->line,
              "cases %zu, seed %llu, threads %d, rounding %d, %zu n up to %zu, %zu k, kept %s",
              j->cases, (unsigned long long)j->seed, j->threads, j->rounding, j->n_count,
@@ -116,11 +114,9 @@ static size_t count_lines(FILE *file)
     return lines;
 }
 
-static enum br_status run_slow(const struct br_extremes_job *j, void **result, struct br_error *err)
+static enum br_status run_slow(const struct br_extremes_job *j, void *result, struct br_error *err)
 {
-    struct heard *h = br_allocate(1, sizeof *h);
-    if (!(*result = h))
-        return br_no_memory(err, "the made part");
+    struct heard *h = result;
     FILE *file = fopen(j->kept, "a+");
     if (!file)
         return br_fail(err, BR_IO, "%s", j->kept);
@@ -143,8 +139,8 @@ static const struct br_extremes_part fast = {
     .name = "fast",
     .title = "says what it was asked for",
     .heeds = BR_HEEDS_CASES | BR_HEEDS_SEED | BR_HEEDS_N | BR_HEEDS_K | BR_HEEDS_ROUNDING,
+    .size = sizeof(struct heard),
     .run = run_fast,
-    .free = free,
     .report = report_fast,
     .draw = draw,
     .verdict = judge,
@@ -154,8 +150,8 @@ static const struct br_extremes_part slow = {
     .name = "slow",
     .title = "takes long",
     .heeds = BR_HEEDS_CASES | BR_HEEDS_RESUME,
+    .size = sizeof(struct heard),
     .run = run_slow,
-    .free = free,
     .report = report_slow,
     .verdict = judge,
 };
