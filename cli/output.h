@@ -22,6 +22,13 @@
 
 #include "cli/manifest.h"
 
+/* What the names of all hidden folders and files begin with. Who writes in a hidden folder has
+ * locked it; the lock ends with its program, however that ends. */
+#define BR_HIDDEN ".beamrate"
+
+/* The page that every run writes: it is that of the run that was last, and of no other set. */
+#define BR_PAGE "report.html"
+
 /* Begins as zeros, or with a stem. */
 struct br_output {
     const char *stem;       /* of the set's files, where a folder has several sets; borrowed;

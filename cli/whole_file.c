@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "cli/output.h"
-#include "cli/staging.h"
 #include "tables/json_value.h"
 
 static enum br_status refuse(const char *option, const char *path, const char *reason,
@@ -172,7 +171,7 @@ static enum br_status write_beside(const struct br_whole_file *w, struct br_erro
 {
     char *name = folder_of(w->place), *hidden = NULL;
     const int folder = name ? open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
-    const bool named = name && asprintf(&hidden, "%s/%s-XXXXXX", name, BR_STAGING_PREFIX) >= 0;
+    const bool named = name && asprintf(&hidden, "%s/%s-XXXXXX", name, BR_HIDDEN) >= 0;
     free(name);
     if (!named)
         return br_no_memory(err, w->path);
