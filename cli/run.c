@@ -10,7 +10,7 @@
 #include "cli/run_files.h"
 #include "cli/run_plan.h"
 #include "cli/warn.h"
-#include "cli/whole_file.h"
+#include "cli/output.h"
 #include "solver/clock.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"

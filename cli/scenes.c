@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "cli/command.h"
-#include "cli/whole_file.h"
+#include "cli/output.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 #include "study/scene/quote.h"
