@@ -20,7 +20,6 @@ struct run {
     void *result[MOST_PARTS];                        /* owned; NULL: not begun */
     size_t parts;
     struct br_extremes_job job; /* as the options have it */
-    size_t *n;                  /* job.n_count; owned */
 };
 
 /* ---- what the options say ---- */
@@ -127,14 +126,14 @@ static enum br_status read_request(struct run *r, struct br_error *err)
     *job = (struct br_extremes_job){
         .cases = (size_t)br_option_number(o, BR_OPT_CASES, 0),
         .threads = r->session.threads,
+        .n = o->whole[BR_OPT_N],
         .k = o->number[BR_OPT_K],
+        .n_count = o->count[BR_OPT_N],
         .k_count = o->count[BR_OPT_K],
         .rounding = br_rounding_mode((size_t)br_option_number(o, BR_OPT_ROUNDING, 0)),
     };
-    if (choose_parts(r, err) || read_seed(br_option_text(o, BR_OPT_SEED), &job->seed, err) ||
-        br_option_counts(o, BR_OPT_N, &r->n, &job->n_count, err))
+    if (choose_parts(r, err) || read_seed(br_option_text(o, BR_OPT_SEED), &job->seed, err))
         return err->status;
-    job->n = r->n;
     return check_heeded(r, err);
 }
 
@@ -246,7 +245,6 @@ static enum br_status run(const struct br_options *options, struct br_error *err
             r.part[i]->clear(r.result[i]);
         free(r.result[i]);
     }
-    free(r.n);
     return failed ? err->status : BR_OK;
 }
 

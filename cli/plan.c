@@ -91,7 +91,6 @@ static enum br_status run(const struct br_options *options, struct br_error *err
                         compute(&r, err) || write_all(&r, err);
     br_session_close(&r.session);
     br_plan_clear(&r.plan);
-    br_study_request_clear(&r.study);
     br_opened_scene_clear(&r.opened);
     return failed ? err->status : BR_OK;
 }

@@ -73,6 +73,7 @@ static enum br_status make_grid(struct run *r, size_t i, struct br_error *err)
 {
     struct work *w = &r->work[i];
     const struct br_study_request *q = &r->request;
+    const struct br_options *o = r->session.options;
     const struct br_scene *scene = &w->opened.scene;
     struct br_study *study = study_of(r, i, 0);
     *study = (struct br_study){
@@ -81,12 +82,12 @@ static enum br_status make_grid(struct run *r, size_t i, struct br_error *err)
         .method = q->method,
         .reference_method = q->reference_method,
         .judge = q->judge ? q->judge : br_judge_best(scene),
-        .n = q->n,
-        .n_count = q->n_count,
+        .n = o->whole[BR_OPT_N],
+        .n_count = o->count[BR_OPT_N],
     };
-    if (br_option_steps(r->session.options, scene, &w->steps, &study->k_count, err))
+    if (br_option_steps(o, scene, &w->steps, &study->k_count, err))
         return err->status;
-    qsort(q->n, q->n_count, sizeof *q->n, ascending);
+    qsort(o->whole[BR_OPT_N], study->n_count, sizeof *study->n, ascending);
     qsort(w->steps, study->k_count, sizeof *w->steps, ascending);
     study->steps = w->steps;
     if (!study->judge->nests)
@@ -225,7 +226,6 @@ static void clear(struct run *r)
     free(r->page);
     free(r->work);
     free(r->study);
-    br_study_request_clear(&r->request);
     br_session_close(&r->session);
 }
 

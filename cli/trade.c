@@ -75,10 +75,10 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
     else
         br_contenders_default(scene, &item->trade.contenders);
     const struct br_trade_grid grid = {
-        .n = r->study.n,
+        .n = o->whole[BR_OPT_N],
         .steps = item->steps,
         .tolerance = o->number[BR_OPT_TOLERANCES],
-        .n_count = r->study.n_count,
+        .n_count = o->count[BR_OPT_N],
         .step_count = steps,
         .tolerances = o->count[BR_OPT_TOLERANCES],
         .printed = item->printed.count ? &item->printed : NULL,
@@ -258,7 +258,6 @@ static enum br_status run(const struct br_options *options, struct br_error *err
         free(r.item[i].steps);
     }
     free(r.item);
-    br_study_request_clear(&r.study);
     return failed ? err->status : BR_OK;
 }
 

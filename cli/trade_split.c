@@ -66,9 +66,10 @@ static void add_runs(struct run *r, const struct br_contender *c, size_t n)
 
 static enum br_status lay_out(struct run *r, struct br_error *err)
 {
-    if (br_option_steps(r->session.options, &r->opened.scene, &r->steps, &r->step_count, err))
+    const struct br_options *o = r->session.options;
+    if (br_option_steps(o, &r->opened.scene, &r->steps, &r->step_count, err))
         return err->status;
-    const size_t meshes = r->request.n_count ? r->request.n_count : 1;
+    const size_t meshes = o->count[BR_OPT_N] ? o->count[BR_OPT_N] : 1;
     const size_t steps = r->step_count ? r->step_count : 1;
     const size_t tolerances = r->tolerances ? r->tolerances : 1;
     r->split = br_allocate(r->methods.count * meshes * steps * tolerances, sizeof *r->split);
@@ -76,7 +77,8 @@ static enum br_status lay_out(struct run *r, struct br_error *err)
         return br_no_memory(err, "the parts of the errors");
     for (size_t c = 0; c < r->methods.count; c++)
         for (size_t i = 0; i < meshes; i++)
-            add_runs(r, &r->methods.list[c], r->request.n_count ? r->request.n[i] : DEFAULT_N);
+            add_runs(r, &r->methods.list[c],
+                     o->count[BR_OPT_N] ? o->whole[BR_OPT_N][i] : DEFAULT_N);
     return BR_OK;
 }
 
@@ -149,7 +151,6 @@ enum br_status br_trade_split(const struct br_options *options, struct br_error 
                         (writes && br_warn_of_splits(r.split, r.splits, err)) || compute(&r, err) ||
                         (writes && write_all(&r, err));
     br_session_close(&r.session);
-    br_study_request_clear(&r.request);
     br_opened_scene_clear(&r.opened);
     free(r.steps);
     free(r.split);
