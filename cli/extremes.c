@@ -17,7 +17,7 @@ enum { MOST_PARTS = 16, PATH = 1200 };
 struct run {
     struct br_session session;
     const struct br_extremes_part *part[MOST_PARTS]; /* parts, in the registry's order */
-    void *result[MOST_PARTS];                        /* owned; NULL: not begun */
+    struct br_error verdict[MOST_PARTS];
     size_t parts;
     struct br_extremes_job job; /* as the options have it */
 };
@@ -171,65 +171,52 @@ static enum br_status remove_kept(const struct run *r, struct br_error *err)
 
 /* ---- computing and writing ---- */
 
+enum br_status br_extremes_draw(const struct br_extremes_job *job, struct br_figure *figure,
+                                enum br_status drawn, struct br_error *err)
+{
+    if (br_session_draws(job->session))
+        return br_session_draw(job->session, job->report, figure, figure->title, drawn, err);
+    br_figure_clear(figure);
+    return drawn;
+}
+
 static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
 {
     const struct br_extremes_part *part = r->part[i];
+    const struct br_provenance provenance = br_provenance_of(NULL, r->session.threads);
     struct br_extremes_job job = r->job;
     char kept[PATH], what[64];
-    if (!(r->result[i] = br_allocate(1, part->size)))
-        return br_no_memory(err, part->name);
     snprintf(what, sizeof what, "%s (%zu of %zu)", part->name, i + 1, r->parts);
     job.kept = kept_path(r, i, kept);
     job.folder = r->session.output.staging;
     job.observer = br_progress_start(what, r->session.quiet);
-    const enum br_status status = part->run(&job, r->result[i], err);
+    job.session = &r->session;
+    job.report = &r->session.document[i];
+    job.verdict = &r->verdict[i];
+    const enum br_status status = part->run(&job, err);
     br_progress_end();
-    return status ? br_failed_in(err, part->name) : br_progress_result(status, err);
+    if (status)
+        return br_failed_in(err, part->name);
+    br_put_provenance(job.report, &provenance);
+    return br_progress_result(status, err);
 }
 
-static enum br_status compute(struct run *r, struct br_error *err)
+static enum br_status run_parts(struct run *r, struct br_error *err)
 {
-    enum br_status status = BR_OK;
+    enum br_status status = br_session_report(&r->session, r->parts, err);
     for (size_t i = 0; i < r->parts && !status; i++)
         status = run_part(r, i, err);
     return status;
-}
-
-/* The pictures of one part: into files, and their names into its report. */
-static enum br_status draw(struct run *r, size_t part, struct br_error *err)
-{
-    const bool draws = r->part[part]->draw && br_session_draws(&r->session);
-    enum br_status status = BR_OK;
-    bool last = !draws;
-    for (size_t i = 0; !status && !last; i++) {
-        struct br_figure figure = {0};
-        status = r->part[part]->draw(r->result[part], i, &figure, err);
-        last = !figure.panels;
-        status = br_session_draw(&r->session, &r->session.document[part], &figure, figure.title,
-                                 status, err);
-    }
-    return status;
-}
-
-static enum br_status write_all(struct run *r, struct br_error *err)
-{
-    const struct br_provenance provenance = br_provenance_of(NULL, r->session.threads);
-    enum br_status status = br_session_report(&r->session, r->parts, err);
-    for (size_t i = 0; i < r->parts && !status; i++) {
-        r->part[i]->report(r->result[i], &r->session.document[i]);
-        br_put_provenance(&r->session.document[i], &provenance);
-    }
-    for (size_t i = 0; i < r->parts && !status; i++)
-        status = draw(r, i, err);
-    return status ? status : br_session_finish(&r->session, err);
 }
 
 /* The first verdict that fails. */
 static enum br_status judge(const struct run *r, struct br_error *err)
 {
     for (size_t i = 0; i < r->parts; i++)
-        if (r->part[i]->verdict(r->result[i], err))
+        if (r->verdict[i].status) {
+            *err = r->verdict[i];
             return br_failed_in(err, r->part[i]->name);
+        }
     return BR_OK;
 }
 
@@ -237,14 +224,10 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 {
     struct run r = {.session = br_session_begin(options)};
     const bool failed = read_request(&r, err) || br_session_open(&r.session, err) ||
-                        check_kept(&r, err) || compute(&r, err) || write_all(&r, err) ||
-                        remove_kept(&r, err) || judge(&r, err);
+                        check_kept(&r, err) || run_parts(&r, err) ||
+                        br_session_finish(&r.session, err) || remove_kept(&r, err) ||
+                        judge(&r, err);
     br_session_close(&r.session);
-    for (size_t i = 0; i < r.parts; i++) {
-        if (r.result[i] && r.part[i]->clear)
-            r.part[i]->clear(r.result[i]);
-        free(r.result[i]);
-    }
     return failed ? err->status : BR_OK;
 }
 

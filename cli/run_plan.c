@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/run_plan.h"
+#include "cli/run.h"
 
 #include <math.h>
 #include <string.h>
