@@ -5,7 +5,7 @@
  *
  * In a pattern, %n is the field n; a capital, %N, is the same field quoted for the language. What
  * stands between { and } is left out where one of its fields is empty; %?n only asks whether it
- * is. %{, %} and %% are these characters. The fields:
+ * is. %{, %} and %% are these characters. The fields, by their letters:
  *   c a command's name   s its arguments   t its title, or a word's   b about   m more of it
  *   e an example         o all options     g its arguments' words     p the pattern for these
  *   j "*": several arguments may be given
@@ -87,30 +87,37 @@ static bool is_filled(const char *p, const char *end, const struct fields *f)
 }
 
 static void put(FILE *out, const struct language *l, const char *p, const char *end,
+                const struct fields *f);
+
+/* One that is no question, by its letter. */
+static void put_field(FILE *out, const struct language *l, char letter, const struct fields *f)
+{
+    const char *text = field(f, letter);
+    if (letter == 'v' || letter == 'p') /* patterns again */
+        put(out, l, text, text + strlen(text), f);
+    else if (isupper((unsigned char)letter))
+        br_quote(out, letter == 'W' ? l->words_quoting : l->quoting, text);
+    else if (isalpha((unsigned char)letter))
+        fputs(text, out);
+    else
+        fputc(letter, out);
+}
+
+static void put(FILE *out, const struct language *l, const char *p, const char *end,
                 const struct fields *f)
 {
-    for (; p < end; p++) {
+    for (; p < end; p++)
         if (*p == '{') {
             const char *close = group_end(p + 1);
             if (is_filled(p + 1, close, f))
                 put(out, l, p + 1, close, f);
             p = close;
-            continue;
-        }
-        const char *text = field(f, p[1]);
-        if (*p != '%')
+        } else if (*p != '%')
             fputc(*p, out);
         else if (*++p == '?')
             p++;
-        else if (*p == 'v' || *p == 'p') /* patterns again */
-            put(out, l, text, text + strlen(text), f);
-        else if (isupper((unsigned char)*p))
-            br_quote(out, *p == 'W' ? l->words_quoting : l->quoting, text);
-        else if (isalpha((unsigned char)*p))
-            fputs(text, out);
         else
-            fputc(*p, out);
-    }
+            put_field(out, l, *p, f);
 }
 
 static void emit(FILE *out, const struct language *l, const char *pattern, const struct fields *f)

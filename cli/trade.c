@@ -165,17 +165,19 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     const struct br_trade **trade = br_allocate(r->items, sizeof *trade);
     enum br_status status = trade ? br_session_report(&r->session, r->items + (r->items > 1), err)
                                   : br_no_memory(err, "the reports");
+    struct br_document *d = r->session.document;
     struct br_provenance provenance;
-    for (size_t i = r->items; i-- > 0 && !status;) {
+    for (size_t i = 0; i < r->items && !status; i++) {
         trade[i] = &r->item[i].trade;
         provenance = br_provenance_of(&r->item[i].opened, r->session.threads);
-        br_report_trade(trade[i], &provenance, &r->session.document[i]);
-    }
-    if (!status && r->items > 1)
-        br_report_trade_summary(trade, r->items, &provenance, &r->session.document[r->items]);
-    free(trade);
-    for (size_t i = 0; i < r->items && !status; i++)
+        br_report_trade(trade[i], &provenance, &d[i]);
         status = draw(r, i, err);
+    }
+    if (!status && r->items > 1) {
+        provenance = br_provenance_of(&r->item[0].opened, r->session.threads);
+        br_report_trade_summary(trade, r->items, &provenance, &d[r->items]);
+    }
+    free(trade);
     return status ? status : br_session_finish(&r->session, err);
 }
 
