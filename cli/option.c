@@ -185,14 +185,15 @@ static enum br_status read_one(struct br_options *o, const struct br_option *row
 static enum br_status read_value(struct br_options *o, const struct br_option *row,
                                  struct br_error *err)
 {
-    struct br_error inner = {0};
     const char *text = o->text[row->id];
+    struct br_error inner = {0};
     if (!text || row->kind == BR_TAKES_FLAG)
         return BR_OK;
     if (row->kind == BR_TAKES_COUNTS || row->kind == BR_TAKES_NUMBERS)
         return read_list(o, row, text, err);
-    const enum br_status status = read_one(o, row, text, &inner);
-    return status ? br_fail(err, status, "--%s: %s", row->name, inner.message) : BR_OK;
+    if (!read_one(o, row, text, &inner))
+        return BR_OK;
+    return br_fail(err, inner.status, "--%s: %s", row->name, inner.message);
 }
 
 /* Names and numbers of a method must be some, whatever a scene says. */

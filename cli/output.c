@@ -221,17 +221,15 @@ static enum br_status finish(int parent, int folder, const char *name, struct br
     if (!is_there(folder, replaced) && renameat(parent, name, folder, replaced) != 0 &&
         errno != ENOENT)
         return fail_with_errno(name, err);
-    enum br_status status = br_sets_read(folder, decided, &sets, err);
-    if (!status)
-        status = br_sets_read(folder, replaced, &old, err);
-    if (!status)
-        status = move_files(parent, folder, old, sets, err);
-    if (!status &&
+    bool failed = br_sets_read(folder, decided, &sets, err) ||
+                  br_sets_read(folder, replaced, &old, err) ||
+                  move_files(parent, folder, old, sets, err);
+    if (!failed &&
         (renameat(folder, decided, parent, name) != 0 || (fsync(parent) != 0 && errno != EINVAL)))
-        status = fail_with_errno(name, err);
+        failed = fail_with_errno(name, err);
     json_decref(old);
     json_decref(sets);
-    return status;
+    return failed ? err->status : BR_OK;
 }
 
 /* ---- what others left behind ---- */
@@ -339,15 +337,10 @@ enum br_status br_output_open(struct br_output *o, const char *folder, struct br
         return br_fail(err, BR_BAD_INPUT, "--out: cannot make the folder %s: %s", folder,
                        strerror(errno));
     snprintf(o->staging, sizeof o->staging, "%s/%s", folder, o->hidden);
-    enum br_status status = br_run_id_make(o->run, &inner);
-    if (!status)
-        status = make_staging(o, &inner);
-    if (!status)
-        status = check_manifest(o, &inner);
-    if (!status)
+    if (!br_run_id_make(o->run, &inner) && !make_staging(o, &inner) && !check_manifest(o, &inner))
         return BR_OK;
     br_output_discard(o);
-    return br_fail(err, status, "--out: %s: %.900s", folder, inner.message);
+    return br_fail(err, inner.status, "--out: %s: %.900s", folder, inner.message);
 }
 
 enum br_status br_output_file(const struct br_output *o, const char *name, FILE **file,
