@@ -5,12 +5,9 @@
 
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/provenance.h"
-#include "cli/signals.h"
-#include "cli/warn_marches.h"
-#include "cli/whole_file.h"
+#include "cli/session.h"
+#include "cli/warn.h"
 #include "solver/clock.h"
-#include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 #include "tables/report_check.h"
 
@@ -25,7 +22,9 @@ struct item {
 enum { MOST_FORMATS = 8 };
 
 struct run {
-    const struct br_options *options;
+    struct br_session session;
+    const char *compare; /* --compare; NULL: not given */
+    bool all, fail_fast;
     char **listed;     /* all bundled scenes; owned; NULL: those that are given */
     struct item *item; /* most */
     size_t most;
@@ -38,24 +37,14 @@ struct run {
     struct br_comparison comparison;
 };
 
-static const char *compare_with(const struct run *r)
-{
-    return br_option_text(r->options, BR_OPT_COMPARE);
-}
-
-static int threads_of(const struct run *r)
-{
-    return (int)br_option_number(r->options, BR_OPT_THREADS, 0);
-}
-
 /* The file that a format's option names, or NULL. */
 static const char *file_of(const struct run *r, const char *format)
 {
     struct br_option row[BR_OPTIONS];
-    const size_t count = br_options_of(r->options->command, row);
+    const size_t count = br_options_of(r->session.options->command, row);
     for (size_t i = 0; i < count; i++)
         if (strcmp(row[i].name, format) == 0)
-            return br_option_text(r->options, row[i].id);
+            return br_option_text(r->session.options, row[i].id);
     return NULL;
 }
 
@@ -69,9 +58,9 @@ static enum br_status choose_method(const struct run *r, struct item *item, stru
         struct br_verify_study *v = &item->verify.study[kind];
         struct br_error inner = {0};
         v->method.rounding =
-            br_rounding_mode((size_t)br_option_number(r->options, BR_OPT_ROUNDING, 0));
-        if (v->count &&
-            br_method_read(&r->options->given[BR_OPT_METHOD], BR_METHOD_OPTION, &v->method, &inner))
+            br_rounding_mode((size_t)br_option_number(r->session.options, BR_OPT_ROUNDING, 0));
+        if (v->count && br_method_read(&r->session.options->given[BR_OPT_METHOD], BR_METHOD_OPTION,
+                                       &v->method, &inner))
             status = br_fail(err, inner.status, "%s: verify: %s: %s", item->path,
                              br_verify_names[kind], inner.message);
     }
@@ -83,14 +72,10 @@ static enum br_status choose_method(const struct run *r, struct item *item, stru
 static enum br_status read_scene(struct run *r, size_t i, const char *name, struct br_error *err)
 {
     struct item *item = &r->item[i];
-    enum br_status status = br_scene_find(name, item->path, sizeof item->path, err);
-    if (!status)
-        status = br_scene_read_verify(item->path, &item->scene, &item->verify, err);
-    if (status)
-        return status;
-    status = choose_method(r, item, err);
-    if (status)
-        return status;
+    if (br_scene_find(name, item->path, sizeof item->path, err) ||
+        br_scene_read_verify(item->path, &item->scene, &item->verify, err) ||
+        choose_method(r, item, err))
+        return err->status;
     r->check[r->count++] =
         (struct br_check){.path = item->path, .scene = &item->scene, .verify = &item->verify};
     return BR_OK;
@@ -98,21 +83,17 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
 
 static enum br_status read_scenes(struct run *r, struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    char *const *name = r->options->word;
-    r->most = r->options->words;
-    if (br_option_given(r->options, BR_OPT_ALL)) {
-        status = br_scene_list(&r->listed, &r->most, err);
-        name = r->listed;
-    }
-    if (status)
-        return status;
+    const struct br_options *o = r->session.options;
+    r->most = o->words;
+    if (r->all && br_scene_list(&r->listed, &r->most, err))
+        return err->status;
     r->item = br_allocate(r->most + 1, sizeof *r->item);
     r->check = br_allocate(r->most + 1, sizeof *r->check);
     if (!r->item || !r->check)
         return br_no_memory(err, "the scenes");
+    enum br_status status = BR_OK;
     for (size_t i = 0; i < r->most && !status; i++)
-        status = read_scene(r, i, name[i], err);
+        status = read_scene(r, i, r->all ? r->listed[i] : o->word[i], err);
     return status;
 }
 
@@ -127,7 +108,7 @@ static enum br_status check_heeded(const struct run *r, struct br_error *err)
         for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
             if (r->check[i].verify->study[kind].count)
                 method[count++] = &r->check[i].verify->study[kind].method;
-    const enum br_status status = br_method_check_heeded(&r->options->given[BR_OPT_METHOD],
+    const enum br_status status = br_method_check_heeded(&r->session.options->given[BR_OPT_METHOD],
                                                          BR_METHOD_OPTION, method, count, err);
     free(method);
     return status;
@@ -141,35 +122,37 @@ static int by_work(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static bool failed_so_far(const struct run *r)
+static size_t orders(const struct run *r)
 {
     size_t orders = 0;
-    const struct br_check *first;
     for (size_t i = 0; i < r->done; i++)
         orders += r->check[i].count;
-    return br_check_tally(r->check, r->done, BR_PASS) < orders ||
+    return orders;
+}
+
+static bool failed_so_far(const struct run *r)
+{
+    const struct br_check *first;
+    return br_check_tally(r->check, r->done, BR_PASS) < orders(r) ||
            br_check_failures(r->check, r->done, &first) > 0;
 }
 
+/* With --fail-fast one after the other, the cheapest first, else all at once. */
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
-    const size_t at_once = br_option_given(r->options, BR_OPT_FAIL_FAST) ? 1 : r->count;
-    if (br_option_given(r->options, BR_OPT_FAIL_FAST))
+    const size_t at_once = r->fail_fast ? 1 : r->count;
+    if (r->fail_fast)
         qsort(r->check, r->count, sizeof *r->check, by_work);
-    const struct br_observer *observer = br_progress_start(
-        "checking", br_option_given(r->options, BR_OPT_QUIET) || !br_ranks_first());
+    const struct br_observer *observer = br_progress_start("checking", r->session.quiet);
     enum br_status status = BR_OK;
-    while (r->done < r->count && !status &&
-           !(br_option_given(r->options, BR_OPT_FAIL_FAST) && failed_so_far(r))) {
-        status = br_check_run(&r->check[r->done], at_once, threads_of(r), observer, err);
+    while (r->done < r->count && !status && !(r->fail_fast && failed_so_far(r))) {
+        status = br_check_run(&r->check[r->done], at_once, r->session.threads, observer, err);
         r->done += status ? 0 : at_once;
     }
     br_progress_end();
     r->wall_seconds = br_seconds() - start;
-    if (!status && br_signals_caught())
-        status = br_fail(err, BR_INTERRUPTED, "interrupted");
-    return status;
+    return br_progress_result(status, err);
 }
 
 /* ---- results ---- */
@@ -196,26 +179,19 @@ static enum br_status check_places(const struct run *r, struct br_error *err)
         for (size_t s = 0; s < r->count; s++)
             if (br_whole_file_replaces(f, r->check[s].path))
                 return br_fail(err, BR_BAD_INPUT, "--%s would replace the scene %s", name, f->path);
-        if (compare_with(r) && br_whole_file_replaces(f, compare_with(r)))
+        if (r->compare && br_whole_file_replaces(f, r->compare))
             return br_fail(err, BR_BAD_INPUT, "--%s would replace what it is compared with, %s",
                            name, f->path);
     }
     return BR_OK;
 }
 
-static bool uses_stdout(const struct run *r)
+static enum br_status print(struct run *r, const struct br_document *d, struct br_error *err)
 {
+    bool quiet = r->session.quiet;
     for (size_t i = 1; br_check_formats[i]; i++)
-        if (r->file[i].file == stdout)
-            return true;
-    return false;
-}
-
-static enum br_status write_report(struct run *r, const struct br_document *d, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    if (!br_option_given(r->options, BR_OPT_QUIET) && !uses_stdout(r))
-        status = br_document_show(stdout, d, err);
+        quiet |= r->file[i].file == stdout;
+    enum br_status status = quiet ? BR_OK : br_document_show(stdout, d, err);
     for (size_t i = 1; br_check_formats[i] && !status; i++)
         if (r->file[i].file)
             status = br_document_print(r->file[i].file, br_check_formats[i], d, NULL, err);
@@ -224,21 +200,23 @@ static enum br_status write_report(struct run *r, const struct br_document *d, s
     return status;
 }
 
-static enum br_status write_results(struct run *r, struct br_error *err)
+static enum br_status write_all(struct run *r, struct br_error *err)
 {
-    struct br_provenance provenance = {0};
+    const struct br_provenance provenance = br_provenance_of(NULL, r->session.threads);
     struct br_document d = {0};
-    br_provenance_fill(&provenance, threads_of(r));
+    if (r->compare &&
+        br_compare(r->check, r->done, r->all && r->done == r->count, &r->old, &r->comparison, err))
+        return err->status;
     const struct br_check_findings findings = {
         .checks = r->check,
         .count = r->done,
         .stopped = r->done < r->count,
         .wall_seconds = r->wall_seconds,
-        .comparison = compare_with(r) ? &r->comparison : NULL,
+        .comparison = r->compare ? &r->comparison : NULL,
         .provenance = &provenance,
     };
     br_report_check(&findings, &d);
-    const enum br_status status = write_report(r, &d, err);
+    const enum br_status status = print(r, &d, err);
     br_document_clear(&d);
     return status;
 }
@@ -246,58 +224,29 @@ static enum br_status write_results(struct run *r, struct br_error *err)
 /* What has not passed, for the exit code. */
 static enum br_status conclude(const struct run *r, struct br_error *err)
 {
-    size_t orders = 0;
-    for (size_t i = 0; i < r->done; i++)
-        orders += r->check[i].count;
-    const size_t passed = br_check_tally(r->check, r->done, BR_PASS);
+    const size_t all = orders(r), passed = br_check_tally(r->check, r->done, BR_PASS);
     const struct br_check *refused;
     if (br_check_failures(r->check, r->done, &refused) > 0)
         return br_fail(err, BR_BAD_INPUT, "%s", refused->failure.message);
-    if (orders == 0)
+    if (all == 0)
         return br_fail(err, BR_VERDICT, "no order was checked");
-    if (passed < orders)
-        return br_fail(err, BR_VERDICT, "%zu of %zu orders do not pass", orders - passed, orders);
+    if (passed < all)
+        return br_fail(err, BR_VERDICT, "%zu of %zu orders do not pass", all - passed, all);
     if (r->comparison.tally[BR_SERIOUS])
         return br_fail(err, BR_VERDICT, "%zu serious differences from %s",
-                       r->comparison.tally[BR_SERIOUS], compare_with(r));
+                       r->comparison.tally[BR_SERIOUS], r->compare);
     return BR_OK;
 }
 
 /* What the reports need, before a long computation. */
 static enum br_status prepare_reports(struct run *r, struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    if (compare_with(r))
-        status = br_check_read_json(compare_with(r), &r->old, err);
-    if (!status && compare_with(r))
-        status = br_compare_check(r->check, r->count, &r->old, err);
-    if (!status)
-        status = open_files(r, err);
-    if (!status)
-        status = check_places(r, err);
-    return status;
-}
-
-static enum br_status check(struct run *r, struct br_error *err)
-{
-    enum br_status status = read_scenes(r, err);
-    if (!status)
-        status = check_heeded(r, err);
-    if (!status && br_ranks_first())
-        status = prepare_reports(r, err);
-    if (!status && br_ranks_first())
-        br_warn_of_checks(r->check, r->count);
-    if (!status)
-        status = compute(r, err);
-    if (!br_ranks_first())
-        return status; /* rank 0 writes, and has the verdict */
-    if (!status && compare_with(r))
-        status = br_compare(r->check, r->done,
-                            br_option_given(r->options, BR_OPT_ALL) && r->done == r->count, &r->old,
-                            &r->comparison, err);
-    if (!status)
-        status = write_results(r, err);
-    return status ? status : conclude(r, err);
+    if ((r->compare && (br_check_read_json(r->compare, &r->old, err) ||
+                        br_compare_check(r->check, r->count, &r->old, err))) ||
+        open_files(r, err) || check_places(r, err))
+        return err->status;
+    br_warn_of_checks(r->check, r->count);
+    return BR_OK;
 }
 
 static void clear(struct run *r)
@@ -317,19 +266,25 @@ static void clear(struct run *r)
     br_scene_list_free(r->listed, r->listed ? r->most : 0);
 }
 
+/* Rank 0 writes, and has the verdict. */
 static enum br_status run(const struct br_options *options, struct br_error *err)
 {
     static struct run r;
-    const bool all = br_option_given(options, BR_OPT_ALL);
-    if (all == (options->words > 0))
+    r = (struct run){.session = br_session_begin(options),
+                     .compare = br_option_text(options, BR_OPT_COMPARE),
+                     .all = br_option_given(options, BR_OPT_ALL),
+                     .fail_fast = br_option_given(options, BR_OPT_FAIL_FAST)};
+    if (r.all == (options->words > 0))
         return br_fail(
             err, BR_BAD_INPUT,
-            all ? "--all and scenes are given, expected one of the two"
-                : "no scene is given, expected files, names of bundled scenes, or --all");
-    r.options = options;
-    const enum br_status status = check(&r, err);
+            r.all ? "--all and scenes are given, expected one of the two"
+                  : "no scene is given, expected files, names of bundled scenes, or --all");
+    const bool writes = r.session.writes;
+    const bool failed = read_scenes(&r, err) || check_heeded(&r, err) ||
+                        (writes && prepare_reports(&r, err)) || compute(&r, err) ||
+                        (writes && (write_all(&r, err) || conclude(&r, err)));
     clear(&r);
-    return status;
+    return failed ? err->status : BR_OK;
 }
 
 const struct br_command br_command_check = {

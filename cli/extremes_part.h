@@ -6,12 +6,11 @@
 
 #include <stdint.h>
 
-#include "plots/figure.h"
+#include "cli/session.h"
 #include "study/grid/observer.h"
-#include "study/grid/study.h"
-#include "tables/document.h"
 
-/* What is asked for. All borrowed; 0 or NULL: the part's own choice. */
+/* What is asked for, and where what is found goes. All borrowed; 0 or NULL: the part's own choice.
+ */
 struct br_extremes_job {
     size_t cases;  /* of the map */
     uint64_t seed; /* of what is drawn at random */
@@ -25,6 +24,9 @@ struct br_extremes_job {
                            the file is removed when all is written. NULL: nothing is kept */
     const char *folder; /* for other files of the part (reproducer scenes): the staging folder */
     const struct br_observer *observer; /* NULL: nobody */
+    struct br_session *session;         /* that the pictures go to */
+    struct br_document *report;         /* zeros; owned by the session */
+    struct br_error *verdict;           /* zeros; BR_VERDICT: what has been found wrong */
 };
 
 /* The options that a part heeds: others are refused. --threads is for all. */
@@ -41,26 +43,18 @@ struct br_extremes_part {
     const char *name;  /* one word, as on the command line, and of its files */
     const char *title; /* one line for a person */
     unsigned heeds;    /* of the options: BR_HEEDS_... */
-    /* Computes; *result (out) is owned by the caller. What is found wrong is a result, no failure.
-     * Fails with BR_BAD_INPUT, BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */
-    enum br_status (*run)(const struct br_extremes_job *job, void **result, struct br_error *err);
-    void (*free)(void *result); /* accepts NULL */
-    /* Begins the report and puts all into it but pictures and provenance; its name is the part's.
-     */
-    void (*report)(const void *result, struct br_document *d);
-    /* Picture i, 0, 1, ... (out: zeroed; clear it even after a failure); left without panels: there
-     * are no more. Its stem is the part's name, or begins with it and a dash. Fails with
-     * BR_NO_MEMORY. */
-    enum br_status (*draw)(const void *result, size_t i, struct br_figure *figure,
-                           struct br_error *err);
-    /* BR_OK, or BR_VERDICT with what has been found wrong. */
-    enum br_status (*verdict)(const void *result, struct br_error *err);
+    /* Computes, begins the report (its name is the part's) and puts all into it but provenance,
+     * draws, and judges: what is found wrong is a verdict, no failure. Fails with BR_BAD_INPUT,
+     * BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */
+    enum br_status (*run)(const struct br_extremes_job *job, struct br_error *err);
 };
 
-extern const struct br_extremes_part br_extremes_part_floors, br_extremes_part_steps,
-    br_extremes_part_stability, br_extremes_part_energy, br_extremes_part_map;
+/* For run: a picture into the files and the report, if pictures are wanted; clears the figure. Its
+ * stem is the part's name, or begins with it and a dash. drawn, failures: as br_session_draw. */
+enum br_status br_extremes_draw(const struct br_extremes_job *job, struct br_figure *figure,
+                                enum br_status drawn, struct br_error *err);
 
-/* NULL-terminated, in the order in which they run. */
+/* NULL-terminated, in the order in which they run (cli/extremes_parts.c). */
 extern const struct br_extremes_part *const br_extremes_parts[];
 
 #endif

@@ -8,7 +8,7 @@
 #include "cli/picture_files.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
-#include "cli/warn_marches.h"
+#include "cli/warn.h"
 #include "plots/pictures.h"
 #include "study/ranks/ranks.h"
 #include "tables/report_study.h"

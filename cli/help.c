@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* beamrate help: what commands and options do, for a person, as a manual page, and for docs/. All
- * of it comes from the commands' records, the options' rows and the registries. */
-#include <ctype.h>
+/* beamrate help: what commands and options do, from the commands' records, the options' rows and
+ * the registries. */
 #include <string.h>
 
-#include "cli/command.h"
-#include "cli/manual.h"
-#include "cli/provenance.h"
+#include "cli/languages.h"
 #include "study/trade/contender.h"
 
 enum { WIDTH = 98, COLUMN = 34 };
@@ -35,16 +32,6 @@ static void wrap(FILE *out, const char *text, size_t at, size_t indent)
     fputc('\n', out);
 }
 
-/* "elements (default 100)" */
-static const char *help_of(const struct br_option *row, char *text, size_t size)
-{
-    char value[BR_METHOD_VALUE];
-    const char *standard = br_option_default(row, value);
-    snprintf(text, size, "%s%s%s%s", row->help, standard ? " (default " : "",
-             standard ? standard : "", standard ? ")" : "");
-    return text;
-}
-
 static void print_option(FILE *out, const struct br_option *row)
 {
     char name[64], help[512];
@@ -54,10 +41,9 @@ static void print_option(FILE *out, const struct br_option *row)
                  row->argument ? " " : "", row->argument ? row->argument : "");
     const size_t at = (size_t)length < COLUMN ? COLUMN : (size_t)length + 1;
     fprintf(out, "%-*s", (int)at, name);
-    help_of(row, help, sizeof help);
     if (at > COLUMN)
         fprintf(out, "\n%*s", COLUMN, "");
-    wrap(out, help, COLUMN, COLUMN);
+    wrap(out, br_option_help(row, help, sizeof help), COLUMN, COLUMN);
 }
 
 void br_print_command_help(FILE *out, const struct br_command *c)
@@ -106,27 +92,6 @@ static void print_commands(FILE *out)
 
 /* ---- registries ---- */
 
-/* One row a registry; words: what a person reads above it. */
-struct registry {
-    const char *option, *title;
-    const struct br_words *words;
-};
-
-static size_t registries(struct registry list[BR_METHOD_FIELDS + 3])
-{
-    size_t count = 0;
-    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
-        const struct br_method_field *f = &br_method_fields[i];
-        if (f->words && (f->words->title || f->words->available))
-            list[count++] = (struct registry){f->name, f->help, f->words};
-    }
-    list[count++] =
-        (struct registry){"reference", "what errors are measured against", &br_judge_words};
-    list[count++] = (struct registry){"norm", "norms of the error", &br_norm_words};
-    list[count++] = (struct registry){"format", "formats of the results", &br_format_words};
-    return count;
-}
-
 /* "riccati, umfpack": the rows that heed the field. */
 static const char *heeders(const struct br_method_field *f, char *text, size_t size)
 {
@@ -145,9 +110,9 @@ static const char *heeders(const struct br_method_field *f, char *text, size_t s
 
 static void print_methods(FILE *out)
 {
-    struct registry list[BR_METHOD_FIELDS + 3];
+    struct br_registry list[BR_REGISTRIES];
     char text[256];
-    const size_t count = registries(list);
+    const size_t count = br_registries(list);
     for (size_t i = 0; i < count; i++) {
         fprintf(out, "--%s: %s\n", list[i].option, list[i].title);
         for (size_t row = 0; list[i].words->name(row); row++)
@@ -170,178 +135,6 @@ static void print_methods(FILE *out)
     }
 }
 
-/* ---- docs/options.md ---- */
-
-static void print_markdown_text(FILE *out, const char *text)
-{
-    for (const char *c = text; *c; c++)
-        fprintf(out, strchr("|<*_", *c) ? "\\%c" : "%c", *c);
-}
-
-static void print_markdown_row(FILE *out, const struct br_option *row)
-{
-    char value[BR_METHOD_VALUE];
-    const char *standard = br_option_default(row, value);
-    fprintf(out, "| ");
-    if (row->letter)
-        fprintf(out, "`-%c`, ", row->letter);
-    fprintf(out, "`--%s%s%s` | %s | ", row->name, row->argument ? " " : "",
-            row->argument ? row->argument : "", standard ? standard : "");
-    print_markdown_text(out, row->help);
-    if (row->more) {
-        fprintf(out, ". ");
-        print_markdown_text(out, row->more);
-    }
-    fprintf(out, " |\n");
-}
-
-static void print_markdown_words(FILE *out, const struct br_words *words)
-{
-    fputc('\n', out);
-    for (size_t i = 0; words->name(i); i++) {
-        fprintf(out, "- `%s`%s", words->name(i), words->title ? ": " : "");
-        print_markdown_text(out, words->title ? words->title(i) : "");
-        fputc('\n', out);
-    }
-}
-
-static void print_markdown_command(FILE *out, const struct br_command *c)
-{
-    struct br_option row[BR_OPTIONS];
-    const size_t count = br_options_of(c, row);
-    fprintf(out, "\n## beamrate %s%s%s\n\n", c->name, *c->arguments ? " " : "", c->arguments);
-    print_markdown_text(out, c->about);
-    if (c->more) {
-        fputc(' ', out);
-        print_markdown_text(out, c->more);
-    }
-    fprintf(out, "\n\n```sh\n");
-    for (size_t i = 0; i < BR_MOST_EXAMPLES && c->example[i]; i++)
-        fprintf(out, "%s\n", c->example[i]);
-    fprintf(out, "```\n\n| option | default | what it does |\n|---|---|---|\n");
-    for (size_t i = 0; i < count && row[i].id < BR_OPT_METHOD; i++)
-        print_markdown_row(out, &row[i]);
-    if (row[count - 1].id >= BR_OPT_METHOD)
-        fprintf(out, "\nAnd the [options of the method](#options-of-the-method).\n");
-    if (c->words && c->words->title)
-        print_markdown_words(out, c->words);
-}
-
-/* Not what is available: that differs from machine to machine. */
-static void print_markdown(FILE *out)
-{
-    struct registry list[BR_METHOD_FIELDS + 3];
-    struct br_option row[BR_OPTIONS];
-    const size_t count = registries(list), options = br_options_of(br_commands[0], row);
-    fprintf(out, "# Options\n\nWritten by `beamrate help --markdown`. `T` is the duration of the "
-                 "scene: `--k T/100` makes 100 steps.\n");
-    for (const struct br_command *const *c = br_commands; *c; c++)
-        print_markdown_command(out, *c);
-    fprintf(out, "\n## Options of the method\n\nAn option that the chosen method does not heed is "
-                 "refused.\n\n| option | default | what it does |\n|---|---|---|\n");
-    for (size_t i = 0; i < options; i++)
-        if (row[i].id >= BR_OPT_METHOD)
-            print_markdown_row(out, &row[i]);
-    for (size_t i = 0; i < count; i++) {
-        fprintf(out, "\n### --%s: %s\n", list[i].option, list[i].title);
-        print_markdown_words(out, list[i].words);
-    }
-}
-
-/* ---- the manual page ---- */
-
-/* Whatever roff would take for its own. */
-static void print_roff(FILE *out, const char *text)
-{
-    if (*text == '.' || *text == '\'')
-        fputs("\\&", out);
-    for (const char *c = text; *c; c++)
-        fprintf(out, *c == '-' ? "\\-" : *c == '\\' ? "\\e" : "%c", *c);
-}
-
-static void print_man_option(FILE *out, const struct br_option *row)
-{
-    char help[512];
-    fprintf(out, ".TP\n.B ");
-    if (row->letter)
-        fprintf(out, "\\-%c, ", row->letter);
-    fprintf(out, "\\-\\-");
-    print_roff(out, row->name);
-    if (row->argument)
-        fprintf(out, " \\fI%s\\fR", row->argument);
-    fputc('\n', out);
-    print_roff(out, help_of(row, help, sizeof help));
-    fprintf(out, ".\n");
-    if (row->more) {
-        print_roff(out, row->more);
-        fputc('\n', out);
-    }
-}
-
-static void print_man_words(FILE *out, const struct br_words *words)
-{
-    for (size_t i = 0; words->name(i); i++) {
-        fprintf(out, ".TP\n.B %s\n", words->name(i));
-        print_roff(out, words->title ? words->title(i) : "an instruction set");
-        fputc('\n', out);
-    }
-}
-
-static void print_man_command(FILE *out, const struct br_command *c)
-{
-    struct br_option row[BR_OPTIONS];
-    const size_t count = br_options_of(c, row);
-    fprintf(out, ".SS beamrate %s%s%s\n", c->name, *c->arguments ? " " : "", c->arguments);
-    print_roff(out, c->about);
-    fputc('\n', out);
-    if (c->more) {
-        print_roff(out, c->more);
-        fputc('\n', out);
-    }
-    for (size_t i = 0; i < count && row[i].id < BR_OPT_METHOD; i++)
-        print_man_option(out, &row[i]);
-    if (row[count - 1].id >= BR_OPT_METHOD)
-        fprintf(out, ".PP\nAnd the options of the method, below.\n");
-    if (c->words && c->words->title)
-        print_man_words(out, c->words);
-    fprintf(out, ".PP\n.nf\n");
-    for (size_t i = 0; i < BR_MOST_EXAMPLES && c->example[i]; i++) {
-        print_roff(out, c->example[i]);
-        fputc('\n', out);
-    }
-    fprintf(out, ".fi\n");
-}
-
-static void print_man(FILE *out)
-{
-    struct registry list[BR_METHOD_FIELDS + 3];
-    struct br_option row[BR_OPTIONS];
-    const size_t count = registries(list), options = br_options_of(br_commands[0], row);
-    fprintf(
-        out,
-        ".\\\" SPDX-License-Identifier: GPL-3.0-or-later\n.\\\" Written by 'beamrate help --man'.\n"
-        ".TH BEAMRATE 1 2026 \"beamrate %s\" \"User Commands\"\n.SH NAME\nbeamrate \\- convergence "
-        "studies of the dynamic frictional contact of a viscoelastic beam\n.SH SYNOPSIS\n"
-        ".B beamrate\n.I command\n.RI [ option ...]\n.SH COMMANDS\n",
-        br_version());
-    for (const struct br_command *const *c = br_commands; *c; c++)
-        print_man_command(out, *c);
-    fprintf(out, ".SH OPTIONS OF THE METHOD\nAn option that the chosen method does not heed is "
-                 "refused.\n");
-    for (size_t i = 0; i < options; i++)
-        if (row[i].id >= BR_OPT_METHOD)
-            print_man_option(out, &row[i]);
-    for (size_t i = 0; i < count; i++) {
-        fprintf(out, ".SS \"\\-\\-%s: %s\"\n", list[i].option, list[i].title);
-        print_man_words(out, list[i].words);
-    }
-    for (const struct br_manual_section *s = br_manual_sections; s->title; s++) {
-        fprintf(out, ".SH %s\n", s->title);
-        print_roff(out, s->text);
-        fputc('\n', out);
-    }
-}
-
 /* ---- the command ---- */
 
 static enum br_status run(const struct br_options *o, struct br_error *err)
@@ -349,10 +142,8 @@ static enum br_status run(const struct br_options *o, struct br_error *err)
     const bool man = br_option_given(o, BR_OPT_MAN), markdown = br_option_given(o, BR_OPT_MARKDOWN);
     if (man + markdown + (o->words > 0) > 1)
         return br_fail(err, BR_BAD_INPUT, "expected one of: a topic, --man, --markdown");
-    if (man)
-        print_man(stdout);
-    else if (markdown)
-        print_markdown(stdout);
+    if (man || markdown)
+        br_write_language(stdout, man ? "man" : "markdown", NULL);
     else if (!o->words)
         print_commands(stdout);
     else if (strcmp(o->word[0], "methods") == 0)

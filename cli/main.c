@@ -91,8 +91,9 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
         return unknown(word, err);
     br_signals_install();
     br_gnuplot_stop_when(br_signals_caught);
-    const enum br_status status = br_remember_command_line(argc, argv, err);
-    return status ? status : run_parsed(command, argc - 1, argv + 1, err);
+    if (br_remember_command_line(argc, argv, err))
+        return err->status;
+    return run_parsed(command, argc - 1, argv + 1, err);
 }
 
 /* A message may repeat what a file says. */
@@ -118,13 +119,11 @@ static void name_the_end(int code, void *self)
 
 static int run_all(int argc, const char **argv)
 {
-    struct br_error err = {0};
-    enum br_status status = join_ranks(&err);
-    if (!status)
-        status = run_command(argc, argv, &err);
-    if (!status)
-        status = check_stdout(&err);
-    status = br_spread_end(status, &err);
+    /* What fails says so here. One that forgets to is a failure all the same: chains of calls
+     * return err->status. */
+    struct br_error err = {BR_IO, "a failure that says nothing: this is a defect of the program"};
+    const bool failed = join_ranks(&err) || run_command(argc, argv, &err) || check_stdout(&err);
+    const enum br_status status = br_spread_end(failed ? err.status : BR_OK, &err);
     if (!br_ranks_first())
         return 0; /* rank 0 tells, and ends with the exit code */
     if (status == BR_INTERRUPTED) {

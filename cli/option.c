@@ -39,11 +39,9 @@ static enum br_status refuse(poptContext context, const struct br_option *row, s
         return br_fail(err, BR_BAD_INPUT, "%s: %s; it is one of 'beamrate %s'", bad,
                        poptStrerror(code), other->name);
     const char *nearest = unknown ? br_nearest(word, names, count) : NULL;
-    if (nearest)
-        return br_fail(err, BR_BAD_INPUT, "%s: %s; did you mean --%s?", bad, poptStrerror(code),
-                       nearest);
-    return br_fail(err, BR_BAD_INPUT, "%s: %s; '--help' lists the options", bad,
-                   poptStrerror(code));
+    return br_fail(err, BR_BAD_INPUT, "%s: %s; %s%s%s", bad, poptStrerror(code),
+                   nearest ? "did you mean --" : "'--help' lists the options",
+                   nearest ? nearest : "", nearest ? "?" : "");
 }
 
 /* ---- times ---- */
@@ -118,15 +116,14 @@ enum br_status br_option_steps(const struct br_options *o, const struct br_scene
                                size_t **steps, size_t *count, struct br_error *err)
 {
     const char *text = o->text[BR_OPT_K];
-    if (br_option_given(o, BR_OPT_STEPS))
-        return br_option_counts(o, BR_OPT_STEPS, steps, count, err);
-    *steps = NULL;
-    *count = 0;
-    if (!text)
-        return BR_OK;
-    if (!(*steps = br_allocate(strlen(text) + 1, sizeof **steps)))
+    const size_t given = o->count[BR_OPT_STEPS], most = given ? given : text ? strlen(text) + 1 : 0;
+    *steps = most ? br_allocate(most, sizeof **steps) : NULL;
+    *count = given;
+    if (most && !*steps)
         return br_no_memory(err, "the time steps");
-    return read_steps(text, scene, *steps, count, err);
+    if (given)
+        memcpy(*steps, o->whole[BR_OPT_STEPS], given * sizeof **steps);
+    return given || !text ? BR_OK : read_steps(text, scene, *steps, count, err);
 }
 
 /* ---- values ---- */
@@ -154,22 +151,19 @@ static enum br_status read_words(struct br_options *o, const struct br_option *r
 static enum br_status read_list(struct br_options *o, const struct br_option *row, const char *text,
                                 struct br_error *err)
 {
-    size_t *whole = NULL, *count = &o->count[row->id];
+    size_t *count = &o->count[row->id];
     char name[64];
     snprintf(name, sizeof name, "--%s", row->name);
-    if (row->kind == BR_TAKES_COUNTS) { /* read as such for its refusal */
-        const enum br_status status = br_read_counts(name, text, &whole, count, err);
-        free(whole);
-        if (status)
-            return status;
-    }
-    enum br_status status = br_read_numbers(name, text, &o->number[row->id], count, err);
-    for (size_t i = 0; i < *count && row->kind == BR_TAKES_NUMBERS && !status; i++)
+    if (row->kind == BR_TAKES_COUNTS)
+        return br_read_counts(name, text, &o->whole[row->id], count, err);
+    if (br_read_numbers(name, text, &o->number[row->id], count, err))
+        return err->status;
+    for (size_t i = 0; i < *count; i++)
         if (!(o->number[row->id][i] > row->range.low && o->number[row->id][i] < row->range.high))
-            status =
-                br_fail(err, BR_BAD_INPUT, "%s: found %g, expected numbers above %g and below %g",
-                        name, o->number[row->id][i], row->range.low, row->range.high);
-    return status;
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: found %g, expected numbers above %g and below %g", name,
+                           o->number[row->id][i], row->range.low, row->range.high);
+    return BR_OK;
 }
 
 static enum br_status read_one(struct br_options *o, const struct br_option *row, const char *text,
@@ -191,14 +185,15 @@ static enum br_status read_one(struct br_options *o, const struct br_option *row
 static enum br_status read_value(struct br_options *o, const struct br_option *row,
                                  struct br_error *err)
 {
-    struct br_error inner = {0};
     const char *text = o->text[row->id];
+    struct br_error inner = {0};
     if (!text || row->kind == BR_TAKES_FLAG)
         return BR_OK;
     if (row->kind == BR_TAKES_COUNTS || row->kind == BR_TAKES_NUMBERS)
         return read_list(o, row, text, err);
-    const enum br_status status = read_one(o, row, text, &inner);
-    return status ? br_fail(err, status, "--%s: %s", row->name, inner.message) : BR_OK;
+    if (!read_one(o, row, text, &inner))
+        return BR_OK;
+    return br_fail(err, inner.status, "--%s: %s", row->name, inner.message);
 }
 
 /* Names and numbers of a method must be some, whatever a scene says. */
@@ -307,6 +302,7 @@ void br_options_clear(struct br_options *o)
     for (size_t i = 0; i < BR_OPTIONS; i++) {
         free((char *)o->given[i]);
         free(o->number[i]);
+        free(o->whole[i]);
     }
     for (size_t i = 0; o->word && i < o->words; i++)
         free(o->word[i]);
@@ -327,18 +323,6 @@ const char *br_option_text(const struct br_options *o, enum br_option_id id)
 double br_option_number(const struct br_options *o, enum br_option_id id, double otherwise)
 {
     return o->count[id] ? o->number[id][0] : otherwise;
-}
-
-enum br_status br_option_counts(const struct br_options *o, enum br_option_id id, size_t **list,
-                                size_t *count, struct br_error *err)
-{
-    *count = o->count[id];
-    *list = *count ? br_allocate(*count, sizeof **list) : NULL;
-    if (*count && !*list)
-        return br_no_memory(err, "a list");
-    for (size_t i = 0; i < *count; i++)
-        (*list)[i] = (size_t)o->number[id][i];
-    return BR_OK;
 }
 
 bool br_format_wanted(const struct br_options *o, const char *name)

@@ -123,6 +123,7 @@ struct br_options {
     const char *given[BR_OPTIONS]; /* as given, owned; NULL: not given */
     const char *text[BR_OPTIONS];  /* that, or the default; NULL: there is none */
     double *number[BR_OPTIONS];    /* count of them, owned: numbers, or rows of the registry */
+    size_t *whole[BR_OPTIONS];     /* count of them, owned: BR_TAKES_COUNTS */
     size_t count[BR_OPTIONS];
     char **word; /* words, owned: those that are no options */
     size_t words;
@@ -142,11 +143,6 @@ const char *br_option_text(const struct br_options *o, enum br_option_id id);
 
 /* The number, or the row; `otherwise` where there is none. */
 double br_option_number(const struct br_options *o, enum br_option_id id, double otherwise);
-
-/* Whole numbers as such: *list (out, *count values) is owned by the caller, NULL without any. Fails
- * with BR_NO_MEMORY. */
-enum br_status br_option_counts(const struct br_options *o, enum br_option_id id, size_t **list,
-                                size_t *count, struct br_error *err);
 
 /* Whether a format is to be written: --format names it, or is not given. */
 bool br_format_wanted(const struct br_options *o, const char *name);

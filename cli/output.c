@@ -5,11 +5,12 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/provenance.h"
 #include "cli/signals.h"
-#include "cli/staging.h"
 #include "study/scene/quote.h"
 #include "tables/json_value.h"
 
@@ -20,6 +21,147 @@ static bool is_there(int folder, const char *name)
 {
     struct stat info;
     return fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) == 0;
+}
+
+static enum br_status fail_with_errno(const char *name, struct br_error *err)
+{
+    return br_fail(err, BR_IO, "%s: %s", name, strerror(errno));
+}
+
+/* ---- the hidden folder: who writes in it has locked it, and is its owner ---- */
+
+static const char owner_name[] = ".owner";
+
+/* Programs that are started do not inherit it. */
+static int open_folder(int parent, const char *name)
+{
+    return openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+}
+
+static bool is_still(int parent, const char *name, int folder)
+{
+    struct stat there, ours;
+    return fstatat(parent, name, &there, AT_SYMLINK_NOFOLLOW) == 0 && fstat(folder, &ours) == 0 &&
+           there.st_dev == ours.st_dev && there.st_ino == ours.st_ino;
+}
+
+/* errno is kept. */
+static void close_again(int folder)
+{
+    const int reason = errno;
+    close(folder);
+    errno = reason;
+}
+
+static bool write_owner(int folder)
+{
+    const int file = openat(folder, owner_name, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0)
+        return false;
+    char host[256] = "";
+    gethostname(host, sizeof host - 1);
+    const bool written =
+        dprintf(file, "process %ld on %s: %.700s", (long)getpid(), host, br_command_line()) > 0;
+    close_again(file);
+    return written;
+}
+
+static enum br_status refuse(int parent, const char *name, struct br_error *err)
+{
+    char owner[800] = "another program or user";
+    const int folder = open_folder(parent, name);
+    const int file = folder >= 0 ? openat(folder, owner_name, O_RDONLY | O_CLOEXEC) : -1;
+    const ssize_t got = file >= 0 ? read(file, owner, sizeof owner - 1) : 0;
+    owner[got > 0 ? got : (ssize_t)strlen(owner)] = '\0';
+    if (file >= 0)
+        close(file);
+    if (folder >= 0)
+        close(folder);
+    return br_fail(err, BR_BAD_INPUT,
+                   "the folder is in use by %s; wait for its end, choose another folder, or, if "
+                   "that program has ended, remove %s there",
+                   owner, name);
+}
+
+/* Makes and locks a hidden folder in an open one. BR_OK with folder (out): its descriptor; -1: it
+ * is there, and nobody uses it. Fails with BR_BAD_INPUT where it cannot be made, or where another
+ * program uses it, which the message names. Between making and locking it somebody may take it for
+ * one that was left behind. */
+static enum br_status make_hidden(int parent, const char *name, int *folder, struct br_error *err)
+{
+    const bool made = mkdirat(parent, name, 0700) == 0;
+    if (!made && errno != EEXIST)
+        return br_fail(err, BR_BAD_INPUT, "cannot write in the folder: %s", strerror(errno));
+    *folder = open_folder(parent, name);
+    const bool locked = *folder >= 0 && flock(*folder, LOCK_EX | LOCK_NB) == 0;
+    const bool taken = !locked && errno == EWOULDBLOCK;
+    if (*folder >= 0 && made && !taken && is_still(parent, name, *folder) && write_owner(*folder))
+        return BR_OK;
+    if (*folder >= 0)
+        close_again(*folder);
+    const bool gone = *folder < 0 && errno == ENOENT;
+    *folder = -1;
+    if (made && !taken && errno && errno != ENOENT)
+        return br_fail(err, BR_BAD_INPUT, "cannot write in the folder: %s", strerror(errno));
+    return locked || gone ? BR_OK : refuse(parent, name, err);
+}
+
+/* The descriptor of a hidden folder that this user's program left behind, which is then locked; -1:
+ * it is in use, or no such folder. */
+static int take_hidden(int parent, const char *name)
+{
+    struct stat info;
+    const int folder = open_folder(parent, name);
+    if (folder < 0)
+        return -1;
+    if (flock(folder, LOCK_EX | LOCK_NB) == 0 && is_still(parent, name, folder) &&
+        fstat(folder, &info) == 0 && info.st_uid == geteuid()) {
+        if (faccessat(folder, owner_name, F_OK, 0) == 0)
+            return folder;
+        unlinkat(parent, name, AT_REMOVEDIR); /* where it is empty: ended before it was signed */
+    }
+    close(folder);
+    return -1;
+}
+
+/* All files but the owner's. False: some are still there. */
+static bool empty(int folder)
+{
+    const int copy = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *list = copy >= 0 ? fdopendir(copy) : NULL;
+    if (!list && copy >= 0)
+        close(copy);
+    bool all = list;
+    for (struct dirent *entry; list && (entry = readdir(list));) {
+        const char *name = entry->d_name;
+        if (strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && strcmp(name, owner_name) != 0)
+            all = unlinkat(folder, name, 0) == 0 && all;
+    }
+    if (list)
+        closedir(list);
+    return all;
+}
+
+/* Removes a locked one with its files, and closes it. The owner goes last: what has one is ours,
+ * and the next program removes the rest. */
+static void remove_hidden(int parent, const char *name, int folder)
+{
+    if (empty(folder) && unlinkat(folder, owner_name, 0) == 0)
+        unlinkat(parent, name, AT_REMOVEDIR);
+    close(folder);
+}
+
+/* One that nobody is writing. */
+static void remove_hidden_file(int parent, const char *name)
+{
+    struct stat info;
+    const int file = openat(parent, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0)
+        return;
+    if (flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &info) == 0 && S_ISREG(info.st_mode) &&
+        info.st_uid == geteuid())
+        unlinkat(parent, name, 0);
+    close(file);
 }
 
 /* ---- putting in place: each step may have been done before ---- */
@@ -33,57 +175,61 @@ static enum br_status place(int parent, int folder, const char *name, bool liste
     int failed = renameat2(folder, name, parent, name, listed ? 0 : RENAME_NOREPLACE);
     if (failed && !listed && errno == EINVAL && !is_there(parent, name))
         failed = renameat(folder, name, parent, name); /* a file system without that flag */
-    return failed ? br_fail(err, BR_IO, "%s: %s", name, strerror(errno)) : BR_OK;
+    return failed ? fail_with_errno(name, err) : BR_OK;
 }
 
 /* What has been changed since is a person's own. */
-static enum br_status remove_stale(int parent, const struct br_manifest_file *f,
-                                   struct br_error *err)
+static enum br_status remove_stale(int parent, const json_t *file, struct br_error *err)
 {
     bool same;
-    const enum br_status status = br_manifest_compare(parent, f, &same, err);
-    if (status)
-        return status;
-    if (!same) {
-        fputs("beamrate: ", stderr);
-        br_quote(stderr, &br_for_text, f->name);
-        fputs(" is of an earlier run and was changed since: it stays\n", stderr);
-    }
-    return !same || unlinkat(parent, f->name, 0) == 0
-               ? BR_OK
-               : br_fail(err, BR_IO, "%s: %s", f->name, strerror(errno));
+    const char *name = br_listed_name(file);
+    if (br_listed_compare(parent, file, &same, err))
+        return err->status;
+    if (same)
+        return unlinkat(parent, name, 0) == 0 ? BR_OK : fail_with_errno(name, err);
+    fputs("beamrate: ", stderr);
+    br_quote(stderr, &br_for_text, name);
+    fputs(" is of an earlier run and was changed since: it stays\n", stderr);
+    return BR_OK;
 }
 
-static enum br_status move_all(int parent, int folder, const char *name, struct br_error *err)
+static enum br_status move_files(int parent, int folder, const json_t *old, const json_t *sets,
+                                 struct br_error *err)
 {
-    struct br_manifest old = {.sets = NULL}, set = {.sets = NULL};
-    enum br_status status = br_manifest_read(folder, decided, &set, err);
-    if (!status)
-        status = br_manifest_read(folder, replaced, &old, err);
-    for (size_t i = 0; i < set.count && !status; i++) {
-        const char *file = set.file[i].name;
-        if (br_manifest_newest(&set, &set.file[i]))
-            status = place(parent, folder, file, br_manifest_find(&old, file), err);
+    const json_t *files = br_sets_newest(sets);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < json_array_size(files) && !status; i++) {
+        const char *name = br_listed_name(json_array_get(files, i));
+        status = place(parent, folder, name, br_sets_find(old, name), err);
     }
-    for (size_t i = 0; i < old.count && !status; i++)
-        if (!br_manifest_find(&set, old.file[i].name) && is_there(parent, old.file[i].name))
-            status = remove_stale(parent, &old.file[i], err);
-    if (!status && renameat(folder, decided, parent, name) != 0)
-        status = br_fail(err, BR_IO, "%s: %s", name, strerror(errno));
-    if (!status && fsync(parent) != 0 && errno != EINVAL)
-        status = br_fail(err, BR_IO, "%s: %s", name, strerror(errno));
-    br_manifest_clear(&old);
-    br_manifest_clear(&set);
+    for (size_t s = 0; s < json_array_size(old); s++) {
+        files = json_object_get(json_array_get(old, s), "files");
+        for (size_t i = 0; i < json_array_size(files) && !status; i++) {
+            const json_t *file = json_array_get(files, i);
+            const char *name = br_listed_name(file);
+            if (!br_sets_find(sets, name) && is_there(parent, name))
+                status = remove_stale(parent, file, err);
+        }
+    }
     return status;
 }
 
 /* name: of the manifest in the open folder `parent`. */
 static enum br_status finish(int parent, int folder, const char *name, struct br_error *err)
 {
+    json_t *old = NULL, *sets = NULL;
     if (!is_there(folder, replaced) && renameat(parent, name, folder, replaced) != 0 &&
         errno != ENOENT)
-        return br_fail(err, BR_IO, "%s: %s", name, strerror(errno));
-    return move_all(parent, folder, name, err);
+        return fail_with_errno(name, err);
+    bool failed = br_sets_read(folder, decided, &sets, err) ||
+                  br_sets_read(folder, replaced, &old, err) ||
+                  move_files(parent, folder, old, sets, err);
+    if (!failed &&
+        (renameat(folder, decided, parent, name) != 0 || (fsync(parent) != 0 && errno != EINVAL)))
+        failed = fail_with_errno(name, err);
+    json_decref(old);
+    json_decref(sets);
+    return failed ? err->status : BR_OK;
 }
 
 /* ---- what others left behind ---- */
@@ -91,16 +237,16 @@ static enum br_status finish(int parent, int folder, const char *name, struct br
 /* The manifest's name by that of the hidden folder: .beamrate or .beamrate-STEM. */
 static void name_manifest(const char *hidden, char name[280])
 {
-    const char *stem = hidden + strlen(BR_STAGING_PREFIX);
+    const char *stem = hidden + strlen(BR_HIDDEN);
     snprintf(name, 280, "%.250s%smanifest.json", *stem ? stem + 1 : "", *stem ? "." : "");
 }
 
 static enum br_status sweep_one(int parent, const char *hidden, struct br_error *err)
 {
     char name[280];
-    const int folder = br_staging_take(parent, hidden);
+    const int folder = take_hidden(parent, hidden);
     if (folder < 0) {
-        br_staging_remove_file(parent, hidden);
+        remove_hidden_file(parent, hidden);
         return BR_OK;
     }
     struct br_error inner = {0};
@@ -111,15 +257,14 @@ static enum br_status sweep_one(int parent, const char *hidden, struct br_error 
                        "the results in %s, which an earlier run left, cannot be put in place: %s",
                        hidden, inner.message);
     }
-    br_staging_remove(parent, hidden, folder);
+    remove_hidden(parent, hidden, folder);
     return BR_OK;
 }
 
 static bool is_hidden(const char *name)
 {
-    const size_t length = strlen(BR_STAGING_PREFIX);
-    return strncmp(name, BR_STAGING_PREFIX, length) == 0 &&
-           (name[length] == '\0' || name[length] == '-');
+    const size_t length = strlen(BR_HIDDEN);
+    return strncmp(name, BR_HIDDEN, length) == 0 && (name[length] == '\0' || name[length] == '-');
 }
 
 enum br_status br_output_sweep(int folder, struct br_error *err)
@@ -161,7 +306,7 @@ static enum br_status make_staging(struct br_output *o, struct br_error *err)
     for (int i = 0; i < TRIALS && !status && o->descriptor < 0; i++) {
         status = br_output_sweep(o->parent, err);
         if (!status)
-            status = br_staging_make(o->parent, o->hidden, &o->descriptor, err);
+            status = make_hidden(o->parent, o->hidden, &o->descriptor, err);
     }
     if (!status && o->descriptor < 0)
         return br_fail(err, BR_BAD_INPUT, "%s is in the way", o->hidden);
@@ -170,9 +315,9 @@ static enum br_status make_staging(struct br_output *o, struct br_error *err)
 
 static enum br_status check_manifest(const struct br_output *o, struct br_error *err)
 {
-    struct br_manifest old = {.sets = NULL};
-    const enum br_status status = br_manifest_read(o->parent, o->manifest, &old, err);
-    br_manifest_clear(&old);
+    json_t *old;
+    const enum br_status status = br_sets_read(o->parent, o->manifest, &old, err);
+    json_decref(old);
     return status;
 }
 
@@ -184,7 +329,7 @@ enum br_status br_output_open(struct br_output *o, const char *folder, struct br
     if (*folder == '\0' || strlen(folder) >= sizeof o->folder)
         return br_fail(err, BR_BAD_INPUT, "--out: found '%s', expected a folder's name", folder);
     strcpy(o->folder, folder);
-    snprintf(o->hidden, sizeof o->hidden, "%s%s%.250s", BR_STAGING_PREFIX, o->stem ? "-" : "",
+    snprintf(o->hidden, sizeof o->hidden, "%s%s%.250s", BR_HIDDEN, o->stem ? "-" : "",
              o->stem ? o->stem : "");
     name_manifest(o->hidden, o->manifest);
     if (!make_folders(folder, &o->made) ||
@@ -192,15 +337,10 @@ enum br_status br_output_open(struct br_output *o, const char *folder, struct br
         return br_fail(err, BR_BAD_INPUT, "--out: cannot make the folder %s: %s", folder,
                        strerror(errno));
     snprintf(o->staging, sizeof o->staging, "%s/%s", folder, o->hidden);
-    enum br_status status = br_run_id_make(o->run, &inner);
-    if (!status)
-        status = make_staging(o, &inner);
-    if (!status)
-        status = check_manifest(o, &inner);
-    if (!status)
+    if (!br_run_id_make(o->run, &inner) && !make_staging(o, &inner) && !check_manifest(o, &inner))
         return BR_OK;
     br_output_discard(o);
-    return br_fail(err, status, "--out: %s: %.900s", folder, inner.message);
+    return br_fail(err, inner.status, "--out: %s: %.900s", folder, inner.message);
 }
 
 enum br_status br_output_file(const struct br_output *o, const char *name, FILE **file,
@@ -230,15 +370,16 @@ enum br_status br_output_close(FILE *file, const char *name, struct br_error *er
 
 /* The first file of the set in whose place there is something that no earlier run wrote; a folder
  * is nobody's. NULL: there is none. */
-static const char *find_foreign(const struct br_output *o, const struct br_manifest *set,
-                                const struct br_manifest *old)
+static const char *find_foreign(const struct br_output *o, const json_t *sets, const json_t *old)
 {
     struct stat info;
-    for (size_t i = 0; i < set->count; i++)
-        if (br_manifest_newest(set, &set->file[i]) &&
-            fstatat(o->parent, set->file[i].name, &info, AT_SYMLINK_NOFOLLOW) == 0 &&
-            (S_ISDIR(info.st_mode) || !br_manifest_find(old, set->file[i].name)))
-            return set->file[i].name;
+    const json_t *files = br_sets_newest(sets);
+    for (size_t i = 0; i < json_array_size(files); i++) {
+        const char *name = br_listed_name(json_array_get(files, i));
+        if (fstatat(o->parent, name, &info, AT_SYMLINK_NOFOLLOW) == 0 &&
+            (S_ISDIR(info.st_mode) || !br_sets_find(old, name)))
+            return name;
+    }
     return NULL;
 }
 
@@ -251,19 +392,19 @@ static void close_output(struct br_output *o)
 }
 
 /* Nothing that was computed is lost: the hidden folder becomes one beside what is in the way. */
-static enum br_status divert(struct br_output *o, const struct br_manifest *set,
-                             const char *foreign, struct br_error *err)
+static enum br_status divert(struct br_output *o, json_t *sets, const char *foreign,
+                             struct br_error *err)
 {
     char name[64];
     const mode_t mask = umask(0);
     umask(mask);
     snprintf(name, sizeof name, "set-%s", o->run);
-    const enum br_status status = br_manifest_write(o->descriptor, "manifest.json", set, err);
+    const enum br_status status = br_sets_write(o->descriptor, "manifest.json", sets, err);
     if (status)
         return status;
     if (unlinkat(o->descriptor, ".owner", 0) != 0 || fchmod(o->descriptor, 0777 & ~mask) != 0 ||
         renameat(o->parent, o->hidden, o->parent, name) != 0)
-        return br_fail(err, BR_IO, "%s: %s", name, strerror(errno));
+        return fail_with_errno(name, err);
     br_fail(err, BR_IO,
             "%s/%s was not written by an earlier run and is not replaced: all results are in "
             "%s/%s instead",
@@ -283,7 +424,7 @@ static enum br_status put_in_place(struct br_output *o, struct br_error *err)
                 "them in place first",
                 o->folder, inner.message, o->staging);
     else {
-        br_staging_remove(o->parent, o->hidden, o->descriptor);
+        remove_hidden(o->parent, o->hidden, o->descriptor);
         o->descriptor = -1;
     }
     close_output(o);
@@ -292,23 +433,23 @@ static enum br_status put_in_place(struct br_output *o, struct br_error *err)
 
 enum br_status br_output_commit(struct br_output *o, struct br_error *err)
 {
-    struct br_manifest set = {.sets = NULL}, old = {.sets = NULL};
-    enum br_status status = br_manifest_read(o->parent, o->manifest, &old, err);
+    json_t *sets = NULL, *old = NULL;
+    enum br_status status = br_sets_read(o->parent, o->manifest, &old, err);
     if (!status)
-        status = br_manifest_list(o->descriptor, o->run, &old, &set, err);
-    const char *foreign = status ? NULL : find_foreign(o, &set, &old);
+        status = br_sets_add(o->descriptor, o->run, old, &sets, err);
+    const char *foreign = status ? NULL : find_foreign(o, sets, old);
     if (!status && br_json_lacked_memory())
         status = br_no_memory(err, "a JSON document");
     if (!status && br_signals_caught())
         status = br_fail(err, BR_INTERRUPTED, "interrupted");
     if (foreign && !status)
-        status = divert(o, &set, foreign, err);
+        status = divert(o, sets, foreign, err);
     else if (!status)
-        status = br_manifest_write(o->descriptor, decided, &set, err);
+        status = br_sets_write(o->descriptor, decided, sets, err);
     if (!status)
         status = put_in_place(o, err);
-    br_manifest_clear(&set);
-    br_manifest_clear(&old);
+    json_decref(sets);
+    json_decref(old);
     return status;
 }
 
@@ -326,7 +467,7 @@ void br_output_discard(struct br_output *o)
     if (o->descriptor >= 0) {
         unlinkat(o->descriptor, decided, 0); /* where it cannot go, its files must stay */
         if (!is_there(o->descriptor, decided)) {
-            br_staging_remove(o->parent, o->hidden, o->descriptor);
+            remove_hidden(o->parent, o->hidden, o->descriptor);
             o->descriptor = -1;
         }
     }

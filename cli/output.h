@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A set of results in a folder, put in place whole or not at all.
+/* Results, put in place whole or not at all: a set of files in a folder, or one file.
  *
  * Files are written in a hidden folder, .beamrate, which is locked: a second program that would
  * write there is refused. To commit is to put a manifest (cli/manifest.h) into the hidden folder by
@@ -22,6 +22,13 @@
 
 #include "cli/manifest.h"
 
+/* What the names of all hidden folders and files begin with. Who writes in a hidden folder has
+ * locked it; the lock ends with its program, however that ends. */
+#define BR_HIDDEN ".beamrate"
+
+/* The page that every run writes: it is that of the run that was last, and of no other set. */
+#define BR_PAGE "report.html"
+
 /* Begins as zeros, or with a stem. */
 struct br_output {
     const char *stem;       /* of the set's files, where a folder has several sets; borrowed;
@@ -40,6 +47,11 @@ struct br_output {
  * the manifest is taken, so call it before a long computation; with BR_IO where what was left
  * behind cannot be finished. */
 enum br_status br_output_open(struct br_output *output, const char *folder, struct br_error *err);
+
+static inline bool br_output_is_open(const struct br_output *output)
+{
+    return output->staging[0];
+}
 
 /* Opens a file in the hidden folder for writing. Its name must not begin with a dot. */
 enum br_status br_output_file(const struct br_output *output, const char *name, FILE **file,
@@ -63,5 +75,37 @@ void br_output_discard(struct br_output *output);
 /* Removes or finishes what others left behind in an open folder. Fails with BR_IO, BR_BAD_INPUT or
  * BR_NO_MEMORY where it cannot be finished. */
 enum br_status br_output_sweep(int folder, struct br_error *err);
+
+/* ---- one file ---- */
+
+/* A file that is written whole or not at all: in memory, then to the disk under a hidden name
+ * beside its place, then renamed into it. Begins as zeros. */
+struct br_whole_file {
+    const char *path; /* as given; borrowed; NULL: not wanted, and all calls do nothing */
+    char *place;      /* where that is, symbolic links followed; owned; NULL: standard output */
+    bool renamed;     /* else it is no plain file, and written in place */
+    FILE *file;       /* to be written */
+    char *text;       /* size bytes: what was written; owned */
+    size_t size;
+};
+
+/* Opens a file for writing; "-", or whatever else standard output is, is standard output. Fails
+ * with BR_BAD_INPUT, naming the option, where it cannot be written, so call it before a long
+ * computation; with BR_NO_MEMORY. Discard it even then. */
+enum br_status br_whole_file_open(struct br_whole_file *whole, const char *option, const char *path,
+                                  struct br_error *err);
+
+/* Whether two open ones would end in the same place; whether one would replace a given file. */
+bool br_whole_file_same(const struct br_whole_file *a, const struct br_whole_file *b);
+bool br_whole_file_replaces(const struct br_whole_file *w, const char *path);
+
+/* Whether it is that folder, which need not be there yet, or would stand in it. */
+bool br_whole_file_is_in(const struct br_whole_file *file, const char *folder);
+
+/* Puts what was written in its place. Fails with BR_IO or BR_NO_MEMORY; discard it all the same. */
+enum br_status br_whole_file_commit(struct br_whole_file *whole, struct br_error *err);
+
+/* Releases it; what has not been put in its place is lost. */
+void br_whole_file_discard(struct br_whole_file *whole);
 
 #endif

@@ -95,3 +95,8 @@ void br_progress_end(void)
     if (progress.terminal && !progress.quiet)
         fprintf(stderr, "\r\033[K");
 }
+
+enum br_status br_progress_result(enum br_status status, struct br_error *err)
+{
+    return !status && br_signals_caught() ? br_fail(err, BR_INTERRUPTED, "interrupted") : status;
+}

@@ -14,4 +14,7 @@ const struct br_observer *br_progress_start(const char *what, bool quiet);
 /* Clears the bar. */
 void br_progress_end(void);
 
+/* The status of work that has ended; BR_INTERRUPTED where that is BR_OK and a signal has come. */
+enum br_status br_progress_result(enum br_status status, struct br_error *err);
+
 #endif

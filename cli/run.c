@@ -6,26 +6,23 @@
 #include "cli/command.h"
 #include "cli/pictures.h"
 #include "cli/progress.h"
-#include "cli/provenance.h"
-#include "cli/run_files.h"
-#include "cli/run_plan.h"
+#include "cli/run.h"
+#include "cli/session.h"
 #include "cli/warn.h"
-#include "cli/whole_file.h"
 #include "solver/clock.h"
 #include "study/ranks/ranks.h"
-#include "study/scene/file.h"
 
 struct run {
-    const struct br_options *options;
+    struct br_session session;
+    const char *out, *json, *animate; /* files and folders of the options; NULL: not given */
     struct br_run_plan plan;
-    char path[1024];                /* of the scene */
-    char *text;                     /* of the scene's file */
-    struct br_scene scene, marched; /* the latter borrows from the former */
+    struct br_opened_scene opened;
+    struct br_scene marched; /* borrows from that */
     struct br_prediction prediction;
     struct br_warnings warnings;
     struct br_run_report report;
     struct br_provenance provenance;
-    struct br_whole_file json;
+    struct br_whole_file summary; /* of --json */
     struct br_run_files files;
     struct br_pictures pictures;
 };
@@ -43,48 +40,36 @@ static bool same_stem(const char *a, const char *b)
 /* One output must not replace another, or a scene. */
 static enum br_status check_places(const struct run *r, struct br_error *err)
 {
-    const char *out = br_option_text(r->options, BR_OPT_OUT),
-               *json = br_option_text(r->options, BR_OPT_JSON),
-               *animate = br_option_text(r->options, BR_OPT_ANIMATE);
-    if (br_whole_file_replaces(&r->json, r->path))
-        return br_fail(err, BR_BAD_INPUT, "--json would replace the scene %s", r->json.path);
-    if (out && br_whole_file_is_in(&r->json, out))
+    const char *slash = r->animate ? strrchr(r->animate, '/') : NULL;
+    char folder[1024] = ".";
+    if (br_whole_file_replaces(&r->summary, r->opened.path))
+        return br_fail(err, BR_BAD_INPUT, "--json would replace the scene %s", r->summary.path);
+    if (r->out && br_whole_file_is_in(&r->summary, r->out))
         return br_fail(err, BR_BAD_INPUT,
                        "--json: found '%s', expected a place outside of the folder of --out, which "
                        "has a summary.json of its own",
-                       json);
-    const char *slash = animate ? strrchr(animate, '/') : NULL;
-    char folder[1024] = ".";
+                       r->json);
     if (slash)
-        snprintf(folder, sizeof folder, "%.*s", (int)(slash - animate + 1), animate);
-    if (animate && (br_whole_file_is_in(&r->json, animate) ||
-                    (br_whole_file_is_in(&r->json, folder) && same_stem(json, animate))))
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash - r->animate + 1), r->animate);
+    if (r->animate &&
+        (br_whole_file_is_in(&r->summary, r->animate) ||
+         (br_whole_file_is_in(&r->summary, folder) && same_stem(r->json, r->animate))))
         return br_fail(err, BR_BAD_INPUT,
                        "--json: found '%s', which --animate %s writes too, expected another name",
-                       json, animate);
+                       r->json, r->animate);
     return BR_OK;
 }
 
 static enum br_status open_files(struct run *r, struct br_error *err)
 {
-    br_provenance_fill(&r->provenance, 1);
-    r->provenance.scene_path = r->path;
-    r->provenance.scene_text = r->text;
-    enum br_status status =
-        br_whole_file_open(&r->json, "json", br_option_text(r->options, BR_OPT_JSON), err);
-    if (!status)
-        status = check_places(r, err);
+    r->provenance = br_provenance_of(&r->opened, 1);
     const struct br_pictures_request pictures = {
-        .animate = br_option_text(r->options, BR_OPT_ANIMATE),
-        .plot = br_option_given(r->options, BR_OPT_PLOT),
-        .scene = &r->scene,
+        .animate = r->animate,
+        .plot = br_option_given(r->session.options, BR_OPT_PLOT),
+        .scene = &r->opened.scene,
         .n = r->plan.n,
         .steps = r->plan.steps,
     };
-    if (!status)
-        status = br_pictures_open(&r->pictures, &pictures, err);
-    if (status || !br_option_given(r->options, BR_OPT_OUT))
-        return status;
     const struct br_fields_request fields = {
         .scene = &r->marched,
         .n = r->plan.n,
@@ -93,12 +78,23 @@ static enum br_status open_files(struct run *r, struct br_error *err)
         .axial_degree = r->plan.method.axial_degree,
         .provenance = &r->provenance,
     };
-    return br_run_files_open(&r->files, br_option_text(r->options, BR_OPT_OUT), &fields, err);
+    const bool failed = br_whole_file_open(&r->summary, "json", r->json, err) ||
+                        check_places(r, err) || br_pictures_open(&r->pictures, &pictures, err) ||
+                        (r->out && br_run_files_open(&r->files, r->out, &fields, err));
+    return failed ? err->status : BR_OK;
 }
 
-/* What is to be expected of the march, before anything of it is there. */
-static enum br_status look_ahead(struct run *r, struct br_error *err)
+/* What is to be marched, and what is to be expected of it, before anything of it is there. */
+static enum br_status prepare(struct run *r, struct br_error *err)
 {
+    struct br_scene *scene = &r->opened.scene;
+    const struct br_options *o = r->session.options;
+    if (br_opened_scene_read(&r->opened, o->word[0], err) ||
+        br_run_plan_make(o, scene, &r->plan, err) ||
+        br_model_select(scene, r->plan.wanted, &r->marched, err))
+        return err->status;
+    if (r->plan.method.axial_degree != 1 && !r->marched.axial.modelled)
+        return br_fail(err, BR_BAD_INPUT, "--axial-degree: no axial field is marched");
     const struct br_outlook outlook = {
         .scene = &r->marched,
         .method = &r->plan.method,
@@ -106,19 +102,23 @@ static enum br_status look_ahead(struct run *r, struct br_error *err)
         .steps = r->plan.steps,
         .prediction = &r->prediction,
     };
-    return br_look_ahead(&outlook, &r->warnings, err);
+    if (br_look_ahead(&outlook, &r->warnings, err) || open_files(r, err))
+        return err->status;
+    br_print_warnings("", &r->warnings);
+    return BR_OK;
 }
 
 static enum br_status march(struct run *r, struct br_error *err)
 {
+    const struct br_options *o = r->session.options;
     struct br_history_observer output[2];
     size_t outputs = 0;
-    if (br_option_given(r->options, BR_OPT_OUT))
+    if (r->out)
         output[outputs++] = br_run_files_observer(&r->files);
-    if (br_option_given(r->options, BR_OPT_ANIMATE) || br_option_given(r->options, BR_OPT_PLOT))
+    if (r->animate || br_option_given(o, BR_OPT_PLOT))
         output[outputs++] = br_pictures_observer(&r->pictures);
     const struct br_run_request request = {
-        .scene = &r->scene,
+        .scene = &r->opened.scene,
         .wanted = r->plan.wanted,
         .method = r->plan.method,
         .n = r->plan.n,
@@ -126,33 +126,25 @@ static enum br_status march(struct run *r, struct br_error *err)
         .stride = r->plan.stride,
         .level = r->plan.level,
         .levels = r->plan.levels,
-        .check = br_option_given(r->options, BR_OPT_CHECK),
-        .energies = br_option_given(r->options, BR_OPT_ENERGIES),
-        .explain = br_option_given(r->options, BR_OPT_EXPLAIN),
+        .check = br_option_given(o, BR_OPT_CHECK),
+        .energies = br_option_given(o, BR_OPT_ENERGIES),
+        .explain = br_option_given(o, BR_OPT_EXPLAIN),
         .output = output,
         .outputs = outputs,
-        .progress = br_progress_start("marching", br_option_given(r->options, BR_OPT_QUIET)),
+        .progress = br_progress_start("marching", r->session.quiet),
     };
     const enum br_status status = br_run(&request, &r->report, err);
     br_progress_end();
     return status;
 }
 
-static enum br_status write_report(struct run *r, const struct br_document *d, struct br_error *err)
+/* A summary on standard output stands there alone. */
+static enum br_status write_all(struct run *r, double start, struct br_error *err)
 {
     const struct br_error *failure = &r->report.failure;
-    enum br_status status = BR_OK;
-    if (br_option_given(r->options, BR_OPT_OUT))
-        status = br_run_files_commit(&r->files, d, failure->status ? failure->message : NULL, err);
-    if (!status && r->json.file)
-        status = br_document_print(r->json.file, &br_document_json, d, NULL, err);
-    if (!status && !br_option_given(r->options, BR_OPT_QUIET) && r->json.file != stdout)
-        status = br_document_show(stdout, d, err);
-    return status;
-}
-
-static enum br_status write_results(struct run *r, double start, struct br_error *err)
-{
+    const char *stopped = failure->status ? failure->message : NULL;
+    FILE *summary = r->summary.file, *terminal = summary == stdout ? NULL : stdout;
+    struct br_document d = {0};
     const struct br_run_findings findings = {
         .report = &r->report,
         .prediction = &r->prediction,
@@ -160,14 +152,14 @@ static enum br_status write_results(struct run *r, double start, struct br_error
         .provenance = &r->provenance,
         .wall_seconds = br_seconds() - start,
     };
-    struct br_document d = {0};
     br_report_run(&findings, &d);
-    enum br_status status = write_report(r, &d, err);
+    const bool failed = (r->out && br_run_files_commit(&r->files, &d, stopped, err)) ||
+                        (summary && br_document_print(summary, &br_document_json, &d, NULL, err)) ||
+                        (terminal && !r->session.quiet && br_document_show(terminal, &d, err)) ||
+                        br_whole_file_commit(&r->summary, err) ||
+                        br_pictures_finish(&r->pictures, terminal, err);
     br_document_clear(&d);
-    FILE *letters = r->json.file == stdout ? NULL : stdout;
-    if (!status)
-        status = br_whole_file_commit(&r->json, err);
-    return status ? status : br_pictures_finish(&r->pictures, letters, err);
+    return failed ? err->status : BR_OK;
 }
 
 /* Results are kept also where the march stopped, or a step is beyond its certificate's limits. */
@@ -182,49 +174,24 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status run_scene(struct run *r, struct br_error *err)
-{
-    const double start = br_seconds();
-    enum br_status status =
-        br_scene_open(r->options->word[0], r->path, sizeof r->path, &r->text, &r->scene, err);
-    if (!status)
-        status = br_run_plan_make(r->options, &r->scene, &r->plan, err);
-    if (!status)
-        status = br_model_select(&r->scene, r->plan.wanted, &r->marched, err);
-    if (!status && r->plan.method.axial_degree != 1 && !r->marched.axial.modelled)
-        status = br_fail(err, BR_BAD_INPUT, "--axial-degree: no axial field is marched");
-    if (!status)
-        status = look_ahead(r, err);
-    if (!status)
-        status = open_files(r, err);
-    if (!status)
-        br_print_warnings(&r->warnings);
-    if (!status)
-        status = march(r, err);
-    if (!status)
-        status = write_results(r, start, err);
-    return status ? status : conclude(r, err);
-}
-
-static void clear(struct run *r)
-{
-    br_run_files_discard(&r->files);
-    br_pictures_discard(&r->pictures);
-    br_whole_file_discard(&r->json);
-    br_run_plan_clear(&r->plan);
-    br_scene_clear(&r->scene);
-    free(r->text);
-}
-
 static enum br_status run(const struct br_options *options, struct br_error *err)
 {
     static struct run r;
+    const double start = br_seconds();
     if (!br_ranks_first())
         return BR_OK; /* one march is the work of one rank */
-    r.options = options;
-    const enum br_status status = run_scene(&r, err);
-    clear(&r);
-    return status;
+    r = (struct run){.session = br_session_begin(options),
+                     .out = br_option_text(options, BR_OPT_OUT),
+                     .json = br_option_text(options, BR_OPT_JSON),
+                     .animate = br_option_text(options, BR_OPT_ANIMATE)};
+    const bool failed =
+        prepare(&r, err) || march(&r, err) || write_all(&r, start, err) || conclude(&r, err);
+    br_run_files_discard(&r.files);
+    br_pictures_discard(&r.pictures);
+    br_whole_file_discard(&r.summary);
+    br_run_plan_clear(&r.plan);
+    br_opened_scene_clear(&r.opened);
+    return failed ? err->status : BR_OK;
 }
 
 const struct br_command br_command_run = {

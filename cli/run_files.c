@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/run_files.h"
+#include "cli/run.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,15 +9,13 @@
 enum br_status br_run_files_open(struct br_run_files *f, const char *folder,
                                  const struct br_fields_request *request, struct br_error *err)
 {
-    enum br_status status = br_output_open(&f->output, folder, err);
-    if (!status)
-        status = br_output_file(&f->output, "history.csv", &f->history, err);
-    if (status)
-        return status;
+    struct br_fields_request fields = *request;
+    if (br_output_open(&f->output, folder, err) ||
+        br_output_file(&f->output, "history.csv", &f->history, err))
+        return err->status;
     br_history_csv_head(f->history);
     f->scene = request->scene;
     f->format = br_fields_formats[0];
-    struct br_fields_request fields = *request;
     snprintf(f->path, sizeof f->path, "%s/%s", f->output.staging, f->format->file_name);
     fields.path = f->path;
     return f->format->open(&f->fields, &fields, err);
@@ -73,18 +71,12 @@ static enum br_status close_fields(struct br_run_files *f, const char *stopped,
 enum br_status br_run_files_commit(struct br_run_files *f, const struct br_document *summary,
                                    const char *stopped, struct br_error *err)
 {
-    enum br_status status = close_history(f, stopped, err);
-    if (!status)
-        status = close_fields(f, stopped, err);
-    if (!status)
-        status = br_documents_write_as(&f->output, &br_document_text, summary, err);
-    if (!status)
-        status = br_documents_write_as(&f->output, &br_document_json, summary, err);
-    if (!status)
-        status = br_documents_write_page(&f->output, summary, 1, err);
-    if (!status)
-        status = br_output_commit(&f->output, err);
-    return status;
+    const bool failed = close_history(f, stopped, err) || close_fields(f, stopped, err) ||
+                        br_documents_write_as(&f->output, &br_document_text, summary, err) ||
+                        br_documents_write_as(&f->output, &br_document_json, summary, err) ||
+                        br_documents_write_page(&f->output, summary, 1, err) ||
+                        br_output_commit(&f->output, err);
+    return failed ? err->status : BR_OK;
 }
 
 void br_run_files_discard(struct br_run_files *f)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/run_plan.h"
+#include "cli/run.h"
 
 #include <math.h>
 #include <string.h>
@@ -35,6 +35,12 @@ static enum br_status not_a_time(const char *option, const char *found, const ch
     return br_fail(err, BR_BAD_INPUT, "%s: found '%s', expected %s", option, found, example);
 }
 
+static enum br_status make_room(struct br_run_plan *plan, size_t levels, struct br_error *err)
+{
+    plan->level = br_allocate(levels, sizeof *plan->level);
+    return plan->level ? BR_OK : br_no_memory(err, "the output times");
+}
+
 static int by_level(const void *a, const void *b)
 {
     const size_t x = *(const size_t *)a, y = *(const size_t *)b;
@@ -47,17 +53,15 @@ static enum br_status read_at(const char *text, const struct br_scene *scene,
     size_t most = 1;
     for (const char *c = text; *c; c++)
         most += *c == ',';
-    if (!(plan->level = br_allocate(most, sizeof *plan->level)))
-        return br_no_memory(err, "the output times");
+    if (make_room(plan, most, err))
+        return err->status;
     for (const char *rest = text;; rest++) {
         double t;
         const char *end = br_read_time(rest, scene->duration, &t);
         if (!end)
             return not_a_time("--at", rest, "times separated by commas, like 0.1,0.5", err);
-        const enum br_status status =
-            read_level("--at", t, scene, plan->steps, &plan->level[plan->levels++], err);
-        if (status)
-            return status;
+        if (read_level("--at", t, scene, plan->steps, &plan->level[plan->levels++], err))
+            return err->status;
         rest = end;
         if (!*rest)
             break;
@@ -74,8 +78,8 @@ static enum br_status read_at(const char *text, const struct br_scene *scene,
 static enum br_status fill_levels(struct br_run_plan *plan, size_t interval, struct br_error *err)
 {
     plan->levels = plan->steps / interval + 1;
-    if (!(plan->level = br_allocate(plan->levels, sizeof *plan->level)))
-        return br_no_memory(err, "the output times");
+    if (make_room(plan, plan->levels, err))
+        return err->status;
     for (size_t i = 0; i < plan->levels; i++)
         plan->level[i] = i * interval;
     return BR_OK;
@@ -89,9 +93,8 @@ static enum br_status read_every(const char *text, const struct br_scene *scene,
     const char *end = br_read_time(text, scene->duration, &t);
     if (!end || *end || !(t > 0))
         return not_a_time("--every", text, "a time above 0, like 0.1", err);
-    const enum br_status status = read_level("--every", t, scene, plan->steps, &interval, err);
-    if (status)
-        return status;
+    if (read_level("--every", t, scene, plan->steps, &interval, err))
+        return err->status;
     if (interval == 0)
         return br_fail(err, BR_BAD_INPUT, "--every: found '%s', expected a multiple of k = %g s",
                        text, scene->duration / (double)plan->steps);
@@ -102,8 +105,8 @@ static enum br_status read_every(const char *text, const struct br_scene *scene,
 static enum br_status default_levels(struct br_run_plan *plan, struct br_error *err)
 {
     enum { PARTS = 10 };
-    if (!(plan->level = br_allocate(PARTS + 1, sizeof *plan->level)))
-        return br_no_memory(err, "the output times");
+    if (make_room(plan, PARTS + 1, err))
+        return err->status;
     for (size_t i = 0; i <= PARTS; i++) {
         const size_t level =
             (size_t)llround((double)plan->steps * (double)i / PARTS); /* exact below 2^49 */
@@ -167,16 +170,14 @@ enum br_status br_run_plan_make(const struct br_options *o, const struct br_scen
     const char *const *given = &o->given[BR_OPT_METHOD];
     const struct br_method *const methods[] = {&plan->method};
     *plan = (struct br_run_plan){.method = br_method_default()};
-    enum br_status status = br_method_read(given, BR_METHOD_OPTION, &plan->method, err);
-    if (!status)
-        status = br_method_check_heeded(given, BR_METHOD_OPTION, methods, 1, err);
-    if (!status)
-        status = read_fields(br_option_text(o, BR_OPT_FIELDS), &plan->wanted, err);
-    if (!status)
-        status = read_resolution(o, scene, plan, err);
-    if (!status && br_option_given(o, BR_OPT_OUT))
+    if (br_method_read(given, BR_METHOD_OPTION, &plan->method, err) ||
+        br_method_check_heeded(given, BR_METHOD_OPTION, methods, 1, err) ||
+        read_fields(br_option_text(o, BR_OPT_FIELDS), &plan->wanted, err) ||
+        read_resolution(o, scene, plan, err))
+        return err->status;
+    if (br_option_given(o, BR_OPT_OUT))
         plan->stride = br_history_stride(plan->steps, (size_t)br_option_number(o, BR_OPT_ROWS, 0));
-    return status ? status : make_levels(o, scene, plan, err);
+    return make_levels(o, scene, plan, err);
 }
 
 void br_run_plan_clear(struct br_run_plan *plan)

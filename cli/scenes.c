@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "cli/command.h"
-#include "cli/whole_file.h"
+#include "cli/output.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 #include "study/scene/quote.h"
@@ -28,17 +28,16 @@ static enum br_status print_line(const char *name, size_t width, struct br_error
 {
     char path[1024];
     struct br_scene scene = {0};
-    enum br_status status = br_scene_find(name, path, sizeof path, err);
-    if (!status)
-        status = br_scene_read(path, &scene, err);
-    if (!status) {
+    const bool failed =
+        br_scene_find(name, path, sizeof path, err) || br_scene_read(path, &scene, err);
+    if (!failed) {
         br_quote(stdout, &br_for_text, name);
         printf("%*s", (int)width + 2 - width_of(name), "");
         br_quote(stdout, &br_for_text, scene.title);
         puts("");
     }
     br_scene_clear(&scene);
-    return status;
+    return failed ? err->status : BR_OK;
 }
 
 static enum br_status list(struct br_error *err)

@@ -1,12 +1,355 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* beamrate study SCENE: a grid of cells against one reference. */
-#include "cli/command.h"
-#include "cli/study_run.h"
+/* beamrate study SCENE: a grid of cells against one reference; and beamrate tables: the paper's
+ * Tables 1 and 2 on their printed grids, two studies at once. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
 
-static enum br_status run(const struct br_options *options, struct br_error *err)
+#include "cli/command.h"
+#include "cli/progress.h"
+#include "cli/session.h"
+#include "cli/study_request.h"
+#include "cli/warn.h"
+#include "plots/pictures.h"
+#include "reference/printed.h"
+#include "solver/clock.h"
+#include "study/fit/report.h"
+#include "study/foresee/resources.h"
+#include "study/grid/differences.h"
+#include "study/grid/sweep.h"
+#include "study/ranks/ranks.h"
+#include "study/scene/file.h"
+#include "tables/report_study.h"
+
+/* One study: a scene, and the printed table to hold it against, if any. */
+struct job {
+    const char *name;    /* of the result files; NULL: the scene's */
+    const char *scene;   /* a file, or a bundled scene */
+    const char *printed; /* a data file below the data folder, or NULL */
+    const char *caption; /* NULL: the scene's title */
+};
+
+/* A job on its way. */
+struct work {
+    struct br_opened_scene opened;
+    size_t *steps;       /* of the grid, ascending; owned */
+    struct br_tips tips; /* only without a reference */
+};
+
+/* A report with its name and caption. */
+struct page {
+    struct br_report report;
+    const struct work *work;
+    char name[512], caption[512];
+};
+
+struct run {
+    struct br_session session;
+    struct br_study_request request;
+    bool differences; /* --reference none: cells against the next finer ones */
+    size_t jobs, pages;
+    size_t heads;      /* jobs, or twice that: each job, then each against the exact solution, or
+                          without a reference over h, then over k */
+    struct work *work; /* jobs */
+    struct page *page; /* pages, those of a job together */
+    struct br_study *study; /* heads * norms, in the first norm first, which br_study_run takes */
+};
+
+/* Study h of the heads in norm m. */
+static struct br_study *study_of(const struct run *r, size_t h, size_t m)
 {
-    const struct br_study_job job = {.scene = options->word[0]};
-    return br_study_run_jobs(&job, 1, options, false, err);
+    return &r->study[m * r->heads + h];
+}
+
+/* ---- the grid ---- */
+
+static int ascending(const void *a, const void *b)
+{
+    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
+    return (x > y) - (x < y);
+}
+
+static enum br_status make_grid(struct run *r, size_t i, struct br_error *err)
+{
+    struct work *w = &r->work[i];
+    const struct br_study_request *q = &r->request;
+    const struct br_options *o = r->session.options;
+    const struct br_scene *scene = &w->opened.scene;
+    struct br_study *study = study_of(r, i, 0);
+    *study = (struct br_study){
+        .scene = scene,
+        .norm = q->norm[0],
+        .method = q->method,
+        .reference_method = q->reference_method,
+        .judge = q->judge ? q->judge : br_judge_best(scene),
+        .n = o->whole[BR_OPT_N],
+        .n_count = o->count[BR_OPT_N],
+    };
+    if (br_option_steps(o, scene, &w->steps, &study->k_count, err))
+        return err->status;
+    qsort(o->whole[BR_OPT_N], study->n_count, sizeof *study->n, ascending);
+    qsort(w->steps, study->k_count, sizeof *w->steps, ascending);
+    study->steps = w->steps;
+    if (!study->judge->nests)
+        return BR_OK;
+    study->auditor = br_judge_best(scene); /* measures the fine run's own error */
+    return br_study_request_fine(q, scene, &study->reference, err);
+}
+
+/* From the job's study in the first norm: the same cells against the exact solution, and both in
+ * the other norms. */
+static void spread_study(struct run *r, size_t job)
+{
+    if (r->heads > r->jobs) {
+        struct br_study *exact = study_of(r, r->jobs + job, 0);
+        *exact = *study_of(r, job, 0);
+        exact->judge = &br_judge_exact;
+        exact->auditor = NULL;
+        exact->reference = (struct br_resolution){0};
+    }
+    for (size_t h = job; h < r->heads; h += r->jobs)
+        for (size_t m = 1; m < r->request.norms; m++) {
+            struct br_study *study = study_of(r, h, m);
+            *study = *study_of(r, h, m - 1);
+            study->norm = r->request.norm[m];
+            study_of(r, h, m - 1)->next_norm = study;
+        }
+}
+
+/* ---- reports ---- */
+
+static enum br_status read_printed(const char *relative, struct br_report *report,
+                                   struct br_error *err)
+{
+    char path[1024];
+    struct br_printed printed;
+    const struct br_study *study = report->study;
+    const size_t cells = study->n_count * study->k_count;
+    br_data_path(relative, path, sizeof path);
+    enum br_status status = br_printed_read(path, &printed, err);
+    if (!status && !(report->printed = br_allocate(cells, sizeof(double))))
+        status = br_no_memory(err, "the printed values");
+    for (size_t c = 0; c < cells && !status; c++)
+        report->printed[c] =
+            br_printed_error(&printed, study->n[c / study->k_count],
+                             br_time_step(study->scene, study->steps[c % study->k_count]));
+    br_printed_clear(&printed);
+    return status;
+}
+
+/* Of a job in norm m; without a reference over h (variant 0) or k (1). Names end with the norm, but
+ * for the default one, and with what is compared. */
+static enum br_status start_report(struct run *r, const struct job *job, size_t i, size_t m,
+                                   size_t variant, struct br_error *err)
+{
+    static const char *const compared[][2] = {
+        {"-meshes", ": differences of successive meshes"},
+        {"-steps", ": differences of successive time steps"},
+        {"", ""},
+    };
+    const char *const *what = compared[r->differences ? variant : 2];
+    const struct br_norm *norm = r->request.norm[m];
+    const struct br_scene *scene = &r->work[i].opened.scene;
+    const bool usual = norm == br_norms[0];
+    struct page *page = &r->page[r->pages++];
+    page->work = &r->work[i];
+    snprintf(page->name, sizeof page->name, "%s%s%s%s", job->name ? job->name : scene->name,
+             usual ? "" : "-", usual ? "" : norm->name, what[0]);
+    snprintf(page->caption, sizeof page->caption, "%s%s",
+             job->caption ? job->caption : scene->title, what[1]);
+    page->report = (struct br_report){
+        .name = page->name,
+        .caption = page->caption,
+        .study = study_of(r, variant * r->jobs + i, m),
+        .exact = !r->differences && r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
+        .tips = r->differences ? &r->work[i].tips : NULL,
+    };
+    const bool printed = job->printed && norm->printed && !r->differences;
+    return printed ? read_printed(job->printed, &page->report, err) : BR_OK;
+}
+
+static enum br_status prepare_job(struct run *r, const struct job *job, size_t i,
+                                  struct br_error *err)
+{
+    enum br_status status = br_opened_scene_read(&r->work[i].opened, job->scene, err);
+    if (!status)
+        status = make_grid(r, i, err);
+    if (!status)
+        spread_study(r, i);
+    for (size_t m = 0; m < r->request.norms; m++)
+        for (size_t v = 0; v < (r->differences ? 2 : 1) && !status; v++)
+            status = start_report(r, job, i, m, v, err);
+    return status;
+}
+
+static enum br_status check_degree(const struct run *r, struct br_error *err)
+{
+    bool axial = r->request.method.axial_degree == 1;
+    for (size_t i = 0; i < r->jobs; i++)
+        axial |= r->work[i].opened.scene.axial.modelled;
+    return axial ? BR_OK
+                 : br_fail(err, BR_BAD_INPUT, "--axial-degree: no scene has an axial field");
+}
+
+/* with_exact: a fine reference gets the exact one beside it. */
+static enum br_status prepare(struct run *r, const struct job *job, bool with_exact,
+                              struct br_error *err)
+{
+    const struct br_study_request *q = &r->request;
+    enum br_status status = br_study_request_read(r->session.options, &r->request, err);
+    if (status)
+        return status;
+    r->differences = q->judge == &br_judge_none;
+    r->heads =
+        r->differences || (with_exact && q->judge && q->judge->nests) ? 2 * r->jobs : r->jobs;
+    r->work = br_allocate(r->jobs, sizeof *r->work);
+    r->page = br_allocate(2 * r->jobs * q->norms, sizeof *r->page);
+    r->study = br_allocate(r->heads * q->norms, sizeof *r->study);
+    if (!r->work || !r->page || !r->study)
+        return br_no_memory(err, "the studies");
+    for (size_t i = 0; i < r->jobs && !status; i++)
+        status = prepare_job(r, &job[i], i, err);
+    return status ? status : check_degree(r, err);
+}
+
+static void clear(struct run *r)
+{
+    for (size_t i = 0; i < r->pages; i++)
+        br_report_clear(&r->page[i].report);
+    for (size_t i = 0; r->study && i < r->heads * r->request.norms; i++)
+        br_study_clear(&r->study[i]);
+    for (size_t i = 0; r->work && i < r->jobs; i++) {
+        br_opened_scene_clear(&r->work[i].opened);
+        br_tips_clear(&r->work[i].tips);
+        free(r->work[i].steps);
+    }
+    free(r->page);
+    free(r->work);
+    free(r->study);
+    br_session_close(&r->session);
+}
+
+/* ---- computing ---- */
+
+/* Of what marches at once: without a reference one job after the other. */
+static enum br_status check_memory(const struct run *r, struct br_error *err)
+{
+    const double available = br_memory_available();
+    const size_t at_once = r->differences ? 1 : r->heads;
+    enum br_status status = BR_OK;
+    if (br_ranks_size() > 1)
+        return BR_OK;
+    for (size_t i = 0; i < (r->differences ? r->jobs : 1) && !status; i++)
+        status = br_fit_together(study_of(r, i, 0), at_once, available, err);
+    return status;
+}
+
+/* The differences of one job's grids, into its studies. */
+static enum br_status run_differences(struct run *r, size_t job, const struct br_observer *observer,
+                                      struct br_error *err)
+{
+    struct br_differences out[BR_MOST_NORMS] = {0};
+    const enum br_status status = br_differences_run(study_of(r, job, 0), out, &r->work[job].tips,
+                                                     r->session.threads, observer, err);
+    for (size_t m = 0; m < r->request.norms; m++) {
+        *study_of(r, job, m) = out[m].over_h;
+        *study_of(r, r->jobs + job, m) = out[m].over_k;
+    }
+    return status;
+}
+
+static enum br_status compute(struct run *r, struct br_error *err)
+{
+    const double start = br_seconds();
+    const struct br_observer *observer = br_progress_start("marching", r->session.quiet);
+    enum br_status status = BR_OK;
+    if (!r->differences)
+        status = br_study_run(r->study, r->heads, r->session.threads, observer, err);
+    for (size_t i = 0; i < r->jobs && r->differences && !status; i++)
+        status = run_differences(r, i, observer, err);
+    br_progress_end();
+    const double wall = br_seconds() - start;
+    for (size_t i = 0; i < r->pages && !status; i++) {
+        r->page[i].report.wall_seconds = wall;
+        status = br_report_finish(&r->page[i].report, r->session.threads, err);
+    }
+    return br_progress_result(status, err);
+}
+
+/* ---- results ---- */
+
+static enum br_status build_report(struct run *r, size_t i, struct br_error *err)
+{
+    const struct br_report *report = &r->page[i].report;
+    struct br_document *d = &r->session.document[i];
+    const struct br_provenance provenance =
+        br_provenance_of(&r->page[i].work->opened, r->session.threads);
+    enum br_status status = BR_OK;
+    br_report_study(report, d);
+    for (const struct br_convergence_picture *const *p = br_convergence_pictures;
+         *p && br_session_draws(&r->session) && !status; p++) {
+        struct br_figure figure = {0};
+        if (!(*p)->applies(report))
+            continue;
+        status = br_convergence_draw(*p, report, &figure, err);
+        status = br_session_draw(&r->session, d, &figure, (*p)->title, status, err);
+    }
+    br_put_provenance(d, &provenance);
+    return status;
+}
+
+static enum br_status write_all(struct run *r, struct br_error *err)
+{
+    enum br_status status = br_session_report(&r->session, r->pages, err);
+    for (size_t i = 0; i < r->pages && !status; i++)
+        status = build_report(r, i, err);
+    return status ? status : br_session_finish(&r->session, err);
+}
+
+/* A failed cell fails the run, after everything has been written. */
+static enum br_status check_cells(const struct run *r, struct br_error *err)
+{
+    size_t failed = 0;
+    const struct br_cell *first = NULL;
+    for (const struct br_study *s = r->study; s < r->study + r->heads; s++)
+        for (size_t c = 0; c < s->n_count * s->k_count; c++)
+            if (s->cell[c].flag[BR_PART_TOTAL] == BR_FLAG_FAILED) {
+                first = first ? first : &s->cell[c];
+                failed++;
+            }
+    if (!failed)
+        return BR_OK;
+    return br_fail(err, BR_NOT_FINITE, "%zu cells failed; the first is n = %zu: %s", failed,
+                   first->at.n,
+                   first->failure.status ? first->failure.message : "its error is not a number");
+}
+
+static enum br_status run_jobs(const struct br_options *options, const struct job *job, size_t jobs,
+                               bool with_exact, struct br_error *err)
+{
+    struct run r = {.session = br_session_begin(options), .jobs = jobs};
+    const bool writes = r.session.writes;
+    const bool failed = prepare(&r, job, with_exact, err) || check_memory(&r, err) ||
+                        br_session_open(&r.session, err) ||
+                        (writes && br_warn_of_studies(r.study, jobs, err)) || compute(&r, err) ||
+                        (writes && write_all(&r, err)) || check_cells(&r, err);
+    clear(&r);
+    return failed ? err->status : BR_OK;
+}
+
+static enum br_status run_study(const struct br_options *options, struct br_error *err)
+{
+    const struct job job = {.scene = options->word[0]};
+    return run_jobs(options, &job, 1, false, err);
+}
+
+static enum br_status run_tables(const struct br_options *options, struct br_error *err)
+{
+    static const struct job printed[] = {
+        {"table1", "example1", "reference/printed/table1.csv", "Table 1: Example 1, stick"},
+        {"table2", "example2", "reference/printed/table2.csv", "Table 2: Example 2, slip"},
+    };
+    return run_jobs(options, printed, sizeof printed / sizeof *printed, true, err);
 }
 
 const struct br_command br_command_study = {
@@ -25,5 +368,17 @@ const struct br_command br_command_study = {
                 "beamrate study release --reference none"},
     .least_words = 1,
     .most_words = 1,
-    .run = run,
+    .run = run_study,
+};
+
+const struct br_command br_command_tables = {
+    .bit = BR_FOR_TABLES,
+    .name = "tables",
+    .arguments = "",
+    .title = "the paper's two error tables beside the printed ones",
+    .about =
+        "The paper's Tables 1 and 2 beside the printed values, on the printed grids and with the "
+        "printed reference, and against the exact solution, by which the orders are fitted.",
+    .example = {"beamrate tables --out results", "mpirun -n 4 beamrate tables"},
+    .run = run_tables,
 };

@@ -62,18 +62,8 @@ enum br_status br_study_request_read(const struct br_options *o, struct br_study
     const char *reference = br_option_text(o, BR_OPT_REFERENCE);
     for (size_t i = 0; i < r->norms; i++)
         r->norm[i] = br_norms[(size_t)o->number[BR_OPT_NORM][i]];
-    enum br_status status = read_method(o, r, err);
-    if (!status)
-        status = br_option_counts(o, BR_OPT_N, &r->n, &r->n_count, err);
-    if (!status && reference)
-        status = read_reference(reference, r, err);
-    return status;
-}
-
-void br_study_request_clear(struct br_study_request *r)
-{
-    free(r->n);
-    *r = (struct br_study_request){0};
+    const enum br_status status = read_method(o, r, err);
+    return status || !reference ? status : read_reference(reference, r, err);
 }
 
 enum br_status br_study_request_fine(const struct br_study_request *r, const struct br_scene *scene,

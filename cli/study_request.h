@@ -7,8 +7,6 @@
 #include "study/grid/study.h"
 
 struct br_study_request {
-    size_t *n; /* n_count; owned; NULL: not said */
-    size_t n_count;
     const struct br_judge *judge; /* NULL: not said */
     size_t reference_n;
     const char *reference_k; /* as br_read_step takes it; borrowed from the options */
@@ -18,11 +16,9 @@ struct br_study_request {
     int threads; /* 0: all cores */
 };
 
-/* Fails with BR_BAD_INPUT, naming the option, what was found and what was expected, or
- * BR_NO_MEMORY. Clear the request even then. */
+/* Fails with BR_BAD_INPUT, naming the option, what was found and what was expected. */
 enum br_status br_study_request_read(const struct br_options *options,
                                      struct br_study_request *request, struct br_error *err);
-void br_study_request_clear(struct br_study_request *request);
 
 /* The fine reference's resolution in a scene (out). Fails with BR_BAD_INPUT. */
 enum br_status br_study_request_fine(const struct br_study_request *request,

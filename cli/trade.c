@@ -1,24 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate trade SCENE...: what a digit costs. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/signals.h"
+#include "cli/session.h"
 #include "cli/study_request.h"
-#include "cli/trade_files.h"
 #include "cli/trade_split.h"
-#include "cli/warn_marches.h"
-#include "study/ranks/ranks.h"
+#include "cli/warn.h"
+#include "plots/pictures.h"
+#include "study/scene/file.h"
+#include "tables/report_trade.h"
+
+/* A scene on its way; not to be moved once its trade is laid out. */
+struct item {
+    struct br_opened_scene opened;
+    struct br_printed printed; /* the paper's table of it; empty: none */
+    size_t *steps;             /* as --k has them; owned */
+    struct br_trade trade;
+};
 
 struct run {
-    const struct br_options *options;
+    struct br_session session;
     struct br_study_request study;
     struct br_contenders contenders; /* count 0: not said */
-    struct br_trade_item *item;      /* one a scene */
+    struct item *item;               /* items, one a scene; owned */
+    size_t items;
 };
+
+/* ---- what is tried ---- */
 
 /* The scheme of the highest order that does not choose its steps: a fine run's. */
 static struct br_method fine_method(void)
@@ -33,134 +44,166 @@ static struct br_method fine_method(void)
     return finest.method;
 }
 
-static enum br_status set_request(const struct run *r, struct br_trade_item *item,
-                                  struct br_error *err)
+static enum br_status set_request(const struct run *r, struct item *item, struct br_error *err)
 {
-    const struct br_study_request *study = &r->study;
+    const struct br_options *o = r->session.options;
+    const struct br_scene *scene = &item->opened.scene;
     struct br_trial_request *q = &item->trade.request;
-    *q = br_trial_request_default(&item->scene);
-    q->judge = study->judge;
-    q->threads = study->threads;
-    q->repeats = (size_t)br_option_number(r->options, BR_OPT_REPEATS, 0);
-    q->time_limit = br_option_number(r->options, BR_OPT_TIME_LIMIT, 0);
-    item->trade.norm[0] = study->norm[0];
+    *q = br_trial_request_default(scene);
+    q->judge = r->study.judge;
+    q->threads = r->session.threads;
+    q->repeats = (size_t)br_option_number(o, BR_OPT_REPEATS, 0);
+    q->time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
+    item->trade.norm[0] = r->study.norm[0];
     if (!q->judge || !q->judge->nests)
         return BR_OK;
     q->reference_method = fine_method();
-    return br_study_request_fine(study, &item->scene, &q->reference, err);
+    return br_study_request_fine(&r->study, scene, &q->reference, err);
 }
 
-static enum br_status lay_out(const struct run *r, struct br_trade_item *item, struct br_error *err)
+static enum br_status lay_out(const struct run *r, struct item *item, struct br_error *err)
 {
-    const struct br_study_request *study = &r->study;
-    struct br_error inner = {0};
+    const struct br_options *o = r->session.options;
+    const struct br_scene *scene = &item->opened.scene;
     size_t steps = 0;
-    enum br_status status = set_request(r, item, err);
-    if (status)
-        return status;
-    status = br_option_steps(r->options, &item->scene, &item->steps, &steps, &inner);
-    if (status)
-        return br_fail(err, status, "%s: %s", item->scene.name, inner.message);
+    if (set_request(r, item, err))
+        return err->status;
+    if (br_option_steps(o, scene, &item->steps, &steps, err))
+        return br_failed_in(err, scene->name);
     if (r->contenders.count)
         item->trade.contenders = r->contenders;
     else
-        br_contenders_default(&item->scene, &item->trade.contenders);
-    return br_trade_lay_out(&item->trade,
-                            &(struct br_trade_grid){
-                                .n = study->n,
-                                .steps = item->steps,
-                                .tolerance = r->options->number[BR_OPT_TOLERANCES],
-                                .n_count = study->n_count,
-                                .step_count = steps,
-                                .tolerances = r->options->count[BR_OPT_TOLERANCES],
-                                .printed = item->printed.count ? &item->printed : NULL,
-                            },
-                            err);
+        br_contenders_default(scene, &item->trade.contenders);
+    const struct br_trade_grid grid = {
+        .n = o->whole[BR_OPT_N],
+        .steps = item->steps,
+        .tolerance = o->number[BR_OPT_TOLERANCES],
+        .n_count = o->count[BR_OPT_N],
+        .step_count = steps,
+        .tolerances = o->count[BR_OPT_TOLERANCES],
+        .printed = item->printed.count ? &item->printed : NULL,
+    };
+    return br_trade_lay_out(&item->trade, &grid, err);
+}
+
+/* Only the bundled scene itself is what the paper printed a table of. */
+static enum br_status read_printed(struct item *item, struct br_error *err)
+{
+    static const char *const tables[][2] = {
+        {"study/scenes/example1.yaml", "reference/printed/table1.csv"},
+        {"study/scenes/example2.yaml", "reference/printed/table2.csv"}};
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < sizeof tables / sizeof *tables && !status; i++) {
+        char path[1024];
+        br_data_path(tables[i][0], path, sizeof path);
+        if (strcmp(path, item->opened.path) != 0)
+            continue;
+        br_data_path(tables[i][1], path, sizeof path);
+        status = br_printed_read(path, &item->printed, err);
+    }
+    return status;
 }
 
 static enum br_status prepare(struct run *r, struct br_error *err)
 {
-    r->item = br_allocate(r->options->words, sizeof *r->item);
-    if (!r->item)
+    const struct br_options *o = r->session.options;
+    if (!(r->item = br_allocate(o->words, sizeof *r->item)))
         return br_no_memory(err, "the scenes");
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < r->options->words && !status; i++) {
-        status = br_trade_item_read(&r->item[i], r->options->word[i], err);
-        for (size_t j = 0; j < i && !status; j++)
-            if (strcmp(r->item[j].scene.name, r->item[i].scene.name) == 0)
-                status =
-                    br_fail(err, BR_BAD_INPUT, "scene %s is given twice", r->item[i].scene.name);
-        if (!status)
-            status = lay_out(r, &r->item[i], err);
+    for (size_t i = 0; i < o->words; i++) {
+        struct item *item = &r->item[r->items++];
+        if (br_opened_scene_read(&item->opened, o->word[i], err) || read_printed(item, err))
+            return err->status;
+        for (size_t j = 0; j < i; j++)
+            if (strcmp(r->item[j].opened.scene.name, item->opened.scene.name) == 0)
+                return br_fail(err, BR_BAD_INPUT, "scene %s is given twice",
+                               item->opened.scene.name);
+        if (lay_out(r, item, err))
+            return err->status;
     }
-    return status;
+    return BR_OK;
 }
+
+/* ---- computing ---- */
 
 static enum br_status hold(struct run *r, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < r->options->words && !status; i++) {
-        struct br_trade_item *item = &r->item[i];
-        struct br_error inner = {0};
-        item->trade.request.observer =
-            br_progress_start(item->scene.name, br_option_given(r->options, BR_OPT_QUIET));
-        status = br_trade_hold(&item->trade, &inner);
+    for (size_t i = 0; i < r->items; i++)
+        br_warn_of_trade(&r->item[i].trade);
+    for (size_t i = 0; i < r->items && !status; i++) {
+        const char *name = r->item[i].opened.scene.name;
+        struct br_trade *trade = &r->item[i].trade;
+        trade->request.observer = br_progress_start(name, r->session.quiet);
+        status = br_trade_hold(trade, err);
         br_progress_end();
-        if (status)
-            br_fail(err, status, "%s: %.1000s", item->scene.name, inner.message);
-        if (!status && br_signals_caught())
-            status = br_fail(err, BR_INTERRUPTED, "interrupted");
+        status = status ? br_failed_in(err, name) : br_progress_result(status, err);
     }
     return status;
+}
+
+/* ---- results ---- */
+
+static enum br_status draw(struct run *r, size_t i, struct br_error *err)
+{
+    struct br_document *d = &r->session.document[i];
+    const struct br_trade *trade = &r->item[i].trade;
+    enum br_status status = BR_OK;
+    for (const struct br_trade_picture *const *p = br_trade_pictures;
+         *p && br_session_draws(&r->session) && !status; p++) {
+        struct br_figure figure = {0};
+        if (!br_trade_picture_applies(*p, trade))
+            continue;
+        status = br_trade_draw(*p, trade, d->name, d->caption, &figure, err);
+        status = br_session_draw(&r->session, d, &figure, (*p)->title, status, err);
+    }
+    return status;
+}
+
+/* A report of each scene, and where there are several one of all. */
+static enum br_status write_all(struct run *r, struct br_error *err)
+{
+    const struct br_trade **trade = br_allocate(r->items, sizeof *trade);
+    enum br_status status = trade ? br_session_report(&r->session, r->items + (r->items > 1), err)
+                                  : br_no_memory(err, "the reports");
+    struct br_document *d = r->session.document;
+    struct br_provenance provenance;
+    for (size_t i = 0; i < r->items && !status; i++) {
+        trade[i] = &r->item[i].trade;
+        provenance = br_provenance_of(&r->item[i].opened, r->session.threads);
+        br_report_trade(trade[i], &provenance, &d[i]);
+        status = draw(r, i, err);
+    }
+    if (!status && r->items > 1) {
+        provenance = br_provenance_of(&r->item[0].opened, r->session.threads);
+        br_report_trade_summary(trade, r->items, &provenance, &d[r->items]);
+    }
+    free(trade);
+    return status ? status : br_session_finish(&r->session, err);
 }
 
 /* Failed trials are results; a scene in which all failed is a failure. */
 static enum br_status check(const struct run *r, struct br_error *err)
 {
-    for (size_t i = 0; i < r->options->words; i++) {
+    for (size_t i = 0; i < r->items; i++) {
         const struct br_trade *t = &r->item[i].trade;
         if (br_trade_tally(t, BR_TRIAL_FAILED) + br_trade_tally(t, BR_TRIAL_OVER) == t->count)
             return br_fail(err, BR_NOT_FINITE, "%s: no trial came to its end; the first: %.900s",
-                           r->item[i].scene.name, t->trial[0].failure.message);
+                           r->item[i].opened.scene.name, t->trial[0].failure.message);
     }
     return BR_OK;
 }
 
-static enum br_status work(struct run *r, struct br_error *err)
-{
-    struct br_trade_files files = {
-        .item = r->item, .items = r->options->words, .options = r->options};
-    enum br_status status = br_trade_files_open(&files, r->study.threads, err);
-    for (size_t i = 0; i < r->options->words && !status; i++)
-        br_warn_of_trade(&r->item[i].trade);
-    if (!status)
-        status = hold(r, err);
-    if (!status)
-        status = br_trade_files_write(&files, err);
-    br_trade_files_discard(&files);
-    return status ? status : check(r, err);
-}
-
-static void clear(struct run *r)
-{
-    for (size_t i = 0; r->item && i < r->options->words; i++)
-        br_trade_item_clear(&r->item[i]);
-    free(r->item);
-    br_study_request_clear(&r->study);
-}
+/* ---- the command ---- */
 
 /* Clocks do not matter to where errors come from, nor does who judges. */
 static enum br_status split(const struct br_options *o, struct br_error *err)
 {
-    static const struct {
-        const char *name;
-        enum br_option_id id;
-    } others[] = {{"repeats", BR_OPT_REPEATS},
-                  {"time-limit", BR_OPT_TIME_LIMIT},
-                  {"reference", BR_OPT_REFERENCE}};
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (br_option_given(o, others[i].id))
-            return br_fail(err, BR_BAD_INPUT, "--%s: --split does not heed it", others[i].name);
+    const char *other = br_option_given(o, BR_OPT_REPEATS)      ? "repeats"
+                        : br_option_given(o, BR_OPT_TIME_LIMIT) ? "time-limit"
+                        : br_option_given(o, BR_OPT_REFERENCE)  ? "reference"
+                                                                : NULL;
+    if (other)
+        return br_fail(err, BR_BAD_INPUT, "--%s: --split does not heed it", other);
     if (o->words != 1)
         return br_fail(err, BR_BAD_INPUT, "--split: found %zu scenes, expected one", o->words);
     return br_trade_split(o, err);
@@ -169,14 +212,15 @@ static enum br_status split(const struct br_options *o, struct br_error *err)
 /* A list that no method heeds is refused. */
 static enum br_status check_heeded(const struct run *r, struct br_error *err)
 {
-    const bool k = br_option_given(r->options, BR_OPT_K);
+    const bool k = br_option_given(r->session.options, BR_OPT_K);
     size_t adaptive = 0;
     for (size_t i = 0; i < r->contenders.count; i++)
         adaptive += br_contender_adaptive(&r->contenders.list[i]);
-    if (r->contenders.count && adaptive == 0 && br_option_given(r->options, BR_OPT_TOLERANCES))
+    if (r->contenders.count && adaptive == 0 &&
+        br_option_given(r->session.options, BR_OPT_TOLERANCES))
         return br_fail(err, BR_BAD_INPUT, "--tolerances: no method of --methods heeds it");
     if (r->contenders.count && adaptive == r->contenders.count &&
-        (k || br_option_given(r->options, BR_OPT_STEPS)))
+        (k || br_option_given(r->session.options, BR_OPT_STEPS)))
         return br_fail(err, BR_BAD_INPUT, "--%s: no method of --methods heeds it",
                        k ? "k" : "steps");
     return BR_OK;
@@ -184,39 +228,39 @@ static enum br_status check_heeded(const struct run *r, struct br_error *err)
 
 static enum br_status read_request(struct run *r, struct br_error *err)
 {
-    const char *methods = br_option_text(r->options, BR_OPT_METHODS);
-    enum br_status status = br_study_request_read(r->options, &r->study, err);
+    const char *methods = br_option_text(r->session.options, BR_OPT_METHODS);
+    if (br_study_request_read(r->session.options, &r->study, err))
+        return err->status;
     const struct br_judge *judge = r->study.judge;
-    if (!status && r->study.norms > 1)
-        status =
-            br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->study.norms);
-    if (!status && judge && !judge->create)
-        status =
-            br_fail(err, BR_BAD_INPUT,
-                    "--reference: found '%s', expected a judge that gives errors: exact, mms or "
-                    "fine:N,K",
-                    judge->name);
-    if (!status && methods)
-        status = br_contenders_read("--methods", methods, &r->contenders, err);
-    return status ? status : check_heeded(r, err);
+    if (r->study.norms > 1)
+        return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->study.norms);
+    if (judge && !judge->create)
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "--reference: found '%s', expected a judge that gives errors: exact, mms or fine:N,K",
+            judge->name);
+    if (methods && br_contenders_read("--methods", methods, &r->contenders, err))
+        return err->status;
+    return check_heeded(r, err);
 }
 
 static enum br_status run(const struct br_options *options, struct br_error *err)
 {
-    struct run r = {.options = options};
     if (br_option_given(options, BR_OPT_SPLIT))
         return split(options, err);
-    if (br_ranks_size() > 1)
-        return br_fail(err, BR_BAD_INPUT,
-                       "%d ranks would disturb one another's clocks, expected one",
-                       br_ranks_size());
-    enum br_status status = read_request(&r, err);
-    if (!status)
-        status = prepare(&r, err);
-    if (!status)
-        status = work(&r, err);
-    clear(&r);
-    return status;
+    struct run r = {.session = br_session_begin(options)};
+    const bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err) ||
+                        br_session_open(&r.session, err) || hold(&r, err) || write_all(&r, err) ||
+                        check(&r, err);
+    br_session_close(&r.session);
+    for (size_t i = 0; i < r.items; i++) {
+        br_trade_clear(&r.item[i].trade);
+        br_printed_clear(&r.item[i].printed);
+        br_opened_scene_clear(&r.item[i].opened);
+        free(r.item[i].steps);
+    }
+    free(r.item);
+    return failed ? err->status : BR_OK;
 }
 
 const struct br_command br_command_trade = {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/whole_file.h"
+#include "cli/output.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -9,8 +9,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/output.h"
-#include "cli/staging.h"
 #include "tables/json_value.h"
 
 static enum br_status refuse(const char *option, const char *path, const char *reason,
@@ -21,15 +19,15 @@ static enum br_status refuse(const char *option, const char *path, const char *r
     return br_fail(err, BR_BAD_INPUT, "--%s: cannot write '%s': %s", option, path, reason);
 }
 
-/* The path of a file that is not there yet in its folder, which is; NULL with errno. */
-static char *place_of_new(const char *path)
+/* Where a path leads, or will when it is there: its folder is. Symbolic links are followed; to be
+ * freed; NULL with errno. */
+static char *place_of(const char *path)
 {
     struct stat link;
-    if (lstat(path, &link) == 0) { /* a symbolic link, or it would be there */
-        errno = ENOENT;
-        return NULL;
-    }
-    char *folder_part = strdup(path), *name_part = strdup(path), *place = NULL;
+    char *place = realpath(path, NULL);
+    if (place || errno != ENOENT || lstat(path, &link) == 0) /* a link to nowhere */
+        return place;
+    char *folder_part = strdup(path), *name_part = strdup(path);
     char *folder = folder_part ? realpath(dirname(folder_part), NULL) : NULL;
     if (folder && name_part && asprintf(&place, "%s/%s", folder, basename(name_part)) < 0)
         place = NULL;
@@ -86,7 +84,7 @@ enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, c
         w->file = stdout;
         return BR_OK;
     }
-    w->place = there ? realpath(path, NULL) : place_of_new(path);
+    w->place = place_of(path);
     if (!w->place)
         return refuse(option, path, strerror(errno), err);
     if (!there || S_ISREG(old.st_mode))
@@ -114,28 +112,9 @@ bool br_whole_file_replaces(const struct br_whole_file *w, const char *path)
     return same;
 }
 
-/* Where a folder is or will be; to be freed; NULL: nowhere. */
-static char *place_of_folder(const char *folder)
-{
-    char *place = realpath(folder, NULL), *copy = place ? NULL : strdup(folder);
-    if (place || !copy)
-        return place;
-    for (size_t n = strlen(copy); n > 1 && copy[n - 1] == '/'; n--)
-        copy[n - 1] = '\0';
-    char *slash = strrchr(copy, '/'), *name = slash ? slash + 1 : copy;
-    char *parent = slash ? strndup(copy, (size_t)(slash - copy)) : strdup(".");
-    char *root = parent ? realpath(*parent ? parent : "/", NULL) : NULL;
-    if (root && asprintf(&place, "%s/%s", root, name) < 0)
-        place = NULL;
-    free(root);
-    free(parent);
-    free(copy);
-    return place;
-}
-
 bool br_whole_file_is_in(const struct br_whole_file *w, const char *folder)
 {
-    char *place = w->renamed ? place_of_folder(folder) : NULL;
+    char *place = w->renamed ? place_of(folder) : NULL;
     const size_t length = place ? strlen(place) : 0;
     const bool inside = place && strncmp(w->place, place, length) == 0 &&
                         (w->place[length] == '\0' ||
@@ -172,7 +151,7 @@ static enum br_status write_beside(const struct br_whole_file *w, struct br_erro
 {
     char *name = folder_of(w->place), *hidden = NULL;
     const int folder = name ? open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
-    const bool named = name && asprintf(&hidden, "%s/%s-XXXXXX", name, BR_STAGING_PREFIX) >= 0;
+    const bool named = name && asprintf(&hidden, "%s/%s-XXXXXX", name, BR_HIDDEN) >= 0;
     free(name);
     if (!named)
         return br_no_memory(err, w->path);

@@ -8,15 +8,13 @@
 struct heard {
     char line[512];
     size_t rows, kept; /* lines that were in the file */
-    bool wrong;
 };
 
 /* ---- what it says ---- */
 
-static void report(const void *result, const char *name, struct br_document *d)
+static void report(const struct heard *h, const char *name, struct br_document *d)
 {
     static const struct br_column columns[] = {{.key = "row"}, {.key = "value"}};
-    const struct heard *h = result;
     br_document_begin(d, name, "beamrate extremes made", 1, "A made part");
     br_put_answer(d, "%s", h->line);
     br_put_table(d, "rows", "Rows", BR_MAIN, BR_COLUMNS(columns));
@@ -25,16 +23,6 @@ static void report(const void *result, const char *name, struct br_document *d)
         br_put_text(d, "row", "row %zu", i);
         br_put(d, "value", br_count(i));
     }
-}
-
-static void report_fast(const void *result, struct br_document *d)
-{
-    report(result, "fast", d);
-}
-
-static void report_slow(const void *result, struct br_document *d)
-{
-    report(result, "slow", d);
 }
 
 static void draw_curve(struct br_figure *f)
@@ -57,21 +45,16 @@ static void draw_cells(struct br_figure *f)
     p->cells.value[0] = 1;
 }
 
-static enum br_status draw(const void *result, size_t i, struct br_figure *figure,
-                           struct br_error *err)
+/* `figures` of the two. */
+static enum br_status draw(const struct br_extremes_job *j, int figures, struct br_error *err)
 {
-    (void)result;
-    if (i == 0)
-        draw_curve(figure);
-    if (i == 1)
-        draw_cells(figure);
-    return br_figure_check(figure, err);
-}
-
-static enum br_status judge(const void *result, struct br_error *err)
-{
-    return ((const struct heard *)result)->wrong ? br_fail(err, BR_VERDICT, "13 is silently wrong")
-                                                 : BR_OK;
+    enum br_status status = BR_OK;
+    for (int i = 0; i < figures && !status; i++) {
+        struct br_figure figure = {0};
+        i == 0 ? draw_curve(&figure) : draw_cells(&figure);
+        status = br_extremes_draw(j, &figure, br_figure_check(&figure, err), err);
+    }
+    return status;
 }
 
 /* ---- fast: seed 13 is wrong, seed 14 refused, seed 15 a failure ---- */
@@ -87,22 +70,25 @@ static enum br_status write_scene(const char *folder, struct br_error *err)
     return fclose(file) == 0 ? BR_OK : br_fail(err, BR_IO, "%s", path);
 }
 
-static enum br_status run_fast(const struct br_extremes_job *j, void **result, struct br_error *err)
+static enum br_status run_fast(const struct br_extremes_job *j, struct br_error *err)
 {
     if (j->seed == 14)
         return br_fail(err, BR_BAD_INPUT, "14 is refused");
     if (j->seed == 15)
         return br_fail(err, BR_NOT_FINITE, "15 failed");
-    struct heard *h = br_allocate(1, sizeof *h);
-    if (!(*result = h))
-        return br_no_memory(err, "the made part");
+    struct heard heard = {.kept = 0}, *h = &heard;
     snprintf(h->line, sizeof h->line,
              "cases %zu, seed %llu, threads %d, rounding %d, %zu n up to %zu, %zu k, kept %s",
              j->cases, (unsigned long long)j->seed, j->threads, j->rounding, j->n_count,
              j->n_count ? j->n[j->n_count - 1] : 0, j->k_count, j->kept ? "somewhere" : "nowhere");
     h->rows = 3;
-    h->wrong = j->seed == 13;
-    return h->wrong ? write_scene(j->folder, err) : BR_OK;
+    report(h, "fast", j->report);
+    if (j->seed == 13) {
+        br_fail(j->verdict, BR_VERDICT, "13 is silently wrong");
+        if (write_scene(j->folder, err))
+            return err->status;
+    }
+    return draw(j, 2, err);
 }
 
 /* ---- slow: a line for each case, 10 ms long ---- */
@@ -116,11 +102,9 @@ static size_t count_lines(FILE *file)
     return lines;
 }
 
-static enum br_status run_slow(const struct br_extremes_job *j, void **result, struct br_error *err)
+static enum br_status run_slow(const struct br_extremes_job *j, struct br_error *err)
 {
-    struct heard *h = br_allocate(1, sizeof *h);
-    if (!(*result = h))
-        return br_no_memory(err, "the made part");
+    struct heard heard = {.kept = 0}, *h = &heard;
     FILE *file = fopen(j->kept, "a+");
     if (!file)
         return br_fail(err, BR_IO, "%s", j->kept);
@@ -136,6 +120,7 @@ static enum br_status run_slow(const struct br_extremes_job *j, void **result, s
     fclose(file);
     snprintf(h->line, sizeof h->line, "%s was done before, and is %zu cases now",
              h->kept ? "something" : "nothing", h->rows);
+    report(h, "slow", j->report);
     return status;
 }
 
@@ -144,10 +129,6 @@ static const struct br_extremes_part fast = {
     .title = "says what it was asked for",
     .heeds = BR_HEEDS_CASES | BR_HEEDS_SEED | BR_HEEDS_N | BR_HEEDS_K | BR_HEEDS_ROUNDING,
     .run = run_fast,
-    .free = free,
-    .report = report_fast,
-    .draw = draw,
-    .verdict = judge,
 };
 
 static const struct br_extremes_part slow = {
@@ -155,9 +136,6 @@ static const struct br_extremes_part slow = {
     .title = "takes long",
     .heeds = BR_HEEDS_CASES | BR_HEEDS_RESUME,
     .run = run_slow,
-    .free = free,
-    .report = report_slow,
-    .verdict = judge,
 };
 
 const struct br_extremes_part *const br_extremes_parts[] = {&fast, &slow, NULL};

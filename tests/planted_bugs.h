@@ -735,7 +735,7 @@ static const struct planted_bug planted_bugs[] = {
     {"seed_is_dropped", "option", "cli/extremes.c", "golden extremes_map", "*seed = value;",
      "*seed = value / value;"},
     {"verdict_without_exit_code", "option", "cli/check.c", "golden check_fails",
-     "if (passed < orders)", "if (passed > orders)"},
+     "if (passed < all)", "if (passed > all)"},
     {"warning_without_remedy", "option", "cli/warn.c", "golden run_warned",
      "print_lines(w->remedy);", ""},
 };

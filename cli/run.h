@@ -1,13 +1,33 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The files of a run in --out: the tip's history and the fields, written while it marches, and its
- * summary. They are put in place together, also where a march stopped early. */
-#ifndef BR_CLI_RUN_FILES_H
-#define BR_CLI_RUN_FILES_H
+/* The two halves of `run`: what its command line says of a scene, and the files that it writes. */
+#ifndef BR_CLI_RUN_H
+#define BR_CLI_RUN_H
 
+#include "cli/option.h"
 #include "cli/output.h"
 #include "tables/fields_file.h"
 #include "tables/report_run.h"
 
+/* ---- run_plan.c ---- */
+
+struct br_run_plan {
+    struct br_method method;
+    size_t n, steps, stride;
+    unsigned wanted; /* see study/run/model.h */
+    size_t *level;   /* levels, ascending; owned; the output times */
+    size_t levels;
+};
+
+/* Checks the options against the scene. Fails with BR_BAD_INPUT, naming the option, what was found
+ * and what was expected; clear the plan even then. */
+enum br_status br_run_plan_make(const struct br_options *options, const struct br_scene *scene,
+                                struct br_run_plan *plan, struct br_error *err);
+void br_run_plan_clear(struct br_run_plan *plan);
+
+/* ---- run_files.c ---- */
+
+/* The files of --out: the tip's history and the fields, written while it marches, and its summary.
+ * They are put in place together, also where a march stopped early. */
 struct br_run_files {
     struct br_output output;
     const struct br_scene *scene; /* as it is marched; borrowed */

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The parts of `extremes`, a function and a row each: what study/extremes/ computes, tables/
+ * reports and plots/ draws. */
+#include "cli/extremes_part.h"
+
+#include <stdio.h>
+
+#include "cli/provenance.h"
+#include "plots/pictures.h"
+#include "tables/report_extremes.h"
+
+/* Round-off of the linear solvers; a picture for each k. */
+static enum br_status run_floors(const struct br_extremes_job *job, struct br_error *err)
+{
+    const struct br_floors_plan plan = {
+        .n = job->n,
+        .k = job->k,
+        .n_count = job->n_count,
+        .k_count = job->k_count,
+        .threads = job->threads,
+        .rounding = job->rounding,
+    };
+    struct br_floors floors = {0};
+    enum br_status status = br_floors_run(&floors, &plan, job->observer, err);
+    if (!status) {
+        br_report_floors(&floors, job->report);
+        br_floors_verdict(&floors, job->verdict);
+    }
+    for (size_t i = 0; i < floors.k_count && floors.n_count > 1 && !status; i++) {
+        struct br_figure figure = {0};
+        status = br_floors_draw(&floors, i, &figure, err);
+        status = br_extremes_draw(job, &figure, status, err);
+    }
+    br_floors_clear(&floors);
+    return status;
+}
+
+static const struct br_extremes_part floors = {
+    .name = "floors",
+    .title = "round-off of every linear solver over n and k, measured and predicted",
+    .heeds = BR_HEEDS_N | BR_HEEDS_K | BR_HEEDS_ROUNDING,
+    .run = run_floors,
+};
+
+/* Round-off that many steps gather. */
+static enum br_status run_steps(const struct br_extremes_job *job, struct br_error *err)
+{
+    const struct br_drifts_plan plan = {
+        .k = job->k,
+        .k_count = job->k_count,
+        .threads = job->threads,
+        .rounding = job->rounding,
+    };
+    struct br_drifts drifts = {0};
+    struct br_figure figure = {0};
+    enum br_status status = br_drifts_run(&drifts, &plan, job->observer, err);
+    if (!status) {
+        br_report_drifts(&drifts, job->report);
+        br_drifts_verdict(&drifts, job->verdict);
+    }
+    if (!status && drifts.k_count > 1)
+        status = br_drifts_draw(&drifts, &figure, err);
+    status = br_extremes_draw(job, &figure, status, err);
+    br_drifts_clear(&drifts);
+    return status;
+}
+
+static const struct br_extremes_part steps = {
+    .name = "steps",
+    .title = "round-off that 1 to 1e7 steps gather, measured and predicted; time levels",
+    .heeds = BR_HEEDS_K | BR_HEEDS_ROUNDING,
+    .run = run_steps,
+};
+
+/* The lagged contact's limit. */
+static enum br_status run_stability(const struct br_extremes_job *job, struct br_error *err)
+{
+    const struct br_stability_request request = {
+        .n = job->n_count ? job->n[0] : 0,
+        .k = job->k,
+        .k_count = job->k_count,
+        .threads = job->threads,
+        .observer = job->observer,
+    };
+    if (job->n_count > 1)
+        return br_fail(err, BR_BAD_INPUT, "--n: found %zu numbers, expected one", job->n_count);
+    struct br_stability s = {0};
+    struct br_figure figure = {0};
+    enum br_status status = br_stability_run(&request, &s, err);
+    if (!status) {
+        br_report_stability(&s, job->report);
+        br_stability_verdict(&s, job->verdict);
+        status = br_stability_draw(&s, &figure, err);
+    }
+    status = br_extremes_draw(job, &figure, status, err);
+    br_stability_clear(&s);
+    return status;
+}
+
+static const struct br_extremes_part stability = {
+    .name = "stability",
+    .title = "the contact's stability limit over c_H and k, predicted and measured",
+    .heeds = BR_HEEDS_N | BR_HEEDS_K,
+    .run = run_stability,
+};
+
+static enum br_status judge_energy(const struct br_energy_behaviour *b, struct br_error *err)
+{
+    for (size_t i = 0; i < b->vibrations; i++)
+        if (!br_vibration_row_is_right(&b->vibration[i]))
+            return br_fail(err, BR_VERDICT,
+                           "scheme %s does not take from a free vibration what its stability "
+                           "function tells, or a step's balance does not close",
+                           b->vibration[i].scheme->name);
+    for (size_t i = 0; i < b->balances; i++)
+        if (!br_balance_row_is_right(&b->balance[i]))
+            return br_fail(err, BR_VERDICT,
+                           "%s by scheme %s: what is missing in the energy balance of a step is "
+                           "%.3g of the terms' sum, expected at most %.3g",
+                           br_balance_scenes[b->balance[i].scene], b->balance[i].scheme->name,
+                           b->balance[i].worst, b->balance[i].limit);
+    return BR_OK;
+}
+
+/* What every scheme takes from the energy or adds to it. */
+static enum br_status run_energy(const struct br_extremes_job *job, struct br_error *err)
+{
+    struct br_energy_behaviour b = {0};
+    struct br_figure figure = {0};
+    enum br_status status = br_energy_behaviour_run(&b, job->threads, job->observer, err);
+    if (!status) {
+        br_report_energy(&b, job->report);
+        judge_energy(&b, job->verdict);
+        status = br_energy_draw(&b, &figure, err);
+    }
+    status = br_extremes_draw(job, &figure, status, err);
+    br_energy_behaviour_clear(&b);
+    return status;
+}
+
+static const struct br_extremes_part energy = {
+    .name = "energy",
+    .title = "what every scheme takes from the energy or adds to it, each step's balance",
+    .run = run_energy,
+};
+
+enum { CASES = 2000, SEED = 1 };
+
+/* Thousands of cases at random, and none of them silently wrong. */
+static enum br_status run_map(const struct br_extremes_job *job, struct br_error *err)
+{
+    char program[300];
+    snprintf(program, sizeof program, "beamrate %s %s", br_version(), br_commit());
+    const struct br_extreme_wish wish = {
+        .seed = job->seed ? job->seed : SEED,
+        .cases = job->cases ? job->cases : CASES,
+        .threads = job->threads,
+        .court = {.rounding = job->rounding},
+        .kept = job->kept,
+        .program = program,
+        .folder = job->folder,
+        .observer = job->observer,
+    };
+    struct br_extreme_map map = {0};
+    struct br_extreme_counts counts = {0};
+    struct br_figure figure = {0};
+    enum br_status status = br_extreme_map_run(&wish, &map, err);
+    if (!status)
+        status = br_extreme_count(&map, &counts, err);
+    if (!status) {
+        br_report_map(&map, &counts, job->report);
+        if (map.count[BR_EXTREME_WRONG])
+            br_fail(job->verdict, BR_VERDICT,
+                    "%zu of %zu cases are silently wrong, the first of them: %s",
+                    map.count[BR_EXTREME_WRONG], map.cases, map.shrunk[0].command);
+        status = br_extreme_map_draw(&map, &figure, err);
+    }
+    status = br_extremes_draw(job, &figure, status, err);
+    br_extreme_counts_clear(&counts);
+    br_extreme_map_clear(&map);
+    return status;
+}
+
+static const struct br_extremes_part map = {
+    .name = "map",
+    .title = "cases at random: right, inaccurate, unstable, refused, and none silently wrong",
+    .heeds = BR_HEEDS_CASES | BR_HEEDS_SEED | BR_HEEDS_ROUNDING | BR_HEEDS_RESUME,
+    .run = run_map,
+};
+
+const struct br_extremes_part *const br_extremes_parts[] = {&floors, &steps, &stability,
+                                                            &energy, &map,   NULL};

@@ -1,0 +1,567 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the rows of commands, options and registries become in five languages: the manual page,
+ * docs/options.md, and the completions of bash, zsh and fish. One walk, and for each language the
+ * patterns of what it meets.
+ *
+ * In a pattern, %n is the field n; a capital, %N, is the same field quoted for the language. What
+ * stands between { and } is left out where one of its fields is empty; %?n only asks whether it
+ * is. %{, %} and %% are these characters. The fields, by their letters:
+ *   c a command's name   s its arguments   t its title, or a word's   b about   m more of it
+ *   e an example         o all options     g its arguments' words     p the pattern for these
+ *   j "*": several arguments may be given
+ *   n an option's name   l its letter      a its argument             d its default
+ *   h its help           i with the default
+ *   w words that may be chosen, or one     v the pattern of a value
+ *   u what a word without a title is       q "name:title" as a string of a shell
+ *   x the version        z the bundled scenes */
+#include "cli/languages.h"
+
+#include <ctype.h>
+#include <string.h>
+
+#include "cli/provenance.h"
+#include "study/scene/file.h"
+#include "study/scene/quote.h"
+
+enum { MOST_SCENES = 8192, MOST_WORDS = 512, MOST_OPTIONS = 1024 };
+
+/* What is known of an option's value, and of a command's arguments. */
+enum value { FLAG, ANYTHING, FILES, FOLDERS, ONE_WORD, SOME_WORDS, VALUES };
+enum arguments { NONE, WORDS, SCENES, ARGUMENTS };
+
+struct language {
+    const char *name;
+    const struct br_quoting *quoting, *words_quoting; /* of capitals; of %W */
+    const char *head, *listed, *middle; /* before all; of each command; before the commands */
+    const char *command;                /* at its start */
+    const char *examples, *example, *examples_end;
+    bool examples_first; /* they follow the start, else the end */
+    const char *option;
+    const char *value[VALUES], *arguments[ARGUMENTS];
+    const char *words, *word; /* before words; each */
+    const char *end;          /* of a command */
+    const char *method; /* instead of the options of the method, which then follow all commands */
+    const char *methods, *registry; /* before these; before each registry */
+    const char *section, *paragraph, *next_paragraph;
+    const char *foot;
+};
+
+/* By their letters. */
+struct fields {
+    const char *of['z' + 1];
+};
+
+/* ---- patterns ---- */
+
+/* The end of the group that begins here. */
+static const char *group_end(const char *p)
+{
+    for (int depth = 1;; p++) {
+        if (*p == '%')
+            p++;
+        else if (*p == '{')
+            depth++;
+        else if (*p == '}' && --depth == 0)
+            return p;
+    }
+}
+
+static const char *field(const struct fields *f, char letter)
+{
+    const char *text = isalpha((unsigned char)letter) ? f->of[tolower((unsigned char)letter)] : "-";
+    return text ? text : "";
+}
+
+/* Whether all fields of a group have text, but for those in groups of their own. */
+static bool is_filled(const char *p, const char *end, const struct fields *f)
+{
+    bool filled = true;
+    for (; p < end; p++)
+        if (*p == '{')
+            p = group_end(p + 1);
+        else if (*p == '%') {
+            p += p[1] == '?' ? 2 : 1;
+            filled &= *field(f, *p) != '\0';
+        }
+    return filled;
+}
+
+static void put(FILE *out, const struct language *l, const char *p, const char *end,
+                const struct fields *f);
+
+/* One that is no question, by its letter. */
+static void put_field(FILE *out, const struct language *l, char letter, const struct fields *f)
+{
+    const char *text = field(f, letter);
+    if (letter == 'v' || letter == 'p') /* patterns again */
+        put(out, l, text, text + strlen(text), f);
+    else if (isupper((unsigned char)letter))
+        br_quote(out, letter == 'W' ? l->words_quoting : l->quoting, text);
+    else if (isalpha((unsigned char)letter))
+        fputs(text, out);
+    else
+        fputc(letter, out);
+}
+
+static void put(FILE *out, const struct language *l, const char *p, const char *end,
+                const struct fields *f)
+{
+    for (; p < end; p++)
+        if (*p == '{') {
+            const char *close = group_end(p + 1);
+            if (is_filled(p + 1, close, f))
+                put(out, l, p + 1, close, f);
+            p = close;
+        } else if (*p != '%')
+            fputc(*p, out);
+        else if (*++p == '?')
+            p++;
+        else
+            put_field(out, l, *p, f);
+}
+
+static void emit(FILE *out, const struct language *l, const char *pattern, const struct fields *f)
+{
+    if (pattern)
+        put(out, l, pattern, pattern + strlen(pattern), f);
+}
+
+/* ---- the walk ---- */
+
+size_t br_registries(struct br_registry list[BR_REGISTRIES])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        const struct br_method_field *f = &br_method_fields[i];
+        if (f->words && (f->words->title || f->words->available))
+            list[count++] = (struct br_registry){f->name, f->help, f->words};
+    }
+    list[count++] =
+        (struct br_registry){"reference", "what errors are measured against", &br_judge_words};
+    list[count++] = (struct br_registry){"norm", "norms of the error", &br_norm_words};
+    list[count++] = (struct br_registry){"format", "formats of the results", &br_format_words};
+    return count;
+}
+
+/* words (out): those that may be chosen, separated by blanks. A reference that wants numbers ends
+ * with its colon. */
+static enum value value_of(const struct br_option *row, char words[MOST_WORDS])
+{
+    const struct br_words *names =
+        row->id == BR_OPT_METHODS ? br_method_fields[BR_METHOD_SCHEME].words : row->words;
+    size_t used = 0;
+    words[0] = '\0';
+    if (row->kind == BR_TAKES_FILE || row->kind == BR_TAKES_DIR)
+        return row->kind == BR_TAKES_FILE ? FILES : FOLDERS;
+    if (!names)
+        return row->argument ? ANYTHING : FLAG;
+    for (size_t i = 0; names->name(i) && used < MOST_WORDS; i++) {
+        const char *name = names->name(i);
+        const size_t colon = strcspn(name, ":"), length = colon + (name[colon] == ':');
+        used += (size_t)snprintf(words + used, MOST_WORDS - used, "%s%.*s", i ? " " : "",
+                                 (int)length, name);
+    }
+    return strcmp(row->argument, "LIST") == 0 ? SOME_WORDS : ONE_WORD;
+}
+
+const char *br_option_help(const struct br_option *row, char *text, size_t size)
+{
+    char value[BR_METHOD_VALUE];
+    const char *standard = br_option_default(row, value);
+    snprintf(text, size, "%s%s%s%s", row->help, standard ? " (default " : "",
+             standard ? standard : "", standard ? ")" : "");
+    return text;
+}
+
+static void write_option(FILE *out, const struct language *l, const struct br_option *row,
+                         struct fields f)
+{
+    char words[MOST_WORDS], help[512], standard[BR_METHOD_VALUE];
+    const char letter[] = {row->letter, '\0'};
+    f.of['n'] = row->name;
+    f.of['l'] = letter;
+    f.of['a'] = row->argument;
+    f.of['d'] = br_option_default(row, standard);
+    f.of['h'] = row->help;
+    f.of['i'] = br_option_help(row, help, sizeof help);
+    f.of['m'] = row->more;
+    f.of['v'] = l->value[value_of(row, words)];
+    f.of['w'] = words;
+    emit(out, l, l->option, &f);
+}
+
+static void write_words(FILE *out, const struct language *l, const struct br_words *words,
+                        struct fields f)
+{
+    emit(out, l, l->words, &f);
+    for (size_t i = 0; words->name(i); i++) {
+        f.of['w'] = words->name(i);
+        f.of['t'] = words->title ? words->title(i) : NULL;
+        f.of['u'] = words->title ? NULL : "an instruction set";
+        emit(out, l, l->word, &f);
+    }
+}
+
+static void write_examples(FILE *out, const struct language *l, const struct br_command *c,
+                           struct fields f)
+{
+    emit(out, l, l->examples, &f);
+    for (size_t i = 0; i < BR_MOST_EXAMPLES && c->example[i]; i++) {
+        f.of['e'] = c->example[i];
+        emit(out, l, l->example, &f);
+    }
+    emit(out, l, l->examples_end, &f);
+}
+
+/* A command and all that belongs to it. */
+static void write_command(FILE *out, const struct language *l, const struct br_command *c,
+                          struct fields f)
+{
+    struct br_option row[BR_OPTIONS];
+    const size_t count = br_options_of(c, row);
+    char words[MOST_WORDS] = "", options[MOST_OPTIONS];
+    for (size_t i = 0, used = 0; i < count && used < sizeof options; i++)
+        used += (size_t)snprintf(options + used, sizeof options - used, "%s--%s", i ? " " : "",
+                                 row[i].name);
+    if (c->words)
+        br_words_join(c->words, " ", words, sizeof words);
+    f.of['s'] = c->arguments;
+    f.of['b'] = c->about;
+    f.of['m'] = c->more;
+    f.of['o'] = options;
+    f.of['g'] = words;
+    f.of['j'] = c->most_words > 1 ? "*" : "";
+    f.of['p'] = l->arguments[*words ? WORDS : !c->words && c->most_words > 0 ? SCENES : NONE];
+    emit(out, l, l->command, &f);
+    if (l->examples_first)
+        write_examples(out, l, c, f);
+    for (size_t i = 0; i < count; i++)
+        if (!l->method || row[i].id < BR_OPT_METHOD)
+            write_option(out, l, &row[i], f);
+    if (row[count - 1].id >= BR_OPT_METHOD)
+        emit(out, l, l->method, &f);
+    if (c->words && c->words->title)
+        write_words(out, l, c->words, f);
+    if (!l->examples_first)
+        write_examples(out, l, c, f);
+    emit(out, l, l->end, &f);
+}
+
+/* Not what is available: that differs from machine to machine. */
+static void write_methods(FILE *out, const struct language *l, struct fields f)
+{
+    struct br_registry list[BR_REGISTRIES];
+    struct br_option row[BR_OPTIONS];
+    const size_t count = br_registries(list), options = br_options_of(br_commands[0], row);
+    emit(out, l, l->methods, &f);
+    for (size_t i = 0; i < options; i++)
+        if (row[i].id >= BR_OPT_METHOD)
+            write_option(out, l, &row[i], f);
+    for (size_t i = 0; i < count; i++) {
+        f.of['n'] = list[i].option;
+        f.of['h'] = list[i].title;
+        emit(out, l, l->registry, &f);
+        write_words(out, l, list[i].words, f);
+    }
+}
+
+/* Sections of the manual page that no row has; paragraphs. */
+static const struct {
+    const char *title, *text[8];
+} sections[] = {
+    {"WHAT IS SAID BEFORE A MARCH",
+     {"run predicts the discretisation error from coarse marches, with bounds, or says "
+      "that it cannot, and the round-off of the linear solver; both are relative to the "
+      "solution and stand in the summaries. It warns on standard error, with what to do "
+      "instead, where round-off is above the discretisation error, and where the latter "
+      "is above 5 %; where a load does between the time levels what they do not see, or "
+      "inside of elements what their quadrature does not see; and where a lagged contact "
+      "will be unstable, or may gain energy. A march that needs more memory than there "
+      "is, or more than a century, is refused before a folder is made; one of more than a "
+      "day is warned of. The other commands say of their marches what is cheap to tell, "
+      "and study and tables add up the memory of marches that run at once."}},
+    {"MORE MACHINES",
+     {"Started by mpirun or srun (with MPI built in), the ranks share the work, and rank "
+      "0 alone speaks and writes; results are those of one process, to the bit. --threads "
+      "counts for each rank; by default a rank uses the cores that it is bound to, shared "
+      "with the ranks that are bound to the same ones. All ranks must see the same "
+      "scenes. A build without MPI refuses to be started several times."}},
+    {"SCENES",
+     {"A scene is a YAML file; every number carries its unit, loads and initial data are "
+      "expressions in x and t. What it leaves out is not modelled. 'beamrate scenes "
+      "--new' explains every key. It is read once, from a file, a pipe, or standard input "
+      "(-), and is refused beyond 1 MiB. An editor with a YAML language server completes "
+      "and checks a scene that begins with the line '# yaml-language-server: "
+      "$schema=PATH' of scene.schema.json."}},
+    {"FILES",
+     {"For every table NAME, the files NAME.txt, .csv, .md, .tex and .json, and for every "
+      "plot a gnuplot script NAME-*.gp, its data NAME-*.dat, and, where gnuplot is "
+      "installed, .svg and .png. If gnuplot fails on a picture, a warning names it and "
+      "only that picture is missing; the exit code is that of the results. A scene's NAME "
+      "is its file's, with _ for what is no letter, digit, blank or one of _ . - +, at "
+      "most 100 bytes.",
+      "The files of one run are a set. manifest.json lists the sets of its folder: for "
+      "each its run, version and command, and its files with their sizes and SHA-256. "
+      "Files are written in the hidden folder .beamrate, which is locked: a second "
+      "program that would write there is refused. Then the manifest is taken away, the "
+      "files are renamed into place, and the new manifest follows last. So a folder "
+      "without a manifest has no set, and one that has a manifest has all of what that "
+      "lists. A program that is killed before it has decided for the new set leaves the "
+      "old one; after that, the next command with the same folder finishes its work "
+      "first. A new set takes the place of those with which it shares a file's name; "
+      "their other files are removed, unless somebody has changed them. Files that no "
+      "manifest lists are never touched: where one is in the way, the results go into the "
+      "folder set-RUN beside it, and the exit code is 3.",
+      "Installed: share/beamrate/study/scenes (the bundled scenes), "
+      "share/beamrate/scene.schema.json (their schema), and the completions of bash, zsh "
+      "and fish."}},
+    {"ENVIRONMENT",
+     {"BEAMRATE_DATA: the folder that holds study/scenes and reference/printed, instead "
+      "of the one the program was built or installed with.",
+      "BEAMRATE_SILENCE: seconds after which a rank that says nothing is taken for dead, "
+      "60 by default.",
+      "BEAMRATE_GNUPLOT_SECONDS: seconds that gnuplot may take for one script, 60 by "
+      "default; then it is killed, as it is by an interrupt.",
+      "TMPDIR: the folder for what run --plot and --animate need for a moment, /tmp by "
+      "default."}},
+    {"EXIT STATUS",
+     {"0 done; 1 a verdict failed; 2 bad input; 3 the computation failed (a failed cell, "
+      "too, after the results have been written; a march of run that stops early keeps "
+      "what it has written). An interrupted program ends by its signal and leaves no file "
+      "half written; a hidden folder that a second signal leaves behind is removed, or "
+      "its set put in place, by the next command that writes there."}},
+    {"SEE ALSO", {"gnuplot(1), mpirun(1)"}},
+};
+
+static void write_sections(FILE *out, const struct language *l, struct fields f)
+{
+    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
+        f.of['t'] = sections[i].title;
+        emit(out, l, l->section, &f);
+        for (size_t j = 0; sections[i].text[j]; j++) {
+            f.of['b'] = sections[i].text[j];
+            emit(out, l, j ? l->next_paragraph : l->paragraph, &f);
+        }
+    }
+}
+
+static void write_all(FILE *out, const struct language *l, const char *scenes)
+{
+    struct fields f = {.of = {['x'] = br_version(), ['z'] = scenes}};
+    char line[256], quoted[300];
+    emit(out, l, l->head, &f);
+    for (int body = 0; body < 2; body++) {
+        for (const struct br_command *const *c = br_commands; *c; c++) {
+            snprintf(line, sizeof line, "%s:%s", (*c)->name, (*c)->title);
+            f.of['c'] = (*c)->name;
+            f.of['t'] = (*c)->title;
+            f.of['q'] = br_quoted(quoted, sizeof quoted, &br_for_completion, line);
+            if (body)
+                write_command(out, l, *c, f);
+            else
+                emit(out, l, l->listed, &f);
+        }
+        emit(out, l, body ? NULL : l->middle, &f);
+    }
+    if (l->methods)
+        write_methods(out, l, f);
+    if (l->section)
+        write_sections(out, l, f);
+    emit(out, l, l->foot, &f);
+}
+
+/* ---- the languages ---- */
+
+/* Whatever roff, or Markdown, would take for its own. */
+static const struct br_quoting for_roff = {
+    .around = "", .start = ".'", .guard = "\\&", .stead = {{'-', "\\-"}, {'\\', "\\e"}}};
+static const struct br_quoting for_page = {
+    .around = "", .stead = {{'|', "\\|"}, {'<', "\\<"}, {'*', "\\*"}, {'_', "\\_"}}};
+static const struct br_quoting for_zsh_words = {.around = "", .stead = {{':', "\\:"}}};
+
+static const struct language languages[] = {
+    {
+        .name = "man",
+        .quoting = &for_roff,
+        .head = ".\\\" SPDX-License-Identifier: GPL-3.0-or-later\n"
+                ".\\\" Written by 'beamrate help --man'.\n"
+                ".TH BEAMRATE 1 2026 \"beamrate %x\" \"User Commands\"\n.SH NAME\n"
+                "beamrate \\- convergence studies of the dynamic frictional contact of a "
+                "viscoelastic beam\n.SH SYNOPSIS\n"
+                ".B beamrate\n.I command\n.RI [ option ...]\n.SH COMMANDS\n",
+        .command = ".SS beamrate %c{ %s}\n%B\n{%M\n}",
+        .option = ".TP\n.B {\\-%l, }\\-\\-%N{ \\fI%a\\fR}\n%I.\n{%M\n}",
+        .method = ".PP\nAnd the options of the method, below.\n",
+        .word = ".TP\n.B %w\n%T%u\n",
+        .examples = ".PP\n.nf\n",
+        .example = "%E\n",
+        .examples_end = ".fi\n",
+        .methods = ".SH OPTIONS OF THE METHOD\n"
+                   "An option that the chosen method does not heed is refused.\n",
+        .registry = ".SS \"\\-\\-%n: %h\"\n",
+        .section = ".SH %t\n",
+        .paragraph = "%B\n",
+        .next_paragraph = ".PP\n%B\n",
+    },
+    {
+        .name = "markdown",
+        .quoting = &for_page,
+        .head = "# Options\n\nWritten by `beamrate help --markdown`. `T` is the duration of the "
+                "scene: `--k T/100` makes 100 steps.\n",
+        .command = "\n## beamrate %c{ %s}\n\n%B{ %M}\n\n",
+        .examples = "```sh\n",
+        .example = "%e\n",
+        .examples_end = "```\n\n| option | default | what it does |\n|---|---|---|\n",
+        .examples_first = true,
+        .option = "| {`-%l`, }`--%n{ %a}` | %d | %H{. %M} |\n",
+        .method = "\nAnd the [options of the method](#options-of-the-method).\n",
+        .words = "\n",
+        .word = "- `%w`{: %T}\n",
+        .methods =
+            "\n## Options of the method\n\nAn option that the chosen method does not heed is "
+            "refused.\n\n| option | default | what it does |\n|---|---|---|\n",
+        .registry = "\n### --%n: %h\n",
+    },
+    {
+        .name = "bash",
+        .words_quoting = &br_for_completion,
+        /* Bash splits a word at = (and :), so that --solver=x comes as three words. */
+        .head =
+            "# Completion of beamrate in bash; written by 'beamrate completions bash'.\n"
+            "\n"
+            "_beamrate_words() %{ mapfile -t COMPREPLY < <(compgen -W \"$1\" -- \"$cur\"); %}\n"
+            "\n"
+            "# Some of the words, separated by commas.\n"
+            "_beamrate_list() %{\n"
+            "    local done=''\n"
+            "    case $cur in *,*) done=$%{cur%%,*%}, ;; esac\n"
+            "    mapfile -t COMPREPLY < <(compgen -P \"$done\" -W \"$1\" -- \"$%{cur##*,%}\")\n"
+            "    compopt -o nospace 2>/dev/null\n"
+            "%}\n"
+            "\n"
+            "_beamrate_files() %{\n"
+            "    mapfile -t COMPREPLY < <(compgen \"$@\" -- \"$cur\")\n"
+            "    compopt -o filenames 2>/dev/null\n"
+            "%}\n"
+            "\n"
+            "_beamrate_scenes() %{\n"
+            "    mapfile -t COMPREPLY < <(compgen -W \"$1\" -- \"$cur\"\n"
+            "        compgen -f -X '!*.yaml' -- \"$cur\"\n"
+            "        compgen -d -- \"$cur\")\n"
+            "    compopt -o filenames 2>/dev/null\n"
+            "%}\n"
+            "\n"
+            "_beamrate() %{\n"
+            "    local cur=$%{COMP_WORDS[COMP_CWORD]%} command=$%{COMP_WORDS[1]%} i=$((COMP_CWORD - 1))\n"
+            "    [ \"$cur\" = '=' ] && cur='' i=$COMP_CWORD\n"
+            "    [ \"$%{COMP_WORDS[i]%}\" = '=' ] && i=$((i - 1))\n"
+            "    local prev=$%{COMP_WORDS[i]%}\n"
+            "    COMPREPLY=()\n"
+            "    if [ \"$COMP_CWORD\" -eq 1 ]; then\n        _beamrate_words '",
+        .listed = "%c ",
+        .middle = "--help --version'\n        return\n    fi\n    case $command,$prev in\n",
+        .option = "{%?a    %c,--%n{ | %c,-%l}) %v ;;\n}",
+        .value = {"", "return", "_beamrate_files -f", "_beamrate_files -d", "_beamrate_words %W",
+                  "_beamrate_list %W"},
+        .end = "    %c,*) case $cur in -*) _beamrate_words '%o' ;; *) %p ;; esac ;;\n",
+        .arguments = {"_beamrate_words ''", "_beamrate_words '%g'", "_beamrate_scenes '%z'"},
+        .foot = "    esac\n%}\n\ncomplete -F _beamrate beamrate\n",
+    },
+    {
+        .name = "zsh",
+        .quoting = &br_for_zsh, /* _arguments would take brackets and colons for its own */
+        .words_quoting = &for_zsh_words,
+        .head = "#compdef beamrate\n"
+                "# Completion of beamrate in zsh; written by 'beamrate completions zsh'.\n\n"
+                "_beamrate_scenes() %{\n    _alternative 'scenes:bundled scene:(%z)' "
+                "'files:file:_files -g \"*.yaml\"'\n%}\n\n"
+                "_beamrate() %{\n    local -a commands\n    commands=(\n",
+        .listed = "        %q\n",
+        .middle = "    )\n    local state line curcontext=$curcontext\n"
+                  "    _arguments -C '(- *)--help[lists the commands]' "
+                  "'(- *)--version[the version]' \\\n"
+                  "        '1:command:->command' '*::argument:->argument'\n"
+                  "    case $state in\n    command) _describe command commands ;;\n    argument)\n"
+                  "        case $words[1] in\n",
+        .command = "        %c)\n            _arguments \\\n",
+        .option = "{            '-%l{%?a+}[%H]{%v}' \\\n}            '--%n{%?a=}[%H]%v' \\\n",
+        .value = {"", ":%a:", ":%a:_files", ":%a:_files -/", ":%a:(%W)",
+                  ":%a:_sequence compadd - %W"},
+        .end = "            %p\n            ;;\n",
+        .arguments = {"&& return", "'%j:argument:(%g)'", "'*:scene:_beamrate_scenes'"},
+        .foot = "        esac\n        ;;\n    esac\n%}\n\n"
+                "if [[ $funcstack[1] = _beamrate ]]; then\n    _beamrate \"$@\"\nelse\n"
+                "    compdef _beamrate beamrate\nfi\n",
+    },
+    {
+        .name = "fish",
+        .quoting = &br_for_completion,
+        .head = "# Completion of beamrate in fish; written by 'beamrate completions fish'.\n"
+                "set -g __beamrate_scenes %z\n\ncomplete -c beamrate -f\n"
+                "complete -c beamrate -n __fish_use_subcommand -l help -d 'lists the commands'\n"
+                "complete -c beamrate -n __fish_use_subcommand -l version -d 'the version'\n",
+        .command = "\ncomplete -c beamrate -n __fish_use_subcommand -a %c -d %T\n"
+                   "{complete -c beamrate -n '__fish_seen_subcommand_from %c' -a '%p'\n}",
+        .option =
+            "complete -c beamrate -n '__fish_seen_subcommand_from %c' -l %n{ -s %l}%v -d %H\n",
+        .value = {"", " -x", " -r -F", " -x -a '(__fish_complete_directories)'", " -x -a '%w'",
+                  " -x -a '(__fish_append , %w)'"},
+        .arguments = {"", "%g", "$__beamrate_scenes (__fish_complete_suffix .yaml)"},
+    },
+};
+
+/* ---- what leaves this file ---- */
+
+void br_write_language(FILE *out, const char *name, const char *scenes)
+{
+    for (size_t i = 0; i < sizeof languages / sizeof *languages; i++)
+        if (strcmp(languages[i].name, name) == 0)
+            write_all(out, &languages[i], scenes);
+}
+
+static const char *shell_name(size_t row)
+{
+    static const char *const shells[] = {"bash", "zsh", "fish", NULL};
+    return shells[row];
+}
+
+static const struct br_words shell_words = {shell_name, NULL, NULL};
+
+/* Bundled scenes, separated by blanks. */
+static enum br_status collect_scenes(char text[MOST_SCENES], struct br_error *err)
+{
+    char **name;
+    size_t count, used = 0;
+    const enum br_status status = br_scene_list(&name, &count, err);
+    text[0] = '\0';
+    for (size_t i = 0; i < count && !status && used < MOST_SCENES; i++)
+        if (br_is_name(name[i]) && !strchr(name[i], ' ')) /* else no shell could complete it */
+            used +=
+                (size_t)snprintf(text + used, MOST_SCENES - used, "%s%s", used ? " " : "", name[i]);
+    br_scene_list_free(name, count);
+    return status;
+}
+
+static enum br_status run(const struct br_options *o, struct br_error *err)
+{
+    static char scenes[MOST_SCENES];
+    const enum br_status status = collect_scenes(scenes, err);
+    if (!status)
+        br_write_language(stdout, o->word[0], scenes);
+    return status;
+}
+
+const struct br_command br_command_completions = {
+    .bit = BR_FOR_COMPLETIONS,
+    .name = "completions",
+    .arguments = "bash|zsh|fish",
+    .title = "makes a shell complete commands, options, values and scenes",
+    .about = "Prints what makes a shell complete the commands, their options, values and scenes.",
+    .more = "It is installed where the shells look for it.",
+    .example = {"beamrate completions bash > beamrate.bash", "beamrate completions zsh > _beamrate",
+                "beamrate completions fish > beamrate.fish"},
+    .least_words = 1,
+    .most_words = 1,
+    .words = &shell_words,
+    .run = run,
+};

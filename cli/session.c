@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/session.h"
+
+#include "cli/provenance.h"
+#include "study/ranks/ranks.h"
+#include "study/scene/file.h"
+
+enum br_status br_opened_scene_read(struct br_opened_scene *s, const char *name,
+                                    struct br_error *err)
+{
+    return br_scene_open(name, s->path, sizeof s->path, &s->text, &s->scene, err);
+}
+
+void br_opened_scene_clear(struct br_opened_scene *s)
+{
+    br_scene_clear(&s->scene);
+    free(s->text);
+    s->text = NULL;
+}
+
+struct br_provenance br_provenance_of(const struct br_opened_scene *s, int threads)
+{
+    struct br_provenance p;
+    br_provenance_fill(&p, threads);
+    p.scene_path = s ? s->path : NULL;
+    p.scene_text = s ? s->text : NULL;
+    return p;
+}
+
+struct br_session br_session_begin(const struct br_options *options)
+{
+    const bool writes = br_ranks_first();
+    return (struct br_session){
+        .options = options,
+        .writes = writes,
+        .quiet = br_option_given(options, BR_OPT_QUIET) || !writes,
+        .threads = (int)br_option_number(options, BR_OPT_THREADS, 0),
+    };
+}
+
+enum br_status br_session_alone(struct br_error *err)
+{
+    const int ranks = br_ranks_size();
+    return ranks == 1 ? BR_OK
+                      : br_fail(err, BR_BAD_INPUT,
+                                "%d ranks would disturb one another's clocks, expected one", ranks);
+}
+
+enum br_status br_session_open(struct br_session *s, struct br_error *err)
+{
+    const char *folder = br_option_text(s->options, BR_OPT_OUT);
+    return s->writes && folder ? br_output_open(&s->output, folder, err) : BR_OK;
+}
+
+enum br_status br_session_report(struct br_session *s, size_t documents, struct br_error *err)
+{
+    s->document = br_allocate(documents, sizeof *s->document);
+    s->documents = s->document ? documents : 0;
+    return s->document ? BR_OK : br_no_memory(err, "the reports");
+}
+
+bool br_session_draws(const struct br_session *s)
+{
+    return !br_option_given(s->options, BR_OPT_NO_PLOTS);
+}
+
+enum br_status br_session_draw(struct br_session *s, struct br_document *report,
+                               struct br_figure *figure, const char *title, enum br_status drawn,
+                               struct br_error *err)
+{
+    s->pictures.output = &s->output;
+    if (!drawn && figure->panels) {
+        br_put_picture(report, figure->stem, title);
+        drawn = br_picture_files_draw(&s->pictures, figure, err);
+    }
+    br_figure_clear(figure);
+    return drawn;
+}
+
+static enum br_status write_all(struct br_session *s, struct br_error *err)
+{
+    s->pictures.output = &s->output;
+    if (br_documents_write(&s->pictures, s->options, s->document, s->documents, err) ||
+        br_picture_files_finish(&s->pictures, err) || br_output_commit(&s->output, err))
+        return err->status;
+    if (!s->quiet)
+        br_output_announce(&s->output);
+    return BR_OK;
+}
+
+enum br_status br_session_finish(struct br_session *s, struct br_error *err)
+{
+    const enum br_status status =
+        s->quiet ? BR_OK : br_documents_show(s->document, s->documents, err);
+    return !status && br_output_is_open(&s->output) ? write_all(s, err) : status;
+}
+
+void br_session_close(struct br_session *s)
+{
+    br_picture_files_finish(&s->pictures, NULL);
+    br_output_discard(&s->output);
+    for (size_t i = 0; i < s->documents; i++)
+        br_document_clear(&s->document[i]);
+    free(s->document);
+    s->document = NULL;
+    s->documents = 0;
+}
+
+enum br_status br_failed_in(struct br_error *err, const char *name)
+{
+    const struct br_error inner = *err;
+    return br_fail(err, inner.status, "%s: %.1000s", name, inner.message);
+}

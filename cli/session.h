@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The frame of a command that makes results: its folder is opened, it computes, its reports are
+ * built and drawn, and then shown, written and put in place together, or not at all. Of several
+ * ranks only the first one speaks and writes. */
+#ifndef BR_CLI_SESSION_H
+#define BR_CLI_SESSION_H
+
+#include "cli/documents.h"
+
+/* A scene as a command opens it. Begins as zeros; not to be moved. */
+struct br_opened_scene {
+    char path[1024]; /* of its file */
+    char *text;      /* what the file holds; owned */
+    struct br_scene scene;
+};
+
+/* Fails as br_scene_open; clear it even then. */
+enum br_status br_opened_scene_read(struct br_opened_scene *scene, const char *name,
+                                    struct br_error *err);
+void br_opened_scene_clear(struct br_opened_scene *scene);
+
+/* Static strings, and the scene's; NULL: of no one scene. */
+struct br_provenance br_provenance_of(const struct br_opened_scene *scene, int threads);
+
+/* Begins with br_session_begin; not to be moved from the first picture on. */
+struct br_session {
+    const struct br_options *options;
+    bool writes;                  /* the first rank */
+    bool quiet;                   /* --quiet, or another rank */
+    int threads;                  /* of --threads; 0: all cores */
+    struct br_document *document; /* documents; owned */
+    size_t documents;
+    struct br_output output; /* of --out; not open where that is not given */
+    struct br_picture_files pictures;
+};
+
+struct br_session br_session_begin(const struct br_options *options);
+
+/* Refuses several ranks (BR_BAD_INPUT), where they would disturb one another's clocks. */
+enum br_status br_session_alone(struct br_error *err);
+
+/* Makes the folder of --out, so call it before a long computation. Fails as br_output_open. Close
+ * the session even then. */
+enum br_status br_session_open(struct br_session *session, struct br_error *err);
+
+/* Makes room for reports. Fails with BR_NO_MEMORY. */
+enum br_status br_session_report(struct br_session *session, size_t documents,
+                                 struct br_error *err);
+
+/* Whether the options want pictures. */
+bool br_session_draws(const struct br_session *session);
+
+/* Names a picture in a report, writes and renders it, if it has panels; clears the figure. drawn:
+ * what came of filling it. Fails with that, or as br_picture_files_draw. */
+enum br_status br_session_draw(struct br_session *session, struct br_document *report,
+                               struct br_figure *figure, const char *title, enum br_status drawn,
+                               struct br_error *err);
+
+/* Shows the reports on the terminal, writes them, and puts all in place. Fails as
+ * br_documents_write and br_output_commit. */
+enum br_status br_session_finish(struct br_session *session, struct br_error *err);
+
+/* Removes what has not been put in place, and releases the rest. */
+void br_session_close(struct br_session *session);
+
+/* Puts a name before the message of a failure: "example2: ..."; returns its status. */
+enum br_status br_failed_in(struct br_error *err, const char *name);
+
+#endif
