@@ -4,7 +4,8 @@
 
 #include "cli/extremes_part.h"
 #include "plots/pictures.h"
-#include "tables/report_extremes.h"
+#include "study/extremes/energy_behaviour.h"
+#include "tables/reports.h"
 
 static void release(void *result)
 {

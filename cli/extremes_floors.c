@@ -2,7 +2,8 @@
 /* The part `floors`. */
 #include "cli/extremes_part.h"
 #include "plots/pictures.h"
-#include "tables/report_extremes.h"
+#include "study/extremes/floors.h"
+#include "tables/reports.h"
 
 static void floors_free(void *result)
 {

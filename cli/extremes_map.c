@@ -5,7 +5,8 @@
 #include "cli/extremes_part.h"
 #include "cli/provenance.h"
 #include "plots/pictures.h"
-#include "tables/report_extremes.h"
+#include "study/extremes/count.h"
+#include "tables/reports.h"
 
 enum { CASES = 2000, SEED = 1 };
 

@@ -2,7 +2,8 @@
 /* beamrate extremes stability: the contact's stability limit, predicted and measured. */
 #include "cli/extremes_part.h"
 #include "plots/pictures.h"
-#include "tables/report_extremes.h"
+#include "study/extremes/stability.h"
+#include "tables/reports.h"
 
 static void release(void *result)
 {

@@ -2,7 +2,8 @@
 /* The part `steps`. */
 #include "cli/extremes_part.h"
 #include "plots/pictures.h"
-#include "tables/report_extremes.h"
+#include "study/extremes/steps.h"
+#include "tables/reports.h"
 
 static void drifts_free(void *result)
 {

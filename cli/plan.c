@@ -13,7 +13,8 @@
 #include "cli/warn_marches.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
-#include "tables/report_plan.h"
+#include "study/trade/plan.h"
+#include "tables/reports.h"
 
 struct work {
     const struct br_options *options;

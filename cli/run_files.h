@@ -5,8 +5,10 @@
 #define BR_CLI_RUN_FILES_H
 
 #include "cli/output.h"
+#include "study/foresee/prediction.h"
+#include "study/run/run.h"
 #include "tables/fields_file.h"
-#include "tables/report_run.h"
+#include "tables/reports.h"
 
 struct br_run_files {
     struct br_output output;

@@ -12,7 +12,7 @@
 #include "plots/pictures.h"
 #include "study/foresee/resources.h"
 #include "study/ranks/ranks.h"
-#include "tables/report_study.h"
+#include "tables/reports.h"
 
 /* A run on its way to its files. */
 struct run {

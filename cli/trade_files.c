@@ -8,7 +8,7 @@
 #include "cli/provenance.h"
 #include "plots/pictures.h"
 #include "study/scene/file.h"
-#include "tables/report_trade.h"
+#include "tables/reports.h"
 
 /* ---- scenes ---- */
 

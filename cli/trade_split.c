@@ -16,7 +16,8 @@
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 #include "study/trade/contender.h"
-#include "tables/report_split.h"
+#include "study/trade/split.h"
+#include "tables/reports.h"
 
 struct work {
     const struct br_options *options;

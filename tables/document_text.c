@@ -74,14 +74,7 @@ static void print_paragraph(const struct page *p, const char *paragraph)
 /* Lines as they are, indented. */
 static void print_lines(const struct page *p, const char *lines)
 {
-    for (const char *rest = lines; *rest;) {
-        const size_t length = strcspn(rest, "\n");
-        snprintf(p->piece, p->size, "%.*s", (int)length, rest);
-        fputs("  ", p->out);
-        print(p, p->piece);
-        fputc('\n', p->out);
-        rest += length + (rest[length] == '\n');
-    }
+    br_document_print_lines(p->out, &br_for_text, "  ", lines, "\n");
 }
 
 /* ---- tables ---- */
@@ -245,10 +238,8 @@ static void print_command(const struct page *p, const struct br_block *b)
 static bool is_shown(const struct page *p, const struct br_block *b)
 {
     const unsigned flags = b->kind == BR_BLOCK_TABLE ? b->table->flags : b->what.flags;
-    if (!br_for_people(flags) || (b->kind == BR_BLOCK_TABLE && b->table->rows == 0))
-        return false;
-    if (!p->terminal)
-        return true;
+    if (!p->terminal || !br_document_has(b))
+        return br_document_has(b);
     if (b->kind == BR_BLOCK_TABLE && b->table->rows > LONG_TABLE && !(flags & BR_LONG))
         return false;
     return !(flags & BR_FILES_ONLY) && (b->kind == BR_BLOCK_TABLE || b->kind == BR_BLOCK_FACT);

@@ -12,11 +12,12 @@
 #include <hdf5.h>
 #endif
 
+#include "study/run/run.h"
+#include "study/trade/plan.h"
+#include "study/trade/split.h"
+#include "study/trade/trade.h"
 #include "tables/fields_file.h"
-#include "tables/report_plan.h"
-#include "tables/report_run.h"
-#include "tables/report_split.h"
-#include "tables/report_trade.h"
+#include "tables/reports.h"
 #include "tests/support.h"
 
 static const struct br_provenance provenance = {.version = "1",

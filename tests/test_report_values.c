@@ -9,8 +9,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "tables/report_check.h"
-#include "tables/report_run.h"
+#include "study/foresee/prediction.h"
+#include "study/run/run.h"
+#include "study/verify/comparison.h"
+#include "tables/reports.h"
 #include "tests/support.h"
 
 static const struct br_provenance provenance = {.version = "1",

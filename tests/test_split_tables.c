@@ -8,7 +8,7 @@
 #include "figure_check.h"
 #include "plots/pictures.h"
 #include "study/trade/split.h"
-#include "tables/report_split.h"
+#include "tables/reports.h"
 
 enum { RUNS = 4 };
 

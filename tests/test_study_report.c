@@ -9,7 +9,8 @@
 #include <string.h>
 
 #include "made_report.h"
-#include "tables/report_study.h"
+#include "study/paper/claims.h"
+#include "tables/reports.h"
 
 static void make(struct br_made_report *m, bool with_exact)
 {

@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tables/markup.h"
+
+#include <string.h>
+
+/* ---- pieces ---- */
+
+void br_markup_text(const struct br_markup_page *p, const char *text)
+{
+    br_quote(p->out, p->markup->quoting, text ? text : "");
+}
+
+void br_markup_put(const struct br_markup_page *p, const char *before, const char *text,
+                   const char *after)
+{
+    fputs(before, p->out);
+    br_markup_text(p, text);
+    fputs(after, p->out);
+}
+
+static void put(const struct br_markup_page *p, const struct br_around *a, const char *text)
+{
+    br_markup_put(p, a->before, text, a->after);
+}
+
+void br_markup_heading(const struct br_markup_page *p, int level, const char *text)
+{
+    fprintf(p->out, p->markup->heading.before, level);
+    br_markup_text(p, text);
+    fprintf(p->out, p->markup->heading.after, level);
+}
+
+void br_markup_lines(const struct br_markup_page *p, const char *lines)
+{
+    const struct br_markup *m = p->markup;
+    fputs(m->lines.before, p->out);
+    br_document_print_lines(p->out, m->of_lines, m->line.before, lines, m->line.after);
+    fputs(m->lines.after, p->out);
+}
+
+static void print_unit(const struct br_markup_page *p, const char *before, const char *unit)
+{
+    if (!unit)
+        return;
+    fputs(before, p->out);
+    if (p->markup->unit)
+        p->markup->unit(p->out, unit);
+    else
+        br_markup_text(p, unit);
+}
+
+static void print_number(const struct br_markup_page *p, const char *text)
+{
+    if (p->markup->number)
+        p->markup->number(p->out, text);
+    else
+        br_markup_text(p, text);
+}
+
+static void print_word(const struct br_markup_page *p, enum br_outcome outcome)
+{
+    fprintf(p->out, p->markup->word, br_outcome_names[outcome], br_outcome_names[outcome]);
+}
+
+/* Whether a text is a verdict's word, which it then prints. */
+static bool print_if_word(const struct br_markup_page *p, const char *text)
+{
+    for (int i = BR_OUTCOME_PASS; i <= BR_OUTCOME_SKIPPED; i++)
+        if (strcmp(text, br_outcome_names[i]) == 0) {
+            print_word(p, (enum br_outcome)i);
+            return true;
+        }
+    return false;
+}
+
+/* ---- tables ---- */
+
+enum br_alignment br_markup_alignment(const struct br_document_table *t, size_t column)
+{
+    return t->column[column].flags & BR_WRAP ? BR_WRAPPED
+           : br_document_is_text(t, column)  ? BR_LEFT
+                                             : BR_RIGHT;
+}
+
+void br_markup_columns(const struct br_markup_page *p, const struct br_document_table *t,
+                       const char *const word[3])
+{
+    for (size_t c = 0; c < t->columns; c++)
+        if (br_document_is_seen(t, c))
+            fputs(word[br_markup_alignment(t, c)], p->out);
+}
+
+static void print_value(const struct br_markup_page *p, const struct br_column *column,
+                        const struct br_document_cell *cell)
+{
+    char buffer[BR_SHOWN];
+    const char *text = br_document_shown(column, cell, buffer);
+    if (cell->value.kind != BR_TEXT || cell->shown)
+        print_number(p, text);
+    else if (!print_if_word(p, text))
+        br_markup_text(p, text);
+    if (cell->mark)
+        put(p, &p->markup->mark, cell->mark);
+}
+
+/* What a cell begins with: its alignment may be a part of that. */
+static void open_cell(const struct br_markup_page *p, const struct br_around *a,
+                      const struct br_document_table *t, size_t column)
+{
+    const char *const *classes = p->markup->classes;
+    fprintf(p->out, a->before, classes ? classes[br_markup_alignment(t, column)] : "");
+}
+
+static void print_head(const struct br_markup_page *p, const struct br_document_table *t)
+{
+    const struct br_markup *m = p->markup;
+    const char *between = "";
+    for (size_t c = 0; c < t->columns; c++) {
+        if (!br_document_is_seen(t, c))
+            continue;
+        fputs(between, p->out);
+        open_cell(p, &m->head, t, c);
+        print_number(p, t->column[c].heading);
+        print_unit(p, ", ", t->column[c].unit);
+        fputs(m->head.after, p->out);
+        between = m->between;
+    }
+}
+
+static void print_row(const struct br_markup_page *p, const struct br_document_table *t, size_t r)
+{
+    const struct br_markup *m = p->markup;
+    const char *between = t->row[r].rule ? m->rule : m->row.before;
+    for (size_t c = 0; c < t->columns; c++) {
+        if (!br_document_is_seen(t, c))
+            continue;
+        fputs(between, p->out);
+        open_cell(p, &m->cell, t, c);
+        print_value(p, &t->column[c], br_document_cell_at(t, r, c));
+        fputs(m->cell.after, p->out);
+        between = m->between;
+    }
+    fputs(m->row.after, p->out);
+}
+
+static void print_table(const struct br_markup_page *p, const struct br_document_table *t,
+                        int level)
+{
+    p->markup->open_table(p, t, level);
+    print_head(p, t);
+    p->markup->open_rows(p, t);
+    for (size_t r = 0; r < t->rows; r++)
+        print_row(p, t, r);
+    p->markup->close_table(p, t);
+}
+
+/* ---- blocks ---- */
+
+static void print_fact(const struct br_markup_page *p, const struct br_block *b)
+{
+    fputs(p->markup->fact.before, p->out);
+    put(p, &p->markup->label, b->what.heading);
+    print_value(p, &b->what, &b->cell);
+    print_unit(p, " ", b->what.unit);
+    fputs(p->markup->fact.after, p->out);
+}
+
+/* level: of a section; the tables below one are a level lower. */
+static enum br_status print_block(struct br_markup_page *p, const struct br_block *b, int level,
+                                  bool under, struct br_error *err)
+{
+    switch (b->kind) {
+    case BR_BLOCK_TABLE:
+        print_table(p, b->table, level + under);
+        break;
+    case BR_BLOCK_SECTION:
+        br_markup_heading(p, level, b->text);
+        break;
+    case BR_BLOCK_NOTE:
+        put(p, &p->markup->note, b->text);
+        break;
+    case BR_BLOCK_FACT:
+        print_fact(p, b);
+        break;
+    case BR_BLOCK_COMMAND:
+        put(p, &p->markup->command, b->what.heading);
+        br_markup_lines(p, b->cell.value.text);
+        break;
+    case BR_BLOCK_PICTURE:
+        return p->markup->picture(p, b, err);
+    }
+    return BR_OK;
+}
+
+/* Facts that follow each other are one list. */
+static enum br_status print_blocks(struct br_markup_page *p, struct br_error *err)
+{
+    const struct br_markup *m = p->markup;
+    enum br_status status = BR_OK;
+    enum br_block_kind before = BR_BLOCK_SECTION;
+    bool under = false;
+    for (size_t i = 0; i < p->d->blocks && !status; i++) {
+        const struct br_block *b = &p->d->block[i];
+        if (!br_document_has(b))
+            continue;
+        if (before == BR_BLOCK_FACT && b->kind != before)
+            fputs(m->facts.after, p->out);
+        if (b->kind != before && (before != BR_BLOCK_SECTION || !under) &&
+            b->kind != BR_BLOCK_TABLE && b->kind != BR_BLOCK_SECTION)
+            fputs(m->gap, p->out);
+        if (b->kind == BR_BLOCK_FACT && before != b->kind)
+            fputs(m->facts.before, p->out);
+        under |= b->kind == BR_BLOCK_SECTION;
+        status = print_block(p, b, p->level + 1, under, err);
+        before = b->kind;
+    }
+    fputs(before == BR_BLOCK_FACT ? m->facts.after : "", p->out);
+    return status;
+}
+
+/* ---- verdicts ---- */
+
+static void print_verdict(const struct br_markup_page *p, const struct br_document_verdict *v)
+{
+    fputs(p->markup->verdict.before, p->out);
+    print_word(p, v->outcome);
+    fputc(' ', p->out);
+    br_markup_text(p, v->group);
+    fputs(v->group ? ", " : "", p->out);
+    br_markup_text(p, v->name);
+    fputs(v->message ? ": " : "", p->out);
+    br_markup_text(p, v->message);
+    fputs(p->markup->verdict.after, p->out);
+    for (size_t i = 0; i < v->details; i++)
+        put(p, &p->markup->detail, v->detail[i]);
+}
+
+/* How many there are of each kind, and those that a person should hear of. */
+static void print_verdicts(const struct br_markup_page *p)
+{
+    const struct br_document *d = p->d;
+    size_t count[BR_OUTCOME_SKIPPED + 1] = {0}, matter = 0;
+    for (size_t i = 0; i < d->verdicts; i++) {
+        count[d->verdict[i].outcome]++;
+        matter += br_document_verdict_matters(&d->verdict[i]);
+    }
+    if (!d->verdicts)
+        return;
+    br_markup_heading(p, p->level + 1, "Verdicts");
+    fputs(p->markup->note.before, p->out);
+    const char *between = "";
+    for (int i = BR_OUTCOME_PASS; i <= BR_OUTCOME_SKIPPED; i++)
+        if (count[i]) {
+            fprintf(p->out, "%s%zu ", between, count[i]);
+            print_word(p, (enum br_outcome)i);
+            between = ", ";
+        }
+    fputs(p->markup->note.after, p->out);
+    fputs(matter ? p->markup->verdicts.before : "", p->out);
+    for (size_t i = 0; i < d->verdicts; i++)
+        if (br_document_verdict_matters(&d->verdict[i]))
+            print_verdict(p, &d->verdict[i]);
+    fputs(matter ? p->markup->verdicts.after : "", p->out);
+}
+
+enum br_status br_markup_print(struct br_markup_page *p, struct br_error *err)
+{
+    const struct br_markup *m = p->markup;
+    if (m->begin)
+        m->begin(p);
+    else
+        br_markup_heading(p, p->level, p->d->caption);
+    fputs(p->d->answers ? m->answers.before : "", p->out);
+    for (size_t i = 0; i < p->d->answers; i++)
+        put(p, &m->answer, p->d->answer[i]);
+    fputs(p->d->answers ? m->answers.after : "", p->out);
+    print_verdicts(p);
+    const enum br_status status = print_blocks(p, err);
+    if (m->end)
+        m->end(p);
+    return status;
+}
