@@ -230,6 +230,14 @@ __attribute__((format(printf, 2, 3))) void br_put_more(struct br_document *d, co
 void br_put_fact(struct br_document *d, const struct br_column *what, struct br_value value);
 #define BR_FACT(d, value, ...) br_put_fact((d), &(struct br_column){__VA_ARGS__}, (value))
 
+/* Several, a row each. */
+struct br_fact {
+    const char *key, *heading, *unit;
+    struct br_value value;
+};
+void br_put_facts(struct br_document *d, const struct br_fact *fact, size_t count);
+#define BR_FACTS(d, facts) br_put_facts((d), (facts), sizeof(facts) / sizeof *(facts))
+
 /* A fact for programs; the key is formatted. unit: NULL, none. */
 __attribute__((format(printf, 4, 5))) void br_hide_fact(struct br_document *d,
                                                         struct br_value value, const char *unit,

@@ -9,35 +9,31 @@
 /* ---- floors: the round-off of every linear solver ---- */
 
 /* The worst over the steps that are marched, and how many are refused. */
-static void put_worst(struct br_document *d, const struct br_floors *f, size_t solver, size_t row)
-{
-    double worst = 0;
-    size_t refused = 0;
-    for (size_t j = 0; j < f->k_count; j++) {
-        const struct br_floor *floor = br_floor_at(f, solver, row, j);
-        const double deviation = br_floor_deviation(floor);
-        if (floor->refused.status)
-            refused++;
-        else
-            worst = isnan(worst) || deviation <= worst ? worst : deviation;
-    }
-    BR_PUT(d, br_if(refused < f->k_count, br_number(worst)), .heading = f->solver[solver].name,
-           .format = "%.1e");
-    if (refused == f->k_count)
-        br_put_shown(d, "refused");
-    else if (refused)
-        br_put_shown(d, "%.1e, %zu refused", worst, refused);
-}
-
 static void put_floor_grid(struct br_document *d, const struct br_floors *f)
 {
     br_put_table(d, "worst", "Deviation from the exact discrete solution, the worst over k",
                  BR_FOR_PEOPLE);
-    for (size_t row = 0; row < f->n_count; row++) {
-        br_put_row(d);
-        BR_PUT(d, br_count(f->n[row]), .key = "n");
-        for (size_t i = 0; i < f->solvers; i++)
-            put_worst(d, f, i, row);
+    for (size_t cell = 0; cell < f->n_count * f->solvers; cell++) {
+        const size_t row = cell / f->solvers, solver = cell % f->solvers;
+        size_t refused = 0;
+        double worst = 0;
+        for (size_t j = 0; j < f->k_count; j++) {
+            const struct br_floor *floor = br_floor_at(f, solver, row, j);
+            const double deviation = br_floor_deviation(floor);
+            refused += floor->refused.status != BR_OK;
+            if (!floor->refused.status && !isnan(worst) && !(deviation <= worst))
+                worst = deviation;
+        }
+        if (solver == 0) {
+            br_put_row(d);
+            BR_PUT(d, br_count(f->n[row]), .key = "n");
+        }
+        BR_PUT(d, br_if(refused < f->k_count, br_number(worst)), .heading = f->solver[solver].name,
+               .format = "%.1e");
+        if (refused == f->k_count)
+            br_put_shown(d, "refused");
+        else if (refused)
+            br_put_shown(d, "%.1e, %zu refused", worst, refused);
     }
 }
 

@@ -164,17 +164,21 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
 static void put_march(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
+    const struct br_scene *scene = r->scene;
     char method[BR_METHOD_TEXT];
+    const struct br_fact facts[] = {
+        {"scene.name", NULL, NULL, br_text(scene->name)},
+        {"scene.title", NULL, NULL, br_text(scene->title)},
+        {"scene.remark", "remark", NULL, br_text(scene->remark)},
+        {"scene.length", NULL, "m", br_number(scene->length)},
+        {"scene.duration", NULL, "s", br_number(scene->duration)},
+        {"n", "elements", NULL, br_count(r->n)},
+        {"h", "element size h", "m", br_number(r->h)},
+        {"steps", "steps", NULL, br_count(r->steps)},
+        {"k", "time step k", "s", br_number(r->k)},
+    };
     br_put_section(d, "The march");
-    br_hide_fact(d, br_text(r->scene->name), NULL, "scene.name");
-    br_hide_fact(d, br_text(r->scene->title), NULL, "scene.title");
-    BR_FACT(d, br_text(r->scene->remark), .key = "scene.remark", .heading = "remark");
-    br_hide_fact(d, br_number(r->scene->length), "m", "scene.length");
-    br_hide_fact(d, br_number(r->scene->duration), "s", "scene.duration");
-    BR_FACT(d, br_count(r->n), .key = "n", .heading = "elements");
-    BR_FACT(d, br_number(r->h), .key = "h", .heading = "element size h", .unit = "m");
-    BR_FACT(d, br_count(r->steps), .key = "steps", .heading = "steps");
-    BR_FACT(d, br_number(r->k), .key = "k", .heading = "time step k", .unit = "s");
+    BR_FACTS(d, facts);
     BR_FACT(d, br_text(br_method_text(&r->marched, &r->method, method)), .key = "words",
             .heading = "method", .flags = BR_FOR_PEOPLE);
     br_put_method_facts(d, "method", &r->method);
@@ -241,25 +245,27 @@ static void put_extreme(struct br_document *d, bool known, const char *key, cons
                         const struct br_extreme *e)
 {
     char value[KEY], time[KEY];
+    const struct br_fact facts[] = {{value, label, "N", br_if(known, br_number(e->value))},
+                                    {time, "  at t", "s", br_if(known, br_number(e->time))}};
     snprintf(value, sizeof value, "events.%s.value", key);
     snprintf(time, sizeof time, "events.%s.t", key);
-    BR_FACT(d, br_if(known, br_number(e->value)), .key = value, .heading = label, .unit = "N");
-    BR_FACT(d, br_if(known, br_number(e->time)), .key = time, .heading = "  at t", .unit = "s");
+    BR_FACTS(d, facts);
 }
 
 static void put_friction(struct br_document *d, const struct br_run_report *r)
 {
     const struct br_history_row *row = &r->end.last;
-    const double share = 100 * fabs(row->friction_force) / row->friction_bound;
+    const double force = row->friction_force, bound = row->friction_bound;
     const bool friction = has_friction(r);
-    BR_FACT(d, br_if(friction, br_number(row->friction_force)), .key = "tip.friction_force",
-            .heading = "friction force", .unit = "N");
-    BR_FACT(d, br_if(friction, br_number(row->friction_bound)), .key = "tip.friction_bound",
-            .heading = "  its bound", .unit = "N");
-    BR_FACT(d, br_if(friction, br_number(share)), .key = "tip.friction_share",
-            .heading = "  of the bound", .unit = "%");
-    BR_FACT(d, br_if(friction && r->watch.steps, br_text(br_tip_regime_word(r->watch.regime))),
-            .key = "tip.regime", .heading = "friction");
+    const struct br_value regime = br_text(br_tip_regime_word(r->watch.regime));
+    const struct br_fact facts[] = {
+        {"tip.friction_force", "friction force", "N", br_if(friction, br_number(force))},
+        {"tip.friction_bound", "  its bound", "N", br_if(friction, br_number(bound))},
+        {"tip.friction_share", "  of the bound", "%",
+         br_if(friction, br_number(100 * fabs(force) / bound))},
+        {"tip.regime", "friction", NULL, br_if(friction && r->watch.steps, regime)},
+    };
+    BR_FACTS(d, facts);
     br_put_mark(d, r->watch.regime == BR_TIP_SLIP ? direction(r->watch.direction) : "");
     put_extreme(d, friction, "largest_friction_force", "largest friction force",
                 &r->watch.friction_force);
@@ -427,16 +433,19 @@ static void put_added(struct br_document *d, const struct br_run_report *r)
 static void put_works(struct br_document *d, const struct br_run_report *r)
 {
     const struct br_work *w = &r->work;
+    const double imbalance = br_energy_imbalance(&r->energy_start, &r->energy_now, w);
+    const struct br_fact facts[] = {
+        {"energies.lost_to_scheme_by_contact", "  and by its contact", "J",
+         br_if(r->marched.contact.modelled, br_number(w->scheme_contact))},
+        {"energies.imbalance", "missing in the balance, of the terms' sum", NULL,
+         br_number(imbalance)},
+        {"energies.largest_imbalance_of_a_step", "  in one step at most", NULL,
+         br_number(r->energy_worst)},
+    };
     put_two(d, r, w->loads, "work of the loads", "J", "energies.work_of_loads");
     put_two(d, r, w->viscous, "lost to viscosity", "J", "energies.lost_to_viscosity");
     put_two(d, r, w->scheme, "lost to the scheme", "J", "energies.lost_to_scheme");
-    BR_FACT(d, br_if(r->marched.contact.modelled, br_number(w->scheme_contact)),
-            .key = "energies.lost_to_scheme_by_contact", .heading = "  and by its contact",
-            .unit = "J");
-    BR_FACT(d, br_number(br_energy_imbalance(&r->energy_start, &r->energy_now, w)),
-            .key = "energies.imbalance", .heading = "missing in the balance, of the terms' sum");
-    BR_FACT(d, br_number(r->energy_worst), .key = "energies.largest_imbalance_of_a_step",
-            .heading = "  in one step at most");
+    BR_FACTS(d, facts);
     put_added(d, r);
 }
 
@@ -549,28 +558,29 @@ static void put_time(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
     const struct br_counts *c = &r->counts;
-    const double a_step = r->end.march_seconds / (double)r->end.last.step; /* NAN: none */
+    const double march = r->end.march_seconds;
+    const double a_step = march / (double)r->end.last.step; /* NAN: none */
     const bool iterates = r->method.friction->iterates && has_friction(r);
+    const char *of_march = r->checked  ? "  of the march, the check included"
+                           : r->summed ? "  of the march, the energies included"
+                                       : "  of the march";
+    const char *taken_back = r->method.scheme->adaptive ? "  taken back" : NULL;
+    const char *changes = c->set_ups ? "changes of the step" : NULL;
+    const char *iterations = iterates ? "friction iterations" : NULL;
+    const struct br_fact facts[] = {
+        {"seconds.wall", "time", "s", br_number(f->wall_seconds)},
+        {"seconds.set_up", "  of setting up", "s", br_number(r->end.set_up_seconds)},
+        {"seconds.march", of_march, "s", br_number(march)},
+        {"seconds.per_step", "  a step", "s", br_number(a_step)},
+        {"seconds.per_element_step", "  an element-step", "s", br_number(a_step / (double)r->n)},
+        {"work.steps", "steps of the scheme", NULL, br_count(c->steps)},
+        {"work.steps_taken_back", taken_back, NULL, br_count(c->rejected)},
+        {"work.solves_a_field", "solves a field", NULL, br_count(c->stages)},
+        {"work.changes_of_the_step", changes, NULL, br_count(c->set_ups)},
+        {"work.friction_iterations", iterations, NULL, br_count(c->iterations)},
+    };
     br_put_section(d, "Time and work");
-    BR_FACT(d, br_number(f->wall_seconds), .key = "seconds.wall", .heading = "time", .unit = "s");
-    BR_FACT(d, br_number(r->end.set_up_seconds), .key = "seconds.set_up",
-            .heading = "  of setting up", .unit = "s");
-    BR_FACT(d, br_number(r->end.march_seconds), .key = "seconds.march",
-            .heading = r->checked  ? "  of the march, the check included"
-                       : r->summed ? "  of the march, the energies included"
-                                   : "  of the march",
-            .unit = "s");
-    BR_FACT(d, br_number(a_step), .key = "seconds.per_step", .heading = "  a step", .unit = "s");
-    BR_FACT(d, br_number(a_step / (double)r->n), .key = "seconds.per_element_step",
-            .heading = "  an element-step", .unit = "s");
-    BR_FACT(d, br_count(c->steps), .key = "work.steps", .heading = "steps of the scheme");
-    BR_FACT(d, br_count(c->rejected), .key = "work.steps_taken_back",
-            .heading = r->method.scheme->adaptive ? "  taken back" : NULL);
-    BR_FACT(d, br_count(c->stages), .key = "work.solves_a_field", .heading = "solves a field");
-    BR_FACT(d, br_count(c->set_ups), .key = "work.changes_of_the_step",
-            .heading = c->set_ups ? "changes of the step" : NULL);
-    BR_FACT(d, br_count(c->iterations), .key = "work.friction_iterations",
-            .heading = iterates ? "friction iterations" : NULL);
+    BR_FACTS(d, facts);
 }
 
 void br_report_run(const struct br_run_findings *f, struct br_document *d)

@@ -642,10 +642,13 @@ static void put_reference(struct br_document *d, const char *key, const struct b
 static void put_facts(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = r->study;
-    br_hide_fact(d, br_text(s->scene->name), NULL, "scene.name");
-    br_hide_fact(d, br_text(s->norm->name), NULL, "norm.name");
-    br_hide_fact(d, br_text(s->norm->unit), NULL, "norm.unit");
-    br_hide_fact(d, br_text(s->norm->title), NULL, "norm.title");
+    const struct br_fact facts[] = {
+        {"scene.name", NULL, NULL, br_text(s->scene->name)},
+        {"norm.name", NULL, NULL, br_text(s->norm->name)},
+        {"norm.unit", NULL, NULL, br_text(s->norm->unit)},
+        {"norm.title", NULL, NULL, br_text(s->norm->title)},
+    };
+    BR_FACTS(d, facts);
     br_put_method_facts(d, "method", &s->method);
     put_reference(d, "reference", s);
     if (r->exact)

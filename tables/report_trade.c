@@ -157,11 +157,16 @@ static void put_targets(struct br_document *d, const struct br_trade *t, const c
     }
 }
 
-static void put_front(struct br_document *d, const struct br_trade *t)
+/* For people the Pareto front, for programs all trials. */
+static void put_trials(struct br_document *d, const struct br_trade *t, bool front)
 {
-    br_put_table(d, "front", "Pareto front: no trial is better in error and in seconds",
-                 BR_FOR_PEOPLE);
-    for (size_t i = next_on_front(t, t->count); i < t->count; i = next_on_front(t, i)) {
+    if (front)
+        br_put_table(d, "front", "Pareto front: no trial is better in error and in seconds",
+                     BR_FOR_PEOPLE);
+    else
+        br_put_table(d, "trials", "All trials", BR_FOR_PROGRAMS | BR_MAIN);
+    for (size_t i = front ? next_on_front(t, t->count) : 0; i < t->count;
+         i = front ? next_on_front(t, i) : i + 1) {
         br_put_row(d);
         put_outcome(d, t, i);
     }
@@ -196,15 +201,6 @@ static void put_failures(struct br_document *d, const struct br_trade *t)
         br_put_trial(d, t->request.scene, trial);
         BR_PUT(d, br_text(br_trial_end_name(trial->end)), .key = "end");
         BR_PUT(d, br_text(trial->failure.message), .key = "why", .flags = BR_WRAP);
-    }
-}
-
-static void put_trials(struct br_document *d, const struct br_trade *t)
-{
-    br_put_table(d, "trials", "All trials", BR_FOR_PROGRAMS | BR_MAIN);
-    for (size_t i = 0; i < t->count; i++) {
-        br_put_row(d);
-        put_outcome(d, t, i);
     }
 }
 
@@ -256,14 +252,17 @@ static void put_notes(struct br_document *d, const struct br_trade *t, const cha
 
 static void put_facts(struct br_document *d, const struct br_trade *t)
 {
-    br_hide_fact(d, br_text(t->request.scene->name), NULL, "scene.name");
-    br_hide_fact(d, br_text(t->norm[0]->name), NULL, "norm");
-    br_hide_fact(d, br_text(t->norm[0]->unit), NULL, "unit");
-    br_hide_fact(d, br_text(judge_of(t)->name), NULL, "judge");
-    br_hide_fact(d, br_count(t->request.repeats), NULL, "repeats");
-    br_hide_fact(d, br_number(t->request.repeat_seconds), NULL, "repeat_seconds");
-    br_hide_fact(d, br_number(t->request.time_limit), NULL, "time_limit");
-    br_hide_fact(d, br_number(t->wall_seconds), NULL, "wall_seconds");
+    const struct br_fact facts[] = {
+        {"scene.name", NULL, NULL, br_text(t->request.scene->name)},
+        {"norm", NULL, NULL, br_text(t->norm[0]->name)},
+        {"unit", NULL, NULL, br_text(t->norm[0]->unit)},
+        {"judge", NULL, NULL, br_text(judge_of(t)->name)},
+        {"repeats", NULL, NULL, br_count(t->request.repeats)},
+        {"repeat_seconds", NULL, NULL, br_number(t->request.repeat_seconds)},
+        {"time_limit", NULL, NULL, br_number(t->request.time_limit)},
+        {"wall_seconds", NULL, NULL, br_number(t->wall_seconds)},
+    };
+    BR_FACTS(d, facts);
 }
 
 void br_report_trade(const struct br_trade *t, const struct br_provenance *provenance,
@@ -279,10 +278,10 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
     br_put_table(d, "cheapest", "Cheapest way to an error",
                  t->best[0] < t->count ? 0 : BR_FOR_PROGRAMS);
     put_targets(d, t, NULL);
-    put_front(d, t);
+    put_trials(d, t, true);
     put_methods(d, t);
     put_failures(d, t);
-    put_trials(d, t);
+    put_trials(d, t, false);
     put_facts(d, t);
     put_notes(d, t, provenance->machine);
     br_put_provenance(d, provenance);
