@@ -91,6 +91,7 @@ enum {
     BR_TEXTUAL = 64,     /* a column with a text or a truth; set by br_put */
     BR_LONG = 128,       /* a table that a terminal shows however long it is */
 };
+enum { BR_LONG_TABLE = 24 /* rows: a terminal does not show more, a page folds them */ };
 
 /* A column of a table, or what a fact is. Strings may be NULL, but for the key of what programs
  * get, or else the heading. */

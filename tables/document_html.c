@@ -6,8 +6,6 @@
 
 #include "tables/markup.h"
 
-enum { LONG_TABLE = 24 /* rows: a longer one is folded */ };
-
 /* All colours of letters have a contrast of at least 4.5 to both grounds (tests/html_page.py). */
 static const char style[] =
     ":root { color-scheme: light dark; --ground: #ffffff; --shade: #f3f5f7; --line: #ccd1d6;\n"
@@ -58,7 +56,7 @@ static const char style[] =
 
 static bool is_folded(const struct br_document_table *t)
 {
-    return t->rows > LONG_TABLE;
+    return t->rows > BR_LONG_TABLE;
 }
 
 static void open_table(const struct br_markup_page *p, const struct br_document_table *t, int level)

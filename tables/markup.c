@@ -23,8 +23,24 @@ static void put(const struct br_markup_page *p, const struct br_around *a, const
     br_markup_put(p, a->before, text, a->after);
 }
 
+/* An answer or a note. */
+static void put_paragraph(const struct br_markup_page *p, const struct br_around *a,
+                          const char *text)
+{
+    fputs(a->before, p->out);
+    if (p->markup->paragraph)
+        p->markup->paragraph(p, text);
+    else
+        br_markup_text(p, text);
+    fputs(a->after, p->out);
+}
+
 void br_markup_heading(const struct br_markup_page *p, int level, const char *text)
 {
+    if (p->markup->title) {
+        p->markup->title(p, level, text);
+        return;
+    }
     fprintf(p->out, p->markup->heading.before, level);
     br_markup_text(p, text);
     fprintf(p->out, p->markup->heading.after, level);
@@ -143,15 +159,18 @@ static void print_row(const struct br_markup_page *p, const struct br_document_t
     fputs(m->row.after, p->out);
 }
 
-static void print_table(const struct br_markup_page *p, const struct br_document_table *t,
-                        int level)
+static enum br_status print_table(const struct br_markup_page *p, const struct br_document_table *t,
+                                  int level, struct br_error *err)
 {
+    if (p->markup->table)
+        return p->markup->table(p, t, err);
     p->markup->open_table(p, t, level);
     print_head(p, t);
     p->markup->open_rows(p, t);
     for (size_t r = 0; r < t->rows; r++)
         print_row(p, t, r);
     p->markup->close_table(p, t);
+    return BR_OK;
 }
 
 /* ---- blocks ---- */
@@ -165,26 +184,30 @@ static void print_fact(const struct br_markup_page *p, const struct br_block *b)
     fputs(p->markup->fact.after, p->out);
 }
 
+static void print_command(const struct br_markup_page *p, const struct br_block *b)
+{
+    put(p, &p->markup->command, b->what.heading);
+    br_markup_lines(p, b->cell.value.text);
+}
+
 /* level: of a section; the tables below one are a level lower. */
 static enum br_status print_block(struct br_markup_page *p, const struct br_block *b, int level,
                                   bool under, struct br_error *err)
 {
     switch (b->kind) {
     case BR_BLOCK_TABLE:
-        print_table(p, b->table, level + under);
-        break;
+        return print_table(p, b->table, level + under, err);
     case BR_BLOCK_SECTION:
         br_markup_heading(p, level, b->text);
         break;
     case BR_BLOCK_NOTE:
-        put(p, &p->markup->note, b->text);
+        put_paragraph(p, &p->markup->note, b->text);
         break;
     case BR_BLOCK_FACT:
         print_fact(p, b);
         break;
     case BR_BLOCK_COMMAND:
-        put(p, &p->markup->command, b->what.heading);
-        br_markup_lines(p, b->cell.value.text);
+        print_command(p, b);
         break;
     case BR_BLOCK_PICTURE:
         return p->markup->picture(p, b, err);
@@ -192,21 +215,39 @@ static enum br_status print_block(struct br_markup_page *p, const struct br_bloc
     return BR_OK;
 }
 
+/* A terminal has short tables and facts, and the titles that are needed for these. */
+static bool is_shown(const struct br_markup_page *p, size_t block)
+{
+    const struct br_block *b = &p->d->block[block];
+    const bool table = b->kind == BR_BLOCK_TABLE, has = br_document_has(b);
+    const unsigned flags = table ? b->table->flags : b->what.flags;
+    if (!p->terminal || !has)
+        return has;
+    if (b->kind == BR_BLOCK_SECTION) {
+        for (size_t i = block + 1; i < p->d->blocks; i++)
+            if (p->d->block[i].kind == BR_BLOCK_SECTION || is_shown(p, i))
+                return p->d->block[i].kind == BR_BLOCK_FACT;
+        return false;
+    }
+    return !(flags & BR_FILES_ONLY) &&
+           (table ? flags & BR_LONG || b->table->rows <= BR_LONG_TABLE : b->kind == BR_BLOCK_FACT);
+}
+
 /* Facts that follow each other are one list. */
 static enum br_status print_blocks(struct br_markup_page *p, struct br_error *err)
 {
     const struct br_markup *m = p->markup;
     enum br_status status = BR_OK;
-    enum br_block_kind before = BR_BLOCK_SECTION;
+    enum br_block_kind before = BR_BLOCK_TABLE;
     bool under = false;
     for (size_t i = 0; i < p->d->blocks && !status; i++) {
         const struct br_block *b = &p->d->block[i];
-        if (!br_document_has(b))
+        const bool titled = b->kind == BR_BLOCK_TABLE || b->kind == BR_BLOCK_SECTION;
+        if (!is_shown(p, i))
             continue;
         if (before == BR_BLOCK_FACT && b->kind != before)
             fputs(m->facts.after, p->out);
-        if (b->kind != before && (before != BR_BLOCK_SECTION || !under) &&
-            b->kind != BR_BLOCK_TABLE && b->kind != BR_BLOCK_SECTION)
+        if (b->kind != before && before != BR_BLOCK_SECTION && !titled)
             fputs(m->gap, p->out);
         if (b->kind == BR_BLOCK_FACT && before != b->kind)
             fputs(m->facts.before, p->out);
@@ -235,32 +276,59 @@ static void print_verdict(const struct br_markup_page *p, const struct br_docume
         put(p, &p->markup->detail, v->detail[i]);
 }
 
-/* How many there are of each kind, and those that a person should hear of. */
-static void print_verdicts(const struct br_markup_page *p)
+/* How many there are of each kind, which a terminal is told by the answer. */
+static void count_verdicts(const struct br_markup_page *p)
 {
-    const struct br_document *d = p->d;
-    size_t count[BR_OUTCOME_SKIPPED + 1] = {0}, matter = 0;
-    for (size_t i = 0; i < d->verdicts; i++) {
-        count[d->verdict[i].outcome]++;
-        matter += br_document_verdict_matters(&d->verdict[i]);
-    }
-    if (!d->verdicts)
-        return;
+    const char *between = "";
     br_markup_heading(p, p->level + 1, "Verdicts");
     fputs(p->markup->note.before, p->out);
-    const char *between = "";
-    for (int i = BR_OUTCOME_PASS; i <= BR_OUTCOME_SKIPPED; i++)
-        if (count[i]) {
-            fprintf(p->out, "%s%zu ", between, count[i]);
-            print_word(p, (enum br_outcome)i);
-            between = ", ";
-        }
+    for (int outcome = BR_OUTCOME_PASS; outcome <= BR_OUTCOME_SKIPPED; outcome++) {
+        size_t count = 0;
+        for (size_t i = 0; i < p->d->verdicts; i++)
+            count += p->d->verdict[i].outcome == (enum br_outcome)outcome;
+        if (!count)
+            continue;
+        fprintf(p->out, "%s%zu ", between, count);
+        print_word(p, (enum br_outcome)outcome);
+        between = ", ";
+    }
     fputs(p->markup->note.after, p->out);
-    fputs(matter ? p->markup->verdicts.before : "", p->out);
-    for (size_t i = 0; i < d->verdicts; i++)
-        if (br_document_verdict_matters(&d->verdict[i]))
-            print_verdict(p, &d->verdict[i]);
-    fputs(matter ? p->markup->verdicts.after : "", p->out);
+}
+
+/* Those that a person should hear of. */
+static void print_verdicts(const struct br_markup_page *p)
+{
+    const struct br_markup *m = p->markup;
+    bool any = false;
+    if (p->d->verdicts && !p->terminal)
+        count_verdicts(p);
+    for (size_t i = 0; i < p->d->verdicts; i++)
+        if (br_document_verdict_matters(&p->d->verdict[i])) {
+            fputs(any ? "" : m->verdicts.before, p->out);
+            print_verdict(p, &p->d->verdict[i]);
+            any = true;
+        }
+    fputs(any ? m->verdicts.after : "", p->out);
+}
+
+static void print_answer(const struct br_markup_page *p)
+{
+    const struct br_markup *m = p->markup;
+    fputs(p->d->answers ? m->answers.before : "", p->out);
+    for (size_t i = 0; i < p->d->answers; i++)
+        put_paragraph(p, &m->answer, p->d->answer[i]);
+    fputs(p->d->answers ? m->answers.after : "", p->out);
+}
+
+/* What a terminal shows last: the answer, and what may be typed next. */
+static void print_end(const struct br_markup_page *p)
+{
+    print_verdicts(p);
+    fputs(p->d->answers ? p->markup->gap : "", p->out);
+    print_answer(p);
+    for (size_t i = 0; i < p->d->blocks; i++)
+        if (p->d->block[i].kind == BR_BLOCK_COMMAND)
+            print_command(p, &p->d->block[i]);
 }
 
 enum br_status br_markup_print(struct br_markup_page *p, struct br_error *err)
@@ -270,13 +338,14 @@ enum br_status br_markup_print(struct br_markup_page *p, struct br_error *err)
         m->begin(p);
     else
         br_markup_heading(p, p->level, p->d->caption);
-    fputs(p->d->answers ? m->answers.before : "", p->out);
-    for (size_t i = 0; i < p->d->answers; i++)
-        put(p, &m->answer, p->d->answer[i]);
-    fputs(p->d->answers ? m->answers.after : "", p->out);
-    print_verdicts(p);
+    if (!p->terminal) {
+        print_answer(p);
+        print_verdicts(p);
+    }
     const enum br_status status = print_blocks(p, err);
-    if (m->end)
+    if (p->terminal)
+        print_end(p);
+    else if (m->end)
         m->end(p);
     return status;
 }

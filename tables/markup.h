@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Formats that mark up a running text: Markdown, LaTeX, HTML. One walk prints a document; a const
- * record says what stands around each piece, and has functions for what is a format's own. */
+/* Formats for people: plain text, Markdown, LaTeX, HTML. One walk prints a document; a const record
+ * says what stands around each piece, and has functions for what is a format's own. */
 #ifndef BR_TABLES_MARKUP_H
 #define BR_TABLES_MARKUP_H
 
@@ -15,6 +15,8 @@ struct br_markup_page {
     const char *folder; /* of drawn pictures; NULL: none */
     int level;          /* of the caption's heading */
     size_t pictures;    /* so far */
+    bool terminal;      /* it gets what is short, and the answer last */
+    void *own;          /* the format's */
 };
 
 struct br_around {
@@ -32,16 +34,21 @@ struct br_markup {
     const char *gap;     /* before a block of another kind than the last */
     const char *between; /* two cells */
     const char *rule;    /* above a row */
+    /* A table to its first heading, from there to its first row, and its end; or all of it. */
     void (*open_table)(const struct br_markup_page *p, const struct br_document_table *t,
-                       int level); /* to the first heading */
+                       int level);
     void (*open_rows)(const struct br_markup_page *p, const struct br_document_table *t);
     void (*close_table)(const struct br_markup_page *p, const struct br_document_table *t);
+    enum br_status (*table)(const struct br_markup_page *p, const struct br_document_table *t,
+                            struct br_error *err);
     enum br_status (*picture)(struct br_markup_page *p, const struct br_block *b,
                               struct br_error *err);
     /* NULL: nothing. */
     void (*begin)(const struct br_markup_page *p);
     void (*end)(const struct br_markup_page *p);
-    /* NULL: as any text. */
+    /* NULL: as any text, between what stands around it. */
+    void (*title)(const struct br_markup_page *p, int level, const char *text);
+    void (*paragraph)(const struct br_markup_page *p, const char *text);
     void (*number)(FILE *out, const char *text);
     void (*unit)(FILE *out, const char *unit);
     const char *const *classes; /* by alignment, for %s in head and cell; NULL: none */

@@ -353,7 +353,7 @@ static void test_text(void **state)
     expect(text, "\nFor people\nk = 1\n   77\n");
     expect(text, "\nA section\n---------\nA note of 100 %.\n");
     expect(text, "\nPicture made-h: Error_h\n");
-    expect(text, "\nFAIL  scene_a, order: too low\n  found 0.5\n");
+    expect(text, "\n1 PASS, 1 FAIL\n\nFAIL scene_a, order: too low\n  found 0.5\n");
     expect(text, "Too long for a terminal");
     assert_null(strstr(text, "For programs"));
     assert_null(strstr(text, "No rows"));
