@@ -215,8 +215,6 @@ static const struct br_markup html = {
     .row = {"<tr>", "</tr>\n"},
     .rule = "<tr class=\"rule\">",
     .word = "<strong class=\"%s\">%s</strong>",
-    .gap = "",
-    .between = "",
     .open_table = open_table,
     .open_rows = open_rows,
     .close_table = close_table,

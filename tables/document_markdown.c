@@ -23,11 +23,6 @@ static void open_rows(const struct br_markup_page *p, const struct br_document_t
     fputc('\n', p->out);
 }
 
-static void close_table(const struct br_markup_page *p, const struct br_document_table *t)
-{
-    (void)p, (void)t;
-}
-
 static enum br_status picture(struct br_markup_page *p, const struct br_block *b,
                               struct br_error *err)
 {
@@ -59,16 +54,13 @@ static const struct br_markup markdown = {
     .quoting = &br_for_markdown,
     .of_lines = &br_for_text,
     .heading = {"\n## ", "\n\n"},
-    .answers = {"", ""},
     .answer = {"- ", "\n"},
     .note = {"- ", "\n"},
-    .facts = {"", ""},
     .fact = {"- ", "\n"},
     .label = {"", ": "},
     .command = {"", ":\n\n"},
     .lines = {"````\n", "````\n"}, /* no line of a command ends this */
     .line = {"", "\n"},
-    .verdicts = {"", ""},
     .verdict = {"- ", "\n"},
     .detail = {"  - ", "\n"},
     .head = {" ", " |"},
@@ -78,10 +70,8 @@ static const struct br_markup markdown = {
     .rule = "|",
     .word = "**%s**",
     .gap = "\n",
-    .between = "",
     .open_table = open_table,
     .open_rows = open_rows,
-    .close_table = close_table,
     .picture = picture,
     .begin = begin,
     .end = end,

@@ -5,6 +5,13 @@
 
 /* ---- pieces ---- */
 
+/* NULL: nothing. */
+static void say(const struct br_markup_page *p, const char *text)
+{
+    if (text)
+        fputs(text, p->out);
+}
+
 void br_markup_text(const struct br_markup_page *p, const char *text)
 {
     br_quote(p->out, p->markup->quoting, text ? text : "");
@@ -13,9 +20,9 @@ void br_markup_text(const struct br_markup_page *p, const char *text)
 void br_markup_put(const struct br_markup_page *p, const char *before, const char *text,
                    const char *after)
 {
-    fputs(before, p->out);
+    say(p, before);
     br_markup_text(p, text);
-    fputs(after, p->out);
+    say(p, after);
 }
 
 static void put(const struct br_markup_page *p, const struct br_around *a, const char *text)
@@ -27,12 +34,12 @@ static void put(const struct br_markup_page *p, const struct br_around *a, const
 static void put_paragraph(const struct br_markup_page *p, const struct br_around *a,
                           const char *text)
 {
-    fputs(a->before, p->out);
+    say(p, a->before);
     if (p->markup->paragraph)
         p->markup->paragraph(p, text);
     else
         br_markup_text(p, text);
-    fputs(a->after, p->out);
+    say(p, a->after);
 }
 
 void br_markup_heading(const struct br_markup_page *p, int level, const char *text)
@@ -49,9 +56,10 @@ void br_markup_heading(const struct br_markup_page *p, int level, const char *te
 void br_markup_lines(const struct br_markup_page *p, const char *lines)
 {
     const struct br_markup *m = p->markup;
-    fputs(m->lines.before, p->out);
-    br_document_print_lines(p->out, m->of_lines, m->line.before, lines, m->line.after);
-    fputs(m->lines.after, p->out);
+    say(p, m->lines.before);
+    br_document_print_lines(p->out, m->of_lines, m->line.before ? m->line.before : "", lines,
+                            m->line.after);
+    say(p, m->lines.after);
 }
 
 static void print_unit(const struct br_markup_page *p, const char *before, const char *unit)
@@ -124,7 +132,8 @@ static void open_cell(const struct br_markup_page *p, const struct br_around *a,
                       const struct br_document_table *t, size_t column)
 {
     const char *const *classes = p->markup->classes;
-    fprintf(p->out, a->before, classes ? classes[br_markup_alignment(t, column)] : "");
+    if (a->before)
+        fprintf(p->out, a->before, classes ? classes[br_markup_alignment(t, column)] : "");
 }
 
 static void print_head(const struct br_markup_page *p, const struct br_document_table *t)
@@ -134,11 +143,11 @@ static void print_head(const struct br_markup_page *p, const struct br_document_
     for (size_t c = 0; c < t->columns; c++) {
         if (!br_document_is_seen(t, c))
             continue;
-        fputs(between, p->out);
+        say(p, between);
         open_cell(p, &m->head, t, c);
         print_number(p, t->column[c].heading);
         print_unit(p, ", ", t->column[c].unit);
-        fputs(m->head.after, p->out);
+        say(p, m->head.after);
         between = m->between;
     }
 }
@@ -150,13 +159,13 @@ static void print_row(const struct br_markup_page *p, const struct br_document_t
     for (size_t c = 0; c < t->columns; c++) {
         if (!br_document_is_seen(t, c))
             continue;
-        fputs(between, p->out);
+        say(p, between);
         open_cell(p, &m->cell, t, c);
         print_value(p, &t->column[c], br_document_cell_at(t, r, c));
-        fputs(m->cell.after, p->out);
+        say(p, m->cell.after);
         between = m->between;
     }
-    fputs(m->row.after, p->out);
+    say(p, m->row.after);
 }
 
 static enum br_status print_table(const struct br_markup_page *p, const struct br_document_table *t,
@@ -169,7 +178,8 @@ static enum br_status print_table(const struct br_markup_page *p, const struct b
     p->markup->open_rows(p, t);
     for (size_t r = 0; r < t->rows; r++)
         print_row(p, t, r);
-    p->markup->close_table(p, t);
+    if (p->markup->close_table)
+        p->markup->close_table(p, t);
     return BR_OK;
 }
 
@@ -177,11 +187,11 @@ static enum br_status print_table(const struct br_markup_page *p, const struct b
 
 static void print_fact(const struct br_markup_page *p, const struct br_block *b)
 {
-    fputs(p->markup->fact.before, p->out);
+    say(p, p->markup->fact.before);
     put(p, &p->markup->label, b->what.heading);
     print_value(p, &b->what, &b->cell);
     print_unit(p, " ", b->what.unit);
-    fputs(p->markup->fact.after, p->out);
+    say(p, p->markup->fact.after);
 }
 
 static void print_command(const struct br_markup_page *p, const struct br_block *b)
@@ -246,16 +256,16 @@ static enum br_status print_blocks(struct br_markup_page *p, struct br_error *er
         if (!is_shown(p, i))
             continue;
         if (before == BR_BLOCK_FACT && b->kind != before)
-            fputs(m->facts.after, p->out);
+            say(p, m->facts.after);
         if (b->kind != before && before != BR_BLOCK_SECTION && !titled)
-            fputs(m->gap, p->out);
+            say(p, m->gap);
         if (b->kind == BR_BLOCK_FACT && before != b->kind)
-            fputs(m->facts.before, p->out);
+            say(p, m->facts.before);
         under |= b->kind == BR_BLOCK_SECTION;
         status = print_block(p, b, p->level + 1, under, err);
         before = b->kind;
     }
-    fputs(before == BR_BLOCK_FACT ? m->facts.after : "", p->out);
+    say(p, before == BR_BLOCK_FACT ? m->facts.after : NULL);
     return status;
 }
 
@@ -263,7 +273,7 @@ static enum br_status print_blocks(struct br_markup_page *p, struct br_error *er
 
 static void print_verdict(const struct br_markup_page *p, const struct br_document_verdict *v)
 {
-    fputs(p->markup->verdict.before, p->out);
+    say(p, p->markup->verdict.before);
     print_word(p, v->outcome);
     fputc(' ', p->out);
     br_markup_text(p, v->group);
@@ -271,7 +281,7 @@ static void print_verdict(const struct br_markup_page *p, const struct br_docume
     br_markup_text(p, v->name);
     fputs(v->message ? ": " : "", p->out);
     br_markup_text(p, v->message);
-    fputs(p->markup->verdict.after, p->out);
+    say(p, p->markup->verdict.after);
     for (size_t i = 0; i < v->details; i++)
         put(p, &p->markup->detail, v->detail[i]);
 }
@@ -281,7 +291,7 @@ static void count_verdicts(const struct br_markup_page *p)
 {
     const char *between = "";
     br_markup_heading(p, p->level + 1, "Verdicts");
-    fputs(p->markup->note.before, p->out);
+    say(p, p->markup->note.before);
     for (int outcome = BR_OUTCOME_PASS; outcome <= BR_OUTCOME_SKIPPED; outcome++) {
         size_t count = 0;
         for (size_t i = 0; i < p->d->verdicts; i++)
@@ -292,7 +302,7 @@ static void count_verdicts(const struct br_markup_page *p)
         print_word(p, (enum br_outcome)outcome);
         between = ", ";
     }
-    fputs(p->markup->note.after, p->out);
+    say(p, p->markup->note.after);
 }
 
 /* Those that a person should hear of. */
@@ -304,27 +314,27 @@ static void print_verdicts(const struct br_markup_page *p)
         count_verdicts(p);
     for (size_t i = 0; i < p->d->verdicts; i++)
         if (br_document_verdict_matters(&p->d->verdict[i])) {
-            fputs(any ? "" : m->verdicts.before, p->out);
+            say(p, any ? NULL : m->verdicts.before);
             print_verdict(p, &p->d->verdict[i]);
             any = true;
         }
-    fputs(any ? m->verdicts.after : "", p->out);
+    say(p, any ? m->verdicts.after : NULL);
 }
 
 static void print_answer(const struct br_markup_page *p)
 {
     const struct br_markup *m = p->markup;
-    fputs(p->d->answers ? m->answers.before : "", p->out);
+    say(p, p->d->answers ? m->answers.before : NULL);
     for (size_t i = 0; i < p->d->answers; i++)
         put_paragraph(p, &m->answer, p->d->answer[i]);
-    fputs(p->d->answers ? m->answers.after : "", p->out);
+    say(p, p->d->answers ? m->answers.after : NULL);
 }
 
 /* What a terminal shows last: the answer, and what may be typed next. */
 static void print_end(const struct br_markup_page *p)
 {
     print_verdicts(p);
-    fputs(p->d->answers ? p->markup->gap : "", p->out);
+    say(p, p->d->answers ? p->markup->gap : NULL);
     print_answer(p);
     for (size_t i = 0; i < p->d->blocks; i++)
         if (p->d->block[i].kind == BR_BLOCK_COMMAND)

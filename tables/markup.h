@@ -20,7 +20,7 @@ struct br_markup_page {
 };
 
 struct br_around {
-    const char *before, *after;
+    const char *before, *after; /* NULL: nothing */
 };
 
 /* How a column is set. */
@@ -30,7 +30,8 @@ struct br_markup {
     const struct br_quoting *quoting, *of_lines; /* of texts; of what is to be copied */
     struct br_around caption, heading, answers, answer, note, facts, fact, label, command, lines,
         line, verdicts, verdict, detail, head, cell, mark, row;
-    const char *word;    /* of a verdict: %s is the word, and perhaps again */
+    const char *word; /* of a verdict: %s is the word, and perhaps again */
+    /* NULL: nothing. */
     const char *gap;     /* before a block of another kind than the last */
     const char *between; /* two cells */
     const char *rule;    /* above a row */
