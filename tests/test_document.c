@@ -135,7 +135,7 @@ static void build(struct br_document *d)
 static char *printed(const struct br_document_format *format, const char *table)
 {
     struct br_error err = {0};
-    struct br_document d = {NULL};
+    struct br_document d = {0};
     const struct br_document_table *t;
     char *text = NULL;
     size_t size, block = 0;
@@ -304,7 +304,7 @@ static void test_csv(void **state)
         check_bits(strtod(next_field(&at), NULL), (double)i / 7.0);
     assert_string_equal(at, "");
     free(text);
-    struct br_document d = {NULL};
+    struct br_document d = {0};
     size_t block = 0, tables = 0;
     build(&d);
     while (br_document_next_table(&d, &block))
@@ -517,7 +517,7 @@ static void test_html(void **state)
 static char *made_page(const char *svg)
 {
     struct br_error err = {0};
-    struct br_document d[2] = {{NULL}, {NULL}};
+    struct br_document d[2] = {{0}};
     char folder[] = "/tmp/beamrate-page-XXXXXX", path[100], *text = NULL;
     size_t size;
     assert_non_null(mkdtemp(folder));
@@ -690,7 +690,7 @@ static void test_built_wrongly(void **state)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct br_error err = {0};
-        struct br_document d = {NULL};
+        struct br_document d = {0};
         br_document_begin(&d, "wrong", "f", 1, "c");
         MUST(br_document_status(&d, &err));
         rows[i].put(&d);
@@ -713,7 +713,7 @@ static void test_no_sign_of_zero(void **state)
         {"x-0 1e-00 --k -0 -0x -0.0.", "x-0 1e-00 --k 0 -0x 0.0."},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_document d = {NULL};
+        struct br_document d = {0};
         br_document_begin(&d, "zero", "f", 1, "c");
         br_put_answer(&d, "%s", rows[i][0]);
         BR_FACT(&d, br_number(-1e-9), .key = "a", .heading = "a", .format = "%.3f");
@@ -732,7 +732,7 @@ static void test_two_values(void **state)
 {
     (void)state;
     struct br_error err = {0};
-    struct br_document d = {NULL};
+    struct br_document d = {0};
     br_document_begin(&d, "twice", "f", 1, "c");
     br_put_fact(&d, &(struct br_column){.key = "a.b"}, br_count(1));
     br_put_fact(&d, &(struct br_column){.key = "a.b"}, br_count(2));
@@ -766,7 +766,7 @@ static enum br_status print_without(const struct br_document_format *format, con
                                     long fails, bool jansson)
 {
     struct br_error err = {0};
-    struct br_document d = {NULL};
+    struct br_document d = {0};
     size_t block = 0, size;
     char *text = NULL;
     FILE *out = open_memstream(&text, &size);

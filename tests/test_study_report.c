@@ -33,7 +33,7 @@ static void make(struct br_made_report *m, bool with_exact)
 /* The report as a program reads it; to be released. */
 static json_t *report_back(const struct br_report *report)
 {
-    struct br_document d = {NULL};
+    struct br_document d = {0};
     br_report_study(report, &d);
     for (size_t f = 0; br_document_formats[f]; f++) /* all formats can be written */
         if (!br_document_formats[f]->by_table)
@@ -357,7 +357,7 @@ static void test_people(void **state)
     (void)state;
     for (int with_exact = 0; with_exact < 2; with_exact++) {
         struct br_made_report m;
-        struct br_document d = {NULL};
+        struct br_document d = {0};
         make(&m, with_exact);
         m.cell[with_exact][7].flag[BR_PART_BENDING] = BR_FLAG_UNSTABLE;
         br_report_study(&m.report, &d);
@@ -379,7 +379,7 @@ static void test_people(void **state)
 static bool says(const struct br_report *report, const char *text)
 {
     struct br_error err = {0};
-    struct br_document d = {NULL};
+    struct br_document d = {0};
     br_report_study(report, &d);
     MUST(br_document_status(&d, &err));
     assert_true(d.answers > 0 && d.answers <= 10);
@@ -495,7 +495,7 @@ static void test_claims(void **state)
     (void)state;
     struct br_finding finding[BR_MOST_CLAIMS] = {{.value = 0}};
     struct br_error err = {0};
-    struct br_document d = {NULL};
+    struct br_document d = {0};
     size_t count = 0;
     for (; br_claims[count]; count++) {
         const double x = (double)count;
