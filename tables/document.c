@@ -83,9 +83,9 @@ static const char *copied(struct br_document *d, const char *text)
 static const char *without_signs_of_zero(char *text)
 {
     for (char *c = text; (c = strchr(c, '-')); c++) {
-        const size_t zeros = strspn(c + 1, "0."), exponent = c[1 + zeros] == 'e';
-        const char *end = c + 1 + zeros;
-        if (exponent && strchr("+-", end[1]))
+        const char *end = c + 1 + strspn(c + 1, "0.");
+        const bool zeros = memchr(c + 1, '0', (size_t)(end - c - 1));
+        if (*end == 'e' && (end[1] == '+' || end[1] == '-'))
             end += 2 + strspn(end + 2, "0123456789");
         if (zeros && (c == text || strchr(" [(", c[-1])) && !isalnum((unsigned char)*end))
             memmove(c, c + 1, strlen(c));
@@ -231,11 +231,16 @@ static struct br_column copied_column(struct br_document *d, const struct br_col
                               .flags = c->flags};
 }
 
+static bool is_nothing(struct br_value value)
+{
+    return value.kind == BR_NOTHING || (value.kind == BR_NUMBER && !isfinite(value.number));
+}
+
 static struct br_value copied_value(struct br_document *d, struct br_value value)
 {
     if (value.kind == BR_TEXT)
         return br_text(copied(d, value.text));
-    return value.kind == BR_NUMBER && !isfinite(value.number) ? br_nothing() : value;
+    return br_if(!is_nothing(value), value);
 }
 
 static void put_what(struct br_document *d, enum br_block_kind kind, const struct br_column *what,
@@ -255,7 +260,7 @@ static void put_what(struct br_document *d, enum br_block_kind kind, const struc
 void br_put_fact(struct br_document *d, const struct br_column *what, struct br_value value)
 {
     struct br_column column = *what;
-    if (!what->heading || copied_value(d, value).kind == BR_NOTHING)
+    if (!what->heading || is_nothing(value))
         column.flags |= BR_FOR_PROGRAMS;
     put_what(d, BR_BLOCK_FACT, &column, value);
 }

@@ -74,6 +74,7 @@ static inline struct br_value br_text(const char *text)
     return (struct br_value){.kind = text ? BR_TEXT : BR_NOTHING, .text = text};
 }
 
+/* The value where it is known, or else nothing. */
 static inline struct br_value br_if(bool known, struct br_value value)
 {
     return known ? value : br_nothing();
@@ -264,8 +265,8 @@ void br_put_rule(struct br_document *d);
 void br_put_cell(struct br_document *d, const struct br_column *column, struct br_value value);
 #define BR_PUT(d, value, ...) br_put_cell((d), &(struct br_column){__VA_ARGS__}, (value))
 
-/* The same of a column that has a key alone (NULL: of the next column), and of one for programs;
- * unit: NULL, none. */
+/* The same of a column that has a key alone (NULL: of the next column), and of a column for
+ * programs (unit: NULL, none). */
 void br_put(struct br_document *d, const char *key, struct br_value value);
 void br_hide(struct br_document *d, const char *key, const char *unit, struct br_value value);
 
@@ -330,8 +331,7 @@ enum br_status br_document_print_page(FILE *out, const struct br_document *docum
 enum br_status br_document_show(FILE *out, const struct br_document *d, struct br_error *err);
 
 /* The table that the file of a by_table format would have next, from block *block on (in/out,
- * begins as 0); NULL: no more, or the document has
- * failed. */
+ * begins as 0); NULL: no more, or the document has failed. */
 const struct br_document_table *br_document_next_table(const struct br_document *d, size_t *block);
 
 /* ---- for formats ---- */

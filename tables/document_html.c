@@ -69,15 +69,8 @@ static void open_table(const struct br_markup_page *p, const struct br_document_
                   "\"><table>\n<thead><tr>\n");
 }
 
-static void open_rows(const struct br_markup_page *p, const struct br_document_table *t)
-{
-    (void)t;
-    fputs("</tr></thead>\n<tbody>\n", p->out);
-}
-
 static void close_table(const struct br_markup_page *p, const struct br_document_table *t)
 {
-    fputs("</tbody></table></div>\n", p->out);
     fputs(is_folded(t) ? "</details>\n" : "", p->out);
 }
 
@@ -213,10 +206,10 @@ static const struct br_markup html = {
     .cell = {"<td%s>", "</td>"},
     .mark = {" <sup>", "</sup>"},
     .row = {"<tr>", "</tr>\n"},
+    .rows = {"</tr></thead>\n<tbody>\n", "</tbody></table></div>\n"},
     .rule = "<tr class=\"rule\">",
     .word = "<strong class=\"%s\">%s</strong>",
     .open_table = open_table,
-    .open_rows = open_rows,
     .close_table = close_table,
     .picture = print_picture,
     .end = end,

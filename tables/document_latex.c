@@ -66,18 +66,6 @@ static void open_table(const struct br_markup_page *p, const struct br_document_
     br_markup_put(p, "", t->title, "}\\\\\n\\toprule\n");
 }
 
-static void open_rows(const struct br_markup_page *p, const struct br_document_table *t)
-{
-    (void)t;
-    fputs(" \\\\\n\\midrule\n\\endhead\n", p->out);
-}
-
-static void close_table(const struct br_markup_page *p, const struct br_document_table *t)
-{
-    (void)t;
-    fputs("\\bottomrule\n\\end{longtable}\n", p->out);
-}
-
 /* Only where there is one that LaTeX reads. */
 static enum br_status picture(struct br_markup_page *p, const struct br_block *b,
                               struct br_error *err)
@@ -106,12 +94,11 @@ static const struct br_markup latex = {
     .detail = {"", "\\par\n"},
     .mark = {"$^{\\mathrm{", "}}$"},
     .row = {"", " \\\\\n"},
+    .rows = {" \\\\\n\\midrule\n\\endhead\n", "\\bottomrule\n\\end{longtable}\n"},
     .rule = "\\midrule\n",
     .word = "\\textbf{%s}",
     .between = " & ",
     .open_table = open_table,
-    .open_rows = open_rows,
-    .close_table = close_table,
     .picture = picture,
     .begin = begin,
     .number = print_number,

@@ -173,13 +173,17 @@ static enum br_status print_table(const struct br_markup_page *p, const struct b
 {
     if (p->markup->table)
         return p->markup->table(p, t, err);
-    p->markup->open_table(p, t, level);
+    const struct br_markup *m = p->markup;
+    m->open_table(p, t, level);
     print_head(p, t);
-    p->markup->open_rows(p, t);
+    if (m->open_rows)
+        m->open_rows(p, t);
+    say(p, m->rows.before);
     for (size_t r = 0; r < t->rows; r++)
         print_row(p, t, r);
-    if (p->markup->close_table)
-        p->markup->close_table(p, t);
+    say(p, m->rows.after);
+    if (m->close_table)
+        m->close_table(p, t);
     return BR_OK;
 }
 

@@ -28,14 +28,15 @@ enum br_alignment { BR_RIGHT, BR_LEFT, BR_WRAPPED };
 
 struct br_markup {
     const struct br_quoting *quoting, *of_lines; /* of texts; of what is to be copied */
-    struct br_around caption, heading, answers, answer, note, facts, fact, label, command, lines,
-        line, verdicts, verdict, detail, head, cell, mark, row;
+    struct br_around heading, answers, answer, note, facts, fact, label, command, lines, line,
+        verdicts, verdict, detail, head, cell, mark, row, rows;
     const char *word; /* of a verdict: %s is the word, and perhaps again */
     /* NULL: nothing. */
     const char *gap;     /* before a block of another kind than the last */
     const char *between; /* two cells */
-    const char *rule;    /* above a row */
-    /* A table to its first heading, from there to its first row, and its end; or all of it. */
+    const char *rule;    /* before a row that has a line above it */
+    /* A table to its first heading; more between its head and `rows` (NULL: nothing), and behind
+     * these; or all of it. */
     void (*open_table)(const struct br_markup_page *p, const struct br_document_table *t,
                        int level);
     void (*open_rows)(const struct br_markup_page *p, const struct br_document_table *t);

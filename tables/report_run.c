@@ -548,10 +548,12 @@ static void put_cost(struct br_document *d, const struct br_run_report *r)
         BR_PUT(d, br_number(100 * r->cost.seconds[part] / all), .key = "share", .unit = "%",
                .format = "%.1f");
     }
-    BR_FACT(d, br_number(1e9 * all / steps), .key = "cost.ns_per_step",
-            .heading = "sum of the parts of a step", .unit = "ns");
-    BR_FACT(d, br_number(1e9 * r->cost.lap_seconds), .key = "cost.ns_per_reading",
-            .heading = "a reading of the clock, which is taken off", .unit = "ns");
+    const struct br_fact facts[] = {
+        {"cost.ns_per_step", "sum of the parts of a step", "ns", br_number(1e9 * all / steps)},
+        {"cost.ns_per_reading", "a reading of the clock, which is taken off", "ns",
+         br_number(1e9 * r->cost.lap_seconds)},
+    };
+    BR_FACTS(d, facts);
 }
 
 static void put_time(struct br_document *d, const struct br_run_findings *f)
