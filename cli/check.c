@@ -9,7 +9,8 @@
 #include "cli/warn.h"
 #include "solver/clock.h"
 #include "study/scene/file.h"
-#include "tables/report_check.h"
+#include "study/verify/comparison.h"
+#include "tables/reports.h"
 
 /* A scene on its way; checks point into it. */
 struct item {

@@ -7,7 +7,13 @@
 
 #include "cli/provenance.h"
 #include "plots/pictures.h"
-#include "tables/report_extremes.h"
+#include "study/extremes/count.h"
+#include "study/extremes/energy_behaviour.h"
+#include "study/extremes/floors.h"
+#include "study/extremes/map.h"
+#include "study/extremes/stability.h"
+#include "study/extremes/steps.h"
+#include "tables/reports.h"
 
 /* Round-off of the linear solvers; a picture for each k. */
 static enum br_status run_floors(const struct br_extremes_job *job, struct br_error *err)

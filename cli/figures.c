@@ -10,8 +10,9 @@
 #include "cli/provenance.h"
 #include "cli/warn.h"
 #include "plots/pictures.h"
+#include "study/paper/claims.h"
 #include "study/ranks/ranks.h"
-#include "tables/report_study.h"
+#include "tables/reports.h"
 
 struct run {
     const struct br_options *options;

@@ -7,7 +7,9 @@
 #include "cli/session.h"
 #include "cli/study_request.h"
 #include "cli/warn.h"
-#include "tables/report_plan.h"
+#include "study/scene/file.h"
+#include "study/trade/plan.h"
+#include "tables/reports.h"
 
 struct run {
     struct br_session session;

@@ -5,8 +5,10 @@
 
 #include "cli/option.h"
 #include "cli/output.h"
+#include "study/foresee/prediction.h"
+#include "study/run/run.h"
 #include "tables/fields_file.h"
-#include "tables/report_run.h"
+#include "tables/reports.h"
 
 /* ---- run_plan.c ---- */
 

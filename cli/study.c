@@ -19,7 +19,7 @@
 #include "study/grid/sweep.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
-#include "tables/report_study.h"
+#include "tables/reports.h"
 
 /* One study: a scene, and the printed table to hold it against, if any. */
 struct job {

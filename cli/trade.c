@@ -11,7 +11,7 @@
 #include "cli/warn.h"
 #include "plots/pictures.h"
 #include "study/scene/file.h"
-#include "tables/report_trade.h"
+#include "tables/reports.h"
 
 /* A scene on its way; not to be moved once its trade is laid out. */
 struct item {

@@ -9,7 +9,8 @@
 #include "cli/warn.h"
 #include "plots/pictures.h"
 #include "study/trade/contender.h"
-#include "tables/report_split.h"
+#include "study/trade/split.h"
+#include "tables/reports.h"
 
 struct run {
     struct br_session session;

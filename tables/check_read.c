@@ -7,8 +7,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "study/verify/comparison.h"
 #include "tables/json_value.h"
-#include "tables/report_check.h"
+#include "tables/reports.h"
 
 static enum br_status refuse(const char *path, const char *where, const char *expected,
                              struct br_error *err)

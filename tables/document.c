@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tables/document.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
-#include <stdint.h>
 #include <string.h>
 
 #include "study/scene/quote.h"
@@ -17,14 +17,6 @@ const struct br_document_format *const br_document_formats[] = {&br_document_tex
                                                                 &br_document_json,
                                                                 &br_document_html,
                                                                 NULL};
-
-const struct br_document_format *br_document_format_find(const char *name)
-{
-    for (const struct br_document_format *const *f = br_document_formats; *f; f++)
-        if (strcmp((*f)->name, name) == 0)
-            return *f;
-    return NULL;
-}
 
 /* ---- memory: pieces that are released together ---- */
 
@@ -73,14 +65,32 @@ static void *grown(struct br_document *d, void *list, size_t count, size_t *room
     return larger;
 }
 
+static const char *note_length(struct br_document *d, const char *text)
+{
+    const size_t length = strlen(text);
+    d->longest = length > d->longest ? length : d->longest;
+    return text;
+}
+
 static const char *copied(struct br_document *d, const char *text)
 {
-    const size_t length = text ? strlen(text) : 0;
-    char *copy = text ? take(d, length + 1) : NULL;
-    if (!copy)
-        return NULL;
-    d->longest = length > d->longest ? length : d->longest;
-    return memcpy(copy, text, length + 1);
+    char *copy = text ? take(d, strlen(text) + 1) : NULL;
+    return copy ? note_length(d, strcpy(copy, text)) : NULL;
+}
+
+/* What rounds to zero has no sign: takes the minus from each number of a text whose digits are all
+ * zeros. "-0.00 [-0.01, 0.00]" becomes "0.00 [-0.01, 0.00]". */
+static const char *without_signs_of_zero(char *text)
+{
+    for (char *c = text; (c = strchr(c, '-')); c++) {
+        const char *end = c + 1 + strspn(c + 1, "0.");
+        const bool zeros = memchr(c + 1, '0', (size_t)(end - c - 1));
+        if (*end == 'e' && (end[1] == '+' || end[1] == '-'))
+            end += 2 + strspn(end + 2, "0123456789");
+        if (zeros && (c == text || strchr(" [(", c[-1])) && !isalnum((unsigned char)*end))
+            memmove(c, c + 1, strlen(c));
+    }
+    return text;
 }
 
 static const char *formatted(struct br_document *d, const char *format, va_list arguments)
@@ -93,8 +103,7 @@ static const char *formatted(struct br_document *d, const char *format, va_list 
     if (!text)
         return NULL;
     vsnprintf(text, (size_t)length + 1, format, arguments);
-    d->longest = (size_t)length > d->longest ? (size_t)length : d->longest;
-    return text;
+    return note_length(d, without_signs_of_zero(text));
 }
 
 void br_document_clear(struct br_document *d)
@@ -133,6 +142,7 @@ static struct br_block *put_block(struct br_document *d, enum br_block_kind kind
     if (!d->block)
         return NULL;
     d->last = NULL;
+    d->open = NULL;
     d->block[d->blocks] = (struct br_block){.kind = kind};
     return &d->block[d->blocks++];
 }
@@ -140,8 +150,10 @@ static struct br_block *put_block(struct br_document *d, enum br_block_kind kind
 static void put_paragraph(struct br_document *d, enum br_block_kind kind, const char *text)
 {
     struct br_block *block = put_block(d, kind);
-    if (block)
-        block->text = text;
+    if (!block)
+        return;
+    block->text = text;
+    d->open = &block->text;
 }
 
 void br_put_answer(struct br_document *d, const char *format, ...)
@@ -150,6 +162,7 @@ void br_put_answer(struct br_document *d, const char *format, ...)
     va_start(arguments, format);
     const char *text = formatted(d, format, arguments);
     va_end(arguments);
+    d->open = &d->answer[d->answers];
     if (text && d->answers < BR_MOST_ANSWERS)
         d->answer[d->answers++] = text;
     else if (text)
@@ -167,6 +180,24 @@ void br_put_note(struct br_document *d, const char *format, ...)
     va_start(arguments, format);
     put_paragraph(d, BR_BLOCK_NOTE, formatted(d, format, arguments));
     va_end(arguments);
+}
+
+void br_put_more(struct br_document *d, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const char *more = formatted(d, format, arguments);
+    va_end(arguments);
+    if (!d->open)
+        refuse(d, "there is no text before", more);
+    const size_t begun = d->failure.status ? 0 : strlen(*d->open);
+    char *text = d->failure.status ? NULL : take(d, begun + strlen(more) + 1);
+    if (!text)
+        return;
+    strcpy(text, *d->open);
+    strcpy(text + begun, more);
+    *d->open = text;
+    note_length(d, text);
 }
 
 /* Whether printf may be called with it and one double. */
@@ -200,11 +231,16 @@ static struct br_column copied_column(struct br_document *d, const struct br_col
                               .flags = c->flags};
 }
 
+static bool is_nothing(struct br_value value)
+{
+    return value.kind == BR_NOTHING || (value.kind == BR_NUMBER && !isfinite(value.number));
+}
+
 static struct br_value copied_value(struct br_document *d, struct br_value value)
 {
     if (value.kind == BR_TEXT)
         return br_text(copied(d, value.text));
-    return value.kind == BR_NUMBER && !isfinite(value.number) ? br_nothing() : value;
+    return br_if(!is_nothing(value), value);
 }
 
 static void put_what(struct br_document *d, enum br_block_kind kind, const struct br_column *what,
@@ -218,11 +254,33 @@ static void put_what(struct br_document *d, enum br_block_kind kind, const struc
     block->what = column;
     block->cell.value = copy;
     d->last = &block->cell;
+    d->open = copy.kind == BR_TEXT ? &block->cell.value.text : NULL;
 }
 
 void br_put_fact(struct br_document *d, const struct br_column *what, struct br_value value)
 {
-    put_what(d, BR_BLOCK_FACT, what, value);
+    struct br_column column = *what;
+    if (!what->heading || is_nothing(value))
+        column.flags |= BR_FOR_PROGRAMS;
+    put_what(d, BR_BLOCK_FACT, &column, value);
+}
+
+void br_put_facts(struct br_document *d, const struct br_fact *fact, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        BR_FACT(d, fact[i].value, .key = fact[i].key, .heading = fact[i].heading,
+                .unit = fact[i].unit);
+}
+
+void br_hide_fact(struct br_document *d, struct br_value value, const char *unit, const char *key,
+                  ...)
+{
+    va_list arguments;
+    va_start(arguments, key);
+    const char *name = formatted(d, key, arguments);
+    va_end(arguments);
+    if (name)
+        BR_FACT(d, value, .key = name, .unit = unit, .flags = BR_FOR_PROGRAMS);
 }
 
 void br_put_command(struct br_document *d, const char *key, const char *label, const char *lines)
@@ -245,8 +303,7 @@ static struct br_document_table *open_table(struct br_document *d)
     return NULL;
 }
 
-void br_put_table(struct br_document *d, const char *key, const char *title, unsigned flags,
-                  const struct br_column *columns, size_t count)
+void br_put_table(struct br_document *d, const char *key, const char *title, unsigned flags)
 {
     struct br_document_table *t = take(d, sizeof *t);
     struct br_block *block = put_block(d, BR_BLOCK_TABLE);
@@ -256,54 +313,16 @@ void br_put_table(struct br_document *d, const char *key, const char *title, uns
     t->key = copied(d, key);
     t->title = copied(d, title);
     t->flags = flags;
-    for (size_t i = 0; i < count; i++)
-        br_put_column(d, &columns[i]);
 }
 
-void br_put_column(struct br_document *d, const struct br_column *column)
+static const char *key_of(const struct br_column *column)
 {
-    struct br_document_table *t = open_table(d);
-    if (t && t->rows)
-        refuse(d, "a column after the first row:", column->key ? column->key : column->heading);
-    if (!t || d->failure.status)
-        return;
-    const struct br_column copy =
-        copied_column(d, column, br_for_programs(t->flags | column->flags));
-    t->column = grown(d, t->column, t->columns, &t->column_room, sizeof *t->column);
-    for (size_t i = 0; i < t->columns && t->column; i++)
-        if (strcmp(t->column[i].key, copy.key) == 0)
-            refuse(d, "two columns with the key", copy.key);
-    if (!d->failure.status)
-        t->column[t->columns++] = copy;
-}
-
-void br_put_row(struct br_document *d)
-{
-    struct br_document_table *t = open_table(d);
-    if (!t)
-        return;
-    size_t room = t->row_room;
-    t->cell = grown(d, t->cell, t->rows, &room, t->columns * sizeof *t->cell);
-    t->rule = grown(d, t->rule, t->rows, &t->row_room, sizeof *t->rule);
-    if (!t->cell || !t->rule)
-        return;
-    t->rows++;
-    d->last = NULL;
-    d->next = 0;
-}
-
-void br_put_rule(struct br_document *d)
-{
-    struct br_document_table *t = open_table(d);
-    if (t && t->rows)
-        t->rule[t->rows - 1] = true;
+    return column->key ? column->key : column->heading ? column->heading : "";
 }
 
 /* The column of a key, from the next one on and around; t->columns: none. */
 static size_t find_column(const struct br_document_table *t, const char *key, size_t next)
 {
-    if (!key)
-        return next;
     for (size_t i = 0; i < t->columns; i++) {
         const size_t at = (next + i) % t->columns;
         if (strcmp(t->column[at].key, key) == 0)
@@ -312,36 +331,100 @@ static size_t find_column(const struct br_document_table *t, const char *key, si
     return t->columns;
 }
 
-static void put_copied(struct br_document *d, const char *key, struct br_value value)
+static void add_column(struct br_document *d, struct br_document_table *t,
+                       const struct br_column *column)
+{
+    const struct br_column copy =
+        copied_column(d, column, br_for_programs(t->flags | column->flags));
+    t->column = grown(d, t->column, t->columns, &t->column_room, sizeof *t->column);
+    if (t->rows)
+        t->row->cell = grown(d, t->row->cell, t->columns, &t->cell_room, sizeof *t->row->cell);
+    if (!d->failure.status)
+        t->column[t->columns++] = copy;
+}
+
+void br_put_columns(struct br_document *d, const struct br_column *columns, size_t count)
+{
+    struct br_document_table *t = open_table(d);
+    for (size_t i = 0; i < count && t && !d->failure.status; i++) {
+        const char *key = key_of(&columns[i]);
+        if (t->rows)
+            refuse(d, "a column after the first row:", key);
+        else if (find_column(t, key, 0) < t->columns)
+            refuse(d, "two columns with the key", key);
+        else
+            add_column(d, t, &columns[i]);
+    }
+}
+
+void br_put_row(struct br_document *d)
 {
     struct br_document_table *t = open_table(d);
     if (!t)
         return;
-    const size_t column = find_column(t, key, d->next);
-    if (column == t->columns || !t->rows) {
-        refuse(d, "no cell for", key ? key : t->key);
+    t->row = grown(d, t->row, t->rows, &t->row_room, sizeof *t->row);
+    t->cell_room = t->columns + !t->columns; /* of the first row, which may get more columns */
+    struct br_document_cell *cell = take(d, t->cell_room * sizeof *cell);
+    if (!t->row || !cell)
         return;
-    }
-    d->last = &t->cell[(t->rows - 1) * t->columns + column];
-    d->last->value = value;
-    d->next = column + 1;
-    if (value.kind != BR_NOTHING)
-        t->column[column].flags |= BR_FILLED;
-    if (value.kind == BR_TEXT || value.kind == BR_TRUTH)
-        t->column[column].flags |= BR_TEXTUAL;
+    t->grows = !t->rows && !t->columns;
+    t->row[t->rows++] = (struct br_document_row){.cell = cell};
+    d->last = NULL;
+    d->open = NULL;
+    d->next = 0;
+    d->blank = false;
+}
+
+void br_put_rule(struct br_document *d)
+{
+    struct br_document_table *t = open_table(d);
+    if (t && t->rows)
+        t->row[t->rows - 1].rule = true;
+}
+
+/* The place of a key's column, which the first row makes if the table began without columns;
+ * t->columns: there is none. */
+static size_t place_of(struct br_document *d, struct br_document_table *t,
+                       const struct br_column *column)
+{
+    const bool next = !column->key && !column->heading;
+    const size_t at = next ? d->next : find_column(t, key_of(column), d->next);
+    if (at >= t->columns && t->grows && !next)
+        add_column(d, t, column);
+    if (at >= t->columns || !t->rows)
+        refuse(d, "no cell for", next ? t->key : key_of(column));
+    return at;
+}
+
+void br_put_cell(struct br_document *d, const struct br_column *column, struct br_value value)
+{
+    struct br_document_table *t = open_table(d);
+    const size_t at = t ? place_of(d, t, column) : 0;
+    const struct br_value copy = d->blank ? br_nothing() : copied_value(d, value);
+    if (d->failure.status)
+        return;
+    d->last = &t->row[t->rows - 1].cell[at];
+    d->last->value = copy;
+    d->next = at + 1;
+    if (copy.kind != BR_NOTHING)
+        t->column[at].flags |= BR_FILLED;
+    if (copy.kind == BR_TEXT || copy.kind == BR_TRUTH)
+        t->column[at].flags |= BR_TEXTUAL;
 }
 
 void br_put(struct br_document *d, const char *key, struct br_value value)
 {
-    put_copied(d, key, copied_value(d, value));
+    BR_PUT(d, value, .key = key);
 }
 
-void br_put_text(struct br_document *d, const char *key, const char *format, ...)
+void br_hide(struct br_document *d, const char *key, const char *unit, struct br_value value)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    put_copied(d, key, br_text(formatted(d, format, arguments)));
-    va_end(arguments);
+    BR_PUT(d, value, .key = key, .unit = unit, .flags = BR_FOR_PROGRAMS);
+}
+
+void br_put_blank(struct br_document *d, bool blank)
+{
+    d->blank = blank;
 }
 
 void br_put_shown(struct br_document *d, const char *format, ...)
@@ -352,7 +435,7 @@ void br_put_shown(struct br_document *d, const char *format, ...)
     va_end(arguments);
     if (!d->last)
         refuse(d, "there is no value that is shown as", text);
-    if (d->failure.status)
+    if (d->failure.status || (d->blank && d->last->value.kind == BR_NOTHING))
         return;
     d->last->shown = text;
     if (d->block[d->blocks - 1].kind == BR_BLOCK_TABLE)
@@ -456,12 +539,6 @@ const struct br_document_table *br_document_next_table(const struct br_document 
     return NULL;
 }
 
-/* What rounds to zero has no sign. */
-static const char *without_sign_of_zero(const char *text)
-{
-    return *text == '-' && !text[strcspn(text, "123456789")] ? text + 1 : text;
-}
-
 const char *br_document_shown(const struct br_column *column, const struct br_document_cell *cell,
                               char buffer[BR_SHOWN])
 {
@@ -470,7 +547,7 @@ const char *br_document_shown(const struct br_column *column, const struct br_do
     switch (cell->value.kind) {
     case BR_NUMBER:
         snprintf(buffer, BR_SHOWN, column->format, cell->value.number);
-        return without_sign_of_zero(buffer);
+        return without_signs_of_zero(buffer);
     case BR_COUNT:
         snprintf(buffer, BR_SHOWN, "%lld", cell->value.count);
         return buffer;
@@ -505,10 +582,33 @@ void br_document_print_value(FILE *out, const struct br_quoting *target, const c
     }
 }
 
-const struct br_document_cell *br_document_cell_at(const struct br_document_table *table,
-                                                   size_t row, size_t column)
+void br_document_print_lines(FILE *out, const struct br_quoting *target, const char *before,
+                             const char *lines, const char *after)
 {
-    return &table->cell[row * table->columns + column];
+    while (*lines) {
+        size_t rest = strcspn(lines, "\n");
+        fputs(before, out);
+        while (rest) { /* in pieces of whole characters */
+            char piece[1024];
+            size_t size = rest < sizeof piece ? rest : sizeof piece - 8;
+            for (int i = 0; i < 3 && size < rest && ((unsigned char)lines[size] & 0xc0) == 0x80;
+                 i++)
+                size++;
+            snprintf(piece, sizeof piece, "%.*s", (int)size, lines);
+            br_quote(out, target, piece);
+            lines += size;
+            rest -= size;
+        }
+        fputs(after, out);
+        lines += *lines == '\n';
+    }
+}
+
+bool br_document_has(const struct br_block *block)
+{
+    return block->kind == BR_BLOCK_TABLE
+               ? br_for_people(block->table->flags) && block->table->rows > 0
+               : br_for_people(block->what.flags);
 }
 
 bool br_document_is_seen(const struct br_document_table *table, size_t column)

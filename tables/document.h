@@ -3,21 +3,21 @@
  *
  * One straight function builds it, from top to bottom:
  *
- *     static const struct br_column columns[] = {
- *         {.key = "method"},
- *         {.key = "k", .heading = "time step", .unit = "s", .format = "%.6g"},
- *         {.key = "error", .heading = "relative error", .format = "%.2e"},
- *     };
  *     br_document_begin(d, "example1", "beamrate trade", 1, "What a digit costs");
- *     br_put_answer(d, "%s needs the least time.", method);
- *     br_put_table(d, "trials", "All trials", BR_FILES_ONLY, BR_COLUMNS(columns));
+ *     br_put_answer(d, "%s needs the least time", method);
+ *     br_put_more(d, isfinite(error) ? ", its error is %.2e." : ".", error);
+ *     BR_FACT(d, br_count(count), .key = "trials", .heading = "trials");
+ *     br_put_table(d, "trials", "All trials", BR_FILES_ONLY);
  *     for (...) {
  *         br_put_row(d);
- *         br_put(d, "method", br_text(trial->name));
- *         br_put(d, "k", br_number(k));
- *         br_put(d, "error", br_number(trial->error));
+ *         BR_PUT(d, br_text(trial->name), .key = "method");
+ *         BR_PUT(d, br_number(k), .key = "k", .heading = "time step", .unit = "s");
+ *         BR_PUT(d, br_number(trial->error), .key = "error", .format = "%.2e");
  *     }
  *     br_put_provenance(d, &provenance);
+ *
+ * The first row brings the columns of its table; a table that may have no row begins with them
+ * (BR_TABLE).
  *
  * Each call copies what it is given. None of them fails: the document remembers the first failure
  * (no memory, a key that no column has), does nothing from then on, and tells it when it is
@@ -74,6 +74,12 @@ static inline struct br_value br_text(const char *text)
     return (struct br_value){.kind = text ? BR_TEXT : BR_NOTHING, .text = text};
 }
 
+/* The value where it is known, or else nothing. */
+static inline struct br_value br_if(bool known, struct br_value value)
+{
+    return known ? value : br_nothing();
+}
+
 /* ---- what a document holds ---- */
 
 enum {
@@ -86,6 +92,7 @@ enum {
     BR_TEXTUAL = 64,     /* a column with a text or a truth; set by br_put */
     BR_LONG = 128,       /* a table that a terminal shows however long it is */
 };
+enum { BR_LONG_TABLE = 24 /* rows: a terminal does not show more, a page folds them */ };
 
 /* A column of a table, or what a fact is. Strings may be NULL, but for the key of what programs
  * get, or else the heading. */
@@ -97,22 +104,24 @@ struct br_column {
     unsigned flags;      /* BR_FILES_ONLY, BR_FOR_PEOPLE, BR_FOR_PROGRAMS, BR_WRAP */
 };
 
-/* An array of columns, and how many they are. */
-#define BR_COLUMNS(columns) (columns), (sizeof(columns) / sizeof *(columns))
-
 struct br_document_cell {
     struct br_value value;
     const char *shown; /* to people instead of the value; NULL: the value by its format */
     const char *mark;  /* to people, behind the value; NULL: none */
 };
 
+struct br_document_row {
+    struct br_document_cell *cell; /* by columns */
+    bool rule;                     /* a line above it */
+};
+
 struct br_document_table {
     const char *key, *title;
     unsigned flags;
     struct br_column *column;
-    struct br_document_cell *cell; /* by rows */
-    bool *rule;                    /* by rows: a line above it */
-    size_t columns, rows, column_room, row_room;
+    struct br_document_row *row;
+    size_t columns, rows, column_room, cell_room, row_room;
+    bool grows; /* the first row, for building: it makes the columns */
 };
 
 enum br_outcome {
@@ -186,7 +195,9 @@ struct br_document {
     /* for building */
     struct br_document_memory *memory;
     struct br_document_cell *last; /* that was put */
+    const char **open;             /* the text that br_put_more goes on with; NULL: none */
     size_t next;                   /* column */
+    bool blank;                    /* what is put into the row is nothing */
     struct br_error failure;
 };
 
@@ -211,30 +222,56 @@ void br_put_section(struct br_document *d, const char *title);
 __attribute__((format(printf, 2, 3))) void br_put_note(struct br_document *d, const char *format,
                                                        ...);
 
+/* Goes on with the answer, note or command that was put last. */
+__attribute__((format(printf, 2, 3))) void br_put_more(struct br_document *d, const char *format,
+                                                       ...);
+
 /* One value: "label: value unit" for people, "key": value at the top of the JSON; a key with dots
- * (tip.displacement) is an object in an object. `what` is as a column: with BR_FOR_PROGRAMS it is
- * in JSON only. CSV has no facts. */
+ * (tip.displacement) is an object in an object. `what` is as a column: with BR_FOR_PROGRAMS,
+ * without a heading, or of nothing it is in JSON only. CSV has no facts. */
 void br_put_fact(struct br_document *d, const struct br_column *what, struct br_value value);
+#define BR_FACT(d, value, ...) br_put_fact((d), &(struct br_column){__VA_ARGS__}, (value))
+
+/* Several, a row each. */
+struct br_fact {
+    const char *key, *heading, *unit;
+    struct br_value value;
+};
+void br_put_facts(struct br_document *d, const struct br_fact *fact, size_t count);
+#define BR_FACTS(d, facts) br_put_facts((d), (facts), sizeof(facts) / sizeof *(facts))
+
+/* A fact for programs; the key is formatted. unit: NULL, none. */
+__attribute__((format(printf, 4, 5))) void br_hide_fact(struct br_document *d,
+                                                        struct br_value value, const char *unit,
+                                                        const char *key, ...);
 
 /* A command line, or several lines, to be copied; a fact of JSON. NULL or "": nothing is put. */
 void br_put_command(struct br_document *d, const char *key, const char *label, const char *lines);
 
-/* Begins a table; `columns` may be NULL, and more may be put, until the first row. People do not
+/* Begins a table, and gives it columns, as many as are known, before its first row. People do not
  * see a table without rows; CSV has its header. */
-void br_put_table(struct br_document *d, const char *key, const char *title, unsigned flags,
-                  const struct br_column *columns, size_t count);
-void br_put_column(struct br_document *d, const struct br_column *column);
+void br_put_table(struct br_document *d, const char *key, const char *title, unsigned flags);
+void br_put_columns(struct br_document *d, const struct br_column *columns, size_t count);
+#define BR_TABLE(d, key, title, flags, columns)  \
+    (br_put_table((d), (key), (title), (flags)), \
+     br_put_columns((d), (columns), sizeof(columns) / sizeof *(columns)))
 
 /* Begins a row: all its cells are nothing. With a rule above it where people see lines. */
 void br_put_row(struct br_document *d);
 void br_put_rule(struct br_document *d);
 
-/* Puts a value into the row, under the column of that key; key NULL: under the next column. */
-void br_put(struct br_document *d, const char *key, struct br_value value);
+/* Puts a value into the row, under the column of that key (or heading, where there is no key). In a
+ * table that began without columns the first row makes them. */
+void br_put_cell(struct br_document *d, const struct br_column *column, struct br_value value);
+#define BR_PUT(d, value, ...) br_put_cell((d), &(struct br_column){__VA_ARGS__}, (value))
 
-/* The same of a formatted text. */
-__attribute__((format(printf, 3, 4))) void br_put_text(struct br_document *d, const char *key,
-                                                       const char *format, ...);
+/* The same of a column that has a key alone (NULL: of the next column), and of a column for
+ * programs (unit: NULL, none). */
+void br_put(struct br_document *d, const char *key, struct br_value value);
+void br_hide(struct br_document *d, const char *key, const char *unit, struct br_value value);
+
+/* Whether what is put from now on is nothing, up to the end of the row. */
+void br_put_blank(struct br_document *d, bool blank);
 
 /* What people see instead of the value that was put last ("refused", "tol 1e-05"); an adornment
  * behind it ("R"). Programs do not see either: give them a column. */
@@ -274,7 +311,6 @@ extern const struct br_document_format br_document_junit, br_document_tap;
 
 /* NULL-terminated; those of any report. */
 extern const struct br_document_format *const br_document_formats[];
-const struct br_document_format *br_document_format_find(const char *name);
 
 /* What the document remembers: BR_OK, BR_NO_MEMORY, or BR_IO where it was built wrongly. */
 enum br_status br_document_status(const struct br_document *d, struct br_error *err);
@@ -295,8 +331,7 @@ enum br_status br_document_print_page(FILE *out, const struct br_document *docum
 enum br_status br_document_show(FILE *out, const struct br_document *d, struct br_error *err);
 
 /* The table that the file of a by_table format would have next, from block *block on (in/out,
- * begins as 0); NULL: no more, or the document has
- * failed. */
+ * begins as 0); NULL: no more, or the document has failed. */
 const struct br_document_table *br_document_next_table(const struct br_document *d, size_t *block);
 
 /* ---- for formats ---- */
@@ -311,6 +346,19 @@ static inline bool br_for_programs(unsigned flags)
     return !(flags & BR_FOR_PEOPLE);
 }
 
+static inline const struct br_document_cell *br_document_cell_at(
+    const struct br_document_table *table, size_t row, size_t column)
+{
+    return &table->row[row].cell[column];
+}
+
+/* Whether people see a block, or a column: it is for them, and not without any row or value. */
+bool br_document_has(const struct br_block *block);
+bool br_document_is_seen(const struct br_document_table *table, size_t column);
+
+/* Whether the cells of a column are texts, to be set to the left: any of them is. */
+bool br_document_is_text(const struct br_document_table *table, size_t column);
+
 /* What people see of a cell, without its mark. */
 enum { BR_SHOWN = 400 };
 const char *br_document_shown(const struct br_column *column, const struct br_document_cell *cell,
@@ -321,14 +369,9 @@ struct br_quoting;
 void br_document_print_value(FILE *out, const struct br_quoting *target, const char *nothing,
                              const struct br_value *value);
 
-const struct br_document_cell *br_document_cell_at(const struct br_document_table *table,
-                                                   size_t row, size_t column);
-
-/* Whether people see a column: it is for them, and not without any value. */
-bool br_document_is_seen(const struct br_document_table *table, size_t column);
-
-/* Whether the cells of a column are texts, to be set to the left: any of them is. */
-bool br_document_is_text(const struct br_document_table *table, size_t column);
+/* Each line as it is, quoted, between two texts. */
+void br_document_print_lines(FILE *out, const struct br_quoting *target, const char *before,
+                             const char *lines, const char *after);
 
 /* Whether a person should hear of a verdict. */
 bool br_document_verdict_matters(const struct br_document_verdict *verdict);

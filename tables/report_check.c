@@ -1,18 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "tables/report_check.h"
-
 #include <math.h>
-#include <stdarg.h>
-#include <string.h>
 
-#include "tables/report_method.h"
+#include "study/verify/comparison.h"
+#include "tables/report_parts.h"
 
 const struct br_document_format *const br_check_formats[] = {
     &br_document_text, &br_document_junit,    &br_document_json,
     &br_document_tap,  &br_document_markdown, NULL,
 };
 
-enum { NAME = 64, LINES = 4000, FIRST_FAILURES = 3 };
+enum { NAME = 64, FIRST_FAILURES = 3 };
 
 /* "space l2 axial" */
 static const char *name_of(const struct br_case *c, char name[NAME])
@@ -29,17 +26,17 @@ static void answer_tally(struct br_document *d, const struct br_check_findings *
     const struct br_check *first;
     const size_t refused = br_check_failures(f->checks, f->count, &first);
     size_t orders = 0, of[BR_INCONCLUSIVE + 1];
-    char and_refused[64] = "";
     for (size_t i = 0; i < f->count; i++)
         orders += f->checks[i].count;
     for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
         of[v] = br_check_tally(f->checks, f->count, (enum br_verdict)v);
+    br_put_answer(d, "%zu order%s in %zu scene%s: %zu PASS, %zu FAIL, %zu INCONCLUSIVE", orders,
+                  orders == 1 ? "" : "s", f->count, f->count == 1 ? "" : "s", of[BR_PASS],
+                  of[BR_FAIL], of[BR_INCONCLUSIVE]);
     if (refused)
-        snprintf(and_refused, sizeof and_refused, ", %zu cannot be verified", refused);
-    br_put_answer(d, "%zu order%s in %zu scene%s: %zu PASS, %zu FAIL, %zu INCONCLUSIVE%s%s; %.1f s",
-                  orders, orders == 1 ? "" : "s", f->count, f->count == 1 ? "" : "s", of[BR_PASS],
-                  of[BR_FAIL], of[BR_INCONCLUSIVE], and_refused,
-                  f->stopped ? "; stopped at the first scene that failed" : "", f->wall_seconds);
+        br_put_more(d, ", %zu cannot be verified", refused);
+    br_put_more(d, "%s; %.1f s", f->stopped ? "; stopped at the first scene that failed" : "",
+                f->wall_seconds);
 }
 
 /* The first of what does not pass. */
@@ -68,16 +65,11 @@ static void answer_failures(struct br_document *d, const struct br_check_finding
 
 static void put_tally(struct br_document *d, const struct br_check_findings *f)
 {
-    for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++) {
-        char key[NAME];
-        snprintf(key, sizeof key, "tally.%s", br_verdict_names[v]);
-        br_put_fact(d, &(struct br_column){.key = key, .flags = BR_FOR_PROGRAMS},
-                    br_count(br_check_tally(f->checks, f->count, (enum br_verdict)v)));
-    }
-    br_put_fact(d, &(struct br_column){.key = "wall_seconds", .flags = BR_FOR_PROGRAMS},
-                br_number(f->wall_seconds));
-    br_put_fact(d, &(struct br_column){.key = "stopped", .flags = BR_FOR_PROGRAMS},
-                br_truth(f->stopped));
+    for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
+        br_hide_fact(d, br_count(br_check_tally(f->checks, f->count, (enum br_verdict)v)), NULL,
+                     "tally.%s", br_verdict_names[v]);
+    br_hide_fact(d, br_number(f->wall_seconds), NULL, "wall_seconds");
+    br_hide_fact(d, br_truth(f->stopped), NULL, "stopped");
 }
 
 /* ---- orders ---- */
@@ -113,15 +105,21 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
     }
 }
 
+/* What a row is of. */
+static void begin_row(struct br_document *d, const struct br_check *check, const struct br_case *c)
+{
+    br_put_row(d);
+    br_put(d, "scene", br_text(check->scene->name));
+    br_put(d, "study", br_text(br_verify_names[c->kind]));
+    br_put(d, "norm", br_text(c->expected.norm->name));
+    br_put(d, "part", br_text(br_part_names[c->expected.part]));
+}
+
 static void put_order(struct br_document *d, const struct br_check *check, const struct br_case *c)
 {
     const struct br_expectation *e = &c->expected;
     char order[NAME];
-    br_put_row(d);
-    br_put(d, "scene", br_text(check->scene->name));
-    br_put(d, "study", br_text(br_verify_names[c->kind]));
-    br_put(d, "norm", br_text(e->norm->name));
-    br_put(d, "part", br_text(br_part_names[e->part]));
+    begin_row(d, check, c);
     br_put(d, "expected", br_number(e->order));
     br_put_shown(d, "%g +- %g", e->order, e->tolerance);
     br_put(d, "tolerance", br_number(e->tolerance));
@@ -158,7 +156,7 @@ static void put_orders(struct br_document *d, const struct br_check_findings *f)
         {.key = "ceiling", .heading = "its range"},
         {.key = "verdict"},
     };
-    br_put_table(d, "orders", "All orders", BR_MAIN | BR_LONG, BR_COLUMNS(columns));
+    BR_TABLE(d, "orders", "All orders", BR_MAIN | BR_LONG, columns);
     for (size_t i = 0; i < f->count; i++) {
         const struct br_check *check = &f->checks[i];
         if (check->failure.status)
@@ -178,11 +176,7 @@ static void put_orders(struct br_document *d, const struct br_check_findings *f)
 static void put_point(struct br_document *d, const struct br_check *check, const struct br_case *c,
                       const struct br_point *p)
 {
-    br_put_row(d);
-    br_put(d, "scene", br_text(check->scene->name));
-    br_put(d, "study", br_text(br_verify_names[c->kind]));
-    br_put(d, "norm", br_text(c->expected.norm->name));
-    br_put(d, "part", br_text(br_part_names[c->expected.part]));
+    begin_row(d, check, c);
     br_put(d, "n", br_count(p->at.n));
     br_put(d, "steps", br_count(p->at.steps));
     br_put(d, "against_n", br_count(p->against.n));
@@ -203,7 +197,7 @@ static void put_points(struct br_document *d, const struct br_check_findings *f)
         {.key = "error"},   {.key = "constant"}, {.key = "used"},      {.key = "flag"},
         {.key = "failure"},
     };
-    br_put_table(d, "points", "Errors", BR_FOR_PROGRAMS, BR_COLUMNS(columns));
+    BR_TABLE(d, "points", "Errors", BR_FOR_PROGRAMS, columns);
     for (size_t i = 0; i < f->count; i++)
         for (size_t j = 0; j < f->checks[i].count; j++)
             for (size_t p = 0; p < f->checks[i].cases[j].points; p++)
@@ -213,44 +207,35 @@ static void put_points(struct br_document *d, const struct br_check_findings *f)
 
 /* ---- scenes ---- */
 
-__attribute__((format(printf, 2, 3))) static void append(char text[LINES], const char *format, ...)
-{
-    const size_t used = strlen(text);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text + used, LINES - used, format, arguments);
-    va_end(arguments);
-}
-
-static void append_cells(char text[LINES], const struct br_scene *scene,
-                         const struct br_verify_study *v)
+static void put_cells(struct br_document *d, const struct br_scene *scene,
+                      const struct br_verify_study *v)
 {
     const size_t last = v->count - 1;
     for (size_t i = 0; i < (v->n[last] != v->n[0] ? v->count : 1); i++)
-        append(text, i ? ", %zu" : "    n: %zu", v->n[i]);
+        br_put_more(d, i ? ", %zu" : "    n: %zu", v->n[i]);
     for (size_t i = 0; i < (v->steps[last] != v->steps[0] ? v->count : 1); i++)
-        append(text, i ? ", %.10g" : "\n    k: %.10g", br_time_step(scene, v->steps[i]));
-    append(text, " s\n");
+        br_put_more(d, i ? ", %.10g" : "\n    k: %.10g", br_time_step(scene, v->steps[i]));
+    br_put_more(d, " s\n");
 }
 
 /* Of a scene that does not say what to expect: the defaults, as its file would have them. */
 static void put_defaults(struct br_document *d, const struct br_check *check, size_t number)
 {
-    char text[LINES] = "verify:\n", key[NAME], label[1200];
-    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
-        const struct br_verify_study *v = &check->verify->study[kind];
-        append(text, "  %s:\n", br_verify_names[kind]);
-        append_cells(text, check->scene, v);
-        for (size_t i = 0; i < v->expectations; i++) {
-            const struct br_expectation *e = &v->expectation[i];
-            append(text, "    %s%s%s: %g +- %g\n", e->norm->name, e->part ? " " : "",
-                   e->part ? br_part_names[e->part] : "", e->order, e->tolerance);
-        }
-    }
+    char key[NAME], label[1200];
     snprintf(key, sizeof key, "defaults.%zu", number);
     snprintf(label, sizeof label,
              "%s has no verify part; these are the defaults, to begin one with", check->path);
-    br_put_command(d, key, label, text);
+    br_put_command(d, key, label, "verify:\n");
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+        const struct br_verify_study *v = &check->verify->study[kind];
+        br_put_more(d, "  %s:\n", br_verify_names[kind]);
+        put_cells(d, check->scene, v);
+        for (size_t i = 0; i < v->expectations; i++) {
+            const struct br_expectation *e = &v->expectation[i];
+            br_put_more(d, "    %s%s%s: %g +- %g\n", e->norm->name, e->part ? " " : "",
+                        e->part ? br_part_names[e->part] : "", e->order, e->tolerance);
+        }
+    }
 }
 
 /* The methods are facts: "methods.0.space" is that of the first scene's study over h. */
@@ -261,7 +246,7 @@ static void put_scenes(struct br_document *d, const struct br_check_findings *f)
         {.key = "seconds"}, {.key = "element_steps"}, {.key = "failure"},
     };
     char key[NAME];
-    br_put_table(d, "scenes", "Scenes", BR_FOR_PROGRAMS, BR_COLUMNS(columns));
+    BR_TABLE(d, "scenes", "Scenes", BR_FOR_PROGRAMS, columns);
     for (size_t i = 0; i < f->count; i++) {
         const struct br_check *check = &f->checks[i];
         br_put_row(d);
@@ -270,13 +255,13 @@ static void put_scenes(struct br_document *d, const struct br_check_findings *f)
         br_put(d, "by_default", br_truth(check->verify->by_default));
         br_put(d, "seconds", br_number(check->seconds));
         br_put(d, "element_steps", br_number(check->element_steps));
-        br_put(d, "failure", br_text(check->failure.status ? check->failure.message : NULL));
+        br_put(d, "failure", br_failure_text(&check->failure));
     }
     for (size_t i = 0; i < f->count; i++)
         for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
             snprintf(key, sizeof key, "methods.%zu.%s", i, br_verify_names[kind]);
             if (f->checks[i].verify->study[kind].count)
-                br_put_method(d, key, &f->checks[i].verify->study[kind].method);
+                br_put_method_facts(d, key, &f->checks[i].verify->study[kind].method);
         }
     for (size_t i = 0; i < f->count; i++)
         if (f->checks[i].verify->by_default)
@@ -295,7 +280,7 @@ static void put_comparison(struct br_document *d, const struct br_comparison *c)
     br_put_answer(d,
                   "Against the earlier check: %zu serious, %zu warnings, %zu notes, %zu the same",
                   c->tally[BR_SERIOUS], c->tally[BR_WARNING], c->tally[BR_NOTE], c->tally[BR_SAME]);
-    br_put_table(d, "differences", "Against the earlier check", BR_LONG, BR_COLUMNS(columns));
+    BR_TABLE(d, "differences", "Against the earlier check", BR_LONG, columns);
     for (size_t i = 0; i < c->count; i++) {
         const struct br_difference *x = &c->difference[i];
         br_put_row(d);

@@ -1,80 +1,68 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "tables/report_extremes.h"
-
 #include <math.h>
+
+#include "study/extremes/floors.h"
+#include "study/extremes/stability.h"
+#include "study/extremes/steps.h"
+#include "tables/report_parts.h"
 
 /* ---- floors: the round-off of every linear solver ---- */
 
 /* The worst over the steps that are marched, and how many are refused. */
-static void put_worst(struct br_document *d, const struct br_floors *f, size_t solver, size_t row)
-{
-    double worst = 0;
-    size_t refused = 0;
-    for (size_t j = 0; j < f->k_count; j++) {
-        const struct br_floor *floor = br_floor_at(f, solver, row, j);
-        const double deviation = br_floor_deviation(floor);
-        if (floor->refused.status)
-            refused++;
-        else
-            worst = isnan(worst) || deviation <= worst ? worst : deviation;
-    }
-    br_put(d, f->solver[solver].name, refused == f->k_count ? br_nothing() : br_number(worst));
-    if (refused == f->k_count)
-        br_put_shown(d, "refused");
-    else if (refused)
-        br_put_shown(d, "%.1e, %zu refused", worst, refused);
-}
-
 static void put_floor_grid(struct br_document *d, const struct br_floors *f)
 {
     br_put_table(d, "worst", "Deviation from the exact discrete solution, the worst over k",
-                 BR_FOR_PEOPLE, &(struct br_column){.key = "n"}, 1);
-    for (size_t i = 0; i < f->solvers; i++)
-        br_put_column(d, &(struct br_column){.heading = f->solver[i].name, .format = "%.1e"});
-    for (size_t row = 0; row < f->n_count; row++) {
-        br_put_row(d);
-        br_put(d, "n", br_count(f->n[row]));
-        for (size_t i = 0; i < f->solvers; i++)
-            put_worst(d, f, i, row);
+                 BR_FOR_PEOPLE);
+    for (size_t cell = 0; cell < f->n_count * f->solvers; cell++) {
+        const size_t row = cell / f->solvers, solver = cell % f->solvers;
+        size_t refused = 0;
+        double worst = 0;
+        for (size_t j = 0; j < f->k_count; j++) {
+            const struct br_floor *floor = br_floor_at(f, solver, row, j);
+            const double deviation = br_floor_deviation(floor);
+            refused += floor->refused.status != BR_OK;
+            if (!floor->refused.status && !isnan(worst) && !(deviation <= worst))
+                worst = deviation;
+        }
+        if (solver == 0) {
+            br_put_row(d);
+            BR_PUT(d, br_count(f->n[row]), .key = "n");
+        }
+        BR_PUT(d, br_if(refused < f->k_count, br_number(worst)), .heading = f->solver[solver].name,
+               .format = "%.1e");
+        if (refused == f->k_count)
+            br_put_shown(d, "refused");
+        else if (refused)
+            br_put_shown(d, "%.1e, %zu refused", worst, refused);
     }
 }
 
 static void put_floors(struct br_document *d, const struct br_floors *f)
 {
-    static const struct br_column columns[] = {
-        {.key = "solver"},
-        {.key = "n"},
-        {.key = "k", .unit = "s"},
-        {.key = "steps"},
-        {.key = "axial", .format = "%.2e"},
-        {.key = "bending", .format = "%.2e"},
-        {.key = "axial_tip", .heading = "axial tip", .format = "%.2e"},
-        {.key = "bending_tip", .heading = "bending tip", .format = "%.2e"},
-        {.key = "predicted", .format = "%.2e"},
-        {.key = "outcome"},
-        {.key = "message", .heading = "why", .flags = BR_WRAP},
-    };
-    br_put_table(d, "floors", "Every solver, mesh and time step", BR_FILES_ONLY | BR_MAIN,
-                 BR_COLUMNS(columns));
+    br_put_table(d, "floors", "Every solver, mesh and time step", BR_FILES_ONLY | BR_MAIN);
     for (size_t i = 0; i < f->solvers * f->n_count * f->k_count; i++) {
         const struct br_floor *floor = &f->floor[i];
         const size_t solver = i / (f->n_count * f->k_count);
         const bool below = br_floor_deviation(floor) <= br_floor_limit(f, solver, floor);
         br_put_row(d);
-        br_put(d, "solver", br_text(f->solver[solver].name));
-        br_put(d, "n", br_count(floor->n));
-        br_put(d, "k", br_number(floor->k));
-        br_put(d, "steps", br_count(floor->steps));
-        br_put(d, "axial", br_number(floor->deviation[BR_AXIAL]));
-        br_put(d, "bending", br_number(floor->deviation[BR_BENDING]));
-        br_put(d, "axial_tip", br_number(floor->tip[BR_AXIAL]));
-        br_put(d, "bending_tip", br_number(floor->tip[BR_BENDING]));
-        br_put(d, "predicted", br_number(floor->predicted));
-        br_put(d, "outcome",
+        BR_PUT(d, br_text(f->solver[solver].name), .key = "solver");
+        BR_PUT(d, br_count(floor->n), .key = "n");
+        BR_PUT(d, br_number(floor->k), .key = "k", .unit = "s");
+        BR_PUT(d, br_count(floor->steps), .key = "steps");
+        BR_PUT(d, br_number(floor->deviation[BR_AXIAL]), .key = "axial", .format = "%.2e");
+        BR_PUT(d, br_number(floor->deviation[BR_BENDING]), .key = "bending", .format = "%.2e");
+        BR_PUT(d, br_number(floor->tip[BR_AXIAL]), .key = "axial_tip", .heading = "axial tip",
+               .format = "%.2e");
+        BR_PUT(d, br_number(floor->tip[BR_BENDING]), .key = "bending_tip", .heading = "bending tip",
+               .format = "%.2e");
+        BR_PUT(d, br_number(floor->predicted), .key = "predicted", .format = "%.2e");
+        BR_PUT(d,
                br_text(floor->refused.status ? "refused"
                        : below               ? "as predicted"
-                                             : "ABOVE"));
-        br_put(d, "message", br_text(floor->refused.status ? floor->refused.message : NULL));
+                                             : "ABOVE"),
+               .key = "outcome");
+        BR_PUT(d, br_failure_text(&floor->refused), .key = "message", .heading = "why",
+               .flags = BR_WRAP);
     }
 }
 
@@ -102,22 +90,19 @@ void br_report_floors(const struct br_floors *f, struct br_document *d)
 
 static void put_drift_grid(struct br_document *d, const struct br_drifts *f)
 {
-    static const struct br_column columns[] = {{.key = "scene"}, {.key = "method"}};
-    char heading[32];
     br_put_table(d, "gathered", "Deviation from the exact discrete solution after N steps",
-                 BR_FOR_PEOPLE, BR_COLUMNS(columns));
-    for (size_t j = 0; j < f->k_count; j++) {
-        snprintf(heading, sizeof heading, "N = %.3g", (double)f->steps[j]);
-        br_put_column(d, &(struct br_column){.heading = heading, .format = "%.1e"});
-    }
+                 BR_FOR_PEOPLE);
     for (size_t row = 0; row < BR_DRIFT_SCENES * f->contenders; row++) {
         const size_t scene = row / f->contenders, method = row % f->contenders;
         br_put_row(d);
-        br_put(d, "scene", br_text(f->scene[scene].name));
-        br_put(d, "method", br_text(f->contender[method].name));
+        BR_PUT(d, br_text(f->scene[scene].name), .key = "scene");
+        BR_PUT(d, br_text(f->contender[method].name), .key = "method");
         for (size_t j = 0; j < f->k_count; j++) {
             const struct br_drift *drift = br_drift_at(f, scene, method, j);
-            br_put(d, NULL, br_number(drift->steps ? br_drift_deviation(drift) : NAN));
+            char heading[32];
+            snprintf(heading, sizeof heading, "N = %.3g", (double)f->steps[j]);
+            BR_PUT(d, br_number(drift->steps ? br_drift_deviation(drift) : NAN), .heading = heading,
+                   .format = "%.1e");
             if (drift->refused.status)
                 br_put_shown(d, "refused");
         }
@@ -135,33 +120,26 @@ static const char *drift_outcome(const struct br_drift *drift)
 
 static void put_drifts(struct br_document *d, const struct br_drifts *f)
 {
-    static const struct br_column columns[] = {
-        {.key = "scene"},
-        {.key = "method"},
-        {.key = "steps"},
-        {.key = "axial", .format = "%.2e"},
-        {.key = "bending", .format = "%.2e"},
-        {.key = "predicted", .format = "%.2e"},
-        {.key = "time_levels", .heading = "time levels", .format = "%.2e"},
-        {.key = "outcome"},
-        {.key = "message", .heading = "why", .flags = BR_WRAP},
-    };
-    br_put_table(d, "steps", "Every scene, method and number of steps", BR_FILES_ONLY | BR_MAIN,
-                 BR_COLUMNS(columns));
+    br_put_table(d, "steps", "Every scene, method and number of steps", BR_FILES_ONLY | BR_MAIN);
     for (size_t i = 0; i < BR_DRIFT_SCENES * f->contenders * f->k_count; i++) {
         const struct br_drift *drift = &f->drift[i];
         const size_t row = i / f->k_count;
         const bool marched = drift->steps > 0;
         br_put_row(d);
-        br_put(d, "scene", br_text(f->scene[row / f->contenders].name));
-        br_put(d, "method", br_text(f->contender[row % f->contenders].name));
-        br_put(d, "steps", br_count(f->steps[i % f->k_count]));
-        br_put(d, "axial", br_number(marched ? drift->deviation[BR_AXIAL] : NAN));
-        br_put(d, "bending", br_number(marched ? drift->deviation[BR_BENDING] : NAN));
-        br_put(d, "predicted", br_number(marched ? drift->predicted : NAN));
-        br_put(d, "time_levels", br_number(marched ? drift->time_error : NAN));
-        br_put(d, "outcome", br_text(drift_outcome(drift)));
-        br_put(d, "message", br_text(drift->refused.status ? drift->refused.message : NULL));
+        BR_PUT(d, br_text(f->scene[row / f->contenders].name), .key = "scene");
+        BR_PUT(d, br_text(f->contender[row % f->contenders].name), .key = "method");
+        BR_PUT(d, br_count(f->steps[i % f->k_count]), .key = "steps");
+        BR_PUT(d, br_number(marched ? drift->deviation[BR_AXIAL] : NAN), .key = "axial",
+               .format = "%.2e");
+        BR_PUT(d, br_number(marched ? drift->deviation[BR_BENDING] : NAN), .key = "bending",
+               .format = "%.2e");
+        BR_PUT(d, br_number(marched ? drift->predicted : NAN), .key = "predicted",
+               .format = "%.2e");
+        BR_PUT(d, br_number(marched ? drift->time_error : NAN), .key = "time_levels",
+               .heading = "time levels", .format = "%.2e");
+        BR_PUT(d, br_text(drift_outcome(drift)), .key = "outcome");
+        BR_PUT(d, br_failure_text(&drift->refused), .key = "message", .heading = "why",
+               .flags = BR_WRAP);
     }
 }
 
@@ -189,118 +167,84 @@ void br_report_drifts(const struct br_drifts *f, struct br_document *d)
 
 static void put_limits(struct br_document *d, const struct br_stability *s)
 {
-    static const struct br_column columns[] = {
-        {.key = "rod"},
-        {.key = "rho", .unit = "kg/m", .format = "%.4g"},
-        {.key = "c", .unit = "N s", .format = "%.4g"},
-        {.key = "k", .unit = "s", .format = "%.4g"},
-        {.key = "predicted", .unit = "N/m", .format = "%.12g"},
-        {.key = "measured", .unit = "N/m", .format = "%.12g"},
-        {.key = "difference", .format = "%.1e"},
-    };
-    br_put_table(d, "limits", "Stability limit of the lagged contact", BR_FILES_ONLY,
-                 BR_COLUMNS(columns));
+    br_put_table(d, "limits", "Stability limit of the lagged contact", BR_FILES_ONLY);
     for (size_t i = 0; i < BR_STABILITY_RODS * s->rows; i++) {
         const struct br_stability_plane *p = &s->plane[i / s->rows];
         const struct br_stability_row *r = &p->row[i % s->rows];
         br_put_row(d);
-        br_put(d, "rod", br_text(p->rod->title));
-        br_put(d, "rho", br_number(p->rod->density));
-        br_put(d, "c", br_number(p->rod->viscosity));
-        br_put(d, "k", br_number(r->k));
-        br_put(d, "predicted", br_number(r->limit));
-        br_put(d, "measured", br_number(r->measured));
-        br_put(d, "difference", br_number(r->measured / r->limit - 1));
+        BR_PUT(d, br_text(p->rod->title), .key = "rod");
+        BR_PUT(d, br_number(p->rod->density), .key = "rho", .unit = "kg/m", .format = "%.4g");
+        BR_PUT(d, br_number(p->rod->viscosity), .key = "c", .unit = "N s", .format = "%.4g");
+        BR_PUT(d, br_number(r->k), .key = "k", .unit = "s", .format = "%.4g");
+        BR_PUT(d, br_number(r->limit), .key = "predicted", .unit = "N/m", .format = "%.12g");
+        BR_PUT(d, br_number(r->measured), .key = "measured", .unit = "N/m", .format = "%.12g");
+        BR_PUT(d, br_number(r->measured / r->limit - 1), .key = "difference", .format = "%.1e");
     }
 }
 
 static void put_growth(struct br_document *d, const struct br_stability *s)
 {
-    static const struct br_column columns[] = {
-        {.key = "rod"},
-        {.key = "k", .unit = "s", .format = "%.6g"},
-        {.key = "c_H", .unit = "N/m", .format = "%.6g"},
-        {.key = "eigenvalue", .heading = "largest eigenvalue", .format = "%.15g"},
-        {.key = "predicted", .heading = "predicted growth", .format = "%.15g"},
-    };
     const size_t cells = s->rows * s->columns;
-    br_put_table(d, "cells", "Growth a step of the closed lagged contact", BR_FILES_ONLY,
-                 BR_COLUMNS(columns));
+    br_put_table(d, "cells", "Growth a step of the closed lagged contact", BR_FILES_ONLY);
     for (size_t i = 0; i < BR_STABILITY_RODS * cells; i++) {
         const struct br_stability_plane *p = &s->plane[i / cells];
         const size_t at = i % cells;
         const double growth = p->growth[at];
         br_put_row(d);
-        br_put(d, "rod", br_text(p->rod->name));
-        br_put(d, "k", br_number(p->row[at / s->columns].k));
-        br_put(d, "c_H", br_number(s->stiffness[at % s->columns]));
-        br_put(d, "eigenvalue", br_number(p->radius[at]));
-        br_put(d, "predicted", br_number(growth > 1 ? growth : NAN));
+        BR_PUT(d, br_text(p->rod->name), .key = "rod");
+        BR_PUT(d, br_number(p->row[at / s->columns].k), .key = "k", .unit = "s", .format = "%.6g");
+        BR_PUT(d, br_number(s->stiffness[at % s->columns]), .key = "c_H", .unit = "N/m",
+               .format = "%.6g");
+        BR_PUT(d, br_number(p->radius[at]), .key = "eigenvalue", .heading = "largest eigenvalue",
+               .format = "%.15g");
+        BR_PUT(d, br_number(growth > 1 ? growth : NAN), .key = "predicted",
+               .heading = "predicted growth", .format = "%.15g");
     }
 }
 
 static void put_schemes(struct br_document *d, const struct br_stability *s)
 {
-    static const struct br_column columns[] = {
-        {.key = "scheme"},
-        {.key = "marches"},
-        {.key = "failed"},
-        {.key = "uncertain", .heading = "without a certificate"},
-        {.key = "force", .heading = "force off by", .format = "%.1e"},
-        {.key = "depth", .heading = "depth off by", .format = "%.1e"},
-    };
-    br_put_table(d, "schemes", "Contact at u_n, c_H from 1 to 1e15 N/m", 0, BR_COLUMNS(columns));
+    br_put_table(d, "schemes", "Contact at u_n, c_H from 1 to 1e15 N/m", 0);
     for (size_t i = 0; i < s->schemes; i++) {
         const struct br_stability_scheme *c = &s->scheme[i];
         br_put_row(d);
-        br_put(d, "scheme", br_text(c->scheme->name));
-        br_put(d, "marches", br_count(c->marches));
-        br_put(d, "failed", br_count(c->failed));
-        br_put(d, "uncertain", br_count(c->uncertain));
-        br_put(d, "force", br_number(c->force));
-        br_put(d, "depth", br_number(c->depth));
+        BR_PUT(d, br_text(c->scheme->name), .key = "scheme");
+        BR_PUT(d, br_count(c->marches), .key = "marches");
+        BR_PUT(d, br_count(c->failed), .key = "failed");
+        BR_PUT(d, br_count(c->uncertain), .key = "uncertain", .heading = "without a certificate");
+        BR_PUT(d, br_number(c->force), .key = "force", .heading = "force off by", .format = "%.1e");
+        BR_PUT(d, br_number(c->depth), .key = "depth", .heading = "depth off by", .format = "%.1e");
     }
 }
 
 static void put_tips(struct br_document *d, const struct br_stability *s)
 {
-    static const struct br_column columns[] = {
-        {.key = "share", .heading = "c_H over its limit"},
-        {.key = "c_H", .unit = "N/m"},
-        {.key = "opened", .heading = "times it opened"},
-        {.key = "swing", .format = "%.2e"},
-        {.key = "farthest", .format = "%.2e"},
-    };
-    br_put_table(d, "pressed", "A pressed tip, lagged contact", 0, BR_COLUMNS(columns));
+    br_put_table(d, "pressed", "A pressed tip, lagged contact", 0);
     for (size_t i = 0; i < BR_STABILITY_TIPS; i++) {
         const struct br_stability_tip *t = &s->tip[i];
         br_put_row(d);
-        br_put(d, "share", br_number(t->share));
-        br_put(d, "c_H", br_number(t->stiffness));
-        br_put(d, "opened", br_count(t->opened));
-        br_put(d, "swing", br_number(t->swing));
-        br_put(d, "farthest", br_number(t->farthest));
+        BR_PUT(d, br_number(t->share), .key = "share", .heading = "c_H over its limit");
+        BR_PUT(d, br_number(t->stiffness), .key = "c_H", .unit = "N/m");
+        BR_PUT(d, br_count(t->opened), .key = "opened", .heading = "times it opened");
+        BR_PUT(d, br_number(t->swing), .key = "swing", .format = "%.2e");
+        BR_PUT(d, br_number(t->farthest), .key = "farthest", .format = "%.2e");
     }
 }
 
 static void put_bounces(struct br_document *d, const struct br_stability *s)
 {
-    static const struct br_column columns[] = {
-        {.key = "c_H", .unit = "N/m", .format = "%.4g"},
-        {.key = "over_bouncing", .heading = "over the limit without inertia", .format = "%.4g"},
-        {.key = "over_limit", .heading = "over the limit", .format = "%.4g"},
-        {.key = "impacts"},
-        {.key = "energy", .heading = "largest energy over the first", .format = "%.7g"},
-    };
-    br_put_table(d, "bouncing", "A bouncing rod, lagged contact", 0, BR_COLUMNS(columns));
+    br_put_table(d, "bouncing", "A bouncing rod, lagged contact", 0);
     for (size_t i = 0; i < BR_STABILITY_BOUNCES; i++) {
         const struct br_stability_bounce *b = &s->bounce[i];
         br_put_row(d);
-        br_put(d, "c_H", br_number(b->stiffness));
-        br_put(d, "over_bouncing", br_number(b->bouncing));
-        br_put(d, "over_limit", br_number(b->limit));
-        br_put(d, "impacts", br_count(b->impacts));
-        br_put(d, "energy", br_number(b->energy));
+        BR_PUT(d, br_number(b->stiffness), .key = "c_H", .unit = "N/m", .format = "%.4g");
+        BR_PUT(d, br_number(b->bouncing), .key = "over_bouncing",
+               .heading = "over the limit without inertia", .format = "%.4g");
+        BR_PUT(d, br_number(b->limit), .key = "over_limit", .heading = "over the limit",
+               .format = "%.4g");
+        BR_PUT(d, br_count(b->impacts), .key = "impacts");
+        BR_PUT(d, br_number(b->energy), .key = "energy", .heading = "largest energy over the first",
+               .format = "%.7g");
     }
 }
 

@@ -2,7 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "tables/report_extremes.h"
+#include "study/extremes/energy_behaviour.h"
+#include "tables/reports.h"
 
 /* The density that people see. */
 enum { SHOWN = BR_VIBRATION_DENSITIES / 2 };
@@ -20,10 +21,16 @@ static double worst_of(const struct br_vibration_row *row)
     return row->at[0][SHOWN].end == BR_VIBRATION_DONE ? worst : NAN;
 }
 
-static void put_loss(struct br_document *d, const struct br_vibration *v)
+static void put_loss(struct br_document *d, const struct br_vibration *v, size_t rate)
 {
-    br_put(d, NULL, br_number(v->end == BR_VIBRATION_DONE ? v->measured : NAN));
-    if (v->end != BR_VIBRATION_DONE)
+    char heading[32];
+    const bool done = v->end == BR_VIBRATION_DONE;
+    if (v->scheme->adaptive)
+        snprintf(heading, sizeof heading, "tol %.0e", br_vibration_tolerance(rate));
+    else
+        snprintf(heading, sizeof heading, "k = T/%zu", br_vibration_per_period(rate));
+    BR_PUT(d, br_if(done, br_number(v->measured)), .heading = heading, .format = "%.3e");
+    if (!done)
         br_put_shown(d, v->end == BR_VIBRATION_REFUSED ? "refused" : "failed");
     else if (v->scheme->adaptive)
         br_put_shown(d, "%.2e (%.3g)", v->measured, v->steps);
@@ -32,37 +39,24 @@ static void put_loss(struct br_document *d, const struct br_vibration *v)
 /* Rows of schemes with equal steps, or of adaptive ones, of which nothing is predicted. */
 static void put_loss_grid(struct br_document *d, const struct br_energy_behaviour *b, bool adaptive)
 {
-    static const struct br_column columns[] = {
-        {.key = "scheme"}, {.key = "field"}, {.key = "damping", .format = "%g"}};
-    char heading[32];
     br_put_table(d, adaptive ? "losses_of_adaptive" : "losses",
                  adaptive ? "The same of adaptive steps (steps a period)"
                           : "Share of the energy of a free vibration lost a period",
-                 BR_FOR_PEOPLE, BR_COLUMNS(columns));
-    for (size_t r = 0; r < BR_VIBRATION_RATES; r++) {
-        if (adaptive)
-            snprintf(heading, sizeof heading, "tol %.0e", br_vibration_tolerance(r));
-        else
-            snprintf(heading, sizeof heading, "k = T/%zu", br_vibration_per_period(r));
-        br_put_column(d, &(struct br_column){.heading = heading, .format = "%.3e"});
-    }
-    if (!adaptive)
-        br_put_column(d,
-                      &(struct br_column){.key = "off", .heading = "off theory", .format = "%.1e"});
-    br_put_column(d, &(struct br_column){.key = "imbalance", .format = "%.1e"});
+                 BR_FOR_PEOPLE);
     for (size_t i = 0; i < b->vibrations; i++) {
         const struct br_vibration_row *row = &b->vibration[i];
         if (row->scheme->adaptive != adaptive)
             continue;
         br_put_row(d);
-        br_put(d, "scheme", br_text(row->scheme->name));
-        br_put(d, "field", br_text(field_name(row->kind)));
-        br_put(d, "damping", br_number(row->damping));
+        BR_PUT(d, br_text(row->scheme->name), .key = "scheme");
+        BR_PUT(d, br_text(field_name(row->kind)), .key = "field");
+        BR_PUT(d, br_number(row->damping), .key = "damping", .format = "%g");
         for (size_t r = 0; r < BR_VIBRATION_RATES; r++)
-            put_loss(d, &row->at[r][SHOWN]);
+            put_loss(d, &row->at[r][SHOWN], r);
         if (!adaptive)
-            br_put(d, "off", br_number(br_vibration_difference(row)));
-        br_put(d, "imbalance", br_number(worst_of(row)));
+            BR_PUT(d, br_number(br_vibration_difference(row)), .key = "off",
+                   .heading = "off theory", .format = "%.1e");
+        BR_PUT(d, br_number(worst_of(row)), .key = "imbalance", .format = "%.1e");
     }
 }
 
@@ -71,38 +65,26 @@ static void put_vibration(struct br_document *d, const struct br_vibration *v)
     static const char *const ends[] = {"done", "refused", "failed"};
     const bool done = v->end == BR_VIBRATION_DONE, adaptive = v->scheme->adaptive;
     br_put_row(d);
-    br_put(d, "scheme", br_text(v->scheme->name));
-    br_put(d, "field", br_text(field_name(v->kind)));
-    br_put(d, "damping", br_number(v->damping));
-    br_put(d, "density", br_number(v->density));
-    br_put(d, "steps_per_period", adaptive ? br_nothing() : br_count(v->per_period));
-    br_put(d, "tolerance", br_number(adaptive ? v->tolerance : NAN));
-    br_put(d, "steps", br_number(done ? v->steps : NAN));
-    br_put(d, "lost", br_number(done ? v->measured : NAN));
-    br_put(d, "predicted", br_number(done ? v->predicted : NAN));
-    br_put(d, "imbalance", br_number(done ? v->worst : NAN));
-    br_put(d, "end", br_text(ends[v->end]));
-    br_put(d, "message", br_text(done ? NULL : v->failure.message));
+    BR_PUT(d, br_text(v->scheme->name), .key = "scheme");
+    BR_PUT(d, br_text(field_name(v->kind)), .key = "field");
+    BR_PUT(d, br_number(v->damping), .key = "damping");
+    BR_PUT(d, br_number(v->density), .key = "density", .unit = "kg/m");
+    BR_PUT(d, br_if(!adaptive, br_count(v->per_period)), .key = "steps_per_period");
+    BR_PUT(d, br_if(adaptive, br_number(v->tolerance)), .key = "tolerance");
+    br_put_blank(d, !done);
+    BR_PUT(d, br_number(v->steps), .key = "steps");
+    BR_PUT(d, br_number(v->measured), .key = "lost");
+    BR_PUT(d, br_number(v->predicted), .key = "predicted");
+    BR_PUT(d, br_number(v->worst), .key = "imbalance");
+    br_put_blank(d, false);
+    BR_PUT(d, br_text(ends[v->end]), .key = "end");
+    BR_PUT(d, br_text(done ? NULL : v->failure.message), .key = "message");
 }
 
 static void put_vibrations(struct br_document *d, const struct br_energy_behaviour *b)
 {
-    static const struct br_column columns[] = {
-        {.key = "scheme"},
-        {.key = "field"},
-        {.key = "damping"},
-        {.key = "density", .unit = "kg/m"},
-        {.key = "steps_per_period"},
-        {.key = "tolerance"},
-        {.key = "steps"},
-        {.key = "lost"},
-        {.key = "predicted"},
-        {.key = "imbalance"},
-        {.key = "end"},
-        {.key = "message"},
-    };
     br_put_table(d, "vibration", "Share of the energy of a free vibration lost a period",
-                 BR_FOR_PROGRAMS, BR_COLUMNS(columns));
+                 BR_FOR_PROGRAMS);
     for (size_t i = 0; i < b->vibrations; i++)
         for (size_t r = 0; r < BR_VIBRATION_RATES; r++)
             for (size_t density = 0; density < BR_VIBRATION_DENSITIES; density++)
@@ -125,55 +107,49 @@ static double steps_of(const struct br_balance_row *row)
     return (double)(row->work.steps[0] + row->work.steps[1]);
 }
 
-/* Percent; refused: nothing. */
-static struct br_value share(const struct br_balance_row *row, double part, double whole)
+/* In per cent. */
+static void put_share(struct br_document *d, const char *key, const char *heading, double part,
+                      double whole)
 {
-    if (row->end == BR_VIBRATION_REFUSED || !(whole > 0 || part == 0))
-        return br_nothing();
-    return br_number(whole > 0 ? 100 * part / whole : 0);
+    BR_PUT(d,
+           br_number(whole > 0   ? 100 * part / whole
+                     : part == 0 ? 0
+                                 : NAN),
+           .key = key, .heading = heading, .unit = "%", .format = "%.3g");
 }
 
 static void put_outcome(struct br_document *d, const struct br_balance_row *row)
 {
-    if (row->end == BR_VIBRATION_REFUSED)
-        br_put(d, "balance", br_text("refused"));
-    else if (row->end == BR_VIBRATION_FAILED)
-        br_put_text(d, "balance", "ended after step %zu", row->marched);
-    else
-        br_put(d, "balance", br_text(br_balance_row_is_right(row) ? "closes" : "WRONG"));
+    char text[64];
+    snprintf(text, sizeof text, "ended after step %zu", row->marched);
+    BR_PUT(d,
+           br_text(row->end == BR_VIBRATION_REFUSED  ? "refused"
+                   : row->end == BR_VIBRATION_FAILED ? text
+                   : br_balance_row_is_right(row)    ? "closes"
+                                                     : "WRONG"),
+           .key = "balance");
 }
 
 static void put_balances(struct br_document *d, const struct br_energy_behaviour *b)
 {
-    static const struct br_column columns[] = {
-        {.key = "scene"},
-        {.key = "scheme"},
-        {.key = "balance"},
-        {.key = "put_in", .heading = "put in", .unit = "J", .format = "%.3g"},
-        {.key = "lost", .heading = "lost to scheme", .unit = "%", .format = "%.3g"},
-        {.key = "contact", .heading = "its contact", .unit = "%", .format = "%.3g"},
-        {.key = "added", .unit = "%", .format = "%.3g"},
-        {.key = "gaining", .heading = "steps that add", .unit = "%", .format = "%.3g"},
-        {.key = "imbalance", .format = "%.1e"},
-        {.key = "limit", .format = "%.1e"},
-    };
-    br_put_table(d, "balance", "Balances of scenes, 20 elements and 400 steps", BR_FILES_ONLY,
-                 BR_COLUMNS(columns));
+    br_put_table(d, "balance", "Balances of scenes, 20 elements and 400 steps", BR_FILES_ONLY);
     for (size_t i = 0; i < b->balances; i++) {
         const struct br_balance_row *row = &b->balance[i];
         const struct br_work *w = &row->work;
-        const bool told = row->end != BR_VIBRATION_REFUSED;
+        const double in = put_in(row), gaining = (double)(w->gaining[0] + w->gaining[1]);
         br_put_row(d);
-        br_put(d, "scene", br_text(br_balance_scenes[row->scene]));
-        br_put(d, "scheme", br_text(row->scheme->name));
+        BR_PUT(d, br_text(br_balance_scenes[row->scene]), .key = "scene");
+        BR_PUT(d, br_text(row->scheme->name), .key = "scheme");
         put_outcome(d, row);
-        br_put(d, "put_in", br_number(told ? put_in(row) : NAN));
-        br_put(d, "lost", share(row, w->scheme[0] + w->scheme[1], put_in(row)));
-        br_put(d, "contact", share(row, w->scheme_contact, put_in(row)));
-        br_put(d, "added", share(row, added(row), put_in(row)));
-        br_put(d, "gaining", share(row, (double)(w->gaining[0] + w->gaining[1]), steps_of(row)));
-        br_put(d, "imbalance", br_number(told ? row->worst : NAN));
-        br_put(d, "limit", br_number(told ? row->limit : NAN));
+        br_put_blank(d, row->end == BR_VIBRATION_REFUSED);
+        BR_PUT(d, br_number(in), .key = "put_in", .heading = "put in", .unit = "J",
+               .format = "%.3g");
+        put_share(d, "lost", "lost to scheme", w->scheme[0] + w->scheme[1], in);
+        put_share(d, "contact", "its contact", w->scheme_contact, in);
+        put_share(d, "added", NULL, added(row), in);
+        put_share(d, "gaining", "steps that add", gaining, steps_of(row));
+        BR_PUT(d, br_number(row->worst), .key = "imbalance", .format = "%.1e");
+        BR_PUT(d, br_number(row->limit), .key = "limit", .format = "%.1e");
     }
 }
 

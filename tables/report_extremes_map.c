@@ -2,7 +2,8 @@
 #include <inttypes.h>
 #include <math.h>
 
-#include "tables/report_extremes.h"
+#include "study/extremes/count.h"
+#include "tables/reports.h"
 
 /* By class; a key is the class's word. */
 static const char *const class_headings[BR_EXTREME_CLASSES] = {
@@ -17,20 +18,17 @@ static const char *const class_headings[BR_EXTREME_CLASSES] = {
 
 static void put_tallies(struct br_document *d, const struct br_extreme_counts *counts)
 {
-    static const struct br_column columns[] = {
-        {.key = "tried", .heading = "what was tried"}, {.key = "range"}, {.key = "cases"}};
-    br_put_table(d, "tally", "What was tried, and what came of it", 0, BR_COLUMNS(columns));
-    for (int c = 0; c < BR_EXTREME_CLASSES; c++)
-        br_put_column(d, &(struct br_column){.key = br_extreme_word((enum br_extreme_class)c),
-                                             .heading = class_headings[c]});
+    br_put_table(d, "tally", "What was tried, and what came of it", 0);
     for (size_t i = 0; i < counts->tallies; i++) {
         const struct br_extreme_tally *t = &counts->tally[i];
         br_put_row(d);
-        br_put(d, "tried", br_text(t->axis ? t->axis->title : "all"));
-        br_put(d, "range", br_text(t->axis ? t->label : NULL));
-        br_put(d, "cases", br_count(t->cases));
+        BR_PUT(d, br_text(t->axis ? t->axis->title : "all"), .key = "tried",
+               .heading = "what was tried");
+        BR_PUT(d, br_text(t->axis ? t->label : NULL), .key = "range");
+        BR_PUT(d, br_count(t->cases), .key = "cases");
         for (int c = 0; c < BR_EXTREME_CLASSES; c++)
-            br_put(d, br_extreme_word((enum br_extreme_class)c), br_count(t->count[c]));
+            BR_PUT(d, br_count(t->count[c]), .key = br_extreme_word((enum br_extreme_class)c),
+                   .heading = class_headings[c]);
     }
 }
 
@@ -38,8 +36,7 @@ static void put_reasons(struct br_document *d, const struct br_extreme_counts *c
 {
     static const struct br_column columns[] = {
         {.key = "kind"}, {.key = "cases"}, {.key = "first"}, {.key = "reason", .flags = BR_WRAP}};
-    br_put_table(d, "reasons", "Why it is not right (# stands for numbers)", BR_FILES_ONLY,
-                 BR_COLUMNS(columns));
+    BR_TABLE(d, "reasons", "Why it is not right (# stands for numbers)", BR_FILES_ONLY, columns);
     for (size_t i = 0; i < counts->reasons; i++) {
         const struct br_extreme_reason *r = &counts->reason[i];
         br_put_row(d);
@@ -57,7 +54,7 @@ static void put_wrong(struct br_document *d, const struct br_extreme_map *m)
                                                {.key = "scene"},
                                                {.key = "why", .flags = BR_WRAP},
                                                {.key = "command", .flags = BR_WRAP}};
-    br_put_table(d, "wrong", "Silently wrong, made small", 0, BR_COLUMNS(columns));
+    BR_TABLE(d, "wrong", "Silently wrong, made small", 0, columns);
     for (size_t i = 0; i < m->shrunks; i++) {
         const struct br_extreme_shrunk *s = &m->shrunk[i];
         br_put_row(d);
@@ -76,60 +73,42 @@ static void put_warnings(struct br_document *d, unsigned warned)
         if (warned & 1u << kind && used < sizeof text)
             used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "",
                                      br_warning_word((enum br_warning_kind)kind));
-    br_put(d, "warnings", br_text(used ? text : NULL));
+    BR_PUT(d, br_text(used ? text : NULL), .key = "warnings");
 }
 
 static void put_case(struct br_document *d, const struct br_extreme_case *c, size_t index,
                      const struct br_extreme_verdict *v)
 {
     br_put_row(d);
-    br_put(d, "case", br_count(index));
-    br_put(d, "verdict", br_text(br_extreme_word(v->which)));
-    br_put(d, "judge", br_text(v->by == BR_BY_NOBODY ? NULL : br_extreme_by_name(v->by)));
-    br_put(d, "error", br_number(v->error));
-    br_put(d, "other_units", br_number(v->units));
-    br_put(d, "round_off", br_number(v->round_off));
+    BR_PUT(d, br_count(index), .key = "case");
+    BR_PUT(d, br_text(br_extreme_word(v->which)), .key = "verdict");
+    BR_PUT(d, br_text(v->by == BR_BY_NOBODY ? NULL : br_extreme_by_name(v->by)), .key = "judge");
+    BR_PUT(d, br_number(v->error), .key = "error", .format = "%.2e");
+    BR_PUT(d, br_number(v->units), .key = "other_units", .heading = "other units",
+           .format = "%.2e");
+    BR_PUT(d, br_number(v->round_off), .key = "round_off", .heading = "round-off",
+           .format = "%.2e");
     put_warnings(d, v->warned);
-    br_put(d, "scheme", br_text(c->method.scheme->name));
-    br_put(d, "solver", br_text(c->method.solver->name));
-    br_put(d, "contact", br_text(c->method.contact->name));
-    br_put(d, "friction", br_text(c->method.friction->name));
-    br_put(d, "degree", br_count((size_t)c->method.axial_degree));
-    br_put(d, "n", br_count(c->n));
-    br_put(d, "steps", br_count(c->steps));
-    br_put(d, "L", br_number(c->length));
-    br_put(d, "T", br_number(c->duration));
-    br_put(d, "rho", br_number(c->density));
-    br_put(d, "c_H", br_number(c->contact ? c->contact_stiffness : NAN));
-    br_put(d, "c_V", br_number(c->law == BR_FRICTIONLESS ? NAN : c->friction));
-    br_put(d, "why", br_text(*v->why ? v->why : NULL));
+    BR_PUT(d, br_text(c->method.scheme->name), .key = "scheme");
+    BR_PUT(d, br_text(c->method.solver->name), .key = "solver");
+    BR_PUT(d, br_text(c->method.contact->name), .key = "contact");
+    BR_PUT(d, br_text(c->method.friction->name), .key = "friction");
+    BR_PUT(d, br_count((size_t)c->method.axial_degree), .key = "degree");
+    BR_PUT(d, br_count(c->n), .key = "n");
+    BR_PUT(d, br_count(c->steps), .key = "steps");
+    BR_PUT(d, br_number(c->length), .key = "L", .unit = "m", .format = "%.4g");
+    BR_PUT(d, br_number(c->duration), .key = "T", .unit = "s", .format = "%.4g");
+    BR_PUT(d, br_number(c->density), .key = "rho", .unit = "kg/m", .format = "%.4g");
+    BR_PUT(d, br_number(c->contact ? c->contact_stiffness : NAN), .key = "c_H", .unit = "N/m",
+           .format = "%.4g");
+    BR_PUT(d, br_number(c->law == BR_FRICTIONLESS ? NAN : c->friction), .key = "c_V",
+           .format = "%.4g");
+    BR_PUT(d, br_text(*v->why ? v->why : NULL), .key = "why", .flags = BR_WRAP);
 }
 
 static void put_cases(struct br_document *d, const struct br_extreme_map *m)
 {
-    static const struct br_column columns[] = {
-        {.key = "case"},
-        {.key = "verdict"},
-        {.key = "judge"},
-        {.key = "error", .format = "%.2e"},
-        {.key = "other_units", .heading = "other units", .format = "%.2e"},
-        {.key = "round_off", .heading = "round-off", .format = "%.2e"},
-        {.key = "warnings"},
-        {.key = "scheme"},
-        {.key = "solver"},
-        {.key = "contact"},
-        {.key = "friction"},
-        {.key = "degree"},
-        {.key = "n"},
-        {.key = "steps"},
-        {.key = "L", .unit = "m", .format = "%.4g"},
-        {.key = "T", .unit = "s", .format = "%.4g"},
-        {.key = "rho", .unit = "kg/m", .format = "%.4g"},
-        {.key = "c_H", .unit = "N/m", .format = "%.4g"},
-        {.key = "c_V", .format = "%.4g"},
-        {.key = "why", .flags = BR_WRAP},
-    };
-    br_put_table(d, "cases", "All cases", BR_FILES_ONLY | BR_MAIN, BR_COLUMNS(columns));
+    br_put_table(d, "cases", "All cases", BR_FILES_ONLY | BR_MAIN);
     for (size_t i = 0; i < m->cases; i++)
         put_case(d, &m->one[i], i, &m->verdict[i]);
 }

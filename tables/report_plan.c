@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "tables/report_plan.h"
-
 #include <math.h>
 
 #include "study/scene/method_fields.h"
 #include "study/scene/quote.h"
-#include "tables/report_trial.h"
+#include "study/trade/plan.h"
+#include "tables/report_parts.h"
 
 /* ---- the answer ---- */
 
@@ -129,72 +128,65 @@ static void put_trial(struct br_document *d, const struct br_plan *p, size_t i)
 {
     const struct br_trial *t = &p->trial[i];
     const struct br_counts *c = &t->cost.counts;
-    struct br_row row = {.cells = 0};
-    BR_ADD(&row, br_count(p->forecast[i].round), .key = "round");
-    br_row_add_trial(&row, p->request.scene, t);
-    BR_ADD(&row, br_number(p->forecast[i].error), .key = "predicted_error",
+    br_put_row(d);
+    BR_PUT(d, br_count(p->forecast[i].round), .key = "round");
+    br_put_trial(d, p->request.scene, t);
+    BR_PUT(d, br_number(p->forecast[i].error), .key = "predicted_error",
            .heading = "predicted error", .format = "%.3e");
-    BR_ADD(&row, br_number(error_of(p, i)), .key = "relative_error", .heading = "relative error",
+    BR_PUT(d, br_number(error_of(p, i)), .key = "relative_error", .heading = "relative error",
            .format = "%.3e");
-    BR_ADD(&row, br_number(p->forecast[i].seconds), .key = "predicted_seconds",
+    BR_PUT(d, br_number(p->forecast[i].seconds), .key = "predicted_seconds",
            .heading = "predicted CPU", .unit = "s", .format = "%.3g");
-    BR_ADD(&row, br_number(p->seconds(t)), .key = "seconds", .heading = "CPU", .unit = "s",
+    BR_PUT(d, br_number(p->seconds(t)), .key = "seconds", .heading = "CPU", .unit = "s",
            .format = "%.3g");
-    BR_ADD(&row, br_count(c->steps), .key = "steps");
-    br_row_hide(&row, "solves", NULL, br_count(c->stages));
-    br_row_hide(&row, "set_ups", NULL, br_count(c->set_ups));
-    br_row_hide(&row, "end", NULL, br_text(br_trial_end_name(t->end)));
-    br_row_hide(&row, "chosen", NULL, br_truth(i == p->chosen));
-    br_row_hide(&row, "failure", NULL, br_text(t->failure.status ? t->failure.message : NULL));
-    BR_ADD(&row, br_text(remark_on(p, i)), .key = "remark", .flags = BR_FOR_PEOPLE);
-    br_put_whole_row(d, &row);
+    BR_PUT(d, br_count(c->steps), .key = "steps");
+    br_hide(d, "solves", NULL, br_count(c->stages));
+    br_hide(d, "set_ups", NULL, br_count(c->set_ups));
+    br_hide(d, "end", NULL, br_text(br_trial_end_name(t->end)));
+    br_hide(d, "chosen", NULL, br_truth(i == p->chosen));
+    br_hide(d, "failure", NULL, br_failure_text(&t->failure));
+    BR_PUT(d, br_text(remark_on(p, i)), .key = "remark", .flags = BR_FOR_PEOPLE);
 }
 
-/* Proposals come after the cheap trials of round 0. */
-static void put_proposals(struct br_document *d, const struct br_plan *p)
+/* All of them, or those that were proposed, after the cheap trials of round 0. */
+static void put_trials(struct br_document *d, const struct br_plan *p, bool proposed)
 {
-    br_put_table(d, "proposals", "What was proposed", BR_FOR_PEOPLE, NULL, 0);
+    if (proposed)
+        br_put_table(d, "proposals", "What was proposed", BR_FOR_PEOPLE);
+    else
+        br_put_table(d, "trials", "All trials", BR_FOR_PROGRAMS | BR_MAIN);
     for (size_t i = 0; i < p->count; i++)
-        if (p->forecast[i].round > 0)
+        if (!proposed || p->forecast[i].round > 0)
             put_trial(d, p, i);
 }
 
-static void put_trials(struct br_document *d, const struct br_plan *p)
-{
-    br_put_table(d, "trials", "All trials", BR_FOR_PROGRAMS | BR_MAIN, NULL, 0);
-    for (size_t i = 0; i < p->count; i++)
-        put_trial(d, p, i);
-}
-
 /* A root mean square of logarithms, which people see in per cent; NaN: not known. */
-static void add_scatter(struct br_row *row, const char *key, const char *heading, double scatter)
+static void put_scatter(struct br_document *d, const char *key, const char *heading, double scatter)
 {
-    BR_ADD(row, br_number(scatter), .key = key, .heading = heading);
+    BR_PUT(d, br_number(scatter), .key = key, .heading = heading);
     if (isfinite(scatter))
-        br_row_shown(row, "%.2g %%", 100 * expm1(scatter));
+        br_put_shown(d, "%.2g %%", 100 * expm1(scatter));
 }
 
 static void put_models(struct br_document *d, const struct br_plan *p)
 {
-    static const double unknown[BR_PLAN_COSTS] = {NAN, NAN, NAN, NAN};
-    br_put_table(d, "models", "How far the models are off (root mean square over the trials)", 0,
-                 NULL, 0);
+    br_put_table(d, "models", "How far the models are off (root mean square over the trials)", 0);
     for (size_t i = 0; i < p->contenders.count; i++) {
         const struct br_plan_models *m = &p->model[i];
-        const double *c = m->known ? m->cost.c : unknown;
-        struct br_row row = {.cells = 0};
-        BR_ADD(&row, br_text(p->contenders.list[i].name), .key = "method");
-        BR_ADD(&row, br_count(m->error.points), .key = "trials");
-        BR_ADD(&row, br_number(m->known ? m->error.r : NAN), .key = "r", .format = "%.2f");
-        add_scatter(&row, "error_scatter", "error", m->known ? m->error.scatter : (double)NAN);
-        add_scatter(&row, "cost_scatter", "CPU", m->known ? m->cost.scatter : (double)NAN);
-        br_row_hide(&row, "seconds_set_up", "s", br_number(c[0]));
-        br_row_hide(&row, "seconds_element", "s", br_number(c[1]));
-        BR_ADD(&row, br_number(c[2]), .key = "seconds_solve", .heading = "a solve", .unit = "s",
+        const double *c = m->cost.c;
+        br_put_row(d);
+        BR_PUT(d, br_text(p->contenders.list[i].name), .key = "method");
+        BR_PUT(d, br_count(m->error.points), .key = "trials");
+        br_put_blank(d, !m->known);
+        BR_PUT(d, br_number(m->error.r), .key = "r", .format = "%.2f");
+        put_scatter(d, "error_scatter", "error", m->error.scatter);
+        put_scatter(d, "cost_scatter", "CPU", m->cost.scatter);
+        br_hide(d, "seconds_set_up", "s", br_number(c[0]));
+        br_hide(d, "seconds_element", "s", br_number(c[1]));
+        BR_PUT(d, br_number(c[2]), .key = "seconds_solve", .heading = "a solve", .unit = "s",
                .format = "%.3g");
-        BR_ADD(&row, br_number(c[3]), .key = "seconds_element_solve",
+        BR_PUT(d, br_number(c[3]), .key = "seconds_element_solve",
                .heading = "an element and solve", .unit = "s", .format = "%.3g");
-        br_put_whole_row(d, &row);
     }
 }
 
@@ -215,7 +207,7 @@ static void put_curves(struct br_document *d, const struct br_plan *p)
 {
     static const struct br_column columns[] = {
         {.key = "method"}, {.key = "curve"}, {.key = "at"}, {.key = "value"}};
-    br_put_table(d, "curves", "Knots of the models", BR_FOR_PROGRAMS, BR_COLUMNS(columns));
+    BR_TABLE(d, "curves", "Knots of the models", BR_FOR_PROGRAMS, columns);
     for (size_t i = 0; i < p->contenders.count; i++) {
         const struct br_plan_models *m = &p->model[i];
         if (!m->known)
@@ -231,21 +223,21 @@ static void put_curves(struct br_document *d, const struct br_plan *p)
 static void put_facts(struct br_document *d, const struct br_plan *p)
 {
     const struct br_plan_parts parts = br_plan_chosen_parts(p);
-    br_put_hidden_fact(d, "scene.name", br_text(p->request.scene->name));
-    br_put_hidden_fact(d, "goal_error", br_number(p->goal.error));
-    br_put_hidden_fact(d, "goal_seconds", br_number(p->goal.seconds));
-    br_put_hidden_fact(d, "norm", br_text(p->norm[0]->name));
-    br_put_hidden_fact(d, "end", br_text(br_plan_end_name(p->end)));
-    br_put_hidden_fact(d, "own_error", br_number(p->own));
-    br_put_hidden_fact(d, "rounds", br_count(p->rounds));
-    br_put_hidden_fact(d, "first", p->first < p->count ? br_count(p->first) : br_nothing());
-    br_put_hidden_fact(d, "chosen", p->chosen < p->count ? br_count(p->chosen) : br_nothing());
-    br_put_hidden_fact(d, "marched_seconds", br_number(br_plan_spent(p)));
-    br_put_hidden_fact(d, "wall_seconds", br_number(p->wall_seconds));
-    br_put_hidden_fact(d, "space_error", br_number(parts.space));
-    br_put_hidden_fact(d, "time_error", br_number(parts.time));
-    br_put_hidden_fact(d, "space_order", br_number(parts.p));
-    br_put_hidden_fact(d, "time_order", br_number(parts.q));
+    br_hide_fact(d, br_text(p->request.scene->name), NULL, "scene.name");
+    br_hide_fact(d, br_number(p->goal.error), NULL, "goal_error");
+    br_hide_fact(d, br_number(p->goal.seconds), NULL, "goal_seconds");
+    br_hide_fact(d, br_text(p->norm[0]->name), NULL, "norm");
+    br_hide_fact(d, br_text(br_plan_end_name(p->end)), NULL, "end");
+    br_hide_fact(d, br_number(p->own), NULL, "own_error");
+    br_hide_fact(d, br_count(p->rounds), NULL, "rounds");
+    br_hide_fact(d, br_if(p->first < p->count, br_count(p->first)), NULL, "first");
+    br_hide_fact(d, br_if(p->chosen < p->count, br_count(p->chosen)), NULL, "chosen");
+    br_hide_fact(d, br_number(br_plan_spent(p)), NULL, "marched_seconds");
+    br_hide_fact(d, br_number(p->wall_seconds), NULL, "wall_seconds");
+    br_hide_fact(d, br_number(parts.space), NULL, "space_error");
+    br_hide_fact(d, br_number(parts.time), NULL, "time_error");
+    br_hide_fact(d, br_number(parts.p), NULL, "space_order");
+    br_hide_fact(d, br_number(parts.q), NULL, "time_order");
 }
 
 static void put_notes(struct br_document *d, const struct br_plan *p, const char *machine)
@@ -282,9 +274,9 @@ void br_report_plan(const struct br_plan *p, const char *scene_word,
     snprintf(caption, sizeof caption, "A plan: %.400s", scene->title);
     br_document_begin(d, name, "beamrate plan", 1, caption);
     put_answer(d, p, scene_word);
-    put_proposals(d, p);
+    put_trials(d, p, true);
     put_models(d, p);
-    put_trials(d, p);
+    put_trials(d, p, false);
     put_curves(d, p);
     put_facts(d, p);
     put_notes(d, p, provenance->machine);

@@ -1,43 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "tables/report_run.h"
-
 #include <math.h>
-#include <stdarg.h>
 #include <string.h>
 
+#include "study/foresee/prediction.h"
+#include "study/run/run.h"
 #include "study/scene/method_fields.h"
-#include "tables/report_method.h"
+#include "tables/report_parts.h"
 
-enum { KEY = 80, LABEL = 120, VALUE = 80, SENTENCE = 1000 };
+enum { KEY = 80, VALUE = 80 };
 
 static const char *const field_names[2] = {"axial", "bending"};
 
 /* ---- facts ---- */
-
-/* Without a label, and what is not known: for programs alone. The key is formatted. */
-__attribute__((format(printf, 5, 6))) static void put(struct br_document *d, struct br_value value,
-                                                      const char *label, const char *unit,
-                                                      const char *key, ...)
-{
-    char name[KEY];
-    va_list arguments;
-    va_start(arguments, key);
-    vsnprintf(name, sizeof name, key, arguments);
-    va_end(arguments);
-    const bool lacks =
-        value.kind == BR_NOTHING || (value.kind == BR_NUMBER && !isfinite(value.number));
-    br_put_fact(d,
-                &(struct br_column){.key = name,
-                                    .heading = label,
-                                    .unit = unit,
-                                    .flags = label && !lacks ? 0 : BR_FOR_PROGRAMS},
-                value);
-}
-
-static struct br_value if_known(bool known, struct br_value value)
-{
-    return known ? value : br_nothing();
-}
 
 static bool is_marched(const struct br_run_report *r, int kind)
 {
@@ -49,15 +23,16 @@ static bool has_friction(const struct br_run_report *r)
     return r->marched.friction.law != BR_FRICTIONLESS;
 }
 
-/* Of both fields: KEY.axial and KEY.bending. */
+/* Of both fields: KEY.axial and KEY.bending. label: NULL, for programs alone. */
 static void put_two(struct br_document *d, const struct br_run_report *r, const double x[2],
                     const char *label, const char *unit, const char *key)
 {
-    char whole[LABEL];
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        snprintf(whole, sizeof whole, "%s, %s", label ? label : "", field_names[kind]);
-        put(d, if_known(is_marched(r, kind), br_number(x[kind])), label ? whole : NULL, unit,
-            "%s.%s", key, field_names[kind]);
+        char name[KEY], heading[KEY];
+        snprintf(name, sizeof name, "%s.%s", key, field_names[kind]);
+        snprintf(heading, sizeof heading, "%s, %s", label ? label : "", field_names[kind]);
+        BR_FACT(d, br_if(is_marched(r, kind), br_number(x[kind])), .key = name,
+                .heading = label ? heading : NULL, .unit = unit);
     }
 }
 
@@ -95,39 +70,33 @@ static const char *with_error(double value, double error, char text[VALUE])
     return text;
 }
 
-__attribute__((format(printf, 2, 3))) static void append(char text[SENTENCE], const char *format,
-                                                         ...)
-{
-    const size_t used = strlen(text);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text + used, SENTENCE - used, format, arguments);
-    va_end(arguments);
-}
-
 static void answer_tip(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
     const struct br_tip_watch *w = &r->watch;
-    char text[SENTENCE] = "", value[VALUE];
-    append(text, "Tip at t = %.10g s%s:", r->end.last.time,
-           r->failure.status ? " (the last good step)" : "");
+    const char *between = ":", *before = " Events:";
+    char value[VALUE];
+    br_put_answer(d, "Tip at t = %.10g s%s", r->end.last.time,
+                  r->failure.status ? " (the last good step)" : "");
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (is_marched(r, kind))
-            append(text, " %s = %s m,", kind == BR_AXIAL ? "u" : "w",
-                   with_error(r->end.last.displacement[kind], tip_error(f, kind), value));
+        if (is_marched(r, kind)) {
+            br_put_more(d, "%s %s = %s m", between, kind == BR_AXIAL ? "u" : "w",
+                        with_error(r->end.last.displacement[kind], tip_error(f, kind), value));
+            between = ",";
+        }
     if (w->contact)
-        append(text, " contact %s,", w->closed ? "closed" : "open");
+        br_put_more(d, "%s contact %s", between, w->closed ? "closed" : "open");
     if (w->friction && w->steps)
-        append(text, " friction: %s%s,", br_tip_regime_word(w->regime),
-               w->regime == BR_TIP_SLIP ? direction(w->direction) : "");
-    text[strlen(text) - 1] = '.';
-    for (int kind = 0, told = 0; kind < BR_TIP_EVENTS; kind++)
-        if (w->count[kind])
-            append(text, "%s %s %zu",
-                   told++ ? "," : " Events:", br_tip_event_word((enum br_tip_event_kind)kind),
-                   w->count[kind]);
-    br_put_answer(d, "%s%s", text, text[strlen(text) - 1] == '.' ? "" : ".");
+        br_put_more(d, ", friction: %s%s", br_tip_regime_word(w->regime),
+                    w->regime == BR_TIP_SLIP ? direction(w->direction) : "");
+    br_put_more(d, ".");
+    for (int kind = 0; kind < BR_TIP_EVENTS; kind++)
+        if (w->count[kind]) {
+            br_put_more(d, "%s %s %zu", before, br_tip_event_word((enum br_tip_event_kind)kind),
+                        w->count[kind]);
+            before = ",";
+        }
+    br_put_more(d, *before == ',' ? "." : "");
 }
 
 static void answer_prediction(struct br_document *d, const struct br_prediction *p)
@@ -153,12 +122,12 @@ static void answer_prediction(struct br_document *d, const struct br_prediction 
 /* Their texts stand below, and were on the terminal before the march. */
 static void answer_warnings(struct br_document *d, const struct br_warnings *w)
 {
-    char text[SENTENCE] = "";
+    if (!w->count)
+        return;
+    br_put_answer(d, "%zu warning%s before the march: ", w->count, w->count == 1 ? "" : "s");
     for (size_t i = 0; i < w->count; i++)
-        append(text, "%s%s", i ? ", " : "", br_warning_word(w->list[i].kind));
-    if (w->count)
-        br_put_answer(d, "%zu warning%s before the march: %s.", w->count, w->count == 1 ? "" : "s",
-                      text);
+        br_put_more(d, "%s%s", i ? ", " : "", br_warning_word(w->list[i].kind));
+    br_put_more(d, ".");
 }
 
 /* What the scheme has added in all. */
@@ -166,18 +135,15 @@ static void answer_gain(struct br_document *d, const struct br_run_report *r, in
 {
     const double added = br_energy_added(&r->work, (enum br_field_kind)kind);
     const double put_in = br_energy_put_in(&r->energy_start, &r->work, (enum br_field_kind)kind);
-    char share[LABEL] = "";
     if (!(added > 0))
         return;
+    br_put_answer(d, "The scheme ADDED %.3g J to the %s field", added, field_names[kind]);
     if (put_in > 0)
-        snprintf(share, sizeof share,
-                 " (%.2g %% of what was there at first and of the loads' work)",
-                 100 * added / put_in);
-    br_put_answer(d, "The scheme ADDED %.3g J to the %s field%s.%s", added, field_names[kind],
-                  share,
-                  kind == BR_AXIAL && r->work.scheme_contact < 0 && !r->method.contact->at_new_step
-                      ? " It is the lagged contact's: --contact implicit adds none."
-                      : "");
+        br_put_more(d, " (%.2g %% of what was there at first and of the loads' work)",
+                    100 * added / put_in);
+    br_put_more(d, ".");
+    if (kind == BR_AXIAL && r->work.scheme_contact < 0 && !r->method.contact->at_new_step)
+        br_put_more(d, " It is the lagged contact's: --contact implicit adds none.");
 }
 
 static void put_answers(struct br_document *d, const struct br_run_findings *f)
@@ -203,72 +169,75 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
 static void put_march(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
+    const struct br_scene *scene = r->scene;
     char method[BR_METHOD_TEXT];
+    const struct br_fact facts[] = {
+        {"scene.name", NULL, NULL, br_text(scene->name)},
+        {"scene.title", NULL, NULL, br_text(scene->title)},
+        {"scene.remark", "remark", NULL, br_text(scene->remark)},
+        {"scene.length", NULL, "m", br_number(scene->length)},
+        {"scene.duration", NULL, "s", br_number(scene->duration)},
+        {"n", "elements", NULL, br_count(r->n)},
+        {"h", "element size h", "m", br_number(r->h)},
+        {"steps", "steps", NULL, br_count(r->steps)},
+        {"k", "time step k", "s", br_number(r->k)},
+    };
     br_put_section(d, "The march");
-    put(d, br_text(r->scene->name), NULL, NULL, "scene.name");
-    put(d, br_text(r->scene->title), NULL, NULL, "scene.title");
-    put(d, br_text(r->scene->remark), "remark", NULL, "scene.remark");
-    put(d, br_number(r->scene->length), NULL, "m", "scene.length");
-    put(d, br_number(r->scene->duration), NULL, "s", "scene.duration");
-    put(d, br_count(r->n), "elements", NULL, "n");
-    put(d, br_number(r->h), "element size h", "m", "h");
-    put(d, br_count(r->steps), "steps", NULL, "steps");
-    put(d, br_number(r->k), "time step k", "s", "k");
-    br_put_fact(d, &(struct br_column){.key = "words", .heading = "method", .flags = BR_FOR_PEOPLE},
-                br_text(br_method_text(&r->marched, &r->method, method)));
-    br_put_method(d, "method", &r->method);
-    put(d, br_text(r->failure.status ? r->failure.message : NULL), NULL, NULL, "stopped");
-    put(d, br_truth(r->contact_unstable), NULL, NULL, "contact_beyond_stability_limit");
+    BR_FACTS(d, facts);
+    BR_FACT(d, br_text(br_method_text(&r->marched, &r->method, method)), .key = "words",
+            .heading = "method", .flags = BR_FOR_PEOPLE);
+    br_put_method_facts(d, "method", &r->method);
+    br_hide_fact(d, br_failure_text(&r->failure), NULL, "stopped");
+    br_hide_fact(d, br_truth(r->contact_unstable), NULL, "contact_beyond_stability_limit");
 }
 
 /* "0.0014, between 0.00046 and 0.0042" */
 static void put_predicted(struct br_document *d, bool known, const char *key, const char *label,
                           const struct br_predicted *e)
 {
-    char interval[BR_PREDICTED_TEXT];
-    put(d, if_known(known, br_number(e->error)), label, NULL, "prediction.%s.error", key);
+    char name[KEY], interval[BR_PREDICTED_TEXT];
+    snprintf(name, sizeof name, "prediction.%s.error", key);
+    BR_FACT(d, br_if(known, br_number(e->error)), .key = name, .heading = label);
     br_put_shown(d, "%s", br_predicted_interval(e, interval));
-    put(d, if_known(known, br_number(e->low)), NULL, NULL, "prediction.%s.low", key);
-    put(d, if_known(known, br_number(e->high)), NULL, NULL, "prediction.%s.high", key);
+    br_hide_fact(d, br_if(known, br_number(e->low)), NULL, "prediction.%s.low", key);
+    br_hide_fact(d, br_if(known, br_number(e->high)), NULL, "prediction.%s.high", key);
 }
 
 static void put_prediction(struct br_document *d, const struct br_run_findings *f)
 {
+    static const char *const labels[] = {"  of the axial field", "  of the bending field"};
     const struct br_prediction *p = f->prediction;
-    const double most[] = {br_predicted_most(p, BR_AXIAL), br_predicted_most(p, BR_BENDING)};
     br_put_section(d, "Predicted before the march, of each field relative to its largest (L2)");
-    put(d, br_truth(p->known), NULL, NULL, "prediction.known");
-    put(d, br_text(p->known ? NULL : p->why), NULL, NULL, "prediction.why_not");
+    br_hide_fact(d, br_truth(p->known), NULL, "prediction.known");
+    br_hide_fact(d, br_text(p->known ? NULL : p->why), NULL, "prediction.why_not");
     put_predicted(d, p->bounded, "discretisation", "discretisation error", &p->whole);
     put_predicted(d, p->bounded, "time", "  of the time steps", &p->time);
     put_predicted(d, p->bounded, "space", "  of the elements", &p->space);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const double most = br_predicted_most(p, (enum br_field_kind)kind);
         const bool marched = is_marched(f->report, kind);
-        put_predicted(d, marched && p->bounded, field_names[kind],
-                      kind == BR_AXIAL ? "  of the axial field" : "  of the bending field",
-                      &p->field[kind]);
-        put(d, if_known(marched && p->known, br_number(most[kind])), NULL, NULL,
-            "prediction.%s.most", field_names[kind]);
+        put_predicted(d, marched && p->bounded, field_names[kind], labels[kind], &p->field[kind]);
+        br_hide_fact(d, br_if(marched && p->known, br_number(most)), NULL, "prediction.%s.most",
+                     field_names[kind]);
     }
-    put(d, br_number(p->round_off), "round-off", NULL, "prediction.round_off");
-    br_put_shown(d, "%.1e", p->round_off);
-    put(d, br_number(p->seconds), NULL, "s", "prediction.seconds");
+    BR_FACT(d, br_number(p->round_off), .key = "prediction.round_off", .heading = "round-off",
+            .format = "%.1e");
+    br_hide_fact(d, br_number(p->seconds), "s", "prediction.seconds");
 }
 
 /* Remedies are options that can be typed. */
 static void put_warnings(struct br_document *d, const struct br_warnings *w)
 {
-    static const struct br_column columns[] = {
-        {.key = "warning"}, {.key = "text"}, {.key = "remedy"}};
-    char key[KEY];
-    br_put_table(d, "warnings", "Warnings before the march", BR_FOR_PROGRAMS, BR_COLUMNS(columns));
+    br_put_table(d, "warnings", "Warnings before the march", BR_FOR_PROGRAMS);
     for (size_t i = 0; i < w->count; i++) {
+        const char *remedy = w->list[i].remedy;
         br_put_row(d);
-        br_put(d, "warning", br_text(br_warning_word(w->list[i].kind)));
-        br_put(d, "text", br_text(w->list[i].text));
-        br_put(d, "remedy", br_text(w->list[i].remedy[0] ? w->list[i].remedy : NULL));
+        BR_PUT(d, br_text(br_warning_word(w->list[i].kind)), .key = "warning");
+        BR_PUT(d, br_text(w->list[i].text), .key = "text");
+        BR_PUT(d, br_text(*remedy ? remedy : NULL), .key = "remedy");
     }
     for (size_t i = 0; i < w->count; i++) {
+        char key[KEY];
         snprintf(key, sizeof key, "remedies.%s", br_warning_word(w->list[i].kind));
         br_put_note(d, "Warning: %s.", w->list[i].text);
         br_put_command(d, key, "Remedy", w->list[i].remedy);
@@ -280,48 +249,61 @@ static void put_warnings(struct br_document *d, const struct br_warnings *w)
 static void put_extreme(struct br_document *d, bool known, const char *key, const char *label,
                         const struct br_extreme *e)
 {
-    put(d, if_known(known, br_number(e->value)), label, "N", "events.%s.value", key);
-    put(d, if_known(known, br_number(e->time)), "  at t", "s", "events.%s.t", key);
+    char value[KEY], time[KEY];
+    const struct br_fact facts[] = {{value, label, "N", br_if(known, br_number(e->value))},
+                                    {time, "  at t", "s", br_if(known, br_number(e->time))}};
+    snprintf(value, sizeof value, "events.%s.value", key);
+    snprintf(time, sizeof time, "events.%s.t", key);
+    BR_FACTS(d, facts);
 }
 
 static void put_friction(struct br_document *d, const struct br_run_report *r)
 {
     const struct br_history_row *row = &r->end.last;
-    const double share = 100 * fabs(row->friction_force) / row->friction_bound;
+    const double force = row->friction_force, bound = row->friction_bound;
     const bool friction = has_friction(r);
-    put(d, if_known(friction, br_number(row->friction_force)), "friction force", "N",
-        "tip.friction_force");
-    put(d, if_known(friction, br_number(row->friction_bound)), "  its bound", "N",
-        "tip.friction_bound");
-    put(d, if_known(friction, br_number(share)), "  of the bound", "%", "tip.friction_share");
-    put(d, if_known(friction && r->watch.steps, br_text(br_tip_regime_word(r->watch.regime))),
-        "friction", NULL, "tip.regime");
+    const struct br_value regime = br_text(br_tip_regime_word(r->watch.regime));
+    const struct br_fact facts[] = {
+        {"tip.friction_force", "friction force", "N", br_if(friction, br_number(force))},
+        {"tip.friction_bound", "  its bound", "N", br_if(friction, br_number(bound))},
+        {"tip.friction_share", "  of the bound", "%",
+         br_if(friction, br_number(100 * fabs(force) / bound))},
+        {"tip.regime", "friction", NULL, br_if(friction && r->watch.steps, regime)},
+    };
+    BR_FACTS(d, facts);
     br_put_mark(d, r->watch.regime == BR_TIP_SLIP ? direction(r->watch.direction) : "");
     put_extreme(d, friction, "largest_friction_force", "largest friction force",
                 &r->watch.friction_force);
 }
 
+static void put_displacement(struct br_document *d, const struct br_run_findings *f, int kind)
+{
+    const double value = f->report->end.last.displacement[kind];
+    const bool axial = kind == BR_AXIAL;
+    char text[VALUE];
+    BR_FACT(d, br_if(is_marched(f->report, kind), br_number(value)),
+            .key = axial ? "tip.displacement.axial" : "tip.displacement.bending",
+            .heading = axial ? "axial displacement u" : "bending displacement w", .unit = "m");
+    br_put_shown(d, "%s", with_error(value, tip_error(f, kind), text));
+}
+
 static void put_tip(struct br_document *d, const struct br_run_findings *f)
 {
-    static const char *const labels[] = {"axial displacement u", "bending displacement w"};
     const struct br_run_report *r = f->report;
     const struct br_history_row *row = &r->end.last;
     const bool contact = r->marched.contact.modelled;
     const double error[] = {tip_error(f, BR_AXIAL), tip_error(f, BR_BENDING)};
-    char text[VALUE];
     br_put_section(d, "The tip");
-    put(d, br_number(row->time), "t", "s", "tip.t");
-    put(d, br_count(row->step), NULL, NULL, "tip.step");
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        put(d, if_known(is_marched(r, kind), br_number(row->displacement[kind])), labels[kind], "m",
-            "tip.displacement.%s", field_names[kind]);
-        br_put_shown(d, "%s", with_error(row->displacement[kind], error[kind], text));
-    }
+    BR_FACT(d, br_number(row->time), .key = "tip.t", .heading = "t", .unit = "s");
+    br_hide_fact(d, br_count(row->step), NULL, "tip.step");
+    put_displacement(d, f, BR_AXIAL);
+    put_displacement(d, f, BR_BENDING);
     put_two(d, r, error, NULL, "m", "tip.predicted_error");
     put_two(d, r, row->velocity, "velocity", "m/s", "tip.velocity");
-    put(d, if_known(contact, br_number(row->contact_force)), "contact force", "N",
-        "tip.contact_force");
-    put(d, if_known(contact, br_truth(r->watch.closed)), "contact", NULL, "tip.closed");
+    BR_FACT(d, br_if(contact, br_number(row->contact_force)), .key = "tip.contact_force",
+            .heading = "contact force", .unit = "N");
+    BR_FACT(d, br_if(contact, br_truth(r->watch.closed)), .key = "tip.closed",
+            .heading = "contact");
     br_put_shown(d, "%s", r->watch.closed ? "closed" : "open");
     put_extreme(d, contact, "largest_contact_force", "largest contact force",
                 &r->watch.contact_force);
@@ -329,6 +311,12 @@ static void put_tip(struct br_document *d, const struct br_run_findings *f)
 }
 
 /* ---- events ---- */
+
+static void put_regime(struct br_document *d, const char *key, enum br_regime regime)
+{
+    br_put(d, key, br_text(br_regime_name(regime)));
+    br_put_shown(d, "%s", regime == BR_REGIME_NONE ? "no bound" : br_regime_name(regime));
+}
 
 static void put_switches(struct br_document *d, const struct br_run_report *r)
 {
@@ -338,18 +326,17 @@ static void put_switches(struct br_document *d, const struct br_run_report *r)
                                                {.key = "to"}};
     if (!r->method.scheme->adaptive)
         return;
-    put(d, br_count(r->switches), "switches that the scheme has found", NULL, "events.switches");
-    br_put_table(d, "switches_found", "Switches within its steps, as the scheme has found them", 0,
-                 BR_COLUMNS(columns));
+    BR_FACT(d, br_count(r->switches), .key = "events.switches",
+            .heading = "switches that the scheme has found");
+    BR_TABLE(d, "switches_found", "Switches within its steps, as the scheme has found them", 0,
+             columns);
     for (size_t i = 0; i < r->switches && i < BR_MOST_SWITCHES; i++) {
         const struct br_switch *s = &r->switched[i];
         br_put_row(d);
         br_put(d, "t", br_number(s->time));
         br_put(d, "law", br_text(s->kind == BR_AXIAL ? "contact" : "friction"));
-        br_put(d, "from", br_text(br_regime_name(s->from)));
-        br_put_shown(d, "%s", s->from == BR_REGIME_NONE ? "no bound" : br_regime_name(s->from));
-        br_put(d, "to", br_text(br_regime_name(s->to)));
-        br_put_shown(d, "%s", s->to == BR_REGIME_NONE ? "no bound" : br_regime_name(s->to));
+        put_regime(d, "from", s->from);
+        put_regime(d, "to", s->to);
     }
 }
 
@@ -361,14 +348,14 @@ static void put_event_list(struct br_document *d, const struct br_tip_watch *w)
         {.key = "direction"},
         {.key = "step"},
     };
-    br_put_table(d, "events", "When", 0, BR_COLUMNS(columns));
+    BR_TABLE(d, "events", "When", 0, columns);
     for (size_t i = 0; i < w->events; i++) {
         const struct br_tip_event *e = &w->event[i];
         const struct br_value sign = {.kind = BR_COUNT, .count = e->direction};
         br_put_row(d);
         br_put(d, "t", br_number(e->time));
         br_put(d, "event", br_text(br_tip_event_word(e->kind)));
-        br_put(d, "direction", e->direction ? sign : br_nothing());
+        br_put(d, "direction", br_if(e->direction, sign));
         br_put_shown(d, "%s", direction(e->direction) + (e->direction != 0)); /* no blank */
         br_put(d, "step", br_count(e->step));
     }
@@ -377,9 +364,10 @@ static void put_event_list(struct br_document *d, const struct br_tip_watch *w)
 /* How many steps, and what share that is. */
 static void put_steps(struct br_document *d, bool known, const char *word, size_t steps, size_t all)
 {
-    char label[LABEL];
+    char label[KEY], key[KEY];
     snprintf(label, sizeof label, "steps: %s", word);
-    put(d, br_count(steps), known && all ? label : NULL, NULL, "events.steps.%s", word);
+    snprintf(key, sizeof key, "events.steps.%s", word);
+    BR_FACT(d, br_count(steps), .key = key, .heading = known && all ? label : NULL);
     br_put_shown(d, "%zu (%.4g %%)", steps, all ? 100 * (double)steps / (double)all : 0);
 }
 
@@ -391,17 +379,19 @@ static void put_events(struct br_document *d, const struct br_run_report *r)
                 "An event is told at the first time level of the new regime: it happened in the "
                 "step before, up to k = %g s earlier.",
                 r->k);
-    put(d, br_number(r->k), NULL, "s", "events.resolution");
-    put(d, if_known(w->contact, br_truth(w->closed_at_start)), "at first", NULL,
-        "events.closed_at_start");
+    br_hide_fact(d, br_number(r->k), "s", "events.resolution");
+    BR_FACT(d, br_if(w->contact, br_truth(w->closed_at_start)), .key = "events.closed_at_start",
+            .heading = "at first");
     br_put_shown(d, "%s", w->closed_at_start ? "closed" : "open");
-    put(d, if_known(w->friction && w->steps, br_text(br_tip_regime_word(w->regime_at_start))),
-        "in the first step", NULL, "events.regime_at_start");
+    BR_FACT(d, br_if(w->friction && w->steps, br_text(br_tip_regime_word(w->regime_at_start))),
+            .key = "events.regime_at_start", .heading = "in the first step");
     br_put_mark(d, direction(w->direction_at_start));
     for (int kind = 0; kind < BR_TIP_EVENTS; kind++) {
         const char *word = br_tip_event_word((enum br_tip_event_kind)kind);
-        put(d, br_count(w->count[kind]), w->contact || w->friction ? word : NULL, NULL,
-            "events.counts.%s", word);
+        char key[KEY];
+        snprintf(key, sizeof key, "events.counts.%s", word);
+        BR_FACT(d, br_count(w->count[kind]), .key = key,
+                .heading = w->contact || w->friction ? word : NULL);
     }
     put_steps(d, w->contact, "closed", w->closed_steps, w->steps);
     for (int regime = 0; regime < BR_TIP_REGIMES; regime++)
@@ -414,22 +404,19 @@ static void put_events(struct br_document *d, const struct br_run_report *r)
 /* ---- energies ---- */
 
 /* People see that of the end. */
-static void put_state(struct br_document *d, const struct br_run_report *r, const char *when,
-                      bool people, const struct br_energy *e)
+static void put_state(struct br_document *d, const struct br_run_report *r, bool end,
+                      const struct br_energy *e)
 {
-    const struct {
-        const char *key, *label;
-        const double *x;
-    } rows[] = {{"kinetic", "kinetic", e->kinetic}, {"stored", "stored", e->stored}};
-    for (size_t i = 0; i < 2; i++) {
-        char key[KEY];
-        snprintf(key, sizeof key, "energies.%s.%s", when, rows[i].key);
-        put_two(d, r, rows[i].x, people ? rows[i].label : NULL, "J", key);
-    }
-    put(d, if_known(r->marched.contact.modelled, br_number(e->contact)),
-        people ? "of the contact" : NULL, "J", "energies.%s.contact", when);
-    put(d, br_number(br_energy_total(e)), people ? "total" : "total at t = 0", "J",
-        "energies.%s.total", when);
+    char key[4][KEY];
+    static const char *const terms[] = {"kinetic", "stored", "contact", "total"};
+    for (size_t i = 0; i < 4; i++)
+        snprintf(key[i], KEY, "energies.%s.%s", end ? "end" : "start", terms[i]);
+    put_two(d, r, e->kinetic, end ? "kinetic" : NULL, "J", key[0]);
+    put_two(d, r, e->stored, end ? "stored" : NULL, "J", key[1]);
+    BR_FACT(d, br_if(r->marched.contact.modelled, br_number(e->contact)), .key = key[2],
+            .heading = end ? "of the contact" : NULL, .unit = "J");
+    BR_FACT(d, br_number(br_energy_total(e)), .key = key[3],
+            .heading = end ? "total" : "total at t = 0", .unit = "J");
 }
 
 static void put_added(struct br_document *d, const struct br_run_report *r)
@@ -451,31 +438,35 @@ static void put_added(struct br_document *d, const struct br_run_report *r)
 static void put_works(struct br_document *d, const struct br_run_report *r)
 {
     const struct br_work *w = &r->work;
+    const double imbalance = br_energy_imbalance(&r->energy_start, &r->energy_now, w);
+    const struct br_fact facts[] = {
+        {"energies.lost_to_scheme_by_contact", "  and by its contact", "J",
+         br_if(r->marched.contact.modelled, br_number(w->scheme_contact))},
+        {"energies.imbalance", "missing in the balance, of the terms' sum", NULL,
+         br_number(imbalance)},
+        {"energies.largest_imbalance_of_a_step", "  in one step at most", NULL,
+         br_number(r->energy_worst)},
+    };
     put_two(d, r, w->loads, "work of the loads", "J", "energies.work_of_loads");
     put_two(d, r, w->viscous, "lost to viscosity", "J", "energies.lost_to_viscosity");
     put_two(d, r, w->scheme, "lost to the scheme", "J", "energies.lost_to_scheme");
-    put(d, if_known(r->marched.contact.modelled, br_number(w->scheme_contact)),
-        "  and by its contact", "J", "energies.lost_to_scheme_by_contact");
-    put(d, br_number(br_energy_imbalance(&r->energy_start, &r->energy_now, w)),
-        "missing in the balance, of the terms' sum", NULL, "energies.imbalance");
-    put(d, br_number(r->energy_worst), "  in one step at most", NULL,
-        "energies.largest_imbalance_of_a_step");
+    BR_FACTS(d, facts);
     put_added(d, r);
 }
 
 static void put_energies(struct br_document *d, const struct br_run_report *r)
 {
+    const double friction = r->summed ? r->work.friction : r->watch.friction_work;
     br_put_section(d, "Energies");
-    put_state(d, r, "start", false, &r->energy_start);
+    put_state(d, r, false, &r->energy_start);
     if (r->at_end)
-        put_state(d, r, "end", true, &r->energy_now);
+        put_state(d, r, true, &r->energy_now);
     else
-        put(d, br_nothing(), NULL, NULL, "energies.end");
-    put(d,
-        if_known(has_friction(r), br_number(r->summed ? r->work.friction : r->watch.friction_work)),
-        "lost to friction", "J", "energies.lost_to_friction");
-    put(d, br_truth(r->summed), r->summed ? NULL : "works, losses, balance", NULL,
-        "energies.summed");
+        br_hide_fact(d, br_nothing(), NULL, "energies.end");
+    BR_FACT(d, br_if(has_friction(r), br_number(friction)), .key = "energies.lost_to_friction",
+            .heading = "lost to friction", .unit = "J");
+    BR_FACT(d, br_truth(r->summed), .key = "energies.summed",
+            .heading = r->summed ? NULL : "works, losses, balance");
     br_put_shown(d, "not summed, they need the fields of every step: --energies or --check");
     if (r->summed)
         put_works(d, r);
@@ -502,96 +493,101 @@ static void put_certificate(struct br_document *d, const struct br_run_report *r
         {"energy", "energy balance", r->energy_worst, r->energy_limit, true},
     };
     if (!r->checked) {
-        put(d, br_nothing(), NULL, NULL, "certificate");
+        br_hide_fact(d, br_nothing(), NULL, "certificate");
         return;
     }
     br_put_section(d, r->method.scheme == br_time_schemes[0]
                           ? "Certificate of every step: the worst"
                           : "Certificate of every step, stage by stage: the worst");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        put(d, br_number(rows[i].worst), rows[i].modelled ? rows[i].name : NULL, NULL,
-            "certificate.worst.%s", rows[i].key);
-        if (isfinite(rows[i].limit))
-            br_put_shown(d, "%.3g of at most %.3g: %s", rows[i].worst, rows[i].limit,
-                         rows[i].worst <= rows[i].limit ? "good" : "BAD");
+        const double worst = rows[i].worst, most = rows[i].limit;
+        char key[KEY];
+        snprintf(key, sizeof key, "certificate.worst.%s", rows[i].key);
+        BR_FACT(d, br_number(worst), .key = key, .heading = rows[i].modelled ? rows[i].name : NULL);
+        if (isfinite(most))
+            br_put_shown(d, "%.3g of at most %.3g: %s", worst, most,
+                         worst <= most ? "good" : "BAD");
         else
-            br_put_shown(d, "%.3g: not judged, round-off alone may be more", rows[i].worst);
-        put(d, br_number(rows[i].limit), NULL, NULL, "certificate.limits.%s", rows[i].key);
+            br_put_shown(d, "%.3g: not judged, round-off alone may be more", worst);
+        br_hide_fact(d, br_number(most), NULL, "certificate.limits.%s", rows[i].key);
     }
-    put(d, br_count(r->bad_steps), "steps beyond a limit", NULL, "certificate.bad_steps");
-    put(d, br_text(r->bad_steps ? r->verdict.message : NULL), NULL, NULL, "certificate.first");
+    BR_FACT(d, br_count(r->bad_steps), .key = "certificate.bad_steps",
+            .heading = "steps beyond a limit");
+    br_hide_fact(d, br_text(r->bad_steps ? r->verdict.message : NULL), NULL, "certificate.first");
 }
 
 /* ---- what is modelled, and what it costs ---- */
 
 static void put_model(struct br_document *d, const struct br_run_report *r)
 {
-    static const struct br_column columns[] = {
-        {.key = "part"}, {.key = "modelled"}, {.key = "why", .heading = "how, or why not"}};
-    br_put_table(d, "model", "What is modelled, and what is skipped", 0, BR_COLUMNS(columns));
+    br_put_table(d, "model", "What is modelled, and what is skipped", 0);
     for (size_t i = 0; i < r->model_rows; i++) {
         br_put_row(d);
-        br_put(d, "part", br_text(r->model[i].key));
+        BR_PUT(d, br_text(r->model[i].key), .key = "part");
         br_put_shown(d, "%s", r->model[i].part);
-        br_put(d, "modelled", br_truth(r->model[i].modelled));
+        BR_PUT(d, br_truth(r->model[i].modelled), .key = "modelled");
         br_put_shown(d, "%s", r->model[i].modelled ? "modelled" : "skipped");
-        br_put(d, "why", br_text(r->model[i].why));
+        BR_PUT(d, br_text(r->model[i].why), .key = "why", .heading = "how, or why not");
     }
 }
 
 static void put_cost(struct br_document *d, const struct br_run_report *r)
 {
-    static const struct br_column columns[] = {
-        {.key = "part"},
-        {.key = "ns_per_step", .heading = "a step", .unit = "ns", .format = "%.1f"},
-        {.key = "ns_per_element_step", .heading = "an element", .unit = "ns", .format = "%.4f"},
-        {.key = "share", .unit = "%", .format = "%.1f"},
-    };
     const double steps = (double)r->end.last.step;
     double all = 0;
     if (!r->explained || steps == 0)
         return;
     for (int part = 0; part < BR_COST_PARTS; part++)
         all += r->cost.seconds[part];
-    br_put_table(d, "cost", "Cost of the parts of a step, as measured", 0, BR_COLUMNS(columns));
+    br_put_table(d, "cost", "Cost of the parts of a step, as measured", 0);
     for (int part = 0; part < BR_COST_PARTS; part++) {
         const double ns = 1e9 * r->cost.seconds[part] / steps;
         if (r->cost.laps[part] == 0)
             continue;
         br_put_row(d);
-        br_put(d, "part", br_text(br_cost_part_text((enum br_cost_part)part)));
-        br_put(d, "ns_per_step", br_number(ns));
-        br_put(d, "ns_per_element_step", br_number(ns / (double)r->n));
-        br_put(d, "share", br_number(100 * r->cost.seconds[part] / all));
+        BR_PUT(d, br_text(br_cost_part_text((enum br_cost_part)part)), .key = "part");
+        BR_PUT(d, br_number(ns), .key = "ns_per_step", .heading = "a step", .unit = "ns",
+               .format = "%.1f");
+        BR_PUT(d, br_number(ns / (double)r->n), .key = "ns_per_element_step",
+               .heading = "an element", .unit = "ns", .format = "%.4f");
+        BR_PUT(d, br_number(100 * r->cost.seconds[part] / all), .key = "share", .unit = "%",
+               .format = "%.1f");
     }
-    put(d, br_number(1e9 * all / steps), "sum of the parts of a step", "ns", "cost.ns_per_step");
-    put(d, br_number(1e9 * r->cost.lap_seconds), "a reading of the clock, which is taken off", "ns",
-        "cost.ns_per_reading");
+    const struct br_fact facts[] = {
+        {"cost.ns_per_step", "sum of the parts of a step", "ns", br_number(1e9 * all / steps)},
+        {"cost.ns_per_reading", "a reading of the clock, which is taken off", "ns",
+         br_number(1e9 * r->cost.lap_seconds)},
+    };
+    BR_FACTS(d, facts);
 }
 
 static void put_time(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
-    const double a_step = r->end.march_seconds / (double)r->end.last.step; /* NAN: none */
+    const struct br_counts *c = &r->counts;
+    const double march = r->end.march_seconds;
+    const double a_step = march / (double)r->end.last.step; /* NAN: none */
     const bool iterates = r->method.friction->iterates && has_friction(r);
+    const char *of_march = r->checked  ? "  of the march, the check included"
+                           : r->summed ? "  of the march, the energies included"
+                                       : "  of the march";
+    const char *taken_back = r->method.scheme->adaptive ? "  taken back" : NULL;
+    const char *changes = c->set_ups ? "changes of the step" : NULL;
+    const char *iterations = iterates ? "friction iterations" : NULL;
+    const struct br_fact facts[] = {
+        {"seconds.wall", "time", "s", br_number(f->wall_seconds)},
+        {"seconds.set_up", "  of setting up", "s", br_number(r->end.set_up_seconds)},
+        {"seconds.march", of_march, "s", br_number(march)},
+        {"seconds.per_step", "  a step", "s", br_number(a_step)},
+        {"seconds.per_element_step", "  an element-step", "s", br_number(a_step / (double)r->n)},
+        {"work.steps", "steps of the scheme", NULL, br_count(c->steps)},
+        {"work.steps_taken_back", taken_back, NULL, br_count(c->rejected)},
+        {"work.solves_a_field", "solves a field", NULL, br_count(c->stages)},
+        {"work.changes_of_the_step", changes, NULL, br_count(c->set_ups)},
+        {"work.friction_iterations", iterations, NULL, br_count(c->iterations)},
+    };
     br_put_section(d, "Time and work");
-    put(d, br_number(f->wall_seconds), "time", "s", "seconds.wall");
-    put(d, br_number(r->end.set_up_seconds), "  of setting up", "s", "seconds.set_up");
-    put(d, br_number(r->end.march_seconds),
-        r->checked  ? "  of the march, the check included"
-        : r->summed ? "  of the march, the energies included"
-                    : "  of the march",
-        "s", "seconds.march");
-    put(d, br_number(a_step), "  a step", "s", "seconds.per_step");
-    put(d, br_number(a_step / (double)r->n), "  an element-step", "s", "seconds.per_element_step");
-    put(d, br_count(r->counts.steps), "steps of the scheme", NULL, "work.steps");
-    put(d, br_count(r->counts.rejected), r->method.scheme->adaptive ? "  taken back" : NULL, NULL,
-        "work.steps_taken_back");
-    put(d, br_count(r->counts.stages), "solves a field", NULL, "work.solves_a_field");
-    put(d, br_count(r->counts.set_ups), r->counts.set_ups ? "changes of the step" : NULL, NULL,
-        "work.changes_of_the_step");
-    put(d, br_count(r->counts.iterations), iterates ? "friction iterations" : NULL, NULL,
-        "work.friction_iterations");
+    BR_FACTS(d, facts);
 }
 
 void br_report_run(const struct br_run_findings *f, struct br_document *d)

@@ -1,23 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "tables/report_split.h"
-
 #include <math.h>
-#include <stdarg.h>
-#include <string.h>
 
-#include "tables/report_trial.h"
+#include "study/scene/method_fields.h"
+#include "study/trade/split.h"
+#include "tables/report_parts.h"
 
 enum { TEXT = 640 };
-
-/* Appends to a text of TEXT bytes. */
-__attribute__((format(printf, 2, 3))) static void append(char text[TEXT], const char *format, ...)
-{
-    const size_t used = strlen(text);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text + used, TEXT - used, format, arguments);
-    va_end(arguments);
-}
 
 /* "n = 100, k = 0.01 s: scheme euler, solver riccati on avx2, contact lagged" */
 static const char *describe(const struct br_split *s, char text[TEXT])
@@ -28,10 +16,10 @@ static const char *describe(const struct br_split *s, char text[TEXT])
     return text;
 }
 
-/* "99.8 %" */
-static void append_share(char text[TEXT], double share)
+/* "99.8 %"; of a share of 0 to 1 */
+static const char *share_format(double share)
 {
-    append(text, share > 0 && share < 1e-3 ? "%.1e %%" : "%.1f %%", 100 * share);
+    return share > 0 && share < 1e-3 ? "%.1e %%" : "%.1f %%";
 }
 
 static bool is_told(const struct br_share *share, size_t norm)
@@ -42,18 +30,21 @@ static bool is_told(const struct br_share *share, size_t norm)
 /* "n = 100, ... Error 7.437e-04 m^(3/2), by parts: lag 99.6 %, time 0.2 %, space 0.2 %." */
 static void answer_run(struct br_document *d, const struct br_split *s)
 {
-    char run[TEXT], parts[TEXT] = "";
+    char run[TEXT];
+    const char *between = "";
+    br_put_answer(d, "%s. Error %.3e %s, by parts: ", describe(s, run),
+                  s->whole.error[0][BR_PART_TOTAL], s->norm[0]->unit);
     for (size_t i = 0; i < s->shares; i++)
         if (is_told(&s->share[i], 0)) {
-            append(parts, "%s%s ", *parts ? ", " : "", s->share[i].source->name);
-            append_share(parts, br_share_of_sum(s, &s->share[i], 0, BR_PART_TOTAL));
+            const double share = br_share_of_sum(s, &s->share[i], 0, BR_PART_TOTAL);
+            br_put_more(d, "%s%s ", between, s->share[i].source->name);
+            br_put_more(d, share_format(share), 100 * share);
+            between = ", ";
         }
-    br_put_answer(d, "%s. Error %.3e %s, by parts: %s.%s", describe(s, run),
-                  s->whole.error[0][BR_PART_TOTAL], s->norm[0]->unit,
-                  *parts ? parts : "none can be told",
-                  s->unstable ? " The lagged contact is beyond its stability limit: its part is "
-                                "bounded chatter."
-                              : "");
+    br_put_more(d, *between ? "." : "none can be told.");
+    if (s->unstable)
+        br_put_more(d, " The lagged contact is beyond its stability limit: its part is bounded "
+                       "chatter.");
 }
 
 /* ---- lines: a part of a run's error in one norm, the sum of the parts, or the whole ---- */
@@ -99,64 +90,53 @@ static struct line line_of(const struct br_split *s, size_t norm, size_t i)
 }
 
 /* An error and its floor. People see "< 3.4e-16" below the floor. */
-static void add_error(struct br_row *row, const struct br_split *s, const struct line *l,
+static void put_error(struct br_document *d, const struct br_split *s, const struct line *l,
                       enum br_part part)
 {
     static const char *const key[BR_PARTS] = {"error", "axial", "bending"},
                              *const floor_key[BR_PARTS] = {"floor", "axial_floor", "bending_floor"};
     const double error = models(s, part) ? l->error[part] : (double)NAN;
     const double floor = l->floor ? l->floor[part] : (double)NAN;
-    br_row_hide(row, floor_key[part], NULL, br_number(floor));
-    BR_ADD(row, br_number(error), .key = key[part], .heading = br_part_names[part],
-           .format = "%.3e");
+    br_hide(d, floor_key[part], NULL, br_number(floor));
+    BR_PUT(d, br_number(error), .key = key[part], .heading = br_part_names[part], .format = "%.3e");
     if (isfinite(error) && floor > 0 && !(error > floor))
-        br_row_shown(row, "< %.1e", floor);
+        br_put_shown(d, "< %.1e", floor);
 }
 
-static void add_share(struct br_row *row, double share)
-{
-    char text[TEXT] = "";
-    append_share(text, share);
-    BR_ADD(row, br_number(share), .key = "share", .heading = "of the sum");
-    if (isfinite(share))
-        br_row_shown(row, "%.30s", text);
-}
-
-static void add_line(struct br_row *row, const struct br_split *s, size_t norm, size_t i)
+static void put_line(struct br_document *d, const struct br_split *s, size_t norm, size_t i)
 {
     const struct line l = line_of(s, norm, i);
     const bool told = i > s->shares || isfinite(l.share);
-    const double relative = told ? l.error[BR_PART_TOTAL] / s->scale[norm] : (double)NAN;
-    const double axial_tip = models(s, BR_PART_AXIAL) ? l.tip[BR_AXIAL] : (double)NAN;
-    const double bending_tip = models(s, BR_PART_BENDING) ? l.tip[BR_BENDING] : (double)NAN;
-    br_row_hide(row, "norm", NULL, br_text(s->norm[norm]->name));
-    br_row_hide(row, "unit", NULL, br_text(s->norm[norm]->unit));
-    BR_ADD(row, br_text(l.name), .key = "part");
-    br_row_hide(row, "applies", NULL, br_truth(!l.none));
-    const size_t first = row->cells;
+    br_hide(d, "norm", NULL, br_text(s->norm[norm]->name));
+    br_hide(d, "unit", NULL, br_text(s->norm[norm]->unit));
+    BR_PUT(d, br_text(l.name), .key = "part");
+    br_hide(d, "applies", NULL, br_truth(!l.none));
+    br_put_blank(d, l.none);
     for (int part = 0; part < BR_PARTS; part++)
-        add_error(row, s, &l, (enum br_part)part);
-    add_share(row, l.share);
-    BR_ADD(row, br_number(relative), .key = "relative", .heading = "of the solution",
-           .format = "%.2e");
-    BR_ADD(row, br_number(axial_tip), .key = "axial_tip", .heading = "axial tip", .unit = "m",
-           .format = "%+.3e");
-    BR_ADD(row, br_number(bending_tip), .key = "bending_tip", .heading = "bending tip", .unit = "m",
-           .format = "%+.3e");
-    if (l.none)
-        br_row_empty(row, first);
-    br_row_hide(row, "none", NULL, br_text(l.none));
+        put_error(d, s, &l, (enum br_part)part);
+    BR_PUT(d, br_number(l.share), .key = "share", .heading = "of the sum");
+    if (isfinite(l.share))
+        br_put_shown(d, share_format(l.share), 100 * l.share);
+    BR_PUT(d, br_number(told ? l.error[BR_PART_TOTAL] / s->scale[norm] : NAN), .key = "relative",
+           .heading = "of the solution", .format = "%.2e");
+    BR_PUT(d, br_if(models(s, BR_PART_AXIAL), br_number(l.tip[BR_AXIAL])), .key = "axial_tip",
+           .heading = "axial tip", .unit = "m", .format = "%+.3e");
+    BR_PUT(d, br_if(models(s, BR_PART_BENDING), br_number(l.tip[BR_BENDING])), .key = "bending_tip",
+           .heading = "bending tip", .unit = "m", .format = "%+.3e");
+    br_put_blank(d, false);
+    br_hide(d, "none", NULL, br_text(l.none));
 }
 
 /* ---- tables ---- */
 
-static void add_run(struct br_row *row, const struct br_split *s, size_t run)
+static void put_run(struct br_document *d, const struct br_split *s, size_t run)
 {
-    br_row_hide(row, "run", NULL, br_count(run));
-    br_row_hide(row, "n", NULL, br_count(s->at.n));
-    br_row_hide(row, "steps", NULL, br_count(s->at.steps));
-    br_row_hide(row, "k", "s", br_number(br_time_step(s->scene, s->at.steps)));
-    br_row_add_method(row, &s->method);
+    br_put_row(d);
+    br_hide(d, "run", NULL, br_count(run));
+    br_hide(d, "n", NULL, br_count(s->at.n));
+    br_hide(d, "steps", NULL, br_count(s->at.steps));
+    br_hide(d, "k", "s", br_number(br_time_step(s->scene, s->at.steps)));
+    br_put_method_cells(d, &s->method);
 }
 
 /* For people: a table a run and norm, with the parts that there are. */
@@ -166,13 +146,12 @@ static void put_run_tables(struct br_document *d, const struct br_split *s)
     for (size_t m = 0; m < s->norms; m++) {
         snprintf(title, sizeof title, "%s; %s, %s", describe(s, run), s->norm[m]->name,
                  s->norm[m]->unit);
-        br_put_table(d, "run", title, BR_FOR_PEOPLE, NULL, 0);
+        br_put_table(d, "run", title, BR_FOR_PEOPLE);
         for (size_t i = 0; i < s->shares + OTHERS; i++) {
-            struct br_row row = {.cells = 0};
             if (i < s->shares && s->share[i].none)
                 continue;
-            add_line(&row, s, m, i);
-            br_put_whole_row(d, &row);
+            br_put_row(d);
+            put_line(d, s, m, i);
         }
     }
 }
@@ -180,33 +159,29 @@ static void put_run_tables(struct br_document *d, const struct br_split *s)
 /* For programs: all lines of all runs. */
 static void put_parts(struct br_document *d, const struct br_split *split, size_t count)
 {
-    br_put_table(d, "parts", "Parts of the error", BR_FOR_PROGRAMS | BR_MAIN, NULL, 0);
+    br_put_table(d, "parts", "Parts of the error", BR_FOR_PROGRAMS | BR_MAIN);
     for (size_t r = 0; r < count; r++)
         for (size_t m = 0; m < split[r].norms; m++)
             for (size_t i = 0; i < split[r].shares + OTHERS; i++) {
-                struct br_row row = {.cells = 0};
-                add_run(&row, &split[r], r);
-                add_line(&row, &split[r], m, i);
-                br_put_whole_row(d, &row);
+                put_run(d, &split[r], r);
+                put_line(d, &split[r], m, i);
             }
 }
 
 static void put_runs(struct br_document *d, const struct br_split *split, size_t count)
 {
-    br_put_table(d, "runs", "Runs", BR_FOR_PROGRAMS, NULL, 0);
+    br_put_table(d, "runs", "Runs", BR_FOR_PROGRAMS);
     for (size_t r = 0; r < count; r++) {
         const struct br_split *s = &split[r];
-        struct br_row row = {.cells = 0};
-        add_run(&row, s, r);
-        br_row_hide(&row, "axial_tip", "m", br_number(s->tip[BR_AXIAL]));
-        br_row_hide(&row, "bending_tip", "m", br_number(s->tip[BR_BENDING]));
-        br_row_hide(&row, "solution_axial_tip", "m", br_number(s->solution_tip[BR_AXIAL]));
-        br_row_hide(&row, "solution_bending_tip", "m", br_number(s->solution_tip[BR_BENDING]));
-        br_row_hide(&row, "predicted_round_off", NULL, br_number(s->predicted_round_off));
-        br_row_hide(&row, "unstable", NULL, br_truth(s->unstable));
-        br_row_hide(&row, "reference", NULL, br_text(s->judge->name));
-        br_row_hide(&row, "refined", NULL, br_text(s->refined.name));
-        br_put_whole_row(d, &row);
+        put_run(d, s, r);
+        br_hide(d, "axial_tip", "m", br_number(s->tip[BR_AXIAL]));
+        br_hide(d, "bending_tip", "m", br_number(s->tip[BR_BENDING]));
+        br_hide(d, "solution_axial_tip", "m", br_number(s->solution_tip[BR_AXIAL]));
+        br_hide(d, "solution_bending_tip", "m", br_number(s->solution_tip[BR_BENDING]));
+        br_hide(d, "predicted_round_off", NULL, br_number(s->predicted_round_off));
+        br_hide(d, "unstable", NULL, br_truth(s->unstable));
+        br_hide(d, "reference", NULL, br_text(s->judge->name));
+        br_hide(d, "refined", NULL, br_text(s->refined.name));
     }
 }
 
@@ -253,7 +228,7 @@ void br_report_split(const struct br_split *split, size_t count,
     snprintf(name, sizeof name, "%.500s-split", scene->name);
     snprintf(caption, sizeof caption, "Where the error comes from: %.400s", scene->title);
     br_document_begin(d, name, "beamrate trade --split", 1, caption);
-    br_put_hidden_fact(d, "scene.name", br_text(scene->name));
+    br_hide_fact(d, br_text(scene->name), NULL, "scene.name");
     for (size_t r = 0; r < count; r++)
         answer_run(d, &split[r]);
     for (size_t r = 0; r < count; r++) {

@@ -1,24 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "tables/report_study.h"
-
 #include <math.h>
-#include <stdarg.h>
 #include <string.h>
 
+#include "study/fit/report.h"
 #include "study/scene/method_fields.h"
-#include "tables/report_method.h"
-
-enum { TEXT = 1200 };
-
-/* Appends to a text of TEXT bytes. */
-__attribute__((format(printf, 2, 3))) static void append(char *text, const char *format, ...)
-{
-    const size_t used = strlen(text);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text + used, TEXT - used, format, arguments);
-    va_end(arguments);
-}
+#include "tables/report_parts.h"
 
 /* A scene of one field has the total alone. */
 static bool is_shown(const struct br_report *r, enum br_part part)
@@ -43,23 +29,20 @@ static double relative_of(const struct br_study *s, const struct br_cell *c, enu
 
 /* ---- the answer ---- */
 
-/* Appends "1.99 [1.94, 2.04]", or why there is none. */
-static void append_order(char *text, const struct br_estimate *order, bool fitted)
+/* Says "1.99 [1.94, 2.04]", or why there is none. */
+static void say_order(struct br_document *d, const struct br_estimate *order, bool fitted)
 {
     char buffer[64];
     const char *value = br_order_text(order, buffer, sizeof buffer);
     if (!fitted)
-        append(text, "no error is seen");
-    else if (br_order_determined(order))
-        append(text, "%s", value);
+        br_put_more(d, "no error is seen");
     else
-        append(text, "not determined (%s)", value);
+        br_put_more(d, br_order_determined(order) ? "%s" : "not determined (%s)", value);
 }
 
 static void answer_orders(struct br_document *d, const struct br_report *r)
 {
     const struct br_joint_fit *fit = &r->fits[BR_PART_TOTAL].joint;
-    char text[TEXT] = "";
     if (!fit->converged) {
         br_put_answer(d, "No joint fit: %zu usable cells tell no order.", fit->points);
     } else if (!br_joint_describes(fit)) {
@@ -68,12 +51,12 @@ static void answer_orders(struct br_document *d, const struct br_report *r)
                       "no orders are claimed.",
                       100 * fit->misfit, fit->points);
     } else {
-        append(text, "Order in h: ");
-        append_order(text, &fit->p, fit->kind != BR_JOINT_TIME);
-        append(text, ", in k: ");
-        append_order(text, &fit->q, fit->kind != BR_JOINT_SPACE);
-        br_put_answer(d, "%s; 95 %% intervals, misfit %.2g %% in %zu cells.", text,
-                      100 * fit->misfit, fit->points);
+        br_put_answer(d, "Order in h: ");
+        say_order(d, &fit->p, fit->kind != BR_JOINT_TIME);
+        br_put_more(d, ", in k: ");
+        say_order(d, &fit->q, fit->kind != BR_JOINT_SPACE);
+        br_put_more(d, "; 95 %% intervals, misfit %.2g %% in %zu cells.", 100 * fit->misfit,
+                    fit->points);
     }
     br_put_answer(d, "Theory: %s", r->study->norm->theory);
 }
@@ -82,20 +65,19 @@ static void answer_error(struct br_document *d, const struct br_study *s)
 {
     const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
     const double error = c->error[BR_PART_TOTAL], relative = relative_of(s, c, BR_PART_TOTAL);
-    char text[TEXT] = "";
-    append(text, "%s of the finest cell (n = %zu, k = %g s): ",
-           s->judge == &br_judge_none ? "Difference" : "Error", c->at.n, step_of(s, c));
+    br_put_answer(d, "%s of the finest cell (n = %zu, k = %g s): ",
+                  s->judge == &br_judge_none ? "Difference" : "Error", c->at.n, step_of(s, c));
     if (isfinite(error))
-        append(text, "%.3e %s", error, s->norm->unit);
+        br_put_more(d, "%.3e %s", error, s->norm->unit);
     else
-        append(text, "none, the march failed");
+        br_put_more(d, "none, the march failed");
     if (isfinite(relative))
-        append(text, ", relative %.2e", relative);
-    br_put_answer(d, "%s.", text);
+        br_put_more(d, ", relative %.2e", relative);
+    br_put_more(d, ".");
 }
 
-/* Appends how well a reference is known. own: its own error; NaN: not known. */
-static void append_own_error(char *text, const struct br_study *s, double own)
+/* Says how well a reference is known. own: its own error; NaN: not known. */
+static void say_own_error(struct br_document *d, const struct br_study *s, double own)
 {
     const double floor = s->judged_by.round_off * s->reference_scale;
     const double told =
@@ -103,16 +85,16 @@ static void append_own_error(char *text, const struct br_study *s, double own)
     if (s->judge == &br_judge_none)
         return;
     if (!isfinite(own))
-        append(text, "Its own error is not known: the joint fit does not describe the errors");
+        br_put_more(d, "Its own error is not known: the joint fit does not describe the errors");
     else if (s->auditor)
-        append(text, "Its own error is about %.1e, measured against the %s solution", own,
-               s->auditor->name);
+        br_put_more(d, "Its own error is about %.1e, measured against the %s solution", own,
+                    s->auditor->name);
     else
-        append(text, "Its own error is about %.1e, by %s", own,
-               isfinite(told) ? "its own estimate" : "the joint fit");
+        br_put_more(d, "Its own error is about %.1e, by %s", own,
+                    isfinite(told) ? "its own estimate" : "the joint fit");
     if (floor > 0)
-        append(text, "; its round-off is about %.0e", floor);
-    append(text, ". ");
+        br_put_more(d, "; its round-off is about %.0e", floor);
+    br_put_more(d, ". ");
 }
 
 static size_t count_flag(const struct br_study *s, enum br_flag flag)
@@ -123,8 +105,8 @@ static size_t count_flag(const struct br_study *s, enum br_flag flag)
     return count;
 }
 
-/* Appends how many cells are left out of fits, and why. */
-static void append_flags(char *text, const struct br_study *s)
+/* Says how many cells are left out of fits, and why. */
+static void say_flags(struct br_document *d, const struct br_study *s)
 {
     static const struct {
         enum br_flag flag;
@@ -138,18 +120,18 @@ static void append_flags(char *text, const struct br_study *s)
     };
     const size_t cells = s->n_count * s->k_count, good = count_flag(s, BR_FLAG_NONE);
     if (good == cells) {
-        append(text, "All %zu cells count.", cells);
+        br_put_more(d, "All %zu cells count.", cells);
         return;
     }
-    append(text, "%zu of %zu cells are left out of fits:", cells - good, cells);
+    br_put_more(d, "%zu of %zu cells are left out of fits:", cells - good, cells);
     const char *separator = " ";
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         const size_t count = count_flag(s, rows[i].flag);
         if (count)
-            append(text, "%s%zu %s", separator, count, rows[i].why);
+            br_put_more(d, "%s%zu %s", separator, count, rows[i].why);
         separator = count ? "; " : separator;
     }
-    append(text, ".");
+    br_put_more(d, ".");
 }
 
 static void answer_unstable(struct br_document *d, const struct br_study *s)
@@ -238,14 +220,12 @@ static void answer_tips(struct br_document *d, const struct br_report *r)
 static void put_answers(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = br_report_fitted(r);
-    char text[TEXT] = "";
     answer_orders(d, r);
     answer_error(d, s);
-    append(text, "Judged by: %s. ",
-           s->judge == &br_judge_none ? "the next finer cell" : s->judge->name);
-    append_own_error(text, s, r->fits[BR_PART_TOTAL].reference_error);
-    append_flags(text, s);
-    br_put_answer(d, "%s", text);
+    br_put_answer(d, "Judged by: %s. ",
+                  s->judge == &br_judge_none ? "the next finer cell" : s->judge->name);
+    say_own_error(d, s, r->fits[BR_PART_TOTAL].reference_error);
+    say_flags(d, s);
     answer_unstable(d, s);
     if (r->exact)
         answer_unstable(d, r->study);
@@ -265,36 +245,28 @@ struct grid {
     unsigned flags;
 };
 
-static void begin_grid(struct br_document *d, const struct grid *g, const char *title)
-{
-    const struct br_study *s = g->study;
-    char key[32], heading[32];
-    br_put_table(d, g->key, title, BR_FOR_PEOPLE | g->flags, &(struct br_column){.key = "n"}, 1);
-    for (size_t j = 0; j < s->k_count; j++) {
-        snprintf(key, sizeof key, "steps%zu", s->steps[j]);
-        snprintf(heading, sizeof heading, "k = %g", br_time_step(s->scene, s->steps[j]));
-        br_put_column(d, &(struct br_column){key, heading, .format = g->format});
-    }
-    if (g->fits)
-        br_put_column(d, &(struct br_column){.key = "slope", .heading = "slope in k [95 %]"});
-}
-
 static void put_grid_row(struct br_document *d, const struct br_report *r, const struct grid *g,
                          size_t i)
 {
     static const char *const marks[] = {"", "R", "F", "X", "U"};
+    const struct br_study *s = g->study;
     char buffer[64];
     br_put_row(d);
-    br_put(d, "n", br_count(g->study->n[i]));
-    for (size_t j = 0; j < g->study->k_count; j++) {
-        const struct br_cell *c = br_study_cell(g->study, i, j);
-        const size_t cell = i * g->study->k_count + j;
-        br_put(d, NULL, br_number(g->value ? g->value(r, cell) : c->error[g->part]));
-        if (!g->value)
-            br_put_mark(d, marks[c->flag[g->part]]);
+    BR_PUT(d, br_count(s->n[i]), .key = "n");
+    for (size_t j = 0; j < s->k_count; j++) {
+        const struct br_cell *c = br_study_cell(s, i, j);
+        const double value = g->value ? g->value(r, i * s->k_count + j) : c->error[g->part];
+        char key[32];
+        snprintf(key, sizeof key, "steps%zu", s->steps[j]);
+        snprintf(buffer, sizeof buffer, "k = %g", br_time_step(s->scene, s->steps[j]));
+        BR_PUT(d, br_number(value), .key = key, .heading = buffer, .format = g->format);
+        br_put_mark(d, g->value ? NULL : marks[c->flag[g->part]]);
     }
-    if (g->fits)
-        br_put(d, "slope", br_text(br_order_text(&g->fits->by_n[i].order, buffer, sizeof buffer)));
+    if (!g->fits)
+        return;
+    const char *slope = br_order_text(&g->fits->by_n[i].order, buffer, sizeof buffer);
+    BR_PUT(d, br_text(slope), .key = "slope", .heading = "slope in k [95 %]");
+    br_put_shown(d, "%s", slope);
 }
 
 static void put_slopes_in_h(struct br_document *d, const struct grid *g)
@@ -314,7 +286,7 @@ static void put_slopes_in_h(struct br_document *d, const struct grid *g)
 static void put_grid(struct br_document *d, const struct br_report *r, const struct grid *g,
                      const char *title)
 {
-    begin_grid(d, g, title);
+    br_put_table(d, g->key, title, BR_FOR_PEOPLE | g->flags);
     for (size_t i = 0; i < g->study->n_count; i++)
         put_grid_row(d, r, g, i);
     if (g->fits)
@@ -329,9 +301,9 @@ static double printed_of(const struct br_report *r, size_t cell)
 static void put_error_grid(struct br_document *d, const struct br_report *r,
                            const struct br_study *s, enum br_part part)
 {
-    const bool fitted = s == br_report_fitted(r), none = s->judge == &br_judge_none;
     static const char *const names[] = {"Total", "Axial", "Bending"};
-    char title[TEXT];
+    const bool fitted = s == br_report_fitted(r), none = s->judge == &br_judge_none;
+    char title[200];
     const struct grid g = {
         .key = fitted ? br_part_names[part] : s->judge->name,
         .study = s,
@@ -347,6 +319,10 @@ static void put_error_grid(struct br_document *d, const struct br_report *r,
 
 static void put_grids(struct br_document *d, const struct br_report *r)
 {
+    const struct grid printed = {"printed", r->study, .value = printed_of, .format = "%.3e",
+                                 .flags = BR_FILES_ONLY};
+    const struct grid ratio = {"ratio", r->study, .value = br_report_ratio, .format = "%.3f"};
+    char title[64];
     for (enum br_part part = 0; part < BR_PARTS; part++)
         if (is_shown(r, part))
             put_error_grid(d, r, br_report_fitted(r), part);
@@ -354,17 +330,9 @@ static void put_grids(struct br_document *d, const struct br_report *r)
         put_error_grid(d, r, r->study, BR_PART_TOTAL);
     if (!r->printed)
         return;
-    char title[64];
-    struct grid g = {.key = "printed",
-                     .study = r->study,
-                     .value = printed_of,
-                     .format = "%.3e",
-                     .flags = BR_FILES_ONLY};
-    put_grid(d, r, &g, "Printed error, m^(3/2)");
-    g = (struct grid){
-        .key = "ratio", .study = r->study, .value = br_report_ratio, .format = "%.3f"};
+    put_grid(d, r, &printed, "Printed error, m^(3/2)");
     snprintf(title, sizeof title, "Ours (against %s) over printed", r->study->judge->name);
-    put_grid(d, r, &g, title);
+    put_grid(d, r, &ratio, title);
 }
 
 /* ---- lists ---- */
@@ -375,19 +343,17 @@ static double rate_of(double coarse, double fine, size_t from, size_t to)
     return log(coarse / fine) / log((double)to / (double)from);
 }
 
-static void put_rates(struct br_document *d, const struct br_study *s, size_t cell,
-                      enum br_part part)
+/* To the coarser mesh, or the longer step, before this one. */
+static struct br_value rate_to(const struct br_study *s, size_t cell, enum br_part part,
+                               bool over_h)
 {
     const size_t i = cell / s->k_count, j = cell % s->k_count;
+    if (over_h ? i == 0 : j == 0)
+        return br_nothing();
     const double error = s->cell[cell].error[part];
-    if (i > 0)
-        br_put(d, "rate_h",
-               br_number(
-                   rate_of(br_study_cell(s, i - 1, j)->error[part], error, s->n[i - 1], s->n[i])));
-    if (j > 0)
-        br_put(d, "rate_k",
-               br_number(rate_of(br_study_cell(s, i, j - 1)->error[part], error, s->steps[j - 1],
-                                 s->steps[j])));
+    const double coarse = br_study_cell(s, i - over_h, j - !over_h)->error[part];
+    return br_number(over_h ? rate_of(coarse, error, s->n[i - 1], s->n[i])
+                            : rate_of(coarse, error, s->steps[j - 1], s->steps[j]));
 }
 
 static void put_cell(struct br_document *d, const struct br_report *r, const struct br_study *s,
@@ -395,55 +361,36 @@ static void put_cell(struct br_document *d, const struct br_report *r, const str
 {
     const struct br_cell *c = &s->cell[cell];
     const bool printed = s == r->study && part == BR_PART_TOTAL && r->printed;
-    const bool failed = c->failure.status != BR_OK;
+    const bool marched = c->failure.status == BR_OK;
     const struct br_scene *scene = s->scene;
+    const char *unit = s->norm->unit;
     br_put_row(d);
-    br_put(d, "reference", br_text(s->judge->name));
-    br_put(d, "part", br_text(br_part_names[part]));
-    br_put(d, "n", br_count(c->at.n));
-    br_put(d, "h", br_number(br_mesh_size(scene, c->at.n)));
-    br_put(d, "steps", br_count(c->at.steps));
-    br_put(d, "k", br_number(step_of(s, c)));
-    br_put(d, "error", br_number(c->error[part]));
-    br_put(d, "relative", br_number(relative_of(s, c, part)));
-    br_put(d, "flag", br_text(c->flag[part] ? br_flag_name(c->flag[part]) : NULL));
-    put_rates(d, s, cell, part);
-    br_put(d, "printed", br_number(printed ? r->printed[cell] : NAN));
-    br_put(d, "ratio", br_number(printed ? br_report_ratio(r, cell) : NAN));
-    br_put(d, "worst_time", br_number(c->worst_time[part]));
-    br_put(d, "tip_axial", br_number(scene->axial.modelled && !failed ? c->tip[BR_AXIAL] : NAN));
-    br_put(d, "tip_bending",
-           br_number(scene->bending.modelled && !failed ? c->tip[BR_BENDING] : NAN));
-    br_put(d, "seconds", br_number(c->seconds));
-    br_put(d, "failure", br_text(failed ? c->failure.message : NULL));
+    BR_PUT(d, br_text(s->judge->name), .key = "reference");
+    BR_PUT(d, br_text(br_part_names[part]), .key = "part");
+    BR_PUT(d, br_count(c->at.n), .key = "n");
+    BR_PUT(d, br_number(br_mesh_size(scene, c->at.n)), .key = "h", .unit = "m");
+    BR_PUT(d, br_count(c->at.steps), .key = "steps");
+    BR_PUT(d, br_number(step_of(s, c)), .key = "k", .unit = "s");
+    BR_PUT(d, br_number(c->error[part]), .key = "error", .unit = unit);
+    BR_PUT(d, br_number(relative_of(s, c, part)), .key = "relative");
+    BR_PUT(d, br_text(c->flag[part] ? br_flag_name(c->flag[part]) : NULL), .key = "flag");
+    BR_PUT(d, rate_to(s, cell, part, true), .key = "rate_h");
+    BR_PUT(d, rate_to(s, cell, part, false), .key = "rate_k");
+    BR_PUT(d, br_number(printed ? r->printed[cell] : NAN), .key = "printed", .unit = unit);
+    BR_PUT(d, br_number(printed ? br_report_ratio(r, cell) : NAN), .key = "ratio");
+    BR_PUT(d, br_number(c->worst_time[part]), .key = "worst_time", .unit = "s");
+    BR_PUT(d, br_if(marched && scene->axial.modelled, br_number(c->tip[BR_AXIAL])),
+           .key = "tip_axial", .unit = "m");
+    BR_PUT(d, br_if(marched && scene->bending.modelled, br_number(c->tip[BR_BENDING])),
+           .key = "tip_bending", .unit = "m");
+    BR_PUT(d, br_number(c->seconds), .key = "seconds", .unit = "s");
+    BR_PUT(d, br_failure_text(&c->failure), .key = "failure");
 }
 
 static void put_cells(struct br_document *d, const struct br_report *r)
 {
-    const char *unit = r->study->norm->unit;
-    const struct br_column columns[] = {
-        {.key = "reference"},
-        {.key = "part"},
-        {.key = "n"},
-        {.key = "h", .unit = "m"},
-        {.key = "steps"},
-        {.key = "k", .unit = "s"},
-        {.key = "error", .unit = unit},
-        {.key = "relative"},
-        {.key = "flag"},
-        {.key = "rate_h"},
-        {.key = "rate_k"},
-        {.key = "printed", .unit = unit},
-        {.key = "ratio"},
-        {.key = "worst_time", .unit = "s"},
-        {.key = "tip_axial", .unit = "m"},
-        {.key = "tip_bending", .unit = "m"},
-        {.key = "seconds", .unit = "s"},
-        {.key = "failure"},
-    };
-    br_put_table(d, "cells", "Every cell, part and reference", BR_FOR_PROGRAMS | BR_MAIN,
-                 BR_COLUMNS(columns));
     const struct br_study *const studies[] = {r->study, r->exact};
+    br_put_table(d, "cells", "Every cell, part and reference", BR_FOR_PROGRAMS | BR_MAIN);
     for (size_t i = 0; i < 2 && studies[i]; i++)
         for (enum br_part part = 0; part < BR_PARTS; part++)
             for (size_t c = 0; is_shown(r, part) && c < r->study->n_count * r->study->k_count; c++)
@@ -452,147 +399,119 @@ static void put_cells(struct br_document *d, const struct br_report *r)
 
 /* ---- slopes, fits and tips ---- */
 
-/* A number, and its interval in columns of their own. */
-#define ESTIMATE(name, head)                              \
-    {.key = (name), .heading = (head), .format = "%.3g"}, \
-        {.key = name "_low", .flags = BR_FOR_PROGRAMS},   \
-    {                                                     \
-        .key = name "_high", .flags = BR_FOR_PROGRAMS     \
-    }
-
-/* shown: to people; NULL: the number. */
-static void put_estimate(struct br_document *d, const char *key, const struct br_estimate *e,
-                         const char *shown)
+/* A number, and its interval in columns of their own. shown: to people; NULL: the number. */
+static void put_estimate(struct br_document *d, const struct br_column *column,
+                         const struct br_estimate *e, const char *shown)
 {
-    br_put(d, key, br_number(e->value));
+    char low[32], high[32];
+    snprintf(low, sizeof low, "%s_low", column->key);
+    snprintf(high, sizeof high, "%s_high", column->key);
+    br_put_cell(d, column, br_number(e->value));
     if (shown && isfinite(e->value))
         br_put_shown(d, "%s", shown);
-    br_put(d, NULL, br_number(e->low));
-    br_put(d, NULL, br_number(e->high));
+    br_hide(d, low, column->unit, br_number(e->low));
+    br_hide(d, high, column->unit, br_number(e->high));
 }
 
 /* claimed: whether people may see it. */
-static void put_order(struct br_document *d, const char *key, const struct br_estimate *e,
-                      bool claimed)
+static void put_order(struct br_document *d, const char *key, const char *heading,
+                      const struct br_estimate *e, bool claimed)
 {
     char buffer[64];
-    put_estimate(d, key, e, claimed ? br_order_text(e, buffer, sizeof buffer) : "not claimed");
+    put_estimate(d, &(struct br_column){.key = key, .heading = heading}, e,
+                 claimed ? br_order_text(e, buffer, sizeof buffer) : "not claimed");
 }
 
-static void put_slope(struct br_document *d, enum br_part part, const char *over,
-                      const struct br_slope *slope)
+/* n, or k; over: what the slope is over. */
+static void put_slope(struct br_document *d, enum br_part part, const char *over, struct br_value n,
+                      struct br_value k, const struct br_slope *slope)
 {
     br_put_row(d);
-    br_put(d, "part", br_text(br_part_names[part]));
-    br_put(d, "over", br_text(over));
-    put_order(d, "order", &slope->order, true);
-    br_put(d, "points", br_count(slope->points));
+    BR_PUT(d, br_text(br_part_names[part]), .key = "part");
+    BR_PUT(d, br_text(over), .key = "over");
+    BR_PUT(d, n, .key = "n");
+    BR_PUT(d, k, .key = "k", .unit = "s");
+    put_order(d, "order", "slope [95 %]", &slope->order, true);
+    BR_PUT(d, br_count(slope->points), .key = "points", .heading = "cells");
 }
 
 static void put_slopes(struct br_document *d, const struct br_report *r)
 {
-    static const struct br_column columns[] = {
-        {.key = "part"},
-        {.key = "over"},
-        {.key = "n"},
-        {.key = "k", .unit = "s"},
-        ESTIMATE("order", "slope [95 %]"),
-        {.key = "points", .heading = "cells"},
-    };
     const struct br_study *s = r->study;
     br_put_table(d, "slopes", "Slopes of the grids' rows (over k) and columns (over h)",
-                 BR_FILES_ONLY, BR_COLUMNS(columns));
+                 BR_FILES_ONLY);
     for (enum br_part part = 0; part < BR_PARTS; part++) {
-        for (size_t i = 0; is_shown(r, part) && i < s->n_count; i++) {
-            put_slope(d, part, "k", &r->fits[part].by_n[i]);
-            br_put(d, "n", br_count(s->n[i]));
-        }
-        for (size_t j = 0; is_shown(r, part) && j < s->k_count; j++) {
-            put_slope(d, part, "h", &r->fits[part].by_k[j]);
-            br_put(d, "k", br_number(br_time_step(s->scene, s->steps[j])));
-        }
+        for (size_t i = 0; is_shown(r, part) && i < s->n_count; i++)
+            put_slope(d, part, "k", br_count(s->n[i]), br_nothing(), &r->fits[part].by_n[i]);
+        for (size_t j = 0; is_shown(r, part) && j < s->k_count; j++)
+            put_slope(d, part, "h", br_nothing(), br_number(br_time_step(s->scene, s->steps[j])),
+                      &r->fits[part].by_k[j]);
     }
 }
 
-static void put_fit(struct br_document *d, const struct br_fits *f, enum br_part part)
+static void put_fit(struct br_document *d, const struct br_report *r, enum br_part part)
 {
     static const char *const kinds[] = {"space and time", "time", "space"};
-    const struct br_joint_fit *j = &f->joint;
+    static const struct br_column c_h = {.key = "C_h", .format = "%.3g"},
+                                  c_k = {.key = "C_k", .format = "%.3g"},
+                                  both = {.key = "r", .heading = "r [95 %]"};
+    const struct br_joint_fit *j = &r->fits[part].joint;
     const bool claims = br_joint_describes(j);
-    char r[64];
-    snprintf(r, sizeof r, "%.3f [%.3f, %.3f]", j->r.value, j->r.low, j->r.high);
+    char text[64];
+    snprintf(text, sizeof text, "%.3f [%.3f, %.3f]", j->r.value, j->r.low, j->r.high);
     br_put_row(d);
-    br_put(d, "part", br_text(br_part_names[part]));
-    br_put(d, "model", br_text(kinds[j->kind]));
+    BR_PUT(d, br_text(br_part_names[part]), .key = "part");
+    BR_PUT(d, br_text(kinds[j->kind]), .key = "model", .heading = "error in",
+           .flags = BR_FILES_ONLY);
     if (!j->converged)
         br_put_shown(d, "none");
-    put_order(d, "p", &j->p, claims);
-    put_estimate(d, "C_h", &j->c_h, claims ? NULL : "-");
-    put_order(d, "q", &j->q, claims);
-    put_estimate(d, "C_k", &j->c_k, claims ? NULL : "-");
-    put_estimate(d, "r", &j->r, claims ? r : "-");
-    br_put(d, "misfit", br_number(j->misfit));
-    br_put(d, "worst", br_number(j->worst));
-    br_put(d, "r_squared", br_number(j->r_squared));
-    br_put(d, "points", br_count(j->points));
-    br_put(d, "degrees_of_freedom", br_count(j->freedom));
-    br_put(d, "converged", br_truth(j->converged));
-    br_put(d, "describes_the_errors", br_truth(claims));
-    br_put(d, "reference_error", br_number(f->reference_error));
+    put_order(d, "p", "p [95 %]", &j->p, claims);
+    put_estimate(d, &c_h, &j->c_h, claims ? NULL : "-");
+    put_order(d, "q", "q [95 %]", &j->q, claims);
+    put_estimate(d, &c_k, &j->c_k, claims ? NULL : "-");
+    put_estimate(d, &both, &j->r, claims ? text : "-");
+    BR_PUT(d, br_number(j->misfit), .key = "misfit", .format = "%.2g");
+    BR_PUT(d, br_number(j->worst), .key = "worst", .format = "%.2g", .flags = BR_FILES_ONLY);
+    BR_PUT(d, br_number(j->r_squared), .key = "r_squared", .heading = "R^2", .format = "%.6f",
+           .flags = BR_FILES_ONLY);
+    BR_PUT(d, br_count(j->points), .key = "points", .heading = "cells");
+    br_hide(d, "degrees_of_freedom", NULL, br_count(j->freedom));
+    BR_PUT(d, br_truth(j->converged), .key = "converged", .flags = BR_FILES_ONLY);
+    BR_PUT(d, br_truth(claims), .key = "describes_the_errors", .heading = "describes them",
+           .flags = BR_FILES_ONLY);
+    br_hide(d, "reference_error", r->study->norm->unit, br_number(r->fits[part].reference_error));
 }
 
 static void put_fits(struct br_document *d, const struct br_report *r)
 {
-    const struct br_column columns[] = {
-        {.key = "part"},
-        {.key = "model", .heading = "error in", .flags = BR_FILES_ONLY},
-        ESTIMATE("p", "p [95 %]"),
-        ESTIMATE("C_h", "C_h"),
-        ESTIMATE("q", "q [95 %]"),
-        ESTIMATE("C_k", "C_k"),
-        ESTIMATE("r", "r [95 %]"),
-        {.key = "misfit", .format = "%.2g"},
-        {.key = "worst", .format = "%.2g", .flags = BR_FILES_ONLY},
-        {.key = "r_squared", .heading = "R^2", .format = "%.6f", .flags = BR_FILES_ONLY},
-        {.key = "points", .heading = "cells"},
-        {.key = "degrees_of_freedom", .flags = BR_FOR_PROGRAMS},
-        {.key = "converged", .flags = BR_FILES_ONLY},
-        {.key = "describes_the_errors", .heading = "describes them", .flags = BR_FILES_ONLY},
-        {.key = "reference_error", .unit = r->study->norm->unit, .flags = BR_FOR_PROGRAMS},
-    };
     br_put_table(d, "fits", "Joint fit of the signed errors C_h h^p and C_k k^q",
-                 r->printed ? BR_FILES_ONLY : 0, BR_COLUMNS(columns));
+                 r->printed ? BR_FILES_ONLY : 0);
     for (enum br_part part = 0; part < BR_PARTS; part++)
         if (is_shown(r, part))
-            put_fit(d, &r->fits[part], part);
+            put_fit(d, r, part);
 }
 
 static void put_tips(struct br_document *d, const struct br_report *r)
 {
-    const struct br_column columns[] = {
-        {.key = "field"},
-        {.key = "extrapolated", .unit = "m"},
-        {.key = "extrapolated_low", .unit = "m", .flags = BR_FOR_PROGRAMS},
-        {.key = "extrapolated_high", .unit = "m", .flags = BR_FOR_PROGRAMS},
-        {.key = "reference", .unit = "m", .format = "%.10g"},
-        {.key = "reference_is", .heading = "it is"},
-    };
+    static const struct br_column extrapolated = {.key = "extrapolated", .unit = "m"};
     const struct br_study *s = br_report_fitted(r);
+    const bool judged = s->judge != &br_judge_none;
     br_put_table(d, "tips", "Tip at t = T from the cells alone (Richardson, h and k to 0)",
-                 r->printed ? BR_FILES_ONLY : 0, BR_COLUMNS(columns));
+                 r->printed ? BR_FILES_ONLY : 0);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const struct br_estimate *e = &r->tip[kind];
-        const bool judged = s->judge != &br_judge_none;
+        const bool compared = judged && isfinite(e->high - e->low);
         char shown[64];
         snprintf(shown, sizeof shown, "%.10g +- %.1e", e->value, (e->high - e->low) / 2);
         if (!is_modelled(r, kind))
             continue;
         br_put_row(d);
-        br_put(d, "field", br_text(kind == BR_AXIAL ? "axial" : "bending"));
-        put_estimate(d, "extrapolated", e, shown);
-        br_put(d, "reference", br_number(judged ? s->reference_tip[kind] : NAN));
-        if (judged && isfinite(e->high - e->low))
-            br_put(d, "reference_is", br_text(is_outside(r, kind) ? "OUTSIDE" : "within"));
+        BR_PUT(d, br_text(kind == BR_AXIAL ? "axial" : "bending"), .key = "field");
+        put_estimate(d, &extrapolated, e, shown);
+        BR_PUT(d, br_number(judged ? s->reference_tip[kind] : NAN), .key = "reference", .unit = "m",
+               .format = "%.10g");
+        BR_PUT(d, br_if(compared, br_text(is_outside(r, kind) ? "OUTSIDE" : "within")),
+               .key = "reference_is", .heading = "it is");
     }
 }
 
@@ -614,8 +533,8 @@ static void put_triangles(struct br_document *d, const struct br_report *r)
     };
     if (!r->printed)
         return;
-    br_put_table(d, "triangles", "Pairs of printed cells (triangle inequality), m^(3/2)",
-                 BR_FILES_ONLY, BR_COLUMNS(columns));
+    BR_TABLE(d, "triangles", "Pairs of printed cells (triangle inequality), m^(3/2)", BR_FILES_ONLY,
+             columns);
     for (size_t i = 0; i < r->triangles; i++) {
         const struct br_triangle *t = &r->triangle[i];
         br_put_row(d);
@@ -666,11 +585,10 @@ static void put_judge(struct br_document *d, const char *label, const struct br_
 /* The study that is not fitted. */
 static void put_beside(struct br_document *d, const struct br_study *s)
 {
-    char text[TEXT] = "";
     put_judge(d, "Beside it,", s);
-    append_own_error(text, s, s->reference_error[BR_PART_TOTAL]);
-    append_flags(text, s);
-    br_put_note(d, "%s", text);
+    br_put_note(d, "%s", "");
+    say_own_error(d, s, s->reference_error[BR_PART_TOTAL]);
+    say_flags(d, s);
 }
 
 static void put_notes(struct br_document *d, const struct br_report *r)
@@ -695,55 +613,48 @@ static void put_notes(struct br_document *d, const struct br_report *r)
                         step_of(s, &s->cell[i]), s->cell[i].failure.message);
 }
 
-/* A fact of an object, for programs. */
-static void put_fact(struct br_document *d, const char *object, const char *key, const char *unit,
-                     struct br_value value)
-{
-    char name[64];
-    snprintf(name, sizeof name, "%s.%s", object, key);
-    br_put_fact(d, &(struct br_column){.key = name, .unit = unit, .flags = BR_FOR_PROGRAMS}, value);
-}
-
+/* Facts for programs. */
 static void put_reference(struct br_document *d, const char *key, const struct br_study *s)
 {
     static const char *const own[] = {"own_error", "own_axial_error", "own_bending_error"};
     const char *unit = s->norm->unit;
-    char name[64];
-    put_fact(d, key, "kind", NULL, br_text(s->judge->name));
-    put_fact(d, key, "title", NULL, br_text(s->judge->title));
+    char method[64];
+    br_hide_fact(d, br_text(s->judge->name), NULL, "%s.kind", key);
+    br_hide_fact(d, br_text(s->judge->title), NULL, "%s.title", key);
     if (s->judge->nests) {
-        put_fact(d, key, "at.n", NULL, br_count(s->reference.n));
-        put_fact(d, key, "at.h", "m", br_number(br_reference_mesh(s)));
-        put_fact(d, key, "at.steps", NULL, br_count(s->reference.steps));
-        put_fact(d, key, "at.k", "s", br_number(br_reference_step(s)));
-        snprintf(name, sizeof name, "%s.method", key);
-        br_put_method(d, name, &s->reference_method);
+        br_hide_fact(d, br_count(s->reference.n), NULL, "%s.at.n", key);
+        br_hide_fact(d, br_number(br_reference_mesh(s)), "m", "%s.at.h", key);
+        br_hide_fact(d, br_count(s->reference.steps), NULL, "%s.at.steps", key);
+        br_hide_fact(d, br_number(br_reference_step(s)), "s", "%s.at.k", key);
+        snprintf(method, sizeof method, "%s.method", key);
+        br_put_method_facts(d, method, &s->reference_method);
     }
     for (enum br_part part = 0; part < BR_PARTS; part++)
-        put_fact(d, key, own[part], unit,
-                 br_number(br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, part)));
-    put_fact(d, key, "audited_error", unit, br_number(s->reference_error[BR_PART_TOTAL]));
-    put_fact(d, key, "scale", unit, br_number(s->reference_scale));
-    put_fact(d, key, "round_off", NULL, br_number(s->judged_by.round_off));
-    put_fact(d, key, "seconds", "s", br_number(s->judged_by.seconds));
+        br_hide_fact(
+            d, br_number(br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, part)),
+            unit, "%s.%s", key, own[part]);
+    br_hide_fact(d, br_number(s->reference_error[BR_PART_TOTAL]), unit, "%s.audited_error", key);
+    br_hide_fact(d, br_number(s->reference_scale), unit, "%s.scale", key);
+    br_hide_fact(d, br_number(s->judged_by.round_off), NULL, "%s.round_off", key);
+    br_hide_fact(d, br_number(s->judged_by.seconds), "s", "%s.seconds", key);
 }
 
 static void put_facts(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = r->study;
-    put_fact(d, "scene", "name", NULL, br_text(s->scene->name));
-    put_fact(d, "norm", "name", NULL, br_text(s->norm->name));
-    put_fact(d, "norm", "unit", NULL, br_text(s->norm->unit));
-    put_fact(d, "norm", "title", NULL, br_text(s->norm->title));
-    br_put_method(d, "method", &s->method);
+    const struct br_fact facts[] = {
+        {"scene.name", NULL, NULL, br_text(s->scene->name)},
+        {"norm.name", NULL, NULL, br_text(s->norm->name)},
+        {"norm.unit", NULL, NULL, br_text(s->norm->unit)},
+        {"norm.title", NULL, NULL, br_text(s->norm->title)},
+    };
+    BR_FACTS(d, facts);
+    br_put_method_facts(d, "method", &s->method);
     put_reference(d, "reference", s);
     if (r->exact)
         put_reference(d, "exact_reference", r->exact);
-    br_put_fact(d, &(struct br_column){.key = "fitted", .flags = BR_FOR_PROGRAMS},
-                br_text(br_report_fitted(r)->judge->name));
-    br_put_fact(d,
-                &(struct br_column){.key = "wall_seconds", .unit = "s", .flags = BR_FOR_PROGRAMS},
-                br_number(r->wall_seconds));
+    br_hide_fact(d, br_text(br_report_fitted(r)->judge->name), NULL, "fitted");
+    br_hide_fact(d, br_number(r->wall_seconds), "s", "wall_seconds");
 }
 
 void br_report_study(const struct br_report *r, struct br_document *d)

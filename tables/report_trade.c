@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "tables/report_trade.h"
-
 #include <math.h>
 #include <string.h>
 
-#include "tables/report_trial.h"
+#include "study/trade/trade.h"
+#include "tables/report_parts.h"
 
 /* ---- the answer ---- */
 
@@ -93,51 +92,51 @@ static void answer_paper(struct br_document *d, const struct br_trade *t)
 
 static void answer_ends(struct br_document *d, const struct br_trade *t)
 {
-    char text[256];
-    size_t used = 0;
+    const char *between = "";
+    br_put_answer(d, "Trials: ");
     for (int i = BR_TRIAL_DONE; i < BR_TRIAL_ENDS; i++) {
         const enum br_trial_end end = (enum br_trial_end)i;
-        if (br_trade_tally(t, end))
-            used += (size_t)snprintf(text + used, sizeof text - used, "%s%zu %s", used ? ", " : "",
-                                     br_trade_tally(t, end), br_trial_end_name(end));
+        if (!br_trade_tally(t, end))
+            continue;
+        br_put_more(d, "%s%zu %s", between, br_trade_tally(t, end), br_trial_end_name(end));
+        between = ", ";
     }
-    br_put_answer(d, "Trials: %s.", text);
+    br_put_more(d, ".");
 }
 
 /* ---- tables ---- */
 
 /* A trial and what came of it. */
-static void add_outcome(struct br_row *row, const struct br_trade *t, size_t i)
+static void put_outcome(struct br_document *d, const struct br_trade *t, size_t i)
 {
     const struct br_trial *trial = &t->trial[i];
     const struct br_counts *c = &trial->cost.counts;
+    const double *error = trial->error[0];
     const char *unit = t->norm[0]->unit;
-    br_row_add_trial(row, t->request.scene, trial);
-    BR_ADD(row, br_number(br_trial_relative(trial, 0, BR_PART_TOTAL)), .key = "relative_error",
+    br_put_trial(d, t->request.scene, trial);
+    BR_PUT(d, br_number(br_trial_relative(trial, 0, BR_PART_TOTAL)), .key = "relative_error",
            .heading = "relative error", .format = "%.2e");
-    BR_ADD(row, br_number(trial->error[0][BR_PART_TOTAL]), .key = "error", .unit = unit,
-           .format = "%.3e");
-    br_row_hide(row, "axial", unit, br_number(trial->error[0][BR_PART_AXIAL]));
-    br_row_hide(row, "bending", unit, br_number(trial->error[0][BR_PART_BENDING]));
-    br_row_hide(row, "own_error", unit, br_number(trial->own[0]));
-    br_row_hide(row, "scale", unit, br_number(trial->scale[0]));
-    BR_ADD(row, br_number(br_trial_seconds(trial)), .key = "seconds", .heading = "CPU", .unit = "s",
+    BR_PUT(d, br_number(error[BR_PART_TOTAL]), .key = "error", .unit = unit, .format = "%.3e");
+    br_hide(d, "axial", unit, br_number(error[BR_PART_AXIAL]));
+    br_hide(d, "bending", unit, br_number(error[BR_PART_BENDING]));
+    br_hide(d, "own_error", unit, br_number(trial->own[0]));
+    br_hide(d, "scale", unit, br_number(trial->scale[0]));
+    BR_PUT(d, br_number(br_trial_seconds(trial)), .key = "seconds", .heading = "CPU", .unit = "s",
            .format = "%.3g");
-    br_row_hide(row, "set_up", "s", br_number(trial->cost.set_up));
-    br_row_hide(row, "march", "s", br_number(trial->cost.march));
-    br_row_hide(row, "repeats", NULL, br_count(trial->cost.repeats));
-    br_row_hide(row, "steps", NULL, br_count(c->steps));
-    br_row_hide(row, "rejected", NULL, br_count(c->rejected));
-    BR_ADD(row, br_count(c->stages), .key = "solves");
-    BR_ADD(row, br_count(c->iterations), .key = "iterations");
-    br_row_hide(row, "set_ups", NULL, br_count(c->set_ups));
-    BR_ADD(row, br_number(br_trade_digits_per_second(trial)), .key = "digits_per_second",
+    br_hide(d, "set_up", "s", br_number(trial->cost.set_up));
+    br_hide(d, "march", "s", br_number(trial->cost.march));
+    br_hide(d, "repeats", NULL, br_count(trial->cost.repeats));
+    br_hide(d, "steps", NULL, br_count(c->steps));
+    br_hide(d, "rejected", NULL, br_count(c->rejected));
+    BR_PUT(d, br_count(c->stages), .key = "solves");
+    BR_PUT(d, br_count(c->iterations), .key = "iterations");
+    br_hide(d, "set_ups", NULL, br_count(c->set_ups));
+    BR_PUT(d, br_number(br_trade_digits_per_second(trial)), .key = "digits_per_second",
            .heading = "digits/s", .format = "%.3g", .flags = BR_FILES_ONLY);
-    br_row_hide(row, "end", NULL, br_text(br_trial_end_name(trial->end)));
-    br_row_hide(row, "front", NULL, br_truth(t->front[i]));
-    br_row_hide(row, "printed", NULL, br_truth(trial->printed));
-    br_row_hide(row, "failure", NULL,
-                br_text(trial->failure.status ? trial->failure.message : NULL));
+    br_hide(d, "end", NULL, br_text(br_trial_end_name(trial->end)));
+    br_hide(d, "front", NULL, br_truth(t->front[i]));
+    br_hide(d, "printed", NULL, br_truth(trial->printed));
+    br_hide(d, "failure", NULL, br_failure_text(&trial->failure));
 }
 
 /* A row for each target. Without a trial that is good enough only the target is there. scene: of
@@ -146,74 +145,62 @@ static void put_targets(struct br_document *d, const struct br_trade *t, const c
 {
     for (size_t digit = 0; digit < BR_TRADE_DIGITS; digit++) {
         const size_t best = t->best[digit];
-        struct br_row row = {.cells = 0};
+        br_put_row(d);
         if (scene)
-            BR_ADD(&row, br_text(scene), .key = "scene");
-        BR_ADD(&row, br_number(br_trade_target(digit)), .key = "target", .heading = "to error",
+            BR_PUT(d, br_text(scene), .key = "scene");
+        BR_PUT(d, br_number(br_trade_target(digit)), .key = "target", .heading = "to error",
                .format = "%.0e");
-        const size_t first = row.cells;
+        br_put_blank(d, best == t->count);
         /* its place in the list of all trials, which begins with 0 */
-        br_row_hide(&row, "trial", NULL, br_count(best));
-        add_outcome(&row, t, best < t->count ? best : 0);
-        if (best == t->count)
-            br_row_empty(&row, first);
-        br_put_whole_row(d, &row);
+        br_hide(d, "trial", NULL, br_count(best));
+        put_outcome(d, t, best < t->count ? best : 0);
     }
 }
 
-static void put_front(struct br_document *d, const struct br_trade *t)
+/* For people the Pareto front, for programs all trials. */
+static void put_trials(struct br_document *d, const struct br_trade *t, bool front)
 {
-    br_put_table(d, "front", "Pareto front: no trial is better in error and in seconds",
-                 BR_FOR_PEOPLE, NULL, 0);
-    for (size_t i = next_on_front(t, t->count); i < t->count; i = next_on_front(t, i)) {
-        struct br_row row = {.cells = 0};
-        add_outcome(&row, t, i);
-        br_put_whole_row(d, &row);
+    if (front)
+        br_put_table(d, "front", "Pareto front: no trial is better in error and in seconds",
+                     BR_FOR_PEOPLE);
+    else
+        br_put_table(d, "trials", "All trials", BR_FOR_PROGRAMS | BR_MAIN);
+    for (size_t i = front ? next_on_front(t, t->count) : 0; i < t->count;
+         i = front ? next_on_front(t, i) : i + 1) {
+        br_put_row(d);
+        put_outcome(d, t, i);
     }
 }
 
 static void put_methods(struct br_document *d, const struct br_trade *t)
 {
-    br_put_table(d, "methods", "CPU seconds to an error, by method", BR_FILES_ONLY, NULL, 0);
+    br_put_table(d, "methods", "CPU seconds to an error, by method", BR_FILES_ONLY);
     for (size_t c = 0; c < t->contenders.count; c++) {
-        char key[BR_TRADE_DIGITS][32];
-        struct br_row row = {.cells = 0};
-        BR_ADD(&row, br_text(t->contenders.list[c].name), .key = "method");
-        br_row_add_method(&row, &t->contenders.list[c].method);
+        br_put_row(d);
+        BR_PUT(d, br_text(t->contenders.list[c].name), .key = "method");
+        br_put_method_cells(d, &t->contenders.list[c].method);
         for (size_t i = 0; i < BR_TRADE_DIGITS; i++) {
             const size_t best = t->best_of[c][i];
-            const double seconds =
-                best < t->count ? br_trial_seconds(&t->trial[best]) : (double)NAN;
-            snprintf(key[i], sizeof *key, "seconds_to_%.0e", br_trade_target(i));
-            BR_ADD(&row, br_number(seconds), .key = key[i],
-                   .heading = key[i] + strlen("seconds_to_"), .unit = "s", .format = "%.2g");
+            const bool reached = best < t->count;
+            char key[32];
+            snprintf(key, sizeof key, "seconds_to_%.0e", br_trade_target(i));
+            BR_PUT(d, br_number(reached ? br_trial_seconds(&t->trial[best]) : NAN), .key = key,
+                   .heading = key + strlen("seconds_to_"), .unit = "s", .format = "%.2g");
         }
-        br_put_whole_row(d, &row);
     }
 }
 
 static void put_failures(struct br_document *d, const struct br_trade *t)
 {
-    br_put_table(d, "failures", "Trials that did not come to their end", BR_FOR_PEOPLE, NULL, 0);
+    br_put_table(d, "failures", "Trials that did not come to their end", BR_FOR_PEOPLE);
     for (size_t i = 0; i < t->count; i++) {
         const struct br_trial *trial = &t->trial[i];
-        struct br_row row = {.cells = 0};
         if (!trial->failure.status)
             continue;
-        br_row_add_trial(&row, t->request.scene, trial);
-        BR_ADD(&row, br_text(br_trial_end_name(trial->end)), .key = "end");
-        BR_ADD(&row, br_text(trial->failure.message), .key = "why", .flags = BR_WRAP);
-        br_put_whole_row(d, &row);
-    }
-}
-
-static void put_trials(struct br_document *d, const struct br_trade *t)
-{
-    br_put_table(d, "trials", "All trials", BR_FOR_PROGRAMS | BR_MAIN, NULL, 0);
-    for (size_t i = 0; i < t->count; i++) {
-        struct br_row row = {.cells = 0};
-        add_outcome(&row, t, i);
-        br_put_whole_row(d, &row);
+        br_put_row(d);
+        br_put_trial(d, t->request.scene, trial);
+        BR_PUT(d, br_text(br_trial_end_name(trial->end)), .key = "end");
+        BR_PUT(d, br_text(trial->failure.message), .key = "why", .flags = BR_WRAP);
     }
 }
 
@@ -265,14 +252,17 @@ static void put_notes(struct br_document *d, const struct br_trade *t, const cha
 
 static void put_facts(struct br_document *d, const struct br_trade *t)
 {
-    br_put_hidden_fact(d, "scene.name", br_text(t->request.scene->name));
-    br_put_hidden_fact(d, "norm", br_text(t->norm[0]->name));
-    br_put_hidden_fact(d, "unit", br_text(t->norm[0]->unit));
-    br_put_hidden_fact(d, "judge", br_text(judge_of(t)->name));
-    br_put_hidden_fact(d, "repeats", br_count(t->request.repeats));
-    br_put_hidden_fact(d, "repeat_seconds", br_number(t->request.repeat_seconds));
-    br_put_hidden_fact(d, "time_limit", br_number(t->request.time_limit));
-    br_put_hidden_fact(d, "wall_seconds", br_number(t->wall_seconds));
+    const struct br_fact facts[] = {
+        {"scene.name", NULL, NULL, br_text(t->request.scene->name)},
+        {"norm", NULL, NULL, br_text(t->norm[0]->name)},
+        {"unit", NULL, NULL, br_text(t->norm[0]->unit)},
+        {"judge", NULL, NULL, br_text(judge_of(t)->name)},
+        {"repeats", NULL, NULL, br_count(t->request.repeats)},
+        {"repeat_seconds", NULL, NULL, br_number(t->request.repeat_seconds)},
+        {"time_limit", NULL, NULL, br_number(t->request.time_limit)},
+        {"wall_seconds", NULL, NULL, br_number(t->wall_seconds)},
+    };
+    BR_FACTS(d, facts);
 }
 
 void br_report_trade(const struct br_trade *t, const struct br_provenance *provenance,
@@ -286,12 +276,12 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
     answer_paper(d, t);
     answer_ends(d, t);
     br_put_table(d, "cheapest", "Cheapest way to an error",
-                 t->best[0] < t->count ? 0 : BR_FOR_PROGRAMS, NULL, 0);
+                 t->best[0] < t->count ? 0 : BR_FOR_PROGRAMS);
     put_targets(d, t, NULL);
-    put_front(d, t);
+    put_trials(d, t, true);
     put_methods(d, t);
     put_failures(d, t);
-    put_trials(d, t);
+    put_trials(d, t, false);
     put_facts(d, t);
     put_notes(d, t, provenance->machine);
     br_put_provenance(d, provenance);
@@ -302,19 +292,19 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
 /* "example1: to 1e-03 bdf2, n = 100, k = 0.01 s (1e-05 CPU s); to 1e-06 ..." */
 static void answer_scene(struct br_document *d, const struct br_trade *t)
 {
-    char text[TEXT], trial[BR_TRIAL_TEXT];
-    size_t used = 0;
+    char trial[BR_TRIAL_TEXT];
+    const char *between = "";
+    br_put_answer(d, "%s:", t->request.scene->name);
     for (size_t i = 0; i < ANSWERED; i++) {
         const size_t best = t->best[answered[i]];
         if (best == t->count)
             continue;
-        used += (size_t)snprintf(text + used, sizeof text - used, "%s to %.0e %s (%.3g CPU s)",
-                                 used ? ";" : "", br_trade_target(answered[i]),
-                                 br_trial_text(t->request.scene, &t->trial[best], trial),
-                                 br_trial_seconds(&t->trial[best]));
+        br_put_more(d, "%s to %.0e %s (%.3g CPU s)", between, br_trade_target(answered[i]),
+                    br_trial_text(t->request.scene, &t->trial[best], trial),
+                    br_trial_seconds(&t->trial[best]));
+        between = ";";
     }
-    br_put_answer(d, "%s:%s.", t->request.scene->name,
-                  used ? text : " no trial has an error of 1e-03 or less");
+    br_put_more(d, *between ? "." : " no trial has an error of 1e-03 or less.");
 }
 
 void br_report_trade_summary(const struct br_trade *const *trade, size_t scenes,
@@ -323,7 +313,7 @@ void br_report_trade_summary(const struct br_trade *const *trade, size_t scenes,
     br_document_begin(d, "summary", "beamrate trade, several scenes", 1, "What a digit costs");
     for (size_t i = 0; i < scenes; i++)
         answer_scene(d, trade[i]);
-    br_put_table(d, "cheapest", "Cheapest way to an error, by scene", BR_MAIN, NULL, 0);
+    br_put_table(d, "cheapest", "Cheapest way to an error, by scene", BR_MAIN);
     for (size_t i = 0; i < scenes; i++)
         put_targets(d, trade[i], trade[i]->request.scene->name);
     br_put_provenance(d, provenance);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
+#include "study/run/run.h"
 #include "study/scene/quote.h"
-#include "tables/report_run.h"
+#include "tables/reports.h"
 
 void br_history_csv_head(FILE *out)
 {

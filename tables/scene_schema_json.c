@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <jansson.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,28 +28,33 @@ static const char *escape(const char *unit, char text[64])
     return text;
 }
 
-/* Text in which no word is `without`, before "[unit]"; NULL: any. */
-static void expression_pattern(const char *unit, const char *without, char pattern[MOST_PATTERN])
+/* A text of a pattern, which is formatted. description: NULL, none. */
+__attribute__((format(printf, 2, 3))) static json_t *matching(const char *description,
+                                                              const char *format, ...)
+{
+    char pattern[MOST_PATTERN];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(pattern, sizeof pattern, format, arguments);
+    va_end(arguments);
+    return json_pack("{s:s, s:s, s:s*}", "type", "string", "pattern", pattern, "description",
+                     description);
+}
+
+/* An expression in which no word is `without`, before "[unit]"; NULL: any. */
+static json_t *expression(const char *unit, const char *without)
 {
     char escaped[64], ahead[32] = "";
     if (without)
         snprintf(ahead, sizeof ahead, "(?![^\\[]*\\b%s\\b)", without);
-    snprintf(pattern, MOST_PATTERN, "^%s\\s*[^\\s\\[].*\\[%s\\]$", ahead, escape(unit, escaped));
-}
-
-static json_t *expression(const char *unit, const char *without)
-{
-    char pattern[MOST_PATTERN];
-    expression_pattern(unit, without, pattern);
-    return json_pack("{s:s, s:s}", "type", "string", "pattern", pattern);
+    return matching(NULL, "^%s\\s*[^\\s\\[].*\\[%s\\]$", ahead, escape(unit, escaped));
 }
 
 static json_t *number(const struct br_scene_key *key)
 {
-    char pattern[MOST_PATTERN], unit[64];
-    snprintf(pattern, sizeof pattern, "^ *%s" NUMBER " +%s$",
-             key->kind == BR_KEY_POSITIVE ? NOT_ZERO : "", escape(key->unit, unit));
-    return json_pack("{s:s, s:s}", "type", "string", "pattern", pattern);
+    char unit[64];
+    return matching(NULL, "^ *%s" NUMBER " +%s$", key->kind == BR_KEY_POSITIVE ? NOT_ZERO : "",
+                    escape(key->unit, unit));
 }
 
 static json_t *load(void)
@@ -104,29 +110,16 @@ static void add_methods(json_t *properties)
                                 f->words ? method_words(f->words) : method_number(f));
 }
 
-/* "2 +- 0.1, at most 3e-4 m": as verify_file.c reads it. */
-static json_t *expectation(const struct br_norm *norm)
+/* "2 +- 0.1, at most 3e-4 m": as verify_file.c reads it. part: NULL, of the norm alone. */
+static void add_expectation(json_t *properties, const struct br_norm *norm, const char *part)
 {
-    char pattern[MOST_PATTERN], unit[64];
-    escape(norm->unit, unit);
-    snprintf(pattern, sizeof pattern,
-             "^ *" NUMBER " *\\+- *" NUMBER "( *, *(at most|constant *" NUMBER " *to) *" NUMBER
-             " *%s)?$",
-             unit);
-    return json_pack("{s:s, s:s, s:s}", "type", "string", "pattern", pattern, "description",
-                     norm->title);
-}
-
-static void add_expectations(json_t *properties)
-{
-    for (const struct br_norm *const *n = br_norms; *n; n++) {
-        json_object_set_new(properties, (*n)->name, expectation(*n));
-        for (int part = 0; part < BR_PARTS; part++) {
-            char key[64];
-            snprintf(key, sizeof key, "%s %s", (*n)->name, br_part_names[part]);
-            json_object_set_new(properties, key, expectation(*n));
-        }
-    }
+    char key[64], unit[64];
+    snprintf(key, sizeof key, "%s%s%s", norm->name, part ? " " : "", part ? part : "");
+    json_object_set_new(properties, key,
+                        matching(norm->title,
+                                 "^ *" NUMBER " *\\+- *" NUMBER "( *, *(at most|constant *" NUMBER
+                                 " *to) *" NUMBER " *%s)?$",
+                                 escape(norm->unit, unit)));
 }
 
 static json_t *verify_study(void)
@@ -137,11 +130,13 @@ static json_t *verify_study(void)
                                   "^ *" NUMBER "( *, *" NUMBER ")* *$", "description",
                                   "elements of the meshes"));
     json_object_set_new(properties, "k",
-                        json_pack("{s:s, s:s, s:s}", "type", "string", "pattern",
-                                  "^ *" NUMBER "( *, *" NUMBER ")* s$", "description",
-                                  "time steps, s"));
+                        matching("time steps, s", "^ *%s( *, *%s)* s$", NUMBER, NUMBER));
     add_methods(properties);
-    add_expectations(properties);
+    for (const struct br_norm *const *n = br_norms; *n; n++) {
+        add_expectation(properties, *n, NULL);
+        for (int part = 0; part < BR_PARTS; part++)
+            add_expectation(properties, *n, br_part_names[part]);
+    }
     return json_pack("{s:s, s:b, s:[s, s], s:o}", "type", "object", "additionalProperties", 0,
                      "required", "n", "k", "properties", properties);
 }

@@ -14,14 +14,15 @@ struct heard {
 
 static void report(const struct heard *h, const char *name, struct br_document *d)
 {
-    static const struct br_column columns[] = {{.key = "row"}, {.key = "value"}};
     br_document_begin(d, name, "beamrate extremes made", 1, "A made part");
     br_put_answer(d, "%s", h->line);
-    br_put_table(d, "rows", "Rows", BR_MAIN, BR_COLUMNS(columns));
+    br_put_table(d, "rows", "Rows", BR_MAIN);
     for (size_t i = 0; i < h->rows; i++) {
         br_put_row(d);
-        br_put_text(d, "row", "row %zu", i);
-        br_put(d, "value", br_count(i));
+        char text[32];
+        snprintf(text, sizeof text, "row %zu", i);
+        BR_PUT(d, br_text(text), .key = "row");
+        BR_PUT(d, br_count(i), .key = "value");
     }
 }
 

@@ -2,7 +2,6 @@
 /* What machines read is what was computed: every number of the CSV, JSON and HDF5 of run,
  * trade, split and plan stands under its own key. The structs hold a different number
  * in every place, so that two that are exchanged are seen. */
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,194 +11,19 @@
 #include <hdf5.h>
 #endif
 
+#include "study/run/run.h"
+#include "study/trade/plan.h"
+#include "study/trade/split.h"
+#include "study/trade/trade.h"
 #include "tables/fields_file.h"
-#include "tables/report_plan.h"
-#include "tables/report_run.h"
-#include "tables/report_split.h"
-#include "tables/report_trade.h"
-#include "tests/support.h"
-
-static const struct br_provenance provenance = {.version = "1",
-                                                .commit = "c",
-                                                .compiler = "cc",
-                                                .flags = "-O",
-                                                .command_line = "beamrate",
-                                                .machine = "m",
-                                                .date = "d",
-                                                .threads = 1,
-                                                .scene_path = "p",
-                                                .scene_text = "t"};
-
-/* A key with the number that belongs to it; NAN: none is printed. */
-struct expected {
-    const char *key;
-    double value;
-};
+#include "tables/reports.h"
+#include "tests/document_reader.h"
 
 /* As it is printed: with six digits at least. */
 static void is(const char *where, const char *key, double found, double expected)
 {
     if (isnan(expected) ? !isnan(found) : !(fabs(found - expected) <= 1e-5 * fabs(expected)))
         fail_msg("%s: %s is %.17g, expected %.17g", where, key, found, expected);
-}
-
-/* ---- reading ---- */
-
-/* The next line of a text, without its end; NULL: none. Advances *text. */
-static char *next_line(char **text)
-{
-    return *text && **text ? strsep(text, "\n") : NULL;
-}
-
-/* The place of a name among a line's fields. */
-static size_t place_of(const char *line, const char *name, char separator)
-{
-    const size_t size = strlen(name);
-    for (size_t i = 0; line; i++) {
-        line += strspn(line, " ");
-        if (strncmp(line, name, size) == 0 && strchr(" ,|", line[size]))
-            return i;
-        line = strchr(line, separator);
-        line = line ? line + 1 : NULL;
-    }
-    fail_msg("there is no column %s", name);
-    return 0;
-}
-
-/* The number in a place of a line, 1 or 0 for a truth; NAN: it is empty. */
-static double number_at(const char *line, size_t place, char separator)
-{
-    for (; place > 0 && line; place--) {
-        line = strchr(line, separator);
-        line = line ? line + 1 : NULL;
-    }
-    assert_non_null(line);
-    if (strncmp(line, "true", 4) == 0 || strncmp(line, "false", 5) == 0)
-        return *line == 't';
-    char *end;
-    const double value = strtod(line, &end);
-    return end == line ? NAN : value;
-}
-
-static void row_has(const char *what, const char *head, const char *row, char separator,
-                    const struct expected *e, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        is(what, e[i].key, number_at(row, place_of(head, e[i].key, separator), separator),
-           e[i].value);
-}
-
-/* The value at a path, "runs.0.parts.2.tip". */
-static const json_t *at_path(const json_t *value, const char *path)
-{
-    char key[64];
-    for (int used; value && sscanf(path, "%63[^.]%n", key, &used) == 1;) {
-        value = json_is_array(value) ? json_array_get(value, strtoul(key, NULL, 10))
-                                     : json_object_get(value, key);
-        path += used + (path[used] == '.');
-    }
-    return value;
-}
-
-static void json_has(const json_t *root, const struct expected *e, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        const json_t *value = at_path(root, e[i].key);
-        if (!value)
-            fail_msg("JSON has no %s", e[i].key);
-        is("JSON", e[i].key,
-           json_is_number(value)    ? json_number_value(value)
-           : json_is_boolean(value) ? json_is_true(value)
-                                    : NAN,
-           e[i].value);
-    }
-}
-
-static json_t *read_json(char *text)
-{
-    json_error_t error;
-    json_t *root = json_loads(text, 0, &error);
-    if (!root)
-        fail_msg("%s in:\n%s", error.text, text);
-    free(text);
-    return root;
-}
-
-/* ---- documents ---- */
-
-/* A document as JSON, which is released with json_decref, or a table of it as CSV, which is freed.
- */
-static char *printed(const struct br_document *d, const struct br_document_format *format,
-                     const struct br_document_table *table)
-{
-    struct br_error err = {0};
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    MUST(br_document_print(out, format, d, table, &err));
-    fclose(out);
-    return text;
-}
-
-static json_t *document_json(const struct br_document *d)
-{
-    return read_json(printed(d, &br_document_json, NULL));
-}
-
-static char *document_csv(const struct br_document *d, const char *key)
-{
-    const struct br_document_table *t;
-    for (size_t block = 0; (t = br_document_next_table(d, &block));)
-        if (strcmp(t->key, key) == 0)
-            return printed(d, &br_document_csv, t);
-    fail_msg("there is no table %s", key);
-    return NULL;
-}
-
-/* The numbers of a row under their keys, in both formats. */
-static void table_has(const struct br_document *d, const char *key, size_t row,
-                      const struct expected *e, size_t count)
-{
-    char path[64];
-    char *csv = document_csv(d, key), *rest = csv, *head = next_line(&rest);
-    for (size_t i = 0; i < row; i++)
-        next_line(&rest);
-    row_has("CSV", head, next_line(&rest), ',', e, count);
-    json_t *root = document_json(d);
-    snprintf(path, sizeof path, "tables.%s.%zu", key, row);
-    json_has(at_path(root, path), e, count);
-    json_decref(root);
-    free(csv);
-}
-
-/* Texts of a row in JSON; pairs of keys and texts, ended by NULL. */
-static void row_says(const struct br_document *d, const char *key, size_t row,
-                     const char *const pairs[])
-{
-    char path[128];
-    json_t *root = document_json(d);
-    for (size_t i = 0; pairs[i]; i += 2) {
-        snprintf(path, sizeof path, "tables.%s.%zu.%s", key, row, pairs[i]);
-        const char *found = json_string_value(at_path(root, path));
-        if (!found || strcmp(found, pairs[i + 1]) != 0)
-            fail_msg("%s is %s, expected %s", path, found ? found : "no text", pairs[i + 1]);
-    }
-    json_decref(root);
-}
-
-static void facts_are(const struct br_document *d, const struct expected *e, size_t count)
-{
-    json_t *root = document_json(d);
-    json_has(root, e, count);
-    json_decref(root);
-}
-
-static void answers(const struct br_document *d, const char *sentence)
-{
-    for (size_t i = 0; i < d->answers; i++)
-        if (strcmp(d->answer[i], sentence) == 0)
-            return;
-    fail_msg("the answer lacks '%s'; it begins with '%s'", sentence, d->answer[0]);
 }
 
 /* ---- trade ---- */
@@ -255,38 +79,39 @@ static void trade_is_printed(void **state)
     scene.name = (char[]){"made"};
     struct br_trade *trade = made_trade(&scene);
     struct br_document d = {.name = NULL};
-    br_report_trade(trade, &provenance, &d);
-    table_has(&d, "trials", 0, trial_numbers, TRIAL_NUMBERS);
+    br_report_trade(trade, &br_made_provenance, &d);
+    json_t *root = read_back(&d);
+    NUMBERS(root, "tables.trials.0", trial_numbers);
     const struct expected others[] = {
         {"steps_or_levels", 20}, {"scale", 1.5}, {"digits_per_second", -log10(0.125 / 1.5) / 6.25}};
-    table_has(&d, "trials", 0, others, 3);
+    NUMBERS(root, "tables.trials.0", others);
     const struct expected adaptive[] = {{"k", NAN}, {"tolerance", 0.0625}, {"n", 12}};
-    table_has(&d, "trials", 1, adaptive, 3);
+    NUMBERS(root, "tables.trials.1", adaptive);
     const struct expected cheapest[] = {
         {"target", 1e-3}, {"trial", 1}, {"n", 12}, {"tolerance", 0.0625}, {"error", 0.125}};
-    table_has(&d, "cheapest", 1, cheapest, 5);
+    NUMBERS(root, "tables.cheapest.1", cheapest);
     const struct expected none[] = {{"target", 1e-2}, {"trial", NAN}, {"n", NAN}, {"k", NAN}};
-    table_has(&d, "cheapest", 0, none, 4);
+    NUMBERS(root, "tables.cheapest.0", none);
     const struct expected seconds[] = {
         {"axial_degree", 1}, {"seconds_to_1e-05", 6.25}, {"seconds_to_1e-04", NAN}};
-    table_has(&d, "methods", 0, seconds, 3);
+    NUMBERS(root, "tables.methods.0", seconds);
     const struct expected facts[] = {
         {"wall_seconds", 10.5}, {"repeats", 3}, {"repeat_seconds", 0.1}, {"time_limit", 10}};
-    facts_are(&d, facts, 4);
-    answers(&d, "To an error of 1e-03: adaptive, n = 12, tolerance 0.0625; 1.25 CPU s, relative "
-                "error 8.33e-02.");
-    answers(&d, "No trial has an error of 1e-06 or less.");
-    answers(&d, "Fastest and most accurate: adaptive, n = 12, tolerance 0.0625; 1.25 CPU s, "
-                "relative error 8.33e-02.");
-    answers(&d, "The paper's way, euler, reaches 1e-05 in 6.25 CPU s, 5 times as much as the "
-                "cheapest.");
-    answers(&d, "Trials: 2 done.");
+    NUMBERS(root, "", facts);
+    answers(root, "To an error of 1e-03: adaptive, n = 12, tolerance 0.0625; 1.25 CPU s, relative "
+                  "error 8.33e-02.");
+    answers(root, "No trial has an error of 1e-06 or less.");
+    answers(root, "Fastest and most accurate: adaptive, n = 12, tolerance 0.0625; 1.25 CPU s, "
+                  "relative error 8.33e-02.");
+    answers(root, "The paper's way, euler, reaches 1e-05 in 6.25 CPU s, 5 times as much as the "
+                  "cheapest.");
+    answers(root, "Trials: 2 done.");
     const struct expected truths[][2] = {{{"front", 0}, {"printed", 1}},
                                          {{"front", 1}, {"printed", 0}}};
     for (size_t i = 0; i < 2; i++)
-        table_has(&d, "trials", i, truths[i], 2);
-    row_says(&d, "trials", 0, (const char *const[]){"method", "euler", "end", "done", NULL});
-    br_document_clear(&d);
+        NUMBERS(root, i ? "tables.trials.1" : "tables.trials.0", truths[i]);
+    TEXTS(root, "tables.trials.0", "method", "euler", "end", "done");
+    json_decref(root);
     free(trade->trial);
     free(trade->front);
     free(trade);
@@ -373,23 +198,22 @@ static void split_is_printed(void **state)
     scene.name = (char[]){"made"};
     const struct br_split split = made_split(&scene);
     struct br_document d = {.name = NULL};
-    br_report_split(&split, 1, &provenance, &d);
-    row_says(&d, "parts", 2,
-             (const char *const[]){"scheme", "adaptive", "contact", "implicit", "friction", "uzawa",
-                                   "solver", "umfpack", "scaling", "none", "norm", "l2", "unit",
-                                   "m^(3/2)", "part", "mu", NULL});
-    row_says(&d, "runs", 0,
-             (const char *const[]){"reference", "exact", "refined", "made finer", NULL});
-    answers(&d,
+    br_report_split(&split, 1, &br_made_provenance, &d);
+    json_t *root = read_back(&d);
+    TEXTS(root, "tables.parts.2", "scheme", "adaptive", "contact", "implicit", "friction", "uzawa",
+          "solver", "umfpack", "scaling", "none", "norm", "l2", "unit", "m^(3/2)", "part", "mu");
+    TEXTS(root, "tables.runs.0", "reference", "exact", "refined", "made finer");
+    answers(root,
             "n = 12, k = 0.0625 s: scheme adaptive to 0.0009765625, solver umfpack, refinement "
             "steps 3, contact none, friction none. Error 1.600e+01 m^(3/2), by parts: "
             "round-off 1.6 %, iteration 3.1 %, mu 4.7 %, lag 6.2 %, time 7.8 %, space 9.4 %. The "
             "lagged contact is beyond its stability limit: its part is bounded chatter.");
-    table_has(&d, "parts", 2, third, sizeof third / sizeof *third);
-    table_has(&d, "parts", split.shares, sum, sizeof sum / sizeof *sum);
-    table_has(&d, "parts", split.shares + 1, whole, sizeof whole / sizeof *whole);
-    table_has(&d, "runs", 0, run, sizeof run / sizeof *run);
-    br_document_clear(&d);
+    NUMBERS(root, "tables.parts.2", third);
+    assert_int_equal(split.shares, 6);
+    NUMBERS(root, "tables.parts.6", sum);
+    NUMBERS(root, "tables.parts.7", whole);
+    NUMBERS(root, "tables.runs.0", run);
+    json_decref(root);
 }
 
 /* ---- plan ---- */
@@ -447,18 +271,15 @@ static void plan_is_printed(void **state)
     scene.name = (char[]){"made"};
     struct br_plan *plan = made_plan(&scene);
     struct br_document d = {.name = NULL};
-    br_report_plan(plan, "made", &provenance, &d);
-    answers(&d, "Proposal: euler, n = 12, k = 0.047619 s. Error 2.500e-01 (predicted 6.250e-02), "
-                "CPU 12.5 s (predicted 7.5 s), 5 steps.");
-    answers(&d, "First proposal, by the cheap trials alone: euler, n = 11, k = 0.05 s. Error "
-                "2.500e-01 (predicted 6.250e-02), CPU 12.5 s (predicted 7.5 s), 5 steps.");
-    answers(&d, "Met: the achieved error is 0.50 of the goal, a relative error of 0.5.");
-    json_t *root = document_json(&d);
-    assert_string_equal(json_string_value(json_object_get(root, "run")),
-                        "beamrate run made --n 12 --k T/21");
-    assert_string_equal(json_string_value(json_object_get(root, "trade")),
-                        "beamrate trade made --methods euler --n 12 --k T/21");
-    json_decref(root);
+    br_report_plan(plan, "made", &br_made_provenance, &d);
+    json_t *root = read_back(&d);
+    answers(root, "Proposal: euler, n = 12, k = 0.047619 s. Error 2.500e-01 (predicted 6.250e-02), "
+                  "CPU 12.5 s (predicted 7.5 s), 5 steps.");
+    answers(root, "First proposal, by the cheap trials alone: euler, n = 11, k = 0.05 s. Error "
+                  "2.500e-01 (predicted 6.250e-02), CPU 12.5 s (predicted 7.5 s), 5 steps.");
+    answers(root, "Met: the achieved error is 0.50 of the goal, a relative error of 0.5.");
+    TEXTS(root, "", "run", "beamrate run made --n 12 --k T/21", "trade",
+          "beamrate trade made --methods euler --n 12 --k T/21");
     const struct expected trial[] = {
         {"round", 1},
         {"n", 12},
@@ -474,21 +295,21 @@ static void plan_is_printed(void **state)
         {"set_ups", 8},
         {"chosen", 1},
     };
-    row_says(&d, "trials", 1, (const char *const[]){"method", "euler", "end", "done", NULL});
-    row_says(&d, "curves", 2,
-             (const char *const[]){"method", "euler", "curve", "log_solves", NULL});
-    table_has(&d, "trials", 1, trial, sizeof trial / sizeof *trial);
+    TEXTS(root, "tables.trials.1", "method", "euler", "end", "done");
+    TEXTS(root, "tables.curves.2", "method", "euler", "curve", "log_solves");
+    NUMBERS(root, "tables.trials.1", trial);
     const struct expected model[] = {{"trials", 13},           {"r", 0.75},
                                      {"error_scatter", 0.875}, {"cost_scatter", 0.9375},
                                      {"seconds_set_up", 1},    {"seconds_element", 2},
                                      {"seconds_solve", 3},     {"seconds_element_solve", 4}};
-    table_has(&d, "models", 0, model, sizeof model / sizeof *model);
-    table_has(&d, "models", 1, &(struct expected){"r", NAN}, 1);
+    NUMBERS(root, "tables.models.0", model);
+    numbers_are(root, "tables.models.1", &(struct expected){"r", NAN}, 1);
     const struct expected curve[][2] = {{{"at", 1.25}, {"value", -2.25}},
                                         {{"at", 1.25}, {"value", -3.25}},
                                         {{"at", 4.25}, {"value", 5.25}}};
     for (size_t i = 0; i < 3; i++)
-        table_has(&d, "curves", i, curve[i], 2);
+        numbers_are(at_path(root, "tables.curves"), (const char[]){(char)('0' + (int)i), '\0'},
+                    curve[i], 2);
     const struct br_plan_parts parts = br_plan_chosen_parts(plan);
     const struct expected facts[] = {{"goal_error", 0.5},
                                      {"goal_seconds", NAN},
@@ -502,11 +323,57 @@ static void plan_is_printed(void **state)
                                      {"time_error", parts.time},
                                      {"space_order", parts.p},
                                      {"time_order", parts.q}};
-    facts_are(&d, facts, sizeof facts / sizeof *facts);
-    br_document_clear(&d);
+    NUMBERS(root, "", facts);
+    json_decref(root);
     free(plan->trial);
     free(plan->forecast);
     free(plan);
+}
+
+/* ---- CSV ---- */
+
+/* The next line of a text, without its end; NULL: none. Advances *text. */
+static char *next_line(char **text)
+{
+    return *text && **text ? strsep(text, "\n") : NULL;
+}
+
+/* The place of a name among a line's fields. */
+static size_t place_of(const char *line, const char *name, char separator)
+{
+    const size_t size = strlen(name);
+    for (size_t i = 0; line; i++) {
+        line += strspn(line, " ");
+        if (strncmp(line, name, size) == 0 && strchr(" ,|", line[size]))
+            return i;
+        line = strchr(line, separator);
+        line = line ? line + 1 : NULL;
+    }
+    fail_msg("there is no column %s", name);
+    return 0;
+}
+
+/* The number in a place of a line, 1 or 0 for a truth; NAN: it is empty. */
+static double number_at(const char *line, size_t place, char separator)
+{
+    for (; place > 0 && line; place--) {
+        line = strchr(line, separator);
+        line = line ? line + 1 : NULL;
+    }
+    assert_non_null(line);
+    if (strncmp(line, "true", 4) == 0 || strncmp(line, "false", 5) == 0)
+        return *line == 't';
+    char *end;
+    const double value = strtod(line, &end);
+    return end == line ? NAN : value;
+}
+
+static void row_has(const char *what, const char *head, const char *row, char separator,
+                    const struct expected *e, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        is(what, e[i].key, number_at(row, place_of(head, e[i].key, separator), separator),
+           e[i].value);
 }
 
 /* ---- run ---- */
@@ -587,8 +454,8 @@ static void march_and_write(struct watched *w)
     br_history_csv_head(w->history);
     for (size_t f = 0; br_fields_formats[f]; f++) {
         path_of(w, br_fields_formats[f]->file_name, path);
-        const struct br_fields_request fields = {path,  &w->scene, ELEMENTS,   STEPS,
-                                                 LOOKS, 1,         &provenance};
+        const struct br_fields_request fields = {path,  &w->scene, ELEMENTS,           STEPS,
+                                                 LOOKS, 1,         &br_made_provenance};
         MUST(br_fields_formats[f]->open(&w->file[f], &fields, &err));
     }
     MUST(br_run(&request, &w->report, &err));

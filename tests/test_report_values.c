@@ -2,78 +2,17 @@
 /* The reports of check and run: every number stands under its own key, in JSON, JUnit and TAP, and
  * a check's JSON is read again as it was. The structs hold another number in every place, so that
  * two that are exchanged are seen. */
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "tables/report_check.h"
-#include "tables/report_run.h"
-#include "tests/support.h"
-
-static const struct br_provenance provenance = {.version = "1",
-                                                .commit = "c",
-                                                .compiler = "cc",
-                                                .flags = "-O",
-                                                .command_line = "beamrate",
-                                                .machine = "m",
-                                                .date = "2026-01-02T03:04:05Z",
-                                                .threads = 1,
-                                                .scene_path = "p",
-                                                .scene_text = "t"};
-
-/* A key, "a.b.0.c" in JSON, with the number that belongs to it. */
-struct expected {
-    const char *key;
-    double value;
-};
-
-static const json_t *at_path(const json_t *o, const char *path)
-{
-    char text[128];
-    snprintf(text, sizeof text, "%s", path);
-    for (char *key = strtok(text, "."); key && o; key = strtok(NULL, "."))
-        o = json_is_array(o) ? json_array_get(o, (size_t)atoi(key)) : json_object_get(o, key);
-    if (!o)
-        fail_msg("no '%s' in the JSON", path);
-    return o;
-}
-
-/* All 17 digits. */
-static void json_has(const json_t *root, const struct expected *e, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        const double found = json_number_value(at_path(root, e[i].key));
-        if (!(found == e[i].value))
-            fail_msg("%s is %.17g, expected %.17g", e[i].key, found, e[i].value);
-    }
-}
-#define JSON_HAS(root, rows) json_has(root, rows, sizeof(rows) / sizeof *(rows))
-
-/* Takes the document. */
-static char *printed(struct br_document *d, const struct br_document_format *format)
-{
-    struct br_error err = {0};
-    static char *text;
-    static size_t size;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    MUST(br_document_print(out, format, d, NULL, &err));
-    fclose(out);
-    br_document_clear(d);
-    return text;
-}
-
-static json_t *printed_json(struct br_document *d)
-{
-    char *text = printed(d, &br_document_json);
-    json_t *root = json_loads(text, 0, NULL);
-    assert_non_null(root);
-    free(text);
-    return root;
-}
+#include "study/foresee/prediction.h"
+#include "study/run/run.h"
+#include "study/verify/comparison.h"
+#include "tables/reports.h"
+#include "tests/document_reader.h"
 
 /* ---- check ---- */
 
@@ -135,7 +74,7 @@ static void make(struct made *m, struct br_document *d)
                                                 .count = 2,
                                                 .wall_seconds = 8.5,
                                                 .comparison = &m->comparison,
-                                                .provenance = &provenance},
+                                                .provenance = &br_made_provenance},
                     d);
 }
 
@@ -145,8 +84,8 @@ static void check_is_in_json(void **state)
     struct made m;
     struct br_document d = {0};
     make(&m, &d);
-    json_t *root = printed_json(&d);
-    json_has(at_path(root, "tables.orders.0"), case_numbers, CASE_NUMBERS - 1);
+    json_t *root = read_back(&d);
+    numbers_are(root, "tables.orders.0", case_numbers, CASE_NUMBERS - 1);
     const struct expected rest[] = {
         {"verdicts.0.line", 26},
         {"verdicts.0.seconds", 4.25},
@@ -163,41 +102,27 @@ static void check_is_in_json(void **state)
         {"tables.scenes.0.element_steps", 5.25},
         {"tables.differences.0.before", 41.5},
         {"tables.differences.0.now", 42.5},
+        {"tables.points.0.used", 1},
+        {"tables.points.1.used", 0},
         {"tally.FAIL", 1},
         {"tally.PASS", 0},
         {"wall_seconds", 8.5},
         {"methods.0.time.tolerance", 0.0625},
     };
-    JSON_HAS(root, rest);
-    static const struct {
-        const char *key, *text;
-    } texts[] = {
-        {"tables.orders.0.scene", "made"},
-        {"tables.orders.0.study", "time"},
-        {"tables.orders.0.norm", "l2"},
-        {"tables.orders.0.part", "axial"},
-        {"tables.orders.0.verdict", "FAIL"},
-        {"tables.points.0.flag", ""},
-        {"tables.points.1.failure", "blew up"},
-        {"tables.scenes.0.path", "made.yaml"},
-        {"tables.scenes.1.failure", "refused.yaml:7: no"},
-        {"tables.differences.0.severity", "serious"},
-        {"tables.differences.0.subject", "made: order"},
-        {"tables.differences.0.remark", "moved"},
-        {"verdicts.0.file", "made.yaml"},
-        {"verdicts.0.message", "too low; more steps"},
-        {"verdicts.1.verdict", "ERROR"},
-        {"methods.0.time.scheme", "adaptive"},
-        {"answer.0", "1 order in 2 scenes: 0 PASS, 1 FAIL, 0 INCONCLUSIVE, 1 cannot be verified; "
-                     "8.5 s"},
-        {"answer.1", "refused cannot be verified: refused.yaml:7: no"},
-        {"answer.2", "FAIL, made, time l2 axial (made.yaml:26): too low; more steps"},
-        {"answer.3", "Against the earlier check: 54 serious, 53 warnings, 52 notes, 51 the same"},
-    };
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        assert_string_equal(json_string_value(at_path(root, texts[i].key)), texts[i].text);
-    assert_true(json_is_true(at_path(root, "tables.points.0.used")));
-    assert_false(json_is_true(at_path(root, "tables.points.1.used")));
+    NUMBERS(root, "", rest);
+    TEXTS(root, "", "tables.orders.0.scene", "made", "tables.orders.0.study", "time",
+          "tables.orders.0.norm", "l2", "tables.orders.0.part", "axial", "tables.orders.0.verdict",
+          "FAIL", "tables.points.0.flag", "", "tables.points.1.failure", "blew up",
+          "tables.scenes.0.path", "made.yaml", "tables.scenes.1.failure", "refused.yaml:7: no",
+          "tables.differences.0.severity", "serious", "tables.differences.0.subject", "made: order",
+          "tables.differences.0.remark", "moved", "verdicts.0.file", "made.yaml",
+          "verdicts.0.message", "too low; more steps", "verdicts.1.verdict", "ERROR",
+          "methods.0.time.scheme", "adaptive", "answer.0",
+          "1 order in 2 scenes: 0 PASS, 1 FAIL, 0 INCONCLUSIVE, 1 cannot be verified; "
+          "8.5 s",
+          "answer.1", "refused cannot be verified: refused.yaml:7: no", "answer.2",
+          "FAIL, made, time l2 axial (made.yaml:26): too low; more steps", "answer.3",
+          "Against the earlier check: 54 serious, 53 warnings, 52 notes, 51 the same");
     json_decref(root);
 }
 
@@ -218,6 +143,7 @@ static char *check_printed(const struct br_document_format *format)
     struct br_document d = {0};
     make(&m, &d);
     char *text = printed(&d, format);
+    br_document_clear(&d);
     for (size_t i = 0; i < CASE_NUMBERS; i++)
         CLOSE(number_behind(text, case_numbers[i].key), case_numbers[i].value, 0);
     return text;
@@ -325,6 +251,7 @@ static void check_is_read_again(void **state)
     struct br_document d = {0};
     make(&m, &d);
     char *text = printed(&d, &br_document_json);
+    br_document_clear(&d);
     is_read(text);
     free(text);
     is_read("{\"format\": \"beamrate check 1\", \"scenes\": [{\"scene\": \"made\", \"methods\": "
@@ -383,7 +310,7 @@ static int end(void **state)
 static void report_run(const struct br_prediction *p, const struct br_warnings *w,
                        struct br_document *d)
 {
-    br_report_run(&(struct br_run_findings){&report, p, w, &provenance, 12.5}, d);
+    br_report_run(&(struct br_run_findings){&report, p, w, &br_made_provenance, 12.5}, d);
 }
 
 static void run_is_in_json(void **state)
@@ -393,7 +320,7 @@ static void run_is_in_json(void **state)
     struct br_warnings warnings = {0};
     br_warn(&warnings, BR_WARN_LONG, "less", "days");
     report_run(&made_prediction, &warnings, &d);
-    json_t *root = printed_json(&d);
+    json_t *root = read_back(&d);
     const struct br_run_report *r = &report;
     const struct br_prediction *p = &made_prediction;
     const struct br_history_row *last = &r->end.last;
@@ -496,12 +423,10 @@ static void run_is_in_json(void **state)
         {"work.solves_a_field", (double)r->counts.stages},
         {"work.changes_of_the_step", (double)r->counts.set_ups},
     };
-    JSON_HAS(root, numbers);
+    NUMBERS(root, "", numbers);
     assert_int_equal(json_array_size(at_path(root, "tables.model")), r->model_rows);
-    assert_string_equal(json_string_value(at_path(root, "tables.warnings.0.text")), "days");
-    assert_string_equal(json_string_value(at_path(root, "tables.warnings.0.remedy")), "less");
-    assert_string_equal(json_string_value(at_path(root, "tables.warnings.0.warning")), "long");
-    assert_string_equal(json_string_value(at_path(root, "method.scheme")), "euler");
+    TEXTS(root, "tables.warnings.0", "text", "days", "remedy", "less", "warning", "long");
+    TEXTS(root, "method", "scheme", "euler");
     json_decref(root);
 }
 
@@ -521,6 +446,7 @@ static void answer_comes_first(void **state)
     p.field[BR_BENDING].high = 2e-11 * sqrt(example.length);
     report_run(&p, &none, &d);
     char *text = printed(&d, &br_document_text);
+    br_document_clear(&d);
     assert_non_null(
         strstr(text, "\nTip at t = 1 s: u = -0.222 +- 0.014 m, w = 3.457e-09 +- 3.4e-11"));
     assert_non_null(strstr(text, "\naxial displacement u: -0.222 +- 0.014 m\n"));
@@ -530,6 +456,7 @@ static void answer_comes_first(void **state)
     report.failure = (struct br_error){BR_NOT_FINITE, "it blew up"};
     report_run(&p, &none, &d);
     text = printed(&d, &br_document_text);
+    br_document_clear(&d);
     assert_non_null(strstr(text, "\nSTOPPED: it blew up\nTip at t = 1 s (the last good step): "
                                  "u = -0.221612 m, w = 3.4567e-09 m, "));
     assert_non_null(strstr(text, "\nThe discretisation error is not known: it is so; "));

@@ -8,10 +8,11 @@
 #include "figure_check.h"
 #include "plots/pictures.h"
 #include "solver/contact_limit.h"
+#include "study/extremes/stability.h"
 #include "study/extremes/step_matrix.h"
 #include "study/grid/observer.h"
 #include "support.h"
-#include "tables/report_extremes.h"
+#include "tables/reports.h"
 
 static struct br_stability found;
 

@@ -1,0 +1,365 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tables/markup.h"
+
+#include <string.h>
+
+/* ---- pieces ---- */
+
+/* NULL: nothing. */
+static void say(const struct br_markup_page *p, const char *text)
+{
+    if (text)
+        fputs(text, p->out);
+}
+
+void br_markup_text(const struct br_markup_page *p, const char *text)
+{
+    br_quote(p->out, p->markup->quoting, text ? text : "");
+}
+
+void br_markup_put(const struct br_markup_page *p, const char *before, const char *text,
+                   const char *after)
+{
+    say(p, before);
+    br_markup_text(p, text);
+    say(p, after);
+}
+
+static void put(const struct br_markup_page *p, const struct br_around *a, const char *text)
+{
+    br_markup_put(p, a->before, text, a->after);
+}
+
+/* An answer or a note. */
+static void put_paragraph(const struct br_markup_page *p, const struct br_around *a,
+                          const char *text)
+{
+    say(p, a->before);
+    if (p->markup->paragraph)
+        p->markup->paragraph(p, text);
+    else
+        br_markup_text(p, text);
+    say(p, a->after);
+}
+
+void br_markup_heading(const struct br_markup_page *p, int level, const char *text)
+{
+    if (p->markup->title) {
+        p->markup->title(p, level, text);
+        return;
+    }
+    fprintf(p->out, p->markup->heading.before, level);
+    br_markup_text(p, text);
+    fprintf(p->out, p->markup->heading.after, level);
+}
+
+void br_markup_lines(const struct br_markup_page *p, const char *lines)
+{
+    const struct br_markup *m = p->markup;
+    say(p, m->lines.before);
+    br_document_print_lines(p->out, m->of_lines, m->line.before ? m->line.before : "", lines,
+                            m->line.after);
+    say(p, m->lines.after);
+}
+
+static void print_unit(const struct br_markup_page *p, const char *before, const char *unit)
+{
+    if (!unit)
+        return;
+    fputs(before, p->out);
+    if (p->markup->unit)
+        p->markup->unit(p->out, unit);
+    else
+        br_markup_text(p, unit);
+}
+
+static void print_number(const struct br_markup_page *p, const char *text)
+{
+    if (p->markup->number)
+        p->markup->number(p->out, text);
+    else
+        br_markup_text(p, text);
+}
+
+static void print_word(const struct br_markup_page *p, enum br_outcome outcome)
+{
+    fprintf(p->out, p->markup->word, br_outcome_names[outcome], br_outcome_names[outcome]);
+}
+
+/* Whether a text is a verdict's word, which it then prints. */
+static bool print_if_word(const struct br_markup_page *p, const char *text)
+{
+    for (int i = BR_OUTCOME_PASS; i <= BR_OUTCOME_SKIPPED; i++)
+        if (strcmp(text, br_outcome_names[i]) == 0) {
+            print_word(p, (enum br_outcome)i);
+            return true;
+        }
+    return false;
+}
+
+/* ---- tables ---- */
+
+enum br_alignment br_markup_alignment(const struct br_document_table *t, size_t column)
+{
+    return t->column[column].flags & BR_WRAP ? BR_WRAPPED
+           : br_document_is_text(t, column)  ? BR_LEFT
+                                             : BR_RIGHT;
+}
+
+void br_markup_columns(const struct br_markup_page *p, const struct br_document_table *t,
+                       const char *const word[3])
+{
+    for (size_t c = 0; c < t->columns; c++)
+        if (br_document_is_seen(t, c))
+            fputs(word[br_markup_alignment(t, c)], p->out);
+}
+
+static void print_value(const struct br_markup_page *p, const struct br_column *column,
+                        const struct br_document_cell *cell)
+{
+    char buffer[BR_SHOWN];
+    const char *text = br_document_shown(column, cell, buffer);
+    if (cell->value.kind != BR_TEXT || cell->shown)
+        print_number(p, text);
+    else if (!print_if_word(p, text))
+        br_markup_text(p, text);
+    if (cell->mark)
+        put(p, &p->markup->mark, cell->mark);
+}
+
+/* What a cell begins with: its alignment may be a part of that. */
+static void open_cell(const struct br_markup_page *p, const struct br_around *a,
+                      const struct br_document_table *t, size_t column)
+{
+    const char *const *classes = p->markup->classes;
+    if (a->before)
+        fprintf(p->out, a->before, classes ? classes[br_markup_alignment(t, column)] : "");
+}
+
+static void print_head(const struct br_markup_page *p, const struct br_document_table *t)
+{
+    const struct br_markup *m = p->markup;
+    const char *between = "";
+    for (size_t c = 0; c < t->columns; c++) {
+        if (!br_document_is_seen(t, c))
+            continue;
+        say(p, between);
+        open_cell(p, &m->head, t, c);
+        print_number(p, t->column[c].heading);
+        print_unit(p, ", ", t->column[c].unit);
+        say(p, m->head.after);
+        between = m->between;
+    }
+}
+
+static void print_row(const struct br_markup_page *p, const struct br_document_table *t, size_t r)
+{
+    const struct br_markup *m = p->markup;
+    const char *between = t->row[r].rule ? m->rule : m->row.before;
+    for (size_t c = 0; c < t->columns; c++) {
+        if (!br_document_is_seen(t, c))
+            continue;
+        say(p, between);
+        open_cell(p, &m->cell, t, c);
+        print_value(p, &t->column[c], br_document_cell_at(t, r, c));
+        say(p, m->cell.after);
+        between = m->between;
+    }
+    say(p, m->row.after);
+}
+
+static enum br_status print_table(const struct br_markup_page *p, const struct br_document_table *t,
+                                  int level, struct br_error *err)
+{
+    if (p->markup->table)
+        return p->markup->table(p, t, err);
+    const struct br_markup *m = p->markup;
+    m->open_table(p, t, level);
+    print_head(p, t);
+    if (m->open_rows)
+        m->open_rows(p, t);
+    say(p, m->rows.before);
+    for (size_t r = 0; r < t->rows; r++)
+        print_row(p, t, r);
+    say(p, m->rows.after);
+    if (m->close_table)
+        m->close_table(p, t);
+    return BR_OK;
+}
+
+/* ---- blocks ---- */
+
+static void print_fact(const struct br_markup_page *p, const struct br_block *b)
+{
+    say(p, p->markup->fact.before);
+    put(p, &p->markup->label, b->what.heading);
+    print_value(p, &b->what, &b->cell);
+    print_unit(p, " ", b->what.unit);
+    say(p, p->markup->fact.after);
+}
+
+static void print_command(const struct br_markup_page *p, const struct br_block *b)
+{
+    put(p, &p->markup->command, b->what.heading);
+    br_markup_lines(p, b->cell.value.text);
+}
+
+/* level: of a section; the tables below one are a level lower. */
+static enum br_status print_block(struct br_markup_page *p, const struct br_block *b, int level,
+                                  bool under, struct br_error *err)
+{
+    switch (b->kind) {
+    case BR_BLOCK_TABLE:
+        return print_table(p, b->table, level + under, err);
+    case BR_BLOCK_SECTION:
+        br_markup_heading(p, level, b->text);
+        break;
+    case BR_BLOCK_NOTE:
+        put_paragraph(p, &p->markup->note, b->text);
+        break;
+    case BR_BLOCK_FACT:
+        print_fact(p, b);
+        break;
+    case BR_BLOCK_COMMAND:
+        print_command(p, b);
+        break;
+    case BR_BLOCK_PICTURE:
+        return p->markup->picture(p, b, err);
+    }
+    return BR_OK;
+}
+
+/* A terminal has short tables and facts, and the titles that are needed for these. */
+static bool is_shown(const struct br_markup_page *p, size_t block)
+{
+    const struct br_block *b = &p->d->block[block];
+    const bool table = b->kind == BR_BLOCK_TABLE, has = br_document_has(b);
+    const unsigned flags = table ? b->table->flags : b->what.flags;
+    if (!p->terminal || !has)
+        return has;
+    if (b->kind == BR_BLOCK_SECTION) {
+        for (size_t i = block + 1; i < p->d->blocks; i++)
+            if (p->d->block[i].kind == BR_BLOCK_SECTION || is_shown(p, i))
+                return p->d->block[i].kind == BR_BLOCK_FACT;
+        return false;
+    }
+    return !(flags & BR_FILES_ONLY) &&
+           (table ? flags & BR_LONG || b->table->rows <= BR_LONG_TABLE : b->kind == BR_BLOCK_FACT);
+}
+
+/* Facts that follow each other are one list. */
+static enum br_status print_blocks(struct br_markup_page *p, struct br_error *err)
+{
+    const struct br_markup *m = p->markup;
+    enum br_status status = BR_OK;
+    enum br_block_kind before = BR_BLOCK_TABLE;
+    bool under = false;
+    for (size_t i = 0; i < p->d->blocks && !status; i++) {
+        const struct br_block *b = &p->d->block[i];
+        const bool titled = b->kind == BR_BLOCK_TABLE || b->kind == BR_BLOCK_SECTION;
+        if (!is_shown(p, i))
+            continue;
+        if (before == BR_BLOCK_FACT && b->kind != before)
+            say(p, m->facts.after);
+        if (b->kind != before && before != BR_BLOCK_SECTION && !titled)
+            say(p, m->gap);
+        if (b->kind == BR_BLOCK_FACT && before != b->kind)
+            say(p, m->facts.before);
+        under |= b->kind == BR_BLOCK_SECTION;
+        status = print_block(p, b, p->level + 1, under, err);
+        before = b->kind;
+    }
+    say(p, before == BR_BLOCK_FACT ? m->facts.after : NULL);
+    return status;
+}
+
+/* ---- verdicts ---- */
+
+static void print_verdict(const struct br_markup_page *p, const struct br_document_verdict *v)
+{
+    say(p, p->markup->verdict.before);
+    print_word(p, v->outcome);
+    fputc(' ', p->out);
+    br_markup_text(p, v->group);
+    fputs(v->group ? ", " : "", p->out);
+    br_markup_text(p, v->name);
+    fputs(v->message ? ": " : "", p->out);
+    br_markup_text(p, v->message);
+    say(p, p->markup->verdict.after);
+    for (size_t i = 0; i < v->details; i++)
+        put(p, &p->markup->detail, v->detail[i]);
+}
+
+/* How many there are of each kind, which a terminal is told by the answer. */
+static void count_verdicts(const struct br_markup_page *p)
+{
+    const char *between = "";
+    br_markup_heading(p, p->level + 1, "Verdicts");
+    say(p, p->markup->note.before);
+    for (int outcome = BR_OUTCOME_PASS; outcome <= BR_OUTCOME_SKIPPED; outcome++) {
+        size_t count = 0;
+        for (size_t i = 0; i < p->d->verdicts; i++)
+            count += p->d->verdict[i].outcome == (enum br_outcome)outcome;
+        if (!count)
+            continue;
+        fprintf(p->out, "%s%zu ", between, count);
+        print_word(p, (enum br_outcome)outcome);
+        between = ", ";
+    }
+    say(p, p->markup->note.after);
+}
+
+/* Those that a person should hear of. */
+static void print_verdicts(const struct br_markup_page *p)
+{
+    const struct br_markup *m = p->markup;
+    bool any = false;
+    if (p->d->verdicts && !p->terminal)
+        count_verdicts(p);
+    for (size_t i = 0; i < p->d->verdicts; i++)
+        if (br_document_verdict_matters(&p->d->verdict[i])) {
+            say(p, any ? NULL : m->verdicts.before);
+            print_verdict(p, &p->d->verdict[i]);
+            any = true;
+        }
+    say(p, any ? m->verdicts.after : NULL);
+}
+
+static void print_answer(const struct br_markup_page *p)
+{
+    const struct br_markup *m = p->markup;
+    say(p, p->d->answers ? m->answers.before : NULL);
+    for (size_t i = 0; i < p->d->answers; i++)
+        put_paragraph(p, &m->answer, p->d->answer[i]);
+    say(p, p->d->answers ? m->answers.after : NULL);
+}
+
+/* What a terminal shows last: the answer, and what may be typed next. */
+static void print_end(const struct br_markup_page *p)
+{
+    print_verdicts(p);
+    say(p, p->d->answers ? p->markup->gap : NULL);
+    print_answer(p);
+    for (size_t i = 0; i < p->d->blocks; i++)
+        if (p->d->block[i].kind == BR_BLOCK_COMMAND)
+            print_command(p, &p->d->block[i]);
+}
+
+enum br_status br_markup_print(struct br_markup_page *p, struct br_error *err)
+{
+    const struct br_markup *m = p->markup;
+    if (m->begin)
+        m->begin(p);
+    else
+        br_markup_heading(p, p->level, p->d->caption);
+    if (!p->terminal) {
+        print_answer(p);
+        print_verdicts(p);
+    }
+    const enum br_status status = print_blocks(p, err);
+    if (p->terminal)
+        print_end(p);
+    else if (m->end)
+        m->end(p);
+    return status;
+}

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tables/report_parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "study/scene/method_fields.h"
+
+/* text (out): where it is a text. */
+static struct br_value value_of(const struct br_method_field *f, const struct br_method *m,
+                                char text[BR_METHOD_VALUE])
+{
+    const bool whole = f == &br_method_fields[BR_METHOD_DEGREE] || (!f->words && f->range.whole);
+    if (!br_method_field_reported(f, m))
+        return br_nothing();
+    if (whole)
+        return br_count((size_t)atoll(br_method_field_text(f, m, text)));
+    return f->words ? br_text(br_method_field_text(f, m, text)) : br_number(f->get(m));
+}
+
+/* Fields of a group are members of one object, null where they are not heeded. */
+void br_put_method_facts(struct br_document *d, const char *key, const struct br_method *m)
+{
+    const char *group = NULL;
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        const struct br_method_field *f = &br_method_fields[i];
+        char text[BR_METHOD_VALUE], name[BR_METHOD_VALUE];
+        const struct br_value value = value_of(f, m, text);
+        if (!f->group)
+            br_hide_fact(d, value, NULL, "%s.%s", key, br_method_field_key(f, name));
+        else if (br_method_field_heeded(f, m))
+            br_hide_fact(d, value, NULL, "%s.%s.%s", key, f->group, f->member);
+        else if (f->group != group)
+            br_hide_fact(d, br_nothing(), NULL, "%s.%s", key, f->group);
+        group = f->group;
+    }
+}
+
+void br_put_method_cells(struct br_document *d, const struct br_method *m)
+{
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        char text[BR_METHOD_VALUE], name[BR_METHOD_VALUE];
+        br_hide(d, br_method_field_key(&br_method_fields[i], name), NULL,
+                value_of(&br_method_fields[i], m, text));
+    }
+}
+
+/* k, s; NaN where the steps are chosen. */
+static double step_of(const struct br_scene *scene, const struct br_trial *t)
+{
+    return br_contender_adaptive(t->contender) ? (double)NAN : br_time_step(scene, t->at.steps);
+}
+
+void br_put_trial(struct br_document *d, const struct br_scene *scene, const struct br_trial *t)
+{
+    const bool adaptive = br_contender_adaptive(t->contender);
+    BR_PUT(d, br_text(t->contender->name), .key = "method");
+    BR_PUT(d, br_count(t->at.n), .key = "n");
+    br_hide(d, "steps_or_levels", NULL, br_count(t->at.steps));
+    br_hide(d, "tolerance", NULL, br_if(adaptive, br_number(t->tolerance)));
+    BR_PUT(d, br_number(step_of(scene, t)), .key = "k", .unit = "s");
+    if (adaptive)
+        br_put_shown(d, "tol %.4g", t->tolerance);
+}
+
+const char *br_trial_text(const struct br_scene *scene, const struct br_trial *t,
+                          char text[BR_TRIAL_TEXT])
+{
+    if (br_contender_adaptive(t->contender))
+        snprintf(text, BR_TRIAL_TEXT, "%s, n = %zu, tolerance %.4g", t->contender->name, t->at.n,
+                 t->tolerance);
+    else
+        snprintf(text, BR_TRIAL_TEXT, "%s, n = %zu, k = %.6g s", t->contender->name, t->at.n,
+                 step_of(scene, t));
+    return text;
+}
