@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/pictures.h"
 
+#include <errno.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
@@ -53,10 +54,10 @@ static enum br_status choose_format(struct br_pictures *p, struct br_error *err)
     if (p->format)
         return BR_OK;
     char known[256] = "";
-    for (const struct br_movie_format *const *f = br_movie_formats; *f; f++) {
+    for (const struct br_movie_format *f = br_movie_formats; f->extension; f++) {
         const size_t used = strlen(known);
-        snprintf(known + used, sizeof known - used, "%s%s (%s)", used ? ", " : "", (*f)->extension,
-                 (*f)->title);
+        snprintf(known + used, sizeof known - used, "%s%s (%s)", used ? ", " : "", f->extension,
+                 f->title);
     }
     return br_fail(err, BR_BAD_INPUT, "--animate: found '%s', expected a name that ends with: %s",
                    file, known);
@@ -64,10 +65,15 @@ static enum br_status choose_format(struct br_pictures *p, struct br_error *err)
 
 static enum br_status check_terminal(struct br_pictures *p, struct br_error *err)
 {
-    bool has;
-    const enum br_status status = br_gnuplot_has(p->format->terminal, &has, &p->missing, err);
-    if (status || p->missing || has)
-        return status;
+    FILE *question = tmpfile();
+    if (!question)
+        return br_fail(err, BR_IO, "a file for gnuplot: %s", strerror(errno));
+    fprintf(question, "if (strstrt(GPVAL_TERMINALS, ' %s ') == 0) { exit status 1 }\n",
+            p->format->terminal);
+    const enum br_status status = br_gnuplot_run(question, stderr, &p->missing, err);
+    fclose(question);
+    if (!status || p->missing)
+        return BR_OK;
     return br_fail(err, BR_BAD_INPUT,
                    "--animate: found '%s', but the installed gnuplot has no terminal '%s'",
                    p->request.animate, p->format->terminal);
@@ -169,7 +175,10 @@ static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
     if (!status)
         status = write_file(p, &movie, "gp", br_movie_write_script, err);
     if (!status && !p->missing) {
-        status = br_gnuplot_run(p->output.staging, script, &p->missing, err);
+        struct br_gnuplot g;
+        status = br_gnuplot_start(&g, p->output.staging, script, NULL, &p->missing, err);
+        if (!status)
+            status = br_gnuplot_end(&g, err);
         if (!status)
             status = check_files(p, &movie, err);
     }
@@ -193,17 +202,21 @@ static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct 
     bool missing = false;
     struct br_figure figure;
     struct br_error why = {0};
+    FILE *script = tmpfile();
     fflush(letters);
     enum br_status status = br_history_draw(p->request.scene, &p->record, &figure, err);
-    if (!status)
-        status = br_gnuplot_letters(letters, &figure, columns_of(letters), &missing, &why);
+    if (!script)
+        br_fail(&why, BR_IO, "a file for gnuplot: %s", strerror(errno));
+    if (!status && script) {
+        br_figure_write_letters(script, &figure, columns_of(letters));
+        br_gnuplot_run(script, letters, &missing, &why);
+    }
+    if (script)
+        fclose(script);
     br_figure_clear(&figure);
-    if (!status || !why.status)
-        return status;
-    if (!missing)
-        return br_picture_failed(&why, "--plot", err);
-    fprintf(stderr, "beamrate: gnuplot is not installed: --plot shows nothing\n");
-    return BR_OK;
+    if (missing)
+        fprintf(stderr, "beamrate: gnuplot is not installed: --plot shows nothing\n");
+    return status || missing || !why.status ? status : br_picture_failed(&why, "--plot", err);
 }
 
 enum br_status br_pictures_finish(struct br_pictures *p, FILE *letters, struct br_error *err)

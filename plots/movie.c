@@ -1,24 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "plots/movie.h"
-
+/* A moving picture of a recorded march. Nothing is computed here but scales. */
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "plots/pictures.h"
+#include "study/run/history.h"
 #include "study/scene/quote.h"
 
-static const struct br_movie_format gif = {".gif", "gif", "animated GIF", false};
-static const struct br_movie_format webp = {".webp", "webp", "animated WebP", false};
-static const struct br_movie_format folder = {"/", "pngcairo", "a folder of PNG frames", true};
-const struct br_movie_format *const br_movie_formats[] = {&gif, &webp, &folder, NULL};
+const struct br_movie_format br_movie_formats[] = {
+    {".gif", "gif", "animated GIF", false},
+    {".webp", "webp", "animated WebP", false},
+    {"/", "pngcairo", "a folder of PNG frames", true},
+    {0},
+};
 
 const struct br_movie_format *br_movie_format_of(const char *file)
 {
     const size_t length = strlen(file);
-    for (const struct br_movie_format *const *f = br_movie_formats; *f; f++) {
-        const size_t ending = strlen((*f)->extension);
-        if (length >= ending && strcmp(file + length - ending, (*f)->extension) == 0)
-            return *f;
+    for (const struct br_movie_format *f = br_movie_formats; f->extension; f++) {
+        const size_t ending = strlen(f->extension);
+        if (length >= ending && strcmp(file + length - ending, f->extension) == 0)
+            return f;
     }
     return NULL;
 }
@@ -113,11 +116,11 @@ void br_movie_write_data(FILE *out, const struct br_movie *m)
 /* ---- the script ---- */
 
 static void write_array(FILE *out, const char *name, const struct br_history_record *r,
-                        enum br_row_value what)
+                        size_t place)
 {
     fprintf(out, "array %s[%zu] = [", name, r->looks);
     for (size_t i = 0; i < r->looks; i++) {
-        const double value = br_value_of_row(&r->at[i], what);
+        const double value = *(const double *)((const char *)&r->at[i] + place);
         const bool none = isnan(value); /* the scheme has no friction force at t = 0 */
         fprintf(out, "%s%.9g", i == 0 ? "" : i % 8 ? ", " : ", \\\n    ", none ? 0 : value);
     }
@@ -138,10 +141,13 @@ static void write_head(FILE *out, const struct br_movie *m)
         "contact_scale = %.9g # m per N\nfriction_scale = %.9g # m per N\nmost = %.9g # |u|, m\n",
         m->scene->length, m->scene->contact.modelled ? m->scene->contact.gap : 0, s.axial,
         s.bending, s.contact, s.friction, s.most_axial);
-    static const char *const names[] = {"time", "u", "w", "speed", "contact", "friction"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        write_array(out, names[i], m->record, (enum br_row_value)i);
-    write_array(out, "bound", m->record, BR_ROW_BOUND);
+    write_array(out, "time", m->record, BR_ROW(time));
+    write_array(out, "u", m->record, BR_ROW(displacement[BR_AXIAL]));
+    write_array(out, "w", m->record, BR_ROW(displacement[BR_BENDING]));
+    write_array(out, "speed", m->record, BR_ROW(velocity[BR_BENDING]));
+    write_array(out, "contact", m->record, BR_ROW(contact_force));
+    write_array(out, "friction", m->record, BR_ROW(friction_force));
+    write_array(out, "bound", m->record, BR_ROW(friction_bound));
 }
 
 static void write_terminal(FILE *out, const struct br_movie *m)
@@ -153,7 +159,7 @@ static void write_terminal(FILE *out, const struct br_movie *m)
         fprintf(
             out,
             "set terminal %s animate delay %s loop 0 size 900,520 rounded font 'DejaVu Sans,13'\n",
-            m->format->terminal, m->format == &gif ? "8" : "80");
+            m->format->terminal, strcmp(m->format->terminal, "gif") == 0 ? "8" : "80");
     if (!m->format->frames) {
         fputs("set output ", out);
         char file[512];
