@@ -68,15 +68,16 @@ static enum br_status check_terminal(struct br_pictures *p, struct br_error *err
     FILE *question = tmpfile();
     if (!question)
         return br_fail(err, BR_IO, "a file for gnuplot: %s", strerror(errno));
-    fprintf(question, "if (strstrt(GPVAL_TERMINALS, ' %s ') == 0) { exit status 1 }\n",
+    const int name = (int)strcspn(p->format->terminal, " ");
+    fprintf(question, "if (strstrt(GPVAL_TERMINALS, ' %.*s ') == 0) { exit status 1 }\n", name,
             p->format->terminal);
     const enum br_status status = br_gnuplot_run(question, stderr, &p->missing, err);
     fclose(question);
     if (!status || p->missing)
         return BR_OK;
     return br_fail(err, BR_BAD_INPUT,
-                   "--animate: found '%s', but the installed gnuplot has no terminal '%s'",
-                   p->request.animate, p->format->terminal);
+                   "--animate: found '%s', but the installed gnuplot has no terminal '%.*s'",
+                   p->request.animate, name, p->format->terminal);
 }
 
 static enum br_status open_movie(struct br_pictures *p, struct br_error *err)

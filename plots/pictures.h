@@ -115,7 +115,7 @@ enum br_status br_history_draw(const struct br_scene *scene, const struct br_his
 /* A row of the registry. */
 struct br_movie_format {
     const char *extension; /* of the file; "/": a folder of frames */
-    const char *terminal;  /* gnuplot's */
+    const char *terminal;  /* gnuplot's, with its options */
     const char *title;     /* one line for a person */
     bool frames;           /* one file each */
 };
@@ -132,7 +132,7 @@ struct br_movie {
     const char *stem; /* of the files, without a quote; frames are stem-0001.png and so on */
 };
 
-/* The frames' fields, one block each, and the script that draws the file from stem.dat. */
+/* The tip in all frames, then each frame's fields, and the script that draws the file from stem.dat. */
 void br_movie_write_data(FILE *out, const struct br_movie *movie);
 void br_movie_write_script(FILE *out, const struct br_movie *movie);
 

@@ -48,7 +48,7 @@ static const char empty_style[] = "lc rgb '#aaaaaa' fs pattern 4 border";
 
 static int mark_of(const struct br_series *s)
 {
-    return hues[(s->mark ? s->mark : s->look) % (BR_HUES + 1) - 1].mark;
+    return hues[((s->mark ? s->mark : s->look) - 1) % BR_HUES].mark;
 }
 
 /* The pen of a series, as it stands after "with". */

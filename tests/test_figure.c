@@ -636,15 +636,11 @@ static void test_letters(void **state)
     br_scene_clear(&scene);
 }
 
-/* Frames have the fields of their looks, and the arrays what the tip does there. */
+/* The tip of all frames, and in each the fields of its look. */
 static void test_movie(void **state)
 {
     (void)state;
-    static const char *const lines[] = {
-        "\narray time[3] = [0.5, 1, 1.5]\n",   "\narray u[3] = [3, 6, 9]\n",
-        "\narray w[3] = [5, 10, 15]\n",        "\narray speed[3] = [11, 22, 33]\n",
-        "\narray contact[3] = [13, 26, 39]\n", "\narray friction[3] = [0, 34, 51]\n",
-        "\narray bound[3] = [19, 38, 57]\n"};
+    static const char tip[] = "\n0.5 3 5 11 13 0 19\n1 6 10 22 26 34 38\n1.5 9 15 33 39 51 57\n";
     struct br_history_record r;
     struct br_history_row row[LOOKS];
     double field[LOOKS * 18];
@@ -655,12 +651,11 @@ static void test_movie(void **state)
     FILE *out = fmemopen(text, sizeof text, "w");
     br_movie_write_script(out, &movie);
     fclose(out);
-    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
-        if (!strstr(text, lines[i]))
-            fail_msg("expected:%s in:\n%s", lines[i], text);
+    assert_non_null(strstr(text, "\nframes = 3\nlength = 1; gap = 0 # m\ntouches = 1; rubs = 1 "));
     out = fmemopen(text, sizeof text, "w");
     br_movie_write_data(out, &movie);
     fclose(out);
+    assert_non_null(strstr(text, tip));
     for (size_t look = 0; look < LOOKS; look++) {
         const double *u = br_history_field(&r, look, BR_AXIAL, false);
         const double *w = br_history_field(&r, look, BR_BENDING, false);
