@@ -262,7 +262,8 @@ static void add_signs(const struct br_report *r, struct br_figure *f)
         say_mark(r, OVER_K, hue, mesh);
         say_mark(r, OVER_H, hue, step);
         if (*mesh || *step)
-            br_series_add(f, BR_PEN_SIGNS, "%s%s%s", mesh, *mesh && *step ? ";  " : "", step)
+            br_series_add(f, BR_PEN_SIGNS, "%s%s%s%s%s", *mesh ? "left " : "", mesh,
+                          *mesh && *step ? ", " : "", *step ? "right " : "", step)
                 ->mark = hue;
     }
 }

@@ -44,18 +44,21 @@ static bool are_akin(enum br_pen a, enum br_pen b)
     return a == b || (a <= BR_PEN_LINE && b <= BR_PEN_LINE);
 }
 
-/* That of the series with this title, else the next one; without a title the first. */
-static size_t find_look(const struct br_figure *f, enum br_pen pen, const char *title)
+/* Looks like the series of this title, else like none before; without a title like the first. */
+static void find_look(const struct br_figure *f, enum br_pen pen, struct br_series *new)
 {
     size_t last = 0;
     for (size_t i = 0; i < f->panels; i++)
         for (size_t j = 0; j < f->panel[i].count; j++) {
             const struct br_series *s = f->panel[i].series[j];
-            if (are_akin(s->pen, pen) && strcmp(s->title, title) == 0)
-                return s->look;
+            if (are_akin(s->pen, pen) && strcmp(s->title, new->title) == 0) {
+                new->look = s->look;
+                return;
+            }
             last = are_akin(s->pen, pen) && s->look > last ? s->look : last;
         }
-    return title[0] ? last + 1 : 1;
+    new->in_key = new->title[0];
+    new->look = new->in_key ? last + 1 : 1;
 }
 
 struct br_series *br_series_add(struct br_figure *f, enum br_pen pen, const char *title, ...)
@@ -72,7 +75,7 @@ struct br_series *br_series_add(struct br_figure *f, enum br_pen pen, const char
     va_start(arguments, title);
     vsnprintf(s->title, sizeof s->title, title, arguments);
     va_end(arguments);
-    s->look = find_look(f, pen, s->title);
+    find_look(f, pen, s);
     s->pen = pen <= BR_PEN_LINE && s->look > BR_HUES ? BR_PEN_OTHERS : pen;
     return p->series[p->count++] = s;
 }

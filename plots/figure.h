@@ -49,6 +49,7 @@ struct br_series {
     char end[16];   /* a text beside the last point */
     enum br_pen pen;
     size_t look; /* 1, 2, ...: the hue; of a guide its dash */
+    bool in_key; /* the first one of its title */
     size_t mark; /* 1 to BR_HUES: another hue's mark; 0: its own */
     struct br_figure_point *point;
     size_t count, room; /* no points: it stands in the key alone */

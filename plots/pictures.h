@@ -132,7 +132,8 @@ struct br_movie {
     const char *stem; /* of the files, without a quote; frames are stem-0001.png and so on */
 };
 
-/* The tip in all frames, then each frame's fields, and the script that draws the file from stem.dat. */
+/* The tip in all frames, then each frame's fields, and the script that draws the file from
+ * stem.dat. */
 void br_movie_write_data(FILE *out, const struct br_movie *movie);
 void br_movie_write_script(FILE *out, const struct br_movie *movie);
 

@@ -205,8 +205,12 @@ enum br_status br_gnuplot_end_figure(struct br_gnuplot *g, struct br_error *err)
 enum br_status br_gnuplot_run(FILE *commands, FILE *out, bool *missing, struct br_error *err)
 {
     struct br_gnuplot g;
+    *missing = false;
+    if (!commands)
+        return br_fail(err, BR_IO, "no file for gnuplot's commands: %s", strerror(errno));
     rewind(commands);
     enum br_status status = br_gnuplot_start(&g, ".", NULL, commands, missing, err);
+    fclose(commands);
     if (status)
         return status;
     status = wait_for(&g, err);

@@ -35,7 +35,8 @@ enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err);
  * after any failure none of them stays. */
 enum br_status br_gnuplot_end_figure(struct br_gnuplot *g, struct br_error *err);
 
-/* Runs commands, from the beginning of the file; what gnuplot says goes to `out`. */
+/* Runs the commands in a temporary file, which is closed (NULL: it could not be made); what gnuplot
+ * says goes to `out`. */
 enum br_status br_gnuplot_run(FILE *commands, FILE *out, bool *missing, struct br_error *err);
 
 /* Whether a picture that gnuplot has drawn is whole, which gnuplot does not look at: fails with

@@ -107,20 +107,6 @@ static void add_entry(struct key *key, const char *title, const char *style,
     br_quote(key->out, &br_for_gnuplot, title);
 }
 
-/* Whether a series is the first with an entry of its title. */
-static bool is_entry(const struct br_figure *f, const struct br_series *series)
-{
-    for (size_t i = 0; i < f->panels; i++)
-        for (size_t j = 0; j < f->panel[i].count; j++) {
-            const struct br_series *s = f->panel[i].series[j];
-            if (s == series)
-                return s->title[0] && s->pen != BR_PEN_OTHERS;
-            if (s->pen == series->pen && strcmp(s->title, series->title) == 0)
-                return false;
-        }
-    return false;
-}
-
 /* Series with a title, of the others one, and what a hollow mark means. */
 static void add_series(const struct br_figure *f, struct key *key)
 {
@@ -130,7 +116,7 @@ static void add_series(const struct br_figure *f, struct key *key)
             const struct br_series *s = f->panel[i].series[j];
             flagged += count_drawn(&f->panel[i], s, true);
             others += s->pen == BR_PEN_OTHERS;
-            if (is_entry(f, s))
+            if (s->in_key && s->pen != BR_PEN_OTHERS)
                 add_entry(key, s->title, NULL, s);
         }
     if (others)
@@ -142,19 +128,17 @@ static void add_series(const struct br_figure *f, struct key *key)
 static void add_entries(const struct br_figure *f, struct key *key)
 {
     size_t empty = 0;
+    char style[80];
     for (size_t k = 0; k < f->kinds; k++) {
-        char style[80];
         BR_SAY(style, "boxes lc rgb '%s' fs solid 1 border lc rgb '#666666'", kind_colours[k]);
         add_entry(key, f->kind[k], style, NULL);
     }
     for (size_t i = 0; i < f->panels; i++)
         for (size_t k = 0; k < f->panel[i].cells.rows * f->panel[i].cells.columns; k++)
             empty += br_colour_of(f, f->panel[i].cells.value[k]) < 0;
-    if (empty) {
-        char style[80];
-        BR_SAY(style, "boxes %s", empty_style);
+    BR_SAY(style, "boxes %s", empty_style);
+    if (empty)
         add_entry(key, "no case", style, NULL);
-    }
     add_series(f, key);
 }
 

@@ -329,8 +329,8 @@ static void check_printed(const struct br_report *r, const struct br_figure *f)
             BR_SAY(s->title, "%s", title);
         }
     }
-    assert_int_equal(figure_series(&f->panel[1], "n = 20;  k = 0.06 s")->mark, 2);
-    assert_int_equal(figure_series(&f->panel[1], "k = 0.015 s")->mark, 4);
+    assert_int_equal(figure_series(&f->panel[1], "left n = 20, right k = 0.06 s")->mark, 2);
+    assert_int_equal(figure_series(&f->panel[1], "right k = 0.015 s")->mark, 4);
 }
 
 static void test_study(void **state)
