@@ -11,11 +11,6 @@
 #include "study/extremes/stability.h"
 #include "study/extremes/steps.h"
 
-static double positive(double value)
-{
-    return value > 0 ? value : (double)NAN;
-}
-
 /* ---- floors: deviation over n ---- */
 
 static void add_solver(const struct br_floors *f, size_t solver, size_t k, struct br_figure *figure)
@@ -24,8 +19,7 @@ static void add_solver(const struct br_floors *f, size_t solver, size_t k, struc
     for (size_t i = 0; i < f->n_count; i++) {
         const struct br_floor *floor = br_floor_at(f, solver, i, k);
         const bool marched = !floor->refused.status;
-        br_point_add(s, (double)f->n[i],
-                     marched ? positive(br_floor_deviation(floor)) : (double)NAN, NULL);
+        br_point_add(s, (double)f->n[i], marched ? br_floor_deviation(floor) : (double)NAN, NULL);
     }
 }
 
@@ -68,8 +62,8 @@ static void add_method(const struct br_drifts *d, size_t scene, size_t contender
         f, BR_PEN_CURVE, "%.*s", (int)(solver ? (size_t)(solver - name) : strlen(name)), name);
     for (size_t j = 0; j < d->k_count; j++) {
         const struct br_drift *drift = br_drift_at(d, scene, contender, j);
-        br_point_add(s, (double)d->steps[j],
-                     drift->steps ? positive(br_drift_deviation(drift)) : (double)NAN, NULL);
+        br_point_add(s, (double)d->steps[j], drift->steps ? br_drift_deviation(drift) : (double)NAN,
+                     NULL);
     }
 }
 
@@ -102,7 +96,7 @@ static void add_loss(const struct br_vibration_row *row, bool measured, struct b
     for (size_t r = 0; r < BR_VIBRATION_RATES; r++) {
         const struct br_vibration *v = &row->at[r][SHOWN];
         const double loss = fabs(measured || row->scheme->adaptive ? v->measured : v->predicted);
-        br_point_add(s, v->steps, v->end == BR_VIBRATION_DONE ? positive(loss) : (double)NAN, NULL);
+        br_point_add(s, v->steps, v->end == BR_VIBRATION_DONE ? loss : (double)NAN, NULL);
     }
 }
 

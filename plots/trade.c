@@ -32,11 +32,6 @@ static bool shows_rules(const struct br_trade *t, const struct br_contender *c)
     return compared;
 }
 
-static double seconds(const struct br_trial *trial)
-{
-    return br_trial_seconds(trial);
-}
-
 static double element_solves(const struct br_trial *trial)
 {
     return isfinite(br_trial_seconds(trial))
@@ -46,13 +41,13 @@ static double element_solves(const struct br_trial *trial)
 
 static const struct br_trade_picture schemes = {
     "schemes", "Relative error against CPU seconds, by time scheme", shows_schemes,
-    "CPU time of one thread (s)", seconds};
+    "CPU time of one thread (s)", br_trial_seconds};
 static const struct br_trade_picture work = {
     "work", "Relative error against element-solves, by time scheme", shows_schemes,
     "elements times linear solves a field", element_solves};
 static const struct br_trade_picture rules = {
     "rules", "Relative error against CPU seconds, by friction rule and linear solver", shows_rules,
-    "CPU time of one thread (s)", seconds};
+    "CPU time of one thread (s)", br_trial_seconds};
 
 const struct br_trade_picture *const br_trade_pictures[] = {&schemes, &work, &rules, NULL};
 
@@ -100,36 +95,22 @@ static void add_front(const struct br_trade_picture *p, const struct br_trade *t
 
 /* ---- what is marked besides ---- */
 
-static bool is_printed(const struct br_trial *t)
-{
-    return t->printed;
-}
-
-static bool is_unstable(const struct br_trial *t)
-{
-    return t->end == BR_TRIAL_UNSTABLE;
-}
-
-static bool is_doubtful(const struct br_trial *t)
-{
-    return t->end == BR_TRIAL_DOUBTFUL;
-}
-
-static bool is_any(const struct br_trial *t)
-{
-    return t->end != BR_TRIAL_UNSTABLE;
-}
-
 static const struct {
     const char *title;
     enum br_pen pen;
-    bool (*has)(const struct br_trial *trial);
 } clouds[] = {
-    {"other trials", BR_PEN_DOTS, is_any},
-    {"beyond the limit of lagging", BR_PEN_PLUSES, is_unstable},
-    {"printed in the paper", BR_PEN_SQUARES, is_printed},
-    {"near the judge's own error", BR_PEN_STARS, is_doubtful},
+    {"other trials", BR_PEN_DOTS},
+    {"beyond the limit of lagging", BR_PEN_PLUSES},
+    {"printed in the paper", BR_PEN_SQUARES},
+    {"near the judge's own error", BR_PEN_STARS},
 };
+
+static bool is_in(size_t cloud, const struct br_trial *t)
+{
+    const bool in[] = {t->end != BR_TRIAL_UNSTABLE, t->end == BR_TRIAL_UNSTABLE, t->printed,
+                       t->end == BR_TRIAL_DOUBTFUL};
+    return in[cloud];
+}
 
 static void add_cloud(const struct br_trade_picture *p, const struct br_trade *t, size_t cloud,
                       struct br_figure *f)
@@ -137,7 +118,7 @@ static void add_cloud(const struct br_trade_picture *p, const struct br_trade *t
     struct br_series *s = NULL;
     for (size_t i = 0; i < t->count; i++) {
         const struct br_trial *trial = &t->trial[i];
-        if (!p->shows(t, trial->contender) || !clouds[cloud].has(trial) || !has_place(p, trial))
+        if (!p->shows(t, trial->contender) || !is_in(cloud, trial) || !has_place(p, trial))
             continue;
         if (!s)
             s = br_series_add(f, clouds[cloud].pen, "%s", clouds[cloud].title);
