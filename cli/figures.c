@@ -23,17 +23,20 @@ struct run {
     struct br_picture_files pictures;
 };
 
-static enum br_status write_caption(struct run *r, const struct br_paper_figure *f,
-                                    const char *stem, struct br_error *err)
+/* The paper's words on a figure, and what happens at the tip of the exact solution. */
+static void put_caption(struct br_document *d, const struct br_paper_figure *f,
+                        const struct br_example *e)
 {
-    char name[600];
-    FILE *file;
-    snprintf(name, sizeof name, "%s.txt", stem);
-    const enum br_status status = br_output_file(&r->output, name, &file, err);
-    if (status)
-        return status;
-    br_paper_caption(file, f, &r->paper, r->finding);
-    return br_output_close(file, name, err);
+    char text[600] = "The exact solution:";
+    for (size_t i = 0; i < e->events; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "%s at t = %.6g s %s%s",
+                 i ? "," : "", e->event[i].time,
+                 e->event[i].field == BR_EXACT_BENDING ? "the tip " : "",
+                 br_phase_text(e->event[i].phase));
+    br_put_note(d, "Figure %d. The paper: %s", f->number, f->says);
+    br_put_note(d, "%s.", text);
+    if (f->beside)
+        br_put_note(d, "%s", f->beside);
 }
 
 static enum br_status write_figure(struct run *r, const struct br_paper_figure *f,
@@ -44,20 +47,9 @@ static enum br_status write_figure(struct run *r, const struct br_paper_figure *
     if (!status)
         status = br_picture_files_draw(&r->pictures, &figure, err);
     br_put_picture(&r->claims, figure.stem, figure.title);
-    if (!status)
-        status = write_caption(r, f, figure.stem, err);
+    put_caption(&r->claims, f, &r->paper.example[f->example - 1]);
     br_figure_clear(&figure);
     return status;
-}
-
-static enum br_status write_readme(struct run *r, struct br_error *err)
-{
-    FILE *file;
-    const enum br_status status = br_output_file(&r->output, "README.md", &file, err);
-    if (status)
-        return status;
-    br_paper_readme(file, &r->paper, r->finding);
-    return br_output_close(file, "README.md", err);
 }
 
 /* The figures first: they are rendered while the tables are written. */
@@ -67,8 +59,6 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     r->pictures.output = &r->output;
     for (const struct br_paper_figure *f = br_paper_figures; f->number && !status; f++)
         status = write_figure(r, f, err);
-    if (!status)
-        status = write_readme(r, err);
     if (!status)
         status = br_documents_write(&r->pictures, r->options, &r->claims, 1, err);
     const enum br_status drawn = br_picture_files_finish(&r->pictures, status ? NULL : err);
@@ -132,9 +122,9 @@ const struct br_command br_command_figures = {
     .title = "the paper's Figures 2 to 10, and what its section 3.2 says beside what we find",
     .about =
         "Figures 2 to 10 of the paper from Examples 1 to 4 at h = k = 1e-3, each as a gnuplot "
-        "script, data, SVG and PNG with a caption; and every statement of section 3.2 with our "
-        "value, its error bar, and whether they agree (claims.txt, .csv, .md, .tex, .json). README.md shows "
-        "them all.",
+        "script, data, SVG and PNG; and every statement of section 3.2 with our value, its error "
+        "bar, and whether they agree (claims.txt, .csv, .md, .tex, .json). All of these but .csv and "
+        ".json show the figures with their captions, as report.html does.",
     .example = {"beamrate figures --out figures"},
     .run = run,
 };

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/picture_files.h"
 
+#include <string.h>
+
 #include "cli/signals.h"
 #include "study/scene/quote.h"
 
@@ -18,22 +20,28 @@ enum br_status br_picture_failed(const struct br_error *why, const char *what, s
 
 static enum br_status end_oldest(struct br_picture_files *f, struct br_error *err)
 {
-    char script[BR_SCRIPT_NAME];
     struct br_error why = {0};
-    snprintf(script, sizeof script, "%s", f->renderer.at_work[0].script);
-    return br_renderer_end_oldest(&f->renderer, &why) ? br_picture_failed(&why, script, err)
-                                                      : BR_OK;
+    struct br_gnuplot oldest = f->at_work[0];
+    memmove(f->at_work, f->at_work + 1, --f->count * sizeof *f->at_work);
+    return br_gnuplot_end_figure(&oldest, &why) ? br_picture_failed(&why, oldest.script, err)
+                                                : BR_OK;
 }
 
 static enum br_status render(struct br_picture_files *f, const char *script, struct br_error *err)
 {
     struct br_error why = {0};
     enum br_status status = BR_OK;
-    if (!f->missing && f->renderer.count == BR_MOST_RENDERINGS)
+    if (f->missing)
+        return BR_OK;
+    if (f->count == sizeof f->at_work / sizeof *f->at_work)
         status = end_oldest(f, err);
-    if (status || f->missing ||
-        !br_renderer_add(&f->renderer, f->output->staging, script, &f->missing, &why))
+    if (status)
         return status;
+    if (!br_gnuplot_start(&f->at_work[f->count], f->output->staging, script, NULL, &f->missing,
+                          &why)) {
+        f->count++;
+        return BR_OK;
+    }
     return f->missing ? BR_OK : br_picture_failed(&why, script, err);
 }
 
@@ -58,7 +66,7 @@ enum br_status br_picture_files_draw(struct br_picture_files *f, const struct br
 enum br_status br_picture_files_finish(struct br_picture_files *f, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    while (f->renderer.count)
+    while (f->count)
         if (end_oldest(f, err))
             status = BR_INTERRUPTED;
     if (br_signals_caught())

@@ -5,12 +5,14 @@
 #define BR_CLI_PICTURE_FILES_H
 
 #include "cli/output.h"
+#include "plots/figure.h"
 #include "plots/render.h"
 
 /* Begins with its output, the rest zeros. */
 struct br_picture_files {
     const struct br_output *output;
-    struct br_renderer renderer;
+    struct br_gnuplot at_work[8]; /* side by side, in order */
+    size_t count;
     bool missing; /* gnuplot */
     bool said;    /* that it is */
 };

@@ -53,10 +53,10 @@ static enum br_status choose_format(struct br_pictures *p, struct br_error *err)
     if (p->format)
         return BR_OK;
     char known[256] = "";
-    for (const struct br_movie_format *const *f = br_movie_formats; *f; f++) {
+    for (const struct br_movie_format *f = br_movie_formats; f->extension; f++) {
         const size_t used = strlen(known);
-        snprintf(known + used, sizeof known - used, "%s%s (%s)", used ? ", " : "", (*f)->extension,
-                 (*f)->title);
+        snprintf(known + used, sizeof known - used, "%s%s (%s)", used ? ", " : "", f->extension,
+                 f->title);
     }
     return br_fail(err, BR_BAD_INPUT, "--animate: found '%s', expected a name that ends with: %s",
                    file, known);
@@ -64,13 +64,16 @@ static enum br_status choose_format(struct br_pictures *p, struct br_error *err)
 
 static enum br_status check_terminal(struct br_pictures *p, struct br_error *err)
 {
-    bool has;
-    const enum br_status status = br_gnuplot_has(p->format->terminal, &has, &p->missing, err);
-    if (status || p->missing || has)
-        return status;
+    const int name = (int)strcspn(p->format->terminal, " ");
+    FILE *question = tmpfile();
+    if (question)
+        fprintf(question, "if (strstrt(GPVAL_TERMINALS, ' %.*s ') == 0) { exit status 1 }\n", name,
+                p->format->terminal);
+    if (!br_gnuplot_run(question, stderr, &p->missing, err) || p->missing)
+        return BR_OK;
     return br_fail(err, BR_BAD_INPUT,
-                   "--animate: found '%s', but the installed gnuplot has no terminal '%s'",
-                   p->request.animate, p->format->terminal);
+                   "--animate: found '%s', but the installed gnuplot has no terminal '%.*s'",
+                   p->request.animate, name, p->format->terminal);
 }
 
 static enum br_status open_movie(struct br_pictures *p, struct br_error *err)
@@ -131,12 +134,14 @@ struct br_history_observer br_pictures_observer(struct br_pictures *p)
 
 /* ---- drawing ---- */
 
-static enum br_status check_files(const struct br_pictures *p, const struct br_movie *movie,
-                                  struct br_error *err)
+static enum br_status render_movie(struct br_pictures *p, const struct br_movie *movie,
+                                   const char *script, struct br_error *err)
 {
-    const size_t files = p->format->frames ? p->record.looks : 1;
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < files && !status; i++) {
+    struct br_gnuplot g;
+    enum br_status status = br_gnuplot_start(&g, p->output.staging, script, NULL, &p->missing, err);
+    if (!status)
+        status = br_gnuplot_end(&g, err);
+    for (size_t i = 0; i < (p->format->frames ? p->record.looks : 1) && !status; i++) {
         char name[512], path[2048];
         br_movie_file(movie, i, name, sizeof name);
         snprintf(path, sizeof path, "%s/%s", p->output.staging, name);
@@ -145,39 +150,25 @@ static enum br_status check_files(const struct br_pictures *p, const struct br_m
     return status;
 }
 
-static enum br_status write_file(const struct br_pictures *p, const struct br_movie *movie,
-                                 const char *extension,
-                                 void (*write)(FILE *, const struct br_movie *),
-                                 struct br_error *err)
-{
-    char name[300];
-    FILE *file;
-    snprintf(name, sizeof name, "%s.%s", p->stem, extension);
-    const enum br_status status = br_output_file(&p->output, name, &file, err);
-    if (status)
-        return status;
-    write(file, movie);
-    return br_output_close(file, name, err);
-}
-
 static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
 {
     const struct br_movie movie = {p->request.scene, &p->record, p->format, p->stem};
-    char script[300];
-    snprintf(script, sizeof script, "%s.gp", p->stem);
-    enum br_status status = write_file(p, &movie, "dat", br_movie_write_data, err);
-    if (!status)
-        status = write_file(p, &movie, "gp", br_movie_write_script, err);
-    if (!status && !p->missing) {
-        status = br_gnuplot_run(p->output.staging, script, &p->missing, err);
-        if (!status)
-            status = check_files(p, &movie, err);
+    enum br_status status = BR_OK;
+    char name[300];
+    for (int script = 0; script < 2 && !status; script++) {
+        FILE *file;
+        snprintf(name, sizeof name, "%s%s", p->stem, script ? ".gp" : ".dat");
+        status = br_output_file(&p->output, name, &file, err);
+        if (status)
+            return status;
+        script ? br_movie_write_script(file, &movie) : br_movie_write_data(file, &movie);
+        status = br_output_close(file, name, err);
     }
+    if (!status && !p->missing)
+        status = render_movie(p, &movie, name, err);
     if (br_signals_caught()) /* Ctrl-C ends gnuplot, too */
         status = br_fail(err, BR_INTERRUPTED, "interrupted");
-    if (!status)
-        status = br_output_commit(&p->output, err);
-    return status;
+    return status ? status : br_output_commit(&p->output, err);
 }
 
 static int columns_of(FILE *letters)
@@ -193,17 +184,16 @@ static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct 
     bool missing = false;
     struct br_figure figure;
     struct br_error why = {0};
-    fflush(letters);
+    FILE *script = tmpfile();
     enum br_status status = br_history_draw(p->request.scene, &p->record, &figure, err);
-    if (!status)
-        status = br_gnuplot_letters(letters, &figure, columns_of(letters), &missing, &why);
+    if (script)
+        br_figure_write_letters(script, &figure, columns_of(letters));
     br_figure_clear(&figure);
-    if (!status || !why.status)
-        return status;
-    if (!missing)
+    if (br_gnuplot_run(script, letters, &missing, &why) && !missing && !status)
         return br_picture_failed(&why, "--plot", err);
-    fprintf(stderr, "beamrate: gnuplot is not installed: --plot shows nothing\n");
-    return BR_OK;
+    if (missing)
+        fprintf(stderr, "beamrate: gnuplot is not installed: --plot shows nothing\n");
+    return status;
 }
 
 enum br_status br_pictures_finish(struct br_pictures *p, FILE *letters, struct br_error *err)

@@ -5,7 +5,8 @@
 #define BR_CLI_PICTURES_H
 
 #include "cli/output.h"
-#include "plots/movie.h"
+#include "plots/pictures.h"
+#include "study/run/history.h"
 
 struct br_pictures_request {
     const char *animate; /* a file; NULL: not wanted */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A report's errors over h at fixed k, and over k at fixed n. */
+/* A report's errors over h at fixed k, and over k at fixed n. The study's lists are ascending. */
 #include <math.h>
 
 #include "plots/pictures.h"
@@ -26,34 +26,6 @@ static double value_of(const struct br_report *r, enum axis axis, size_t entry)
 {
     const struct br_scene *scene = br_report_fitted(r)->scene;
     return axis == OVER_H ? br_mesh_size(scene, entry) : br_time_step(scene, entry);
-}
-
-/* The place of the smallest entry of a list that is larger than `after`, or `count`. */
-static size_t next(const size_t *list, size_t count, size_t after)
-{
-    size_t best = count;
-    for (size_t i = 0; i < count; i++)
-        if (list[i] > after && (best == count || list[i] < list[best]))
-            best = i;
-    return best;
-}
-
-static size_t distinct(const size_t *list, size_t count)
-{
-    size_t found = 0;
-    for (size_t i = next(list, count, 0); i < count; i = next(list, count, list[i]))
-        found++;
-    return found;
-}
-
-static size_t largest(const struct br_report *r, enum axis axis)
-{
-    size_t count, best = 0;
-    const size_t *list = list_of(r, axis, &count);
-    for (size_t i = 1; i < count; i++)
-        if (list[i] > list[best])
-            best = i;
-    return best;
 }
 
 /* ---- curves ---- */
@@ -91,7 +63,7 @@ static void add_points(const struct br_report *r, enum axis axis, size_t fixed, 
     const struct br_study *study = br_report_fitted(r);
     size_t count;
     const size_t *list = list_of(r, axis, &count);
-    for (size_t i = next(list, count, 0); i < count; i = next(list, count, list[i])) {
+    for (size_t i = 0; i < count; i++) {
         const size_t cell =
             axis == OVER_H ? i * study->k_count + fixed : fixed * study->k_count + i;
         const enum br_flag flag = study->cell[cell].flag[part];
@@ -101,25 +73,39 @@ static void add_points(const struct br_report *r, enum axis axis, size_t fixed, 
     }
 }
 
+/* The hue of entry i of a list: at most BR_HUES of them, spread evenly, have one; 0: none. */
+static size_t hue_of(size_t i, size_t count)
+{
+    if (count <= BR_HUES)
+        return i + 1;
+    for (size_t hue = 0; hue < BR_HUES; hue++)
+        if (i == hue * (count - 1) / (BR_HUES - 1))
+            return hue + 1;
+    return 0;
+}
+
+/* "k = 0.01 s" or "n = 100": the curve over an axis at an entry of the other axis' list. */
+static const char *name_curve(const struct br_report *r, enum axis axis, size_t entry,
+                              char name[40])
+{
+    if (axis == OVER_H)
+        snprintf(name, 40, "k = %.3g s", value_of(r, OVER_K, entry));
+    else
+        snprintf(name, 40, "n = %zu", entry);
+    return name;
+}
+
 /* Curves along an axis, one for each entry of the other axis' list. */
 static void add_curves(const struct br_report *r, enum axis axis, of_cell *value,
-                       struct br_panel *panel)
+                       struct br_figure *f)
 {
-    size_t count, curve = 0;
+    size_t count;
     const size_t *list = list_of(r, other(axis), &count);
-    const size_t curves = distinct(list, count);
-    for (size_t i = next(list, count, 0); i < count; i = next(list, count, list[i])) {
-        const size_t hue = br_hue_of(curve++, curves);
-        struct br_series *s =
-            axis == OVER_H
-                ? br_series_add(panel, BR_PEN_CURVE, "k = %.3g s", value_of(r, OVER_K, list[i]))
-                : br_series_add(panel, BR_PEN_CURVE, "n = %zu", list[i]);
-        if (s) {
-            s->pen = hue ? BR_PEN_CURVE : BR_PEN_OTHERS;
-            s->hue = hue;
-        }
-        add_points(r, axis, i, value, BR_PART_TOTAL, s);
-    }
+    char name[40];
+    for (size_t i = 0; i < count; i++)
+        add_points(r, axis, i, value, BR_PART_TOTAL,
+                   br_series_add(f, hue_of(i, count) ? BR_PEN_CURVE : BR_PEN_OTHERS, "%s",
+                                 name_curve(r, axis, list[i], name)));
 }
 
 /* ---- panels ---- */
@@ -127,40 +113,26 @@ static void add_curves(const struct br_report *r, enum axis axis, of_cell *value
 static struct br_panel *add_panel(const struct br_report *r, enum axis axis, struct br_figure *f)
 {
     const struct br_norm *norm = br_report_fitted(r)->norm;
-    struct br_panel *p = br_panel_add(f);
+    struct br_panel *p =
+        br_panel_add(f, axis == OVER_H ? "mesh size h (m)" : "time step k (s)", "");
     size_t count;
     const size_t *list = list_of(r, axis, &count);
     p->log_x = p->log_y = true;
-    BR_SAY(p->x_label, axis == OVER_H ? "mesh size h (m)" : "time step k (s)");
     BR_SAY(p->y_label, "%s (%s)", norm->symbol, norm->unit_markup);
     BR_SAY(p->top_label, axis == OVER_H ? "elements n" : "steps N");
-    for (size_t i = next(list, count, 0); i < count; i = next(list, count, list[i]))
+    for (size_t i = 0; i < count; i++)
         br_point_add(&p->top, value_of(r, axis, list[i]), (double)list[i], NULL);
     return p;
 }
 
-/* Orders in h: the bounds of the theory, and what the elements can do on smooth solutions, in the
- * norm: one order less for each derivative. */
-static void add_guides(const struct br_report *r, struct br_panel *p)
-{
-    const struct br_study *study = br_report_fitted(r);
-    br_guide_add(p, 0.5, "1/2  bound (26)");
-    br_guide_add(p, 1, "1  Remark 2.5");
-    if (study->scene->axial.modelled && !study->norm->energy)
-        br_guide_add(p, 2, "2  axial, P1");
-    if (study->scene->bending.modelled)
-        br_guide_add(p, study->norm->energy ? 2 : 4,
-                     study->norm->energy ? "2  bending, Hermite" : "4  bending, Hermite");
-}
-
 /* "Joint fit (95 %), total: order 2.00 [1.99, 2.01] in h, ..." */
-static void say_fit(const struct br_report *r, enum br_part part, char *text, size_t size)
+static void say_fit(const struct br_report *r, enum br_part part, char text[256])
 {
     const struct br_joint_fit *fit = &r->fits[part].joint;
     const bool described = fit->converged && br_joint_describes(fit);
     const struct br_estimate *order[] = {&fit->p, &fit->q};
     const char *before = "";
-    size_t used = (size_t)snprintf(text, size, "Joint fit (95 %%), %s: %s", br_part_names[part],
+    size_t used = (size_t)snprintf(text, 256, "Joint fit (95 %%), %s: %s", br_part_names[part],
                                    !fit->converged ? "none could be made"
                                    : described     ? "order"
                                                    : "does not describe these errors");
@@ -168,7 +140,7 @@ static void say_fit(const struct br_report *r, enum br_part part, char *text, si
         char number[64];
         if (!br_order_determined(order[i]))
             continue;
-        used += (size_t)snprintf(text + used, size - used, "%s %s in %s", before,
+        used += (size_t)snprintf(text + used, 256 - used, "%s %s in %s", before,
                                  br_order_text(order[i], number, sizeof number), i ? "k" : "h");
         before = ",";
     }
@@ -181,48 +153,43 @@ static bool always(const struct br_report *r)
     return br_report_fitted(r)->n_count > 0 && br_report_fitted(r)->k_count > 0;
 }
 
+/* Slopes: the bounds of the theory, and what the elements can do on smooth solutions, in the norm:
+ * one order less for each derivative. */
 static void fill_h(const struct br_report *r, struct br_figure *f)
 {
-    struct br_panel *p = add_panel(r, OVER_H, f);
-    say_fit(r, BR_PART_TOTAL, f->note[0], sizeof f->note[0]);
-    add_guides(r, p);
-    add_curves(r, OVER_H, error_of, p);
+    const struct br_study *study = br_report_fitted(r);
+    const bool energy = study->norm->energy, axial = study->scene->axial.modelled && !energy;
+    const bool bending = study->scene->bending.modelled;
+    double order[4] = {0.5, 1};
+    size_t orders = 2;
+    if (axial)
+        order[orders++] = 2;
+    if (bending)
+        order[orders++] = energy ? 2 : 4;
+    say_fit(r, BR_PART_TOTAL, f->note[0]);
+    BR_SAY(f->note[1], "Slopes: 0.5 bound (26), 1 Remark 2.5%s%s", axial ? ", 2 axial, P1" : "",
+           !bending ? ""
+           : energy ? ", 2 bending, Hermite"
+                    : ", 4 bending, Hermite");
+    add_panel(r, OVER_H, f);
+    add_curves(r, OVER_H, error_of, f);
+    br_slopes_add(f, orders, order);
 }
 
-/* Whether the curves over k lie on one another: at most of the time steps the errors on all meshes
- * are within a factor of 1.5. */
-static bool coincide(const struct br_report *r)
-{
-    const struct br_study *s = br_report_fitted(r);
-    size_t close = 0, judged = 0;
-    for (size_t j = 0; j < s->k_count; j++) {
-        double low = INFINITY, high = 0;
-        for (size_t i = 0; i < s->n_count; i++) {
-            const double error = error_of(r, i * s->k_count + j, BR_PART_TOTAL);
-            low = fmin(low, error);
-            high = fmax(high, error);
-        }
-        judged += high > 0;
-        close += high > 0 && high < 1.5 * low;
-    }
-    return distinct(s->n, s->n_count) > 1 && 2 * close > judged;
-}
-
-/* Where the curves cannot be told apart, their ratio to the fit stands beside them. */
+/* Beside the errors what the fit leaves over: curves over k may lie on one another. */
 static void fill_k(const struct br_report *r, struct br_figure *f)
 {
     const struct br_joint_fit *fit = &r->fits[BR_PART_TOTAL].joint;
-    struct br_panel *p = add_panel(r, OVER_K, f);
-    say_fit(r, BR_PART_TOTAL, f->note[0], sizeof f->note[0]);
-    br_guide_add(p, 1, "1");
-    add_curves(r, OVER_K, error_of, p);
-    if (!fit->converged || !br_joint_describes(fit) || !coincide(r))
+    say_fit(r, BR_PART_TOTAL, f->note[0]);
+    add_panel(r, OVER_K, f);
+    add_curves(r, OVER_K, error_of, f);
+    br_slopes_add(f, 1, (const double[]){1});
+    if (!fit->converged || !br_joint_describes(fit))
         return;
-    p = add_panel(r, OVER_K, f);
+    struct br_panel *p = add_panel(r, OVER_K, f);
     p->log_y = false;
-    f->one_key = true;
     BR_SAY(p->y_label, "error / joint fit - 1");
-    add_curves(r, OVER_K, misfit_of, p);
+    add_curves(r, OVER_K, misfit_of, f);
 }
 
 static bool has_parts(const struct br_report *r)
@@ -231,30 +198,29 @@ static bool has_parts(const struct br_report *r)
     return always(r) && scene->axial.modelled && scene->bending.modelled;
 }
 
-static void add_parts(const struct br_report *r, enum axis axis, struct br_panel *p)
+/* At the finest entry of the other axis. */
+static void add_parts(const struct br_report *r, enum axis axis, struct br_figure *f)
 {
+    size_t count;
+    list_of(r, other(axis), &count);
     for (enum br_part part = BR_PART_TOTAL; part < BR_PARTS; part++)
-        add_points(r, axis, largest(r, other(axis)), error_of, part,
-                   br_series_add(p, BR_PEN_CURVE, "%s", br_part_names[part]));
+        add_points(r, axis, count - 1, error_of, part,
+                   br_series_add(f, BR_PEN_CURVE, "%s", br_part_names[part]));
 }
 
 static void fill_parts(const struct br_report *r, struct br_figure *f)
 {
     const struct br_study *study = br_report_fitted(r);
-    say_fit(r, BR_PART_AXIAL, f->note[0], sizeof f->note[0]);
-    say_fit(r, BR_PART_BENDING, f->note[1], sizeof f->note[1]);
-    f->one_key = true;
-    struct br_panel *p = add_panel(r, OVER_H, f);
-    BR_SAY(p->x_label, "mesh size h (m), at k = %.4g s",
-           value_of(r, OVER_K, study->steps[largest(r, OVER_K)]));
-    br_guide_add(p, 1, "1");
-    br_guide_add(p, 2, "2");
-    br_guide_add(p, 4, "4");
-    add_parts(r, OVER_H, p);
-    p = add_panel(r, OVER_K, f);
-    BR_SAY(p->x_label, "time step k (s), at n = %zu", study->n[largest(r, OVER_H)]);
-    br_guide_add(p, 1, "1");
-    add_parts(r, OVER_K, p);
+    say_fit(r, BR_PART_AXIAL, f->note[0]);
+    say_fit(r, BR_PART_BENDING, f->note[1]);
+    BR_SAY(add_panel(r, OVER_H, f)->x_label, "mesh size h (m), at k = %.4g s",
+           value_of(r, OVER_K, study->steps[study->k_count - 1]));
+    add_parts(r, OVER_H, f);
+    br_slopes_add(f, 3, (const double[]){1, 2, 4});
+    BR_SAY(add_panel(r, OVER_K, f)->x_label, "time step k (s), at n = %zu",
+           study->n[study->n_count - 1]);
+    add_parts(r, OVER_K, f);
+    br_slopes_add(f, 1, (const double[]){1});
 }
 
 static bool has_printed(const struct br_report *r)
@@ -262,45 +228,52 @@ static bool has_printed(const struct br_report *r)
     return always(r) && r->printed;
 }
 
-/* A curve in the hue of whose error it is, with the mark of its place. */
-static void repaint(struct br_series *s, size_t hue)
+/* The hue tells whose error it is, the mark which curve. */
+static void add_both(const struct br_report *r, enum axis axis, struct br_figure *f)
 {
-    if (s->pen == BR_PEN_OTHERS)
-        return;
-    s->mark = s->hue;
-    s->hue = hue;
-    s->title[0] = '\0';
+    size_t count;
+    list_of(r, other(axis), &count);
+    add_panel(r, axis, f);
+    for (size_t i = 0; i < 2 * count; i++) {
+        const size_t hue = hue_of(i / 2, count);
+        struct br_series *s =
+            br_series_add(f, hue ? BR_PEN_CURVE : BR_PEN_OTHERS, i % 2 ? "printed" : "computed");
+        s->mark = hue;
+        add_points(r, axis, i / 2, i % 2 ? printed_of : error_of, BR_PART_TOTAL, s);
+    }
 }
 
-/* Our errors in the first hue, printed ones in the second; a key of the marks. */
-static void add_both(const struct br_report *r, enum axis axis, struct br_panel *p)
+/* Says what a mark is in a panel: which entry of the other axis' list. */
+static void say_mark(const struct br_report *r, enum axis axis, size_t hue, char name[40])
 {
-    add_curves(r, axis, printed_of, p);
-    const size_t curves = p->count;
-    add_curves(r, axis, error_of, p);
-    for (size_t i = 0; i < p->count; i++) {
-        const struct br_series *s = p->series[i];
-        if (i < curves && s->pen != BR_PEN_OTHERS) {
-            struct br_series *sign = br_series_add(p, BR_PEN_SIGNS, "%s", s->title);
-            if (sign)
-                sign->mark = s->hue;
-        }
-        if (i < 2 * curves)
-            repaint(p->series[i], i < curves ? 2 : 1);
-    }
-    struct br_series *whose[] = {br_series_add(p, BR_PEN_LINE, "computed"),
-                                 br_series_add(p, BR_PEN_LINE, "printed")};
-    for (size_t i = 0; i < 2 && whose[i]; i++) {
-        whose[i]->pen = BR_PEN_LINE;
-        whose[i]->hue = 1 + i;
+    size_t count;
+    const size_t *list = list_of(r, other(axis), &count);
+    name[0] = '\0';
+    for (size_t i = 0; i < count; i++)
+        if (hue_of(i, count) == hue)
+            name_curve(r, axis, list[i], name);
+}
+
+/* A key of the marks: over k they are meshes, over h time steps. */
+static void add_signs(const struct br_report *r, struct br_figure *f)
+{
+    for (size_t hue = 1; hue <= BR_HUES; hue++) {
+        char mesh[40], step[40];
+        say_mark(r, OVER_K, hue, mesh);
+        say_mark(r, OVER_H, hue, step);
+        if (*mesh || *step)
+            br_series_add(f, BR_PEN_SIGNS, "%s%s%s%s%s", *mesh ? "left " : "", mesh,
+                          *mesh && *step ? ", " : "", *step ? "right " : "", step)
+                ->mark = hue;
     }
 }
 
 static void fill_printed(const struct br_report *r, struct br_figure *f)
 {
     f->one_y = true;
-    add_both(r, OVER_K, add_panel(r, OVER_K, f));
-    add_both(r, OVER_H, add_panel(r, OVER_H, f));
+    add_both(r, OVER_K, f);
+    add_both(r, OVER_H, f);
+    add_signs(r, f);
 }
 
 static const struct br_convergence_picture

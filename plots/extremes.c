@@ -11,35 +11,26 @@
 #include "study/extremes/stability.h"
 #include "study/extremes/steps.h"
 
-static double positive(double value)
-{
-    return value > 0 ? value : (double)NAN;
-}
-
 /* ---- floors: deviation over n ---- */
 
-static void add_solver(const struct br_floors *f, size_t solver, size_t k, struct br_panel *p)
+static void add_solver(const struct br_floors *f, size_t solver, size_t k, struct br_figure *figure)
 {
-    struct br_series *s = br_series_add(p, BR_PEN_CURVE, "%s", f->solver[solver].name);
+    struct br_series *s = br_series_add(figure, BR_PEN_CURVE, "%s", f->solver[solver].name);
     for (size_t i = 0; i < f->n_count; i++) {
         const struct br_floor *floor = br_floor_at(f, solver, i, k);
         const bool marched = !floor->refused.status;
-        br_point_add(s, (double)f->n[i],
-                     marched ? positive(br_floor_deviation(floor)) : (double)NAN, NULL);
+        br_point_add(s, (double)f->n[i], marched ? br_floor_deviation(floor) : (double)NAN, NULL);
     }
 }
 
-/* 2^-53 n^power: what one rounding becomes. A deviation beyond 10 says nothing, and widens no axis.
- */
-static void add_rounding(const struct br_floors *f, int power, struct br_panel *p)
+/* 2^-53 n^power: what one rounding becomes; a deviation beyond 10 says nothing. */
+static void add_rounding(const struct br_floors *f, int power, struct br_figure *figure)
 {
     struct br_series *s =
-        br_series_add(p, BR_PEN_GUIDE, power == 1 ? "2^{-53} n" : "2^{-53} n^{%d}", power);
+        br_series_add(figure, BR_PEN_GUIDE, power == 1 ? "2^{-53} n" : "2^{-53} n^{%d}", power);
     for (size_t i = 0; i < f->n_count; i++) {
         const double rounding = DBL_EPSILON / 2 * pow((double)f->n[i], power);
-        br_point_add(s, (double)f->n[i], rounding, NULL);
-        if (rounding > 10)
-            p->y.high = 10;
+        br_point_add(s, (double)f->n[i], rounding <= 10 ? rounding : (double)NAN, NULL);
     }
 }
 
@@ -51,48 +42,44 @@ enum br_status br_floors_draw(const struct br_floors *f, size_t k, struct br_fig
     BR_SAY(figure->title,
            "Deviation from the exact discrete solution after %d steps of Example 2, k = %g s",
            BR_FLOOR_STEPS, f->k[k]);
-    struct br_panel *p = br_panel_add(figure);
+    struct br_panel *p = br_panel_add(figure, "elements n", "relative deviation");
     p->log_x = p->log_y = true;
-    BR_SAY(p->x_label, "elements n");
-    BR_SAY(p->y_label, "relative deviation");
     for (size_t s = 0; s < f->solvers; s++) /* scaled ones are where they are without */
         if (!strstr(f->solver[s].name, "scaled"))
-            add_solver(f, s, k, p);
-    add_rounding(f, 1, p);
-    add_rounding(f, 4, p);
+            add_solver(f, s, k, figure);
+    add_rounding(f, 1, figure);
+    add_rounding(f, 4, figure);
     return br_figure_check(figure, err);
 }
 
 /* ---- steps: deviation over N ---- */
 
 static void add_method(const struct br_drifts *d, size_t scene, size_t contender,
-                       struct br_panel *p)
+                       struct br_figure *f)
 {
     const char *name = d->contender[contender].name, *solver = strrchr(name, '+');
     struct br_series *s = br_series_add(
-        p, BR_PEN_CURVE, "%.*s", (int)(solver ? (size_t)(solver - name) : strlen(name)), name);
+        f, BR_PEN_CURVE, "%.*s", (int)(solver ? (size_t)(solver - name) : strlen(name)), name);
     for (size_t j = 0; j < d->k_count; j++) {
         const struct br_drift *drift = br_drift_at(d, scene, contender, j);
-        br_point_add(s, (double)d->steps[j],
-                     drift->steps ? positive(br_drift_deviation(drift)) : (double)NAN, NULL);
+        br_point_add(s, (double)d->steps[j], drift->steps ? br_drift_deviation(drift) : (double)NAN,
+                     NULL);
     }
 }
 
 enum br_status br_drifts_draw(const struct br_drifts *d, struct br_figure *figure,
                               struct br_error *err)
 {
-    *figure = (struct br_figure){.stem = "steps", .one_key = true, .one_y = true};
+    *figure = (struct br_figure){.stem = "steps", .one_y = true};
     BR_SAY(figure->title,
            "Deviation from the exact discrete solution after N steps, n = %d, riccati", BR_DRIFT_N);
     for (size_t scene = 0; scene < BR_DRIFT_SCENES; scene++) {
-        struct br_panel *p = br_panel_add(figure);
+        struct br_panel *p = br_panel_add(figure, "steps N", "relative deviation");
         p->log_x = p->log_y = true;
         BR_SAY(p->title, scene ? "Example 2, slip" : "Example 1, stick");
-        BR_SAY(p->x_label, "steps N");
-        BR_SAY(p->y_label, "relative deviation");
         for (size_t c = 0; c < d->contenders; c += d->solvers)
-            add_method(d, scene, c, p);
-        struct br_series *s = br_series_add(p, BR_PEN_GUIDE, "predicted");
+            add_method(d, scene, c, figure);
+        struct br_series *s = br_series_add(figure, BR_PEN_GUIDE, "predicted");
         for (size_t j = 0; j < d->k_count; j++)
             br_point_add(s, (double)d->steps[j], br_drift_at(d, scene, 0, j)->predicted, NULL);
     }
@@ -109,7 +96,7 @@ static void add_loss(const struct br_vibration_row *row, bool measured, struct b
     for (size_t r = 0; r < BR_VIBRATION_RATES; r++) {
         const struct br_vibration *v = &row->at[r][SHOWN];
         const double loss = fabs(measured || row->scheme->adaptive ? v->measured : v->predicted);
-        br_point_add(s, v->steps, v->end == BR_VIBRATION_DONE ? positive(loss) : (double)NAN, NULL);
+        br_point_add(s, v->steps, v->end == BR_VIBRATION_DONE ? loss : (double)NAN, NULL);
     }
 }
 
@@ -133,19 +120,15 @@ static bool has_curve(const struct br_energy_behaviour *b, size_t i, bool damped
            row->at[0][SHOWN].end == BR_VIBRATION_DONE;
 }
 
-static void add_losses(const struct br_energy_behaviour *b, bool damped, struct br_panel *p)
+static void add_losses(const struct br_energy_behaviour *b, bool damped, struct br_figure *f)
 {
-    bool named = false;
-    for (size_t i = 0; i < b->vibrations; i++)
-        if (has_curve(b, i, damped))
-            add_loss(&b->vibration[i], false,
-                     br_series_add(p, BR_PEN_LINE, "%s", b->vibration[i].scheme->name));
-    for (size_t i = 0; i < b->vibrations; i++)
-        if (has_curve(b, i, damped)) {
-            add_loss(&b->vibration[i], true,
-                     br_series_add(p, BR_PEN_RINGS, "%s", named ? "" : "measured"));
-            named = true;
-        }
+    for (int measured = 0; measured < 2; measured++)
+        for (size_t i = 0; i < b->vibrations; i++)
+            if (has_curve(b, i, damped))
+                add_loss(&b->vibration[i], measured,
+                         measured
+                             ? br_series_add(f, BR_PEN_RINGS, "measured")
+                             : br_series_add(f, BR_PEN_LINE, "%s", b->vibration[i].scheme->name));
 }
 
 enum br_status br_energy_draw(const struct br_energy_behaviour *b, struct br_figure *figure,
@@ -154,12 +137,10 @@ enum br_status br_energy_draw(const struct br_energy_behaviour *b, struct br_fig
     *figure = (struct br_figure){.stem = "energy", .one_y = true};
     BR_SAY(figure->title, "Energy of a free vibration lost to the scheme, a period");
     for (int damped = 0; damped < 2; damped++) {
-        struct br_panel *p = br_panel_add(figure);
+        struct br_panel *p = br_panel_add(figure, "steps a period", "share lost a period, size");
         BR_SAY(p->title, damped ? "1 %% of critical damping, beside viscosity" : "undamped");
-        BR_SAY(p->x_label, "steps a period");
-        BR_SAY(p->y_label, "share lost a period, size");
         p->log_x = p->log_y = true;
-        add_losses(b, damped, p);
+        add_losses(b, damped, figure);
     }
     return br_figure_check(figure, err);
 }
@@ -179,39 +160,34 @@ static void to_edges(size_t count, double *edge)
 }
 
 static void fill_cells(const struct br_stability *s, const struct br_stability_plane *plane,
-                       struct br_panel *p)
+                       struct br_figure *figure)
 {
-    if (!br_cells_make(p, s->columns, s->rows))
+    struct br_cells *c = br_cells_make(figure, s->columns, s->rows);
+    if (!c)
         return;
-    memcpy(p->cells.x, s->stiffness, s->columns * sizeof *p->cells.x);
+    memcpy(c->x, s->stiffness, s->columns * sizeof *c->x);
     for (size_t i = 0; i < s->rows; i++)
-        p->cells.y[i] = plane->row[i].k;
-    to_edges(s->columns, p->cells.x);
-    to_edges(s->rows, p->cells.y);
-    memcpy(p->cells.value, plane->radius, s->rows * s->columns * sizeof *p->cells.value);
+        c->y[i] = plane->row[i].k;
+    to_edges(s->columns, c->x);
+    to_edges(s->rows, c->y);
+    memcpy(c->value, plane->radius, s->rows * s->columns * sizeof *c->value);
 }
 
 enum br_status br_stability_draw(const struct br_stability *s, struct br_figure *figure,
                                  struct br_error *err)
 {
-    *figure = (struct br_figure){.stem = "stability",
-                                 .one_key = true,
-                                 .value = {1e-1, 1e3},
-                                 .log_value = true,
-                                 .neutral = 1};
+    *figure = (struct br_figure){.stem = "stability", .value = {1e-1, 1e3}};
     BR_SAY(figure->title, "The closed lagged contact: growth of an error in a step, measured");
     BR_SAY(figure->value_label, "largest eigenvalue of a step");
     for (size_t i = 0; i < BR_STABILITY_RODS; i++) {
         const struct br_stability_plane *plane = &s->plane[i];
-        struct br_panel *p = br_panel_add(figure);
+        struct br_panel *p = br_panel_add(figure, "c_H (N/m)", "k (s)");
         p->log_x = p->log_y = true;
         BR_SAY(p->title, "%s", plane->rod->title);
-        BR_SAY(p->x_label, "c_H (N/m)");
-        BR_SAY(p->y_label, "k (s)");
-        fill_cells(s, plane, p);
-        struct br_series *limit = br_series_add(p, BR_PEN_GUIDE, "predicted limit");
+        fill_cells(s, plane, figure);
+        struct br_series *limit = br_series_add(figure, BR_PEN_GUIDE, "predicted limit");
         struct br_series *bouncing =
-            br_series_add(p, BR_PEN_GUIDE, "no energy is gained left of this");
+            br_series_add(figure, BR_PEN_GUIDE, "no energy is gained left of this");
         for (size_t j = 0; j < s->rows; j++) {
             br_point_add(limit, plane->row[j].limit, plane->row[j].k, NULL);
             br_point_add(bouncing, plane->row[j].bouncing, plane->row[j].k, NULL);
@@ -231,22 +207,21 @@ static void fill_edges(const struct br_extreme_coordinate *c, double *edge)
 enum br_status br_extreme_map_draw(const struct br_extreme_map *map, struct br_figure *figure,
                                    struct br_error *err)
 {
-    *figure = (struct br_figure){.stem = "map", .kinds = BR_EXTREME_CLASSES, .one_key = true};
+    *figure = (struct br_figure){.stem = "map", .kinds = BR_EXTREME_CLASSES};
     BR_SAY(figure->title, "The map of extremes: what most of the cases in a cell are");
     for (int i = 0; i < BR_EXTREME_CLASSES; i++)
         BR_SAY(figure->kind[i], "%s", br_extreme_title((enum br_extreme_class)i));
     for (size_t i = 0; i < BR_EXTREME_PLANES; i++) {
         const struct br_extreme_plane *plane = &br_extreme_planes[i];
-        struct br_panel *p = br_panel_add(figure);
+        struct br_panel *p = br_panel_add(figure, plane->x->title, plane->y->title);
+        struct br_cells *c = br_cells_make(figure, plane->x->cells, plane->y->cells);
         p->log_x = p->log_y = true;
         BR_SAY(p->title, "%s", plane->title);
-        BR_SAY(p->x_label, "%s", plane->x->title);
-        BR_SAY(p->y_label, "%s", plane->y->title);
-        if (!br_cells_make(p, plane->x->cells, plane->y->cells))
+        if (!c)
             break;
-        fill_edges(plane->x, p->cells.x);
-        fill_edges(plane->y, p->cells.y);
-        br_extreme_plane_fill(map, plane, p->cells.value);
+        fill_edges(plane->x, c->x);
+        fill_edges(plane->y, c->y);
+        br_extreme_plane_fill(map, plane, c->value);
     }
     return br_figure_check(figure, err);
 }

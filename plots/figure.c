@@ -25,76 +25,113 @@ static bool grow(void *array, size_t count, size_t *room, size_t size)
     return true;
 }
 
-struct br_panel *br_panel_add(struct br_figure *figure)
+static struct br_panel *last_panel(struct br_figure *f)
 {
-    return &figure->panel[figure->panels++];
+    return &f->panel[f->panels - 1];
 }
 
-static bool has_hue(enum br_pen pen)
+struct br_panel *br_panel_add(struct br_figure *f, const char *x_label, const char *y_label)
 {
-    return pen == BR_PEN_CURVE || pen == BR_PEN_LINE;
+    f->panels++;
+    BR_SAY(last_panel(f)->x_label, "%s", x_label);
+    BR_SAY(last_panel(f)->y_label, "%s", y_label);
+    return last_panel(f);
 }
 
-/* The first hue that no series of the panel has; 0: none is left. */
-static size_t free_hue(const struct br_panel *panel)
+/* Whether two pens take their looks from one list. */
+static bool are_akin(enum br_pen a, enum br_pen b)
 {
-    for (size_t hue = 1; hue <= BR_HUES; hue++) {
-        bool taken = false;
-        for (size_t i = 0; i < panel->count; i++)
-            taken |= has_hue(panel->series[i]->pen) && panel->series[i]->hue == hue;
-        if (!taken)
-            return hue;
-    }
-    return 0;
+    return a == b || (a <= BR_PEN_LINE && b <= BR_PEN_LINE);
 }
 
-struct br_series *br_series_add(struct br_panel *panel, enum br_pen pen, const char *title, ...)
+/* Looks like the series of this title, else like none before; without a title like the first. */
+static void find_look(const struct br_figure *f, enum br_pen pen, struct br_series *new)
 {
+    size_t last = 0;
+    for (size_t i = 0; i < f->panels; i++)
+        for (size_t j = 0; j < f->panel[i].count; j++) {
+            const struct br_series *s = f->panel[i].series[j];
+            if (are_akin(s->pen, pen) && strcmp(s->title, new->title) == 0) {
+                new->look = s->look;
+                return;
+            }
+            last = are_akin(s->pen, pen) && s->look > last ? s->look : last;
+        }
+    new->in_key = new->title[0];
+    new->look = new->in_key ? last + 1 : 1;
+}
+
+struct br_series *br_series_add(struct br_figure *f, enum br_pen pen, const char *title, ...)
+{
+    struct br_panel *p = last_panel(f);
     struct br_series *s = NULL;
-    if (grow(&panel->series, panel->count, &panel->room, sizeof *panel->series))
+    if (grow(&p->series, p->count, &p->room, sizeof *p->series))
         s = br_allocate(1, sizeof *s);
-    panel->failed |= !s;
-    if (!s)
-        return NULL;
-    s->hue = has_hue(pen) ? free_hue(panel) : 0;
-    s->pen = has_hue(pen) && !s->hue ? BR_PEN_OTHERS : pen;
+    if (!s) {
+        f->failed = f->lost.failed = true;
+        return &f->lost;
+    }
     va_list arguments;
     va_start(arguments, title);
     vsnprintf(s->title, sizeof s->title, title, arguments);
     va_end(arguments);
-    return panel->series[panel->count++] = s;
+    find_look(f, pen, s);
+    s->pen = pen <= BR_PEN_LINE && s->look > BR_HUES ? BR_PEN_OTHERS : pen;
+    return p->series[p->count++] = s;
 }
 
 void br_point_add(struct br_series *s, double x, double y, const char *flag)
 {
-    if (!s || s->failed)
+    if (s->failed)
         return;
     s->failed = !grow(&s->point, s->count, &s->room, sizeof *s->point);
     if (!s->failed)
         s->point[s->count++] = (struct br_figure_point){x, y, flag};
 }
 
-struct br_mark *br_mark_add(struct br_panel *panel, double x, const char *label, ...)
+static int compare(const void *a, const void *b)
 {
-    struct br_mark *mark = &panel->mark[panel->marks++];
-    *mark = (struct br_mark){.x = x, .height = 0.5};
-    va_list arguments;
-    va_start(arguments, label);
-    vsnprintf(mark->label, sizeof mark->label, label, arguments);
-    va_end(arguments);
-    return mark;
+    const struct br_figure_point *p = a, *q = b;
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    return (p->y > q->y) - (p->y < q->y);
 }
 
-void br_guide_add(struct br_panel *panel, double order, const char *label)
+void br_series_sort(struct br_series *s)
 {
-    struct br_guide *guide = &panel->guide[panel->guides++];
-    guide->order = order;
-    BR_SAY(guide->label, "%s", label);
+    if (s->count)
+        qsort(s->point, s->count, sizeof *s->point, compare);
 }
 
-bool br_cells_make(struct br_panel *panel, size_t columns, size_t rows)
+void br_mark_add(struct br_figure *f, double x, const char *title)
 {
-    struct br_cells *c = &panel->cells;
+    const struct br_range y = br_extent(last_panel(f), true);
+    struct br_series *s = br_series_add(f, BR_PEN_GUIDE, "%s", title);
+    br_point_add(s, x, y.low, NULL);
+    br_point_add(s, x, y.high, NULL);
+}
+
+/* A fan that rises from one point; it takes two fifths of the panel's height at most, and a fifth
+ * of its width. */
+void br_slopes_add(struct br_figure *f, size_t count, const double *order)
+{
+    const struct br_range x = br_extent(last_panel(f), false), y = br_extent(last_panel(f), true);
+    if (!(x.low < x.high && y.low < y.high) || !count)
+        return;
+    const double width =
+        fmin(0.2 * log(x.high / x.low), 0.4 * log(y.high / y.low) / order[count - 1]);
+    const double left = x.high * pow(x.high / x.low, 0.06);
+    for (size_t i = 0; i < count; i++) {
+        struct br_series *s = br_series_add(f, BR_PEN_GUIDE, "%s", "");
+        BR_SAY(s->end, "%g", order[i]);
+        br_point_add(s, left, y.low, NULL);
+        br_point_add(s, left * exp(width), y.low * exp(width * order[i]), NULL);
+    }
+}
+
+struct br_cells *br_cells_make(struct br_figure *f, size_t columns, size_t rows)
+{
+    struct br_cells *c = &last_panel(f)->cells;
     *c = (struct br_cells){
         .columns = columns,
         .rows = rows,
@@ -102,21 +139,10 @@ bool br_cells_make(struct br_panel *panel, size_t columns, size_t rows)
         .y = br_allocate(rows + 1, sizeof *c->y),
         .value = br_allocate(rows * columns + 1, sizeof *c->value),
     };
-    const bool made = c->x && c->y && c->value;
-    panel->failed |= !made;
-    for (size_t i = 0; made && i < rows * columns; i++)
+    f->failed |= !c->x || !c->y || !c->value;
+    for (size_t i = 0; c->value && i < rows * columns; i++)
         c->value[i] = NAN;
-    return made;
-}
-
-size_t br_hue_of(size_t i, size_t count)
-{
-    if (count <= BR_HUES)
-        return i + 1;
-    for (size_t hue = 0; hue < BR_HUES; hue++)
-        if (i == hue * (count - 1) / (BR_HUES - 1))
-            return hue + 1;
-    return 0;
+    return f->failed ? NULL : c;
 }
 
 bool br_is_drawn(const struct br_panel *panel, const struct br_figure_point *p)
@@ -125,41 +151,34 @@ bool br_is_drawn(const struct br_panel *panel, const struct br_figure_point *p)
            (p->y > 0 || !panel->log_y);
 }
 
-struct br_range br_value_range(const struct br_figure *f)
+struct br_range br_extent(const struct br_panel *p, bool along_y)
 {
-    struct br_range r = f->value;
-    if (r.low < r.high)
-        return r;
-    r = (struct br_range){INFINITY, -INFINITY};
-    for (size_t i = 0; i < f->panels; i++)
-        for (size_t j = 0; j < f->panel[i].cells.rows * f->panel[i].cells.columns; j++) {
-            const double v = f->panel[i].cells.value[j];
-            if (!isfinite(v) || (f->log_value && !(v > 0)))
+    struct br_range r = {INFINITY, -INFINITY};
+    for (size_t j = 0; j < p->count; j++)
+        for (size_t k = 0; k < p->series[j]->count; k++) {
+            const struct br_figure_point *at = &p->series[j]->point[k];
+            if (!br_is_drawn(p, at))
                 continue;
-            r.low = fmin(r.low, v);
-            r.high = fmax(r.high, v);
+            r.low = fmin(r.low, along_y ? at->y : at->x);
+            r.high = fmax(r.high, along_y ? at->y : at->x);
         }
-    if (!(r.low <= r.high))
-        r.low = r.high = 1; /* no cell has a colour */
-    if (r.low < r.high)
-        return r;
-    return f->log_value ? (struct br_range){r.low / 10, r.high * 10}
-                        : (struct br_range){r.low - 1, r.high + 1};
+    return r;
 }
 
-bool br_is_coloured(const struct br_figure *f, double value)
+double br_colour_of(const struct br_figure *f, double value)
 {
-    return f->kinds ? value >= 0 && value < (double)f->kinds : !isnan(value);
+    if (f->kinds)
+        return value >= 0 && value < (double)f->kinds ? value : -1;
+    return isnan(value) ? -1 : fmin(fmax(value, f->value.low), f->value.high);
 }
 
 enum br_status br_figure_check(const struct br_figure *f, struct br_error *err)
 {
-    bool failed = false;
+    bool failed = f->failed;
     for (size_t i = 0; i < f->panels; i++) {
-        const struct br_panel *p = &f->panel[i];
-        failed |= p->failed || p->top.failed;
-        for (size_t j = 0; j < p->count; j++)
-            failed |= p->series[j]->failed;
+        failed |= f->panel[i].top.failed;
+        for (size_t j = 0; j < f->panel[i].count; j++)
+            failed |= f->panel[i].series[j]->failed;
     }
     return failed ? br_no_memory(err, "a figure") : BR_OK;
 }
@@ -194,28 +213,19 @@ static void write_number(FILE *out, double value)
         fputs(isnan(value) ? "NaN " : value > 0 ? "Inf " : "-Inf ", out);
 }
 
-static double middle(double a, double b, bool logarithmic)
+static void write_cells(FILE *out, const struct br_figure *f, const struct br_cells *c)
 {
-    return logarithmic ? sqrt(a) * sqrt(b) : (a + b) / 2;
-}
-
-static void write_cells(FILE *out, const struct br_figure *f, const struct br_panel *p)
-{
-    const struct br_cells *c = &p->cells;
-    const struct br_range r = br_value_range(f);
     for (size_t i = 0; i < c->rows; i++)
         for (size_t j = 0; j < c->columns; j++) {
-            const double v = c->value[i * c->columns + j];
-            write_number(out, middle(c->x[j], c->x[j + 1], p->log_x));
-            write_number(out, middle(c->y[i], c->y[i + 1], p->log_y));
+            const double value = c->value[i * c->columns + j];
             write_number(out, c->x[j]);
             write_number(out, c->x[j + 1]);
             write_number(out, c->y[i]);
             write_number(out, c->y[i + 1]);
-            write_number(out, v);
-            write_number(out, isnan(v) || f->kinds ? v : fmin(fmax(v, r.low), r.high));
-            fprintf(out, "%d\n", br_is_coloured(f, v));
+            write_number(out, value);
+            fprintf(out, "%.9g\n", br_colour_of(f, value));
         }
+    fputs("\n\n", out);
 }
 
 /* What cannot be drawn is a gap. */
@@ -227,6 +237,7 @@ static void write_points(FILE *out, const struct br_panel *p, const struct br_se
         write_number(out, br_is_drawn(p, at) ? at->y : NAN);
         fprintf(out, "%s\n", at->flag ? at->flag : "-");
     }
+    fputs("\n\n", out);
 }
 
 static void write_comment_line(FILE *out, const char *text)
@@ -250,11 +261,10 @@ void br_figure_write_data(FILE *out, const struct br_figure *f)
         const struct br_panel *p = &f->panel[i];
         if (p->cells.columns) {
             fprintf(out,
-                    "\n# index %zu: %s; cells: x, y, x from, to, y from, to, value, its colour, "
-                    "whether it has one\n# %s | %s\n",
+                    "\n# index %zu: %s; cells: x from, to, y from, to, value, its colour (-1: "
+                    "none)\n# %s | %s\n",
                     index++, p->title, p->x_label, p->y_label);
-            write_cells(out, f, p);
-            fputs("\n\n", out);
+            write_cells(out, f, &p->cells);
         }
         for (size_t j = 0; j < p->count; j++) {
             if (!p->series[j]->count)
@@ -262,7 +272,6 @@ void br_figure_write_data(FILE *out, const struct br_figure *f)
             fprintf(out, "\n# index %zu: %s; %s\n# %s | %s | flag\n", index++, p->title,
                     p->series[j]->title, p->x_label, p->y_label);
             write_points(out, p, p->series[j]);
-            fputs("\n\n", out);
         }
     }
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pictures of each report, filled from its result: nothing is computed here but where a point
- * stands. All fail with BR_NO_MEMORY; the figure (out) is to be cleared, even then.
+ * stands. All that return a status fail with BR_NO_MEMORY; the figure (out) is to be cleared, even
+ * then.
  *
  * To add a picture: a filler, and a row of its registry or a declaration below. */
 #ifndef BR_PLOTS_PICTURES_H
@@ -11,10 +12,8 @@ struct br_contender;
 struct br_drifts;
 struct br_energy_behaviour;
 struct br_extreme_map;
-struct br_finding;
 struct br_floors;
 struct br_history_record;
-struct br_history_row;
 struct br_paper;
 struct br_report;
 struct br_scene;
@@ -98,28 +97,47 @@ extern const struct br_paper_figure br_paper_figures[]; /* ends with number 0 */
 enum br_status br_paper_figure_draw(const struct br_paper_figure *row, const struct br_paper *paper,
                                     struct br_figure *figure, struct br_error *err);
 
-/* What the paper says of a figure, and whether we see it, as plain text; and of all figures, as
- * Markdown, for the folder's README.md. findings: in the order of br_claims. */
-void br_paper_caption(FILE *out, const struct br_paper_figure *row, const struct br_paper *paper,
-                      const struct br_finding *findings);
-void br_paper_readme(FILE *out, const struct br_paper *paper, const struct br_finding *findings);
+/* ---- run.c: the tip of a run over time ---- */
 
-/* ---- letters.c: the tip of a run over time, for a terminal ---- */
+/* The place of a number in struct br_history_row. */
+#define BR_ROW(member) offsetof(struct br_history_row, member)
 
-/* What a row of a history tells of the tip. */
-enum br_row_value {
-    BR_ROW_TIME,
-    BR_ROW_AXIAL,
-    BR_ROW_BENDING,
-    BR_ROW_SPEED, /* of bending */
-    BR_ROW_CONTACT,
-    BR_ROW_FRICTION,
-    BR_ROW_STRESS, /* minus friction */
-    BR_ROW_BOUND
-};
-double br_value_of_row(const struct br_history_row *row, enum br_row_value what);
+/* A line over time of a number of all rows, times `factor`. */
+void br_rows_add(struct br_figure *figure, const char *title,
+                 const struct br_history_record *record, size_t place, double factor);
 
+/* For a terminal, with letters. */
 enum br_status br_history_draw(const struct br_scene *scene, const struct br_history_record *record,
                                struct br_figure *figure, struct br_error *err);
+
+/* ---- movie.c: beam, obstacle, and the forces at the tip, moving ---- */
+
+/* A row of the registry. */
+struct br_movie_format {
+    const char *extension; /* of the file; "/": a folder of frames */
+    const char *terminal;  /* gnuplot's, with its options */
+    const char *title;     /* one line for a person */
+    bool frames;           /* one file each */
+};
+extern const struct br_movie_format br_movie_formats[]; /* ends with zeros */
+
+/* The format of a file by its ending; NULL: none. */
+const struct br_movie_format *br_movie_format_of(const char *file);
+
+/* What is shown: all looks of the record. Borrowed. */
+struct br_movie {
+    const struct br_scene *scene;
+    const struct br_history_record *record;
+    const struct br_movie_format *format;
+    const char *stem; /* of the files, without a quote; frames are stem-0001.png and so on */
+};
+
+/* The tip in all frames, then each frame's fields, and the script that draws the file from
+ * stem.dat. */
+void br_movie_write_data(FILE *out, const struct br_movie *movie);
+void br_movie_write_script(FILE *out, const struct br_movie *movie);
+
+/* The name of a movie's picture: of frame i for a set of frames. */
+void br_movie_file(const struct br_movie *movie, size_t frame, char *file, size_t size);
 
 #endif

@@ -2,7 +2,6 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
@@ -37,27 +36,24 @@ static int start_group(pid_t *child, const posix_spawn_file_actions_t *actions, 
     return failure;
 }
 
-/* Starts gnuplot without a shell; what it says goes to `saying`. Returns an errno. */
-static int start(const char *folder, const char *script, int saying, pid_t *child)
+/* Starts gnuplot without a shell; what it says goes to g->said. Returns an errno. */
+static int start(struct br_gnuplot *g, FILE *commands)
 {
-    char copy[BR_SCRIPT_NAME], gnuplot[] = "gnuplot", defaults[] = "--default-settings";
-    if (strlen(script) >= sizeof copy)
-        return ENAMETOOLONG;
-    strcpy(copy, script);
-    char *const words[] = {gnuplot, defaults, copy, NULL};
+    char gnuplot[] = "gnuplot", defaults[] = "--default-settings";
+    char *const words[] = {gnuplot, defaults, commands ? NULL : g->script, NULL};
     posix_spawn_file_actions_t actions;
     int failure = posix_spawn_file_actions_init(&actions);
     if (failure)
         return failure;
-    failure = posix_spawn_file_actions_addchdir_np(&actions, folder);
-    if (!failure)
+    failure = posix_spawn_file_actions_addchdir_np(&actions, g->folder);
+    if (!failure && commands)
+        failure = posix_spawn_file_actions_adddup2(&actions, fileno(commands), 0);
+    else if (!failure)
         failure = posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    for (int end = 1; end <= 2 && !failure; end++)
+        failure = posix_spawn_file_actions_adddup2(&actions, fileno(g->said), end);
     if (!failure)
-        failure = posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-    if (!failure)
-        failure = posix_spawn_file_actions_adddup2(&actions, saying, 2);
-    if (!failure)
-        failure = start_group(child, &actions, words);
+        failure = start_group(&g->child, &actions, words);
     posix_spawn_file_actions_destroy(&actions);
     return failure;
 }
@@ -111,45 +107,6 @@ enum br_status br_picture_check(const char *path, struct br_error *err)
     return br_fail(err, BR_IO, "gnuplot wrote no complete %.900s; the disk may be full", path);
 }
 
-/* The i-th picture of a script; false: there are no more. */
-static bool picture(const char *folder, const char *script, size_t i, char *path, size_t size)
-{
-    static const char *const extensions[] = {"svg", "png", "pdf"};
-    const char *dot = strrchr(script, '.');
-    const int stem = (int)(dot ? (size_t)(dot - script) : strlen(script));
-    if (i < sizeof extensions / sizeof *extensions)
-        snprintf(path, size, "%s/%.*s.%s", folder, stem, script, extensions[i]);
-    return i < sizeof extensions / sizeof *extensions;
-}
-
-enum { PATH = 4096 + BR_SCRIPT_NAME + 8 };
-
-/* A script draws no PDF where gnuplot has no terminal for it; where it has one, gnuplot itself
- * fails if it cannot make the file. */
-static bool is_missing_pdf(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    return dot && strcmp(dot, ".pdf") == 0 && access(path, F_OK) != 0;
-}
-
-static enum br_status check_pictures(const char *folder, const char *script, struct br_error *err)
-{
-    char path[PATH];
-    enum br_status status = BR_OK;
-    for (size_t i = 0; !status && picture(folder, script, i, path, sizeof path); i++)
-        if (!is_missing_pdf(path))
-            status = br_picture_check(path, err);
-    return status;
-}
-
-/* Half a picture is none. */
-static void remove_pictures(const struct br_rendering *r)
-{
-    char path[PATH];
-    for (size_t i = 0; picture(r->folder, r->script, i, path, sizeof path); i++)
-        unlink(path);
-}
-
 static double now(void)
 {
     struct timespec t;
@@ -165,148 +122,101 @@ static double time_limit(void)
     return seconds > 0 ? seconds : 60;
 }
 
-/* Starts gnuplot on a script. */
-static enum br_status begin(struct br_rendering *r, bool *missing, struct br_error *err)
+enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const char *script,
+                                FILE *commands, bool *missing, struct br_error *err)
 {
-    int ends[2];
     struct stat there;
-    if (stat(r->folder, &there) != 0) /* else a missing folder looks like a missing gnuplot */
-        return br_fail(err, BR_IO, "%s: %s", r->folder, strerror(errno));
-    if (pipe2(ends, O_CLOEXEC) != 0 || fcntl(ends[0], F_SETFL, O_NONBLOCK) != 0)
-        return br_fail(err, BR_IO, "no pipe for gnuplot: %s", strerror(errno));
-    const int failure = start(r->folder, r->script, ends[1], &r->child);
-    close(ends[1]);
-    r->said = ends[0];
-    r->started = now();
+    *missing = false;
+    const int folder_length = snprintf(g->folder, sizeof g->folder, "%s", folder);
+    const int script_length = snprintf(g->script, sizeof g->script, "%s", script ? script : "");
+    if ((size_t)folder_length >= sizeof g->folder || (size_t)script_length >= sizeof g->script)
+        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
+    if (stat(g->folder, &there) != 0) /* else a missing folder looks like a missing gnuplot */
+        return br_fail(err, BR_IO, "%s: %s", g->folder, strerror(errno));
+    g->said = tmpfile();
+    if (!g->said)
+        return br_fail(err, BR_IO, "no file for what gnuplot says: %s", strerror(errno));
+    const int failure = start(g, commands);
+    g->started = now();
     if (!failure)
         return BR_OK;
-    close(ends[0]);
+    fclose(g->said);
     *missing = failure == ENOENT || failure == ENOTDIR; /* PATH may name what is no folder */
     return br_fail(err, BR_IO, "gnuplot cannot be run: %s",
                    *missing ? "it is not installed" : strerror(failure));
 }
 
-/* What gnuplot says: the beginning of it. */
-struct saying {
-    char text[4096];
-    size_t length;
-};
-
-/* Reads on; whether there may be more to come. */
-static bool listen_on(const struct br_rendering *r, struct saying *said)
-{
-    char piece[1024];
-    const ssize_t got = read(r->said, piece, sizeof piece);
-    if (got <= 0)
-        return got < 0 && (errno == EINTR || errno == EAGAIN);
-    const size_t room = sizeof said->text - 1 - said->length;
-    const size_t kept = (size_t)got < room ? (size_t)got : room;
-    memcpy(said->text + said->length, piece, kept);
-    said->length += kept;
-    return true;
-}
-
-static enum br_status check_time(const struct br_rendering *r, struct br_error *err)
+static enum br_status check_time(const struct br_gnuplot *g, struct br_error *err)
 {
     if (stops && stops())
         return br_fail(err, BR_INTERRUPTED, "interrupted");
-    if (now() - r->started < time_limit())
+    if (now() - g->started < time_limit())
         return BR_OK;
     return br_fail(err, BR_IO, "gnuplot did not end on %s within %g s (BEAMRATE_GNUPLOT_SECONDS)",
-                   r->script, time_limit());
+                   g->script, time_limit());
 }
 
-/* Waits for its end, or makes it. */
-static enum br_status wait_for(const struct br_rendering *r, struct br_error *err)
+/* Waits for the end, and leaves g->said open, at its beginning. */
+static enum br_status wait_for(struct br_gnuplot *g, struct br_error *err)
 {
-    enum { SOON = 50, AT_ONCE = 2 }; /* ms */
-    struct saying said = {.length = 0};
+    static const struct timespec soon = {.tv_nsec = 5000000};
     enum br_status status = BR_OK;
     int ending = 0;
-    bool open = true;
+    char text[4096] = "";
     for (pid_t ended = 0; ended == 0 || (ended < 0 && errno == EINTR);) {
-        struct pollfd pipe = {.fd = open ? r->said : -1, .events = POLLIN};
-        if (!status && (status = check_time(r, err)))
-            kill(-r->child, SIGKILL);
-        if (poll(&pipe, 1, open ? SOON : AT_ONCE) > 0)
-            open = listen_on(r, &said);
-        ended = waitpid(r->child, &ending, WNOHANG);
+        ended = waitpid(g->child, &ending, WNOHANG);
+        if (ended == 0 && !status && (status = check_time(g, err)))
+            kill(-g->child, SIGKILL);
+        if (ended == 0)
+            nanosleep(&soon, NULL);
     }
-    while (open && (open = listen_on(r, &said) && errno != EAGAIN))
-        ;
-    close(r->said);
-    if (!status && !(WIFEXITED(ending) && WEXITSTATUS(ending) == 0))
-        status = br_fail(err, BR_IO, "gnuplot failed on %s: %s", r->script, reason(said.text));
+    rewind(g->said);
+    if (status || (WIFEXITED(ending) && WEXITSTATUS(ending) == 0))
+        return status;
+    text[fread(text, 1, sizeof text - 1, g->said)] = '\0';
+    return br_fail(err, BR_IO, "gnuplot failed on %s: %s", g->script, reason(text));
+}
+
+enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err)
+{
+    const enum br_status status = wait_for(g, err);
+    fclose(g->said);
     return status;
 }
 
-/* The same, and its pictures must be whole. */
-static enum br_status end(const struct br_rendering *r, struct br_error *err)
+/* A script draws no PDF where gnuplot has no terminal for it; where it has one, gnuplot itself
+ * fails if it cannot make the file. */
+enum br_status br_gnuplot_end_figure(struct br_gnuplot *g, struct br_error *err)
 {
-    enum br_status status = wait_for(r, err);
-    if (!status)
-        status = check_pictures(r->folder, r->script, err);
+    static const char *const extensions[] = {"svg", "png", "pdf"};
+    char path[3][sizeof g->folder + sizeof g->script];
+    const int stem = (int)(strrchr(g->script, '.') - g->script);
+    enum br_status status = br_gnuplot_end(g, err);
+    for (size_t i = 0; i < 3; i++) {
+        snprintf(path[i], sizeof path[i], "%s/%.*s.%s", g->folder, stem, g->script, extensions[i]);
+        if (!status && (i < 2 || access(path[i], F_OK) == 0))
+            status = br_picture_check(path[i], err);
+    }
+    for (size_t i = 0; i < 3 && status; i++)
+        unlink(path[i]);
+    return status;
+}
+
+enum br_status br_gnuplot_run(FILE *commands, FILE *out, bool *missing, struct br_error *err)
+{
+    struct br_gnuplot g;
+    *missing = false;
+    if (!commands)
+        return br_fail(err, BR_IO, "no file for gnuplot's commands: %s", strerror(errno));
+    rewind(commands);
+    enum br_status status = br_gnuplot_start(&g, ".", NULL, commands, missing, err);
+    fclose(commands);
     if (status)
-        remove_pictures(r);
+        return status;
+    status = wait_for(&g, err);
+    for (int c; !status && (c = getc(g.said)) != EOF;)
+        if (c != '\f') /* as a terminal for letters begins a page */
+            putc(c, out);
+    fclose(g.said);
     return status;
-}
-
-/* Starts gnuplot on a script whose name has room. */
-static enum br_status begin_named(struct br_rendering *r, const char *folder, const char *script,
-                                  bool *missing, struct br_error *err)
-{
-    const int folder_length = snprintf(r->folder, sizeof r->folder, "%s", folder);
-    const int script_length = snprintf(r->script, sizeof r->script, "%s", script);
-    if ((size_t)folder_length >= sizeof r->folder || (size_t)script_length >= sizeof r->script)
-        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
-    return begin(r, missing, err);
-}
-
-enum br_status br_gnuplot_run(const char *folder, const char *script, bool *missing,
-                              struct br_error *err)
-{
-    struct br_rendering r = {0};
-    *missing = false;
-    const enum br_status status = begin_named(&r, folder, script, missing, err);
-    return status ? status : wait_for(&r, err);
-}
-
-enum br_status br_renderer_end_oldest(struct br_renderer *r, struct br_error *err)
-{
-    const enum br_status status = end(&r->at_work[0], err);
-    memmove(r->at_work, r->at_work + 1, --r->count * sizeof *r->at_work);
-    return status;
-}
-
-enum br_status br_renderer_add(struct br_renderer *r, const char *folder, const char *script,
-                               bool *missing, struct br_error *err)
-{
-    *missing = false;
-    if (r->count == BR_MOST_RENDERINGS) {
-        const enum br_status status = br_renderer_end_oldest(r, err);
-        if (status)
-            return status;
-    }
-    const enum br_status status = begin_named(&r->at_work[r->count], folder, script, missing, err);
-    r->count += status == BR_OK;
-    return status;
-}
-
-enum br_status br_renderer_finish(struct br_renderer *r, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    while (r->count) {
-        struct br_error failure = {0};
-        if (br_renderer_end_oldest(r, &failure) && !status)
-            status = br_fail(err, failure.status, "%s", failure.message);
-    }
-    return status;
-}
-
-enum br_status br_plot_render(const char *folder, const char *script, bool *missing,
-                              struct br_error *err)
-{
-    struct br_renderer renderer = {0};
-    const enum br_status status = br_renderer_add(&renderer, folder, script, missing, err);
-    return status ? status : br_renderer_finish(&renderer, err);
 }

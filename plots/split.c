@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parts of the error over the time step, or over the mesh: where one of them takes over. */
 #include <math.h>
-#include <string.h>
 
 #include "plots/pictures.h"
+#include "study/scene/method_fields.h"
 #include "study/trade/split.h"
 
 enum { PANELS = 2 };
@@ -15,105 +15,74 @@ struct line {
     bool over_k;
 };
 
-static bool same_method(const struct br_split *a, const struct br_split *b)
+/* What the runs of a line share beside their method. */
+static size_t fixed(const struct line *line, const struct br_split *s)
 {
-    const struct br_method *x = &a->method, *y = &b->method;
-    return x->scheme == y->scheme && x->contact == y->contact && x->friction == y->friction &&
-           x->solver == y->solver && x->tolerance == y->tolerance &&
-           x->axial_degree == y->axial_degree && x->linear.refinement == y->linear.refinement &&
-           strcmp(x->linear.scaling, y->linear.scaling) == 0;
-}
-
-static double abscissa(const struct br_split *s, bool over_k)
-{
-    return over_k ? br_time_step(s->scene, s->at.steps) : br_mesh_size(s->scene, s->at.n);
-}
-
-static size_t fixed(const struct br_split *s, bool over_k)
-{
-    return over_k ? s->at.n : s->at.steps;
+    return line->over_k ? s->at.n : s->at.steps;
 }
 
 static bool is_on(const struct line *line, const struct br_split *s)
 {
-    return same_method(s, line->first) && fixed(s, line->over_k) == line->finest;
+    return br_methods_equal(&s->method, &line->first->method) && fixed(line, s) == line->finest;
 }
 
-/* The run of the line with the smallest k or h above `after`; NULL: there is none. */
-static const struct br_split *next(const struct line *line, double after)
+/* Part i of the runs; past the last, the whole. A gap where it cannot be told. */
+static void add_points(const struct line *line, size_t part, struct br_series *series)
 {
-    const struct br_split *best = NULL;
     for (size_t i = 0; i < line->count; i++) {
         const struct br_split *s = &line->split[i];
-        const double x = abscissa(s, line->over_k);
-        if (is_on(line, s) && x > after && (!best || x < abscissa(best, line->over_k)))
-            best = s;
+        if (!is_on(line, s))
+            continue;
+        const struct br_share *share = part < s->shares ? &s->share[part] : &s->whole;
+        br_point_add(
+            series,
+            line->over_k ? br_time_step(s->scene, s->at.steps) : br_mesh_size(s->scene, s->at.n),
+            br_share_told(share, 0, BR_PART_TOTAL) ? share->error[0][BR_PART_TOTAL] : (double)NAN,
+            NULL);
     }
-    return best;
+    br_series_sort(series);
 }
 
-/* Part i of a run; past the last, the whole. */
-static const struct br_share *share_of(const struct br_split *s, size_t i)
+static bool is_anywhere(const struct line *line, size_t part)
 {
-    return i < s->shares ? &s->share[i] : &s->whole;
-}
-
-/* A gap where it cannot be told. */
-static void add_points(const struct line *line, size_t share, struct br_series *series)
-{
-    for (const struct br_split *s = next(line, 0); s; s = next(line, abscissa(s, line->over_k))) {
-        const struct br_share *part = share_of(s, share);
-        const bool told = br_share_told(part, 0, BR_PART_TOTAL);
-        br_point_add(series, abscissa(s, line->over_k),
-                     told ? part->error[0][BR_PART_TOTAL] : (double)NAN, NULL);
-    }
-}
-
-static bool is_anywhere(const struct line *line, size_t share)
-{
-    for (const struct br_split *s = next(line, 0); s; s = next(line, abscissa(s, line->over_k)))
-        if (br_share_told(share_of(s, share), 0, BR_PART_TOTAL))
-            return true;
-    return false;
+    bool told = false;
+    for (size_t i = 0; i < line->count; i++)
+        told |= is_on(line, &line->split[i]) &&
+                br_share_told(&line->split[i].share[part], 0, BR_PART_TOTAL);
+    return told;
 }
 
 /* The method, as far as it is not the default, and what all runs of the line share. */
-static void name_panel(const struct line *line, char *title, size_t size)
+static void name_panel(const struct line *line, struct br_panel *p)
 {
     const struct br_split *s = line->first;
     const struct br_method *m = &s->method;
-    size_t used = (size_t)snprintf(title, size, "%s", m->scheme->name);
-    if (s->scene->contact.modelled)
-        used += (size_t)snprintf(title + used, size - used, ", %s", m->contact->name);
-    if (m->friction != br_friction_rules[0])
-        used += (size_t)snprintf(title + used, size - used, ", %s", m->friction->name);
-    if (m->solver != br_linear_solvers[0])
-        used += (size_t)snprintf(title + used, size - used, ", %s", m->solver->name);
-    if (m->axial_degree != 1)
-        used += (size_t)snprintf(title + used, size - used, ", P%d", m->axial_degree);
+    const bool contact = s->scene->contact.modelled;
+    const bool friction = m->friction != br_friction_rules[0];
+    const bool solver = m->solver != br_linear_solvers[0];
+    char at[40];
     if (line->over_k)
-        snprintf(title + used, size - used, ", n = %zu", line->finest);
+        BR_SAY(at, "n = %zu", line->finest);
     else
-        snprintf(title + used, size - used, ", k = %.3g s", br_time_step(s->scene, line->finest));
+        BR_SAY(at, "k = %.3g s", br_time_step(s->scene, line->finest));
+    BR_SAY(p->title, "%s%s%s%s%s%s%s%s, %s", m->scheme->name, contact ? ", " : "",
+           contact ? m->contact->name : "", friction ? ", " : "", friction ? m->friction->name : "",
+           solver ? ", " : "", solver ? m->solver->name : "", m->axial_degree != 1 ? ", P2" : "",
+           at);
 }
 
-/* A source looks the same in both panels; the whole is a band behind them. */
-static void fill_panel(const struct line *line, struct br_panel *p)
+/* The whole is a band behind its parts. */
+static void fill_panel(const struct line *line, struct br_figure *f)
 {
     const struct br_split *first = line->first;
+    struct br_panel *p = br_panel_add(f, line->over_k ? "time step k (s)" : "mesh size h (m)", "");
     p->log_x = p->log_y = true;
-    name_panel(line, p->title, sizeof p->title);
-    BR_SAY(p->x_label, line->over_k ? "time step k (s)" : "mesh size h (m)");
     BR_SAY(p->y_label, "%s (%s)", first->norm[0]->symbol, first->norm[0]->unit_markup);
-    add_points(line, first->shares, br_series_add(p, BR_PEN_BAND, "whole"));
-    for (size_t i = 0; i < first->shares; i++) {
-        if (!is_anywhere(line, i))
-            continue;
-        struct br_series *s = br_series_add(p, BR_PEN_CURVE, "%s", first->share[i].source->name);
-        if (s)
-            s->hue = 1 + i % BR_HUES;
-        add_points(line, i, s);
-    }
+    name_panel(line, p);
+    add_points(line, first->shares, br_series_add(f, BR_PEN_BAND, "whole"));
+    for (size_t i = 0; i < first->shares; i++)
+        if (is_anywhere(line, i))
+            add_points(line, i, br_series_add(f, BR_PEN_CURVE, "%s", first->share[i].source->name));
 }
 
 enum br_status br_split_draw(const struct br_split *split, size_t count, struct br_figure *f,
@@ -131,14 +100,15 @@ enum br_status br_split_draw(const struct br_split *split, size_t count, struct 
     BR_SAY(f->stem, "%.100s-split", split->scene->name);
     BR_SAY(f->title, "Where the error comes from: %s", split->scene->title);
     for (size_t i = 0; i < count && f->panels < PANELS; i++) {
-        if (line.first && same_method(&split[i], line.first))
+        if (line.first && br_methods_equal(&split[i].method, &line.first->method))
             continue;
         line.first = &split[i];
         line.finest = 0;
         for (size_t j = 0; j < count; j++)
-            if (same_method(&split[j], line.first) && fixed(&split[j], line.over_k) > line.finest)
-                line.finest = fixed(&split[j], line.over_k);
-        fill_panel(&line, br_panel_add(f));
+            if (br_methods_equal(&split[j].method, &line.first->method) &&
+                fixed(&line, &split[j]) > line.finest)
+                line.finest = fixed(&line, &split[j]);
+        fill_panel(&line, f);
     }
     return br_figure_check(f, err);
 }

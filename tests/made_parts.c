@@ -29,7 +29,8 @@ static void report(const struct heard *h, const char *name, struct br_document *
 static void draw_curve(struct br_figure *f)
 {
     BR_SAY(f->stem, "fast-chart");
-    struct br_series *s = br_series_add(br_panel_add(f), BR_PEN_LINE, "line");
+    br_panel_add(f, "x", "y");
+    struct br_series *s = br_series_add(f, BR_PEN_LINE, "line");
     br_point_add(s, 0, 0, NULL);
     br_point_add(s, 1, 1, NULL);
 }
@@ -37,13 +38,15 @@ static void draw_curve(struct br_figure *f)
 static void draw_cells(struct br_figure *f)
 {
     BR_SAY(f->stem, "fast-heat");
-    struct br_panel *p = br_panel_add(f);
-    if (!br_cells_make(p, 2, 1))
+    br_panel_add(f, "x", "y");
+    f->value = (struct br_range){0.1, 10};
+    struct br_cells *c = br_cells_make(f, 2, 1);
+    if (!c)
         return;
     for (int i = 0; i < 3; i++)
-        p->cells.x[i] = i;
-    p->cells.y[1] = 1;
-    p->cells.value[0] = 1;
+        c->x[i] = i;
+    c->y[1] = 1;
+    c->value[0] = 1;
 }
 
 /* `figures` of the two. */

@@ -296,7 +296,7 @@ static void check_panel(const struct br_paper_figure *row, const struct br_panel
         check_field(p, row->example - 1);
     } else if (strcmp(p->x_label, "time t (s)") == 0) {
         for (size_t j = 0; j < p->count; j++)
-            if (row->number != 9 || p->series[j]->title[0]) /* the lower bound has no title */
+            if (p->series[j]->pen == BR_PEN_LINE && (row->number != 9 || j != 1)) /* -h(t) */
                 check_rows(p, p->series[j], row->example - 1);
     } else {
         const struct br_exact_point *e = &paper.early.exact[100];

@@ -36,61 +36,58 @@ static void write_script(const char *folder, const char *name, const char *text)
 static void check_missing(const char *folder)
 {
     struct br_error err = {0};
+    struct br_gnuplot g;
     bool missing = false;
     char *path = strdup(getenv("PATH"));
     setenv("PATH", "/dev/null", 1);
-    REFUSED(br_plot_render(folder, "s0.gp", &missing, &err), BR_IO, "gnuplot");
+    REFUSED(br_gnuplot_start(&g, folder, "s0.gp", NULL, &missing, &err), BR_IO, "gnuplot");
     setenv("PATH", path, 1);
     free(path);
     assert_true(missing);
 }
 
-/* More scripts than are rendered at once; one fails, the others are done all the same, and the
- * first failure is told. */
-static void test_renderer(void **state)
+/* One of those that are at work fails and says why, the others are done all the same. */
+static void test_side_by_side(void **state)
 {
     (void)state;
-    enum { SCRIPTS = 2 * BR_MOST_RENDERINGS + 1, BAD = BR_MOST_RENDERINGS + 3 };
+    enum { SCRIPTS = 4, BAD = 2 };
+    struct br_gnuplot at_work[SCRIPTS];
     struct br_error err = {0};
-    struct br_renderer renderer = {0};
-    char folder[64], script[64], file[64], path[256];
-    bool absent = false;
+    char folder[64], script[64], path[256];
+    bool missing = false;
     make_folder(folder);
     for (int i = 0; i < SCRIPTS; i++) {
-        bool missing = false;
         snprintf(script, sizeof script, "s%d.gp", i);
         write_script(folder, script,
-                     i == BAD || i == SCRIPTS - 1
-                         ? "plot nonsense\n"
-                         : "stem = ARG0[1:strlen(ARG0)-3]\n"
-                           "set terminal svg\nset output stem.'.svg'\nplot x\n"
-                           "set terminal pngcairo\nset output stem.'.png'\nplot x\n"
-                           "unset output\n");
-        const enum br_status status = br_renderer_add(&renderer, folder, script, &missing, &err);
+                     i == BAD ? "plot nonsense\n"
+                              : "stem = ARG0[1:strlen(ARG0)-3]\n"
+                                "set terminal svg\nset output stem.'.svg'\nplot x\n"
+                                "set terminal pngcairo\nset output stem.'.png'\nplot x\n"
+                                "unset output\n");
+        const enum br_status status =
+            br_gnuplot_start(&at_work[i], folder, script, NULL, &missing, &err);
         if (!missing)
             MUST(status);
-        absent |= missing;
     }
-    snprintf(script, sizeof script, "\"s%d.gp\"", BAD);
-    if (!absent)
-        REFUSED(br_renderer_finish(&renderer, &err), BR_IO, script);
-    assert_int_equal(renderer.count, 0);
-    check_missing(folder);
     for (int i = 0; i < SCRIPTS; i++) {
         static const char *const endings[] = {"png", "svg", "gp"};
-        const bool drawn = !absent && i != BAD && i != SCRIPTS - 1;
+        if (!missing && i == BAD)
+            REFUSED(br_gnuplot_end_figure(&at_work[i], &err), BR_IO, "\"s2.gp\"");
+        else if (!missing)
+            MUST(br_gnuplot_end_figure(&at_work[i], &err));
         for (size_t j = 0; j < 3; j++) {
-            snprintf(file, sizeof file, "s%d.%s", i, endings[j]);
-            assert_int_equal(is_there(folder, file), drawn || j == 2);
-            snprintf(path, sizeof path, "%s/%s", folder, file);
+            snprintf(script, sizeof script, "s%d.%s", i, endings[j]);
+            assert_int_equal(is_there(folder, script), (!missing && i != BAD) || j == 2);
+            snprintf(path, sizeof path, "%s/%s", folder, script);
             remove(path);
         }
     }
+    check_missing(folder);
     assert_int_equal(rmdir(folder), 0);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_renderer)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_side_by_side)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
