@@ -9,7 +9,6 @@
 #include "cli/signals.h"
 #include "plots/render.h"
 #include "study/ranks/ranks.h"
-#include "study/ranks/spread.h"
 #include "study/scene/nearest.h"
 #include "study/scene/quote.h"
 #include "tables/json_value.h"
@@ -124,7 +123,7 @@ static int run_all(int argc, const char **argv)
         status = run_command(argc, argv, &err);
     if (!status)
         status = check_stdout(&err);
-    status = br_spread_end(status, &err);
+    status = br_ranks_end(status, &err);
     if (!br_ranks_first())
         return 0; /* rank 0 tells, and ends with the exit code */
     if (status == BR_INTERRUPTED) {
