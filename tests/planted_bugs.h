@@ -643,7 +643,7 @@ static const struct planted_bug planted_bugs[] = {
      "floor->deviation[kind] = (double)most;"},
     {"step_of_another_velocity", "units", "study/extremes/step_matrix.c", "tests/test_stability",
      "        state[size + i] *= rod->k;\n", "        state[size + i] *= 1;\n"},
-    {"growth_of_the_first_row", "index", "study/extremes/amplification.c",
+    {"growth_of_the_first_row", "index", "study/extremes/vibration.c",
      "tests/test_energy_behaviour", "return (double complex)y[t->rows - 1];",
      "return (double complex)y[0];"},
     {"difference_against_itself", "index", "study/grid/differences.c", "tests/test_differences",

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "study/extremes/count.h"
-#include "study/extremes/shrink.h"
 #include "study/extremes/track.h"
 #include "study/scene/file.h"
 #include "study/scene/rescale.h"

@@ -84,10 +84,6 @@ struct br_extreme_case {
 /* Draws a case (out). */
 void br_extreme_draw(uint64_t seed, size_t index, struct br_extreme_case *drawn);
 
-/* Does the case's trick where it needs a march of one step: of what cannot be marched, nothing.
- * Called by br_extreme_draw. */
-void br_extreme_tune(struct br_extreme_case *drawn, double little);
-
 /* About how much work a march of the case is: elements times linear solves. */
 double br_extreme_work(const struct br_extreme_case *one);
 

@@ -50,4 +50,17 @@ enum br_status br_extreme_map_run(const struct br_extreme_wish *wish, struct br_
                                   struct br_error *err);
 void br_extreme_map_clear(struct br_extreme_map *map);
 
+/* ---- for map.c and shrink.c ---- */
+
+bool br_extreme_stopped(const struct br_extreme_wish *wish);
+enum br_status br_extreme_ask(const struct br_extreme_wish *wish, const struct br_extreme_case *one,
+                              struct br_extreme_verdict *verdict, struct br_error *err);
+
+/* Makes a case that is wrong (in/out) small while it stays wrong, so that a person can read it:
+ * drops fields, forces and laws, takes the default rows of the registries, plain shapes, fewer
+ * elements and steps, unit length and duration, and numbers of one digit, over and over, as long
+ * as something is gained. Fails as judging does, and with BR_INTERRUPTED. */
+enum br_status br_extreme_shrink(const struct br_extreme_wish *wish, struct br_extreme_case *one,
+                                 struct br_error *err);
+
 #endif
