@@ -8,7 +8,6 @@
 #include "study/extremes/energy_behaviour.h"
 #include "study/extremes/floors.h"
 #include "study/extremes/stability.h"
-#include "study/extremes/steps.h"
 #include "tables/document.h"
 
 void br_report_floors(const struct br_floors *floors, struct br_document *d);
