@@ -4,7 +4,7 @@
 
 #include "reference/discrete.h"
 #include "study/extremes/floors.h"
-#include "study/grid/threads.h"
+#include "study/grid/each.h"
 
 /* A task at work. */
 struct work {
@@ -14,15 +14,11 @@ struct work {
     double *march;         /* workspace, 2 (n + 1); owned */
 };
 
-static bool told_to_stop(const struct br_observer *o)
-{
-    return o && o->stop && o->stop(o->self);
-}
-
 /* Looked at so often that steps of any mesh take no long time. */
 static bool stopped(const struct work *w, size_t step)
 {
-    return step % (40960 / w->task->n + 1) == 0 && told_to_stop(w->observer);
+    const struct br_observer *o = w->observer;
+    return step % (40960 / w->task->n + 1) == 0 && o && o->stop && o->stop(o->self);
 }
 
 static enum br_status interrupted(struct br_error *err)
@@ -129,36 +125,34 @@ static int most_work_first(const void *a, const void *b)
     return (x->floor > y->floor) - (x->floor < y->floor);
 }
 
+struct loop {
+    const struct br_floor_task *task;
+    const struct br_observer *observer;
+};
+
+static enum br_status take_turn(void *self, size_t i, struct br_error *err)
+{
+    const struct loop *l = self;
+    return run_task(&l->task[i], l->observer, err);
+}
+
+static double work_of_turn(const void *self, size_t i)
+{
+    const struct loop *l = self;
+    return work_of(&l->task[i]);
+}
+
 enum br_status br_floor_tasks_run(struct br_floor_task *tasks, size_t count, int threads,
                                   const struct br_observer *observer, struct br_error *err)
 {
-    struct br_error first = {0};
-    double done = 0, all = 0;
+    struct loop loop = {tasks, observer};
+    const struct br_each each = {count, threads, observer, take_turn, work_of_turn, &loop};
     if (!br_discrete_judges())
         return br_fail(err, BR_UNSUPPORTED,
                        "long double has no more digits than double on this machine: there is "
                        "nothing to measure round-off by");
-    threads = br_threads(threads);
-    for (size_t i = 0; i < count; i++)
-        all += work_of(&tasks[i]);
     qsort(tasks, count, sizeof *tasks, most_work_first);
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (size_t i = 0; i < count; i++) {
-        struct br_error failure = {0};
-        if (told_to_stop(observer))
-            interrupted(&failure);
-        else
-            run_task(&tasks[i], observer, &failure);
-#pragma omp critical(floors)
-        {
-            if (failure.status && !first.status)
-                first = failure;
-            done += work_of(&tasks[i]);
-            if (observer && observer->progress)
-                observer->progress(observer->self, done / all);
-        }
-    }
-    return first.status ? br_fail(err, first.status, "%s", first.message) : BR_OK;
+    return br_each(&each, err);
 }
 
 double br_floor_deviation(const struct br_floor *floor)

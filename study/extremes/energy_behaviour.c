@@ -2,12 +2,10 @@
 #include "study/extremes/energy_behaviour.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/grid/observer.h"
-#include "study/grid/threads.h"
+#include "study/grid/each.h"
 #include "study/scene/file.h"
 
 /* ---- the scenes: bundled ones, and what is changed in them ---- */
@@ -234,33 +232,18 @@ static enum br_status run_balance(struct br_balance_row *row, struct br_error *e
 
 /* ---- all ---- */
 
-struct work {
-    struct br_energy_behaviour *b;
-    size_t tasks, done, failed;
-    struct br_error failure; /* of the first task that failed */
-};
-
-static enum br_status run_task(struct br_energy_behaviour *b, size_t task, struct br_error *err)
+/* The last ones are the dearest. */
+static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
+    struct br_energy_behaviour *b = self;
+    const size_t task = b->vibrations + b->balances - 1 - i;
     if (task >= b->vibrations)
         return run_balance(&b->balance[task - b->vibrations], err);
     enum br_status status = BR_OK;
     for (size_t r = 0; r < BR_VIBRATION_RATES && !status; r++)
-        for (size_t i = 0; i < BR_VIBRATION_DENSITIES && !status; i++)
-            status = br_vibration_run(&b->vibration[task].at[r][i], err);
+        for (size_t d = 0; d < BR_VIBRATION_DENSITIES && !status; d++)
+            status = br_vibration_run(&b->vibration[task].at[r][d], err);
     return status;
-}
-
-static void finish_task(struct work *w, size_t task, const struct br_error *failure,
-                        const struct br_observer *observer)
-{
-    if (failure->status && task < w->failed) {
-        w->failed = task;
-        w->failure = *failure;
-    }
-    w->done++;
-    if (observer && observer->progress)
-        observer->progress(observer->self, (double)w->done / (double)w->tasks);
 }
 
 enum br_status br_energy_behaviour_run(struct br_energy_behaviour *b, int threads,
@@ -268,23 +251,12 @@ enum br_status br_energy_behaviour_run(struct br_energy_behaviour *b, int thread
 {
     *b = (struct br_energy_behaviour){0};
     const enum br_status status = list(b, err);
-    if (status)
-        return status;
-    struct work w = {.b = b, .tasks = b->vibrations + b->balances, .failed = SIZE_MAX};
-    threads = br_threads(threads);
-    (void)threads;
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (size_t i = 0; i < w.tasks; i++) {
-        const size_t task = w.tasks - 1 - i; /* the dearest first */
-        struct br_error failure = {0};
-        if (observer && observer->stop && observer->stop(observer->self))
-            br_fail(&failure, BR_INTERRUPTED, "interrupted");
-        else
-            failure.status = run_task(b, task, &failure);
-#pragma omp critical(energy_behaviour)
-        finish_task(&w, task, &failure, observer);
-    }
-    return w.failed == SIZE_MAX ? BR_OK : br_fail(err, w.failure.status, "%s", w.failure.message);
+    const struct br_each each = {.count = b->vibrations + b->balances,
+                                 .threads = threads,
+                                 .observer = observer,
+                                 .turn = take_turn,
+                                 .self = b};
+    return status ? status : br_each(&each, err);
 }
 
 void br_energy_behaviour_clear(struct br_energy_behaviour *b)

@@ -5,8 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/grid/observer.h"
-#include "study/grid/threads.h"
+#include "study/grid/each.h"
 
 /* ---- the file in which verdicts are kept as they come, a line each, so that a run that was ended
  * may go on. Its first line tells the program, the seed and the judging options. ---- */
@@ -148,8 +147,6 @@ struct work {
     struct br_extreme_map *map;
     bool *done;
     FILE *kept;
-    size_t finished; /* cases, under the lock */
-    struct br_error failure;
 };
 
 bool br_extreme_stopped(const struct br_extreme_wish *w)
@@ -163,62 +160,19 @@ enum br_status br_extreme_ask(const struct br_extreme_wish *w, const struct br_e
     return (w->judge ? w->judge : br_extreme_judge)(one, &w->court, verdict, err);
 }
 
-static bool given_up(struct work *work)
+static enum br_status do_case(void *self, size_t i, struct br_error *err)
 {
-    bool failed;
-#pragma omp critical(extreme_map)
-    {
-        if (!work->failure.status && br_extreme_stopped(work->wish))
-            br_fail(&work->failure, BR_INTERRUPTED, "interrupted");
-        failed = work->failure.status != BR_OK;
-    }
-    return failed;
-}
-
-/* Under the lock. */
-static void take(struct work *work, size_t i, enum br_status status, const struct br_error *said)
-{
-    const struct br_observer *observer = work->wish->observer;
-    struct br_error err = *said;
-    if (!status) {
-        work->done[i] = true;
-        status = add_kept(work->kept, i, &work->map->verdict[i], &err);
-    }
-    if (status && !work->failure.status)
-        work->failure = err;
-    work->finished++;
-    if (observer && observer->progress)
-        observer->progress(observer->self, (double)work->finished / (double)work->map->cases);
-}
-
-static void do_case(struct work *work, size_t i)
-{
-    struct br_error said = {0};
+    struct work *work = self;
     struct br_extreme_map *m = work->map;
-    enum br_status status = BR_OK;
-    if (given_up(work))
-        return;
     br_extreme_draw(m->seed, i, &m->one[i]);
     if (work->done[i])
-        return;
-    status = br_extreme_ask(work->wish, &m->one[i], &m->verdict[i], &said);
-#pragma omp critical(extreme_map)
-    take(work, i, status, &said);
-}
-
-static enum br_status do_cases(struct work *work, struct br_error *err)
-{
-    const int threads = br_threads(work->wish->threads);
-    (void)threads; /* without OpenMP */
-    for (size_t i = 0; i < work->map->cases; i++)
-        work->finished += work->done[i];
-    work->map->resumed = work->finished;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-    for (size_t i = 0; i < work->map->cases; i++)
-        do_case(work, i);
-    if (!work->failure.status)
         return BR_OK;
-    return br_fail(err, work->failure.status, "%.1000s", work->failure.message);
+    enum br_status status = br_extreme_ask(work->wish, &m->one[i], &m->verdict[i], err);
+    if (!status) {
+#pragma omp critical(extreme_map)
+        status = add_kept(work->kept, i, &m->verdict[i], err);
+    }
+    return status;
 }
 
 /* ---- those that are wrong ---- */
@@ -242,35 +196,26 @@ static enum br_status write_scene(const struct br_extreme_wish *w, struct br_ext
                                         : br_fail(err, BR_IO, "%.900s: %s", path, strerror(errno));
 }
 
-static enum br_status shrink(const struct br_extreme_wish *w, struct br_extreme_shrunk *s,
-                             struct br_error *err)
+static enum br_status shrink(void *self, size_t i, struct br_error *err)
 {
-    enum br_status status = br_extreme_shrink(w, &s->one, err);
+    const struct work *work = self;
+    struct br_extreme_shrunk *s = &work->map->shrunk[i];
+    enum br_status status = br_extreme_shrink(work->wish, &s->one, err);
     if (!status)
-        status = br_extreme_ask(w, &s->one, &s->verdict, err);
-    return status ? status : write_scene(w, s, err);
+        status = br_extreme_ask(work->wish, &s->one, &s->verdict, err);
+    return status ? status : write_scene(work->wish, s, err);
 }
 
 static enum br_status shrink_all(struct work *work, struct br_error *err)
 {
     struct br_extreme_map *m = work->map;
-    const int threads = br_threads(work->wish->threads);
-    (void)threads; /* without OpenMP */
     for (size_t i = 0; i < m->cases && m->shrunks < BR_EXTREME_MOST_SHRUNK; i++)
         if (m->verdict[i].which == BR_EXTREME_WRONG)
             m->shrunk[m->shrunks++] =
                 (struct br_extreme_shrunk){.one = m->one[i], .verdict = m->verdict[i]};
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-    for (size_t i = 0; i < m->shrunks; i++) {
-        struct br_error said = {0};
-        if (!given_up(work) && shrink(work->wish, &m->shrunk[i], &said)) {
-#pragma omp critical(extreme_map)
-            work->failure = said;
-        }
-    }
-    if (!work->failure.status)
-        return BR_OK;
-    return br_fail(err, work->failure.status, "%.1000s", work->failure.message);
+    const struct br_each each = {
+        .count = m->shrunks, .threads = work->wish->threads, .turn = shrink, .self = work};
+    return br_each(&each, err);
 }
 
 /* ---- all ---- */
@@ -279,8 +224,15 @@ static enum br_status run(struct work *work, struct br_error *err)
 {
     struct br_extreme_map *m = work->map;
     enum br_status status = open_kept(work->wish, m->verdict, work->done, &work->kept, err);
+    for (size_t i = 0; i < m->cases; i++)
+        m->resumed += work->done[i];
+    const struct br_each each = {.count = m->cases,
+                                 .threads = work->wish->threads,
+                                 .observer = work->wish->observer,
+                                 .turn = do_case,
+                                 .self = work};
     if (!status)
-        status = do_cases(work, err);
+        status = br_each(&each, err);
     if (work->kept)
         fclose(work->kept);
     if (status)

@@ -5,12 +5,11 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sort.h>
 #include <math.h>
-#include <stdatomic.h>
 #include <string.h>
 
 #include "solver/contact_limit.h"
 #include "study/extremes/step_matrix.h"
-#include "study/grid/threads.h"
+#include "study/grid/each.h"
 
 const double br_stability_tolerance = 1e-9;
 
@@ -91,56 +90,24 @@ static enum br_status measure_row(struct br_stability *s, size_t plane, size_t r
 
 /* ---- all rows ---- */
 
-struct work {
-    struct br_stability *s;
-    const struct br_observer *observer;
-    atomic_size_t done;
-    atomic_bool stopped;
-    struct br_error *error; /* of each row of each plane */
-};
-
-static void tell(struct work *w)
+static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
-    const size_t done = atomic_fetch_add(&w->done, 1) + 1;
-    const struct br_observer *o = w->observer;
-    if (o && o->progress)
-        o->progress(o->self, (double)done / (double)(BR_STABILITY_RODS * w->s->rows));
-    if (o && o->stop && o->stop(o->self))
-        atomic_store(&w->stopped, true);
-}
-
-static enum br_status measure_all(struct work *w, int threads, struct br_error *err)
-{
-    const size_t count = BR_STABILITY_RODS * w->s->rows;
-    (void)threads; /* without OpenMP */
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (size_t i = 0; i < count; i++) {
-        if (atomic_load(&w->stopped))
-            continue;
-        measure_row(w->s, i / w->s->rows, i % w->s->rows, &w->error[i]);
-        tell(w);
-    }
-    if (atomic_load(&w->stopped))
-        return br_fail(err, BR_INTERRUPTED, "interrupted");
-    for (size_t i = 0; i < count; i++)
-        if (w->error[i].status)
-            return br_fail(err, w->error[i].status, "%.1000s", w->error[i].message);
-    return BR_OK;
+    struct br_stability *s = self;
+    return measure_row(s, i / s->rows, i % s->rows, err);
 }
 
 static enum br_status measure_planes(struct br_stability *s,
                                      const struct br_stability_request *request,
                                      struct br_error *err)
 {
-    const int threads = br_threads(request->threads);
-    struct work w = {.s = s, .observer = request->observer};
-    w.error = br_allocate(BR_STABILITY_RODS * s->rows, sizeof *w.error);
-    if (!w.error)
-        return br_no_memory(err, "the planes of stability");
+    const struct br_each each = {.count = BR_STABILITY_RODS * s->rows,
+                                 .threads = request->threads,
+                                 .observer = request->observer,
+                                 .turn = take_turn,
+                                 .self = s};
     gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* it would end the program */
-    const enum br_status status = measure_all(&w, threads, err);
+    const enum br_status status = br_each(&each, err);
     gsl_set_error_handler(handler);
-    free(w.error);
     return status;
 }
 
