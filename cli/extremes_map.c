@@ -31,17 +31,17 @@ static enum br_status run(const struct br_extremes_job *job, void **result, stru
     if (!r)
         return br_no_memory(err, "the map");
     snprintf(program, sizeof program, "beamrate %s %s", br_version(), br_commit());
-    const struct br_extreme_wish wish = {
+    const struct br_extreme_request request = {
         .seed = job->seed ? job->seed : SEED,
         .cases = job->cases ? job->cases : CASES,
         .threads = job->threads,
-        .court = {.rounding = job->rounding},
+        .judging = {.rounding = job->rounding},
         .kept = job->kept,
         .program = program,
         .folder = job->folder,
         .observer = job->observer,
     };
-    const enum br_status status = br_extreme_map_run(&wish, &r->map, err);
+    const enum br_status status = br_extreme_map_run(&request, &r->map, err);
     return status ? status : br_extreme_count(&r->map, &r->counts, err);
 }
 

@@ -52,18 +52,18 @@ static bool law_label(int bin, char *label, size_t size)
 }
 static const struct br_extreme_axis law = {"friction law", law_bin, law_label};
 
-static int trick_bin(const struct br_extreme_case *c)
+static int special_bin(const struct br_extreme_case *c)
 {
-    return (int)c->trick;
+    return (int)c->special;
 }
 
-static bool trick_label(int bin, char *label, size_t size)
+static bool special_label(int bin, char *label, size_t size)
 {
-    if (bin < BR_TRICKS)
-        snprintf(label, size, "%s", br_extreme_trick_name((enum br_extreme_trick)bin));
-    return bin < BR_TRICKS;
+    if (bin < BR_SPECIALS)
+        snprintf(label, size, "%s", br_extreme_special_name((enum br_extreme_special)bin));
+    return bin < BR_SPECIALS;
 }
-static const struct br_extreme_axis trick = {"on purpose", trick_bin, trick_label};
+static const struct br_extreme_axis special = {"on purpose", special_bin, special_label};
 
 static int drawn_bin(const struct br_extreme_case *c)
 {
@@ -131,22 +131,22 @@ BY_RANGE(gap, "gap, m", c->contact ? c->gap : NAN, -15, 5, 5)
 BY_RANGE(beam, "L, m", c->length, -6, 3, 5)
 BY_RANGE(span, "T, s", c->duration, -6, 3, 5)
 BY_RANGE(load, "bending load, N/m",
-         c->part[BR_BENDING].modelled ? c->part[BR_BENDING].load.size : NAN, -12, 6, 5)
+         c->field[BR_BENDING].modelled ? c->field[BR_BENDING].load.size : NAN, -12, 6, 5)
 BY_RANGE(viscosity, "c/(a T) of bending",
-         c->part[BR_BENDING].modelled
-             ? c->part[BR_BENDING].viscosity / c->part[BR_BENDING].stiffness / c->duration
+         c->field[BR_BENDING].modelled
+             ? c->field[BR_BENDING].viscosity / c->field[BR_BENDING].stiffness / c->duration
              : NAN,
          -6, 3, 5)
 
 const struct br_extreme_axis *const br_extreme_axes[] = {
-    &scheme,  &solver,        &contact, &friction, &law,  &trick, &drawn, &elements,  &steps,
-    &density, &stiff_contact, &bound,   &gap,      &beam, &span,  &load,  &viscosity, NULL};
+    &scheme,  &solver,        &contact, &friction, &law,  &special, &drawn, &elements,  &steps,
+    &density, &stiff_contact, &bound,   &gap,      &beam, &span,    &load,  &viscosity, NULL};
 
 /* ---- planes ---- */
 
 static double contact_ratio(const struct br_extreme_case *c)
 {
-    const struct br_extreme_part *u = &c->part[BR_AXIAL];
+    const struct br_extreme_field *u = &c->field[BR_AXIAL];
     return c->contact ? c->contact_stiffness * c->length / u->stiffness : NAN;
 }
 
@@ -160,14 +160,14 @@ static double elements_of(const struct br_extreme_case *c)
     return (double)c->n;
 }
 
-static const struct br_extreme_part *main_part(const struct br_extreme_case *c)
+static const struct br_extreme_field *main_part(const struct br_extreme_case *c)
 {
-    return &c->part[c->part[BR_BENDING].modelled ? BR_BENDING : BR_AXIAL];
+    return &c->field[c->field[BR_BENDING].modelled ? BR_BENDING : BR_AXIAL];
 }
 
 static double inertia(const struct br_extreme_case *c)
 {
-    const double power = c->part[BR_BENDING].modelled ? 4 : 2;
+    const double power = c->field[BR_BENDING].modelled ? 4 : 2;
     return c->density * pow(c->length, power) / main_part(c)->stiffness / pow(c->duration, 2);
 }
 

@@ -18,7 +18,7 @@ enum { MOST_STEPS = 2500 }; /* steps of the exact solution, and of adaptive sche
 
 struct trial {
     const struct br_extreme_case *one;
-    const struct br_extreme_court *court;
+    const struct br_extreme_judging *judging;
     struct br_extreme_verdict *verdict;
     struct br_scene scene, marched; /* the latter borrows */
     struct br_method method;
@@ -93,7 +93,7 @@ static struct br_track_request request_of(const struct trial *t)
                                      .places = &t->places,
                                      .finer = 1,
                                      .shorter = 1,
-                                     .rounding = t->court->rounding};
+                                     .rounding = t->judging->rounding};
 }
 
 /* ---- how accurate it is: by the exact solution or by refinement, against what is stated ---- */
@@ -111,7 +111,7 @@ static void compare(struct trial *t)
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         double sure;
         const double e = br_track_error(t->own, t->other, (enum br_field_kind)kind, &sure);
-        const double boast = t->court->boast > 0 ? t->court->boast : 1;
+        const double boast = t->judging->boast > 0 ? t->judging->boast : 1;
         const double stated = br_predicted_most(&t->prediction, (enum br_field_kind)kind) / boast;
         const double slack = fmax(sure, of_distance * t->judge_error[kind]);
         const double beyond = e <= slack + stated ? 0 : (e - slack) / fmax(stated, 1e-300);
@@ -127,8 +127,8 @@ static void compare(struct trial *t)
 /* The exact solution knows (12) alone. */
 static bool exact_knows(const struct trial *t)
 {
-    return !t->court->quick && !(t->marched.friction.law != BR_FRICTIONLESS &&
-                                 t->method.friction->needs_regularisation);
+    return !t->judging->quick && !(t->marched.friction.law != BR_FRICTIONLESS &&
+                                   t->method.friction->needs_regularisation);
 }
 
 static enum br_status ask_exact(struct trial *t, struct br_error *err)
@@ -428,19 +428,19 @@ static enum br_status judge(struct trial *t, struct br_error *err)
         status = march(t, err);
     if (!status && !t->done)
         status = judge_accuracy(t, err);
-    if (!status && t->own->begun && !t->own->failure.status && !t->court->quick &&
+    if (!status && t->own->begun && !t->own->failure.status && !t->judging->quick &&
         t->verdict->which != BR_EXTREME_WRONG)
         status = judge_units(t, err);
     return status;
 }
 
 enum br_status br_extreme_judge(const struct br_extreme_case *one,
-                                const struct br_extreme_court *court,
+                                const struct br_extreme_judging *judging,
                                 struct br_extreme_verdict *verdict, struct br_error *err)
 {
     *verdict =
         (struct br_extreme_verdict){.error = NAN, .stated = NAN, .units = NAN, .round_off = NAN};
-    struct trial t = {.one = one, .court = court, .verdict = verdict, .method = one->method};
+    struct trial t = {.one = one, .judging = judging, .verdict = verdict, .method = one->method};
     t.method.most_steps = MOST_STEPS;
     t.places = br_track_places(one->n, one->steps);
     t.own = br_allocate(1, sizeof *t.own);

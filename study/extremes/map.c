@@ -12,10 +12,10 @@
 
 enum { LINE = 512 };
 
-static void head_of(const struct br_extreme_wish *w, char head[LINE])
+static void head_of(const struct br_extreme_request *w, char head[LINE])
 {
     snprintf(head, LINE, "beamrate extremes map 2, %.300s, seed %llu, rounding %d%s\n", w->program,
-             (unsigned long long)w->seed, w->court.rounding, w->court.quick ? ", quick" : "");
+             (unsigned long long)w->seed, w->judging.rounding, w->judging.quick ? ", quick" : "");
 }
 
 static void print(FILE *file, size_t index, const struct br_extreme_verdict *v)
@@ -51,8 +51,8 @@ static bool scan(const char *line, size_t *index, struct br_extreme_verdict *v)
     return true;
 }
 
-/* Hours of work of another seed, program or kind of court are not thrown away. */
-static enum br_status check_head(const struct br_extreme_wish *w, const char *found,
+/* Hours of work of another seed, program or kind of judging are not thrown away. */
+static enum br_status check_head(const struct br_extreme_request *w, const char *found,
                                  struct br_error *err)
 {
     char head[LINE];
@@ -66,8 +66,9 @@ static enum br_status check_head(const struct br_extreme_wish *w, const char *fo
         w->kept, (int)strcspn(found, "\n"), found, (int)strcspn(head, "\n"), head);
 }
 
-static enum br_status read_kept(const struct br_extreme_wish *w, struct br_extreme_verdict *verdict,
-                                bool *done, struct br_error *err)
+static enum br_status read_kept(const struct br_extreme_request *w,
+                                struct br_extreme_verdict *verdict, bool *done,
+                                struct br_error *err)
 {
     char line[LINE];
     FILE *file = fopen(w->kept, "r");
@@ -90,7 +91,7 @@ static enum br_status read_kept(const struct br_extreme_wish *w, struct br_extre
 }
 
 /* Whole at every moment: under another name first. */
-static enum br_status write_kept(const struct br_extreme_wish *w,
+static enum br_status write_kept(const struct br_extreme_request *w,
                                  const struct br_extreme_verdict *verdict, const bool *done,
                                  struct br_error *err)
 {
@@ -111,12 +112,13 @@ static enum br_status write_kept(const struct br_extreme_wish *w,
     return BR_OK;
 }
 
-/* Reads what is there of the wish's cases: verdict[i] and done[i] (out). A last line without an end
- * counts as nothing; the file is then whole, and open for more lines: *file (out), NULL where the
- * wish keeps nothing. Fails with BR_BAD_INPUT where it has the cases of other options, which the
- * message names, and does not touch it; with BR_IO or BR_NO_MEMORY. */
-static enum br_status open_kept(const struct br_extreme_wish *w, struct br_extreme_verdict *verdict,
-                                bool *done, FILE **file, struct br_error *err)
+/* Reads what is there of the request's cases: verdict[i] and done[i] (out). A last line without an
+ * end counts as nothing; the file is then whole, and open for more lines: *file (out), NULL where
+ * the request keeps nothing. Fails with BR_BAD_INPUT where it has the cases of other options, which
+ * the message names, and does not touch it; with BR_IO or BR_NO_MEMORY. */
+static enum br_status open_kept(const struct br_extreme_request *w,
+                                struct br_extreme_verdict *verdict, bool *done, FILE **file,
+                                struct br_error *err)
 {
     *file = NULL;
     if (!w->kept)
@@ -143,21 +145,21 @@ static enum br_status add_kept(FILE *file, size_t index, const struct br_extreme
 /* ---- cases ---- */
 
 struct work {
-    const struct br_extreme_wish *wish;
+    const struct br_extreme_request *request;
     struct br_extreme_map *map;
     bool *done;
     FILE *kept;
 };
 
-bool br_extreme_stopped(const struct br_extreme_wish *w)
+bool br_extreme_stopped(const struct br_extreme_request *w)
 {
     return w->observer && w->observer->stop && w->observer->stop(w->observer->self);
 }
 
-enum br_status br_extreme_ask(const struct br_extreme_wish *w, const struct br_extreme_case *one,
+enum br_status br_extreme_ask(const struct br_extreme_request *w, const struct br_extreme_case *one,
                               struct br_extreme_verdict *verdict, struct br_error *err)
 {
-    return (w->judge ? w->judge : br_extreme_judge)(one, &w->court, verdict, err);
+    return (w->judge ? w->judge : br_extreme_judge)(one, &w->judging, verdict, err);
 }
 
 static enum br_status do_case(void *self, size_t i, struct br_error *err)
@@ -167,7 +169,7 @@ static enum br_status do_case(void *self, size_t i, struct br_error *err)
     br_extreme_draw(m->seed, i, &m->one[i]);
     if (work->done[i])
         return BR_OK;
-    enum br_status status = br_extreme_ask(work->wish, &m->one[i], &m->verdict[i], err);
+    enum br_status status = br_extreme_ask(work->request, &m->one[i], &m->verdict[i], err);
     if (!status) {
 #pragma omp critical(extreme_map)
         status = add_kept(work->kept, i, &m->verdict[i], err);
@@ -177,7 +179,7 @@ static enum br_status do_case(void *self, size_t i, struct br_error *err)
 
 /* ---- those that are wrong ---- */
 
-static enum br_status write_scene(const struct br_extreme_wish *w, struct br_extreme_shrunk *s,
+static enum br_status write_scene(const struct br_extreme_request *w, struct br_extreme_shrunk *s,
                                   struct br_error *err)
 {
     char text[BR_EXTREME_TEXT], path[4096];
@@ -200,10 +202,10 @@ static enum br_status shrink(void *self, size_t i, struct br_error *err)
 {
     const struct work *work = self;
     struct br_extreme_shrunk *s = &work->map->shrunk[i];
-    enum br_status status = br_extreme_shrink(work->wish, &s->one, err);
+    enum br_status status = br_extreme_shrink(work->request, &s->one, err);
     if (!status)
-        status = br_extreme_ask(work->wish, &s->one, &s->verdict, err);
-    return status ? status : write_scene(work->wish, s, err);
+        status = br_extreme_ask(work->request, &s->one, &s->verdict, err);
+    return status ? status : write_scene(work->request, s, err);
 }
 
 static enum br_status shrink_all(struct work *work, struct br_error *err)
@@ -214,7 +216,7 @@ static enum br_status shrink_all(struct work *work, struct br_error *err)
             m->shrunk[m->shrunks++] =
                 (struct br_extreme_shrunk){.one = m->one[i], .verdict = m->verdict[i]};
     const struct br_each each = {
-        .count = m->shrunks, .threads = work->wish->threads, .turn = shrink, .self = work};
+        .count = m->shrunks, .threads = work->request->threads, .turn = shrink, .self = work};
     return br_each(&each, err);
 }
 
@@ -223,12 +225,12 @@ static enum br_status shrink_all(struct work *work, struct br_error *err)
 static enum br_status run(struct work *work, struct br_error *err)
 {
     struct br_extreme_map *m = work->map;
-    enum br_status status = open_kept(work->wish, m->verdict, work->done, &work->kept, err);
+    enum br_status status = open_kept(work->request, m->verdict, work->done, &work->kept, err);
     for (size_t i = 0; i < m->cases; i++)
         m->resumed += work->done[i];
     const struct br_each each = {.count = m->cases,
-                                 .threads = work->wish->threads,
-                                 .observer = work->wish->observer,
+                                 .threads = work->request->threads,
+                                 .observer = work->request->observer,
                                  .turn = do_case,
                                  .self = work};
     if (!status)
@@ -242,15 +244,15 @@ static enum br_status run(struct work *work, struct br_error *err)
     return shrink_all(work, err);
 }
 
-enum br_status br_extreme_map_run(const struct br_extreme_wish *wish, struct br_extreme_map *map,
-                                  struct br_error *err)
+enum br_status br_extreme_map_run(const struct br_extreme_request *request,
+                                  struct br_extreme_map *map, struct br_error *err)
 {
-    *map = (struct br_extreme_map){.seed = wish->seed, .cases = wish->cases};
-    struct work work = {.wish = wish, .map = map};
-    map->one = br_allocate(wish->cases, sizeof *map->one);
-    map->verdict = br_allocate(wish->cases, sizeof *map->verdict);
+    *map = (struct br_extreme_map){.seed = request->seed, .cases = request->cases};
+    struct work work = {.request = request, .map = map};
+    map->one = br_allocate(request->cases, sizeof *map->one);
+    map->verdict = br_allocate(request->cases, sizeof *map->verdict);
     map->shrunk = br_allocate(BR_EXTREME_MOST_SHRUNK, sizeof *map->shrunk);
-    work.done = br_allocate(wish->cases, sizeof *work.done);
+    work.done = br_allocate(request->cases, sizeof *work.done);
     enum br_status status = BR_OK;
     if (!map->one || !map->verdict || !map->shrunk || !work.done)
         status = br_no_memory(err, "the map");
