@@ -53,19 +53,21 @@ static struct {
     int *bytes, *place; /* of each rank's results */
 
     int64_t *seen;           /* the board as it was read last */
-    int64_t mine[NUMBERS];   /* in/out: this rank's numbers */
-    MPI_Request exchange[2]; /* of both */
-    bool exchanging;
-    int64_t *known_beats; /* of each rank */
-    double *silence;      /* of each rank, s */
-    double looked, beat;  /* when, s */
+    int64_t mine[NUMBERS];   /* this rank's numbers as they are written */
+    MPI_Request request[3];  /* of both, and of the mark */
+    bool exchanging, marked; /* whether those have begun */
+    int64_t *known_beats;    /* of each rank */
+    double *silence;         /* of each rank, s */
+    double looked, beat;     /* when, s */
 
     const struct br_observer *observer; /* of the call; may be NULL */
     double before, total;               /* the job's work before this call, and of it, ns */
+    double done;                        /* by this rank since the start, ns */
     size_t tickets;                     /* drawn in the calls before */
     bool waits;                         /* for rank 0's end, however long it takes */
     bool interrupted;                   /* this rank was told to stop */
-    bool failed;                        /* some rank's call has */
+    bool fails;                         /* this rank, for that or another reason */
+    bool failed;                        /* some rank has */
     bool lost;                          /* some rank is not heard from any more */
     bool over;                          /* all know that the job has come to its end */
 } job = {.size = 1};
@@ -111,11 +113,21 @@ static void exchange(void)
 {
     const int words = number_of(listens_to(), 0);
     job.mine[BEATS]++;
+    job.mine[DONE] = (int64_t)job.done;
     job.exchanging = true;
     MPI_Raccumulate(job.mine, NUMBERS, MPI_INT64_T, 0, number_of(job.rank, 0), NUMBERS, MPI_INT64_T,
-                    MPI_REPLACE, job.board, &job.exchange[0]);
+                    MPI_REPLACE, job.board, &job.request[0]);
     MPI_Rget_accumulate(NULL, 0, MPI_INT64_T, job.seen, words, MPI_INT64_T, 0, 0, words,
-                        MPI_INT64_T, MPI_NO_OP, job.board, &job.exchange[1]);
+                        MPI_INT64_T, MPI_NO_OP, job.board, &job.request[1]);
+}
+
+/* So that all ranks end their marches. */
+static void mark_failed(void)
+{
+    static const int64_t one = 1;
+    job.marked = true;
+    MPI_Raccumulate(&one, 1, MPI_INT64_T, 0, FAILED, 1, MPI_INT64_T, MPI_REPLACE, job.board,
+                    &job.request[2]);
 }
 
 static void read_board(void)
@@ -132,7 +144,7 @@ static void read_board(void)
     }
     const struct br_observer *o = job.observer;
     if (job.rank == 0 && o && o->progress && job.total > 0)
-        o->progress(o->self, (done - job.before) / job.total);
+        o->progress(o->self, fmax(0, done - job.before) / job.total);
 }
 
 /* To be called again and again: keeps the exchange going, and asks whether to stop. Fails with
@@ -146,7 +158,7 @@ static enum br_status watch(struct br_error *err)
     job.looked = now;
     /* lets MPI serve the others */
     MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, job.comm, &flag, MPI_STATUS_IGNORE);
-    MPI_Testall(2, job.exchange, &idle, MPI_STATUSES_IGNORE);
+    MPI_Testall(3, job.request, &idle, MPI_STATUSES_IGNORE);
     if (idle && job.exchanging)
         read_board();
     if (idle && now - job.beat >= beat_every) {
@@ -155,6 +167,8 @@ static enum br_status watch(struct br_error *err)
     }
     const struct br_observer *o = job.observer;
     job.interrupted |= o && o->stop && o->stop(o->self);
+    if ((job.interrupted || job.fails) && !job.marked)
+        mark_failed();
     for (int r = 0; r < listens_to() && !job.waits && !status; r++) {
         job.silence[r] += passed;
         if (r != job.rank && job.silence[r] >= silence_limit())
@@ -162,6 +176,7 @@ static enum br_status watch(struct br_error *err)
                              job.silence[r]);
     }
     job.lost |= status != BR_OK;
+    job.fails |= job.lost;
     return status;
 }
 
@@ -201,16 +216,6 @@ static enum br_status draw(size_t *ticket, struct br_error *err)
     return status;
 }
 
-static enum br_status mark_failed(struct br_error *err)
-{
-    static const int64_t one = 1;
-    MPI_Request request;
-    job.failed = true;
-    MPI_Raccumulate(&one, 1, MPI_INT64_T, 0, FAILED, 1, MPI_INT64_T, MPI_REPLACE, job.board,
-                    &request);
-    return await(&request, err);
-}
-
 /* ---- meetings ---- */
 
 /* What is wrong with what all have said. */
@@ -240,7 +245,7 @@ static enum br_status judge_words(struct br_error *err)
 static enum br_status meet(struct word word, struct br_error *err)
 {
     MPI_Request request;
-    if (!word.failure.status && job.interrupted)
+    if (!word.failure.status && !word.ends && job.interrupted)
         br_fail(&word.failure, BR_INTERRUPTED, "interrupted");
     MPI_Iallgather(&word, sizeof word, MPI_BYTE, job.word, sizeof word, MPI_BYTE, job.comm,
                    &request);
@@ -332,7 +337,7 @@ static enum br_status start_march(struct call *c, pthread_t *thread, struct br_e
  * failure. */
 static enum br_status march_batch(struct call *c, size_t batch, struct br_error *err)
 {
-    const double before = (double)job.mine[DONE], cost = c->batches.cost[batch];
+    const double before = job.done, cost = c->batches.cost[batch];
     pthread_t thread;
     c->batch = batch;
     atomic_store(&c->fraction, 0);
@@ -342,12 +347,14 @@ static enum br_status march_batch(struct call *c, size_t batch, struct br_error 
     while (pthread_tryjoin_np(thread, NULL) == EBUSY) {
         if (!status)
             status = watch(err);
+        else
+            watch(NULL); /* the others must not take this rank for dead meanwhile */
         if (status || job.interrupted || job.failed)
             atomic_store(&c->stopped, true);
-        if (!job.exchanging)
-            job.mine[DONE] = (int64_t)(before + cost * atomic_load(&c->fraction));
+        job.done = before + cost * atomic_load(&c->fraction);
         pause_a_little();
     }
+    job.done = before + cost;
     if (!status && c->failure.status && !(job.failed && c->failure.status == BR_INTERRUPTED))
         status = br_fail(err, c->failure.status, "%s", c->failure.message);
     return status;
@@ -378,8 +385,7 @@ static enum br_status share(struct call *c, struct word word, struct br_error *e
         march_all(c, &word.failure);
     if (c->results && fclose(c->results) != 0 && !word.failure.status)
         br_no_memory(&word.failure, "the results");
-    if (!status && (word.failure.status || job.interrupted) && !job.lost)
-        status = mark_failed(err);
+    job.fails |= word.failure.status != BR_OK;
     if (!status && job.lost)
         status = br_fail(err, word.failure.status, "%s", word.failure.message);
     if (!status)
@@ -407,14 +413,12 @@ enum br_status br_ranks_lockstep(struct br_study *studies, size_t count, int thr
     br_batches_create(&c.batches, studies, count, job.size, each, &word.failure);
     word.asked = br_studies_fingerprint(studies, count) + (unsigned)each;
     job.observer = observer;
-    job.interrupted = false;
     job.total = 0;
     for (size_t i = 0; i < c.batches.count; i++)
         job.total += c.batches.cost[i];
     start_watching();
     const enum br_status status = share(&c, word, err);
     job.observer = NULL;
-    job.interrupted = false;
     job.before += job.total;
     job.tickets += c.batches.count + (size_t)job.size; /* each rank has drawn one too many */
     br_batches_clear(&c.batches);
@@ -500,7 +504,7 @@ static enum br_status create_board(struct br_error *err)
     MPI_Errhandler handler;
     const MPI_Aint size = job.rank == 0 ? (MPI_Aint)(words * sizeof *job.seen) : 0;
     int64_t *memory;
-    job.exchange[0] = job.exchange[1] = MPI_REQUEST_NULL;
+    job.request[0] = job.request[1] = job.request[2] = MPI_REQUEST_NULL;
     MPI_Win_allocate(size, sizeof *memory, MPI_INFO_NULL, job.comm, &memory, &job.board);
     MPI_Win_create_errhandler(heed_error_of_board, &handler);
     MPI_Win_set_errhandler(job.board, handler);
@@ -549,7 +553,7 @@ static void leave(void)
     int begun = 0;
     MPI_Initialized(&begun);
     if (job.joined) {
-        MPI_Waitall(2, job.exchange, MPI_STATUSES_IGNORE);
+        MPI_Waitall(3, job.request, MPI_STATUSES_IGNORE);
         MPI_Win_unlock_all(job.board);
         MPI_Win_free(&job.board);
         MPI_Comm_free(&job.comm);
