@@ -9,10 +9,9 @@
 #include "plots/pictures.h"
 #include "study/extremes/count.h"
 #include "study/extremes/energy_behaviour.h"
-#include "study/extremes/floors.h"
 #include "study/extremes/map.h"
 #include "study/extremes/stability.h"
-#include "study/extremes/steps.h"
+#include "study/extremes/floors.h"
 #include "tables/reports.h"
 
 /* Round-off of the linear solvers; a picture for each k. */
@@ -157,11 +156,11 @@ static enum br_status run_map(const struct br_extremes_job *job, struct br_error
 {
     char program[300];
     snprintf(program, sizeof program, "beamrate %s %s", br_version(), br_commit());
-    const struct br_extreme_wish wish = {
+    const struct br_extreme_request request = {
         .seed = job->seed ? job->seed : SEED,
         .cases = job->cases ? job->cases : CASES,
         .threads = job->threads,
-        .court = {.rounding = job->rounding},
+        .judging = {.rounding = job->rounding},
         .kept = job->kept,
         .program = program,
         .folder = job->folder,
@@ -170,7 +169,7 @@ static enum br_status run_map(const struct br_extremes_job *job, struct br_error
     struct br_extreme_map map = {0};
     struct br_extreme_counts counts = {0};
     struct br_figure figure = {0};
-    enum br_status status = br_extreme_map_run(&wish, &map, err);
+    enum br_status status = br_extreme_map_run(&request, &map, err);
     if (!status)
         status = br_extreme_count(&map, &counts, err);
     if (!status) {

@@ -9,7 +9,6 @@
 #include "cli/signals.h"
 #include "plots/render.h"
 #include "study/ranks/ranks.h"
-#include "study/ranks/spread.h"
 #include "study/scene/nearest.h"
 #include "study/scene/quote.h"
 #include "tables/json_value.h"
@@ -123,7 +122,7 @@ static int run_all(int argc, const char **argv)
      * return err->status. */
     struct br_error err = {BR_IO, "a failure that says nothing: this is a defect of the program"};
     const bool failed = join_ranks(&err) || run_command(argc, argv, &err) || check_stdout(&err);
-    const enum br_status status = br_spread_end(failed ? err.status : BR_OK, &err);
+    const enum br_status status = br_ranks_end(failed ? err.status : BR_OK, &err);
     if (!br_ranks_first())
         return 0; /* rank 0 tells, and ends with the exit code */
     if (status == BR_INTERRUPTED) {

@@ -9,7 +9,6 @@
 #include "study/extremes/energy_behaviour.h"
 #include "study/extremes/floors.h"
 #include "study/extremes/stability.h"
-#include "study/extremes/steps.h"
 
 /* ---- floors: deviation over n ---- */
 
@@ -61,8 +60,8 @@ static void add_method(const struct br_drifts *d, size_t scene, size_t contender
     struct br_series *s = br_series_add(
         f, BR_PEN_CURVE, "%.*s", (int)(solver ? (size_t)(solver - name) : strlen(name)), name);
     for (size_t j = 0; j < d->k_count; j++) {
-        const struct br_drift *drift = br_drift_at(d, scene, contender, j);
-        br_point_add(s, (double)d->steps[j], drift->steps ? br_drift_deviation(drift) : (double)NAN,
+        const struct br_floor *drift = br_drift_at(d, scene, contender, j);
+        br_point_add(s, (double)d->steps[j], drift->steps ? br_floor_deviation(drift) : (double)NAN,
                      NULL);
     }
 }

@@ -3,7 +3,6 @@
 
 #include "study/extremes/floors.h"
 #include "study/extremes/stability.h"
-#include "study/extremes/steps.h"
 #include "tables/report_parts.h"
 
 /* ---- floors: the round-off of every linear solver ---- */
@@ -98,10 +97,10 @@ static void put_drift_grid(struct br_document *d, const struct br_drifts *f)
         BR_PUT(d, br_text(f->scene[scene].name), .key = "scene");
         BR_PUT(d, br_text(f->contender[method].name), .key = "method");
         for (size_t j = 0; j < f->k_count; j++) {
-            const struct br_drift *drift = br_drift_at(f, scene, method, j);
+            const struct br_floor *drift = br_drift_at(f, scene, method, j);
             char heading[32];
             snprintf(heading, sizeof heading, "N = %.3g", (double)f->steps[j]);
-            BR_PUT(d, br_number(drift->steps ? br_drift_deviation(drift) : NAN), .heading = heading,
+            BR_PUT(d, br_number(drift->steps ? br_floor_deviation(drift) : NAN), .heading = heading,
                    .format = "%.1e");
             if (drift->refused.status)
                 br_put_shown(d, "refused");
@@ -109,20 +108,20 @@ static void put_drift_grid(struct br_document *d, const struct br_drifts *f)
     }
 }
 
-static const char *drift_outcome(const struct br_drift *drift)
+static const char *drift_outcome(const struct br_floor *drift)
 {
     if (drift->refused.status)
         return "refused";
     if (!drift->steps)
         return "not marched";
-    return br_drift_deviation(drift) <= drift->predicted ? "as predicted" : "ABOVE";
+    return br_floor_deviation(drift) <= drift->predicted ? "as predicted" : "ABOVE";
 }
 
 static void put_drifts(struct br_document *d, const struct br_drifts *f)
 {
     br_put_table(d, "steps", "Every scene, method and number of steps", BR_FILES_ONLY | BR_MAIN);
     for (size_t i = 0; i < BR_DRIFT_SCENES * f->contenders * f->k_count; i++) {
-        const struct br_drift *drift = &f->drift[i];
+        const struct br_floor *drift = &f->drift[i];
         const size_t row = i / f->k_count;
         const bool marched = drift->steps > 0;
         br_put_row(d);

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/extremes/amplification.h"
 #include "study/extremes/beam_mode.h"
 #include "study/extremes/energy_behaviour.h"
 #include "study/grid/observer.h"

@@ -59,7 +59,7 @@ static void repeat(const struct br_extreme_case *one, const struct br_extreme_ve
 static void test_commands(void **state)
 {
     (void)state;
-    const struct br_extreme_court court = {.quick = true};
+    const struct br_extreme_judging judging = {.quick = true};
     size_t seen[BR_EXTREME_CLASSES] = {0};
     const size_t cases = br_test_long() ? 5 * CASES : CASES;
     for (size_t i = 0; i < cases; i++) {
@@ -67,8 +67,8 @@ static void test_commands(void **state)
         struct br_extreme_verdict verdict;
         struct br_error err = {0};
         br_extreme_draw(6, i, &one);
-        assert_int_equal(br_extreme_judge(&one, &court, &verdict, &err), BR_OK);
-        /* What the map's patience ends goes on for a user. */
+        assert_int_equal(br_extreme_judge(&one, &judging, &verdict, &err), BR_OK);
+        /* What the map's limit ends goes on for a user. */
         if (verdict.which == BR_EXTREME_UNJUDGED ||
             (!br_test_long() && seen[verdict.which] == FIRST_OF_EACH))
             continue;

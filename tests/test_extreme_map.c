@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "study/extremes/count.h"
-#include "study/extremes/shrink.h"
 #include "study/extremes/track.h"
 #include "study/scene/file.h"
 #include "study/scene/rescale.h"
@@ -14,10 +13,10 @@
 
 /* Wrong wherever a stiff contact is in a scene with friction; right elsewhere. */
 static enum br_status planted(const struct br_extreme_case *one,
-                              const struct br_extreme_court *court,
+                              const struct br_extreme_judging *judging,
                               struct br_extreme_verdict *verdict, struct br_error *err)
 {
-    (void)court;
+    (void)judging;
     (void)err;
     *verdict = (struct br_extreme_verdict){.error = 0.25, .units = NAN, .round_off = 1e-12};
     if (one->contact && one->contact_stiffness > 1e3 && one->law == BR_TRESCA) {
@@ -66,13 +65,13 @@ static struct br_extreme_map run(size_t cases, int threads, const char *kept)
 {
     struct br_error err = {0};
     struct br_extreme_map map;
-    const struct br_extreme_wish wish = {.seed = 11,
-                                         .cases = cases,
-                                         .threads = threads,
-                                         .kept = kept,
-                                         .program = "test",
-                                         .judge = planted};
-    MUST(br_extreme_map_run(&wish, &map, &err));
+    const struct br_extreme_request request = {.seed = 11,
+                                               .cases = cases,
+                                               .threads = threads,
+                                               .kept = kept,
+                                               .program = "test",
+                                               .judge = planted};
+    MUST(br_extreme_map_run(&request, &map, &err));
     return map;
 }
 
@@ -111,9 +110,10 @@ static void test_other_kept(void **state)
     fclose(file);
     struct br_error err = {0};
     struct br_extreme_map map;
-    const struct br_extreme_wish wish = {
+    const struct br_extreme_request request = {
         .seed = 98, .cases = 4, .kept = kept, .program = "test", .judge = planted};
-    REFUSED(br_extreme_map_run(&wish, &map, &err), BR_BAD_INPUT, "seed 99, rounding 0', expected");
+    REFUSED(br_extreme_map_run(&request, &map, &err), BR_BAD_INPUT,
+            "seed 99, rounding 0', expected");
     assert_non_null(strstr(err.message, "seed 98, rounding 0'"));
     br_extreme_map_clear(&map);
     file = fopen(kept, "r");
@@ -204,13 +204,13 @@ struct named {
     size_t index;
 };
 
-static struct br_extreme_verdict judge(struct named which, const struct br_extreme_court *court)
+static struct br_extreme_verdict judge(struct named which, const struct br_extreme_judging *judging)
 {
     struct br_extreme_case one;
     struct br_extreme_verdict verdict;
     struct br_error err = {0};
     br_extreme_draw(which.seed, which.index, &one);
-    assert_int_equal(br_extreme_judge(&one, court, &verdict, &err), BR_OK);
+    assert_int_equal(br_extreme_judge(&one, judging, &verdict, &err), BR_OK);
     return verdict;
 }
 
@@ -227,9 +227,9 @@ static void test_sound_cases(void **state)
     static const struct named sound[] = {
         {1, 240}, {1, 246}, {1, 351},  {1, 502},  {1, 503},  {1, 681}, {1, 690}, {1, 741}, {1, 751},
         {1, 852}, {1, 866}, {1, 1136}, {1, 1277}, {1, 1304}, {7, 91},  {1, 102}, {4, 94}};
-    const struct br_extreme_court court = {.quick = true};
+    const struct br_extreme_judging judging = {.quick = true};
     for (size_t i = 0; i < sizeof sound / sizeof *sound; i++) {
-        const struct br_extreme_verdict verdict = judge(sound[i], &court);
+        const struct br_extreme_verdict verdict = judge(sound[i], &judging);
         if (verdict.which == BR_EXTREME_WRONG)
             fail_msg("case %zu of seed %zu: %s", sound[i].index, (size_t)sound[i].seed,
                      verdict.why);
@@ -252,10 +252,10 @@ static void test_hard_cases(void **state)
     static const struct named hard[] = {{3, 20},  {3, 101},  {1, 212}, {2, 284}, {4, 71},
                                         {4, 145}, {11, 108}, {5, 229}, {3, 26},  {4, 175},
                                         {5, 45},  {3, 186},  {3, 889}, {3, 1883}};
-    const struct br_extreme_court court = {0};
+    const struct br_extreme_judging judging = {0};
     const size_t count = br_test_long() ? sizeof hard / sizeof *hard : 9;
     for (size_t i = 0; i < count; i++) {
-        const struct br_extreme_verdict verdict = judge(hard[i], &court);
+        const struct br_extreme_verdict verdict = judge(hard[i], &judging);
         if (verdict.which == BR_EXTREME_WRONG)
             fail_msg("case %zu of seed %zu: %s", hard[i].index, (size_t)hard[i].seed, verdict.why);
     }
@@ -266,7 +266,7 @@ static void test_hard_cases(void **state)
 static void test_boast(void **state)
 {
     (void)state;
-    const struct br_extreme_court honest = {.quick = true}, boast = {.quick = true, .boast = 1e4};
+    const struct br_extreme_judging honest = {.quick = true}, boast = {.quick = true, .boast = 1e4};
     int known = 0, wrong = 0;
     for (size_t i = 0; i < 16; i++) {
         const struct named one = {1, i};

@@ -16,7 +16,6 @@
 #include "study/extremes/count.h"
 #include "study/extremes/energy_behaviour.h"
 #include "study/extremes/floors.h"
-#include "study/extremes/steps.h"
 #include "study/run/history.h"
 #include "study/trade/trade.h"
 
@@ -491,13 +490,13 @@ static void test_drifts(void **state)
     struct br_error err = {0};
     struct br_figure f;
     size_t steps[] = {10, 1000, 7};
-    struct br_drift drift[12];
+    struct br_floor drift[12];
     struct br_drifts d = {
         .contenders = 2, .solvers = 1, .k_count = 3, .steps = steps, .drift = drift};
     MUST(br_contender_read("euler+lagged+riccati", &d.contender[0], &err));
     MUST(br_contender_read("bdf2+riccati", &d.contender[1], &err));
     for (int i = 0; i < 12; i++)
-        drift[i] = (struct br_drift){.steps = steps[i % 3],
+        drift[i] = (struct br_floor){.steps = steps[i % 3],
                                      .deviation = {1e-16 * (i + 1), 1e-17},
                                      .predicted = 1e-13 * (i + 1)};
     drift[11].steps = 0;

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "study/extremes/floors.h"
-#include "study/extremes/steps.h"
 #include "support.h"
 
 static void test_floors(void **state)

@@ -42,8 +42,9 @@ static void expect_error(const char *message)
 }
 
 /* Hours of work, of which each rank has a share: whatever happens to it, happens before its end. */
-static const char *const hours = "study example2 --n 1600,3200 --k 1e-6 --reference fine:6400,1e-8 "
-                                 "--quiet --no-plots --threads 1 --out";
+static const char *const hours =
+    "study example2 --n 800,1600,3200 --k 1e-7,1.25e-7,2e-7,2.5e-7 --reference fine:3200,2.5e-8 "
+    "--quiet --no-plots --threads 1 --out";
 
 /* Runs hours of work on 4 ranks, and does something to rank 2 once its thread that marches is
  * there: MPI has started by then, and the program heeds signals. `$$` becomes the program, and
@@ -135,7 +136,7 @@ static void test_same_bits(void **state)
         {"study example3 --n 10,15,40 --k 0.02,0.01,0.005", {"example3"}}, /* slices */
         {"study release --reference none", {"release-meshes", "release-steps"}},
     };
-    static const int ranks[] = {2, 4}, threads[] = {2, 1};
+    static const int ranks[] = {2, 8}, threads[] = {2, 1};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         for (size_t j = 0; j < 2; j++) {
             char line[512], a[64], b[64];

@@ -45,7 +45,7 @@ struct br_extreme_start {
 };
 
 /* One field. */
-struct br_extreme_part {
+struct br_extreme_field {
     bool modelled;
     double stiffness, viscosity; /* N and N s, or N m^2 and N m^2 s */
     struct br_extreme_force load, tip_force, tip_moment;
@@ -53,25 +53,25 @@ struct br_extreme_part {
 };
 
 /* What was done on purpose beside drawing numbers. */
-enum br_extreme_trick {
-    BR_TRICK_NONE,
-    BR_TRICK_AT_LIMIT,    /* c_H at the lagged contact's stability limit times 1 +- little */
-    BR_TRICK_AT_REACTION, /* Tresca's bound is the first step's reaction to the last bit */
-    BR_TRICK_REVERSAL,    /* forces oscillate within a step */
-    BR_TRICK_GRAZING,     /* the gap is the tip's largest static way to the last digits */
-    BR_TRICK_DENORMAL,    /* loads of about 1e-310 */
-    BR_TRICK_ZEROS,       /* some numbers that may be 0 are */
-    BR_TRICKS
+enum br_extreme_special {
+    BR_SPECIAL_NONE,
+    BR_SPECIAL_AT_LIMIT,    /* c_H at the lagged contact's stability limit times 1 +- little */
+    BR_SPECIAL_AT_REACTION, /* Tresca's bound is the first step's reaction to the last bit */
+    BR_SPECIAL_REVERSAL,    /* forces oscillate within a step */
+    BR_SPECIAL_GRAZING,     /* the gap is the tip's largest static way to the last digits */
+    BR_SPECIAL_DENORMAL,    /* loads of about 1e-310 */
+    BR_SPECIAL_ZEROS,       /* some numbers that may be 0 are */
+    BR_SPECIALS
 };
-const char *br_extreme_trick_name(enum br_extreme_trick trick);
+const char *br_extreme_special_name(enum br_extreme_special special);
 
 struct br_extreme_case {
     uint64_t seed;
     size_t index;
     bool natural; /* dimensionless groups were drawn, not numbers with units */
-    enum br_extreme_trick trick;
+    enum br_extreme_special special;
     double length, duration, density; /* m, s, kg/m */
-    struct br_extreme_part part[2];   /* by br_field_kind */
+    struct br_extreme_field field[2]; /* by br_field_kind */
     bool contact;
     double gap, contact_stiffness; /* m, N/m */
     enum br_friction_law law;
@@ -83,10 +83,6 @@ struct br_extreme_case {
 
 /* Draws a case (out). */
 void br_extreme_draw(uint64_t seed, size_t index, struct br_extreme_case *drawn);
-
-/* Does the case's trick where it needs a march of one step: of what cannot be marched, nothing.
- * Called by br_extreme_draw. */
-void br_extreme_tune(struct br_extreme_case *drawn, double little);
 
 /* About how much work a march of the case is: elements times linear solves. */
 double br_extreme_work(const struct br_extreme_case *one);

@@ -2,22 +2,25 @@
 #include "study/extremes/case.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 #include "study/extremes/random.h"
+#include "study/run/model.h"
+#include "study/scene/file.h"
 
-const char *br_extreme_trick_name(enum br_extreme_trick trick)
+const char *br_extreme_special_name(enum br_extreme_special special)
 {
-    static const char *const names[BR_TRICKS] = {
-        [BR_TRICK_NONE] = "none",
-        [BR_TRICK_AT_LIMIT] = "c_H at the stability limit",
-        [BR_TRICK_AT_REACTION] = "bound equal to the reaction",
-        [BR_TRICK_REVERSAL] = "slip reverses within a step",
-        [BR_TRICK_GRAZING] = "tip grazes the foundation",
-        [BR_TRICK_DENORMAL] = "denormal loads",
-        [BR_TRICK_ZEROS] = "numbers that are 0",
+    static const char *const names[BR_SPECIALS] = {
+        [BR_SPECIAL_NONE] = "none",
+        [BR_SPECIAL_AT_LIMIT] = "c_H at the stability limit",
+        [BR_SPECIAL_AT_REACTION] = "bound equal to the reaction",
+        [BR_SPECIAL_REVERSAL] = "slip reverses within a step",
+        [BR_SPECIAL_GRAZING] = "tip grazes the foundation",
+        [BR_SPECIAL_DENORMAL] = "denormal loads",
+        [BR_SPECIAL_ZEROS] = "numbers that are 0",
     };
-    return names[trick];
+    return names[special];
 }
 
 /* ---- forces ---- */
@@ -34,7 +37,7 @@ static void draw_form(struct br_random *r, struct br_extreme_force *f)
 static void draw_forces(struct br_random *r, struct br_extreme_case *c, enum br_field_kind kind,
                         double total)
 {
-    struct br_extreme_part *p = &c->part[kind];
+    struct br_extreme_field *p = &c->field[kind];
     draw_form(r, &p->load);
     draw_form(r, &p->tip_force);
     draw_form(r, &p->tip_moment);
@@ -48,7 +51,7 @@ static void draw_forces(struct br_random *r, struct br_extreme_case *c, enum br_
 }
 
 /* Displacements of about `way`, m; velocities over `time`, s. */
-static void draw_start(struct br_random *r, struct br_extreme_part *p, double way, double time,
+static void draw_start(struct br_random *r, struct br_extreme_field *p, double way, double time,
                        double density)
 {
     const double size = way * br_random_uniform(r, -1, 1);
@@ -60,11 +63,11 @@ static void draw_start(struct br_random *r, struct br_extreme_part *p, double wa
 
 /* ---- numbers that belong together ---- */
 
-/* A part by its relaxation time c/a over T, and the tip's static way over L. */
-static void draw_natural_part(struct br_random *r, struct br_extreme_case *c,
-                              enum br_field_kind kind, double stiffness)
+/* A field by its relaxation time c/a over T, and the tip's static way over L. */
+static void draw_natural_field(struct br_random *r, struct br_extreme_case *c,
+                               enum br_field_kind kind, double stiffness)
 {
-    struct br_extreme_part *p = &c->part[kind];
+    struct br_extreme_field *p = &c->field[kind];
     const double power = kind == BR_AXIAL ? 1 : 3;
     const double way = c->length * br_random_decades(r, -6, 0);
     p->modelled = true;
@@ -78,7 +81,7 @@ static void draw_natural_part(struct br_random *r, struct br_extreme_case *c,
 
 static void draw_natural_laws(struct br_random *r, struct br_extreme_case *c)
 {
-    const struct br_extreme_part *u = &c->part[BR_AXIAL], *w = &c->part[BR_BENDING];
+    const struct br_extreme_field *u = &c->field[BR_AXIAL], *w = &c->field[BR_BENDING];
     const double push = fabs(u->load.size) * c->length / 2 + fabs(u->tip_force.size);
     const double pushed = push * c->length / fmax(u->stiffness, DBL_MIN);
     const double way = pushed > 0 ? pushed : 1e-3 * c->length;
@@ -112,9 +115,9 @@ static void draw_natural(struct br_random *r, struct br_extreme_case *c)
     c->density = inertia * bending * pow(c->duration, 2) / pow(c->length, 4);
     const size_t fields = br_random_index(r, 6);
     if (fields != 0)
-        draw_natural_part(r, c, BR_AXIAL, axial);
+        draw_natural_field(r, c, BR_AXIAL, axial);
     if (fields != 1)
-        draw_natural_part(r, c, BR_BENDING, bending);
+        draw_natural_field(r, c, BR_BENDING, bending);
     draw_natural_laws(r, c);
 }
 
@@ -133,7 +136,7 @@ static void draw_wild(struct br_random *r, struct br_extreme_case *c)
     c->density = wild(r, -8, 6);
     const size_t fields = br_random_index(r, 6);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_extreme_part *p = &c->part[kind];
+        struct br_extreme_field *p = &c->field[kind];
         if (fields == (size_t)kind)
             continue;
         p->modelled = true;
@@ -143,10 +146,10 @@ static void draw_wild(struct br_random *r, struct br_extreme_case *c)
         draw_start(r, p, br_random_decades(r, -9, 0) * c->length, br_random_decades(r, -6, 6),
                    c->density);
     }
-    c->contact = c->part[BR_AXIAL].modelled && !br_random_once_in(r, 5);
+    c->contact = c->field[BR_AXIAL].modelled && !br_random_once_in(r, 5);
     c->gap = wild(r, -15, 6);
     c->contact_stiffness = wild(r, -6, 15);
-    if (!c->part[BR_BENDING].modelled)
+    if (!c->field[BR_BENDING].modelled)
         return;
     c->law = (enum br_friction_law)br_random_index(r, 3);
     if (c->law == BR_COULOMB && !c->contact)
@@ -191,7 +194,7 @@ static void draw_method(struct br_random *r, struct br_extreme_case *c)
     c->regularisation = wild(r, -15, 0);
     if (c->natural) /* of the tip's mean speed */
         c->regularisation *= c->length / c->duration;
-    if (c->law == BR_TRESCA && br_random_once_in(r, 2) && c->part[BR_AXIAL].modelled)
+    if (c->law == BR_TRESCA && br_random_once_in(r, 2) && c->field[BR_AXIAL].modelled)
         c->wanted = 3;
 }
 
@@ -224,26 +227,33 @@ static void draw_resolution(struct br_random *r, struct br_extreme_case *c)
     c->steps = (size_t)steps;
 }
 
-/* ---- tricks ---- */
+/* ---- special cases ---- */
 
 static void drop_some(struct br_random *r, struct br_extreme_case *c)
 {
     double *const may_be_zero[] = {
-        &c->density,           &c->part[0].stiffness, &c->part[0].viscosity, &c->part[1].stiffness,
-        &c->part[1].viscosity, &c->part[0].load.size, &c->part[1].load.size, &c->gap,
-        &c->contact_stiffness, &c->friction,
+        &c->density,
+        &c->field[0].stiffness,
+        &c->field[0].viscosity,
+        &c->field[1].stiffness,
+        &c->field[1].viscosity,
+        &c->field[0].load.size,
+        &c->field[1].load.size,
+        &c->gap,
+        &c->contact_stiffness,
+        &c->friction,
     };
     for (size_t i = 0; i < sizeof may_be_zero / sizeof *may_be_zero; i++)
         if (br_random_once_in(r, 4))
             *may_be_zero[i] = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING && c->density == 0; kind++)
-        c->part[kind].velocity.size = 0;
+        c->field[kind].velocity.size = 0;
 }
 
 static void scale_forces(struct br_extreme_case *c, double to)
 {
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_extreme_part *p = &c->part[kind];
+        struct br_extreme_field *p = &c->field[kind];
         struct br_extreme_force *const forces[] = {&p->load, &p->tip_force, &p->tip_moment};
         for (size_t i = 0; i < sizeof forces / sizeof *forces; i++)
             if (forces[i]->size != 0)
@@ -255,7 +265,7 @@ static void scale_forces(struct br_extreme_case *c, double to)
 static void oscillate(struct br_random *r, struct br_extreme_case *c)
 {
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_extreme_part *p = &c->part[kind];
+        struct br_extreme_field *p = &c->field[kind];
         struct br_extreme_force *const forces[] = {&p->load, &p->tip_force, &p->tip_moment};
         for (size_t i = 0; i < sizeof forces / sizeof *forces; i++) {
             forces[i]->history = BR_HISTORY_SINE;
@@ -264,31 +274,83 @@ static void oscillate(struct br_random *r, struct br_extreme_case *c)
     }
 }
 
+/* ---- numbers that only a march can tell: its stability limit, its reaction ---- */
+
+/* The first step of a case; NULL: it cannot be made. The scene is to be cleared. */
+static struct br_march *first_step(const struct br_extreme_case *c, struct br_scene *scene,
+                                   struct br_scene *marched)
+{
+    char text[BR_EXTREME_TEXT];
+    struct br_march *march = NULL;
+    br_extreme_scene(c, text);
+    if (br_scene_read_text("case.yaml", text, scene, NULL) ||
+        br_model_select(scene, c->wanted, marched, NULL) ||
+        br_march_create(&march, marched, c->n, c->steps, &c->method, NULL))
+        return NULL;
+    if (!br_march_step(march, NULL))
+        return march;
+    br_march_free(march);
+    return NULL;
+}
+
+/* c_H k z_tip = 1 + c/(c + k a), and a little more or less. */
+static void tune_contact(struct br_extreme_case *c, const struct br_march *march, double little)
+{
+    const struct br_field *f = br_march_field(march, BR_AXIAL);
+    const double limit = (1 + f->viscosity / (f->viscosity + f->k * f->stiffness)) /
+                         (f->k * br_march_compliance(march, BR_AXIAL)) * (1 + little);
+    if (limit > 0 && isfinite(limit))
+        c->contact_stiffness = limit;
+}
+
+/* Does what the special case asks where it needs a march of one step: of what cannot be marched,
+ * nothing.
+ */
+static void tune(struct br_extreme_case *c, double little)
+{
+    struct br_extreme_case trial = *c;
+    struct br_scene scene = {0}, marched;
+    const bool bound = c->special == BR_SPECIAL_AT_REACTION;
+    if (bound ? c->law != BR_TRESCA : !c->contact)
+        return;
+    if (bound)
+        trial.friction = 1e300;
+    struct br_march *march = first_step(&trial, &scene, &marched);
+    if (march && !bound)
+        tune_contact(c, march, little);
+    else if (march && isfinite(br_march_tip(march)->friction_force))
+        c->friction = fabs(br_march_tip(march)->friction_force);
+    br_march_free(march);
+    br_scene_clear(&scene);
+}
+
+/* ---- a case ---- */
+
 static void play(struct br_random *r, struct br_extreme_case *c)
 {
-    const struct br_extreme_part *u = &c->part[BR_AXIAL];
+    const struct br_extreme_field *u = &c->field[BR_AXIAL];
     static const double littles[] = {0, 1e-15, -1e-15, 1e-6, -1e-6, 0.02, -0.02};
-    switch (c->trick) {
-    case BR_TRICK_GRAZING:
+    switch (c->special) {
+    case BR_SPECIAL_GRAZING:
         c->gap = (u->load.size * c->length * c->length / 2 + u->tip_force.size * c->length) /
                  fmax(u->stiffness, DBL_MIN) * (1 + littles[br_random_index(r, 5)]);
         c->gap = isfinite(c->gap) ? fabs(c->gap) : 0;
         break;
-    case BR_TRICK_DENORMAL:
+    case BR_SPECIAL_DENORMAL:
         scale_forces(c, br_random_uniform(r, 0.1, 1) * 1e-309);
         break;
-    case BR_TRICK_ZEROS:
+    case BR_SPECIAL_ZEROS:
         drop_some(r, c);
         break;
-    case BR_TRICK_REVERSAL:
+    case BR_SPECIAL_REVERSAL:
         oscillate(r, c);
         break;
-    case BR_TRICK_AT_LIMIT:
-    case BR_TRICK_AT_REACTION:
-        br_extreme_tune(c, littles[br_random_index(r, 7)]);
+    case BR_SPECIAL_AT_LIMIT:
+    case BR_SPECIAL_AT_REACTION:
+        tune(c, littles[br_random_index(r, 7)]);
         break;
-    case BR_TRICK_NONE:
-    case BR_TRICKS:
+    case BR_SPECIAL_NONE:
+    case BR_SPECIALS:
         break;
     }
 }
@@ -304,6 +366,6 @@ void br_extreme_draw(uint64_t seed, size_t index, struct br_extreme_case *c)
     draw_method(&r, c);
     draw_resolution(&r, c);
     if (br_random_once_in(&r, 3))
-        c->trick = (enum br_extreme_trick)br_random_index(&r, BR_TRICKS);
+        c->special = (enum br_extreme_special)br_random_index(&r, BR_SPECIALS);
     play(&r, c);
 }

@@ -2,13 +2,106 @@
 #include "study/extremes/energy_behaviour.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/extremes/balance_scenes.h"
-#include "study/grid/observer.h"
-#include "study/grid/threads.h"
+#include "study/grid/each.h"
+#include "study/scene/file.h"
+
+/* ---- the scenes: bundled ones, and what is changed in them ---- */
+
+static void massless(struct br_scene *s)
+{
+    s->density = 0;
+}
+
+static void heavy(struct br_scene *s)
+{
+    s->density = 1e6;
+}
+
+static void elastic(struct br_scene *s)
+{
+    s->axial.viscosity = s->bending.viscosity = 0;
+}
+
+static void tough(struct br_scene *s)
+{
+    s->axial.viscosity = s->bending.viscosity = 1e6;
+}
+
+static void hard(struct br_scene *s)
+{
+    s->contact.stiffness = 1e12;
+}
+
+static void rough(struct br_scene *s)
+{
+    s->friction.coefficient = 1e12;
+}
+
+static const struct {
+    const char *bundled;
+    void (*change)(struct br_scene *scene); /* NULL: as it is */
+    const char *contact;
+} scenes[] = {
+    {"example1", NULL, NULL},           {"example2", NULL, NULL},
+    {"example2", NULL, "lagged"},       {"example2", hard, "lagged"},
+    {"example2", hard, "implicit"},     {"example2", massless, "implicit"},
+    {"example2", heavy, "implicit"},    {"example2", elastic, "implicit"},
+    {"example2", tough, "implicit"},    {"example2", rough, "implicit"},
+    {"example4", NULL, NULL},           {"bouncing", NULL, "implicit"},
+    {"bouncing", NULL, "lagged"},       {"impact", NULL, "implicit"},
+    {"chatter", NULL, "implicit"},      {"vibration", NULL, NULL},
+    {"near_elastic", NULL, "implicit"}, {"heavy_damping", NULL, "implicit"},
+};
+
+const char *const br_balance_scenes[] = {
+    "example1",
+    "example2",
+    "example2, lagged contact",
+    "example2, lagged contact, c_H = 1e12 N/m",
+    "example2, c_H = 1e12 N/m",
+    "example2, density 0",
+    "example2, density 1e6 kg/m",
+    "example2, viscosity 0",
+    "example2, viscosity 1e6",
+    "example2, c_V = 1e12 N/m",
+    "example4",
+    "bouncing",
+    "bouncing, lagged contact",
+    "impact",
+    "chatter",
+    "vibration",
+    "near_elastic",
+    "heavy_damping",
+};
+const size_t br_balance_scene_count = sizeof scenes / sizeof *scenes;
+_Static_assert(sizeof scenes / sizeof *scenes ==
+                   sizeof br_balance_scenes / sizeof *br_balance_scenes,
+               "a name for each scene");
+
+/* Whether its contact is lagged, which few schemes take. */
+static bool scene_lags(size_t i)
+{
+    return scenes[i].contact && strcmp(scenes[i].contact, "lagged") == 0;
+}
+
+/* Scene i (out) and the contact rule by name, NULL: the scheme's own. The caller clears the scene.
+ */
+static enum br_status read_scene(size_t i, struct br_scene *scene, const char **contact,
+                                 struct br_error *err)
+{
+    char path[4096];
+    *scene = (struct br_scene){0};
+    *contact = scenes[i].contact;
+    enum br_status status = br_scene_find(scenes[i].bundled, path, sizeof path, err);
+    if (!status)
+        status = br_scene_read(path, scene, err);
+    if (!status && scenes[i].change)
+        scenes[i].change(scene);
+    return status;
+}
 
 /* ---- what is tried ---- */
 
@@ -65,7 +158,7 @@ static enum br_status list(struct br_energy_behaviour *b, struct br_error *err)
     list_vibrations(b);
     for (size_t scene = 0; scene < br_balance_scene_count; scene++)
         for (size_t s = 0; s < schemes; s++)
-            if (br_time_schemes[s]->may_lag || !br_balance_scene_lags(scene))
+            if (br_time_schemes[s]->may_lag || !scene_lags(scene))
                 b->balance[b->balances++] =
                     (struct br_balance_row){.scheme = br_time_schemes[s], .scene = scene};
     return BR_OK;
@@ -124,7 +217,7 @@ static enum br_status run_balance(struct br_balance_row *row, struct br_error *e
 {
     struct balance b = {.row = row, .method = br_method_default()};
     const char *contact;
-    enum br_status status = br_balance_scene(row->scene, &b.scene, &contact, err);
+    enum br_status status = read_scene(row->scene, &b.scene, &contact, err);
     b.method.scheme = row->scheme;
     b.method.contact = contact ? br_contact_rule_find(contact) : br_contact_rule_of(row->scheme);
     b.method.tolerance = tolerance;
@@ -139,33 +232,18 @@ static enum br_status run_balance(struct br_balance_row *row, struct br_error *e
 
 /* ---- all ---- */
 
-struct work {
-    struct br_energy_behaviour *b;
-    size_t tasks, done, failed;
-    struct br_error failure; /* of the first task that failed */
-};
-
-static enum br_status run_task(struct br_energy_behaviour *b, size_t task, struct br_error *err)
+/* The last ones are the dearest. */
+static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
+    struct br_energy_behaviour *b = self;
+    const size_t task = b->vibrations + b->balances - 1 - i;
     if (task >= b->vibrations)
         return run_balance(&b->balance[task - b->vibrations], err);
     enum br_status status = BR_OK;
     for (size_t r = 0; r < BR_VIBRATION_RATES && !status; r++)
-        for (size_t i = 0; i < BR_VIBRATION_DENSITIES && !status; i++)
-            status = br_vibration_run(&b->vibration[task].at[r][i], err);
+        for (size_t d = 0; d < BR_VIBRATION_DENSITIES && !status; d++)
+            status = br_vibration_run(&b->vibration[task].at[r][d], err);
     return status;
-}
-
-static void finish_task(struct work *w, size_t task, const struct br_error *failure,
-                        const struct br_observer *observer)
-{
-    if (failure->status && task < w->failed) {
-        w->failed = task;
-        w->failure = *failure;
-    }
-    w->done++;
-    if (observer && observer->progress)
-        observer->progress(observer->self, (double)w->done / (double)w->tasks);
 }
 
 enum br_status br_energy_behaviour_run(struct br_energy_behaviour *b, int threads,
@@ -173,23 +251,12 @@ enum br_status br_energy_behaviour_run(struct br_energy_behaviour *b, int thread
 {
     *b = (struct br_energy_behaviour){0};
     const enum br_status status = list(b, err);
-    if (status)
-        return status;
-    struct work w = {.b = b, .tasks = b->vibrations + b->balances, .failed = SIZE_MAX};
-    threads = br_threads(threads);
-    (void)threads;
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (size_t i = 0; i < w.tasks; i++) {
-        const size_t task = w.tasks - 1 - i; /* the dearest first */
-        struct br_error failure = {0};
-        if (observer && observer->stop && observer->stop(observer->self))
-            br_fail(&failure, BR_INTERRUPTED, "interrupted");
-        else
-            failure.status = run_task(b, task, &failure);
-#pragma omp critical(energy_behaviour)
-        finish_task(&w, task, &failure, observer);
-    }
-    return w.failed == SIZE_MAX ? BR_OK : br_fail(err, w.failure.status, "%s", w.failure.message);
+    const struct br_each each = {.count = b->vibrations + b->balances,
+                                 .threads = threads,
+                                 .observer = observer,
+                                 .turn = take_turn,
+                                 .self = b};
+    return status ? status : br_each(&each, err);
 }
 
 void br_energy_behaviour_clear(struct br_energy_behaviour *b)

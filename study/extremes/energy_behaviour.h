@@ -4,10 +4,56 @@
 #ifndef BR_STUDY_EXTREMES_ENERGY_BEHAVIOUR_H
 #define BR_STUDY_EXTREMES_ENERGY_BEHAVIOUR_H
 
+#include <complex.h>
+
 #include "reference/energy.h"
-#include "study/extremes/vibration.h"
+#include "reference/textbook.h"
+#include "solver/march.h"
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
+
+/* ---- free vibration of a field in its lowest mode: what a time scheme takes from its energy, as
+ * measured and as its stability function tells ---- */
+
+/* The factor of a step with z = k lambda: the stability function R(z) of a Runge-Kutta method (its
+ * last stage is the step's end), of backward differences the principal root r of
+ * (1 - beta z) r^q = sum past_j r^(q-1-j), the one that is nearest to e^z for small z. */
+double complex br_amplification(const struct br_textbook *textbook, double complex z);
+
+enum br_vibration_end {
+    BR_VIBRATION_DONE,
+    BR_VIBRATION_REFUSED, /* by the method: see failure */
+    BR_VIBRATION_FAILED,  /* the march */
+};
+
+struct br_vibration {
+    /* In */
+    const struct br_time_scheme *scheme;
+    enum br_field_kind kind;
+    double damping;    /* of the mode, relative to critical */
+    double density;    /* kg/m */
+    size_t per_period; /* steps; of an adaptive scheme looks, see tolerance */
+    double tolerance;
+
+    /* Out */
+    enum br_vibration_end end;
+    struct br_error failure;
+    double steps;        /* a period, the scheme's own */
+    double measured;     /* share of the energy that the scheme takes a period, beside viscosity */
+    double predicted;    /* by the amplification; NAN for an adaptive scheme */
+    double round_off;    /* of the two, about */
+    double worst, limit; /* imbalance of a step */
+    size_t gaining, all; /* steps that add, of all */
+};
+
+/* Marches. Fails with BR_NO_MEMORY and BR_SINGULAR; what a march does is a result. */
+enum br_status br_vibration_run(struct br_vibration *vibration, struct br_error *err);
+
+/* Whether what was measured is as predicted, to round-off, and every step's balance closes; what
+ * was refused is neither. */
+bool br_vibration_is_right(const struct br_vibration *vibration);
+
+/* ---- all schemes ---- */
 
 enum { BR_VIBRATION_RATES = 6, BR_VIBRATION_DENSITIES = 3 };
 

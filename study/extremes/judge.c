@@ -1,14 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/extremes/judge.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "study/extremes/trial.h"
+#include "study/extremes/random.h"
+#include "study/extremes/track.h"
+#include "study/foresee/prediction.h"
 #include "study/run/model.h"
 #include "study/scene/file.h"
+#include "study/scene/rescale.h"
+
+enum { MOST_STEPS = 2500 }; /* steps of the exact solution, and of adaptive schemes */
+
+struct trial {
+    const struct br_extreme_case *one;
+    const struct br_extreme_judging *judging;
+    struct br_extreme_verdict *verdict;
+    struct br_scene scene, marched; /* the latter borrows */
+    struct br_method method;
+    struct br_track_places places;
+    struct br_track *own, *other;
+    struct br_prediction prediction;
+    double judge_error[2]; /* of those who judge, by br_field_kind, relative; 0: not known */
+    double beyond;         /* an error over what is stated, where it is more; 0: it is not */
+    double error;          /* that error, or the largest */
+    struct br_warnings warnings;
+    bool done;
+};
 
 static const double no_digit = 0.05; /* predicted round-off that leaves none */
 
@@ -38,8 +60,10 @@ const char *br_extreme_by_name(enum br_extreme_by by)
     return names[by];
 }
 
-void br_extreme_decide(struct br_extreme_trial *t, enum br_extreme_class which, const char *format,
-                       ...)
+/* Decides a case, once and for all; the format is of what is to be said. */
+__attribute__((format(printf, 3, 4))) static void decide(struct trial *t,
+                                                         enum br_extreme_class which,
+                                                         const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -53,14 +77,15 @@ void br_extreme_decide(struct br_extreme_trial *t, enum br_extreme_class which, 
 }
 
 /* Whether it was said before the march that no digit may be right. */
-static bool warned(const struct br_extreme_trial *t)
+static bool warned(const struct trial *t)
 {
     return br_warnings_find(&t->warnings, BR_WARN_ROUND_OFF) ||
            br_warnings_find(&t->warnings, BR_WARN_INACCURATE) ||
            br_warnings_find(&t->warnings, BR_WARN_UNKNOWN);
 }
 
-struct br_track_request br_extreme_request(const struct br_extreme_trial *t)
+/* What is marched where nothing is changed. */
+static struct br_track_request request_of(const struct trial *t)
 {
     return (struct br_track_request){.scene = &t->scene,
                                      .wanted = t->one->wanted,
@@ -68,23 +93,294 @@ struct br_track_request br_extreme_request(const struct br_extreme_trial *t)
                                      .places = &t->places,
                                      .finer = 1,
                                      .shorter = 1,
-                                     .rounding = t->court->rounding};
+                                     .rounding = t->judging->rounding};
+}
+
+/* ---- how accurate it is: by the exact solution or by refinement, against what is stated ---- */
+
+static const double accurate = 0.05;    /* relative, of displacements */
+static const double refined_work = 3e6; /* elements times linear solves */
+static const double of_distance = 1.5;  /* between a judge and a finer one */
+
+/* How far the march is from the judge, against what is stated. */
+static void compare(struct trial *t)
+{
+    struct br_extreme_verdict *v = t->verdict;
+    v->error = v->stated = 0;
+    t->beyond = t->error = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        double sure;
+        const double e = br_track_error(t->own, t->other, (enum br_field_kind)kind, &sure);
+        const double boast = t->judging->boast > 0 ? t->judging->boast : 1;
+        const double stated = br_predicted_most(&t->prediction, (enum br_field_kind)kind) / boast;
+        const double slack = fmax(sure, of_distance * t->judge_error[kind]);
+        const double beyond = e <= slack + stated ? 0 : (e - slack) / fmax(stated, 1e-300);
+        if (isnan(beyond) || beyond > t->beyond || (beyond == t->beyond && !(e <= t->error))) {
+            v->stated = stated;
+            t->error = e;
+        }
+        v->error = isnan(e) || e > v->error ? e : v->error;
+        t->beyond = isnan(beyond) || beyond > t->beyond ? beyond : t->beyond;
+    }
+}
+
+/* The exact solution knows (12) alone. */
+static bool exact_knows(const struct trial *t)
+{
+    return !t->judging->quick && !(t->marched.friction.law != BR_FRICTIONLESS &&
+                                   t->method.friction->needs_regularisation);
+}
+
+static enum br_status ask_exact(struct trial *t, struct br_error *err)
+{
+    if (!exact_knows(t))
+        return BR_OK;
+    const enum br_status status =
+        br_track_exact(&t->marched, &t->places, MOST_STEPS, t->other, err);
+    if (status || t->other->failure.status)
+        return status;
+    t->verdict->by = BR_BY_EXACT;
+    compare(t);
+    return BR_OK;
+}
+
+static const struct br_contact_rule *implicit_contact(void)
+{
+    const struct br_contact_rule *const *rule = br_contact_rules;
+    while (!(*rule)->at_new_step)
+        rule++;
+    return *rule;
+}
+
+/* A beam without density whose viscosity is gone within a step k, s, follows its load at once, and
+ * friction keeps what the load's peaks and jumps have left. Stages of a higher order go beyond
+ * these; Euler's steps do not. */
+static bool follows_at_once(const struct br_scene *s, double k)
+{
+    return s->bending.modelled && s->density == 0 &&
+           s->bending.viscosity <= k * s->bending.stiffness && s->friction.law != BR_FRICTIONLESS;
+}
+
+/* By riccati, whose round-off is least, with contact at the new level, which has no limit, and a
+ * scheme that takes little energy from a vibration, but is not the one that errors are predicted
+ * by. */
+static enum br_status march_finer(struct trial *t, size_t finer, double times,
+                                  struct br_track *track, struct br_error *err)
+{
+    struct br_track_request request = request_of(t);
+    struct br_method fine = t->method;
+    const bool chosen = fine.scheme->adaptive;
+    fine.solver = br_linear_solvers[0];
+    fine.contact = implicit_contact();
+    if (fine.friction->iterates) /* what an iteration leaves adds up over many steps */
+        fine.friction = br_friction_rules[0];
+    const bool at_once = follows_at_once(&t->marched, br_time_step(&t->marched, t->one->steps));
+    fine.scheme = br_time_scheme_find(chosen ? "adaptive" : at_once ? "euler" : "esdirk3");
+    fine.tolerance = fmax(1e-11, fine.tolerance / (100 * times));
+    fine.most_steps = 4 * MOST_STEPS;
+    request.method = &fine;
+    request.finer = finer;
+    const double solves =
+        (double)t->one->n * (double)t->one->steps * br_time_scheme_stages(fine.scheme);
+    const double room = refined_work / ((double)finer * solves);
+    request.shorter = chosen ? 1 : (size_t)(times * floor(fmin(32, fmax(2, room))));
+    return br_track_march(&request, track, err);
+}
+
+static size_t finer_mesh(const struct trial *t)
+{
+    return t->one->n < 16 ? 8 : t->one->n < 200 ? 4 : 2;
+}
+
+static enum br_status ask_refinement(struct trial *t, struct br_error *err)
+{
+    const enum br_status status = march_finer(t, finer_mesh(t), 1, t->other, err);
+    if (status || t->other->failure.status)
+        return status;
+    t->verdict->by = BR_BY_REFINEMENT;
+    compare(t);
+    return BR_OK;
+}
+
+/* Before anything is called wrong, the judge itself is judged: by a march that is finer still. */
+static enum br_status ask_again(struct trial *t, struct br_error *err)
+{
+    struct br_track *finest = br_allocate(1, sizeof *finest), *other = t->other;
+    if (!finest)
+        return br_no_memory(err, "a march");
+    const enum br_status status = march_finer(t, 2 * finer_mesh(t), 2, finest, err);
+    if (!status && !finest->failure.status) {
+        double sure;
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+            t->judge_error[kind] = br_track_error(other, finest, (enum br_field_kind)kind, &sure);
+        t->other = finest;
+        compare(t);
+        t->other = other;
+    }
+    free(finest);
+    return status;
+}
+
+static bool is_stated(const struct trial *t)
+{
+    return t->verdict->error <= accurate || t->prediction.known;
+}
+
+static void decide_accuracy(struct trial *t)
+{
+    const struct br_extreme_verdict *v = t->verdict;
+    const unsigned helps = 1u << BR_WARN_LOAD_TIME | 1u << BR_WARN_LOAD_SPACE |
+                           1u << BR_WARN_INITIAL | 1u << BR_WARN_BOUNCE;
+    if (v->by == BR_BY_NOBODY)
+        decide(t, BR_EXTREME_UNJUDGED, "nobody can judge it: %.150s", t->other->failure.message);
+    else if (t->beyond <= 0 && v->error <= accurate)
+        t->verdict->which = BR_EXTREME_RIGHT;
+    else if (v->warned & 1u << BR_WARN_UNSTABLE)
+        decide(t, BR_EXTREME_UNSTABLE, "beyond the stability limit");
+    else if (!is_stated(t))
+        decide(t, BR_EXTREME_UNKNOWN, "error %.2g, said to be not known: %.100s", v->error,
+               t->prediction.why);
+    else if (t->beyond <= 0 || v->warned & helps)
+        decide(t, BR_EXTREME_WARNED, "error %.2g, and says so", v->error);
+    else
+        decide(t, BR_EXTREME_WRONG, "error %.2g by %s, stated to be at most %.2g", t->error,
+               br_extreme_by_name(v->by), v->stated);
+}
+
+static enum br_status judge_accuracy(struct trial *t, struct br_error *err)
+{
+    enum br_status status = ask_exact(t, err);
+    if (!status && t->verdict->by == BR_BY_NOBODY)
+        status = ask_refinement(t, err);
+    if (!status && t->verdict->by == BR_BY_REFINEMENT && !(t->beyond <= 0))
+        status = ask_again(t, err);
+    if (!status)
+        decide_accuracy(t);
+    return status;
+}
+
+/* ---- whether other units change the answer ---- */
+
+static const double noise = 1e-12; /* of data, more than other units do to them */
+static const double magnified = 8; /* between two such noises */
+
+static enum br_status march_changed(struct trial *t, const struct br_scene *changed, double unit,
+                                    double *distance, struct br_error *err)
+{
+    struct br_track_request request = request_of(t);
+    request.scene = changed;
+    const enum br_status status = br_track_march(&request, t->other, err);
+    *distance = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        const double d = br_track_distance(t->other, t->own, (enum br_field_kind)kind, unit);
+        *distance = isnan(d) || d > *distance ? d : *distance;
+    }
+    return status;
+}
+
+/* *exist: out, whether the scene's numbers are numbers in those units. */
+static enum br_status march_in_other_units(struct trial *t, bool *exist, struct br_error *err)
+{
+    struct br_random r = br_random_of(t->one->seed ^ 0x5ca1e, t->one->index);
+    const struct br_units_change units = {
+        br_random_decades(&r, -3, 3), br_random_decades(&r, -3, 3), br_random_decades(&r, -3, 3)};
+    struct br_scene changed = {0};
+    enum br_status status = br_rescale(&t->scene, &units, &changed, err);
+    *exist = !status;
+    if (!status)
+        status = march_changed(t, &changed, units.metre, &t->verdict->units, err);
+    br_scene_clear(&changed);
+    return status == BR_BAD_INPUT ? BR_OK : status; /* there are no such units for it */
+}
+
+/* The most that little noise does to the answer. Where a last bit decides between stick and slip,
+ * half of the tries decide otherwise. */
+static enum br_status march_with_noise(struct trial *t, double *most, struct br_error *err)
+{
+    *most = 0;
+    for (unsigned try = 0; try < 8; try++) {
+        struct br_scene changed = {0};
+        double distance = 0;
+        enum br_status status =
+            br_perturb(&t->scene, noise, t->one->seed + t->one->index + try, &changed, err);
+        if (!status)
+            status = march_changed(t, &changed, 1, &distance, err);
+        br_scene_clear(&changed);
+        if (status == BR_BAD_INPUT)
+            continue;
+        if (status)
+            return status;
+        *most = isnan(distance) ? INFINITY : fmax(*most, distance);
+    }
+    return BR_OK;
+}
+
+/* Where a scheme takes a step or not by comparisons that a last bit decides, marches agree as well
+ * as each is right: as is stated, and within so many times the tolerance. */
+static const double of_tolerance = 100;
+
+static double control(const struct trial *t)
+{
+    if (!t->method.scheme->adaptive)
+        return 0;
+    double stated = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        stated = fmax(stated, br_predicted_most(&t->prediction, (enum br_field_kind)kind));
+    return fmin(stated, of_tolerance * t->method.tolerance);
+}
+
+/* What rounding may do to the displacements, relative to the largest: what is predicted, in either
+ * units, since assembled matrices are rounded otherwise in others; what an iteration leaves; the
+ * velocities' own, since displacements are sums of them, and those that the tip would have without
+ * the laws' forces, since its own are differences from these; and what steps that are chosen
+ * differ by. */
+static double allowed(const struct trial *t)
+{
+    const double k = t->marched.duration / (double)t->one->steps;
+    double ways = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (t->own->largest[kind] > 0)
+            ways =
+                fmax(ways, (k * t->own->speed[kind] + t->own->held[kind]) / t->own->largest[kind]);
+    const double iteration = t->method.friction->iterates ? t->method.iteration.tolerance : 0;
+    const double predicted = fmax(t->verdict->round_off, t->other->report.round_off);
+    return 16 * (predicted + DBL_EPSILON * ways) + 4 * iteration + control(t);
+}
+
+static enum br_status judge_units(struct trial *t, struct br_error *err)
+{
+    double by_noise;
+    bool exist;
+    enum br_status status = march_in_other_units(t, &exist, err);
+    if (status || !exist)
+        return status;
+    const double units = t->verdict->units, limit = allowed(t);
+    if (units <= limit || (isnan(units) && !t->other->begun))
+        return status;
+    char why[120];
+    snprintf(why, sizeof why, "%.110s", t->other->failure.message);
+    status = march_with_noise(t, &by_noise, err);
+    if (!status && !(units <= magnified * by_noise))
+        decide(t, BR_EXTREME_WRONG,
+               "in other units it differs by %.2g; round-off explains %.2g, noise %.2g %s", units,
+               limit, by_noise, why);
+    return status;
 }
 
 /* ---- before the march ---- */
 
 /* What the program does with a failure of its own: it says so. */
-static enum br_status refuse(struct br_extreme_trial *t, enum br_status status,
-                             const struct br_error *said, struct br_error *err)
+static enum br_status refuse(struct trial *t, enum br_status status, const struct br_error *said,
+                             struct br_error *err)
 {
     if (status == BR_NO_MEMORY)
         return br_fail(err, status, "%s", said->message);
-    br_extreme_decide(t, status == BR_INTERRUPTED ? BR_EXTREME_UNJUDGED : BR_EXTREME_REFUSED,
-                      "%.180s", said->message);
+    decide(t, status == BR_INTERRUPTED ? BR_EXTREME_UNJUDGED : BR_EXTREME_REFUSED, "%.180s",
+           said->message);
     return BR_OK;
 }
 
-static enum br_status read_case(struct br_extreme_trial *t, struct br_error *err)
+static enum br_status read_case(struct trial *t, struct br_error *err)
 {
     char text[BR_EXTREME_TEXT];
     struct br_error said = {0};
@@ -110,9 +406,9 @@ static enum br_status read_case(struct br_extreme_trial *t, struct br_error *err
 /* ---- the march ---- */
 
 /* The march with everything that checks it. */
-static enum br_status march(struct br_extreme_trial *t, struct br_error *err)
+static enum br_status march(struct trial *t, struct br_error *err)
 {
-    struct br_track_request request = br_extreme_request(t);
+    struct br_track_request request = request_of(t);
     const struct br_track *own = t->own;
     request.check = true;
     enum br_status status = br_track_march(&request, t->own, err);
@@ -124,40 +420,38 @@ static enum br_status march(struct br_extreme_trial *t, struct br_error *err)
     if (own->failure.status)
         return refuse(t, own->failure.status, &own->failure, err);
     if (own->report.bad_steps)
-        br_extreme_decide(t, BR_EXTREME_WRONG, "certificate: %.160s", own->report.verdict.message);
+        decide(t, BR_EXTREME_WRONG, "certificate: %.160s", own->report.verdict.message);
     else if (!own->finite)
-        br_extreme_decide(t, BR_EXTREME_WRONG, "values that are not finite");
+        decide(t, BR_EXTREME_WRONG, "values that are not finite");
     else if (!(own->report.round_off < no_digit) && !warned(t))
-        br_extreme_decide(t, BR_EXTREME_WRONG,
-                          "no digit is left (round-off %.2g), and nothing is said",
-                          own->report.round_off);
+        decide(t, BR_EXTREME_WRONG, "no digit is left (round-off %.2g), and nothing is said",
+               own->report.round_off);
     return BR_OK;
 }
 
 /* ---- all of it ---- */
 
-static enum br_status judge(struct br_extreme_trial *t, struct br_error *err)
+static enum br_status judge(struct trial *t, struct br_error *err)
 {
     enum br_status status = read_case(t, err);
     if (!status && !t->done)
         status = march(t, err);
     if (!status && !t->done)
-        status = br_extreme_judge_accuracy(t, err);
-    if (!status && t->own->begun && !t->own->failure.status && !t->court->quick &&
+        status = judge_accuracy(t, err);
+    if (!status && t->own->begun && !t->own->failure.status && !t->judging->quick &&
         t->verdict->which != BR_EXTREME_WRONG)
-        status = br_extreme_judge_units(t, err);
+        status = judge_units(t, err);
     return status;
 }
 
 enum br_status br_extreme_judge(const struct br_extreme_case *one,
-                                const struct br_extreme_court *court,
+                                const struct br_extreme_judging *judging,
                                 struct br_extreme_verdict *verdict, struct br_error *err)
 {
     *verdict =
         (struct br_extreme_verdict){.error = NAN, .stated = NAN, .units = NAN, .round_off = NAN};
-    struct br_extreme_trial t = {
-        .one = one, .court = court, .verdict = verdict, .method = one->method};
-    t.method.most_steps = BR_EXTREME_PATIENCE;
+    struct trial t = {.one = one, .judging = judging, .verdict = verdict, .method = one->method};
+    t.method.most_steps = MOST_STEPS;
     t.places = br_track_places(one->n, one->steps);
     t.own = br_allocate(1, sizeof *t.own);
     t.other = br_allocate(1, sizeof *t.other);

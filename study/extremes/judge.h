@@ -55,7 +55,7 @@ struct br_extreme_verdict {
 };
 
 /* How judging is done; zeros: as the map does. */
-struct br_extreme_court {
+struct br_extreme_judging {
     int rounding; /* of the marches, as fesetround takes it */
     bool quick;   /* without the other units and the exact solution */
     double boast; /* stated errors are taken for so many times smaller, so that tests see what is
@@ -64,7 +64,7 @@ struct br_extreme_court {
 
 /* Judges a case; *verdict (out). Fails with BR_NO_MEMORY. */
 enum br_status br_extreme_judge(const struct br_extreme_case *one,
-                                const struct br_extreme_court *court,
+                                const struct br_extreme_judging *judging,
                                 struct br_extreme_verdict *verdict, struct br_error *err);
 
 #endif

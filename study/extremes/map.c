@@ -5,108 +5,181 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/extremes/kept.h"
-#include "study/extremes/shrink.h"
-#include "study/grid/observer.h"
-#include "study/grid/threads.h"
+#include "study/grid/each.h"
 
-struct work {
-    const struct br_extreme_wish *wish;
-    struct br_extreme_map *map;
-    bool *done;
-    FILE *kept;
-    size_t finished; /* cases, under the lock */
-    struct br_error failure;
-};
+/* ---- the file in which verdicts are kept as they come, a line each, so that a run that was ended
+ * may go on. Its first line tells the program, the seed and the judging options. ---- */
 
-static enum br_status judge(const struct br_extreme_wish *w, const struct br_extreme_case *one,
-                            struct br_extreme_verdict *verdict, struct br_error *err)
+enum { LINE = 512 };
+
+static void head_of(const struct br_extreme_request *w, char head[LINE])
 {
-    return (w->judge ? w->judge : br_extreme_judge)(one, &w->court, verdict, err);
+    snprintf(head, LINE, "beamrate extremes map 2, %.300s, seed %llu, rounding %d%s\n", w->program,
+             (unsigned long long)w->seed, w->judging.rounding, w->judging.quick ? ", quick" : "");
+}
+
+static void print(FILE *file, size_t index, const struct br_extreme_verdict *v)
+{
+    fprintf(file, "%zu %s %d %d %.17g %.17g %.17g %.17g %u;%s\n", index, br_extreme_word(v->which),
+            (int)v->by, (int)v->known, v->error, v->stated, v->units, v->round_off, v->warned,
+            v->why);
+}
+
+static bool find_class(const char *word, enum br_extreme_class *which)
+{
+    for (int i = 0; i < BR_EXTREME_CLASSES; i++)
+        if (strcmp(br_extreme_word((enum br_extreme_class)i), word) == 0) {
+            *which = (enum br_extreme_class)i;
+            return true;
+        }
+    return false;
+}
+
+/* Whether the line is a verdict. */
+static bool scan(const char *line, size_t *index, struct br_extreme_verdict *v)
+{
+    char word[32];
+    int by, known, used = 0;
+    *v = (struct br_extreme_verdict){0};
+    if (sscanf(line, "%zu %31s %d %d %lf %lf %lf %lf %u;%n", index, word, &by, &known, &v->error,
+               &v->stated, &v->units, &v->round_off, &v->warned, &used) != 9 ||
+        used == 0 || by < BR_BY_NOBODY || by > BR_BY_REFINEMENT || !find_class(word, &v->which))
+        return false;
+    v->by = (enum br_extreme_by)by;
+    v->known = known != 0;
+    snprintf(v->why, sizeof v->why, "%.*s", (int)strcspn(line + used, "\n"), line + used);
+    return true;
+}
+
+/* Hours of work of another seed, program or kind of judging are not thrown away. */
+static enum br_status check_head(const struct br_extreme_request *w, const char *found,
+                                 struct br_error *err)
+{
+    char head[LINE];
+    head_of(w, head);
+    if (strcmp(found, head) == 0)
+        return BR_OK;
+    return br_fail(
+        err, BR_BAD_INPUT,
+        "%.300s: found the cases of '%.*s', expected those of '%.*s': repeat its options, "
+        "or remove the file to begin anew",
+        w->kept, (int)strcspn(found, "\n"), found, (int)strcspn(head, "\n"), head);
+}
+
+static enum br_status read_kept(const struct br_extreme_request *w,
+                                struct br_extreme_verdict *verdict, bool *done,
+                                struct br_error *err)
+{
+    char line[LINE];
+    FILE *file = fopen(w->kept, "r");
+    if (!file)
+        return errno == ENOENT ? BR_OK
+                               : br_fail(err, BR_IO, "%.900s: %s", w->kept, strerror(errno));
+    enum br_status status = BR_OK;
+    if (fgets(line, sizeof line, file))
+        status = check_head(w, line, err);
+    while (!status && fgets(line, sizeof line, file)) {
+        struct br_extreme_verdict v;
+        size_t index;
+        if (strchr(line, '\n') && scan(line, &index, &v) && index < w->cases) {
+            verdict[index] = v;
+            done[index] = true;
+        }
+    }
+    fclose(file);
+    return status;
+}
+
+/* Whole at every moment: under another name first. */
+static enum br_status write_kept(const struct br_extreme_request *w,
+                                 const struct br_extreme_verdict *verdict, const bool *done,
+                                 struct br_error *err)
+{
+    char head[LINE], path[4096];
+    if ((size_t)snprintf(path, sizeof path, "%s.new", w->kept) >= sizeof path)
+        return br_fail(err, BR_IO, "%.200s...: the name is too long", w->kept);
+    FILE *file = fopen(path, "w");
+    if (!file)
+        return br_fail(err, BR_IO, "%.900s: %s", path, strerror(errno));
+    head_of(w, head);
+    fputs(head, file);
+    for (size_t i = 0; i < w->cases; i++)
+        if (done[i])
+            print(file, i, &verdict[i]);
+    const bool failed = ferror(file) != 0;
+    if (fclose(file) != 0 || failed || rename(path, w->kept) != 0)
+        return br_fail(err, BR_IO, "%.900s: %s", path, strerror(errno));
+    return BR_OK;
+}
+
+/* Reads what is there of the request's cases: verdict[i] and done[i] (out). A last line without an
+ * end counts as nothing; the file is then whole, and open for more lines: *file (out), NULL where
+ * the request keeps nothing. Fails with BR_BAD_INPUT where it has the cases of other options, which
+ * the message names, and does not touch it; with BR_IO or BR_NO_MEMORY. */
+static enum br_status open_kept(const struct br_extreme_request *w,
+                                struct br_extreme_verdict *verdict, bool *done, FILE **file,
+                                struct br_error *err)
+{
+    *file = NULL;
+    if (!w->kept)
+        return BR_OK;
+    enum br_status status = read_kept(w, verdict, done, err);
+    if (!status)
+        status = write_kept(w, verdict, done, err);
+    if (status)
+        return status;
+    *file = fopen(w->kept, "a");
+    return *file ? BR_OK : br_fail(err, BR_IO, "%.900s: %s", w->kept, strerror(errno));
+}
+
+/* Adds a line; whole in the file when it returns. */
+static enum br_status add_kept(FILE *file, size_t index, const struct br_extreme_verdict *verdict,
+                               struct br_error *err)
+{
+    if (!file)
+        return BR_OK;
+    print(file, index, verdict);
+    return fflush(file) == 0 ? BR_OK : br_fail(err, BR_IO, "the kept cases: %s", strerror(errno));
 }
 
 /* ---- cases ---- */
 
-static bool asked_to_stop(const struct br_extreme_wish *w)
+struct work {
+    const struct br_extreme_request *request;
+    struct br_extreme_map *map;
+    bool *done;
+    FILE *kept;
+};
+
+bool br_extreme_stopped(const struct br_extreme_request *w)
 {
     return w->observer && w->observer->stop && w->observer->stop(w->observer->self);
 }
 
-static bool given_up(struct work *work)
+enum br_status br_extreme_ask(const struct br_extreme_request *w, const struct br_extreme_case *one,
+                              struct br_extreme_verdict *verdict, struct br_error *err)
 {
-    bool failed;
-#pragma omp critical(extreme_map)
-    {
-        if (!work->failure.status && asked_to_stop(work->wish))
-            br_fail(&work->failure, BR_INTERRUPTED, "interrupted");
-        failed = work->failure.status != BR_OK;
-    }
-    return failed;
+    return (w->judge ? w->judge : br_extreme_judge)(one, &w->judging, verdict, err);
 }
 
-/* Under the lock. */
-static void take(struct work *work, size_t i, enum br_status status, const struct br_error *said)
+static enum br_status do_case(void *self, size_t i, struct br_error *err)
 {
-    const struct br_observer *observer = work->wish->observer;
-    struct br_error err = *said;
-    if (!status) {
-        work->done[i] = true;
-        status = br_kept_add(work->kept, i, &work->map->verdict[i], &err);
-    }
-    if (status && !work->failure.status)
-        work->failure = err;
-    work->finished++;
-    if (observer && observer->progress)
-        observer->progress(observer->self, (double)work->finished / (double)work->map->cases);
-}
-
-static void do_case(struct work *work, size_t i)
-{
-    struct br_error said = {0};
+    struct work *work = self;
     struct br_extreme_map *m = work->map;
-    enum br_status status = BR_OK;
-    if (given_up(work))
-        return;
     br_extreme_draw(m->seed, i, &m->one[i]);
     if (work->done[i])
-        return;
-    status = judge(work->wish, &m->one[i], &m->verdict[i], &said);
-#pragma omp critical(extreme_map)
-    take(work, i, status, &said);
-}
-
-static enum br_status do_cases(struct work *work, struct br_error *err)
-{
-    const int threads = br_threads(work->wish->threads);
-    (void)threads; /* without OpenMP */
-    for (size_t i = 0; i < work->map->cases; i++)
-        work->finished += work->done[i];
-    work->map->resumed = work->finished;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-    for (size_t i = 0; i < work->map->cases; i++)
-        do_case(work, i);
-    if (!work->failure.status)
         return BR_OK;
-    return br_fail(err, work->failure.status, "%.1000s", work->failure.message);
+    enum br_status status = br_extreme_ask(work->request, &m->one[i], &m->verdict[i], err);
+    if (!status) {
+#pragma omp critical(extreme_map)
+        status = add_kept(work->kept, i, &m->verdict[i], err);
+    }
+    return status;
 }
 
 /* ---- those that are wrong ---- */
 
-static enum br_status ask(void *self, const struct br_extreme_case *one, bool *still,
-                          struct br_error *err)
-{
-    const struct br_extreme_wish *w = self;
-    struct br_extreme_verdict verdict;
-    if (asked_to_stop(w))
-        return br_fail(err, BR_INTERRUPTED, "interrupted");
-    const enum br_status status = judge(w, one, &verdict, err);
-    *still = !status && verdict.which == BR_EXTREME_WRONG;
-    return status;
-}
-
-enum { MOST_QUESTIONS = 300 };
-
-static enum br_status write_scene(const struct br_extreme_wish *w, struct br_extreme_shrunk *s,
+static enum br_status write_scene(const struct br_extreme_request *w, struct br_extreme_shrunk *s,
                                   struct br_error *err)
 {
     char text[BR_EXTREME_TEXT], path[4096];
@@ -125,36 +198,26 @@ static enum br_status write_scene(const struct br_extreme_wish *w, struct br_ext
                                         : br_fail(err, BR_IO, "%.900s: %s", path, strerror(errno));
 }
 
-static enum br_status shrink(const struct br_extreme_wish *w, struct br_extreme_shrunk *s,
-                             struct br_error *err)
+static enum br_status shrink(void *self, size_t i, struct br_error *err)
 {
-    const struct br_shrink_question question = {ask, (void *)w, MOST_QUESTIONS};
-    enum br_status status = br_shrink(&s->one, &question, err);
+    const struct work *work = self;
+    struct br_extreme_shrunk *s = &work->map->shrunk[i];
+    enum br_status status = br_extreme_shrink(work->request, &s->one, err);
     if (!status)
-        status = judge(w, &s->one, &s->verdict, err);
-    return status ? status : write_scene(w, s, err);
+        status = br_extreme_ask(work->request, &s->one, &s->verdict, err);
+    return status ? status : write_scene(work->request, s, err);
 }
 
 static enum br_status shrink_all(struct work *work, struct br_error *err)
 {
     struct br_extreme_map *m = work->map;
-    const int threads = br_threads(work->wish->threads);
-    (void)threads; /* without OpenMP */
     for (size_t i = 0; i < m->cases && m->shrunks < BR_EXTREME_MOST_SHRUNK; i++)
         if (m->verdict[i].which == BR_EXTREME_WRONG)
             m->shrunk[m->shrunks++] =
                 (struct br_extreme_shrunk){.one = m->one[i], .verdict = m->verdict[i]};
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-    for (size_t i = 0; i < m->shrunks; i++) {
-        struct br_error said = {0};
-        if (!given_up(work) && shrink(work->wish, &m->shrunk[i], &said)) {
-#pragma omp critical(extreme_map)
-            work->failure = said;
-        }
-    }
-    if (!work->failure.status)
-        return BR_OK;
-    return br_fail(err, work->failure.status, "%.1000s", work->failure.message);
+    const struct br_each each = {
+        .count = m->shrunks, .threads = work->request->threads, .turn = shrink, .self = work};
+    return br_each(&each, err);
 }
 
 /* ---- all ---- */
@@ -162,9 +225,16 @@ static enum br_status shrink_all(struct work *work, struct br_error *err)
 static enum br_status run(struct work *work, struct br_error *err)
 {
     struct br_extreme_map *m = work->map;
-    enum br_status status = br_kept_open(work->wish, m->verdict, work->done, &work->kept, err);
+    enum br_status status = open_kept(work->request, m->verdict, work->done, &work->kept, err);
+    for (size_t i = 0; i < m->cases; i++)
+        m->resumed += work->done[i];
+    const struct br_each each = {.count = m->cases,
+                                 .threads = work->request->threads,
+                                 .observer = work->request->observer,
+                                 .turn = do_case,
+                                 .self = work};
     if (!status)
-        status = do_cases(work, err);
+        status = br_each(&each, err);
     if (work->kept)
         fclose(work->kept);
     if (status)
@@ -174,15 +244,15 @@ static enum br_status run(struct work *work, struct br_error *err)
     return shrink_all(work, err);
 }
 
-enum br_status br_extreme_map_run(const struct br_extreme_wish *wish, struct br_extreme_map *map,
-                                  struct br_error *err)
+enum br_status br_extreme_map_run(const struct br_extreme_request *request,
+                                  struct br_extreme_map *map, struct br_error *err)
 {
-    *map = (struct br_extreme_map){.seed = wish->seed, .cases = wish->cases};
-    struct work work = {.wish = wish, .map = map};
-    map->one = br_allocate(wish->cases, sizeof *map->one);
-    map->verdict = br_allocate(wish->cases, sizeof *map->verdict);
+    *map = (struct br_extreme_map){.seed = request->seed, .cases = request->cases};
+    struct work work = {.request = request, .map = map};
+    map->one = br_allocate(request->cases, sizeof *map->one);
+    map->verdict = br_allocate(request->cases, sizeof *map->verdict);
     map->shrunk = br_allocate(BR_EXTREME_MOST_SHRUNK, sizeof *map->shrunk);
-    work.done = br_allocate(wish->cases, sizeof *work.done);
+    work.done = br_allocate(request->cases, sizeof *work.done);
     enum br_status status = BR_OK;
     if (!map->one || !map->verdict || !map->shrunk || !work.done)
         status = br_no_memory(err, "the map");

@@ -11,17 +11,18 @@
 enum { BR_EXTREME_MOST_SHRUNK = 20 };
 
 /* What is asked for. All borrowed. */
-struct br_extreme_wish {
+struct br_extreme_request {
     uint64_t seed;
     size_t cases;
     int threads; /* 0: all cores */
-    struct br_extreme_court court;
+    struct br_extreme_judging judging;
     const char *kept;    /* file of what is done, from which a run goes on; NULL: none */
     const char *program; /* one line: cases that another program has kept are not taken */
     const char *folder;  /* where reproducer scenes are written; NULL: nowhere */
     const struct br_observer *observer; /* NULL: nobody */
     /* Who judges; NULL: br_extreme_judge. May be called from any thread. */
-    enum br_status (*judge)(const struct br_extreme_case *one, const struct br_extreme_court *court,
+    enum br_status (*judge)(const struct br_extreme_case *one,
+                            const struct br_extreme_judging *judging,
                             struct br_extreme_verdict *verdict, struct br_error *err);
 };
 
@@ -46,8 +47,22 @@ struct br_extreme_map {
 
 /* Fills the map (out; clear it even after a failure). Fails with BR_NO_MEMORY, BR_IO, and with
  * BR_INTERRUPTED: the kept file then has what is done. */
-enum br_status br_extreme_map_run(const struct br_extreme_wish *wish, struct br_extreme_map *map,
-                                  struct br_error *err);
+enum br_status br_extreme_map_run(const struct br_extreme_request *request,
+                                  struct br_extreme_map *map, struct br_error *err);
 void br_extreme_map_clear(struct br_extreme_map *map);
+
+/* ---- for map.c and shrink.c ---- */
+
+bool br_extreme_stopped(const struct br_extreme_request *request);
+enum br_status br_extreme_ask(const struct br_extreme_request *request,
+                              const struct br_extreme_case *one, struct br_extreme_verdict *verdict,
+                              struct br_error *err);
+
+/* Makes a case that is wrong (in/out) small while it stays wrong, so that a person can read it:
+ * drops fields, forces and laws, takes the default rows of the registries, plain shapes, fewer
+ * elements and steps, unit length and duration, and numbers of one digit, over and over, as long
+ * as something is gained. Fails as judging does, and with BR_INTERRUPTED. */
+enum br_status br_extreme_shrink(const struct br_extreme_request *request,
+                                 struct br_extreme_case *one, struct br_error *err);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes/shrink.h"
+/* A case that is wrong made small: see br_extreme_shrink. */
+#include "study/extremes/map.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,7 +17,7 @@ static size_t numbers_of(struct br_extreme_case *c, double *number[MOST_NUMBERS]
     number[count++] = &c->duration;
     number[count++] = &c->density;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_extreme_part *p = &c->part[kind];
+        struct br_extreme_field *p = &c->field[kind];
         double *const own[] = {&p->stiffness,      &p->viscosity,       &p->load.size,
                                &p->tip_force.size, &p->tip_moment.size, &p->displacement.size,
                                &p->velocity.size,  &p->load.rate,       &p->tip_force.rate,
@@ -62,7 +63,8 @@ static size_t of_force(const struct br_extreme_force *f)
                         : (size_t)(f->shape != BR_SHAPE_FLAT) + (f->history != BR_HISTORY_SUDDEN);
 }
 
-size_t br_shrink_size(const struct br_extreme_case *one)
+/* How much there is of a case, a number that shrinking makes less. */
+static size_t size_of(const struct br_extreme_case *one)
 {
     struct br_extreme_case c = *one;
     double *number[MOST_NUMBERS];
@@ -73,7 +75,7 @@ size_t br_shrink_size(const struct br_extreme_case *one)
         size += digits(*number[i]);
     size += (size_t)(c.length != 1) + (c.duration != 1);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_extreme_part *p = &c.part[kind];
+        const struct br_extreme_field *p = &c.field[kind];
         if (p->modelled)
             size += 4 + of_force(&p->load) + of_force(&p->tip_force) + of_force(&p->tip_moment) +
                     (size_t)p->displacement.waved + p->velocity.waved;
@@ -85,7 +87,7 @@ size_t br_shrink_size(const struct br_extreme_case *one)
 
 static void drop_axial(struct br_extreme_case *c)
 {
-    c->part[BR_AXIAL] = (struct br_extreme_part){0};
+    c->field[BR_AXIAL] = (struct br_extreme_field){0};
     c->contact = false;
     c->wanted = 0;
     if (c->law == BR_COULOMB)
@@ -94,7 +96,7 @@ static void drop_axial(struct br_extreme_case *c)
 
 static void drop_bending(struct br_extreme_case *c)
 {
-    c->part[BR_BENDING] = (struct br_extreme_part){0};
+    c->field[BR_BENDING] = (struct br_extreme_field){0};
     c->law = BR_FRICTIONLESS;
     c->wanted = 0;
 }
@@ -139,7 +141,7 @@ static void default_rest(struct br_extreme_case *c)
 static void plain_forces(struct br_extreme_case *c)
 {
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_extreme_part *p = &c->part[kind];
+        struct br_extreme_field *p = &c->field[kind];
         p->load.shape = BR_SHAPE_FLAT;
         p->load.history = p->tip_force.history = p->tip_moment.history = BR_HISTORY_SUDDEN;
         p->displacement.waved = p->velocity.waved = false;
@@ -184,9 +186,11 @@ enum { CHANGES = sizeof changes / sizeof *changes };
 
 /* ---- shrinking ---- */
 
+enum { MOST_QUESTIONS = 300 };
+
 struct shrinking {
+    const struct br_extreme_request *request;
     struct br_extreme_case *best;
-    const struct br_shrink_question *question;
     size_t asked;
     bool gained;
     struct br_error *err;
@@ -194,12 +198,14 @@ struct shrinking {
 
 static enum br_status attempt(struct shrinking *s, const struct br_extreme_case *smaller)
 {
-    bool still = false;
-    if (br_shrink_size(smaller) >= br_shrink_size(s->best) || s->asked >= s->question->most)
+    struct br_extreme_verdict verdict;
+    if (size_of(smaller) >= size_of(s->best) || s->asked >= MOST_QUESTIONS)
         return BR_OK;
     s->asked++;
-    const enum br_status status = s->question->ask(s->question->self, smaller, &still, s->err);
-    if (!status && still) {
+    if (br_extreme_stopped(s->request))
+        return br_fail(s->err, BR_INTERRUPTED, "interrupted");
+    const enum br_status status = br_extreme_ask(s->request, smaller, &verdict, s->err);
+    if (!status && verdict.which == BR_EXTREME_WRONG) {
         *s->best = *smaller;
         s->gained = true;
     }
@@ -232,16 +238,16 @@ static enum br_status try_numbers(struct shrinking *s)
     return status;
 }
 
-enum br_status br_shrink(struct br_extreme_case *one, const struct br_shrink_question *question,
-                         struct br_error *err)
+enum br_status br_extreme_shrink(const struct br_extreme_request *request,
+                                 struct br_extreme_case *one, struct br_error *err)
 {
-    struct shrinking s = {.best = one, .question = question, .err = err};
+    struct shrinking s = {.request = request, .best = one, .err = err};
     enum br_status status = BR_OK;
     do {
         s.gained = false;
         status = try_changes(&s);
         if (!status)
             status = try_numbers(&s);
-    } while (s.gained && !status && s.asked < question->most);
+    } while (s.gained && !status && s.asked < MOST_QUESTIONS);
     return status;
 }

@@ -5,12 +5,11 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sort.h>
 #include <math.h>
-#include <stdatomic.h>
 #include <string.h>
 
 #include "solver/contact_limit.h"
 #include "study/extremes/step_matrix.h"
-#include "study/grid/threads.h"
+#include "study/grid/each.h"
 
 const double br_stability_tolerance = 1e-9;
 
@@ -91,56 +90,24 @@ static enum br_status measure_row(struct br_stability *s, size_t plane, size_t r
 
 /* ---- all rows ---- */
 
-struct work {
-    struct br_stability *s;
-    const struct br_observer *observer;
-    atomic_size_t done;
-    atomic_bool stopped;
-    struct br_error *error; /* of each row of each plane */
-};
-
-static void tell(struct work *w)
+static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
-    const size_t done = atomic_fetch_add(&w->done, 1) + 1;
-    const struct br_observer *o = w->observer;
-    if (o && o->progress)
-        o->progress(o->self, (double)done / (double)(BR_STABILITY_RODS * w->s->rows));
-    if (o && o->stop && o->stop(o->self))
-        atomic_store(&w->stopped, true);
-}
-
-static enum br_status measure_all(struct work *w, int threads, struct br_error *err)
-{
-    const size_t count = BR_STABILITY_RODS * w->s->rows;
-    (void)threads; /* without OpenMP */
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (size_t i = 0; i < count; i++) {
-        if (atomic_load(&w->stopped))
-            continue;
-        measure_row(w->s, i / w->s->rows, i % w->s->rows, &w->error[i]);
-        tell(w);
-    }
-    if (atomic_load(&w->stopped))
-        return br_fail(err, BR_INTERRUPTED, "interrupted");
-    for (size_t i = 0; i < count; i++)
-        if (w->error[i].status)
-            return br_fail(err, w->error[i].status, "%.1000s", w->error[i].message);
-    return BR_OK;
+    struct br_stability *s = self;
+    return measure_row(s, i / s->rows, i % s->rows, err);
 }
 
 static enum br_status measure_planes(struct br_stability *s,
                                      const struct br_stability_request *request,
                                      struct br_error *err)
 {
-    const int threads = br_threads(request->threads);
-    struct work w = {.s = s, .observer = request->observer};
-    w.error = br_allocate(BR_STABILITY_RODS * s->rows, sizeof *w.error);
-    if (!w.error)
-        return br_no_memory(err, "the planes of stability");
+    const struct br_each each = {.count = BR_STABILITY_RODS * s->rows,
+                                 .threads = request->threads,
+                                 .observer = request->observer,
+                                 .turn = take_turn,
+                                 .self = s};
     gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* it would end the program */
-    const enum br_status status = measure_all(&w, threads, err);
+    const enum br_status status = br_each(&each, err);
     gsl_set_error_handler(handler);
-    free(w.error);
     return status;
 }
 
@@ -261,4 +228,85 @@ void br_stability_clear(struct br_stability *s)
     }
     free(s->stiffness);
     *s = (struct br_stability){0};
+}
+
+/* ---- the verdict ---- */
+
+static enum br_status check_planes(const struct br_stability *s, struct br_error *err)
+{
+    const double most = br_stability_tolerance;
+    if (!(s->limit_error <= most))
+        return br_fail(err, BR_VERDICT,
+                       "a measured stability limit is %.3g off the predicted one, relative, "
+                       "expected at most %g",
+                       s->limit_error, most);
+    if (!(s->growth_error <= most))
+        return br_fail(err, BR_VERDICT,
+                       "a measured growth is %.3g off the predicted one, relative, expected at "
+                       "most %g",
+                       s->growth_error, most);
+    if (!(s->excess <= most))
+        return br_fail(err, BR_VERDICT,
+                       "a step within the limit has an eigenvalue that is %.3g outside the unit "
+                       "circle, expected at most %g",
+                       s->excess, most);
+    return BR_OK;
+}
+
+/* Ten steps of a hundred relaxation times leave 1e-8 of the way to the rest with bdf3, and less
+ * with all others. */
+static const double rest = 1e-7;
+
+static enum br_status check_scheme(const struct br_stability_scheme *c, struct br_error *err)
+{
+    if (c->failed || c->uncertain)
+        return br_fail(err, BR_VERDICT,
+                       "scheme %s with contact at u_n: %zu of %zu marches failed, %zu are beyond "
+                       "their certificate's limits",
+                       c->scheme->name, c->failed, c->marches, c->uncertain);
+    if (!(c->force <= rest && c->depth <= rest))
+        return br_fail(err, BR_VERDICT,
+                       "scheme %s with contact at u_n: a pressed rod's contact force is %.3g off, "
+                       "its penetration %.3g, expected at most %g",
+                       c->scheme->name, c->force, c->depth, rest);
+    return BR_OK;
+}
+
+/* Within the limit a tip comes to rest; beyond it, it opens again and again, or swings. */
+static enum br_status check_tip(const struct br_stability_tip *t, struct br_error *err)
+{
+    if (!isfinite(t->farthest) || !isfinite(t->swing))
+        return br_fail(err, BR_VERDICT, "at %g of the limit a pressed tip is nowhere", t->share);
+    if (t->share < 1 && !(t->swing <= 1e-11 && t->opened == 0))
+        return br_fail(err, BR_VERDICT,
+                       "at %g of the limit a pressed tip does not rest: it swings by %.3g of the "
+                       "free displacement and opened %zu times",
+                       t->share, t->swing, t->opened);
+    if (t->share > 1 && !(t->opened > 0))
+        return br_fail(err, BR_VERDICT, "at %g of the limit a pressed tip does not chatter",
+                       t->share);
+    return BR_OK;
+}
+
+/* Where no energy can be gained. */
+static enum br_status check_bounce(const struct br_stability_bounce *b, struct br_error *err)
+{
+    if (b->bouncing <= 1 && !(b->energy <= 1 + 1e-12))
+        return br_fail(err, BR_VERDICT,
+                       "a bouncing rod within %g of the limit without inertia has %.15g times its "
+                       "energy",
+                       b->bouncing, b->energy);
+    return BR_OK;
+}
+
+enum br_status br_stability_verdict(const struct br_stability *s, struct br_error *err)
+{
+    enum br_status status = check_planes(s, err);
+    for (size_t i = 0; i < s->schemes && !status; i++)
+        status = check_scheme(&s->scheme[i], err);
+    for (size_t i = 0; i < BR_STABILITY_TIPS && !status; i++)
+        status = check_tip(&s->tip[i], err);
+    for (size_t i = 0; i < BR_STABILITY_BOUNCES && !status; i++)
+        status = check_bounce(&s->bounce[i], err);
+    return status;
 }

@@ -106,9 +106,9 @@ static void add_start(struct text *t, const struct br_extreme_case *c, enum br_f
 
 /* ---- the scene ---- */
 
-static void add_part(struct text *t, const struct br_extreme_case *c, enum br_field_kind kind)
+static void add_field(struct text *t, const struct br_extreme_case *c, enum br_field_kind kind)
 {
-    const struct br_extreme_part *p = &c->part[kind];
+    const struct br_extreme_field *p = &c->field[kind];
     const bool axial = kind == BR_AXIAL;
     if (!p->modelled)
         return;
@@ -132,8 +132,8 @@ void br_extreme_scene(const struct br_extreme_case *c, char text[BR_EXTREME_TEXT
     add(&t, "title: Extreme case %zu\n\n", c->index);
     add(&t, "length: %.17g m\nduration: %.17g s\ndensity: %.17g kg/m\n", c->length, c->duration,
         c->density);
-    add_part(&t, c, BR_AXIAL);
-    add_part(&t, c, BR_BENDING);
+    add_field(&t, c, BR_AXIAL);
+    add_field(&t, c, BR_BENDING);
     if (c->contact)
         add(&t, "\ncontact:\n  gap: %.17g m\n  stiffness: %.17g N/m\n", c->gap,
             c->contact_stiffness);
@@ -153,7 +153,7 @@ void br_extreme_command(const struct br_extreme_case *c, const char *name,
 {
     struct text t = {text, BR_EXTREME_COMMAND};
     char options[BR_METHOD_TEXT];
-    const struct br_scene scene = {.axial.modelled = c->part[BR_AXIAL].modelled,
+    const struct br_scene scene = {.axial.modelled = c->field[BR_AXIAL].modelled,
                                    .contact.modelled = c->contact,
                                    .friction.law = c->law};
     add(&t, "beamrate run %s --check --n %zu --steps %zu%s", name, c->n, c->steps,

@@ -156,13 +156,13 @@ enum br_status br_track_march(const struct br_track_request *q, struct br_track 
 
 /* ---- the exact solution ---- */
 
-struct patience {
+struct step_limit {
     size_t left;
 };
 
 static bool stop(void *self)
 {
-    struct patience *p = self;
+    struct step_limit *p = self;
     return p->left-- == 0;
 }
 
@@ -217,13 +217,13 @@ enum br_status br_track_exact(const struct br_scene *scene, const struct br_trac
                               size_t steps, struct br_track *t, struct br_error *err)
 {
     *t = (struct br_track){.places = *places, .finite = true};
-    struct patience patience = {steps};
+    struct step_limit limit = {steps};
     const struct br_exact_options options = {.tolerance = 1e-6,
                                              .acceptable = 1e-3,
                                              .max_modes = 96,
                                              .max_steps = steps,
                                              .stop = stop,
-                                             .stop_self = &patience};
+                                             .stop_self = &limit};
     struct br_exact *exact = NULL;
     const enum br_status status = br_exact_create(&exact, scene, &options, &t->failure);
     t->begun = !status;

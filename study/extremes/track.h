@@ -59,7 +59,7 @@ enum br_status br_track_march(const struct br_track_request *request, struct br_
                               struct br_error *err);
 
 /* The same by the exact solution; its failures are in track->failure. steps: most steps and
- * attempts of it. modelled: the scene's part that is marched. */
+ * attempts of it. modelled: the fields of the scene that are marched. */
 enum br_status br_track_exact(const struct br_scene *modelled, const struct br_track_places *places,
                               size_t steps, struct br_track *track, struct br_error *err);
 

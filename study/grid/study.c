@@ -24,6 +24,12 @@ size_t br_study_row(const struct br_study *s, size_t cell)
     return s->path ? cell : cell / s->k_count;
 }
 
+struct br_resolution br_study_resolution(const struct br_study *s, size_t cell)
+{
+    return (struct br_resolution){s->n[br_study_row(s, cell)],
+                                  s->steps[s->path ? cell : cell % s->k_count]};
+}
+
 const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size_t j)
 {
     return &study->cell[i * study->k_count + j];

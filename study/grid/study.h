@@ -77,6 +77,9 @@ const struct br_method *br_study_method(const struct br_study *study, size_t cel
 /* Which n[i] a cell has. */
 size_t br_study_row(const struct br_study *study, size_t cell);
 
+/* What a cell's grid is to be. */
+struct br_resolution br_study_resolution(const struct br_study *study, size_t cell);
+
 /* The cell of row i (n) and column j (k); not of a path. */
 const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size_t j);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/grid/sweep.h"
 
-#include "study/ranks/spread.h"
+#include "study/ranks/ranks.h"
 
 /* The largest divisor of `of` that is <= a, and the smallest that is >= a. */
 static void nearest_divisors(size_t of, size_t a, size_t *below, size_t *above)
@@ -69,7 +69,7 @@ static enum br_status create_cells(struct br_study *s, struct br_error *err)
         return br_no_memory(err, "the table");
     for (size_t c = 0; c < cells; c++)
         s->cell[c] = (struct br_cell){
-            .at = {s->n[br_study_row(s, c)], s->steps[s->path ? c : c % s->k_count]},
+            .at = br_study_resolution(s, c),
             .against = s->judge->nests ? s->reference : (struct br_resolution){0},
         };
     return BR_OK;
@@ -115,7 +115,7 @@ enum br_status br_study_run_each(struct br_study *studies, size_t count, int thr
         if (prepare(&studies[i], &studies[i].failure) == BR_NO_MEMORY)
             status = br_fail(err, BR_NO_MEMORY, "%s", studies[i].failure.message);
     if (!status)
-        status = br_spread(studies, count, threads, observer, err);
+        status = br_ranks_lockstep(studies, count, threads, observer, err);
     for (size_t i = 0; i < count && status; i++)
         for (struct br_study *s = &studies[i]; s; s = s->next_norm)
             br_study_clear(s);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/ranks/fingerprint.h"
-
 #include <stdio.h>
+
+#include "study/ranks/batches.h"
+#include "study/scene/method_fields.h"
 
 /* FNV-1a, 64 bits. */
 static void add(unsigned long long *hash, const char *text)
@@ -41,7 +42,7 @@ static void add_function(unsigned long long *hash, const struct br_function *f,
     }
 }
 
-static void add_numbers(unsigned long long *hash, const struct br_scene *s)
+static void add_scene(unsigned long long *hash, const struct br_scene *s)
 {
     const double number[] = {
         s->length,
@@ -60,36 +61,23 @@ static void add_numbers(unsigned long long *hash, const struct br_scene *s)
         s->friction.coefficient,
         s->friction.regularisation,
     };
-    for (size_t i = 0; i < sizeof number / sizeof *number; i++)
-        add_number(hash, number[i]);
-}
-
-static void add_scene(unsigned long long *hash, const struct br_scene *s)
-{
     struct br_scene borrowed = *s;
     const struct br_function *f;
-    add_numbers(hash, s);
+    for (size_t i = 0; i < sizeof number / sizeof *number; i++)
+        add_number(hash, number[i]);
     for (size_t i = 0; (f = br_scene_function(&borrowed, i)); i++)
         add_function(hash, f, s);
 }
 
+/* All but what is the machine's own: its instruction set. */
 static void add_method(unsigned long long *hash, const struct br_method *m)
 {
-    const double number[] = {
-        m->scheme->adaptive ? m->tolerance : 0,
-        m->friction->iterates ? m->iteration.parameter : 0,
-        m->friction->iterates ? m->iteration.tolerance : 0,
-        m->friction->iterates ? (double)m->iteration.most : 0,
-        m->linear.refinement,
-        m->axial_degree,
-    };
-    add(hash, m->scheme->name);
-    add(hash, m->solver->name);
-    add(hash, m->contact->name);
-    add(hash, m->friction->name);
-    add(hash, m->linear.scaling ? m->linear.scaling : "");
-    for (size_t i = 0; i < sizeof number / sizeof *number; i++)
-        add_number(hash, number[i]);
+    char text[BR_METHOD_VALUE];
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        const struct br_method_field *f = &br_method_fields[i];
+        if (!f->unsaid && br_method_field_heeded(f, m))
+            add(hash, br_method_field_text(f, m, text));
+    }
 }
 
 static void add_study(unsigned long long *hash, const struct br_study *s)
@@ -97,7 +85,8 @@ static void add_study(unsigned long long *hash, const struct br_study *s)
     add_counts(hash, s->n, s->n_count);
     add_counts(hash, s->steps, s->k_count);
     add_counts(hash, (const size_t[]){s->path, s->reference.n, s->reference.steps}, 3);
-    add_method(hash, &s->method);
+    for (size_t cell = 0; cell < (s->cell_method ? br_study_cells(s) : 1); cell++)
+        add_method(hash, br_study_method(s, cell));
     add_method(hash, &s->reference_method);
     add(hash, s->judge->name);
     add(hash, s->auditor ? s->auditor->name : "");

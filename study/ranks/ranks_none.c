@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A build without MPI: there are no other ranks. */
-#include "study/ranks/launcher.h"
+#include "study/grid/lockstep.h"
 #include "study/ranks/ranks.h"
 
 static struct br_launch launch = {.size = 1};
@@ -16,11 +16,6 @@ enum br_status br_ranks_start(struct br_error *err)
                    launch.launcher, launch.size);
 }
 
-int br_ranks_rank(void)
-{
-    return launch.rank; /* so that only one of them says why they end */
-}
-
 int br_ranks_size(void)
 {
     return 1;
@@ -28,43 +23,17 @@ int br_ranks_size(void)
 
 bool br_ranks_first(void)
 {
-    return launch.rank == 0;
+    return launch.rank == 0; /* so that only one of them says why they end */
 }
 
-int br_ranks_threads(void)
+enum br_status br_ranks_lockstep(struct br_study *studies, size_t count, int threads,
+                                 const struct br_observer *observer, struct br_error *err)
 {
-    return 0;
+    return br_lockstep(studies, count, threads, observer, err);
 }
 
-int br_ranks_most_threads(void)
+enum br_status br_ranks_end(enum br_status status, struct br_error *err)
 {
-    return 0;
-}
-
-enum br_status br_ranks_send(int to, int kind, const void *bytes, size_t size, struct br_error *err)
-{
-    (void)to, (void)kind, (void)bytes, (void)size;
-    return br_fail(err, BR_UNSUPPORTED, "there is no other rank");
-}
-
-enum br_status br_ranks_receive(struct br_message *message, bool *came, struct br_error *err)
-{
-    (void)message, (void)err;
-    *came = false;
-    return BR_OK;
-}
-
-bool br_ranks_sent(void)
-{
-    return true;
-}
-
-void br_ranks_leave(void)
-{
-}
-
-void br_ranks_abort(const char *why)
-{
-    (void)why;
-    abort(); /* nobody calls this */
+    (void)err;
+    return br_ranks_first() ? status : BR_OK;
 }

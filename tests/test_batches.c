@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Work cut into units for ranks, in one process: how it is cut, that the parts put together again
+/* Work cut into batches for ranks, in one process: how it is cut, that the parts put together again
  * have the bits of the whole, and what the environment says of launchers. No MPI. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "study/grid/lockstep.h"
-#include "study/ranks/fingerprint.h"
-#include "study/ranks/launcher.h"
-#include "study/ranks/unit_march.h"
+#include "study/ranks/batches.h"
+#include "study/ranks/ranks.h"
 #include "support.h"
 
 static const size_t grid_n[] = {10, 20, 30, 40}, grid_steps[] = {20, 50, 100, 200};
@@ -45,16 +44,27 @@ static void expect_same(const struct br_study *a, const struct br_study *b)
     }
 }
 
-/* All groups in turn, the last one first, as ranks might end. */
-static void march_groups(struct br_study *studies, const struct br_units *units)
+/* All batches in turn, the last one first, as ranks might end. Returns what they write. */
+static char *march_batches(struct br_study *studies, size_t count, const struct br_batches *batches,
+                           size_t *size)
 {
     struct br_error err = {0};
-    for (size_t g = units->groups; g-- > 0;) {
-        struct br_parcel parcel;
-        MUST(br_group_march(studies, units, g, 2, NULL, &parcel, &err));
-        MUST(br_group_unpack(studies, units, g, &parcel, &err));
-        free(parcel.bytes);
-    }
+    char *bytes = NULL;
+    FILE *results = open_memstream(&bytes, size);
+    assert_non_null(results);
+    for (size_t b = batches->count; b-- > 0;)
+        MUST(br_batch_march(studies, count, batches, b, 2, NULL, results, &err));
+    fclose(results);
+    return bytes;
+}
+
+static void march_apart(struct br_study *studies, size_t count, const struct br_batches *batches)
+{
+    struct br_error err = {0};
+    size_t size;
+    char *bytes = march_batches(studies, count, batches, &size);
+    MUST(br_batches_read(studies, count, batches, bytes, size, &err));
+    free(bytes);
 }
 
 static void test_same_bits(void **state)
@@ -75,13 +85,13 @@ static void test_same_bits(void **state)
             s[0].next_norm = &s[2]; /* a chain */
         }
         MUST(br_lockstep(whole, 2, 1, NULL, &err));
-        struct br_units units;
-        MUST(br_units_create(&units, parts, 2, ranks, 1, &err));
-        assert_true(units.count == 2 || ranks > 1);
-        march_groups(parts, &units);
+        struct br_batches batches;
+        MUST(br_batches_create(&batches, parts, 2, ranks, 1, &err));
+        assert_true(batches.count == 2 || ranks > 1);
+        march_apart(parts, 2, &batches);
         for (int i = 0; i < 3; i++)
             expect_same(&whole[i], &parts[i]);
-        br_units_clear(&units);
+        br_batches_clear(&batches);
         for (int i = 0; i < 3; i++) {
             br_study_clear(&whole[i]);
             br_study_clear(&parts[i]);
@@ -100,13 +110,13 @@ static void test_failure(void **state)
                             prepared(&scene, &br_judge_exact, of_levels)};
     s[0].method.friction = br_friction_rule_find("regularised");
     scene.friction.regularisation = 0; /* which that needs */
-    struct br_units units;
-    MUST(br_units_create(&units, s, 2, 3, 1, &err));
-    march_groups(s, &units);
+    struct br_batches batches;
+    MUST(br_batches_create(&batches, s, 2, 3, 1, &err));
+    march_apart(s, 2, &batches);
     assert_int_equal(s[0].failure.status, BR_BAD_INPUT);
     assert_int_equal(s[1].failure.status, BR_OK);
     assert_true(s[1].cell[15].error[BR_PART_TOTAL] > 0);
-    br_units_clear(&units);
+    br_batches_clear(&batches);
     br_study_clear(&s[0]);
     br_study_clear(&s[1]);
     br_scene_clear(&scene);
@@ -114,14 +124,18 @@ static void test_failure(void **state)
 
 /* ---- how it is cut ---- */
 
-static size_t slices_of(const struct br_units *units, size_t study)
+/* Batches that have some of the 16 cells. */
+static size_t batches_of(const struct br_batches *batches, const size_t *of)
 {
     size_t count = 0;
-    for (size_t i = 0; i < units->count; i++)
-        if (units->unit[i].study == study) {
-            count++;
-            assert_true(units->unit[i].slice < units->unit[i].slices);
-        }
+    for (size_t b = 0; b < batches->count; b++) {
+        bool has = false;
+        for (size_t i = 0; i < 16; i++)
+            has |= of[i] == b;
+        count += has;
+    }
+    for (size_t i = 0; i < 16; i++)
+        assert_true(of[i] < batches->count);
     return count;
 }
 
@@ -142,25 +156,26 @@ static void test_cutting(void **state)
     const struct {
         size_t studies;
         int ranks, threads;
-        size_t exact, fine; /* slices, at least; 1: exactly */
+        size_t exact, fine; /* batches, at least; 1: exactly */
     } rows[] = {
         {1, 1, 1, 1, 0}, {1, 2, 1, 2, 0}, {1, 4, 1, 3, 0}, {2, 4, 1, 1, 1}, {2, 8, 4, 1, 1},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_units units;
-        MUST(br_units_create(&units, s, rows[i].studies, rows[i].ranks, rows[i].threads, &err));
-        const size_t exact = slices_of(&units, 0), fine = slices_of(&units, 1);
-        assert_int_equal(exact + fine, units.count);
+        struct br_batches batches;
+        MUST(br_batches_create(&batches, s, rows[i].studies, rows[i].ranks, rows[i].threads, &err));
+        const size_t exact = batches_of(&batches, batches.of);
+        const size_t fine = rows[i].fine ? batches_of(&batches, batches.of + 16) : 0;
+        assert_int_equal(exact + fine, batches.count);
         assert_true(rows[i].exact == 1 ? exact == 1 : exact >= rows[i].exact);
         assert_int_equal(fine, rows[i].fine);
-        assert_int_equal(units.first[units.groups], units.count);
-        assert_true(units.groups >= 1);
-        br_units_clear(&units);
+        for (size_t b = 0; b < batches.count; b++)
+            assert_true(batches.cost[b] > 0);
+        br_batches_clear(&batches);
     }
-    struct br_units none;
-    MUST(br_units_create(&none, s, 0, 4, 1, &err));
-    assert_int_equal(none.groups, 0);
-    br_units_clear(&none);
+    struct br_batches none;
+    MUST(br_batches_create(&none, s, 0, 4, 1, &err));
+    assert_int_equal(none.count, 0);
+    br_batches_clear(&none);
     br_study_clear(&s[0]);
     br_study_clear(&s[1]);
     br_scene_clear(&scene);
@@ -175,12 +190,12 @@ static void test_slices(void **state)
     for (size_t i = 0; i < 16; i++)
         all += br_cell_cost(&s, i);
     for (size_t slices = 1; slices <= 16; slices++) {
-        size_t owner[16];
+        size_t slice[16];
         double load[16] = {0};
-        const double most = br_slice_cells(&s, slices, owner);
+        const double most = br_slice_cells(&s, slices, slice);
         for (size_t i = 0; i < 16; i++) {
-            assert_true(owner[i] < slices);
-            load[owner[i]] += br_cell_cost(&s, i);
+            assert_true(slice[i] < slices);
+            load[slice[i]] += br_cell_cost(&s, i);
         }
         for (size_t i = 0; i < slices; i++)
             assert_true(load[i] > 0 && load[i] <= most);
@@ -199,19 +214,14 @@ static void test_cut_off(void **state)
     struct br_scene scene = br_test_bundled("example1");
     struct br_error err = {0};
     struct br_study s = prepared(&scene, &br_judge_exact, of_levels);
-    struct br_units units;
-    struct br_parcel parcel;
-    MUST(br_units_create(&units, &s, 1, 1, 1, &err));
-    MUST(br_group_march(&s, &units, 0, 1, NULL, &parcel, &err));
-    const size_t size = parcel.size;
-    for (size_t i = 0; i < 20; i++) {
-        parcel = (struct br_parcel){.bytes = parcel.bytes, .size = size * i / 20};
-        REFUSED(br_group_unpack(&s, &units, 0, &parcel, &err), BR_IO, "cut off");
-        free(s.events);
-        s.events = NULL;
-    }
-    free(parcel.bytes);
-    br_units_clear(&units);
+    struct br_batches batches;
+    size_t size;
+    MUST(br_batches_create(&batches, &s, 1, 1, 1, &err));
+    char *bytes = march_batches(&s, 1, &batches, &size);
+    for (size_t i = 0; i < 20; i++)
+        REFUSED(br_batches_read(&s, 1, &batches, bytes, size * i / 20, &err), BR_IO, "cut off");
+    free(bytes);
+    br_batches_clear(&batches);
     br_study_clear(&s);
     br_scene_clear(&scene);
 }

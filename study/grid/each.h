@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A loop whose turns are shared by threads, with progress, interruption and the first failure. */
+#ifndef BR_STUDY_GRID_EACH_H
+#define BR_STUDY_GRID_EACH_H
+
+#include <stddef.h>
+
+#include "solver/status.h"
+#include "study/grid/observer.h"
+
+struct br_each {
+    size_t count;                       /* turns */
+    int threads;                        /* 0: all cores */
+    const struct br_observer *observer; /* of the whole loop; may be NULL */
+    /* Turn i: on any thread, beside others. */
+    enum br_status (*turn)(void *self, size_t i, struct br_error *err);
+    /* How much of the work it is, for progress; NULL: all turns are alike. */
+    double (*work)(const void *self, size_t i);
+    void *self;
+};
+
+/* Begins turns 0, 1, ... in that order; after a failure, or where the observer says stop, no more.
+ * Fails as the turn of the lowest number that failed, or with BR_INTERRUPTED. */
+enum br_status br_each(const struct br_each *each, struct br_error *err);
+
+#endif

@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Studies are cut into slices, some cells each; slices are dealt into batches. */
+#include "study/ranks/batches.h"
+
+#include <stdint.h>
+
+/* ---- costs ---- */
+
+/* ns, measured on one core of a 2 GHz Xeon, both fields, n = 1600 and 3200, 1e4 time levels. They
+ * decide who does what, not what comes out: a wrong one costs time. */
+static const double measure_ns = 50;     /* to sample an element of a cell, and to project there */
+static const double sample_fine_ns = 45; /* to sample an element of a fine run */
+static const double sample_other_ns = 110; /* of a judge that evaluates a solution; mms: 150 */
+static const double create_ns = 5e7;       /* a solution of the continuous problem */
+
+static double march_ns(const struct br_method *method)
+{
+    return method->solver->nanoseconds * br_time_scheme_stages(method->scheme);
+}
+
+/* The reference is sampled wherever some cell has a time level: as often as the cell of most steps
+ * has some, about. */
+static double reference_cost(const struct br_study *s)
+{
+    size_t levels = 0, n = 0;
+    for (size_t j = 0; j < s->k_count; j++)
+        levels = s->steps[j] > levels ? s->steps[j] : levels;
+    for (size_t i = 0; i < s->n_count; i++)
+        n = s->n[i] > n ? s->n[i] : n;
+    if (!s->judge->nests)
+        return create_ns + sample_other_ns * (double)levels * (double)n;
+    return (double)s->reference.n * (march_ns(&s->reference_method) * (double)s->reference.steps +
+                                     sample_fine_ns * (double)levels);
+}
+
+double br_cell_cost(const struct br_study *s, size_t cell)
+{
+    const struct br_resolution at = br_study_resolution(s, cell);
+    return (march_ns(br_study_method(s, cell)) + measure_ns) * (double)at.n * (double)at.steps;
+}
+
+/* ---- slices of a study ---- */
+
+struct priced {
+    double cost;
+    size_t index;
+};
+
+static int dearest_first(const void *a, const void *b)
+{
+    const struct priced *x = a, *y = b;
+    if (x->cost != y->cost)
+        return x->cost < y->cost ? 1 : -1;
+    return (x->index > y->index) - (x->index < y->index);
+}
+
+static size_t least(const double *load, size_t count)
+{
+    size_t best = 0;
+    for (size_t i = 1; i < count; i++)
+        best = load[i] < load[best] ? i : best;
+    return best;
+}
+
+/* The dearest cell first, each to the slice that has least (Graham 1969). */
+double br_slice_cells(const struct br_study *s, size_t slices, size_t *slice)
+{
+    const size_t cells = br_study_cells(s);
+    struct priced *cell = br_allocate(cells, sizeof *cell);
+    double *load = br_allocate(slices, sizeof *load), most = -1;
+    for (size_t i = 0; cell && i < cells; i++)
+        cell[i] = (struct priced){br_cell_cost(s, i), i};
+    if (cell && load)
+        qsort(cell, cells, sizeof *cell, dearest_first);
+    for (size_t i = 0; cell && load && i < cells; i++) {
+        const size_t to = least(load, slices);
+        slice[cell[i].index] = to;
+        load[to] += cell[i].cost;
+        most = load[to] > most ? load[to] : most;
+    }
+    free(cell);
+    free(load);
+    return most;
+}
+
+/* ---- how many slices ---- */
+
+/* A study as it is cut so far. */
+struct cut {
+    size_t slices; /* 0: it has failed */
+    double cost;   /* of its dearest slice, reference included, ns */
+};
+
+struct cutting {
+    const struct br_study *studies;
+    size_t count, ranks;
+    struct cut *cut; /* of each study */
+    double total;    /* ns */
+    size_t slices;   /* of all studies */
+    size_t *of;      /* workspace: a study's cells */
+};
+
+/* Whether to cut study s into one slice more, and if so, does.
+ *
+ * A slice marches some of the cells, and the whole reference again. So it pays where the reference
+ * is cheap beside the cells, or where ranks would have nothing to do, and its last slice ends
+ * clearly sooner. That leaves the cells of a much finer run with it: it is the work.
+ *
+ * The reference could also be worked out by one rank and broadcast. Compared with slices on ranks
+ * that are idle otherwise, this saves the owner of the reference its share of the cells, and costs
+ * it the sending, each time level after the other: 48 bytes an element of every mesh. Measured for
+ * the exact reference of the tables' grid on 4 ranks of one machine, per element of its mesh and
+ * time level: 107 ns for the reference; 34 ns for a quarter of the cells; and for 94 bytes at 4.5
+ * GB/s (MPI_Bcast, 9.6 MB; 2.7 GB/s by TCP on the same machine) 21 ns (35 ns). So it would save a
+ * tenth at most, by the fastest of networks, and lose with more ranks, where the share is less and
+ * the bytes are not: slices it is. */
+static bool cut_once_more(struct cutting *c, size_t s)
+{
+    struct cut *cut = &c->cut[s];
+    const double reference = reference_cost(&c->studies[s]);
+    const double cells = br_slice_cells(&c->studies[s], cut->slices + 1, c->of);
+    const double all_cells = cut->cost - reference; /* of the dearest slice so far */
+    const bool idle = c->slices < c->ranks;
+    if (cut->slices == br_study_cells(&c->studies[s]) || !(cells >= 0) ||
+        reference + cells > 0.9 * cut->cost || !(idle || reference < 0.1 * all_cells))
+        return false;
+    *cut = (struct cut){cut->slices + 1, reference + cells};
+    c->slices++;
+    c->total += reference;
+    return true;
+}
+
+/* As long as one slice is so large that the ranks would wait for it. */
+static void cut_all(struct cutting *c)
+{
+    for (size_t s = 0; s < c->count; s++) {
+        if (c->studies[s].failure.status)
+            continue;
+        c->cut[s] = (struct cut){1, reference_cost(&c->studies[s])};
+        for (size_t i = 0; i < br_study_cells(&c->studies[s]); i++)
+            c->cut[s].cost += br_cell_cost(&c->studies[s], i);
+        c->total += c->cut[s].cost;
+        c->slices++;
+    }
+    for (bool more = c->slices > 0; more;) {
+        size_t dearest = 0;
+        for (size_t s = 1; s < c->count; s++)
+            dearest = c->cut[s].cost > c->cut[dearest].cost ? s : dearest;
+        more =
+            c->cut[dearest].cost > c->total / (2 * (double)c->ranks) && cut_once_more(c, dearest);
+    }
+}
+
+/* ---- batches ---- */
+
+/* Slices are dealt like cards, the dearest first: in each round every rank gets as many as it has
+ * threads, or its share of those that are left. slice: in; batch: of each slice, out. */
+static void deal(struct br_batches *b, const struct cutting *c, const struct priced *slice,
+                 size_t threads, size_t *batch)
+{
+    for (size_t done = 0; done < c->slices;) {
+        const size_t left = c->slices - done, share = (left + c->ranks - 1) / c->ranks;
+        const size_t each = share < threads ? share : threads;
+        const size_t round = each * c->ranks < left ? each * c->ranks : left;
+        for (size_t i = done; i < done + round; i++) {
+            batch[slice[i].index] = b->count + (i - done) % c->ranks;
+            b->cost[batch[slice[i].index]] += slice[i].cost;
+        }
+        b->count += round < c->ranks ? round : c->ranks;
+        done += round;
+    }
+}
+
+/* From the slice of each cell, counted through all studies, to its batch. */
+static enum br_status fill(struct br_batches *b, const struct cutting *c, const size_t *batch,
+                           struct br_error *err)
+{
+    size_t *of = b->of;
+    for (size_t s = 0; s < c->count; s++) {
+        const size_t cells = br_study_cells(&c->studies[s]), slices = c->cut[s].slices;
+        if (slices > 0 && !(br_slice_cells(&c->studies[s], slices, of) >= 0))
+            return br_no_memory(err, "the cells of a slice");
+        for (size_t i = 0; i < cells; i++)
+            of[i] = slices > 0 ? batch[of[i]] : SIZE_MAX;
+        of += cells;
+        batch += slices;
+    }
+    return BR_OK;
+}
+
+static enum br_status create(struct br_batches *b, struct cutting *c, size_t threads,
+                             struct br_error *err)
+{
+    cut_all(c);
+    struct priced *slice = br_allocate(c->slices, sizeof *slice);
+    size_t *batch = br_allocate(c->slices, sizeof *batch), next = 0;
+    b->cost = br_allocate(c->slices, sizeof *b->cost);
+    enum br_status status =
+        slice && batch && b->cost ? BR_OK : br_no_memory(err, "the batches of the ranks");
+    for (size_t s = 0; s < c->count && !status; s++)
+        for (size_t i = 0; i < c->cut[s].slices; i++, next++)
+            slice[next] = (struct priced){c->cut[s].cost, next};
+    if (!status) {
+        qsort(slice, c->slices, sizeof *slice, dearest_first);
+        deal(b, c, slice, threads, batch);
+        status = fill(b, c, batch, err);
+    }
+    free(slice);
+    free(batch);
+    return status;
+}
+
+enum br_status br_batches_create(struct br_batches *b, const struct br_study *studies, size_t count,
+                                 int ranks, int threads, struct br_error *err)
+{
+    struct cutting c = {.studies = studies, .count = count, .ranks = (size_t)ranks};
+    size_t cells = 0;
+    for (size_t s = 0; s < count; s++)
+        cells += br_study_cells(&studies[s]);
+    *b = (struct br_batches){.of = br_allocate(cells, sizeof *b->of)};
+    c.cut = br_allocate(count, sizeof *c.cut);
+    c.of = b->of; /* large enough for each */
+    const enum br_status status = b->of && c.cut
+                                      ? create(b, &c, threads > 0 ? (size_t)threads : 1, err)
+                                      : br_no_memory(err, "the batches of the ranks");
+    free(c.cut);
+    return status;
+}
+
+void br_batches_clear(struct br_batches *b)
+{
+    free(b->cost);
+    free(b->of);
+    *b = (struct br_batches){0};
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The work of a call of br_study_run, cut into batches for ranks. A batch is some cells of one or
+ * more studies, with their references; a rank marches one batch at a time. Every rank cuts alike.
+ */
+#ifndef BR_STUDY_RANKS_BATCHES_H
+#define BR_STUDY_RANKS_BATCHES_H
+
+#include <stdio.h>
+
+#include "study/grid/observer.h"
+#include "study/grid/study.h"
+
+/* Which batch each cell belongs to; those of the lower numbers begin first. */
+struct br_batches {
+    size_t count;
+    double *cost; /* of each batch, about, ns of one thread; owned */
+    size_t *of;   /* of each cell, the studies one behind the other: its batch; SIZE_MAX: in none,
+                     since its study has failed. Owned */
+};
+
+/* Cuts prepared studies for so many ranks, of so many threads each. Fails with BR_NO_MEMORY; clear
+ * the batches even then. */
+enum br_status br_batches_create(struct br_batches *batches, const struct br_study *studies,
+                                 size_t count, int ranks, int threads, struct br_error *err);
+void br_batches_clear(struct br_batches *batches);
+
+/* Marches a batch, and appends to `results` bytes that any rank of the same program can read. The
+ * cells of its studies, and all of the studies behind the first norm, are overwritten and mean
+ * nothing until br_batches_read. A study that fails is a result; fails as br_study_run_each does.
+ */
+enum br_status br_batch_march(struct br_study *studies, size_t count,
+                              const struct br_batches *batches, size_t batch, int threads,
+                              const struct br_observer *observer, FILE *results,
+                              struct br_error *err);
+
+/* Puts the results of all batches (size bytes, in any order) into the studies. Fails with
+ * BR_NO_MEMORY, or with BR_IO where they are not what was written. */
+enum br_status br_batches_read(struct br_study *studies, size_t count,
+                               const struct br_batches *batches, char *bytes, size_t size,
+                               struct br_error *err);
+
+/* What a cell of a study costs, about, ns of one thread. */
+double br_cell_cost(const struct br_study *study, size_t cell);
+
+/* Which slice each cell belongs to (out, br_study_cells), so that all cost about the same. Returns
+ * the largest cost of a slice's cells, ns. Fails by -1: out of memory. */
+double br_slice_cells(const struct br_study *study, size_t slices, size_t *slice);
+
+/* What studies ask for, as one number: the same on ranks that have read the same scenes and
+ * options. Expressions count by their values at some places and times, to nine digits. Not for
+ * studies whose scenes another thread is using. */
+unsigned long long br_studies_fingerprint(const struct br_study *studies, size_t count);
+
+#endif
