@@ -12,7 +12,7 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "reference/exact/shared.h"
+#include "reference/exact/exact.h"
 #include "tests/exact_scenes.h"
 
 /* Coefficients and remainder on one element, by plain quadrature. */

@@ -9,11 +9,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "reference/exact/field.h"
 #include "reference/exact/legendre.h"
-#include "reference/exact/modes.h"
-#include "reference/exact/piecewise.h"
-#include "reference/exact/quadrature.h"
-#include "reference/exact/radau.h"
+#include "reference/exact/restriction.h"
 #include "tests/exact_scenes.h"
 
 enum { S = BR_STAGES };

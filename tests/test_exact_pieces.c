@@ -5,9 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "reference/exact/modes.h"
-#include "reference/exact/outline.h"
-#include "reference/exact/piecewise.h"
+#include "reference/exact/field.h"
+#include "reference/exact/restriction.h"
 #include "tests/exact_scenes.h"
 #include "tests/support.h"
 

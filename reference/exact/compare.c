@@ -14,17 +14,18 @@ static const double layer = 1e-6;
 /* One field of two solutions, with room for their values at one time. */
 struct pair {
     const struct br_outline *outline;
-    const struct br_field *field[2];
+    const struct br_oscillators *field[2];
     const struct br_law *law[2];
-    const struct br_track *track[2];
+    const struct br_history *track[2];
     double *q[2], *v[2]; /* modes */
     double *series[2];   /* Legendre coefficients */
 };
 
-static enum br_status pair_init(struct pair *p, const struct br_solution *a,
-                                const struct br_solution *b, size_t which, struct br_error *err)
+static enum br_status pair_init(struct pair *p, const struct br_exact_solution *a,
+                                const struct br_exact_solution *b, size_t which,
+                                struct br_error *err)
 {
-    const struct br_solution *solution[2] = {a, b};
+    const struct br_exact_solution *solution[2] = {a, b};
     bool done = true;
     for (size_t i = 0; i < 2; i++) {
         p->field[i] = solution[i]->field[which];
@@ -94,7 +95,7 @@ static void grow(double *most, double value)
         *most = isnan(value) ? INFINITY : value;
 }
 
-static bool in_layer(const struct br_track *track, double t, double width)
+static bool in_layer(const struct br_history *track, double t, double width)
 {
     for (size_t i = 0; i < track->entries && track->entry[i].time - width <= t; i++)
         if (t <= track->entry[i].time + width)
@@ -106,16 +107,16 @@ static void compare_at(struct pair *p, double t, bool smooth, struct br_exact_re
 {
     struct br_tip_state tip[2];
     for (size_t i = 0; i < 2; i++) {
-        tip[i] = br_track_at(p->track[i], t, p->q[i], p->v[i]);
+        tip[i] = br_history_at(p->track[i], t, p->q[i], p->v[i]);
         tip[i].force = br_law_force_at(p->law[i], t, &tip[i]);
     }
     const double length = p->field[0]->length, norm = 1 / sqrt(length);
     const size_t degree = p->field[0]->modes->degree;
     const double strain = pow(length, -(double)degree);
     struct br_exact_size *largest = &report->largest, *error = &report->error;
-    grow(&largest->displacement, norm * br_field_norm(p->field[0], p->q[0], 1));
+    grow(&largest->displacement, norm * br_oscillators_norm(p->field[0], p->q[0], 1));
     grow(&largest->displacement, fabs(tip[0].displacement + p->track[0]->gap));
-    grow(&largest->velocity, norm * br_field_norm(p->field[0], p->v[0], 1));
+    grow(&largest->velocity, norm * br_oscillators_norm(p->field[0], p->v[0], 1));
     grow(&largest->velocity, fabs(tip[0].velocity));
     grow(&largest->force, fabs(tip[0].force));
     grow(&largest->strain_rate, strain_norm(p, degree) * strain);
@@ -129,7 +130,7 @@ static void compare_at(struct pair *p, double t, bool smooth, struct br_exact_re
     grow(&error->force, safety * fabs(tip[0].force - tip[1].force));
 }
 
-static bool same_phases(const struct br_track *a, const struct br_track *b)
+static bool same_phases(const struct br_history *a, const struct br_history *b)
 {
     if (a->entries != b->entries)
         return false;
@@ -151,7 +152,7 @@ static void compare_field(struct pair *p, double duration, struct br_exact_repor
     for (size_t i = 0; i < 2; i++)
         for (size_t n = 0; n < p->track[i]->steps; n++)
             for (size_t j = 0; j < sizeof inside / sizeof *inside; j++) {
-                const struct br_tip *tip = &p->track[i]->tip[n];
+                const struct br_tip_step *tip = &p->track[i]->tip[n];
                 const double t = tip->start + inside[j] * tip->length;
                 const bool smooth = !in_layer(p->track[0], t, layer * duration) &&
                                     !in_layer(p->track[1], t, layer * duration) &&
@@ -161,7 +162,7 @@ static void compare_field(struct pair *p, double duration, struct br_exact_repor
     compare_at(p, duration, true, report);
 }
 
-enum br_status br_exact_compare(struct br_exact *exact, const struct br_solution *other,
+enum br_status br_exact_compare(struct br_exact *exact, const struct br_exact_solution *other,
                                 const struct br_outline outline[BR_EXACT_FIELDS],
                                 struct br_error *err)
 {
@@ -184,7 +185,7 @@ enum br_status br_exact_compare(struct br_exact *exact, const struct br_solution
 }
 
 /* A phase that goes on through an event of the other field is none. */
-static bool is_event(const struct br_track *track, size_t i)
+static bool is_event(const struct br_history *track, size_t i)
 {
     return i == 0 || track->entry[i].phase != track->entry[i - 1].phase;
 }
@@ -197,7 +198,7 @@ static int by_time(const void *a, const void *b)
     return (int)x->field - (int)y->field;
 }
 
-enum br_status br_exact_list_events(struct br_exact *exact, const struct br_solution *other,
+enum br_status br_exact_list_events(struct br_exact *exact, const struct br_exact_solution *other,
                                     struct br_error *err)
 {
     size_t room = 0;
@@ -208,7 +209,7 @@ enum br_status br_exact_list_events(struct br_exact *exact, const struct br_solu
     if (!exact->event)
         return br_no_memory(err, "the events");
     for (size_t which = 0; which < BR_EXACT_FIELDS; which++) {
-        const struct br_track *track = exact->solution->track[which];
+        const struct br_history *track = exact->solution->track[which];
         for (size_t i = 0; track && i < track->entries; i++) {
             const double t = track->entry[i].time, t2 = other->track[which]->entry[i].time;
             if (is_event(track, i))

@@ -4,8 +4,107 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
-#include "reference/exact/outline.h"
 #include "reference/exact/solution.h"
+
+static struct br_law axial_law(const struct br_scene *scene)
+{
+    return (struct br_law){
+        .contact = true,
+        .obstacle = scene->contact.modelled,
+        .stiffness = scene->contact.modelled ? scene->contact.stiffness : 0,
+    };
+}
+
+static struct br_law bending_law(const struct br_scene *scene, const struct br_history *axial)
+{
+    return (struct br_law){
+        .friction = scene->friction.law,
+        .coefficient = scene->friction.coefficient,
+        .axial = scene->friction.law == BR_COULOMB ? axial : NULL,
+    };
+}
+
+/* How finely a solution is to be made. */
+struct br_fineness {
+    size_t modes, max_steps;
+    double tolerance, first_step; /* see br_march_options */
+};
+
+static void solution_free(struct br_exact_solution *s)
+{
+    if (!s)
+        return;
+    for (size_t i = 0; i < BR_EXACT_FIELDS; i++) {
+        br_oscillators_free(s->field[i]);
+        br_history_free(s->track[i]);
+    }
+    free(s);
+}
+
+/* What a solution is made from. */
+struct recipe {
+    const struct br_scene *scene;
+    const struct br_outline *outline; /* of each field */
+    const struct br_fineness *fineness;
+    struct br_effort *effort;
+};
+
+/* What modes cost, in the effort's units: a singular value decomposition. */
+static double modes_work(const struct br_outline *outline, size_t modes)
+{
+    double count = 0;
+    for (size_t e = 0; e + 1 < outline->end.count; e++)
+        count += (double)br_outline_terms(outline, e, modes);
+    return 2e-3 * count * count * count;
+}
+
+static enum br_status solve(struct br_exact_solution *s, enum br_exact_field which,
+                            const struct recipe *r, struct br_error *err)
+{
+    const bool axial = which == BR_EXACT_AXIAL;
+    const struct br_scene *scene = r->scene;
+    s->law[which] = axial ? axial_law(scene) : bending_law(scene, s->track[BR_EXACT_AXIAL]);
+    const struct br_march_options options = {
+        .duration = scene->duration,
+        .gap = axial && scene->contact.modelled ? scene->contact.gap : 0,
+        .tolerance = r->fineness->tolerance,
+        .first_step = r->fineness->first_step,
+        .max_steps = r->fineness->max_steps,
+        .outline = {&r->outline[which], s->law[which].axial ? &r->outline[BR_EXACT_AXIAL] : NULL},
+        .effort = r->effort,
+    };
+    enum br_status status =
+        br_effort_spend(r->effort, modes_work(&r->outline[which], r->fineness->modes), err);
+    if (!status)
+        status = br_oscillators_create(&s->field[which], scene, axial ? 1 : 2, &r->outline[which],
+                                       r->fineness->modes, err);
+    if (!status)
+        status = br_march(s->field[which], &s->law[which], &options, &s->track[which], err);
+    return status;
+}
+
+/* outline: of each field. */
+static enum br_status solution_create(struct br_exact_solution **out, const struct br_scene *scene,
+                                      const struct br_outline outline[BR_EXACT_FIELDS],
+                                      const struct br_fineness *fineness, struct br_effort *effort,
+                                      struct br_error *err)
+{
+    const struct recipe recipe = {scene, outline, fineness, effort};
+    *out = NULL;
+    struct br_exact_solution *s = br_allocate(1, sizeof *s);
+    if (!s)
+        return br_no_memory(err, "the exact solution");
+    enum br_status status = BR_OK;
+    if (scene->axial.modelled)
+        status = solve(s, BR_EXACT_AXIAL, &recipe, err);
+    if (!status && scene->bending.modelled)
+        status = solve(s, BR_EXACT_BENDING, &recipe, err);
+    if (status)
+        solution_free(s);
+    else
+        *out = s;
+    return status;
+}
 
 enum { FIRST_MODES = 12, LEAST_MODES = 18 };
 
@@ -119,7 +218,7 @@ struct search {
     const struct br_exact_options *o;
     struct br_outline outline[BR_EXACT_FIELDS];
     struct br_effort effort;
-    struct br_solution *before;
+    struct br_exact_solution *before;
     double missed;              /* the largest of the outlines */
     double worst, worst_before; /* of the last two pairs, infinite where that cannot be said */
     double round_work;          /* of the last round */
@@ -131,17 +230,17 @@ struct search {
 static enum br_status next_round(struct search *s, const struct br_fineness *fine)
 {
     struct br_exact *exact = s->exact;
-    struct br_solution *next = NULL;
+    struct br_exact_solution *next = NULL;
     const double done = s->effort.done;
     s->cause = (struct br_error){0};
     enum br_status status =
-        br_solution_create(&next, s->scene, s->outline, fine, &s->effort, &s->cause);
+        solution_create(&next, s->scene, s->outline, fine, &s->effort, &s->cause);
     s->round_work = s->effort.done - done;
     if (status == BR_NOT_FINITE)
         return BR_OK;
     if (status)
         return status;
-    br_solution_free(s->before);
+    solution_free(s->before);
     s->before = exact->solution;
     exact->solution = next;
     if (!s->before)
@@ -203,7 +302,7 @@ static bool will_do(struct search *s)
  * the rounding of the stages' times, independent of each other, where the load changes fast. */
 static double unproved(const struct search *s, size_t which)
 {
-    const struct br_track *track = s->exact->solution->track[which];
+    const struct br_history *track = s->exact->solution->track[which];
     const double rounding = 0.29, change = 0.25; /* rms of a unit; of a load over a cell */
     const double blurred =
         track && track->impulse > 0
@@ -269,7 +368,7 @@ static enum br_status search(struct br_exact *exact, const struct br_scene *scen
     enum br_status status = outline(&s, err);
     if (!status)
         status = refine(&s, err);
-    br_solution_free(s.before);
+    solution_free(s.before);
     for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
         br_outline_clear(&s.outline[which]);
     return status;
@@ -300,7 +399,7 @@ void br_exact_free(struct br_exact *exact)
 {
     if (!exact)
         return;
-    br_solution_free(exact->solution);
+    solution_free(exact->solution);
     free(exact->event);
     free(exact);
 }

@@ -2,7 +2,7 @@
 /* The exact reference as a judge. */
 #include <math.h>
 
-#include "reference/exact/shared.h"
+#include "reference/exact/exact.h"
 #include "reference/judge.h"
 #include "solver/clock.h"
 #include "solver/modes.h"

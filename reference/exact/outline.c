@@ -17,7 +17,7 @@ struct subject {
 
 struct work {
     struct br_outline *o;
-    const struct br_field_data *data;
+    const struct br_exact_data *data;
     size_t degree;
     double length, duration, density;
     struct subject space[MOST], time[MOST];
@@ -26,12 +26,12 @@ struct work {
     struct br_error *err;
 };
 
-struct br_field_data br_field_data(const struct br_scene *s, size_t degree)
+struct br_exact_data br_exact_data_of(const struct br_scene *s, size_t degree)
 {
     const struct br_axial *a = &s->axial;
     const struct br_bending *b = &s->bending;
     if (degree == 1)
-        return (struct br_field_data){
+        return (struct br_exact_data){
             .stiffness = a->stiffness,
             .viscosity = a->viscosity,
             .load = &a->load,
@@ -40,7 +40,7 @@ struct br_field_data br_field_data(const struct br_scene *s, size_t degree)
             .velocity = &a->velocity,
             .slope = &a->displacement,
         };
-    return (struct br_field_data){
+    return (struct br_exact_data){
         .stiffness = b->stiffness,
         .viscosity = b->viscosity,
         .load = &b->load,
@@ -66,7 +66,7 @@ static void list_time(struct work *w, const struct br_function *f)
         w->time[w->times++] = (struct subject){f, w->duration};
 }
 
-static void list_subjects(struct work *w, const struct br_field_data *d)
+static void list_subjects(struct work *w, const struct br_exact_data *d)
 {
     for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
         const struct br_product *p = &d->load->term[i];
@@ -384,7 +384,7 @@ static bool has_spread_load(const struct br_load *load)
 
 static enum br_status find_layers(struct work *w)
 {
-    const struct br_field_data *d = w->data;
+    const struct br_exact_data *d = w->data;
     const double layer =
         pow(d->viscosity / w->density * shortest_change(w), 0.5 / (double)w->degree);
     const bool tip = !br_function_is_zero(d->tip_force) ||
@@ -462,7 +462,7 @@ static enum br_status look(struct work *w)
 enum br_status br_outline_init(struct br_outline *o, const struct br_scene *scene, size_t degree,
                                struct br_error *err)
 {
-    const struct br_field_data data = br_field_data(scene, degree);
+    const struct br_exact_data data = br_exact_data_of(scene, degree);
     struct work w = {
         .o = o,
         .data = &data,

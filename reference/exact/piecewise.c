@@ -2,12 +2,10 @@
 /* Most elements of the mesh lie inside of one piece: those are a restriction each piece. The others
  * straddle: in each overlap of such an element with a piece, the piece's series and the element's
  * polynomials are written in the polynomials of the overlap. */
-#include "reference/exact/piecewise.h"
-
-#include <math.h>
 
 #include "reference/exact/restriction.h"
-#include "reference/exact/subinterval.h"
+
+#include <math.h>
 
 /* An element that reaches this far out of a piece, in units of L, lies inside: round-off. */
 static const long double tolerance = 4e-16L;

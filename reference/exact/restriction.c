@@ -4,12 +4,106 @@
  * last group get it moved back over those before. */
 #include "reference/exact/restriction.h"
 
+#include <lapacke.h>
 #include <math.h>
 #include <string.h>
 
 #include "reference/exact/combine.h"
-#include "reference/exact/remainder.h"
-#include "reference/exact/subinterval.h"
+
+enum br_status br_subinterval_init(struct br_subinterval *v, size_t count, struct br_error *err)
+{
+    v->count = count;
+    v->coupling = br_allocate(count + 1, sizeof *v->coupling);
+    v->r = br_allocate(count * count, sizeof *v->r);
+    if (!v->coupling || !v->r)
+        return br_no_memory(err, "a projection");
+    for (size_t k = 0; k <= count; k++) {
+        const long double x = (long double)k;
+        v->coupling[k] = k ? x / (2 * sqrtl(4 * x * x - 1)) : 0;
+    }
+    return BR_OK;
+}
+
+void br_subinterval_clear(struct br_subinterval *v)
+{
+    free(v->coupling);
+    free(v->r);
+    *v = (struct br_subinterval){0};
+}
+
+/* The recurrence of p_{k+1} in x = first + width xi, where a product with xi is the same
+ * recurrence in l. Small coefficients keep their digits: they only come from each other. */
+void br_subinterval_move(struct br_subinterval *v, long double first, long double width)
+{
+    const size_t count = v->count;
+    const long double *b = v->coupling;
+    v->r[0] = 1;
+    for (size_t k = 0; k + 1 < count; k++) {
+        const long double *here = v->r + k * count, *before = k ? here - count : here;
+        long double *next = v->r + (k + 1) * count;
+        for (size_t l = 0; l <= k + 1; l++) {
+            const long double left = l ? b[l] * here[l - 1] : 0;
+            const long double right = l < k ? b[l + 1] * here[l + 1] : 0;
+            next[l] =
+                ((first - 0.5L + width / 2) * here[l] + width * (left + right) - b[k] * before[l]) /
+                b[k + 1];
+        }
+    }
+}
+
+/* ==== what is left out, as a triangle ==== */
+
+/* |A c|^2 for a tall matrix A that comes in blocks, as |R c|^2 with a triangle: A = Q R. */
+struct remainder {
+    size_t columns, block; /* rows of a block; 0: there is nothing, R stays 0 */
+    double
+        *a; /* (columns + block) x columns, by columns: R, upper triangle, above the next block */
+    double *tau; /* workspace */
+};
+
+/* R = 0. Clear it even after a failure. */
+static enum br_status remainder_init(struct remainder *m, size_t columns, size_t block,
+                                     struct br_error *err)
+{
+    *m = (struct remainder){.columns = columns, .block = block};
+    m->a = br_allocate((columns + block) * columns, sizeof *m->a);
+    m->tau = br_allocate(columns, sizeof *m->tau);
+    return m->a && m->tau ? BR_OK : br_no_memory(err, "a projection");
+}
+
+static void remainder_clear(struct remainder *m)
+{
+    free(m->a);
+    free(m->tau);
+    *m = (struct remainder){0};
+}
+
+/* An entry of R or of the next block. */
+static double *remainder_r(const struct remainder *m, size_t row, size_t column)
+{
+    return &m->a[column * (m->columns + m->block) + row];
+}
+
+static double *remainder_block(const struct remainder *m, size_t row, size_t column)
+{
+    return remainder_r(m, m->columns + row, column);
+}
+
+/* Adds the block to R, and clears it. Fails with BR_NO_MEMORY or BR_SINGULAR. */
+static enum br_status remainder_add(struct remainder *m, struct br_error *err)
+{
+    const size_t rows = m->columns + m->block;
+    if (!m->block)
+        return BR_OK;
+    const lapack_int info = LAPACKE_dgeqrf(LAPACK_COL_MAJOR, (lapack_int)rows,
+                                           (lapack_int)m->columns, m->a, (lapack_int)rows, m->tau);
+    for (size_t k = 0; k < m->columns; k++) /* the reflectors below the diagonal are not needed */
+        memset(remainder_r(m, k + 1, k), 0, (rows - k - 1) * sizeof(double));
+    if (info == LAPACK_WORK_MEMORY_ERROR)
+        return br_no_memory(err, "a projection's remainder");
+    return info ? br_fail(err, BR_SINGULAR, "a projection's remainder failed (%d)", (int)info)
+                : BR_OK;
+}
 
 /* Local coefficients are left out of the tables where the root of the sum of their squares is
  * below this part of the series, and out of a sum at this part of what they are added to. */
@@ -87,49 +181,47 @@ static void move_inside(const struct br_restriction *r, size_t j, struct br_subi
 
 /* |R_0 c|^2 is what the group's elements from `first` on leave out of its series c. */
 static enum br_status reduce_group(const struct br_restriction *r, size_t first,
-                                   struct br_subinterval *local, struct br_remainder *group,
+                                   struct br_subinterval *local, struct remainder *group,
                                    struct br_error *err)
 {
     const size_t terms = local->count, kept = r->shape.degree + 1;
-    enum br_status status = br_remainder_init(group, terms, terms > kept ? terms - kept : 0, err);
+    enum br_status status = remainder_init(group, terms, terms > kept ? terms - kept : 0, err);
     for (size_t j = first; j < r->group && !status; j++) {
         move_inside(r, j, local);
         for (size_t k = 0; k < terms; k++)
             for (size_t l = kept; l < terms; l++)
-                *br_remainder_block(group, l - kept, k) =
-                    scale(r) * (double)local->r[k * terms + l];
-        status = br_remainder_add(group, err);
+                *remainder_block(group, l - kept, k) = scale(r) * (double)local->r[k * terms + l];
+        status = remainder_add(group, err);
     }
     return status;
 }
 
 /* Adds R_0 times the series on a group. */
-static enum br_status add_group(const struct br_remainder *group,
-                                const struct br_subinterval *series, struct br_remainder *all,
-                                struct br_error *err)
+static enum br_status add_group(const struct remainder *group, const struct br_subinterval *series,
+                                struct remainder *all, struct br_error *err)
 {
     for (size_t k = 0; k < series->count; k++)
         for (size_t i = 0; i < group->columns; i++) {
             long double sum = 0;
             for (size_t l = i; l < group->columns && l <= k; l++)
-                sum += *br_remainder_r(group, i, l) * series->r[k * series->count + l];
-            *br_remainder_block(all, i, k) = (double)sum;
+                sum += *remainder_r(group, i, l) * series->r[k * series->count + l];
+            *remainder_block(all, i, k) = (double)sum;
         }
-    return br_remainder_add(all, err);
+    return remainder_add(all, err);
 }
 
 /* Groups first to last - 1, of which the elements before `skipped` do not count. */
 static enum br_status add_groups(struct br_restriction *r, const size_t range[2], size_t skipped,
                                  struct br_subinterval *series, struct br_subinterval *local,
-                                 struct br_remainder *all, struct br_error *err)
+                                 struct remainder *all, struct br_error *err)
 {
-    struct br_remainder group;
+    struct remainder group;
     enum br_status status = reduce_group(r, skipped, local, &group, err);
     for (size_t g = range[0]; g < range[1] && !status; g++) {
         move_to(r, g, series);
         status = add_group(&group, series, all, err);
     }
-    br_remainder_clear(&group);
+    remainder_clear(&group);
     return status;
 }
 
@@ -138,15 +230,15 @@ static enum br_status fill_rest(struct br_restriction *r, struct br_subinterval 
 {
     const size_t length = r->shape.length, last = r->groups - 1;
     const size_t skipped = last * r->group - first_element(r, last);
-    struct br_remainder all;
-    enum br_status status = br_remainder_init(&all, length, local->count, err);
+    struct remainder all;
+    enum br_status status = remainder_init(&all, length, local->count, err);
     if (!status)
         status = add_groups(r, (size_t[]){0, last}, 0, series, local, &all, err);
     if (!status)
         status = add_groups(r, (size_t[]){last, r->groups}, skipped, series, local, &all, err);
     for (size_t k = 0; k < length && !status; k++)
-        memcpy(&r->rest[k * length], br_remainder_r(&all, 0, k), length * sizeof *r->rest);
-    br_remainder_clear(&all);
+        memcpy(&r->rest[k * length], remainder_r(&all, 0, k), length * sizeof *r->rest);
+    remainder_clear(&all);
     return status;
 }
 

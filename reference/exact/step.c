@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/exact/step.h"
+#include "reference/exact/march.h"
 
 #include <cblas.h>
 #include <float.h>
@@ -9,7 +9,7 @@
 
 enum { S = BR_STAGES };
 
-enum br_status br_stepper_create(struct br_stepper **out, const struct br_field *field,
+enum br_status br_stepper_create(struct br_stepper **out, const struct br_oscillators *field,
                                  const struct br_law *law, double gap, struct br_error *err)
 {
     const size_t m = field->modes->count;
@@ -78,7 +78,7 @@ static enum br_status respond(struct br_stepper *s, double h, struct br_error *e
 {
     if (h == s->length)
         return BR_OK;
-    const struct br_field *f = s->field;
+    const struct br_oscillators *f = s->field;
     double *z = &s->tip_response[0][0];
     double square = 0;
     memset(z, 0, sizeof s->tip_response);
@@ -101,7 +101,7 @@ static enum br_status respond(struct br_stepper *s, double h, struct br_error *e
  * the step, so that what remains to be found is small */
 static void residual(const struct br_stepper *s, size_t i, double out[S])
 {
-    const struct br_field *f = s->field;
+    const struct br_oscillators *f = s->field;
     const double reach = f->stiffness * s->length * s->v[i];
     double value[S];
     for (size_t j = 0; j < S; j++)
@@ -127,7 +127,7 @@ static double tip_start(const struct br_stepper *s)
 /* series = v + response (residual - tip force); the tip's velocity follows. */
 static void move(struct br_stepper *s)
 {
-    const struct br_field *f = s->field;
+    const struct br_oscillators *f = s->field;
     double tip[S] = {tip_start(s)};
     for (size_t i = 0; i < f->modes->count; i++) {
         double r[S];
@@ -162,22 +162,22 @@ enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *e
 {
     const size_t m = s->field->modes->count;
     enum br_status status = respond(s, h, err);
-    s->work += br_field_work(s->field);
+    s->work += br_oscillators_work(s->field);
     s->load_noise = 0;
     for (size_t j = 0; j < S && !status; j++) {
         double size;
         const double t = fmin(fmax(s->time + s->radau.node[j] * h, s->from), s->to);
-        status = br_field_load(s->field, t, &s->load[j * m], &size, err);
+        status = br_oscillators_load(s->field, t, &s->load[j * m], &size, err);
         s->load_noise = fmax(s->load_noise, DBL_EPSILON * size * s->noise_response);
     }
     if (status)
         return status;
     s->impulse = impulse(s);
     s->load_noise += s->blur * s->impulse;
-    s->tip = (struct br_tip){
+    s->tip = (struct br_tip_step){
         .start = s->time, .length = h, .phase = s->phase, .displacement = s->tip_displacement};
     move(s); /* as if the tip were free */
-    s->free_size = br_field_norm(s->field, s->series, S);
+    s->free_size = br_oscillators_norm(s->field, s->series, S);
     for (int round = 0; round < (s->phase == BR_STICK ? 2 : 1) && !status; round++) {
         status = br_law_force(s->law, &s->radau, s->tip_response, &s->tip, err);
         move(s);
