@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "reference/certificate.h"
+#include "reference/certificate/certificate.h"
 #include "study/grid/ladder.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
@@ -67,13 +67,13 @@ static enum br_status march(const void *data, struct br_error *err)
 {
     const struct march_data *d = data;
     struct br_march *m = NULL;
-    struct br_witness *witness = NULL;
+    struct br_step_checker *witness = NULL;
     enum br_status status = br_march_create(&m, &d->scene, 4, 5, &d->method, err);
     if (!status)
-        status = br_witness_create(&witness, m, &d->scene, &d->method, err);
+        status = br_step_checker_create(&witness, m, &d->scene, &d->method, err);
     for (int i = 0; i < 2 && !status; i++)
         status = br_march_step(m, err);
-    br_witness_free(witness);
+    br_step_checker_free(witness);
     br_march_free(m);
     return status;
 }

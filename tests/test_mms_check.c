@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "reference/mms/check.h"
+#include "reference/mms/mms.h"
 #include "study/scene/expression.h"
 #include "support.h"
 

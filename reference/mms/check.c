@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/mms/check.h"
+#include "reference/mms/mms.h"
 
 #include <math.h>
 
-#include "reference/mms/tip.h"
 #include "solver/proof.h"
 
 static const struct br_partial axial_orders[] = {

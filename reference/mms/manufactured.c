@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/mms/manufactured.h"
+#include "reference/mms/mms.h"
 
 #include <math.h>
-
-#include "reference/mms/check.h"
-#include "reference/mms/tip.h"
 
 /* ---- what the solution determines must not be given ---- */
 

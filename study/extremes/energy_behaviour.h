@@ -4,7 +4,7 @@
 #ifndef BR_STUDY_EXTREMES_ENERGY_BEHAVIOUR_H
 #define BR_STUDY_EXTREMES_ENERGY_BEHAVIOUR_H
 
-#include "reference/energy.h"
+#include "reference/energy/energy.h"
 #include "study/extremes/vibration.h"
 #include "study/grid/observer.h"
 #include "study/grid/study.h"

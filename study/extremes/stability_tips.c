@@ -2,7 +2,7 @@
 /* The lagged contact of tips: pressed ones near and beyond the limit, and ones that bounce. */
 #include <math.h>
 
-#include "reference/energy.h"
+#include "reference/energy/energy.h"
 #include "solver/contact_limit.h"
 #include "study/extremes/stability.h"
 

@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "reference/energy.h"
+#include "reference/energy/energy.h"
 #include "study/extremes/amplification.h"
 #include "study/extremes/beam_mode.h"
 

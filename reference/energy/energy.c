@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/energy_forms.h"
+#include "reference/energy/energy.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+
+typedef long double real;
 
 /* ---- products of two sets of an element's nodal values ---- */
 

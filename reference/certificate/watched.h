@@ -1,11 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A march as somebody sees it who looks at each stage (br_march_watch) and knows the scheme from
  * textbook.h: the states of the step so far, and which row of the textbook each of them is. */
-#ifndef BR_REFERENCE_WATCHED_H
-#define BR_REFERENCE_WATCHED_H
+#ifndef BR_REFERENCE_CERTIFICATE_WATCHED_H
+#define BR_REFERENCE_CERTIFICATE_WATCHED_H
 
-#include "reference/past_states.h"
+#include "reference/textbook.h"
 #include "solver/march.h"
+
+enum { BR_MOST_BACK = 3 };
+
+/* Y = (displacement, velocity), and the rate of change of the velocity; br_past_states' size values
+ * each, m, m/s, m/s^2. */
+struct br_nodal {
+    double *displacement, *velocity, *acceleration;
+};
+
+/* Of one field. The arrays are borrowed. */
+struct br_past_states {
+    size_t size;
+    struct br_nodal past[BR_MOST_BACK];    /* Y_{n-1}, Y_{n-2}, Y_{n-3} */
+    struct br_nodal row[BR_TEXTBOOK_ROWS]; /* of the textbook, in this step */
+    struct br_nodal start;                 /* Z; without acceleration */
+};
+
+/* The axial tip over one step, for the bound of friction. */
+struct br_tip_path {
+    int count;
+    double time[BR_TEXTBOOK_ROWS], u[BR_TEXTBOOK_ROWS]; /* of its stages, s and m */
+    double from, k;                                     /* s */
+    double u_from, v_from, u_to, v_to;                  /* at both ends, m and m/s */
+};
+
+/* u(L), m, at the time of a stage, s; where the axial field had none then, by the cubic that the
+ * ends of its step determine. */
+double br_tip_path_at(const struct br_tip_path *path, double time);
 
 /* What decides where a step starts anew. */
 enum br_watched_regime { BR_WATCHED_NONE, BR_OPEN, BR_CLOSED, BR_STICKS, BR_UP, BR_DOWN };

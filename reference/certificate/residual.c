@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The residual of (27) and (28), in the norm of certificate.h. */
+#include "reference/certificate/certificate.h"
+
 #include <float.h>
 #include <math.h>
-
-#include "reference/certificate_parts.h"
 
 typedef long double real;
 

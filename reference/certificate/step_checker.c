@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "reference/certificate_parts.h"
-#include "reference/watched.h"
+#include "reference/certificate/certificate.h"
+#include "reference/certificate/watched.h"
 
 typedef long double real;
 
@@ -18,7 +18,7 @@ struct trial {
  * are set right by those of the step before. */
 enum { REMEMBERED = 8 };
 
-struct br_witness {
+struct br_step_checker {
     struct br_march *march;
     struct br_watched seen;
     struct trial trial[2]; /* by br_field_kind */
@@ -35,8 +35,8 @@ static const struct br_certificate not_good = {NAN, NAN, NAN, NAN, NAN};
 
 /* How far a stage's times are from the textbook's, over k; adaptive steps meet a time level to
  * 1e-13 of the duration. */
-static double time_error(const struct br_witness *w, const struct br_march_stage *told, real tau,
-                         real c)
+static double time_error(const struct br_step_checker *w, const struct br_march_stage *told,
+                         real tau, real c)
 {
     const double slack = 1e-12 * w->seen.scene->duration;
     const double begun = fabs(told->from - w->seen.field[told->kind].began) - slack;
@@ -47,7 +47,7 @@ static double time_error(const struct br_witness *w, const struct br_march_stage
 
 /* ---- the tip ---- */
 
-static void path_stage(struct br_witness *w, const struct br_march_stage *told)
+static void path_stage(struct br_step_checker *w, const struct br_march_stage *told)
 {
     const struct br_watched_field *f = &w->seen.field[BR_AXIAL];
     struct br_tip_path *p = &w->path;
@@ -95,7 +95,7 @@ static struct br_step_field lately(const struct br_watched_field *f)
 
 /* ---- what was before ---- */
 
-static void remember(struct br_witness *w, enum br_field_kind kind)
+static void remember(struct br_step_checker *w, enum br_field_kind kind)
 {
     const struct br_watched_field *f = &w->seen.field[kind];
     double *most = &w->speed[kind][f->steps % REMEMBERED];
@@ -117,7 +117,7 @@ static double largest_of(const double remembered[REMEMBERED])
 
 /* How far the limits of this stage are above those of the march's first step: round-off depends on
  * the stage's tau, and some solvers leave a residual of their own. */
-static struct br_certificate excess_of(const struct br_witness *w, enum br_field_kind kind)
+static struct br_certificate excess_of(const struct br_step_checker *w, enum br_field_kind kind)
 {
     const struct br_method *method = w->seen.method;
     const struct br_certificate *then = &w->limits;
@@ -137,7 +137,7 @@ static struct br_certificate excess_of(const struct br_witness *w, enum br_field
 }
 
 /* What the mass adds to the predicted round-off of a field, at the stage's tau. */
-static double inertia_round_off(const struct br_witness *w, enum br_field_kind kind)
+static double inertia_round_off(const struct br_step_checker *w, enum br_field_kind kind)
 {
     const struct br_method *method = w->seen.method;
     const struct br_field *field = br_march_field(w->march, kind);
@@ -156,7 +156,7 @@ static void divide(struct br_certificate *c, const struct br_certificate *by)
     c->contact /= by->contact;
 }
 
-static struct br_certificate certify(struct br_witness *w, const struct br_march_stage *told,
+static struct br_certificate certify(struct br_step_checker *w, const struct br_march_stage *told,
                                      const double *axial_tip)
 {
     const struct br_watched *seen = &w->seen;
@@ -199,7 +199,7 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
 
 static void watch_stage(void *self, const struct br_march_stage *told)
 {
-    struct br_witness *w = self;
+    struct br_step_checker *w = self;
     struct trial *trial = &w->trial[told->kind];
     if (told->index == 0)
         *trial = (struct trial){0};
@@ -223,7 +223,7 @@ static void watch_stage(void *self, const struct br_march_stage *told)
 
 static void watch_step(void *self, enum br_field_kind kind, bool switched)
 {
-    struct br_witness *w = self;
+    struct br_step_checker *w = self;
     br_watched_step(&w->seen, kind, switched);
     w->speed[kind][w->seen.field[kind].steps % REMEMBERED] = 0;
     w->size[kind][w->seen.field[kind].steps % REMEMBERED] = 0;
@@ -231,7 +231,7 @@ static void watch_step(void *self, enum br_field_kind kind, bool switched)
     w->any = true;
 }
 
-struct br_certificate br_witness_step(struct br_witness *w)
+struct br_certificate br_step_checker_step(struct br_step_checker *w)
 {
     const struct br_certificate worst = w->any ? w->worst : not_good;
     w->worst = (struct br_certificate){0};
@@ -239,11 +239,11 @@ struct br_certificate br_witness_step(struct br_witness *w)
     return worst;
 }
 
-enum br_status br_witness_create(struct br_witness **out, struct br_march *march,
-                                 const struct br_scene *scene, const struct br_method *method,
-                                 struct br_error *err)
+enum br_status br_step_checker_create(struct br_step_checker **out, struct br_march *march,
+                                      const struct br_scene *scene, const struct br_method *method,
+                                      struct br_error *err)
 {
-    struct br_witness *w = *out = br_allocate(1, sizeof *w);
+    struct br_step_checker *w = *out = br_allocate(1, sizeof *w);
     if (!w)
         return br_no_memory(err, "a certificate");
     w->march = march;
@@ -254,13 +254,13 @@ enum br_status br_witness_create(struct br_witness **out, struct br_march *march
         status = br_fail(err, BR_BAD_INPUT, "the march has %d watchers, and room for no more",
                          BR_MOST_WATCHERS);
     if (status) {
-        br_witness_free(w);
+        br_step_checker_free(w);
         *out = NULL;
     }
     return status;
 }
 
-void br_witness_free(struct br_witness *w)
+void br_step_checker_free(struct br_step_checker *w)
 {
     if (!w)
         return;
