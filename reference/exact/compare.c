@@ -19,6 +19,7 @@ struct pair {
     const struct br_history *track[2];
     double *q[2], *v[2]; /* modes */
     double *series[2];   /* Legendre coefficients */
+    struct br_store store;
 };
 
 static enum br_status pair_init(struct pair *p, const struct br_exact_solution *a,
@@ -26,34 +27,24 @@ static enum br_status pair_init(struct pair *p, const struct br_exact_solution *
                                 struct br_error *err)
 {
     const struct br_exact_solution *solution[2] = {a, b};
-    bool done = true;
     for (size_t i = 0; i < 2; i++) {
         p->field[i] = solution[i]->field[which];
         p->law[i] = &solution[i]->law[which];
         p->track[i] = solution[i]->track[which];
-        const size_t m = p->field[i]->modes->count;
-        p->q[i] = br_allocate(m, sizeof(double));
-        p->v[i] = br_allocate(m, sizeof(double));
-        p->series[i] = br_allocate(br_modes_length(p->field[i]->modes, 0), sizeof(double));
-        done = done && p->q[i] && p->v[i] && p->series[i];
+        const size_t m = p->field[i]->modes.count;
+        p->q[i] = br_store_take(&p->store, m, sizeof(double));
+        p->v[i] = br_store_take(&p->store, m, sizeof(double));
+        p->series[i] =
+            br_store_take(&p->store, br_modes_length(&p->field[i]->modes, 0), sizeof(double));
     }
-    return done ? BR_OK : br_no_memory(err, "the comparison of two solutions");
-}
-
-static void pair_clear(struct pair *p)
-{
-    for (size_t i = 0; i < 2; i++) {
-        free(p->q[i]);
-        free(p->v[i]);
-        free(p->series[i]);
-    }
+    return p->store.failed ? br_no_memory(err, "the comparison of two solutions") : BR_OK;
 }
 
 /* Element e's coefficients of solution i, derived `order` times; *terms of them. */
 static const double *series_on(const struct pair *p, size_t i, size_t order, size_t e,
                                size_t *terms)
 {
-    const struct br_modes *modes = p->field[i]->modes;
+    const struct br_modes *modes = &p->field[i]->modes;
     *terms = modes->pieces.terms[e] + modes->degree - order;
     return p->series[i] + br_pieces_at(&modes->pieces, e, modes->degree - order);
 }
@@ -63,9 +54,9 @@ static const double *series_on(const struct pair *p, size_t i, size_t order, siz
 static double distance(struct pair *p, double *const q[2], size_t order)
 {
     for (size_t i = 0; i < 2; i++)
-        br_modes_expand(p->field[i]->modes, order, q[i], p->series[i]);
+        br_modes_expand(&p->field[i]->modes, order, q[i], p->series[i]);
     double sum = 0;
-    for (size_t e = 0; e < p->field[0]->modes->pieces.count; e++) {
+    for (size_t e = 0; e < p->field[0]->modes.pieces.count; e++) {
         size_t length[2];
         const double *const c[2] = {series_on(p, 0, order, e, &length[0]),
                                     series_on(p, 1, order, e, &length[1])};
@@ -80,8 +71,8 @@ static double distance(struct pair *p, double *const q[2], size_t order)
 /* Root mean square of the first field's velocity, derived in x / L. */
 static double strain_norm(struct pair *p, size_t order)
 {
-    br_modes_expand(p->field[0]->modes, order, p->v[0], p->series[0]);
-    const size_t length = br_modes_length(p->field[0]->modes, order);
+    br_modes_expand(&p->field[0]->modes, order, p->v[0], p->series[0]);
+    const size_t length = br_modes_length(&p->field[0]->modes, order);
     double sum = 0;
     for (size_t k = 0; k < length; k++)
         sum += p->series[0][k] * p->series[0][k];
@@ -111,7 +102,7 @@ static void compare_at(struct pair *p, double t, bool smooth, struct br_exact_re
         tip[i].force = br_law_force_at(p->law[i], t, &tip[i]);
     }
     const double length = p->field[0]->length, norm = 1 / sqrt(length);
-    const size_t degree = p->field[0]->modes->degree;
+    const size_t degree = p->field[0]->modes.degree;
     const double strain = pow(length, -(double)degree);
     struct br_exact_size *largest = &report->largest, *error = &report->error;
     grow(&largest->displacement, norm * br_oscillators_norm(p->field[0], p->q[0], 1));
@@ -173,13 +164,13 @@ enum br_status br_exact_compare(struct br_exact *exact, const struct br_exact_so
         if (!exact->solution->track[which])
             continue;
         struct pair p = {.outline = &outline[which]};
-        report->modes = exact->solution->field[which]->modes->count;
+        report->modes = exact->solution->field[which]->modes.count;
         report->steps = exact->solution->track[which]->steps;
         exact->noise[which] = 1e-13 * exact->solution->track[which]->free_velocity;
         status = pair_init(&p, exact->solution, other, which, err);
         if (!status)
             compare_field(&p, exact->duration, report);
-        pair_clear(&p);
+        br_store_clear(&p.store);
     }
     return status;
 }

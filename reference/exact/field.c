@@ -68,60 +68,24 @@ static enum br_status integrate(struct br_modes *modes, struct br_error *err)
     return q ? BR_OK : br_no_memory(err, "the modes");
 }
 
-static enum br_status allocate_modes(struct br_modes *modes, struct br_error *err)
+enum br_status br_modes_init(struct br_modes *modes, size_t degree, struct br_store *store,
+                             struct br_error *err)
 {
-    const size_t m = modes->count, rows = br_modes_length(modes, 0);
-    modes->size = br_allocate(m, sizeof *modes->size);
-    modes->shape = br_allocate(m * rows, sizeof *modes->shape);
-    modes->function = br_allocate(m * rows, sizeof *modes->function);
-    modes->curve = br_allocate(m * m, sizeof *modes->curve);
-    modes->tip = br_allocate(m, sizeof *modes->tip);
-    modes->slope = br_allocate(m, sizeof *modes->slope);
-    modes->series = br_allocate(rows, sizeof *modes->series);
-    const bool done = modes->size && modes->shape && modes->function && modes->curve &&
-                      modes->tip && modes->slope && modes->series;
-    return done ? br_quadrature_init(&modes->quadrature, &modes->pieces, modes->degree, err)
-                : br_no_memory(err, "the modes");
-}
-
-enum br_status br_modes_create(struct br_modes **out, const struct br_pieces *pieces, size_t degree,
-                               struct br_error *err)
-{
-    *out = NULL;
-    struct br_modes *modes = br_allocate(1, sizeof *modes);
-    if (!modes)
-        return br_no_memory(err, "the modes");
-    modes->count = br_pieces_at(pieces, pieces->count, 0);
+    const size_t m = modes->count = br_pieces_at(&modes->pieces, modes->pieces.count, 0);
     modes->degree = degree;
-    enum br_status status = br_pieces_init(&modes->pieces, pieces->length, pieces->count,
-                                           pieces->end, pieces->terms, err);
-    if (!status)
-        status = allocate_modes(modes, err);
-    if (!status)
-        status = decompose(modes, err);
-    if (!status)
-        status = integrate(modes, err);
-    if (status)
-        br_modes_free(modes);
-    else
-        *out = modes;
-    return status;
-}
-
-void br_modes_free(struct br_modes *modes)
-{
-    if (!modes)
-        return;
-    br_quadrature_clear(&modes->quadrature);
-    br_pieces_clear(&modes->pieces);
-    free(modes->size);
-    free(modes->shape);
-    free(modes->function);
-    free(modes->curve);
-    free(modes->tip);
-    free(modes->slope);
-    free(modes->series);
-    free(modes);
+    const size_t rows = br_modes_length(modes, 0);
+    modes->size = br_store_take(store, m, sizeof *modes->size);
+    modes->shape = br_store_take(store, m * rows, sizeof *modes->shape);
+    modes->function = br_store_take(store, m * rows, sizeof *modes->function);
+    modes->curve = br_store_take(store, m * m, sizeof *modes->curve);
+    modes->tip = br_store_take(store, m, sizeof *modes->tip);
+    modes->slope = br_store_take(store, m, sizeof *modes->slope);
+    modes->series = br_store_take(store, rows, sizeof *modes->series);
+    br_quadrature_init(&modes->quadrature, &modes->pieces, degree, store);
+    if (store->failed)
+        return br_no_memory(err, "the modes");
+    const enum br_status status = decompose(modes, err);
+    return status ? status : integrate(modes, err);
 }
 
 void br_modes_expand(const struct br_modes *modes, size_t order, const double *q, double *c)
@@ -132,7 +96,7 @@ void br_modes_expand(const struct br_modes *modes, size_t order, const double *q
 }
 
 /* out = A' c, A one of the matrices of all functions, c the Legendre coefficients of f. */
-static enum br_status test_with(struct br_modes *modes, const double *a,
+static enum br_status test_with(const struct br_modes *modes, const double *a,
                                 const struct br_function *f, double t, struct br_places fronts,
                                 double *out, struct br_error *err)
 {
@@ -146,15 +110,15 @@ static enum br_status test_with(struct br_modes *modes, const double *a,
 
 /* With the integrals, not with s Y: in a short element at the clamp the modes are small, and Y has
  * the round-off of its largest entries there. */
-enum br_status br_modes_load(struct br_modes *modes, const struct br_function *f, double t,
+enum br_status br_modes_load(const struct br_modes *modes, const struct br_function *f, double t,
                              struct br_places fronts, double *out, struct br_error *err)
 {
     return test_with(modes, modes->function, f, t, fronts, out, err);
 }
 
 /* A mode that is smaller than round-off carries no velocity. */
-enum br_status br_modes_project(struct br_modes *modes, const struct br_function *f, double *q,
-                                struct br_error *err)
+enum br_status br_modes_project(const struct br_modes *modes, const struct br_function *f,
+                                double *q, struct br_error *err)
 {
     const enum br_status status =
         test_with(modes, modes->shape, f, 0, (struct br_places){0}, q, err);
@@ -163,7 +127,7 @@ enum br_status br_modes_project(struct br_modes *modes, const struct br_function
     return status;
 }
 
-enum br_status br_modes_project_energy(struct br_modes *modes, const struct br_function *f,
+enum br_status br_modes_project_energy(const struct br_modes *modes, const struct br_function *f,
                                        double scale, double *q, struct br_error *err)
 {
     const int m = (int)modes->count;
@@ -182,12 +146,12 @@ enum br_status br_modes_project_energy(struct br_modes *modes, const struct br_f
 static enum br_status set_initial(struct br_oscillators *f, struct br_error *err)
 {
     const struct br_exact_data *d = &f->data;
-    const double scale = f->modes->degree == 1 ? 1 : f->length; /* dw/dxi = L dw/dx */
+    const double scale = f->modes.degree == 1 ? 1 : f->length; /* dw/dxi = L dw/dx */
     enum br_status status = BR_OK;
     if (!br_function_is_zero(d->slope))
-        status = br_modes_project_energy(f->modes, d->slope, scale, f->displacement, err);
+        status = br_modes_project_energy(&f->modes, d->slope, scale, f->displacement, err);
     if (!status && !br_function_is_zero(d->velocity))
-        status = br_modes_project(f->modes, d->velocity, f->velocity, err);
+        status = br_modes_project(&f->modes, d->velocity, f->velocity, err);
     br_function_evaluate(d->displacement, 1, &f->length, 0, &f->tip_displacement);
     br_function_evaluate(d->velocity, 1, &f->length, 0, &f->tip_velocity);
     return status;
@@ -195,14 +159,14 @@ static enum br_status set_initial(struct br_oscillators *f, struct br_error *err
 
 static enum br_status set_space(struct br_oscillators *f, struct br_error *err)
 {
-    const size_t m = f->modes->count;
+    const size_t m = f->modes.count;
     enum br_status status = BR_OK;
     for (size_t term = 0; term < BR_LOAD_TERMS && !status; term++) {
         const struct br_product *p = &f->data.load->term[term];
         double *space = f->load_space + term * m;
         if (p->space.uses_t || br_product_is_zero(p))
             continue;
-        status = br_modes_load(f->modes, &p->space, 0, (struct br_places){0}, space, err);
+        status = br_modes_load(&f->modes, &p->space, 0, (struct br_places){0}, space, err);
         for (size_t i = 0; i < m; i++)
             space[i] *= f->length;
     }
@@ -213,30 +177,23 @@ static enum br_status create_modes(struct br_oscillators *f, size_t degree,
                                    const struct br_outline *o, size_t modes, struct br_error *err)
 {
     const size_t elements = o->end.count - 1;
-    struct br_pieces pieces = {0};
-    size_t *terms = br_allocate(elements, sizeof *terms);
+    size_t *terms = br_store_take(&f->store, elements, sizeof *terms);
     for (size_t e = 0; terms && e < elements; e++)
         terms[e] = br_outline_terms(o, e, modes);
-    enum br_status status =
-        terms ? br_pieces_init(&pieces, f->length, elements, o->end.at, terms, err)
-              : br_no_memory(err, "the modes");
-    if (!status)
-        status = br_modes_create(&f->modes, &pieces, degree, err);
-    br_pieces_clear(&pieces);
-    free(terms);
-    return status;
+    if (terms)
+        br_pieces_init(&f->modes.pieces, f->length, elements, o->end.at, terms, &f->store);
+    return f->store.failed ? br_no_memory(err, "the modes")
+                           : br_modes_init(&f->modes, degree, &f->store, err);
 }
 
 static enum br_status allocate(struct br_oscillators *f, struct br_error *err)
 {
-    const size_t m = f->modes->count;
-    f->mass = br_allocate(m, sizeof *f->mass);
-    f->load_space = br_allocate(m * (BR_LOAD_TERMS + 1), sizeof *f->load_space);
-    f->displacement = br_allocate(m, sizeof *f->displacement);
-    f->velocity = br_allocate(m, sizeof *f->velocity);
-    return f->mass && f->load_space && f->displacement && f->velocity
-               ? BR_OK
-               : br_no_memory(err, "the modes");
+    const size_t m = f->modes.count;
+    f->mass = br_store_take(&f->store, m, sizeof *f->mass);
+    f->load_space = br_store_take(&f->store, m * (BR_LOAD_TERMS + 1), sizeof *f->load_space);
+    f->displacement = br_store_take(&f->store, m, sizeof *f->displacement);
+    f->velocity = br_store_take(&f->store, m, sizeof *f->velocity);
+    return f->store.failed ? br_no_memory(err, "the modes") : BR_OK;
 }
 
 enum br_status br_oscillators_create(struct br_oscillators **out, const struct br_scene *scene,
@@ -256,8 +213,8 @@ enum br_status br_oscillators_create(struct br_oscillators **out, const struct b
     enum br_status status = create_modes(f, degree, outline, modes, err);
     if (!status)
         status = allocate(f, err);
-    for (size_t i = 0; !status && i < f->modes->count; i++)
-        f->mass[i] = scene->density * f->length * f->modes->size[i] * f->modes->size[i];
+    for (size_t i = 0; !status && i < f->modes.count; i++)
+        f->mass[i] = scene->density * f->length * f->modes.size[i] * f->modes.size[i];
     if (!status)
         status = set_space(f, err);
     if (!status)
@@ -273,11 +230,7 @@ void br_oscillators_free(struct br_oscillators *f)
 {
     if (!f)
         return;
-    br_modes_free(f->modes);
-    free(f->mass);
-    free(f->load_space);
-    free(f->displacement);
-    free(f->velocity);
+    br_store_clear(&f->store);
     free(f);
 }
 
@@ -288,8 +241,8 @@ static void add_tip(const struct br_oscillators *f, double t, double *out)
     br_function_evaluate(f->data.tip_force, 1, &f->length, t, &force);
     if (f->data.tip_moment)
         br_function_evaluate(f->data.tip_moment, 1, &f->length, t, &moment);
-    for (size_t i = 0; i < f->modes->count; i++)
-        out[i] += force * f->modes->tip[i] + moment / f->length * f->modes->slope[i];
+    for (size_t i = 0; i < f->modes.count; i++)
+        out[i] += force * f->modes.tip[i] + moment / f->length * f->modes.slope[i];
 }
 
 /* A load that no product gives, at one time: cut where it jumps there. */
@@ -306,7 +259,7 @@ static enum br_status load_at(const struct br_oscillators *f, const struct br_fu
     for (size_t i = 0; i < breaks.count && x; i++)
         x[i] = breaks.at[i].high;
     if (!status)
-        status = br_modes_load(f->modes, space, t, (struct br_places){breaks.count, x}, out, err);
+        status = br_modes_load(&f->modes, space, t, (struct br_places){breaks.count, x}, out, err);
     free(x);
     br_breaks_free(&breaks);
     return status;
@@ -315,7 +268,7 @@ static enum br_status load_at(const struct br_oscillators *f, const struct br_fu
 enum br_status br_oscillators_load(const struct br_oscillators *f, double t, double *out,
                                    double *size, struct br_error *err)
 {
-    const size_t m = f->modes->count;
+    const size_t m = f->modes.count;
     *size = 0;
     for (size_t i = 0; i < m; i++)
         out[i] = 0;
@@ -332,7 +285,7 @@ enum br_status br_oscillators_load(const struct br_oscillators *f, double t, dou
                 return status;
             factor *= f->length;
             *size +=
-                fabs(factor) * cblas_dnrm2((int)br_modes_length(f->modes, 0), f->modes->series, 1);
+                fabs(factor) * cblas_dnrm2((int)br_modes_length(&f->modes, 0), f->modes.series, 1);
         }
         for (size_t i = 0; i < m; i++)
             out[i] += factor * space[i];
@@ -343,7 +296,7 @@ enum br_status br_oscillators_load(const struct br_oscillators *f, double t, dou
 
 double br_oscillators_work(const struct br_oscillators *f)
 {
-    const double points = (double)f->modes->quadrature.count, m = (double)f->modes->count;
+    const double points = (double)f->modes.quadrature.count, m = (double)f->modes.count;
     double work = m;
     for (size_t term = 0; term < BR_LOAD_TERMS; term++) {
         const struct br_product *p = &f->data.load->term[term];
@@ -356,8 +309,8 @@ double br_oscillators_work(const struct br_oscillators *f)
 double br_oscillators_norm(const struct br_oscillators *f, const double *q, size_t stride)
 {
     double sum = 0;
-    for (size_t i = 0; i < f->modes->count; i++) {
-        const double part = f->modes->size[i] * q[i * stride];
+    for (size_t i = 0; i < f->modes.count; i++) {
+        const double part = f->modes.size[i] * q[i * stride];
         sum += part * part;
     }
     return sqrt(f->length * sum);

@@ -32,10 +32,9 @@ struct br_modes {
     double *series;                  /* br_modes_length(0): coefficients of the last one */
 };
 
-/* Modes on a copy of the elements. Fails with BR_NO_MEMORY or BR_SINGULAR. */
-enum br_status br_modes_create(struct br_modes **out, const struct br_pieces *pieces, size_t degree,
-                               struct br_error *err);
-void br_modes_free(struct br_modes *modes);
+/* modes: in, with its pieces, all else zero. Fails with BR_NO_MEMORY or BR_SINGULAR. */
+enum br_status br_modes_init(struct br_modes *modes, size_t degree, struct br_store *store,
+                             struct br_error *err);
 
 /* Number of Legendre coefficients of a sum of modes derived `order` times,
  * order <= degree. */
@@ -47,22 +46,22 @@ void br_modes_expand(const struct br_modes *modes, size_t order, const double *q
 
 /* out[i] = integral of f(x, t) mode_i(x) over x / L in [0, 1]; fronts as in quadrature.h. For one
  * thread at a time. Fails with BR_NO_MEMORY. */
-enum br_status br_modes_load(struct br_modes *modes, const struct br_function *f, double t,
+enum br_status br_modes_load(const struct br_modes *modes, const struct br_function *f, double t,
                              struct br_places fronts, double *out, struct br_error *err);
 
 /* q (out) = L2 projection of f(x, 0) on the modes. */
-enum br_status br_modes_project(struct br_modes *modes, const struct br_function *f, double *q,
-                                struct br_error *err);
+enum br_status br_modes_project(const struct br_modes *modes, const struct br_function *f,
+                                double *q, struct br_error *err);
 
 /* q (out) = energy projection of the displacement whose derivative of order
  * degree - 1 with respect to x / L is scale * f(x, 0). */
-enum br_status br_modes_project_energy(struct br_modes *modes, const struct br_function *f,
+enum br_status br_modes_project_energy(const struct br_modes *modes, const struct br_function *f,
                                        double scale, double *q, struct br_error *err);
 
 /* ---- the field ---- */
 
 struct br_oscillators {
-    struct br_modes *modes;
+    struct br_modes modes;
     double length;             /* L, m */
     double *mass;              /* modes, kg */
     double damping, stiffness; /* N s/m, N/m */
@@ -73,6 +72,7 @@ struct br_oscillators {
     double *displacement;      /* modes: at t = 0, m */
     double *velocity;          /* modes: at t = 0, m/s */
     double tip_displacement, tip_velocity; /* at t = 0, m, m/s */
+    struct br_store store;
 };
 
 /* The scene (borrowed, with its functions) must model the field: degree 1 is

@@ -365,14 +365,16 @@ enum br_status br_march(const struct br_oscillators *field, const struct br_law 
                         const struct br_march_options *options, struct br_history **out,
                         struct br_error *err)
 {
-    struct march m = {.options = options, .err = err};
+    struct br_store store = {0};
+    struct br_stepper stepper = {.field = field, .law = law};
+    struct march m = {.options = options, .s = &stepper, .err = err};
     *out = NULL;
-    m.status = br_stepper_create(&m.s, field, law, options->gap, err);
+    m.status = br_stepper_init(&stepper, options->gap, &store, err);
     if (!m.status)
-        m.status = br_history_create(&m.track, field->modes->count, options->gap, err);
+        m.status = br_history_create(&m.track, field->modes.count, options->gap, err);
     if (!m.status)
         march_all(&m);
-    br_stepper_free(m.s);
+    br_store_clear(&store);
     if (m.status)
         br_history_free(m.track);
     else

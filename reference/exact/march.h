@@ -37,8 +37,8 @@ static inline enum br_status br_effort_spend(struct br_effort *effort, double wo
  * and set when an event fixes them: summed over modes they would lose what is
  * small just after an event. */
 struct br_stepper {
-    const struct br_oscillators *field;
-    const struct br_law *law;
+    const struct br_oscillators *field; /* borrowed */
+    const struct br_law *law;           /* borrowed */
     struct br_radau radau;
 
     double time;     /* s */
@@ -64,10 +64,10 @@ struct br_stepper {
     double noise_response; /* the same of a load of 1 N of every shape */
 };
 
-/* Field and law are borrowed; gap in m. Starts at t = 0. Fails with BR_NO_MEMORY. */
-enum br_status br_stepper_create(struct br_stepper **out, const struct br_oscillators *field,
-                                 const struct br_law *law, double gap, struct br_error *err);
-void br_stepper_free(struct br_stepper *s);
+/* s: in, with its field and law, all else zero; gap in m. Starts at t = 0. Fails with BR_NO_MEMORY.
+ */
+enum br_status br_stepper_init(struct br_stepper *s, double gap, struct br_store *store,
+                               struct br_error *err);
 
 /* Sets tip and series to a step of length h from the current state, which stays.
  * Fails with BR_NO_MEMORY, BR_SINGULAR or BR_NOT_FINITE. */

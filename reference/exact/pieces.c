@@ -7,34 +7,19 @@
 
 #include "reference/exact/legendre.h"
 
-enum br_status br_pieces_init(struct br_pieces *p, double length, size_t count, const double *end,
-                              const size_t *terms, struct br_error *err)
+void br_pieces_init(struct br_pieces *p, double length, size_t count, const double *end,
+                    const size_t *terms, struct br_store *store)
 {
     *p = (struct br_pieces){.length = length, .count = count};
-    p->end = br_allocate(count + 1, sizeof *p->end);
-    p->terms = br_allocate(count, sizeof *p->terms);
-    p->first = br_allocate(count + 1, sizeof *p->first);
-    if (!p->end || !p->terms || !p->first)
-        return br_no_memory(err, "the elements");
+    p->end = br_store_take(store, count + 1, sizeof *p->end);
+    p->terms = br_store_take(store, count, sizeof *p->terms);
+    p->first = br_store_take(store, count + 1, sizeof *p->first);
+    if (store->failed)
+        return;
     memcpy(p->end, end, (count + 1) * sizeof *end);
     memcpy(p->terms, terms, count * sizeof *terms);
     for (size_t e = 0; e < count; e++)
         p->first[e + 1] = p->first[e] + terms[e];
-    return BR_OK;
-}
-
-enum br_status br_pieces_whole(struct br_pieces *p, double length, size_t terms,
-                               struct br_error *err)
-{
-    return br_pieces_init(p, length, 1, (const double[]){0, length}, &terms, err);
-}
-
-void br_pieces_clear(struct br_pieces *p)
-{
-    free(p->end);
-    free(p->terms);
-    free(p->first);
-    *p = (struct br_pieces){0};
 }
 
 size_t br_pieces_find(const struct br_pieces *p, double x)
@@ -96,53 +81,35 @@ static double inside(double low, double high, double xi)
     return fmin(fmax(low + (high - low) * xi, nextafter(low, high)), nextafter(high, low));
 }
 
-static enum br_status fill_rule(struct br_quadrature *q, size_t e, size_t start,
-                                struct br_error *err)
+static void fill_rule(struct br_quadrature *q, size_t e, size_t start, struct br_store *store)
 {
     const struct br_pieces *p = q->pieces;
     const size_t points = q->points[e], terms = p->terms[e] + q->extra;
     gsl_integration_glfixed_table *gauss = gsl_integration_glfixed_table_alloc(points);
-    q->table[e] = br_allocate_aligned(points * terms, sizeof **q->table);
-    const bool done = gauss && q->table[e];
-    for (size_t i = 0; done && i < points; i++) {
+    q->table[e] = br_store_take(store, points * terms, sizeof **q->table);
+    store->failed = store->failed || !gauss;
+    for (size_t i = 0; !store->failed && i < points; i++) {
         double xi;
         gsl_integration_glfixed_point(0, 1, i, &xi, &q->weight[start + i], gauss);
         q->x[start + i] = inside(p->end[e], p->end[e + 1], xi);
         br_legendre(terms, xi, &q->table[e][i * terms]);
     }
     gsl_integration_glfixed_table_free(gauss);
-    return done ? BR_OK : br_no_memory(err, "a quadrature");
 }
 
-enum br_status br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces,
-                                  size_t extra, struct br_error *err)
+void br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces, size_t extra,
+                        struct br_store *store)
 {
     *q = (struct br_quadrature){.pieces = pieces, .extra = extra, .combine = br_combine_best()};
-    q->points = br_allocate(pieces->count, sizeof *q->points);
-    q->table = br_allocate(pieces->count, sizeof *q->table);
-    for (size_t e = 0; q->points && e < pieces->count; e++)
+    q->points = br_store_take(store, pieces->count, sizeof *q->points);
+    q->table = br_store_take(store, pieces->count, sizeof *q->table);
+    for (size_t e = 0; !store->failed && e < pieces->count; e++)
         q->count += q->points[e] = rule_points(pieces->terms[e] + extra, pieces->count);
-    q->x = br_allocate(q->count, sizeof *q->x);
-    q->weight = br_allocate(q->count, sizeof *q->weight);
-    q->value = br_allocate(q->count, sizeof *q->value);
-    if (!q->points || !q->table || !q->x || !q->weight || !q->value)
-        return br_no_memory(err, "a quadrature");
-    enum br_status status = BR_OK;
-    for (size_t e = 0, start = 0; e < pieces->count && !status; start += q->points[e++])
-        status = fill_rule(q, e, start, err);
-    return status;
-}
-
-void br_quadrature_clear(struct br_quadrature *q)
-{
-    for (size_t e = 0; q->table && e < q->pieces->count; e++)
-        free(q->table[e]);
-    free(q->points);
-    free(q->x);
-    free(q->weight);
-    free(q->table);
-    free(q->value);
-    *q = (struct br_quadrature){0};
+    q->x = br_store_take(store, q->count, sizeof *q->x);
+    q->weight = br_store_take(store, q->count, sizeof *q->weight);
+    q->value = br_store_take(store, q->count, sizeof *q->value);
+    for (size_t e = 0, start = 0; !store->failed && e < pieces->count; start += q->points[e++])
+        fill_rule(q, e, start, store);
 }
 
 /* c[k] += sum over i of here[i] p_k, by Legendre's recurrence at all places y[i] = 2 xi[i] - 1 at
@@ -221,8 +188,9 @@ static struct br_places fronts_in(const struct br_pieces *p, size_t e, struct br
     return here;
 }
 
-enum br_status br_quadrature_project(struct br_quadrature *q, const struct br_function *f, double t,
-                                     struct br_places fronts, double *c, struct br_error *err)
+enum br_status br_quadrature_project(const struct br_quadrature *q, const struct br_function *f,
+                                     double t, struct br_places fronts, double *c,
+                                     struct br_error *err)
 {
     const struct br_pieces *p = q->pieces;
     enum br_status status = BR_OK;
@@ -246,8 +214,9 @@ enum br_status br_quadrature_project(struct br_quadrature *q, const struct br_fu
 }
 
 /* On each element, less its value at the left end: f(b) p_k(1) - integral of f p_k'. */
-enum br_status br_quadrature_project_slope(struct br_quadrature *q, const struct br_function *f,
-                                           double *c, struct br_error *err)
+enum br_status br_quadrature_project_slope(const struct br_quadrature *q,
+                                           const struct br_function *f, double *c,
+                                           struct br_error *err)
 {
     const struct br_pieces *p = q->pieces;
     const size_t most = br_pieces_at(p, p->count, 0);

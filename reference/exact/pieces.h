@@ -10,6 +10,7 @@
 #include <stddef.h>
 
 #include "reference/exact/combine.h"
+#include "reference/exact/store.h"
 #include "solver/function.h"
 
 struct br_pieces {
@@ -20,14 +21,9 @@ struct br_pieces {
     size_t *first; /* count + 1: sum of the terms before */
 };
 
-/* Copies end and terms. Clear it even after a failure, which is BR_NO_MEMORY. */
-enum br_status br_pieces_init(struct br_pieces *pieces, double length, size_t count,
-                              const double *end, const size_t *terms, struct br_error *err);
-
-/* One element. */
-enum br_status br_pieces_whole(struct br_pieces *pieces, double length, size_t terms,
-                               struct br_error *err);
-void br_pieces_clear(struct br_pieces *pieces);
+/* Copies end and terms. After a failure, which the store tells, it is of no use. */
+void br_pieces_init(struct br_pieces *pieces, double length, size_t count, const double *end,
+                    const size_t *terms, struct br_store *store);
 
 /* Where element e's coefficients begin; with e = count, their number. */
 static inline size_t br_pieces_at(const struct br_pieces *p, size_t e, size_t extra)
@@ -64,10 +60,9 @@ struct br_quadrature {
     double *value;  /* count, workspace */
 };
 
-/* Clear it even after a failure, which is BR_NO_MEMORY. */
-enum br_status br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces,
-                                  size_t extra, struct br_error *err);
-void br_quadrature_clear(struct br_quadrature *q);
+/* After a failure, which the store tells, it is of no use. */
+void br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces, size_t extra,
+                        struct br_store *store);
 
 /* Places where a function jumps or bends at one time: count of them, ascending, m. */
 struct br_places {
@@ -78,11 +73,13 @@ struct br_places {
 /* c (out, with extra): coefficients of the function f(x, t)'s projection: its integrals over x / L
  * against the polynomials. Elements that hold some of `fronts` are cut there. Fails with
  * BR_NO_MEMORY. */
-enum br_status br_quadrature_project(struct br_quadrature *q, const struct br_function *f, double t,
-                                     struct br_places fronts, double *c, struct br_error *err);
+enum br_status br_quadrature_project(const struct br_quadrature *q, const struct br_function *f,
+                                     double t, struct br_places fronts, double *c,
+                                     struct br_error *err);
 
 /* c (out, extra 0): the same of the derivative in x / L of a continuous f(x, 0). */
-enum br_status br_quadrature_project_slope(struct br_quadrature *q, const struct br_function *f,
-                                           double *c, struct br_error *err);
+enum br_status br_quadrature_project_slope(const struct br_quadrature *q,
+                                           const struct br_function *f, double *c,
+                                           struct br_error *err);
 
 #endif

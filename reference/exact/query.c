@@ -96,10 +96,10 @@ static enum br_status exact_check_part(const struct br_exact *exact,
         part->field < BR_EXACT_FIELDS ? exact->solution->field[part->field] : NULL;
     if (!field)
         return br_fail(err, BR_BAD_INPUT, "a field that is not modelled was asked for");
-    if (part->order > field->modes->degree + extra)
+    if (part->order > field->modes.degree + extra)
         return br_fail(err, BR_BAD_INPUT,
                        "a derivative of order %u was asked for, expected at most %zu", part->order,
-                       field->modes->degree + extra);
+                       field->modes.degree + extra);
     return BR_OK;
 }
 
@@ -109,10 +109,10 @@ static void exact_series(const struct br_exact *exact, const struct br_exact_sta
                          const struct br_exact_part *part, double *c)
 {
     const struct br_oscillators *field = exact->solution->field[part->field];
-    const size_t degree = field->modes->degree;
+    const size_t degree = field->modes.degree;
     const size_t order = part->order < degree ? part->order : degree;
-    const size_t length = br_modes_length(field->modes, order);
-    br_modes_expand(field->modes, order, state->mode[part->field][part->velocity], c);
+    const size_t length = br_modes_length(&field->modes, order);
+    br_modes_expand(&field->modes, order, state->mode[part->field][part->velocity], c);
     cblas_dscal((int)length, pow(field->length, -(double)part->order), c, 1);
 }
 
@@ -124,8 +124,8 @@ enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_e
     if (status)
         return status;
     const struct br_oscillators *field = exact->solution->field[part->field];
-    const struct br_pieces *pieces = &field->modes->pieces;
-    const size_t room = br_modes_length(field->modes, 0), degree = field->modes->degree;
+    const struct br_pieces *pieces = &field->modes.pieces;
+    const size_t room = br_modes_length(&field->modes, 0), degree = field->modes.degree;
     const bool derive = part->order > degree;
     const size_t extra = derive ? 0 : degree - part->order;
     double *c = br_allocate(3 * room, sizeof *c);
@@ -247,43 +247,40 @@ struct br_exact_projection {
     double *expand; /* modes x length: each mode's series */
     double *series; /* length, workspace */
     struct br_piecewise *piecewise;
+    struct br_store store;
 };
 
 /* The series of every mode. */
-static enum br_status expand_modes(struct br_exact_projection *p,
-                                   const struct br_oscillators *field, struct br_error *err)
+/* The series of every mode. q: modes zeros, c: the longest series; workspace. */
+static void expand_modes(struct br_exact_projection *p, const struct br_oscillators *field,
+                         double *q, double *c)
 {
-    double *q = br_allocate(p->modes, sizeof *q);
-    double *c = br_allocate(br_modes_length(field->modes, 0), sizeof *c);
     const double scale = pow(field->length, -(double)p->part.order);
-    for (size_t i = 0; i < p->modes && q && c; i++) {
+    for (size_t i = 0; i < p->modes; i++) {
         q[i] = 1;
-        br_modes_expand(field->modes, p->part.order, q, c);
+        br_modes_expand(&field->modes, p->part.order, q, c);
         for (size_t k = 0; k < p->length; k++)
             p->expand[i * p->length + k] = scale * c[k];
         q[i] = 0;
     }
-    const bool done = q && c;
-    free(q);
-    free(c);
-    return done ? BR_OK : br_no_memory(err, "a projection");
 }
 
 static enum br_status projection_init(struct br_exact_projection *p,
                                       const struct br_oscillators *field,
                                       const struct br_exact_mesh *mesh, struct br_error *err)
 {
+    const size_t longest = br_modes_length(&field->modes, 0);
     p->combine = br_combine_best();
-    p->modes = field->modes->count;
-    p->length = br_modes_length(field->modes, p->part.order);
-    p->expand = br_allocate(p->modes * p->length, sizeof *p->expand);
-    p->series = br_allocate(p->length, sizeof *p->series);
-    if (!p->expand || !p->series)
+    p->modes = field->modes.count;
+    p->length = br_modes_length(&field->modes, p->part.order);
+    p->expand = br_store_take(&p->store, p->modes * p->length, sizeof *p->expand);
+    p->series = br_store_take(&p->store, p->length, sizeof *p->series);
+    double *work = br_store_take(&p->store, p->modes + longest, sizeof *work);
+    if (p->store.failed)
         return br_no_memory(err, "a projection");
-    const enum br_status status = expand_modes(p, field, err);
-    return status ? status
-                  : br_piecewise_create(&p->piecewise, &field->modes->pieces,
-                                        field->modes->degree - p->part.order, mesh, err);
+    expand_modes(p, field, work, work + p->modes);
+    return br_piecewise_create(&p->piecewise, &field->modes.pieces,
+                               field->modes.degree - p->part.order, mesh, err);
 }
 
 enum br_status br_exact_projection_create(struct br_exact_projection **out,
@@ -316,8 +313,7 @@ void br_exact_projection_free(struct br_exact_projection *p)
     if (!p)
         return;
     br_piecewise_free(p->piecewise);
-    free(p->expand);
-    free(p->series);
+    br_store_clear(&p->store);
     free(p);
 }
 
