@@ -96,16 +96,16 @@ void br_certificate_merge(struct br_certificate *worst, const struct br_certific
 struct br_step_checker;
 
 /* Watches a march (br_march_watch) that has taken no step yet. The march, its scene and the method
- * must outlive the witness. Fails with BR_BAD_INPUT where the scheme is not in the tables of
- * textbook.h, with BR_NO_MEMORY; *witness is then NULL. */
-enum br_status br_step_checker_create(struct br_step_checker **witness, struct br_march *march,
+ * must outlive the checker. Fails with BR_BAD_INPUT where the scheme is not in the tables of
+ * textbook.h, with BR_NO_MEMORY; *checker is then NULL. */
+enum br_status br_step_checker_create(struct br_step_checker **checker, struct br_march *march,
                                       const struct br_scene *scene, const struct br_method *method,
                                       struct br_error *err);
-void br_step_checker_free(struct br_step_checker *witness); /* accepts NULL */
+void br_step_checker_free(struct br_step_checker *checker); /* accepts NULL */
 
 /* The certificate of the steps since the last call, the worst of all their stages; all NaN where
  * there was none. */
-struct br_certificate br_step_checker_step(struct br_step_checker *witness);
+struct br_certificate br_step_checker_step(struct br_step_checker *checker);
 
 /* ---- what a certificate is made of, for this folder alone ---- */
 

@@ -8,6 +8,14 @@
 
 typedef long double real;
 
+/* The axial tip over one step, for the bound of friction. */
+struct tip_path {
+    int count;
+    double time[BR_TEXTBOOK_ROWS], u[BR_TEXTBOOK_ROWS]; /* of its stages, s and m */
+    double from, k;                                     /* s */
+    double u_from, v_from, u_to, v_to;                  /* at both ends, m and m/s */
+};
+
 /* What is known of the step that a field is in. */
 struct trial {
     struct br_certificate worst;     /* of this step's stages so far */
@@ -22,7 +30,7 @@ struct br_step_checker {
     struct br_march *march;
     struct br_watched seen;
     struct trial trial[2]; /* by br_field_kind */
-    struct br_tip_path path;
+    struct tip_path path;
     struct br_certificate worst;  /* since the last call */
     double largest[2][BR_SCALES]; /* so far */
     double speed[2][REMEMBERED];  /* the largest of each of the last steps, m/s */
@@ -50,17 +58,29 @@ static double time_error(const struct br_step_checker *w, const struct br_march_
 static void path_stage(struct br_step_checker *w, const struct br_march_stage *told)
 {
     const struct br_watched_field *f = &w->seen.field[BR_AXIAL];
-    struct br_tip_path *p = &w->path;
+    struct tip_path *p = &w->path;
     const size_t tip = w->seen.n * br_step_unknowns(w->seen.method, BR_AXIAL);
     const struct br_nodal *now = &f->y.row[f->last];
     if (told->index == 0)
-        *p = (struct br_tip_path){.from = told->from,
-                                  .k = told->k,
-                                  .u_from = f->y.past[0].displacement[tip],
-                                  .v_from = f->y.past[0].velocity[tip]};
+        *p = (struct tip_path){.from = told->from,
+                               .k = told->k,
+                               .u_from = f->y.past[0].displacement[tip],
+                               .v_from = f->y.past[0].velocity[tip]};
     p->time[p->count] = told->time;
     p->u[p->count++] = p->u_to = now->displacement[tip];
     p->v_to = now->velocity[tip];
+}
+
+/* u(L), m, at the time of a stage, s; where the axial field had none then, by the cubic that the
+ * ends of its step determine. */
+static double tip_path_at(const struct tip_path *p, double time)
+{
+    for (int i = 0; i < p->count; i++)
+        if (p->time[i] == time)
+            return p->u[i];
+    const real s = ((real)time - p->from) / p->k, d = (real)p->u_to - p->u_from;
+    const real a = (real)p->k * p->v_from - d, b = d - (real)p->k * p->v_to;
+    return (double)(p->u_from + s * d + s * (1 - s) * ((1 - s) * a + s * b));
 }
 
 /* ---- a stage ---- */
@@ -214,7 +234,7 @@ static void watch_stage(void *self, const struct br_march_stage *told)
     if (told->kind == BR_AXIAL)
         path_stage(w, told);
     else if (w->seen.scene->axial.modelled)
-        axial_tip = br_tip_path_at(&w->path, told->time);
+        axial_tip = tip_path_at(&w->path, told->time);
     struct br_certificate c = certify(w, told, told->kind == BR_AXIAL ? NULL : &axial_tip);
     const struct br_textbook *t = br_watched_textbook(&w->seen, told->kind);
     c.update = br_worse_of(time_error(w, told, tau, t->rows > 0 ? t->c[row] : 1), c.update);

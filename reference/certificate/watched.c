@@ -45,35 +45,23 @@ static real start_of_row(struct br_past_states *f, const struct br_textbook *t, 
     return k * (t->rows == 0 ? t->beta : t->a[row][row]);
 }
 
-double br_tip_path_at(const struct br_tip_path *p, double time)
-{
-    for (int i = 0; i < p->count; i++)
-        if (p->time[i] == time)
-            return p->u[i];
-    const real s = ((real)time - p->from) / p->k, d = (real)p->u_to - p->u_from;
-    const real a = (real)p->k * p->v_from - d, b = d - (real)p->k * p->v_to;
-    return (double)(p->u_from + s * d + s * (1 - s) * ((1 - s) * a + s * b));
-}
-
-typedef long double real;
-
 static enum br_watched_regime regime_of(const struct br_watched *w, enum br_field_kind kind)
 {
     const struct br_tip *tip = br_march_tip(w->march);
     if (kind == BR_AXIAL)
         return !w->scene->contact.modelled ? BR_WATCHED_NONE
-               : tip->contact_force > 0    ? BR_CLOSED
-                                           : BR_OPEN;
+               : tip->contact_force > 0    ? BR_WATCHED_CLOSED
+                                           : BR_WATCHED_OPEN;
     if (w->scene->friction.law == BR_FRICTIONLESS || !(tip->friction_bound > 0))
         return BR_WATCHED_NONE;
     if (fabs(tip->friction_force) < tip->friction_bound)
-        return BR_STICKS;
-    return tip->friction_force > 0 ? BR_UP : BR_DOWN;
+        return BR_WATCHED_STICKS;
+    return tip->friction_force > 0 ? BR_WATCHED_UP : BR_WATCHED_DOWN;
 }
 
 /* ---- a stage ---- */
 
-static void look(struct br_watched *w, enum br_field_kind kind, struct br_nodal *into)
+static void sample(struct br_watched *w, enum br_field_kind kind, struct br_nodal *into)
 {
     br_march_get(w->march, kind, into->displacement, into->velocity);
 }
@@ -103,7 +91,7 @@ real br_watched_stage(struct br_watched *w, const struct br_march_stage *told)
         return NAN;
     }
     const real tau = start_of_row(&f->y, t, f->last, told->k);
-    look(w, told->kind, &f->y.row[f->last]);
+    sample(w, told->kind, &f->y.row[f->last]);
     br_march_load(w->march, told->kind, f->load);
     find_acceleration(f, tau);
     return tau;
@@ -187,7 +175,7 @@ enum br_status br_watched_init(struct br_watched *w, const struct br_march *marc
     double *memory = w->memory;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         memory = place_field(w, (enum br_field_kind)kind, memory);
-        look(w, (enum br_field_kind)kind, &w->field[kind].y.past[0]);
+        sample(w, (enum br_field_kind)kind, &w->field[kind].y.past[0]);
     }
     return BR_OK;
 }

@@ -23,20 +23,15 @@ struct br_past_states {
     struct br_nodal start;                 /* Z; without acceleration */
 };
 
-/* The axial tip over one step, for the bound of friction. */
-struct br_tip_path {
-    int count;
-    double time[BR_TEXTBOOK_ROWS], u[BR_TEXTBOOK_ROWS]; /* of its stages, s and m */
-    double from, k;                                     /* s */
-    double u_from, v_from, u_to, v_to;                  /* at both ends, m and m/s */
-};
-
-/* u(L), m, at the time of a stage, s; where the axial field had none then, by the cubic that the
- * ends of its step determine. */
-double br_tip_path_at(const struct br_tip_path *path, double time);
-
 /* What decides where a step starts anew. */
-enum br_watched_regime { BR_WATCHED_NONE, BR_OPEN, BR_CLOSED, BR_STICKS, BR_UP, BR_DOWN };
+enum br_watched_regime {
+    BR_WATCHED_NONE,
+    BR_WATCHED_OPEN,
+    BR_WATCHED_CLOSED,
+    BR_WATCHED_STICKS,
+    BR_WATCHED_UP,
+    BR_WATCHED_DOWN
+};
 
 struct br_watched_field {
     struct br_past_states y;       /* what the step starts from, and its rows so far */

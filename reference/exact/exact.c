@@ -6,105 +6,11 @@
 
 #include "reference/exact/solution.h"
 
-static struct br_law axial_law(const struct br_scene *scene)
-{
-    return (struct br_law){
-        .contact = true,
-        .obstacle = scene->contact.modelled,
-        .stiffness = scene->contact.modelled ? scene->contact.stiffness : 0,
-    };
-}
-
-static struct br_law bending_law(const struct br_scene *scene, const struct br_history *axial)
-{
-    return (struct br_law){
-        .friction = scene->friction.law,
-        .coefficient = scene->friction.coefficient,
-        .axial = scene->friction.law == BR_COULOMB ? axial : NULL,
-    };
-}
-
 /* How finely a solution is to be made. */
-struct br_fineness {
-    size_t modes, max_steps;
+struct fineness {
+    size_t modes;
     double tolerance, first_step; /* see br_march_options */
 };
-
-static void solution_free(struct br_exact_solution *s)
-{
-    if (!s)
-        return;
-    for (size_t i = 0; i < BR_EXACT_FIELDS; i++) {
-        br_oscillators_free(s->field[i]);
-        br_history_free(s->track[i]);
-    }
-    free(s);
-}
-
-/* What a solution is made from. */
-struct recipe {
-    const struct br_scene *scene;
-    const struct br_outline *outline; /* of each field */
-    const struct br_fineness *fineness;
-    struct br_effort *effort;
-};
-
-/* What modes cost, in the effort's units: a singular value decomposition. */
-static double modes_work(const struct br_outline *outline, size_t modes)
-{
-    double count = 0;
-    for (size_t e = 0; e + 1 < outline->end.count; e++)
-        count += (double)br_outline_terms(outline, e, modes);
-    return 2e-3 * count * count * count;
-}
-
-static enum br_status solve(struct br_exact_solution *s, enum br_exact_field which,
-                            const struct recipe *r, struct br_error *err)
-{
-    const bool axial = which == BR_EXACT_AXIAL;
-    const struct br_scene *scene = r->scene;
-    s->law[which] = axial ? axial_law(scene) : bending_law(scene, s->track[BR_EXACT_AXIAL]);
-    const struct br_march_options options = {
-        .duration = scene->duration,
-        .gap = axial && scene->contact.modelled ? scene->contact.gap : 0,
-        .tolerance = r->fineness->tolerance,
-        .first_step = r->fineness->first_step,
-        .max_steps = r->fineness->max_steps,
-        .outline = {&r->outline[which], s->law[which].axial ? &r->outline[BR_EXACT_AXIAL] : NULL},
-        .effort = r->effort,
-    };
-    enum br_status status =
-        br_effort_spend(r->effort, modes_work(&r->outline[which], r->fineness->modes), err);
-    if (!status)
-        status = br_oscillators_create(&s->field[which], scene, axial ? 1 : 2, &r->outline[which],
-                                       r->fineness->modes, err);
-    if (!status)
-        status = br_march(s->field[which], &s->law[which], &options, &s->track[which], err);
-    return status;
-}
-
-/* outline: of each field. */
-static enum br_status solution_create(struct br_exact_solution **out, const struct br_scene *scene,
-                                      const struct br_outline outline[BR_EXACT_FIELDS],
-                                      const struct br_fineness *fineness, struct br_effort *effort,
-                                      struct br_error *err)
-{
-    const struct recipe recipe = {scene, outline, fineness, effort};
-    *out = NULL;
-    struct br_exact_solution *s = br_allocate(1, sizeof *s);
-    if (!s)
-        return br_no_memory(err, "the exact solution");
-    enum br_status status = BR_OK;
-    if (scene->axial.modelled)
-        status = solve(s, BR_EXACT_AXIAL, &recipe, err);
-    if (!status && scene->bending.modelled)
-        status = solve(s, BR_EXACT_BENDING, &recipe, err);
-    if (status)
-        solution_free(s);
-    else
-        *out = s;
-    return status;
-}
 
 enum { FIRST_MODES = 12, LEAST_MODES = 18 };
 
@@ -151,13 +57,12 @@ static enum br_status check(const struct br_scene *scene, const struct br_exact_
 
 /* Every second solution has finer steps, so that any two that follow each other
  * differ in time as well as in space. */
-static struct br_fineness fineness(const struct br_exact_options *o, double duration, size_t round,
+static struct fineness fineness_of(const struct br_exact_options *o, double duration, size_t round,
                                    size_t modes)
 {
     const bool finer = round % 2;
-    return (struct br_fineness){
+    return (struct fineness){
         .modes = modes,
-        .max_steps = o->max_steps,
         .tolerance = o->tolerance * (finer ? 0.1 : 0.4),
         .first_step = duration * (finer ? 2e-13 : 1e-12),
     };
@@ -221,21 +126,103 @@ struct search {
     struct br_exact_solution *before;
     double missed;              /* the largest of the outlines */
     double worst, worst_before; /* of the last two pairs, infinite where that cannot be said */
-    double round_work;          /* of the last round */
     struct br_error cause;      /* why not */
 };
 
+/* ---- one solution ---- */
+
+static struct br_law axial_law(const struct br_scene *scene)
+{
+    return (struct br_law){
+        .contact = true,
+        .obstacle = scene->contact.modelled,
+        .stiffness = scene->contact.modelled ? scene->contact.stiffness : 0,
+    };
+}
+
+static struct br_law bending_law(const struct br_scene *scene, const struct br_history *axial)
+{
+    return (struct br_law){
+        .friction = scene->friction.law,
+        .coefficient = scene->friction.coefficient,
+        .axial = scene->friction.law == BR_COULOMB ? axial : NULL,
+    };
+}
+
+static void solution_free(struct br_exact_solution *s)
+{
+    if (!s)
+        return;
+    for (size_t i = 0; i < BR_EXACT_FIELDS; i++) {
+        br_oscillators_free(s->field[i]);
+        br_history_free(s->track[i]);
+    }
+    free(s);
+}
+
+static size_t count_modes(const struct search *s, size_t which, size_t modes)
+{
+    size_t count = 0;
+    for (size_t e = 0; e + 1 < s->outline[which].end.count; e++)
+        count += br_outline_terms(&s->outline[which], e, modes);
+    return count;
+}
+
+/* One field; a singular value decomposition is most of what its modes cost. */
+static enum br_status solve(struct search *s, enum br_exact_field which,
+                            const struct fineness *fine, struct br_exact_solution *into)
+{
+    const bool axial = which == BR_EXACT_AXIAL;
+    const struct br_scene *scene = s->scene;
+    const struct br_outline *outline = &s->outline[which];
+    struct br_law *law = &into->law[which];
+    *law = axial ? axial_law(scene) : bending_law(scene, into->track[BR_EXACT_AXIAL]);
+    const struct br_march_options options = {
+        .duration = scene->duration,
+        .gap = axial && scene->contact.modelled ? scene->contact.gap : 0,
+        .tolerance = fine->tolerance,
+        .first_step = fine->first_step,
+        .max_steps = s->o->max_steps,
+        .outline = {outline, law->axial ? &s->outline[BR_EXACT_AXIAL] : NULL},
+        .effort = &s->effort,
+    };
+    const double count = (double)count_modes(s, which, fine->modes);
+    enum br_status status = br_effort_spend(&s->effort, 2e-3 * count * count * count, &s->cause);
+    if (!status)
+        status = br_oscillators_create(&into->field[which], scene, axial ? 1 : 2, outline,
+                                       fine->modes, &s->cause);
+    if (!status)
+        status = br_march(into->field[which], law, &options, &into->track[which], &s->cause);
+    return status;
+}
+
+/* *out (owned by the caller); why it fails is in s->cause. */
+static enum br_status solution_create(struct search *s, const struct fineness *fine,
+                                      struct br_exact_solution **out)
+{
+    enum br_status status = BR_OK;
+    *out = br_allocate(1, sizeof **out);
+    if (!*out)
+        return br_no_memory(&s->cause, "the exact solution");
+    if (s->scene->axial.modelled)
+        status = solve(s, BR_EXACT_AXIAL, fine, *out);
+    if (!status && s->scene->bending.modelled)
+        status = solve(s, BR_EXACT_BENDING, fine, *out);
+    if (status)
+        solution_free(*out);
+    return status;
+}
+
+/* ---- solutions until two agree ---- */
+
 /* The next solution, and how far it is from the last one. Where it fails, more modes may help;
  * where no work is left the last pair stays. */
-static enum br_status next_round(struct search *s, const struct br_fineness *fine)
+static enum br_status next_round(struct search *s, const struct fineness *fine)
 {
     struct br_exact *exact = s->exact;
     struct br_exact_solution *next = NULL;
-    const double done = s->effort.done;
     s->cause = (struct br_error){0};
-    enum br_status status =
-        solution_create(&next, s->scene, s->outline, fine, &s->effort, &s->cause);
-    s->round_work = s->effort.done - done;
+    enum br_status status = solution_create(s, fine, &next);
     if (status == BR_NOT_FINITE)
         return BR_OK;
     if (status)
@@ -255,14 +242,6 @@ static enum br_status next_round(struct search *s, const struct br_fineness *fin
 static bool is_spent(const struct search *s)
 {
     return s->effort.done > s->effort.most;
-}
-
-static size_t count_modes(const struct search *s, size_t which, size_t modes)
-{
-    size_t count = 0;
-    for (size_t e = 0; e + 1 < s->outline[which].end.count; e++)
-        count += br_outline_terms(&s->outline[which], e, modes);
-    return count;
 }
 
 /* Modes of a next round, 0 if it may not be: elements multiply what is allowed for one by six. */
@@ -322,7 +301,7 @@ static enum br_status refine(struct search *s, struct br_error *err)
                        "no exact solution: the loads and initial data ask for %zu and %zu elements",
                        s->outline[0].end.count, s->outline[1].end.count);
     for (size_t round = 0; !status && modes && !(s->worst <= enough) && !is_stuck(s); round++) {
-        const struct br_fineness fine = fineness(s->o, s->exact->duration, round, modes);
+        const struct fineness fine = fineness_of(s->o, s->exact->duration, round, modes);
         status = next_round(s, &fine);
         modes = next_modes(s, modes);
     }

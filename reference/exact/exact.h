@@ -117,6 +117,7 @@ struct br_exact_state {
     double friction_force;            /* lambda = -sigma_V(L), N */
     double friction_bound;            /* b, N */
     double *mode[BR_EXACT_FIELDS][2]; /* private: displacement and velocity */
+    double memory[];
 };
 
 /* *out (owned by the caller) is at t = 0. Fails with BR_NO_MEMORY. */

@@ -35,31 +35,25 @@ const char *br_phase_text(enum br_phase phase)
 enum br_status br_exact_state_create(struct br_exact_state **out, const struct br_exact *exact,
                                      struct br_error *err)
 {
-    bool done = true;
-    *out = br_allocate(1, sizeof **out);
-    if (!*out)
+    size_t count = 0;
+    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
+        count += exact->report[i].modes;
+    struct br_exact_state *state = *out =
+        br_allocate(1, sizeof *state + 2 * count * sizeof(double));
+    if (!state)
         return br_no_memory(err, "a state of the exact solution");
+    double *next = state->memory;
     for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
         for (size_t j = 0; j < 2 && exact->solution->field[i]; j++) {
-            (*out)->mode[i][j] = br_allocate(exact->report[i].modes, sizeof(double));
-            done = done && (*out)->mode[i][j];
+            state->mode[i][j] = next;
+            next += exact->report[i].modes;
         }
-    if (done) {
-        br_exact_at(exact, 0, *out);
-        return BR_OK;
-    }
-    br_exact_state_free(*out);
-    *out = NULL;
-    return br_no_memory(err, "a state of the exact solution");
+    br_exact_at(exact, 0, state);
+    return BR_OK;
 }
 
 void br_exact_state_free(struct br_exact_state *state)
 {
-    if (!state)
-        return;
-    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
-        for (size_t j = 0; j < 2; j++)
-            free(state->mode[i][j]);
     free(state);
 }
 

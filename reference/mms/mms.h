@@ -9,23 +9,20 @@
 /* Fills the loads, tip forces and initial data of a scene whose axial.solution or
  * bending.solution is given, so that these solve (1)-(12); a scene without one stays as it
  * is. A load is left as one term f(x, t). Refuses (BR_BAD_INPUT) a scene of which only one
- * modelled part has a solution, a solution beside what it determines, and what check.h
- * refuses; *culprit is then the part whose solution it is about. Fails with BR_NO_MEMORY;
- * br_scene_clear releases what was made until then. */
+ * modelled part has a solution, a solution beside what it determines, and what
+ * br_given_check refuses; *culprit is then the part whose solution it is about. Fails with
+ * BR_NO_MEMORY; br_scene_clear releases what was made until then. */
 enum br_status br_manufactured_apply(struct br_scene *scene, enum br_field_kind *culprit,
                                      struct br_error *err);
 
 /* ---- the given solution ---- */
 
 /* One field's solution on [0, length] x [0, duration]. */
-struct br_solution {
+struct br_given {
     const struct br_function *function; /* u(x, t) or w(x, t), m; borrowed */
     enum br_field_kind kind;
     double length, duration; /* m, s */
 };
-
-/* The derivatives that the equations (3), (4), (8), (9), (11) use, of either field. */
-const struct br_partial *br_solution_orders(enum br_field_kind kind, size_t *count);
 
 /* Refuses (BR_BAD_INPUT), naming the derivative, x, t, what was found and expected:
  * - a solution or derivative of which it is not proved that it is finite everywhere;
@@ -33,7 +30,7 @@ const struct br_partial *br_solution_orders(enum br_field_kind kind, size_t *cou
  * - a jump in what is derived, whose delta the derivative would leave out: at what the guards of
  *   function.h tell, on lines that cross every stretch between them.
  * Fails with BR_NO_MEMORY, too. */
-enum br_status br_solution_check(const struct br_solution *solution, struct br_error *err);
+enum br_status br_given_check(const struct br_given *solution, struct br_error *err);
 
 /* Refuses (BR_BAD_INPUT) a stick force beyond the friction bound at a time at which the tip
  * rests. u, velocity: u(L, t), m, and w_t(L, t), m/s. */
