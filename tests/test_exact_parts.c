@@ -253,13 +253,12 @@ static void test_projected_pieces(void **unused)
             struct br_error err;
             double c[MOST], modes[20 * 3] = {0}, rest = NAN;
             project_square(&pieces, 0, &store, c);
-            assert_int_equal(br_piecewise_create(&w, &pieces, 0, &mesh, &err), BR_OK);
+            assert_int_equal(br_piecewise_create(&w, &pieces, 0, &mesh, &store, &err), BR_OK);
             br_piecewise_apply(w, c, modes, &rest);
             const double all = pow(beam, 5) / 5, h = beam / (double)n;
             assert_near(squares(n * (degree + 1), modes) + rest, all, 1e-12);
             /* of x^2 the second Legendre polynomial has h^2 / 6, its square h / 5 */
             assert_near(rest, degree == 2 ? 0 : (double)n * pow(h, 5) / 180, 1e-12);
-            br_piecewise_free(w);
             br_store_clear(&store);
         }
 }

@@ -240,9 +240,8 @@ static void test_projection_of_pieces(void **unused)
         const double n = (double)mesh.elements;
         struct br_piecewise *piecewise = NULL;
         double c[3 * 97], rest = NAN, sum = 0;
-        MUST(br_piecewise_create(&piecewise, &pieces, 1, &mesh, &err));
+        MUST(br_piecewise_create(&piecewise, &pieces, 1, &mesh, &store, &err));
         br_piecewise_apply(piecewise, series, c, &rest);
-        br_piecewise_free(piecewise);
         for (size_t j = 0; j < mesh.elements; j++) {
             const double left = (double)j / n - a, right = ((double)j + 1) / n - a;
             const double integral = (right * fabs(right) - left * fabs(left)) / 2 - a / n;

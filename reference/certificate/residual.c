@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The residual of (27) and (28), in the norm of certificate.h. */
 #include "reference/certificate/certificate.h"
-#include "reference/elements.h"
+#include "reference/textbook.h"
 
 #include <float.h>
 #include <math.h>

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "reference/elements.h"
+#include "reference/textbook.h"
 
 typedef long double real;
 
@@ -128,8 +128,8 @@ struct br_field_energy br_energy_of_field(const struct br_field *f,
     return e;
 }
 
-enum br_status br_energy_look(const struct br_march *march, const struct br_scene *scene,
-                              struct br_energy *energy, struct br_error *err)
+enum br_status br_energy_sample(const struct br_march *march, const struct br_scene *scene,
+                                struct br_energy *energy, struct br_error *err)
 {
     *energy = (struct br_energy){0};
     const size_t size = 2 * (br_march_field(march, BR_AXIAL)->n + 1); /* of either field at most */

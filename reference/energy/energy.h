@@ -62,8 +62,8 @@ double br_energy_stored(const struct br_field *field, const double *displacement
 
 /* Of a march as it is (out), in a scene that models no more than it does. Fails with BR_NO_MEMORY.
  */
-enum br_status br_energy_look(const struct br_march *march, const struct br_scene *scene,
-                              struct br_energy *energy, struct br_error *err);
+enum br_status br_energy_sample(const struct br_march *march, const struct br_scene *scene,
+                                struct br_energy *energy, struct br_error *err);
 
 /* What the imbalance of a step of one field stays below, relative to the sum of the sizes of its
  * terms, given the predicted relative round-off of the solver's displacements (br_march_round_off):

@@ -153,10 +153,9 @@ static void solution_free(struct br_exact_solution *s)
 {
     if (!s)
         return;
-    for (size_t i = 0; i < BR_EXACT_FIELDS; i++) {
-        br_oscillators_free(s->field[i]);
+    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
         br_history_free(s->track[i]);
-    }
+    br_store_clear(&s->store);
     free(s);
 }
 
@@ -189,8 +188,8 @@ static enum br_status solve(struct search *s, enum br_exact_field which,
     const double count = (double)count_modes(s, which, fine->modes);
     enum br_status status = br_effort_spend(&s->effort, 2e-3 * count * count * count, &s->cause);
     if (!status)
-        status = br_oscillators_create(&into->field[which], scene, axial ? 1 : 2, outline,
-                                       fine->modes, &s->cause);
+        status = br_oscillators_create(&into->field[which], scene, outline, fine->modes,
+                                       &into->store, &s->cause);
     if (!status)
         status = br_march(into->field[which], law, &options, &into->track[which], &s->cause);
     return status;

@@ -166,7 +166,7 @@ void br_exact_projection_free(struct br_exact_projection *projection);
  * of what the projection leaves out, found without a difference, so that the
  * square of a distance to a piecewise polynomial d is |c - d|^2 + rest. One
  * projection may be used by one thread at a time. */
-void br_exact_projection_apply(struct br_exact_projection *projection, const struct br_exact *exact,
+void br_exact_projection_apply(struct br_exact_projection *projection,
                                const struct br_exact_state *state, double *c, double *rest);
 
 #endif

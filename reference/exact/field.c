@@ -173,65 +173,51 @@ static enum br_status set_space(struct br_oscillators *f, struct br_error *err)
     return status;
 }
 
-static enum br_status create_modes(struct br_oscillators *f, size_t degree,
-                                   const struct br_outline *o, size_t modes, struct br_error *err)
+static enum br_status create_modes(struct br_oscillators *f, const struct br_outline *o,
+                                   size_t modes, struct br_error *err)
 {
     const size_t elements = o->end.count - 1;
-    size_t *terms = br_store_take(&f->store, elements, sizeof *terms);
+    size_t *terms = br_store_take(f->store, elements, sizeof *terms);
     for (size_t e = 0; terms && e < elements; e++)
         terms[e] = br_outline_terms(o, e, modes);
     if (terms)
-        br_pieces_init(&f->modes.pieces, f->length, elements, o->end.at, terms, &f->store);
-    return f->store.failed ? br_no_memory(err, "the modes")
-                           : br_modes_init(&f->modes, degree, &f->store, err);
+        br_pieces_init(&f->modes.pieces, f->length, elements, o->end.at, terms, f->store);
+    return f->store->failed ? br_no_memory(err, "the modes")
+                            : br_modes_init(&f->modes, o->degree, f->store, err);
 }
 
 static enum br_status allocate(struct br_oscillators *f, struct br_error *err)
 {
     const size_t m = f->modes.count;
-    f->mass = br_store_take(&f->store, m, sizeof *f->mass);
-    f->load_space = br_store_take(&f->store, m * (BR_LOAD_TERMS + 1), sizeof *f->load_space);
-    f->displacement = br_store_take(&f->store, m, sizeof *f->displacement);
-    f->velocity = br_store_take(&f->store, m, sizeof *f->velocity);
-    return f->store.failed ? br_no_memory(err, "the modes") : BR_OK;
+    f->mass = br_store_take(f->store, m, sizeof *f->mass);
+    f->load_space = br_store_take(f->store, m * (BR_LOAD_TERMS + 1), sizeof *f->load_space);
+    f->displacement = br_store_take(f->store, m, sizeof *f->displacement);
+    f->velocity = br_store_take(f->store, m, sizeof *f->velocity);
+    return f->store->failed ? br_no_memory(err, "the modes") : BR_OK;
 }
 
 enum br_status br_oscillators_create(struct br_oscillators **out, const struct br_scene *scene,
-                                     size_t degree, const struct br_outline *outline, size_t modes,
-                                     struct br_error *err)
+                                     const struct br_outline *outline, size_t modes,
+                                     struct br_store *store, struct br_error *err)
 {
-    const double power = pow(scene->length, 1 - 2 * (double)degree);
-    *out = NULL;
-    struct br_oscillators *f = br_allocate(1, sizeof *f);
+    struct br_oscillators *f = *out = br_store_take(store, 1, sizeof *f);
     if (!f)
         return br_no_memory(err, "the modes");
+    const double power = pow(scene->length, 1 - 2 * (double)outline->degree);
+    f->store = store;
     f->length = scene->length;
-    f->data = br_exact_data_of(scene, degree);
+    f->data = br_exact_data_of(scene, outline->degree);
     f->fronts = outline->fronts;
     f->damping = f->data.viscosity * power;
     f->stiffness = f->data.stiffness * power;
-    enum br_status status = create_modes(f, degree, outline, modes, err);
+    enum br_status status = create_modes(f, outline, modes, err);
     if (!status)
         status = allocate(f, err);
     for (size_t i = 0; !status && i < f->modes.count; i++)
         f->mass[i] = scene->density * f->length * f->modes.size[i] * f->modes.size[i];
     if (!status)
         status = set_space(f, err);
-    if (!status)
-        status = set_initial(f, err);
-    if (status)
-        br_oscillators_free(f);
-    else
-        *out = f;
-    return status;
-}
-
-void br_oscillators_free(struct br_oscillators *f)
-{
-    if (!f)
-        return;
-    br_store_clear(&f->store);
-    free(f);
+    return status ? status : set_initial(f, err);
 }
 
 /* out[i] += force * tip_i + moment * slope_i / L */

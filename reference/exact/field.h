@@ -72,16 +72,15 @@ struct br_oscillators {
     double *displacement;      /* modes: at t = 0, m */
     double *velocity;          /* modes: at t = 0, m/s */
     double tip_displacement, tip_velocity; /* at t = 0, m, m/s */
-    struct br_store store;
+    struct br_store *store;                /* that it is from */
 };
 
-/* The scene (borrowed, with its functions) must model the field: degree 1 is
- * the axial, 2 the bending field. On the outline's elements, of as many polynomials as it has for
- * `modes`. Fails with BR_NO_MEMORY or BR_SINGULAR. */
+/* *out (owned by the store). The scene (borrowed, with its functions) must model the field. On the
+ * outline's elements, of as many polynomials as it has for `modes`. Fails with BR_NO_MEMORY or
+ * BR_SINGULAR. */
 enum br_status br_oscillators_create(struct br_oscillators **out, const struct br_scene *scene,
-                                     size_t degree, const struct br_outline *outline, size_t modes,
-                                     struct br_error *err);
-void br_oscillators_free(struct br_oscillators *field);
+                                     const struct br_outline *outline, size_t modes,
+                                     struct br_store *store, struct br_error *err);
 
 /* out[i] = load_i(t), N. *size: out, of loads that no product gives, N: what a mode of size 1 gets
  * of them may be wrong by round-off of that. Fails with BR_NO_MEMORY, or BR_BAD_INPUT: too many

@@ -19,6 +19,7 @@ struct br_exact_data {
 struct br_exact_data br_exact_data_of(const struct br_scene *scene, size_t degree);
 
 struct br_outline {
+    size_t degree;         /* of the field: 1 axial, 2 bending */
     struct br_list end;    /* of the elements, m: from 0 to L */
     struct br_breaks jump; /* times inside of (0, T) at which the data jump or bend */
     struct br_list *cell;  /* cells: in each, ends of cells in time, s, that no step may overlook */

@@ -31,7 +31,7 @@ struct br_piecewise {
     struct overlap *overlap;
     size_t overlaps, room;
     double *local; /* workspace: an overlap's coefficients */
-    struct br_store store;
+    struct br_store *store;
 };
 
 /* ---- places, in units of L ---- */
@@ -69,7 +69,7 @@ static enum br_status restrict_inside(struct br_piecewise *w, size_t e, size_t f
         .first = whole ? 0 : (node(w, first) - a) / h,
         .width = whole ? 1 : (node(w, last) - node(w, first)) / h,
     };
-    return br_restriction_create(&in->restriction, &shape, err);
+    return br_restriction_create(&in->restriction, &shape, w->store, err);
 }
 
 /* out (count x s->count) = the orthonormal polynomials of `all` in those of `part` of it. */
@@ -92,9 +92,9 @@ static enum br_status fill_overlap(struct br_piecewise *w, struct overlap *o,
     struct br_store store = {0};
     struct br_subinterval s;
     br_subinterval_init(&s, o->terms, &store);
-    o->series = br_store_take(&w->store, o->terms * o->terms, sizeof *o->series);
-    o->kept = br_store_take(&w->store, kept * o->terms, sizeof *o->kept);
-    const bool failed = store.failed || w->store.failed;
+    o->series = br_store_take(w->store, o->terms * o->terms, sizeof *o->series);
+    o->kept = br_store_take(w->store, kept * o->terms, sizeof *o->kept);
+    const bool failed = store.failed || w->store->failed;
     if (!failed) {
         rewrite(&s, part, piece, o->terms, o->series);
         rewrite(&s, part, element, kept, o->kept);
@@ -108,7 +108,7 @@ static enum br_status add_overlap(struct br_piecewise *w, size_t j, size_t e,
 {
     if (w->overlaps == w->room) {
         const size_t room = 2 * w->room + 16;
-        struct overlap *bigger = br_store_take(&w->store, room, sizeof *bigger);
+        struct overlap *bigger = br_store_take(w->store, room, sizeof *bigger);
         if (!bigger)
             return br_no_memory(err, "a projection");
         if (w->overlaps)
@@ -155,36 +155,19 @@ static enum br_status fill(struct br_piecewise *w, struct br_error *err)
 
 enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_pieces *pieces,
                                    size_t extra, const struct br_exact_mesh *mesh,
-                                   struct br_error *err)
+                                   struct br_store *store, struct br_error *err)
 {
-    *out = NULL;
-    struct br_piecewise *w = br_allocate(1, sizeof *w);
+    struct br_piecewise *w = *out = br_store_take(store, 1, sizeof *w);
     if (!w)
         return br_no_memory(err, "a projection");
-    *w = (struct br_piecewise){.pieces = pieces, .extra = extra, .mesh = *mesh};
-    w->inside = br_store_take(&w->store, pieces->count, sizeof *w->inside);
-    enum br_status status = w->inside ? fill(w, err) : br_no_memory(err, "a projection");
+    *w = (struct br_piecewise){.pieces = pieces, .extra = extra, .mesh = *mesh, .store = store};
+    w->inside = br_store_take(store, pieces->count, sizeof *w->inside);
+    const enum br_status status = w->inside ? fill(w, err) : br_no_memory(err, "a projection");
     size_t most = 1;
     for (size_t i = 0; i < w->overlaps; i++)
         most = w->overlap[i].terms > most ? w->overlap[i].terms : most;
-    w->local = br_store_take(&w->store, most, sizeof *w->local);
-    if (!status && !w->local)
-        status = br_no_memory(err, "a projection");
-    if (status)
-        br_piecewise_free(w);
-    else
-        *out = w;
-    return status;
-}
-
-void br_piecewise_free(struct br_piecewise *w)
-{
-    if (!w)
-        return;
-    for (size_t e = 0; w->inside && e < w->pieces->count; e++)
-        br_restriction_free(w->inside[e].restriction);
-    br_store_clear(&w->store);
-    free(w);
+    w->local = br_store_take(store, most, sizeof *w->local);
+    return status || w->local ? status : br_no_memory(err, "a projection");
 }
 
 /* ---- the application ---- */

@@ -82,9 +82,8 @@ void br_exact_at(const struct br_exact *exact, double t, struct br_exact_state *
 
 /* Refuses (BR_BAD_INPUT) fields that are not modelled, and orders above the
  * field's (1 axial, 2 bending) plus extra. */
-static enum br_status exact_check_part(const struct br_exact *exact,
-                                       const struct br_exact_part *part, size_t extra,
-                                       struct br_error *err)
+static enum br_status check_part(const struct br_exact *exact, const struct br_exact_part *part,
+                                 size_t extra, struct br_error *err)
 {
     const struct br_oscillators *field =
         part->field < BR_EXACT_FIELDS ? exact->solution->field[part->field] : NULL;
@@ -97,24 +96,11 @@ static enum br_status exact_check_part(const struct br_exact *exact,
     return BR_OK;
 }
 
-/* c (out, br_modes_length(0)): coefficients of the part's series (pieces.h); for an order above the
- * field's, of the series that is yet to be derived once, by x / L. */
-static void exact_series(const struct br_exact *exact, const struct br_exact_state *state,
-                         const struct br_exact_part *part, double *c)
-{
-    const struct br_oscillators *field = exact->solution->field[part->field];
-    const size_t degree = field->modes.degree;
-    const size_t order = part->order < degree ? part->order : degree;
-    const size_t length = br_modes_length(&field->modes, order);
-    br_modes_expand(&field->modes, order, state->mode[part->field][part->velocity], c);
-    cblas_dscal((int)length, pow(field->length, -(double)part->order), c, 1);
-}
-
 enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_exact_state *state,
                                  const struct br_exact_part *part, size_t count, const double *x,
                                  double *value, struct br_error *err)
 {
-    const enum br_status status = exact_check_part(exact, part, 1, err);
+    const enum br_status status = check_part(exact, part, 1, err);
     if (status)
         return status;
     const struct br_oscillators *field = exact->solution->field[part->field];
@@ -126,7 +112,10 @@ enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_e
     if (!c)
         return br_no_memory(err, "a series");
     double *p = c + room, *dp = p + room;
-    exact_series(exact, state, part, c);
+    const size_t order = derive ? degree : part->order; /* of the series; it is derived once more */
+    br_modes_expand(&field->modes, order, state->mode[part->field][part->velocity], c);
+    cblas_dscal((int)br_modes_length(&field->modes, order),
+                pow(field->length, -(double)part->order), c, 1);
     for (size_t i = 0; i < count; i++) {
         const size_t e = br_pieces_find(pieces, x[i]), terms = pieces->terms[e] + extra;
         const double h = br_pieces_width(pieces, e), *here = &c[br_pieces_at(pieces, e, extra)];
@@ -274,7 +263,7 @@ static enum br_status projection_init(struct br_exact_projection *p,
         return br_no_memory(err, "a projection");
     expand_modes(p, field, work, work + p->modes);
     return br_piecewise_create(&p->piecewise, &field->modes.pieces,
-                               field->modes.degree - p->part.order, mesh, err);
+                               field->modes.degree - p->part.order, mesh, &p->store, err);
 }
 
 enum br_status br_exact_projection_create(struct br_exact_projection **out,
@@ -283,7 +272,7 @@ enum br_status br_exact_projection_create(struct br_exact_projection **out,
                                           const struct br_exact_mesh *mesh, struct br_error *err)
 {
     *out = NULL;
-    enum br_status status = exact_check_part(exact, part, 0, err);
+    enum br_status status = check_part(exact, part, 0, err);
     if (!status && (!mesh->elements || mesh->degree > 8))
         status = br_fail(err, BR_BAD_INPUT,
                          "%zu elements of degree %zu, expected 1 or more of at most 8",
@@ -306,15 +295,13 @@ void br_exact_projection_free(struct br_exact_projection *p)
 {
     if (!p)
         return;
-    br_piecewise_free(p->piecewise);
     br_store_clear(&p->store);
     free(p);
 }
 
-void br_exact_projection_apply(struct br_exact_projection *p, const struct br_exact *exact,
-                               const struct br_exact_state *state, double *c, double *rest)
+void br_exact_projection_apply(struct br_exact_projection *p, const struct br_exact_state *state,
+                               double *c, double *rest)
 {
-    (void)exact;
     p->combine(p->modes, state->mode[p->part.field][p->part.velocity], p->length, p->expand,
                p->series);
     br_piecewise_apply(p->piecewise, p->series, c, rest);

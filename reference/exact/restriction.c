@@ -102,7 +102,6 @@ struct br_restriction {
     double *local;        /* groups x terms, workspace */
     double *left;         /* length, workspace */
     double *square;       /* terms, workspace */
-    struct br_store store;
 };
 
 /* What the tables are made with. */
@@ -280,31 +279,32 @@ static void fill_fine(struct br_restriction *r, struct br_subinterval *local)
 }
 
 static enum br_status allocate(struct br_restriction *r, size_t terms, struct making *with,
-                               struct br_error *err)
+                               struct br_store *store, struct br_error *err)
 {
     const size_t length = r->shape.length, kept = r->shape.degree + 1;
     r->terms = r->group == 1 ? kept : terms;
-    r->coarse = br_store_take(&r->store, length * r->groups * r->terms, sizeof *r->coarse);
-    r->local = br_store_take(&r->store, r->groups * r->terms, sizeof *r->local);
-    r->left = br_store_take(&r->store, length, sizeof *r->left);
-    r->square = br_store_take(&r->store, r->terms, sizeof *r->square);
+    r->coarse = br_store_take(store, length * r->groups * r->terms, sizeof *r->coarse);
+    r->local = br_store_take(store, r->groups * r->terms, sizeof *r->local);
+    r->left = br_store_take(store, length, sizeof *r->left);
+    r->square = br_store_take(store, r->terms, sizeof *r->square);
     if (r->group > 1)
-        r->fine = br_store_take(&r->store, r->terms * r->group * kept, sizeof *r->fine);
+        r->fine = br_store_take(store, r->terms * r->group * kept, sizeof *r->fine);
     br_subinterval_init(&with->local, terms, &with->store);
     remainder_init(&with->group, terms, terms > kept ? terms - kept : 0, &with->store);
     remainder_init(&with->all, length, terms, &with->store);
-    return r->store.failed || with->store.failed ? br_no_memory(err, "a projection") : BR_OK;
+    return store->failed || with->store.failed ? br_no_memory(err, "a projection") : BR_OK;
 }
 
-static enum br_status fill(struct br_restriction *r, struct making *with, struct br_error *err)
+static enum br_status fill(struct br_restriction *r, struct making *with, struct br_store *store,
+                           struct br_error *err)
 {
     const size_t length = r->shape.length;
     br_subinterval_init(&with->series, length, &with->store);
-    r->rest = br_store_take(&r->store, length * length, sizeof *r->rest);
+    r->rest = br_store_take(store, length * length, sizeof *r->rest);
     if (with->store.failed || !r->rest)
         return br_no_memory(err, "a projection");
     const size_t terms = count_terms(r, &with->series, r->rest);
-    const enum br_status status = allocate(r, terms, with, err);
+    const enum br_status status = allocate(r, terms, with, store, err);
     if (status)
         return status;
     fill_coarse(r, &with->series);
@@ -314,10 +314,10 @@ static enum br_status fill(struct br_restriction *r, struct making *with, struct
 }
 
 enum br_status br_restriction_create(struct br_restriction **out,
-                                     const struct br_restriction_shape *shape, struct br_error *err)
+                                     const struct br_restriction_shape *shape,
+                                     struct br_store *store, struct br_error *err)
 {
-    struct br_restriction *r = br_allocate(1, sizeof *r);
-    *out = r;
+    struct br_restriction *r = *out = br_store_take(store, 1, sizeof *r);
     if (!r)
         return br_no_memory(err, "a projection");
     r->shape = *shape;
@@ -325,21 +325,9 @@ enum br_status br_restriction_create(struct br_restriction **out,
     r->group = choose_group(shape);
     r->groups = (shape->elements + r->group - 1) / r->group;
     struct making with = {0};
-    const enum br_status status = fill(r, &with, err);
+    const enum br_status status = fill(r, &with, store, err);
     br_store_clear(&with.store);
-    if (status) {
-        br_restriction_free(r);
-        *out = NULL;
-    }
     return status;
-}
-
-void br_restriction_free(struct br_restriction *r)
-{
-    if (!r)
-        return;
-    br_store_clear(&r->store);
-    free(r);
 }
 
 /* ---- the application ---- */

@@ -31,11 +31,10 @@ struct br_restriction_shape {
     long double first, width; /* the part: [first, first + width]; 0 and 1 for all */
 };
 
-/* *out (owned by the caller). Fails with BR_NO_MEMORY or BR_SINGULAR. */
+/* *out (owned by the store). Fails with BR_NO_MEMORY or BR_SINGULAR. */
 enum br_status br_restriction_create(struct br_restriction **out,
                                      const struct br_restriction_shape *shape,
-                                     struct br_error *err);
-void br_restriction_free(struct br_restriction *restriction);
+                                     struct br_store *store, struct br_error *err);
 
 /* c (out, elements x (degree + 1)): coefficients of the Legendre polynomials that are
  * orthonormal on each element. *rest (out): the square of the L2 norm of what these leave out of
@@ -46,12 +45,12 @@ void br_restriction_apply(struct br_restriction *restriction, const double *seri
 /* The L2 projection of a series on the elements of pieces.h on polynomials on equal elements. */
 struct br_piecewise;
 
-/* *out (owned by the caller). Series have `extra` more terms. Fails with BR_NO_MEMORY or
- * BR_SINGULAR. */
+/* *out (owned by the store). Series have `extra` more terms. Fails with BR_NO_MEMORY or
+ * BR_SINGULAR.
+ */
 enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_pieces *pieces,
                                    size_t extra, const struct br_exact_mesh *mesh,
-                                   struct br_error *err);
-void br_piecewise_free(struct br_piecewise *piecewise);
+                                   struct br_store *store, struct br_error *err);
 
 /* c and rest as br_exact_projection_apply has them. For one thread at a time. */
 void br_piecewise_apply(struct br_piecewise *piecewise, const double *series, double *c,

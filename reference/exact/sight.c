@@ -58,20 +58,31 @@ static double magnitude(struct br_interval v)
     return fmax(fabs(v.low), fabs(v.high));
 }
 
-static struct br_interval *side(struct br_box *box, enum br_variable along)
+static struct br_interval along(const struct br_box *box, enum br_variable v)
 {
-    return along == BR_X ? &box->x : &box->t;
+    return v == BR_X ? box->x : box->t;
 }
 
-double br_sight_error(const struct br_function *f, enum br_variable along, struct br_box box,
+static double width(struct br_interval i)
+{
+    return i.high - i.low;
+}
+
+static void halve(struct br_box box, enum br_variable v, struct br_box half[2])
+{
+    const struct br_interval i = along(&box, v);
+    half[0] = half[1] = box;
+    br_side(&half[0], v)->high = br_side(&half[1], v)->low = i.low + width(i) / 2;
+}
+
+double br_sight_error(const struct br_function *f, enum br_variable v, struct br_box box,
                       size_t degree)
 {
     struct br_interval coefficient[17];
-    const struct br_interval here = *side(&box, along);
-    if (!br_function_taylor(f, along, box, degree + 1, coefficient))
+    if (!br_function_taylor(f, v, box, degree + 1, coefficient))
         return INFINITY;
-    const double error = 2 * magnitude(coefficient[degree + 1]) *
-                         pow((here.high - here.low) / 4, (double)degree + 1);
+    const double error =
+        2 * magnitude(coefficient[degree + 1]) * pow(width(along(&box, v)) / 4, (double)degree + 1);
     return isnan(error) ? INFINITY : error;
 }
 
@@ -119,10 +130,8 @@ double br_sight_mean(const struct br_function *f, struct br_box whole)
         const double x = box.x.high - box.x.low, t = box.t.high - box.t.low;
         const bool along_x =
             x > 0 && !(t / (whole.t.high - whole.t.low) > x / (whole.x.high - whole.x.low));
-        struct br_box half[2] = {box, box};
-        const struct br_interval cut = along_x ? box.x : box.t;
-        side(&half[0], along_x ? BR_X : BR_T)->high = cut.low + (cut.high - cut.low) / 2;
-        side(&half[1], along_x ? BR_X : BR_T)->low = cut.low + (cut.high - cut.low) / 2;
+        struct br_box half[2];
+        halve(box, along_x ? BR_X : BR_T, half);
         share[worst] = share_of(f, half[0]);
         share[count++] = share_of(f, half[1]);
     }
@@ -149,19 +158,20 @@ static enum br_status too_fine(const struct survey *s, double place)
 static enum br_status survey(const struct survey *s, struct br_box box)
 {
     struct br_sight *sight = s->sight;
-    struct br_interval value = {0, 0}, here = *side(&box, s->along);
-    const double width = here.high - here.low, middle = here.low + width / 2;
+    const struct br_interval here = along(&box, s->along);
+    struct br_interval value = {0, 0};
+    const double middle = here.low + width(here) / 2;
     const bool bounded = br_function_bound(sight->f, box, &value);
     const double size = fmax(magnitude(value), sight->mean);
-    const double unseen = width * (value.high - value.low);
-    const bool narrow = !(width > sight->least && here.low < middle && middle < here.high);
+    const double unseen = width(here) * (value.high - value.low);
+    const bool narrow = !(width(here) > sight->least && here.low < middle && middle < here.high);
     if (narrow && !bounded)
         return br_must_be_finite(sight->f, box, s->err);
     if (!bounded || !(br_sight_error(sight->f, s->along, box, sight->degree[s->along]) <=
                       BR_SIGHT_TOLERANCE * size)) {
         if (!narrow && !(bounded && unseen <= sight->most_missed)) {
-            struct br_box half[2] = {box, box};
-            side(&half[0], s->along)->high = side(&half[1], s->along)->low = middle;
+            struct br_box half[2];
+            halve(box, s->along, half);
             const enum br_status status = survey(s, half[0]);
             return status ? status : survey(s, half[1]);
         }
@@ -172,10 +182,10 @@ static enum br_status survey(const struct survey *s, struct br_box box)
     return here.high < s->end ? br_list_add(s->ends, here.high, s->err) : BR_OK;
 }
 
-enum br_status br_sight_along(struct br_sight *sight, enum br_variable along, struct br_box box,
+enum br_status br_sight_along(struct br_sight *sight, enum br_variable v, struct br_box box,
                               struct br_list *ends, struct br_error *err)
 {
-    const struct survey s = {sight, along, side(&box, along)->high, ends, err};
+    const struct survey s = {sight, v, along(&box, v).high, ends, err};
     return survey(&s, box);
 }
 
@@ -190,16 +200,6 @@ struct cover {
     size_t boxes;
     struct br_error *err;
 };
-
-static struct br_interval along(const struct br_box *box, enum br_variable v)
-{
-    return v == BR_X ? box->x : box->t;
-}
-
-static double width(struct br_interval i)
-{
-    return i.high - i.low;
-}
 
 /* A guard goes through the box, which is not halved any more: how much more than its values at
  * some places the function may take there. */
@@ -233,15 +233,6 @@ static enum br_status add_ends(struct cover *c, const struct br_box *box)
 }
 
 static enum br_status cover(struct cover *c, struct br_box box);
-
-static void halve(struct br_box box, enum br_variable v, struct br_box half[2])
-{
-    const struct br_interval i = along(&box, v);
-    const double middle = i.low + width(i) / 2;
-    half[0] = half[1] = box;
-    *(v == BR_X ? &half[0].x.high : &half[0].t.high) = middle;
-    *(v == BR_X ? &half[1].x.low : &half[1].t.low) = middle;
-}
 
 /* Covers both halves along v; ends: they are cells. */
 static enum br_status cover_halves(struct cover *c, struct br_box box, enum br_variable v,

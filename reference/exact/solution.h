@@ -10,6 +10,7 @@ struct br_exact_solution {
     struct br_oscillators *field[BR_EXACT_FIELDS];
     struct br_law law[BR_EXACT_FIELDS];
     struct br_history *track[BR_EXACT_FIELDS];
+    struct br_store store; /* of the fields */
 };
 
 struct br_exact {

@@ -212,7 +212,7 @@ static enum br_status mms_advance(void *self, enum br_field_kind kind, size_t i,
     return BR_OK;
 }
 
-static void mms_look(void *self, const struct br_look_at *at, struct br_view *view)
+static void mms_sample(void *self, const struct br_sample_at *at, struct br_view *view)
 {
     struct mms_judge *j = self;
     const double start = br_seconds();
@@ -259,7 +259,7 @@ const struct br_judge br_judge_mms = {
     .create = mms_create,
     .free = mms_free,
     .advance = mms_advance,
-    .look = mms_look,
+    .sample = mms_sample,
     .report = mms_report,
     .tell = mms_tell,
 };

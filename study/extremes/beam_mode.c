@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "reference/elements.h"
+#include "reference/textbook.h"
 
 /* ---- the matrices ---- */
 

@@ -31,7 +31,7 @@ static enum br_status start_checks(void *self, struct br_march *march, struct br
     enum br_status status =
         report->summed
             ? br_energy_meter_create(&r->meter, march, &report->marched, &report->method, err)
-            : br_energy_look(march, &report->marched, &report->energy_start, err);
+            : br_energy_sample(march, &report->marched, &report->energy_start, err);
     if (!status && report->checked)
         status =
             br_step_checker_create(&r->witness, march, &report->marched, &r->report->method, err);
@@ -147,7 +147,7 @@ static enum br_status read_energies(struct run *r, const struct br_march *march,
         return BR_OK;
     p->at_end = true;
     if (!p->summed)
-        return br_energy_look(march, &p->marched, &p->energy_now, err);
+        return br_energy_sample(march, &p->marched, &p->energy_now, err);
     br_energy_meter_read(r->meter, &p->energy_start, &p->energy_now, &p->work);
     return BR_OK;
 }
