@@ -356,40 +356,32 @@ struct br_certificate br_certify(const struct br_step *s)
 
 /* ---- verdicts ---- */
 
-static const struct {
-    const char *what;
-    size_t offset;
-} entries[] = {
-    {"the residual of the axial equation (27)", offsetof(struct br_certificate, axial_residual)},
-    {"the residual of the bending equation (28)",
-     offsetof(struct br_certificate, bending_residual)},
-    {"the update of the displacement", offsetof(struct br_certificate, update)},
-    {"the distance from the friction law (12)", offsetof(struct br_certificate, friction)},
-    {"the distance from the contact law (10)", offsetof(struct br_certificate, contact)},
+static const char *const entries[BR_CERTIFICATE_ENTRIES] = {
+    "the residual of the axial equation (27)", "the residual of the bending equation (28)",
+    "the update of the displacement",          "the distance from the friction law (12)",
+    "the distance from the contact law (10)",
 };
-enum { ENTRIES = sizeof entries / sizeof *entries };
 
 static double entry(const struct br_certificate *c, size_t i)
 {
-    return *(const double *)((const char *)c + entries[i].offset);
+    return (&c->axial_residual)[i];
 }
 
 enum br_status br_certificate_check(const struct br_certificate *certificate,
                                     const struct br_certificate *limits, struct br_error *err)
 {
-    for (size_t i = 0; i < ENTRIES; i++)
+    for (size_t i = 0; i < BR_CERTIFICATE_ENTRIES; i++)
         if (!(entry(certificate, i) <= entry(limits, i)))
-            return br_fail(err, BR_VERDICT, "%s is %.3g, expected at most %.3g", entries[i].what,
+            return br_fail(err, BR_VERDICT, "%s is %.3g, expected at most %.3g", entries[i],
                            entry(certificate, i), entry(limits, i));
     return BR_OK;
 }
 
 void br_certificate_merge(struct br_certificate *worst, const struct br_certificate *other)
 {
-    for (size_t i = 0; i < ENTRIES; i++) {
-        double *value = (double *)((char *)worst + entries[i].offset);
-        *value = br_worse_of(*value, entry(other, i));
-    }
+    double *value = br_certificate_entries(worst);
+    for (size_t i = 0; i < BR_CERTIFICATE_ENTRIES; i++)
+        value[i] = br_worse_of(value[i], entry(other, i));
 }
 
 /* Of an adaptive step that ends at a switch, relative to the tip's force or way; seen are 7e-14. */

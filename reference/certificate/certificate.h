@@ -36,6 +36,13 @@ struct br_certificate {
     double contact; /* force - c_H (u - g)_+ at u_{n-1} or u_n, relative to the force, and to
                        c_H times displacements and the way that the force alone makes */
 };
+enum { BR_CERTIFICATE_ENTRIES = sizeof(struct br_certificate) / sizeof(double) };
+
+/* Its numbers, one after the other. */
+static inline double *br_certificate_entries(struct br_certificate *certificate)
+{
+    return &certificate->axial_residual;
+}
 
 /* Nodal values of one field around a step, or of Z and a stage, laid out as in solver/field.h. */
 struct br_step_field {

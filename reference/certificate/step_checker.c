@@ -140,20 +140,19 @@ static double largest_of(const double remembered[REMEMBERED])
 static struct br_certificate excess_of(const struct br_step_checker *w, enum br_field_kind kind)
 {
     const struct br_method *method = w->seen.method;
-    const struct br_certificate *then = &w->limits;
-    const struct br_certificate now =
+    struct br_certificate then = w->limits;
+    struct br_certificate now =
         br_certificate_limits(method->scheme, w->seen.n, br_march_round_off(w->march));
     const double own =
         method->solver->residual
             ? method->solver->residual(br_march_field(w->march, kind), &method->linear)
             : 0;
-    return (struct br_certificate){
-        .axial_residual = fmax(1, (now.axial_residual + own) / then->axial_residual),
-        .bending_residual = fmax(1, (now.bending_residual + own) / then->bending_residual),
-        .update = fmax(1, now.update / then->update),
-        .friction = fmax(1, now.friction / then->friction),
-        .contact = fmax(1, now.contact / then->contact),
-    };
+    now.axial_residual += own;
+    now.bending_residual += own;
+    double *excess = br_certificate_entries(&now), *first = br_certificate_entries(&then);
+    for (size_t i = 0; i < BR_CERTIFICATE_ENTRIES; i++)
+        excess[i] = fmax(1, excess[i] / first[i]);
+    return now;
 }
 
 /* What the mass adds to the predicted round-off of a field, at the stage's tau. */
@@ -165,15 +164,6 @@ static double inertia_round_off(const struct br_step_checker *w, enum br_field_k
     massless.density = 0;
     return method->solver->round_off(field, &method->linear) -
            method->solver->round_off(&massless, &method->linear);
-}
-
-static void divide(struct br_certificate *c, const struct br_certificate *by)
-{
-    c->axial_residual /= by->axial_residual;
-    c->bending_residual /= by->bending_residual;
-    c->update /= by->update;
-    c->friction /= by->friction;
-    c->contact /= by->contact;
 }
 
 static struct br_certificate certify(struct br_step_checker *w, const struct br_march_stage *told,
@@ -199,11 +189,12 @@ static struct br_certificate certify(struct br_step_checker *w, const struct br_
     /* The axial field lends its size to the bound's round-off. */
     if (told->kind == BR_BENDING)
         step.field[BR_AXIAL] = lately(&seen->field[BR_AXIAL]);
-    const struct br_certificate excess = excess_of(w, told->kind);
+    struct br_certificate excess = excess_of(w, told->kind);
     struct br_certificate c = br_certify_field(&step, told->kind);
     double *size = &w->size[told->kind][seen->field[told->kind].steps % REMEMBERED];
     *size = br_worse_of(size_now[told->kind], *size);
-    divide(&c, &excess);
+    for (size_t i = 0; i < BR_CERTIFICATE_ENTRIES; i++)
+        br_certificate_entries(&c)[i] /= br_certificate_entries(&excess)[i];
     double distance[BR_MOST_BRANCHES];
     const int branches =
         seen->method->scheme->adaptive ? br_branch_distances(&step, told->kind, distance) : 0;

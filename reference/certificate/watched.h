@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A march as somebody sees it who looks at each stage (br_march_watch) and knows the scheme from
+/* A march as somebody sees it who samples each stage (br_march_watch) and knows the scheme from
  * textbook.h: the states of the step so far, and which row of the textbook each of them is. */
 #ifndef BR_REFERENCE_CERTIFICATE_WATCHED_H
 #define BR_REFERENCE_CERTIFICATE_WATCHED_H
@@ -52,7 +52,7 @@ struct br_watched {
     double *memory;
 };
 
-/* Looks at a march at t = 0; it, its scene and the method must outlive the watched. Fails with
+/* Samples a march at t = 0; it, its scene and the method must outlive the watched. Fails with
  * BR_BAD_INPUT where the scheme is not in textbook.h, with BR_NO_MEMORY; clear it even then. */
 enum br_status br_watched_init(struct br_watched *watched, const struct br_march *march,
                                const struct br_scene *scene, const struct br_method *method,
@@ -63,7 +63,7 @@ void br_watched_clear(struct br_watched *watched);
 const struct br_textbook *br_watched_textbook(const struct br_watched *watched,
                                               enum br_field_kind kind);
 
-/* Looks at a stage: its state, rates of change and load. Returns tau, s; NAN where the textbook's
+/* Samples a stage: its state, rates of change and load. Returns tau, s; NAN where the textbook's
  * step has no such row. */
 long double br_watched_stage(struct br_watched *watched, const struct br_march_stage *told);
 

@@ -92,7 +92,7 @@ void br_energy_meter_free(struct br_energy_meter *meter); /* accepts NULL */
  * that is not of the textbook. */
 double br_energy_meter_step(struct br_energy_meter *meter);
 
-/* When it was created, at its last look, and between. */
+/* When it was created, at its last step, and between. */
 void br_energy_meter_read(const struct br_energy_meter *meter, struct br_energy *start,
                           struct br_energy *now, struct br_work *work);
 

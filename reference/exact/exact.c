@@ -14,7 +14,7 @@ struct fineness {
 
 enum { FIRST_MODES = 12, LEAST_MODES = 18 };
 
-/* Some 20 seconds of a core, see effort.h. */
+/* Some 20 seconds of a core, see br_effort. */
 static const double most_work = 1.4e7;
 
 static struct br_exact_options with_defaults(const struct br_exact_options *options)

@@ -44,7 +44,7 @@ size_t br_modes_length(const struct br_modes *modes, size_t order);
  * sum_i q_i mode_i in x / L, order <= degree. */
 void br_modes_expand(const struct br_modes *modes, size_t order, const double *q, double *c);
 
-/* out[i] = integral of f(x, t) mode_i(x) over x / L in [0, 1]; fronts as in quadrature.h. For one
+/* out[i] = integral of f(x, t) mode_i(x) over x / L in [0, 1]; fronts as in pieces.h. For one
  * thread at a time. Fails with BR_NO_MEMORY. */
 enum br_status br_modes_load(const struct br_modes *modes, const struct br_function *f, double t,
                              struct br_places fronts, double *out, struct br_error *err);
@@ -88,7 +88,7 @@ enum br_status br_oscillators_create(struct br_oscillators **out, const struct b
 enum br_status br_oscillators_load(const struct br_oscillators *field, double t, double *out,
                                    double *size, struct br_error *err);
 
-/* What a step costs in the units of effort.h: its modes, and loads that no product gives. */
+/* What a step costs in the units of br_effort: its modes, and loads that no product gives. */
 double br_oscillators_work(const struct br_oscillators *field);
 
 /* L2 norm over the beam of sum_i q_i mode_i, with q at every `stride`-th place. */

@@ -53,7 +53,7 @@ struct br_stepper {
     double free_size;       /* m^(3/2)/s: mean velocity in L2 as if the tip were free: where a tip
                                force cancels it, its round-off is what remains */
 
-    double work; /* of the trial steps, see effort.h; whoever reads it sets it to zero */
+    double work; /* of the trial steps, see br_effort; whoever reads it sets it to zero */
 
     double length;    /* s, of the step that the responses are for */
     double *response; /* modes x BR_STAGES x BR_STAGES: velocity over force, m/(N s) */
