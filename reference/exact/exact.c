@@ -339,7 +339,7 @@ static enum br_status search(struct br_exact *exact, const struct br_scene *scen
         .exact = exact,
         .scene = scene,
         .o = o,
-        .effort = {0, most_work, o->stop, o->stop_self, o->progress, o->stop_self},
+        .effort = {.most = most_work, .who = o},
         .worst = INFINITY,
         .worst_before = INFINITY,
     };

@@ -9,6 +9,21 @@
 
 enum { S = BR_STAGES, SAMPLES = 24, MAX_ROOT_STEPS = 60, MAX_PHASES_AT_ONCE = 4 };
 
+enum br_status br_effort_spend(struct br_effort *effort, double work, struct br_error *err)
+{
+    const struct br_exact_options *who = effort->who;
+    effort->done += work;
+    if (who->stop && who->stop(who->stop_self))
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (who->progress)
+        who->progress(who->stop_self, effort->done / effort->most);
+    if (!(effort->done <= effort->most))
+        return br_fail(
+            err, BR_NOT_FINITE,
+            "more work than is allowed, some 20 s of a core, does not make two solutions agree");
+    return BR_OK;
+}
+
 /* A guard this far below zero, of the largest value so far, is round-off. */
 static const double dead_band = 1e-13;
 
