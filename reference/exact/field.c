@@ -141,7 +141,7 @@ enum br_status br_modes_project_energy(const struct br_modes *modes, const struc
     return status;
 }
 
-/* ==== the field on its modes ==== */
+/* ---- the field on its modes ---- */
 
 static enum br_status set_initial(struct br_oscillators *f, struct br_error *err)
 {

@@ -102,7 +102,7 @@ void br_legendre_integrate(size_t count, double *c)
     }
 }
 
-/* ==== Radau IIA ==== */
+/* ---- Radau IIA ---- */
 
 enum { S = BR_STAGES };
 

@@ -5,7 +5,7 @@
 #include <math.h>
 
 /* Degrees of what stands for the data: on an element, and over a Radau step. */
-enum { SPACE_DEGREE = 15, TIME_DEGREE = 8, MOST_ELEMENTS = 400, MOST_CELLS = 20000 };
+enum { SPACE_DEGREE = 15, TIME_DEGREE = 8, MOST_CELLS = 20000 };
 
 /* Functions of x and of t that the field depends on. */
 enum { MOST = 2 * BR_LOAD_TERMS + 2 };

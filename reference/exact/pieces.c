@@ -63,7 +63,7 @@ void br_pieces_integrate(const struct br_pieces *p, size_t extra, double *c)
     }
 }
 
-/* ==== Gauss's rule on each element ==== */
+/* ---- Gauss's rule on each element ---- */
 
 /* At least twice as many points as a product of polynomials needs. GSL knows the
  * rules with these powers of two to all digits, others to 1e-10 only. */

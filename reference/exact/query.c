@@ -128,7 +128,7 @@ enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_e
     return BR_OK;
 }
 
-/* ==== shared solutions ==== */
+/* ---- shared solutions ---- */
 
 /* A scene is known by its address, which is its own as long as somebody has the solution. */
 struct loan {
@@ -221,7 +221,7 @@ void br_exact_give_back(const struct br_exact *exact)
     free(last);
 }
 
-/* ==== projections ==== */
+/* ---- projections ---- */
 
 struct br_exact_projection {
     struct br_exact_part part;

@@ -41,7 +41,7 @@ void br_subinterval_move(struct br_subinterval *v, long double first, long doubl
     }
 }
 
-/* ==== what is left out, as a triangle ==== */
+/* ---- what is left out, as a triangle ---- */
 
 /* |A c|^2 for a tall matrix A that comes in blocks, as |R c|^2 with a triangle: A = Q R. */
 struct remainder {

@@ -170,7 +170,7 @@ enum br_status br_law_force(const struct br_law *law, const struct br_radau *rad
     return BR_OK;
 }
 
-/* ==== the history ==== */
+/* ---- the history ---- */
 
 enum br_status br_history_create(struct br_history **out, size_t modes, double gap,
                                  struct br_error *err)

@@ -37,7 +37,8 @@ enum br_status br_given_check(const struct br_given *solution, struct br_error *
 enum br_status br_stick_check(const struct br_scene *scene, const struct br_function *u,
                               const struct br_function *velocity, struct br_error *err);
 
-/* The tip forces that make a given solution fulfil the laws (8), (10), (11), (12). */
+/* ---- the tip forces that make a given solution fulfil the laws (8), (10), (11), (12) ---- */
+
 /* What a tip force is made of: functions of t. */
 struct br_tip_parts {
     struct br_function stress;   /* N: a1 u_x + c1 u_xt, or -(a2 w_xxx + c2 w_xxxt) */
@@ -64,7 +65,8 @@ enum br_status br_tip_bending(struct br_tip_parts *parts, struct br_function *f,
 /* The friction bound b(t), N, of a solution whose tip is at u, m. */
 double br_tip_bound(const struct br_contact *contact, const struct br_friction *friction, double u);
 
-/* A derivative of a given solution in the orthonormal Legendre modes of solver/modes.h. */
+/* ---- its derivatives in the orthonormal Legendre modes of solver/modes.h ---- */
+
 enum { BR_PROJECTION_MOST_KEPT = 8 };
 
 /* What is projected: d^x/dx^x of the displacement, or of the velocity, and how many modes
