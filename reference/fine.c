@@ -70,7 +70,7 @@ static enum br_status fine_advance(void *self, enum br_field_kind kind, size_t i
 }
 
 /* Its own mesh is the only one. */
-static void fine_look(void *self, const struct br_look_at *at, struct br_view *view)
+static void fine_sample(void *self, const struct br_sample_at *at, struct br_view *view)
 {
     const struct fine *f = self;
     br_look(f->march[at->kind], at->kind, at->measure, view);
@@ -116,7 +116,7 @@ const struct br_judge br_judge_fine = {
     .create = fine_create,
     .free = fine_free,
     .advance = fine_advance,
-    .look = fine_look,
+    .sample = fine_sample,
     .report = fine_report,
     .tell = fine_tell,
 };

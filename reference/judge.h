@@ -13,12 +13,12 @@ struct br_judge_request {
     const struct br_scene *scene;  /* must outlive the judge */
     struct br_method method;       /* fine only */
     size_t n;                      /* fine only: its elements */
-    int axial_degree;              /* of the elements whose modes it will be looked at in */
+    int axial_degree;              /* of the elements whose modes it will be sampled in */
     size_t levels;                 /* time levels after t = 0; for fine, its steps */
     size_t lead;                   /* time levels that the axial field may be ahead by */
     bool modest;                   /* exact only: give up where it takes more than moderate work */
-    bool measured[2][BR_MEASURES]; /* by br_field_kind: what it will be looked at for */
-    size_t mesh_count;             /* the meshes that it will be looked at on */
+    bool measured[2][BR_MEASURES]; /* by br_field_kind: what it will be sampled for */
+    size_t mesh_count;             /* the meshes that it will be sampled on */
     const size_t *mesh;            /* mesh_count, elements; borrowed during create */
     bool (*stop)(void *self);      /* true: give up soon, with BR_INTERRUPTED; may be NULL */
     void *stop_self;
@@ -36,8 +36,8 @@ struct br_judge_report {
     bool unstable;                    /* br_march_contact_unstable, of a fine run */
 };
 
-/* What a judge is looked at for. */
-struct br_look_at {
+/* What a judge is sampled for. */
+struct br_sample_at {
     enum br_field_kind kind;
     enum br_measure measure;
     size_t mesh; /* an index into the request's meshes */
@@ -62,7 +62,7 @@ struct br_judge {
 
     /* A measure of the solution there, on the mesh of that index. view: out, and the values where
      * its values point to; the tip has one, in m. */
-    void (*look)(void *self, const struct br_look_at *at, struct br_view *view);
+    void (*sample)(void *self, const struct br_sample_at *at, struct br_view *view);
 
     struct br_judge_report (*report)(const void *self);
 

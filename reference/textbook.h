@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Time schemes as the literature prints them, written down apart from solver/scheme.c, for the
- * certificate to judge it by. */
+/* Time schemes and element matrices as the literature prints them, written down apart from the
+ * solver, for all who judge it. */
 #ifndef BR_REFERENCE_TEXTBOOK_H
 #define BR_REFERENCE_TEXTBOOK_H
 
@@ -21,5 +21,14 @@ struct br_textbook {
 /* The step of a scheme by its name, `since` steps after t = 0 or after the last switch. NULL: a
  * scheme that is not known here. */
 const struct br_textbook *br_textbook_step(const char *scheme, size_t since);
+
+/* Element matrices. The unknowns are u at the nodes of a rod, from begin to end, and (w, h w_x) at
+ * both of a beam. */
+extern const int br_rod_mass[2][2];       /* over rho h / 6 */
+extern const int br_rod3_mass[3][3];      /* of three nodes, over rho h / 30 */
+extern const int br_beam_mass[4][4];      /* over rho h / 420 */
+extern const int br_rod_stiffness[2][2];  /* over 1 / h */
+extern const int br_rod3_stiffness[3][3]; /* over 1 / (3 h) */
+extern const int br_beam_stiffness[4][4]; /* over 1 / h^3 */
 
 #endif

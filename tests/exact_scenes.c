@@ -110,7 +110,7 @@ double square_of(const struct br_exact *exact, const struct br_exact_state *stat
     const struct br_exact_mesh mesh = {.elements = 1, .degree = 3};
     double c[4], square = NAN;
     assert_int_equal(br_exact_projection_create(&projection, exact, &part, &mesh, NULL), BR_OK);
-    br_exact_projection_apply(projection, exact, state, c, &square);
+    br_exact_projection_apply(projection, state, c, &square);
     br_exact_projection_free(projection);
     for (size_t i = 0; i < 4; i++)
         square += c[i] * c[i];

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "reference/certificate.h"
+#include "reference/certificate/certificate.h"
 #include "study/grid/ladder.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
@@ -62,18 +62,18 @@ struct march_data {
     struct br_method method;
 };
 
-/* A march, a witness, and two steps: the load in x and t allocates in each. */
+/* A march, a step checker, and two steps: the load in x and t allocates in each. */
 static enum br_status march(const void *data, struct br_error *err)
 {
     const struct march_data *d = data;
     struct br_march *m = NULL;
-    struct br_witness *witness = NULL;
+    struct br_step_checker *checker = NULL;
     enum br_status status = br_march_create(&m, &d->scene, 4, 5, &d->method, err);
     if (!status)
-        status = br_witness_create(&witness, m, &d->scene, &d->method, err);
+        status = br_step_checker_create(&checker, m, &d->scene, &d->method, err);
     for (int i = 0; i < 2 && !status; i++)
         status = br_march_step(m, err);
-    br_witness_free(witness);
+    br_step_checker_free(checker);
     br_march_free(m);
     return status;
 }

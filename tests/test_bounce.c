@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "reference/energy.h"
+#include "reference/energy/energy.h"
 #include "study/foresee/warnings.h"
 #include "study/run/model.h"
 #include "study/scene/file.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "reference/certificate.h"
+#include "reference/certificate/certificate.h"
 #include "support.h"
 
 enum { N = 20, BENDING = 2 * (N + 1), AXIAL = N + 1 };

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "reference/certificate.h"
+#include "reference/certificate/certificate.h"
 #include "study/scene/file.h"
 #include "support.h"
 
@@ -214,21 +214,21 @@ static void certify(const struct br_scene *s, const char *name, const struct br_
 {
     enum { N = 24, STEPS = 50 };
     struct br_error err = {0};
-    struct br_witness *witness;
+    struct br_step_checker *checker;
     if (!goes(s, N, STEPS, method))
         return;
     struct br_march *march = br_test_march(s, N, STEPS, method);
     const struct br_certificate limits = br_certificate_limits(
         method->scheme, N, br_test_slack() * one_sided * br_march_round_off(march));
-    MUST(br_witness_create(&witness, march, s, method, &err));
+    MUST(br_step_checker_create(&checker, march, s, method, &err));
     for (size_t step = 1; step <= STEPS; step++) {
         br_test_advance(march, step);
-        const struct br_certificate c = br_witness_step(witness);
+        const struct br_certificate c = br_step_checker_step(checker);
         if (br_certificate_check(&c, &limits, &err))
             fail_msg("%s, %s, %s, rounding %s, step %zu: %s", name, method->solver->name,
                      method->scheme->name, mode, step, err.message);
     }
-    br_witness_free(witness);
+    br_step_checker_free(checker);
     br_march_free(march);
 }
 

@@ -12,7 +12,7 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "reference/exact/shared.h"
+#include "reference/exact/exact.h"
 #include "tests/exact_scenes.h"
 
 /* Coefficients and remainder on one element, by plain quadrature. */
@@ -51,7 +51,7 @@ static void check_projection(const struct br_exact *exact, const struct br_exact
     assert_true(elements * (degree + 1) <= sizeof c / sizeof *c);
     const double scale = sqrt(square_of(exact, state, part) / (double)elements);
     assert_int_equal(br_exact_projection_create(&projection, exact, &part, &mesh, NULL), BR_OK);
-    br_exact_projection_apply(projection, exact, state, c, &rest);
+    br_exact_projection_apply(projection, state, c, &rest);
     for (size_t e = 0; e < elements; e++) {
         const double ends[] = {(double)e / (double)elements, (double)(e + 1) / (double)elements};
         double expected[64];

@@ -54,9 +54,9 @@ static double net_power(double t, void *data)
     double sum = -p->state->friction_force * p->state->tip[BR_EXACT_BENDING].velocity;
     for (size_t i = 0; i < 2; i++) {
         double mean, rest, factor;
-        br_exact_projection_apply(p->strain[i], p->exact, p->state, &mean, &rest);
+        br_exact_projection_apply(p->strain[i], p->state, &mean, &rest);
         sum -= viscosity[i] * (mean * mean + rest);
-        br_exact_projection_apply(p->rate[i], p->exact, p->state, &mean, &rest);
+        br_exact_projection_apply(p->rate[i], p->state, &mean, &rest);
         br_function_evaluate(&load[i]->term[0].time, 1, &t, t, &factor);
         sum += factor * load[i]->term[0].space.constant * mean * sqrt(p->scene->length);
     }

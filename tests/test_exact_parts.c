@@ -9,11 +9,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "reference/exact/field.h"
 #include "reference/exact/legendre.h"
-#include "reference/exact/modes.h"
-#include "reference/exact/piecewise.h"
-#include "reference/exact/quadrature.h"
-#include "reference/exact/radau.h"
+#include "reference/exact/restriction.h"
 #include "tests/exact_scenes.h"
 
 enum { S = BR_STAGES };
@@ -136,14 +134,12 @@ static void test_radau_stability(void **unused)
     }
 }
 
-static struct br_modes *modes_of(size_t count, double length, size_t degree)
+static void modes_of(size_t count, double length, size_t degree, struct br_modes *modes,
+                     struct br_store *store)
 {
-    struct br_modes *modes = NULL;
-    struct br_pieces whole;
-    assert_int_equal(br_pieces_whole(&whole, length, count, NULL), BR_OK);
-    assert_int_equal(br_modes_create(&modes, &whole, degree, NULL), BR_OK);
-    br_pieces_clear(&whole);
-    return modes;
+    *modes = (struct br_modes){0};
+    br_pieces_init(&modes->pieces, length, 1, (const double[]){0, length}, &count, store);
+    assert_int_equal(br_modes_init(modes, degree, store, NULL), BR_OK);
 }
 
 /* Frequencies of rods and beams: s_i = 1 / ((i - 1/2) pi), and 1 / beta_i^2. */
@@ -152,36 +148,40 @@ static void test_modes(void **unused)
     (void)unused;
     const double beta[] = {1.875104068711961166445, 4.694091132974174576436,
                            7.854757438237612564861, 10.99554073487546699067};
-    struct br_modes *rod = modes_of(30, 1, 1), *beam = modes_of(30, 1, 2);
+    struct br_store store = {0};
+    struct br_modes rod, beam;
+    modes_of(30, 1, 1, &rod, &store);
+    modes_of(30, 1, 2, &beam, &store);
     for (size_t i = 0; i < 4; i++) {
-        assert_near(rod->size[i], 1 / (((double)i + 0.5) * acos(-1)), 1e-15);
-        assert_near(beam->size[i], 1 / (beta[i] * beta[i]), 1e-15);
+        assert_near(rod.size[i], 1 / (((double)i + 0.5) * acos(-1)), 1e-15);
+        assert_near(beam.size[i], 1 / (beta[i] * beta[i]), 1e-15);
         /* unit energy: sqrt(2) s_i sin(x / s_i), and 2 s_i for a cantilever */
-        assert_near(fabs(rod->tip[i]), sqrt(2) * rod->size[i], 1e-14);
-        assert_near(fabs(beam->tip[i]), 2 * beam->size[i], 1e-14);
+        assert_near(fabs(rod.tip[i]), sqrt(2) * rod.size[i], 1e-14);
+        assert_near(fabs(beam.tip[i]), 2 * beam.size[i], 1e-14);
     }
-    br_modes_free(rod);
-    br_modes_free(beam);
+    br_store_clear(&store);
 }
 
 /* Projections of a function that the modes can represent, (2 xi)^2. */
 static void check_projections(size_t m)
 {
-    struct br_modes *beam = modes_of(m, 2, 2);
+    struct br_store store = {0};
+    struct br_modes beam;
+    modes_of(m, 2, 2, &beam, &store);
     struct formula square = {f_power, {1, 2}}, slope = {f_power, {2, 1}};
     const struct br_function w = formula_function(&square), dw = formula_function(&slope);
     const double expected[] = {4.0 / 3, 4 / sqrt(12), 4 / sqrt(180)};
     double q[256], c[258];
     assert_true(m <= sizeof q / sizeof *q);
-    assert_int_equal(br_modes_project_energy(beam, &dw, 2, q, NULL), BR_OK);
-    br_modes_expand(beam, 0, q, c);
+    assert_int_equal(br_modes_project_energy(&beam, &dw, 2, q, NULL), BR_OK);
+    br_modes_expand(&beam, 0, q, c);
     for (size_t k = 0; k < m + 2; k++)
         assert_near(c[k], k < 3 ? expected[k] : 0, 1e-12);
-    assert_int_equal(br_modes_project(beam, &w, q, NULL), BR_OK);
-    br_modes_expand(beam, 0, q, c);
+    assert_int_equal(br_modes_project(&beam, &w, q, NULL), BR_OK);
+    br_modes_expand(&beam, 0, q, c);
     for (size_t k = 0; k < m + 2; k++)
         assert_near(c[k], k < 3 ? expected[k] : 0, 1e-12);
-    br_modes_free(beam);
+    br_store_clear(&store);
 }
 
 static void test_projections(void **unused)
@@ -197,19 +197,20 @@ enum { TERMS = 4, PIECES = 3, MOST = PIECES * (TERMS + 1) };
 static const double beam = 2.5;
 
 /* Its series, c; cut at a front or not, it is the same. */
-static void project_square(struct br_pieces *pieces, size_t fronts, double c[MOST])
+static void project_square(struct br_pieces *pieces, size_t fronts, struct br_store *store,
+                           double c[MOST])
 {
     static const double end[] = {0, 0.4, 1.7, 2.5}, front[] = {1.1};
     static const size_t terms[] = {TERMS, TERMS, TERMS};
     struct formula square = {f_power, {1, 2}};
     struct br_error err;
     struct br_quadrature q;
-    assert_int_equal(br_pieces_init(pieces, beam, PIECES, end, terms, &err), BR_OK);
-    assert_int_equal(br_quadrature_init(&q, pieces, 0, &err), BR_OK);
+    br_pieces_init(pieces, beam, PIECES, end, terms, store);
+    br_quadrature_init(&q, pieces, 0, store);
+    assert_false(store->failed);
     const struct br_function f = formula_function(&square);
     assert_int_equal(br_quadrature_project(&q, &f, 0, (struct br_places){fronts, front}, c, &err),
                      BR_OK);
-    br_quadrature_clear(&q);
 }
 
 static double squares(size_t count, const double *c)
@@ -225,15 +226,16 @@ static void test_pieces(void **unused)
 {
     (void)unused;
     for (size_t fronts = 0; fronts < 2; fronts++) {
+        struct br_store store = {0};
         struct br_pieces pieces;
         double c[MOST];
-        project_square(&pieces, fronts, c);
+        project_square(&pieces, fronts, &store, c);
         assert_near(squares(PIECES * TERMS, c), pow(beam, 4) / 5, 1e-13);
         assert_near(br_pieces_integral(&pieces, 0, c), beam * beam / 3, 1e-13);
         br_pieces_integrate(&pieces, 0, c);
         assert_near(squares(MOST, c), pow(beam, 4) / 63, 1e-13);
         assert_near(br_pieces_integral(&pieces, 1, c), beam * beam / 12, 1e-13);
-        br_pieces_clear(&pieces);
+        br_store_clear(&store);
     }
 }
 
@@ -245,19 +247,19 @@ static void test_projected_pieces(void **unused)
     for (size_t degree = 1; degree <= 2; degree++)
         for (size_t n = 1; n <= 20; n++) {
             const struct br_exact_mesh mesh = {n, degree};
+            struct br_store store = {0};
             struct br_pieces pieces;
             struct br_piecewise *w;
             struct br_error err;
             double c[MOST], modes[20 * 3] = {0}, rest = NAN;
-            project_square(&pieces, 0, c);
-            assert_int_equal(br_piecewise_create(&w, &pieces, 0, &mesh, &err), BR_OK);
+            project_square(&pieces, 0, &store, c);
+            assert_int_equal(br_piecewise_create(&w, &pieces, 0, &mesh, &store, &err), BR_OK);
             br_piecewise_apply(w, c, modes, &rest);
             const double all = pow(beam, 5) / 5, h = beam / (double)n;
             assert_near(squares(n * (degree + 1), modes) + rest, all, 1e-12);
             /* of x^2 the second Legendre polynomial has h^2 / 6, its square h / 5 */
             assert_near(rest, degree == 2 ? 0 : (double)n * pow(h, 5) / 180, 1e-12);
-            br_piecewise_free(w);
-            br_pieces_clear(&pieces);
+            br_store_clear(&store);
         }
 }
 

@@ -5,9 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "reference/exact/modes.h"
-#include "reference/exact/outline.h"
-#include "reference/exact/piecewise.h"
+#include "reference/exact/field.h"
+#include "reference/exact/restriction.h"
 #include "tests/exact_scenes.h"
 #include "tests/support.h"
 
@@ -186,11 +185,11 @@ enum { PIECES = 4 };
 static const double piece_end[] = {0, 0.75, 0.75 + 2.5e-8, 1.9, 2.5};
 static const size_t piece_terms[] = {12, 4, 12, 12};
 
-static struct br_pieces new_pieces(void)
+static struct br_pieces new_pieces(struct br_store *store)
 {
-    struct br_error err = {0};
     struct br_pieces pieces;
-    MUST(br_pieces_init(&pieces, 2.5, PIECES, piece_end, piece_terms, &err));
+    br_pieces_init(&pieces, 2.5, PIECES, piece_end, piece_terms, store);
+    assert_false(store->failed);
     return pieces;
 }
 
@@ -201,19 +200,17 @@ static void test_modes_on_pieces(void **unused)
     struct br_error err = {0};
     const double beta[] = {1.875104068711961166445, 4.694091132974174576436,
                            7.854757438237612564861};
-    struct br_pieces pieces = new_pieces();
-    struct br_modes *rod = NULL, *cantilever = NULL;
-    MUST(br_modes_create(&rod, &pieces, 1, &err));
-    MUST(br_modes_create(&cantilever, &pieces, 2, &err));
+    struct br_store store = {0};
+    struct br_modes rod = {.pieces = new_pieces(&store)}, cantilever = {.pieces = rod.pieces};
+    MUST(br_modes_init(&rod, 1, &store, &err));
+    MUST(br_modes_init(&cantilever, 2, &store, &err));
     for (size_t i = 0; i < 3; i++) {
-        assert_near(rod->size[i], 1 / (((double)i + 0.5) * acos(-1)), 1e-15);
-        assert_near(fabs(rod->tip[i]), sqrt(2) * rod->size[i], 1e-14);
-        assert_near(cantilever->size[i], 1 / (beta[i] * beta[i]), 1e-15);
-        assert_near(fabs(cantilever->tip[i]), 2 * cantilever->size[i], 1e-14);
+        assert_near(rod.size[i], 1 / (((double)i + 0.5) * acos(-1)), 1e-15);
+        assert_near(fabs(rod.tip[i]), sqrt(2) * rod.size[i], 1e-14);
+        assert_near(cantilever.size[i], 1 / (beta[i] * beta[i]), 1e-15);
+        assert_near(fabs(cantilever.tip[i]), 2 * cantilever.size[i], 1e-14);
     }
-    br_modes_free(rod);
-    br_modes_free(cantilever);
-    br_pieces_clear(&pieces);
+    br_store_clear(&store);
 }
 
 /* The integral from 0 in x / L of -1 on the pieces before `kink` and 1 on the others. */
@@ -232,7 +229,8 @@ static void test_projection_of_pieces(void **unused)
     (void)unused;
     struct br_error err = {0};
     static const size_t elements[] = {1, 3, 10, 97};
-    struct br_pieces pieces = new_pieces();
+    struct br_store store = {0};
+    const struct br_pieces pieces = new_pieces(&store);
     double series[40];
     fill_kink(&pieces, 3, series);
     const double a = piece_end[3] / 2.5, b = 1 - a;
@@ -242,9 +240,8 @@ static void test_projection_of_pieces(void **unused)
         const double n = (double)mesh.elements;
         struct br_piecewise *piecewise = NULL;
         double c[3 * 97], rest = NAN, sum = 0;
-        MUST(br_piecewise_create(&piecewise, &pieces, 1, &mesh, &err));
+        MUST(br_piecewise_create(&piecewise, &pieces, 1, &mesh, &store, &err));
         br_piecewise_apply(piecewise, series, c, &rest);
-        br_piecewise_free(piecewise);
         for (size_t j = 0; j < mesh.elements; j++) {
             const double left = (double)j / n - a, right = ((double)j + 1) / n - a;
             const double integral = (right * fabs(right) - left * fabs(left)) / 2 - a / n;
@@ -255,7 +252,7 @@ static void test_projection_of_pieces(void **unused)
         assert_near(sum + rest, square, 1e-14);
         assert_true(rest > 1e-9); /* no parabola has a kink */
     }
-    br_pieces_clear(&pieces);
+    br_store_clear(&store);
 }
 
 /* A guard that changes nothing cuts the beam and the time: the solution stays. */

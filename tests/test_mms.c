@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "reference/mms/projection.h"
+#include "reference/mms/mms.h"
 #include "solver/proof.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"

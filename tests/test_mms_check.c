@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "reference/mms/check.h"
+#include "reference/mms/mms.h"
 #include "study/scene/expression.h"
 #include "support.h"
 
@@ -118,11 +118,11 @@ static void test_check(void **state)
     for (size_t i = 0; i < sizeof solutions / sizeof *solutions; i++) {
         struct br_error err = {0};
         struct br_function f = br_test_function(solutions[i].text);
-        const struct br_solution s = {&f, solutions[i].kind, 1, 1};
+        const struct br_given s = {&f, solutions[i].kind, 1, 1};
         if (solutions[i].message)
-            REFUSED(br_solution_check(&s, &err), BR_BAD_INPUT, solutions[i].message);
+            REFUSED(br_given_check(&s, &err), BR_BAD_INPUT, solutions[i].message);
         else
-            MUST(br_solution_check(&s, &err));
+            MUST(br_given_check(&s, &err));
         br_function_free(&f);
     }
 }

@@ -316,7 +316,7 @@ static enum br_status odd_advance(void *self, enum br_field_kind kind, size_t i,
     return BR_OK;
 }
 
-static void odd_look(void *self, const struct br_look_at *at, struct br_view *view)
+static void odd_look(void *self, const struct br_sample_at *at, struct br_view *view)
 {
     (void)self;
     br_view_modes(view, at->measure == BR_TIP
@@ -333,7 +333,7 @@ static void test_nan_audit(void **state)
                                         .create = odd_create,
                                         .free = odd_free,
                                         .advance = odd_advance,
-                                        .look = odd_look};
+                                        .sample = odd_look};
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_study s = br_test_study(&scene, &br_judge_fine, 1, &n, 1, &steps);

@@ -149,10 +149,10 @@ static void check_judge(const struct br_judge *judge, const char *name)
         MUST(judge->create(&self, &request, &err));
         MUST(judge->advance(self, BR_AXIAL, LEVELS, &err));
         for (int measure = 0; measure < BR_TIP; measure++) {
-            const struct br_look_at at = {BR_AXIAL, (enum br_measure)measure, 0};
+            const struct br_sample_at at = {BR_AXIAL, (enum br_measure)measure, 0};
             struct br_view *v = &view[degree - 1];
             v->values = values[degree - 1];
-            judge->look(self, &at, v);
+            judge->sample(self, &at, v);
             assert_int_equal(v->modes, degree + (measure != BR_STRAIN_RATE));
             double sum = v->rest;
             for (size_t i = 0; i < N * v->modes; i++)

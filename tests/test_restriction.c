@@ -103,14 +103,15 @@ static void check(const struct br_restriction_shape *shape, const double *series
 {
     struct br_error err = {0};
     struct br_restriction *r = NULL;
+    struct br_store store = {0};
     const size_t values = shape->elements * (shape->degree + 1);
     double *c = calloc(values, sizeof *c), rest = NAN;
     assert_non_null(c);
     for (size_t i = 0; i < values; i++)
         c[i] = NAN;
-    MUST(br_restriction_create(&r, shape, &err));
+    MUST(br_restriction_create(&r, shape, &store, &err));
     br_restriction_apply(r, series, c, &rest);
-    br_restriction_free(r);
+    br_store_clear(&store);
     const struct deviation d = deviation_of(shape, series, c, rest);
     const double slack = br_test_slack();
     AT_MOST((double)(d.values / d.norm), 1e-15 * slack);
@@ -173,9 +174,10 @@ static void test_nothing_left(void **unused)
     for (size_t degree = 0; degree <= 3; degree++) {
         const struct br_restriction_shape shape = {25, 3200, degree, 1, 0, 1};
         struct br_restriction *r = NULL;
+        struct br_store store = {0};
         double series[25] = {0}, rest = NAN;
         double *c = calloc(3200 * (degree + 1), sizeof *c);
-        MUST(br_restriction_create(&r, &shape, &err));
+        MUST(br_restriction_create(&r, &shape, &store, &err));
         br_restriction_apply(r, series, c, &rest);
         assert_true(rest == 0);
         for (size_t i = 0; i < 3200 * (degree + 1); i++)
@@ -184,7 +186,7 @@ static void test_nothing_left(void **unused)
             series[k] = 1;
         br_restriction_apply(r, series, c, &rest);
         assert_true(rest == 0);
-        br_restriction_free(r);
+        br_store_clear(&store);
         free(c);
     }
 }
@@ -196,8 +198,9 @@ static void test_not_finite(void **unused)
     struct br_error err = {0};
     const struct br_restriction_shape shape = {20, 3200, 3, 1, 0, 1};
     struct br_restriction *r = NULL;
+    struct br_store store = {0};
     double *c = calloc(3200 * 4, sizeof *c);
-    MUST(br_restriction_create(&r, &shape, &err));
+    MUST(br_restriction_create(&r, &shape, &store, &err));
     for (size_t k = 0; k < 20; k++) {
         double series[20] = {1}, rest = 0;
         series[k] = NAN;
@@ -205,7 +208,7 @@ static void test_not_finite(void **unused)
         assert_true(isnan(rest));
         assert_true(isnan(c[0]));
     }
-    br_restriction_free(r);
+    br_store_clear(&store);
     free(c);
 }
 

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "reference/certificate.h"
-#include "reference/energy.h"
+#include "reference/certificate/certificate.h"
+#include "reference/energy/energy.h"
 #include "reference/textbook.h"
 #include "study/scene/file.h"
 #include "support.h"
@@ -91,7 +91,7 @@ struct watched {
     struct br_scene scene;
     struct br_method method;
     struct br_march *march;
-    struct br_witness *witness;
+    struct br_step_checker *checker;
     struct br_energy_meter *meter;
     struct br_certificate limits;
     double energy_limit;
@@ -140,8 +140,8 @@ static bool start(struct watched *w, size_t n, size_t steps, const struct told *
     const double round_off = br_march_round_off(w->march);
     w->limits = br_certificate_limits(method->scheme, n, br_test_slack() * round_off);
     w->energy_limit = br_energy_limit(n, round_off) * br_test_slack();
-    MUST(br_witness_create(&w->witness, w->march, t.certificate ? t.certificate : &w->scene, method,
-                           &err));
+    MUST(br_step_checker_create(&w->checker, w->march, t.certificate ? t.certificate : &w->scene,
+                                method, &err));
     MUST(
         br_energy_meter_create(&w->meter, w->march, t.energy ? t.energy : &w->scene, method, &err));
     return true;
@@ -152,7 +152,7 @@ static void advance(struct watched *w, size_t steps)
 {
     struct br_error err = {0};
     for (size_t step = 0; step < steps && !br_march_step(w->march, &err); step++) {
-        const struct br_certificate c = br_witness_step(w->witness);
+        const struct br_certificate c = br_step_checker_step(w->checker);
         const double over = br_energy_meter_step(w->meter) / w->energy_limit;
         if (isnan(over) || over > w->worst)
             w->worst = over;
@@ -164,7 +164,7 @@ static void advance(struct watched *w, size_t steps)
 static void finish(struct watched *w)
 {
     br_energy_meter_free(w->meter);
-    br_witness_free(w->witness);
+    br_step_checker_free(w->checker);
     br_march_free(w->march);
     br_scene_clear(&w->scene);
     *w = (struct watched){0};
@@ -489,16 +489,16 @@ static void test_refusals(void **state)
 {
     (void)state;
     struct br_error err = {0};
-    struct br_witness *witness;
+    struct br_step_checker *checker;
     struct watched w = {.scene = br_test_bundled("release"), .method = br_method_default()};
     const struct br_time_scheme unknown = {.name = "unknown"};
     assert_true(start(&w, 4, 10, NULL));
     struct br_method method = w.method;
     method.scheme = &unknown;
-    REFUSED(br_witness_create(&witness, w.march, &w.scene, &method, &err), BR_BAD_INPUT,
+    REFUSED(br_step_checker_create(&checker, w.march, &w.scene, &method, &err), BR_BAD_INPUT,
             "scheme unknown has no certificate");
-    assert_null(witness);
-    const struct br_certificate none = br_witness_step(w.witness);
+    assert_null(checker);
+    const struct br_certificate none = br_step_checker_step(w.checker);
     assert_true(isnan(none.update) && isnan(none.bending_residual));
     finish(&w);
 }

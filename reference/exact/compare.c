@@ -14,45 +14,37 @@ static const double layer = 1e-6;
 /* One field of two solutions, with room for their values at one time. */
 struct pair {
     const struct br_outline *outline;
-    const struct br_field *field[2];
+    const struct br_oscillators *field[2];
     const struct br_law *law[2];
-    const struct br_track *track[2];
+    const struct br_history *track[2];
     double *q[2], *v[2]; /* modes */
     double *series[2];   /* Legendre coefficients */
+    struct br_store store;
 };
 
-static enum br_status pair_init(struct pair *p, const struct br_solution *a,
-                                const struct br_solution *b, size_t which, struct br_error *err)
+static enum br_status pair_init(struct pair *p, const struct br_exact_solution *a,
+                                const struct br_exact_solution *b, size_t which,
+                                struct br_error *err)
 {
-    const struct br_solution *solution[2] = {a, b};
-    bool done = true;
+    const struct br_exact_solution *solution[2] = {a, b};
     for (size_t i = 0; i < 2; i++) {
         p->field[i] = solution[i]->field[which];
         p->law[i] = &solution[i]->law[which];
         p->track[i] = solution[i]->track[which];
-        const size_t m = p->field[i]->modes->count;
-        p->q[i] = br_allocate(m, sizeof(double));
-        p->v[i] = br_allocate(m, sizeof(double));
-        p->series[i] = br_allocate(br_modes_length(p->field[i]->modes, 0), sizeof(double));
-        done = done && p->q[i] && p->v[i] && p->series[i];
+        const size_t m = p->field[i]->modes.count;
+        p->q[i] = br_store_take(&p->store, m, sizeof(double));
+        p->v[i] = br_store_take(&p->store, m, sizeof(double));
+        p->series[i] =
+            br_store_take(&p->store, br_modes_length(&p->field[i]->modes, 0), sizeof(double));
     }
-    return done ? BR_OK : br_no_memory(err, "the comparison of two solutions");
-}
-
-static void pair_clear(struct pair *p)
-{
-    for (size_t i = 0; i < 2; i++) {
-        free(p->q[i]);
-        free(p->v[i]);
-        free(p->series[i]);
-    }
+    return p->store.failed ? br_no_memory(err, "the comparison of two solutions") : BR_OK;
 }
 
 /* Element e's coefficients of solution i, derived `order` times; *terms of them. */
 static const double *series_on(const struct pair *p, size_t i, size_t order, size_t e,
                                size_t *terms)
 {
-    const struct br_modes *modes = p->field[i]->modes;
+    const struct br_modes *modes = &p->field[i]->modes;
     *terms = modes->pieces.terms[e] + modes->degree - order;
     return p->series[i] + br_pieces_at(&modes->pieces, e, modes->degree - order);
 }
@@ -62,9 +54,9 @@ static const double *series_on(const struct pair *p, size_t i, size_t order, siz
 static double distance(struct pair *p, double *const q[2], size_t order)
 {
     for (size_t i = 0; i < 2; i++)
-        br_modes_expand(p->field[i]->modes, order, q[i], p->series[i]);
+        br_modes_expand(&p->field[i]->modes, order, q[i], p->series[i]);
     double sum = 0;
-    for (size_t e = 0; e < p->field[0]->modes->pieces.count; e++) {
+    for (size_t e = 0; e < p->field[0]->modes.pieces.count; e++) {
         size_t length[2];
         const double *const c[2] = {series_on(p, 0, order, e, &length[0]),
                                     series_on(p, 1, order, e, &length[1])};
@@ -79,8 +71,8 @@ static double distance(struct pair *p, double *const q[2], size_t order)
 /* Root mean square of the first field's velocity, derived in x / L. */
 static double strain_norm(struct pair *p, size_t order)
 {
-    br_modes_expand(p->field[0]->modes, order, p->v[0], p->series[0]);
-    const size_t length = br_modes_length(p->field[0]->modes, order);
+    br_modes_expand(&p->field[0]->modes, order, p->v[0], p->series[0]);
+    const size_t length = br_modes_length(&p->field[0]->modes, order);
     double sum = 0;
     for (size_t k = 0; k < length; k++)
         sum += p->series[0][k] * p->series[0][k];
@@ -94,7 +86,7 @@ static void grow(double *most, double value)
         *most = isnan(value) ? INFINITY : value;
 }
 
-static bool in_layer(const struct br_track *track, double t, double width)
+static bool in_layer(const struct br_history *track, double t, double width)
 {
     for (size_t i = 0; i < track->entries && track->entry[i].time - width <= t; i++)
         if (t <= track->entry[i].time + width)
@@ -106,16 +98,16 @@ static void compare_at(struct pair *p, double t, bool smooth, struct br_exact_re
 {
     struct br_tip_state tip[2];
     for (size_t i = 0; i < 2; i++) {
-        tip[i] = br_track_at(p->track[i], t, p->q[i], p->v[i]);
+        tip[i] = br_history_at(p->track[i], t, p->q[i], p->v[i]);
         tip[i].force = br_law_force_at(p->law[i], t, &tip[i]);
     }
     const double length = p->field[0]->length, norm = 1 / sqrt(length);
-    const size_t degree = p->field[0]->modes->degree;
+    const size_t degree = p->field[0]->modes.degree;
     const double strain = pow(length, -(double)degree);
     struct br_exact_size *largest = &report->largest, *error = &report->error;
-    grow(&largest->displacement, norm * br_field_norm(p->field[0], p->q[0], 1));
+    grow(&largest->displacement, norm * br_oscillators_norm(p->field[0], p->q[0], 1));
     grow(&largest->displacement, fabs(tip[0].displacement + p->track[0]->gap));
-    grow(&largest->velocity, norm * br_field_norm(p->field[0], p->v[0], 1));
+    grow(&largest->velocity, norm * br_oscillators_norm(p->field[0], p->v[0], 1));
     grow(&largest->velocity, fabs(tip[0].velocity));
     grow(&largest->force, fabs(tip[0].force));
     grow(&largest->strain_rate, strain_norm(p, degree) * strain);
@@ -129,7 +121,7 @@ static void compare_at(struct pair *p, double t, bool smooth, struct br_exact_re
     grow(&error->force, safety * fabs(tip[0].force - tip[1].force));
 }
 
-static bool same_phases(const struct br_track *a, const struct br_track *b)
+static bool same_phases(const struct br_history *a, const struct br_history *b)
 {
     if (a->entries != b->entries)
         return false;
@@ -151,7 +143,7 @@ static void compare_field(struct pair *p, double duration, struct br_exact_repor
     for (size_t i = 0; i < 2; i++)
         for (size_t n = 0; n < p->track[i]->steps; n++)
             for (size_t j = 0; j < sizeof inside / sizeof *inside; j++) {
-                const struct br_tip *tip = &p->track[i]->tip[n];
+                const struct br_tip_step *tip = &p->track[i]->tip[n];
                 const double t = tip->start + inside[j] * tip->length;
                 const bool smooth = !in_layer(p->track[0], t, layer * duration) &&
                                     !in_layer(p->track[1], t, layer * duration) &&
@@ -161,7 +153,7 @@ static void compare_field(struct pair *p, double duration, struct br_exact_repor
     compare_at(p, duration, true, report);
 }
 
-enum br_status br_exact_compare(struct br_exact *exact, const struct br_solution *other,
+enum br_status br_exact_compare(struct br_exact *exact, const struct br_exact_solution *other,
                                 const struct br_outline outline[BR_EXACT_FIELDS],
                                 struct br_error *err)
 {
@@ -172,19 +164,19 @@ enum br_status br_exact_compare(struct br_exact *exact, const struct br_solution
         if (!exact->solution->track[which])
             continue;
         struct pair p = {.outline = &outline[which]};
-        report->modes = exact->solution->field[which]->modes->count;
+        report->modes = exact->solution->field[which]->modes.count;
         report->steps = exact->solution->track[which]->steps;
         exact->noise[which] = 1e-13 * exact->solution->track[which]->free_velocity;
         status = pair_init(&p, exact->solution, other, which, err);
         if (!status)
             compare_field(&p, exact->duration, report);
-        pair_clear(&p);
+        br_store_clear(&p.store);
     }
     return status;
 }
 
 /* A phase that goes on through an event of the other field is none. */
-static bool is_event(const struct br_track *track, size_t i)
+static bool is_event(const struct br_history *track, size_t i)
 {
     return i == 0 || track->entry[i].phase != track->entry[i - 1].phase;
 }
@@ -197,7 +189,7 @@ static int by_time(const void *a, const void *b)
     return (int)x->field - (int)y->field;
 }
 
-enum br_status br_exact_list_events(struct br_exact *exact, const struct br_solution *other,
+enum br_status br_exact_list_events(struct br_exact *exact, const struct br_exact_solution *other,
                                     struct br_error *err)
 {
     size_t room = 0;
@@ -208,7 +200,7 @@ enum br_status br_exact_list_events(struct br_exact *exact, const struct br_solu
     if (!exact->event)
         return br_no_memory(err, "the events");
     for (size_t which = 0; which < BR_EXACT_FIELDS; which++) {
-        const struct br_track *track = exact->solution->track[which];
+        const struct br_history *track = exact->solution->track[which];
         for (size_t i = 0; track && i < track->entries; i++) {
             const double t = track->entry[i].time, t2 = other->track[which]->entry[i].time;
             if (is_event(track, i))

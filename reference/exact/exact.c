@@ -4,12 +4,17 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
-#include "reference/exact/outline.h"
 #include "reference/exact/solution.h"
+
+/* How finely a solution is to be made. */
+struct fineness {
+    size_t modes;
+    double tolerance, first_step; /* see br_march_options */
+};
 
 enum { FIRST_MODES = 12, LEAST_MODES = 18 };
 
-/* Some 20 seconds of a core, see effort.h. */
+/* Some 20 seconds of a core, see br_effort. */
 static const double most_work = 1.4e7;
 
 static struct br_exact_options with_defaults(const struct br_exact_options *options)
@@ -52,13 +57,12 @@ static enum br_status check(const struct br_scene *scene, const struct br_exact_
 
 /* Every second solution has finer steps, so that any two that follow each other
  * differ in time as well as in space. */
-static struct br_fineness fineness(const struct br_exact_options *o, double duration, size_t round,
+static struct fineness fineness_of(const struct br_exact_options *o, double duration, size_t round,
                                    size_t modes)
 {
     const bool finer = round % 2;
-    return (struct br_fineness){
+    return (struct fineness){
         .modes = modes,
-        .max_steps = o->max_steps,
         .tolerance = o->tolerance * (finer ? 0.1 : 0.4),
         .first_step = duration * (finer ? 2e-13 : 1e-12),
     };
@@ -119,29 +123,110 @@ struct search {
     const struct br_exact_options *o;
     struct br_outline outline[BR_EXACT_FIELDS];
     struct br_effort effort;
-    struct br_solution *before;
+    struct br_exact_solution *before;
     double missed;              /* the largest of the outlines */
     double worst, worst_before; /* of the last two pairs, infinite where that cannot be said */
-    double round_work;          /* of the last round */
     struct br_error cause;      /* why not */
 };
 
+/* ---- one solution ---- */
+
+static struct br_law axial_law(const struct br_scene *scene)
+{
+    return (struct br_law){
+        .contact = true,
+        .obstacle = scene->contact.modelled,
+        .stiffness = scene->contact.modelled ? scene->contact.stiffness : 0,
+    };
+}
+
+static struct br_law bending_law(const struct br_scene *scene, const struct br_history *axial)
+{
+    return (struct br_law){
+        .friction = scene->friction.law,
+        .coefficient = scene->friction.coefficient,
+        .axial = scene->friction.law == BR_COULOMB ? axial : NULL,
+    };
+}
+
+static void solution_free(struct br_exact_solution *s)
+{
+    if (!s)
+        return;
+    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
+        br_history_free(s->track[i]);
+    br_store_clear(&s->store);
+    free(s);
+}
+
+static size_t count_modes(const struct search *s, size_t which, size_t modes)
+{
+    size_t count = 0;
+    for (size_t e = 0; e + 1 < s->outline[which].end.count; e++)
+        count += br_outline_terms(&s->outline[which], e, modes);
+    return count;
+}
+
+/* One field; a singular value decomposition is most of what its modes cost. */
+static enum br_status solve(struct search *s, enum br_exact_field which,
+                            const struct fineness *fine, struct br_exact_solution *into)
+{
+    const bool axial = which == BR_EXACT_AXIAL;
+    const struct br_scene *scene = s->scene;
+    const struct br_outline *outline = &s->outline[which];
+    struct br_law *law = &into->law[which];
+    *law = axial ? axial_law(scene) : bending_law(scene, into->track[BR_EXACT_AXIAL]);
+    const struct br_march_options options = {
+        .duration = scene->duration,
+        .gap = axial && scene->contact.modelled ? scene->contact.gap : 0,
+        .tolerance = fine->tolerance,
+        .first_step = fine->first_step,
+        .max_steps = s->o->max_steps,
+        .outline = {outline, law->axial ? &s->outline[BR_EXACT_AXIAL] : NULL},
+        .effort = &s->effort,
+    };
+    const double count = (double)count_modes(s, which, fine->modes);
+    enum br_status status = br_effort_spend(&s->effort, 2e-3 * count * count * count, &s->cause);
+    if (!status)
+        status = br_oscillators_create(&into->field[which], scene, outline, fine->modes,
+                                       &into->store, &s->cause);
+    if (!status)
+        status = br_march(into->field[which], law, &options, &into->track[which], &s->cause);
+    return status;
+}
+
+/* *out (owned by the caller); why it fails is in s->cause. */
+static enum br_status solution_create(struct search *s, const struct fineness *fine,
+                                      struct br_exact_solution **out)
+{
+    enum br_status status = BR_OK;
+    *out = br_allocate(1, sizeof **out);
+    if (!*out)
+        return br_no_memory(&s->cause, "the exact solution");
+    if (s->scene->axial.modelled)
+        status = solve(s, BR_EXACT_AXIAL, fine, *out);
+    if (!status && s->scene->bending.modelled)
+        status = solve(s, BR_EXACT_BENDING, fine, *out);
+    if (status)
+        solution_free(*out);
+    return status;
+}
+
+/* ---- solutions until two agree ---- */
+
 /* The next solution, and how far it is from the last one. Where it fails, more modes may help;
  * where no work is left the last pair stays. */
-static enum br_status next_round(struct search *s, const struct br_fineness *fine)
+static enum br_status next_round(struct search *s, const struct fineness *fine)
 {
     struct br_exact *exact = s->exact;
-    struct br_solution *next = NULL;
-    const double done = s->effort.done;
+    struct br_exact_solution *next = NULL;
     s->cause = (struct br_error){0};
-    enum br_status status =
-        br_solution_create(&next, s->scene, s->outline, fine, &s->effort, &s->cause);
-    s->round_work = s->effort.done - done;
+    enum br_status status = solution_create(s, fine, &next);
     if (status == BR_NOT_FINITE)
         return BR_OK;
     if (status)
         return status;
-    br_solution_free(s->before);
+    solution_free(s->before);
     s->before = exact->solution;
     exact->solution = next;
     if (!s->before)
@@ -156,14 +241,6 @@ static enum br_status next_round(struct search *s, const struct br_fineness *fin
 static bool is_spent(const struct search *s)
 {
     return s->effort.done > s->effort.most;
-}
-
-static size_t count_modes(const struct search *s, size_t which, size_t modes)
-{
-    size_t count = 0;
-    for (size_t e = 0; e + 1 < s->outline[which].end.count; e++)
-        count += br_outline_terms(&s->outline[which], e, modes);
-    return count;
 }
 
 /* Modes of a next round, 0 if it may not be: elements multiply what is allowed for one by six. */
@@ -203,7 +280,7 @@ static bool will_do(struct search *s)
  * the rounding of the stages' times, independent of each other, where the load changes fast. */
 static double unproved(const struct search *s, size_t which)
 {
-    const struct br_track *track = s->exact->solution->track[which];
+    const struct br_history *track = s->exact->solution->track[which];
     const double rounding = 0.29, change = 0.25; /* rms of a unit; of a load over a cell */
     const double blurred =
         track && track->impulse > 0
@@ -223,7 +300,7 @@ static enum br_status refine(struct search *s, struct br_error *err)
                        "no exact solution: the loads and initial data ask for %zu and %zu elements",
                        s->outline[0].end.count, s->outline[1].end.count);
     for (size_t round = 0; !status && modes && !(s->worst <= enough) && !is_stuck(s); round++) {
-        const struct br_fineness fine = fineness(s->o, s->exact->duration, round, modes);
+        const struct fineness fine = fineness_of(s->o, s->exact->duration, round, modes);
         status = next_round(s, &fine);
         modes = next_modes(s, modes);
     }
@@ -262,14 +339,14 @@ static enum br_status search(struct br_exact *exact, const struct br_scene *scen
         .exact = exact,
         .scene = scene,
         .o = o,
-        .effort = {0, most_work, o->stop, o->stop_self, o->progress, o->stop_self},
+        .effort = {.most = most_work, .who = o},
         .worst = INFINITY,
         .worst_before = INFINITY,
     };
     enum br_status status = outline(&s, err);
     if (!status)
         status = refine(&s, err);
-    br_solution_free(s.before);
+    solution_free(s.before);
     for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
         br_outline_clear(&s.outline[which]);
     return status;
@@ -300,7 +377,7 @@ void br_exact_free(struct br_exact *exact)
 {
     if (!exact)
         return;
-    br_solution_free(exact->solution);
+    solution_free(exact->solution);
     free(exact->event);
     free(exact);
 }

@@ -15,11 +15,27 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "reference/exact/phase.h"
 #include "solver/scene.h"
 #include "solver/status.h"
 
 struct br_exact;
+
+/* What the tip does. A contact is open or closed; with friction the tip sticks,
+ * or slips up (towards positive w) or down; where no law acts it is free. */
+/* X(name, what happens when it begins) */
+#define BR_PHASE_LIST(X)           \
+    X(BR_FREE, "is free")          \
+    X(BR_OPEN, "contact opens")    \
+    X(BR_CLOSED, "contact closes") \
+    X(BR_STICK, "sticks")          \
+    X(BR_SLIP_UP, "slips up")      \
+    X(BR_SLIP_DOWN, "slips down")
+
+enum br_phase {
+#define X(name, text) name,
+    BR_PHASE_LIST(X)
+#undef X
+};
 
 /* Zeros mean the defaults. Tolerances are relative to the largest value over time. */
 struct br_exact_options {
@@ -44,6 +60,17 @@ struct br_exact_options {
 enum br_status br_exact_create(struct br_exact **out, const struct br_scene *scene,
                                const struct br_exact_options *options, struct br_error *err);
 void br_exact_free(struct br_exact *exact);
+
+/* One exact solution for all who ask for a scene's while somebody has it: a fine run's auditor
+ * and the exact reference beside it need the same one. */
+/* *out: as br_exact_create would make it with at most max_modes modes (0: its default), or one
+ * that somebody has and that would be the same. Give it back, and not later than the scene ends.
+ * For any thread. Fails like br_exact_create. */
+enum br_status br_exact_borrow(const struct br_exact **out, const struct br_scene *scene,
+                               const struct br_exact_options *options, struct br_error *err);
+
+/* The last one to give it back frees it. Accepts NULL. */
+void br_exact_give_back(const struct br_exact *exact);
 
 enum br_exact_field { BR_EXACT_AXIAL, BR_EXACT_BENDING, BR_EXACT_FIELDS };
 
@@ -90,6 +117,7 @@ struct br_exact_state {
     double friction_force;            /* lambda = -sigma_V(L), N */
     double friction_bound;            /* b, N */
     double *mode[BR_EXACT_FIELDS][2]; /* private: displacement and velocity */
+    double memory[];
 };
 
 /* *out (owned by the caller) is at t = 0. Fails with BR_NO_MEMORY. */
@@ -138,7 +166,7 @@ void br_exact_projection_free(struct br_exact_projection *projection);
  * of what the projection leaves out, found without a difference, so that the
  * square of a distance to a piecewise polynomial d is |c - d|^2 + rest. One
  * projection may be used by one thread at a time. */
-void br_exact_projection_apply(struct br_exact_projection *projection, const struct br_exact *exact,
+void br_exact_projection_apply(struct br_exact_projection *projection,
                                const struct br_exact_state *state, double *c, double *rest);
 
 #endif

@@ -2,123 +2,238 @@
 #include "reference/exact/field.h"
 
 #include <cblas.h>
+#include <float.h>
+#include <lapacke.h>
 #include <math.h>
 
-static enum br_status set_initial(struct br_field *f, struct br_error *err)
+size_t br_modes_length(const struct br_modes *modes, size_t order)
 {
-    const struct br_field_data *d = &f->data;
-    const double scale = f->modes->degree == 1 ? 1 : f->length; /* dw/dxi = L dw/dx */
+    return br_pieces_at(&modes->pieces, modes->pieces.count, modes->degree - order);
+}
+
+static void transpose(size_t m, double *a)
+{
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j < i; j++) {
+            const double swap = a[i * m + j];
+            a[i * m + j] = a[j * m + i];
+            a[j * m + i] = swap;
+        }
+}
+
+/* B = Y diag(s) U' */
+static enum br_status decompose(struct br_modes *modes, struct br_error *err)
+{
+    const size_t m = modes->count, rows = br_modes_length(modes, 0);
+    double *b = br_allocate(rows * m, sizeof *b);
+    if (!b)
+        return br_no_memory(err, "the modes");
+    for (size_t j = 0; j < m; j++) {
+        b[j * rows + j] = 1;
+        for (size_t d = 0; d < modes->degree; d++)
+            br_pieces_integrate(&modes->pieces, d, &b[j * rows]);
+    }
+    const lapack_int info =
+        LAPACKE_dgesdd(LAPACK_COL_MAJOR, 'S', (lapack_int)rows, (lapack_int)m, b, (lapack_int)rows,
+                       modes->size, modes->shape, (lapack_int)rows, modes->curve, (lapack_int)m);
+    free(b);
+    if (info == LAPACK_WORK_MEMORY_ERROR)
+        return br_no_memory(err, "the modes");
+    if (info)
+        return br_fail(err, BR_SINGULAR, "the decomposition into %zu modes failed (%d)", m,
+                       (int)info);
+    transpose(m, modes->curve); /* LAPACK gives U' */
+    return BR_OK;
+}
+
+/* The tip's value is the integral over [0, 1] of the first derivative, and its slope that of the
+ * second one. */
+static enum br_status integrate(struct br_modes *modes, struct br_error *err)
+{
+    const size_t m = modes->count, rows = br_modes_length(modes, 0);
+    double *q = br_allocate(m, sizeof *q);
+    for (size_t i = 0; q && i < m; i++) {
+        double *c = &modes->function[i * rows];
+        q[i] = 1;
+        br_modes_expand(modes, modes->degree, q, c);
+        if (modes->degree > 1) {
+            modes->slope[i] = br_pieces_integral(&modes->pieces, 0, c);
+            br_pieces_integrate(&modes->pieces, 0, c);
+        }
+        modes->tip[i] = br_pieces_integral(&modes->pieces, modes->degree - 1, c);
+        br_pieces_integrate(&modes->pieces, modes->degree - 1, c);
+        q[i] = 0;
+    }
+    free(q);
+    return q ? BR_OK : br_no_memory(err, "the modes");
+}
+
+enum br_status br_modes_init(struct br_modes *modes, size_t degree, struct br_store *store,
+                             struct br_error *err)
+{
+    const size_t m = modes->count = br_pieces_at(&modes->pieces, modes->pieces.count, 0);
+    modes->degree = degree;
+    const size_t rows = br_modes_length(modes, 0);
+    modes->size = br_store_take(store, m, sizeof *modes->size);
+    modes->shape = br_store_take(store, m * rows, sizeof *modes->shape);
+    modes->function = br_store_take(store, m * rows, sizeof *modes->function);
+    modes->curve = br_store_take(store, m * m, sizeof *modes->curve);
+    modes->tip = br_store_take(store, m, sizeof *modes->tip);
+    modes->slope = br_store_take(store, m, sizeof *modes->slope);
+    modes->series = br_store_take(store, rows, sizeof *modes->series);
+    br_quadrature_init(&modes->quadrature, &modes->pieces, degree, store);
+    if (store->failed)
+        return br_no_memory(err, "the modes");
+    const enum br_status status = decompose(modes, err);
+    return status ? status : integrate(modes, err);
+}
+
+void br_modes_expand(const struct br_modes *modes, size_t order, const double *q, double *c)
+{
+    br_combine_best()(modes->count, q, modes->count, modes->curve, c); /* c = U q */
+    for (size_t d = 0; d < modes->degree - order; d++)
+        br_pieces_integrate(&modes->pieces, d, c);
+}
+
+/* out = A' c, A one of the matrices of all functions, c the Legendre coefficients of f. */
+static enum br_status test_with(const struct br_modes *modes, const double *a,
+                                const struct br_function *f, double t, struct br_places fronts,
+                                double *out, struct br_error *err)
+{
+    const int rows = (int)br_modes_length(modes, 0);
+    const enum br_status status =
+        br_quadrature_project(&modes->quadrature, f, t, fronts, modes->series, err);
+    cblas_dgemv(CblasColMajor, CblasTrans, rows, (int)modes->count, 1, a, rows, modes->series, 1, 0,
+                out, 1);
+    return status;
+}
+
+/* With the integrals, not with s Y: in a short element at the clamp the modes are small, and Y has
+ * the round-off of its largest entries there. */
+enum br_status br_modes_load(const struct br_modes *modes, const struct br_function *f, double t,
+                             struct br_places fronts, double *out, struct br_error *err)
+{
+    return test_with(modes, modes->function, f, t, fronts, out, err);
+}
+
+/* A mode that is smaller than round-off carries no velocity. */
+enum br_status br_modes_project(const struct br_modes *modes, const struct br_function *f,
+                                double *q, struct br_error *err)
+{
+    const enum br_status status =
+        test_with(modes, modes->shape, f, 0, (struct br_places){0}, q, err);
+    for (size_t i = 0; i < modes->count; i++)
+        q[i] = modes->size[i] > DBL_EPSILON * modes->size[0] ? q[i] / modes->size[i] : 0;
+    return status;
+}
+
+enum br_status br_modes_project_energy(const struct br_modes *modes, const struct br_function *f,
+                                       double scale, double *q, struct br_error *err)
+{
+    const int m = (int)modes->count;
+    double *rate = br_allocate(modes->count, sizeof *rate);
+    if (!rate)
+        return br_no_memory(err, "a projection");
+    const enum br_status status = br_quadrature_project_slope(&modes->quadrature, f, rate, err);
+    cblas_dgemv(CblasColMajor, CblasTrans, m, m, scale, modes->curve, m, rate, 1, 0, q,
+                1); /* q = U' c */
+    free(rate);
+    return status;
+}
+
+/* ---- the field on its modes ---- */
+
+static enum br_status set_initial(struct br_oscillators *f, struct br_error *err)
+{
+    const struct br_exact_data *d = &f->data;
+    const double scale = f->modes.degree == 1 ? 1 : f->length; /* dw/dxi = L dw/dx */
     enum br_status status = BR_OK;
     if (!br_function_is_zero(d->slope))
-        status = br_modes_project_energy(f->modes, d->slope, scale, f->displacement, err);
+        status = br_modes_project_energy(&f->modes, d->slope, scale, f->displacement, err);
     if (!status && !br_function_is_zero(d->velocity))
-        status = br_modes_project(f->modes, d->velocity, f->velocity, err);
+        status = br_modes_project(&f->modes, d->velocity, f->velocity, err);
     br_function_evaluate(d->displacement, 1, &f->length, 0, &f->tip_displacement);
     br_function_evaluate(d->velocity, 1, &f->length, 0, &f->tip_velocity);
     return status;
 }
 
-static enum br_status set_space(struct br_field *f, struct br_error *err)
+static enum br_status set_space(struct br_oscillators *f, struct br_error *err)
 {
-    const size_t m = f->modes->count;
+    const size_t m = f->modes.count;
     enum br_status status = BR_OK;
     for (size_t term = 0; term < BR_LOAD_TERMS && !status; term++) {
         const struct br_product *p = &f->data.load->term[term];
         double *space = f->load_space + term * m;
         if (p->space.uses_t || br_product_is_zero(p))
             continue;
-        status = br_modes_load(f->modes, &p->space, 0, (struct br_places){0}, space, err);
+        status = br_modes_load(&f->modes, &p->space, 0, (struct br_places){0}, space, err);
         for (size_t i = 0; i < m; i++)
             space[i] *= f->length;
     }
     return status;
 }
 
-static enum br_status create_modes(struct br_field *f, size_t degree, const struct br_outline *o,
+static enum br_status create_modes(struct br_oscillators *f, const struct br_outline *o,
                                    size_t modes, struct br_error *err)
 {
     const size_t elements = o->end.count - 1;
-    struct br_pieces pieces = {0};
-    size_t *terms = br_allocate(elements, sizeof *terms);
+    size_t *terms = br_store_take(f->store, elements, sizeof *terms);
     for (size_t e = 0; terms && e < elements; e++)
         terms[e] = br_outline_terms(o, e, modes);
-    enum br_status status =
-        terms ? br_pieces_init(&pieces, f->length, elements, o->end.at, terms, err)
-              : br_no_memory(err, "the modes");
-    if (!status)
-        status = br_modes_create(&f->modes, &pieces, degree, err);
-    br_pieces_clear(&pieces);
-    free(terms);
-    return status;
+    if (terms)
+        br_pieces_init(&f->modes.pieces, f->length, elements, o->end.at, terms, f->store);
+    return f->store->failed ? br_no_memory(err, "the modes")
+                            : br_modes_init(&f->modes, o->degree, f->store, err);
 }
 
-static enum br_status allocate(struct br_field *f, struct br_error *err)
+static enum br_status allocate(struct br_oscillators *f, struct br_error *err)
 {
-    const size_t m = f->modes->count;
-    f->mass = br_allocate(m, sizeof *f->mass);
-    f->load_space = br_allocate(m * (BR_LOAD_TERMS + 1), sizeof *f->load_space);
-    f->displacement = br_allocate(m, sizeof *f->displacement);
-    f->velocity = br_allocate(m, sizeof *f->velocity);
-    return f->mass && f->load_space && f->displacement && f->velocity
-               ? BR_OK
-               : br_no_memory(err, "the modes");
+    const size_t m = f->modes.count;
+    f->mass = br_store_take(f->store, m, sizeof *f->mass);
+    f->load_space = br_store_take(f->store, m * (BR_LOAD_TERMS + 1), sizeof *f->load_space);
+    f->displacement = br_store_take(f->store, m, sizeof *f->displacement);
+    f->velocity = br_store_take(f->store, m, sizeof *f->velocity);
+    return f->store->failed ? br_no_memory(err, "the modes") : BR_OK;
 }
 
-enum br_status br_field_create(struct br_field **out, const struct br_scene *scene, size_t degree,
-                               const struct br_outline *outline, size_t modes, struct br_error *err)
+enum br_status br_oscillators_create(struct br_oscillators **out, const struct br_scene *scene,
+                                     const struct br_outline *outline, size_t modes,
+                                     struct br_store *store, struct br_error *err)
 {
-    const double power = pow(scene->length, 1 - 2 * (double)degree);
-    *out = NULL;
-    struct br_field *f = br_allocate(1, sizeof *f);
+    struct br_oscillators *f = *out = br_store_take(store, 1, sizeof *f);
     if (!f)
         return br_no_memory(err, "the modes");
+    const double power = pow(scene->length, 1 - 2 * (double)outline->degree);
+    f->store = store;
     f->length = scene->length;
-    f->data = br_field_data(scene, degree);
+    f->data = br_exact_data_of(scene, outline->degree);
     f->fronts = outline->fronts;
     f->damping = f->data.viscosity * power;
     f->stiffness = f->data.stiffness * power;
-    enum br_status status = create_modes(f, degree, outline, modes, err);
+    enum br_status status = create_modes(f, outline, modes, err);
     if (!status)
         status = allocate(f, err);
-    for (size_t i = 0; !status && i < f->modes->count; i++)
-        f->mass[i] = scene->density * f->length * f->modes->size[i] * f->modes->size[i];
+    for (size_t i = 0; !status && i < f->modes.count; i++)
+        f->mass[i] = scene->density * f->length * f->modes.size[i] * f->modes.size[i];
     if (!status)
         status = set_space(f, err);
-    if (!status)
-        status = set_initial(f, err);
-    if (status)
-        br_field_free(f);
-    else
-        *out = f;
-    return status;
-}
-
-void br_field_free(struct br_field *f)
-{
-    if (!f)
-        return;
-    br_modes_free(f->modes);
-    free(f->mass);
-    free(f->load_space);
-    free(f->displacement);
-    free(f->velocity);
-    free(f);
+    return status ? status : set_initial(f, err);
 }
 
 /* out[i] += force * tip_i + moment * slope_i / L */
-static void add_tip(const struct br_field *f, double t, double *out)
+static void add_tip(const struct br_oscillators *f, double t, double *out)
 {
     double force, moment = 0;
     br_function_evaluate(f->data.tip_force, 1, &f->length, t, &force);
     if (f->data.tip_moment)
         br_function_evaluate(f->data.tip_moment, 1, &f->length, t, &moment);
-    for (size_t i = 0; i < f->modes->count; i++)
-        out[i] += force * f->modes->tip[i] + moment / f->length * f->modes->slope[i];
+    for (size_t i = 0; i < f->modes.count; i++)
+        out[i] += force * f->modes.tip[i] + moment / f->length * f->modes.slope[i];
 }
 
 /* A load that no product gives, at one time: cut where it jumps there. */
-static enum br_status load_at(const struct br_field *f, const struct br_function *space, double t,
-                              double *out, struct br_error *err)
+static enum br_status load_at(const struct br_oscillators *f, const struct br_function *space,
+                              double t, double *out, struct br_error *err)
 {
     struct br_breaks breaks = {0};
     enum br_status status = BR_OK;
@@ -130,16 +245,16 @@ static enum br_status load_at(const struct br_field *f, const struct br_function
     for (size_t i = 0; i < breaks.count && x; i++)
         x[i] = breaks.at[i].high;
     if (!status)
-        status = br_modes_load(f->modes, space, t, (struct br_places){breaks.count, x}, out, err);
+        status = br_modes_load(&f->modes, space, t, (struct br_places){breaks.count, x}, out, err);
     free(x);
     br_breaks_free(&breaks);
     return status;
 }
 
-enum br_status br_field_load(const struct br_field *f, double t, double *out, double *size,
-                             struct br_error *err)
+enum br_status br_oscillators_load(const struct br_oscillators *f, double t, double *out,
+                                   double *size, struct br_error *err)
 {
-    const size_t m = f->modes->count;
+    const size_t m = f->modes.count;
     *size = 0;
     for (size_t i = 0; i < m; i++)
         out[i] = 0;
@@ -156,7 +271,7 @@ enum br_status br_field_load(const struct br_field *f, double t, double *out, do
                 return status;
             factor *= f->length;
             *size +=
-                fabs(factor) * cblas_dnrm2((int)br_modes_length(f->modes, 0), f->modes->series, 1);
+                fabs(factor) * cblas_dnrm2((int)br_modes_length(&f->modes, 0), f->modes.series, 1);
         }
         for (size_t i = 0; i < m; i++)
             out[i] += factor * space[i];
@@ -165,9 +280,9 @@ enum br_status br_field_load(const struct br_field *f, double t, double *out, do
     return BR_OK;
 }
 
-double br_field_work(const struct br_field *f)
+double br_oscillators_work(const struct br_oscillators *f)
 {
-    const double points = (double)f->modes->quadrature.count, m = (double)f->modes->count;
+    const double points = (double)f->modes.quadrature.count, m = (double)f->modes.count;
     double work = m;
     for (size_t term = 0; term < BR_LOAD_TERMS; term++) {
         const struct br_product *p = &f->data.load->term[term];
@@ -177,11 +292,11 @@ double br_field_work(const struct br_field *f)
     return work;
 }
 
-double br_field_norm(const struct br_field *f, const double *q, size_t stride)
+double br_oscillators_norm(const struct br_oscillators *f, const double *q, size_t stride)
 {
     double sum = 0;
-    for (size_t i = 0; i < f->modes->count; i++) {
-        const double part = f->modes->size[i] * q[i * stride];
+    for (size_t i = 0; i < f->modes.count; i++) {
+        const double part = f->modes.size[i] * q[i * stride];
         sum += part * part;
     }
     return sqrt(f->length * sum);

@@ -5,41 +5,93 @@
 #ifndef BR_REFERENCE_EXACT_FIELD_H
 #define BR_REFERENCE_EXACT_FIELD_H
 
-#include "reference/exact/modes.h"
 #include "reference/exact/outline.h"
+#include "reference/exact/pieces.h"
 
-struct br_field {
-    struct br_modes *modes;
+/* Modes of a clamped-free rod or beam of unit length, by a spectral Galerkin
+ * method on elements.
+ *
+ * Trial functions are the degree-fold integrals (from the clamp) of the elements'
+ * orthonormal polynomials, m of them in all; degree 1 gives the rod's space E, 2 the
+ * beam's space V, and the elastic energy is the identity. With B the matrix that integrates, the
+ * singular value decomposition B = Y diag(s) U' gives modes that are orthogonal
+ * in the mass and in the energy: mode i is s_i times the unit function with the
+ * coefficients Y_i, and its derivative of order `degree` has the coefficients U_i. */
+struct br_modes {
+    struct br_pieces pieces;
+    size_t count;     /* m, the pieces' terms */
+    size_t degree;    /* 1: axial, 2: bending */
+    double *size;     /* s, m: L2 norm of each mode */
+    double *shape;    /* Y, br_modes_length(0) x m, by columns */
+    double *function; /* B U = Y s, the same size: each mode, as integrated from the clamp */
+    double *curve;    /* U, m x m, by columns */
+    double *tip;      /* m: value of each mode at the free end */
+    double *slope;    /* m: derivative of each there; degree 2 only, else zeros */
+
+    struct br_quadrature quadrature; /* of functions that are tested with shapes */
+    double *series;                  /* br_modes_length(0): coefficients of the last one */
+};
+
+/* modes: in, with its pieces, all else zero. Fails with BR_NO_MEMORY or BR_SINGULAR. */
+enum br_status br_modes_init(struct br_modes *modes, size_t degree, struct br_store *store,
+                             struct br_error *err);
+
+/* Number of Legendre coefficients of a sum of modes derived `order` times,
+ * order <= degree. */
+size_t br_modes_length(const struct br_modes *modes, size_t order);
+
+/* c (out, br_modes_length) = Legendre coefficients of the order-th derivative of
+ * sum_i q_i mode_i in x / L, order <= degree. */
+void br_modes_expand(const struct br_modes *modes, size_t order, const double *q, double *c);
+
+/* out[i] = integral of f(x, t) mode_i(x) over x / L in [0, 1]; fronts as in pieces.h. For one
+ * thread at a time. Fails with BR_NO_MEMORY. */
+enum br_status br_modes_load(const struct br_modes *modes, const struct br_function *f, double t,
+                             struct br_places fronts, double *out, struct br_error *err);
+
+/* q (out) = L2 projection of f(x, 0) on the modes. */
+enum br_status br_modes_project(const struct br_modes *modes, const struct br_function *f,
+                                double *q, struct br_error *err);
+
+/* q (out) = energy projection of the displacement whose derivative of order
+ * degree - 1 with respect to x / L is scale * f(x, 0). */
+enum br_status br_modes_project_energy(const struct br_modes *modes, const struct br_function *f,
+                                       double scale, double *q, struct br_error *err);
+
+/* ---- the field ---- */
+
+struct br_oscillators {
+    struct br_modes modes;
     double length;             /* L, m */
     double *mass;              /* modes, kg */
     double damping, stiffness; /* N s/m, N/m */
-    struct br_field_data data; /* borrowed */
+    struct br_exact_data data; /* borrowed */
     bool fronts;               /* places where the load jumps move */
     double *load_space;        /* BR_LOAD_TERMS * modes: of the terms whose space part is constant
                                   in time; and workspace for one that is not */
     double *displacement;      /* modes: at t = 0, m */
     double *velocity;          /* modes: at t = 0, m/s */
     double tip_displacement, tip_velocity; /* at t = 0, m, m/s */
+    struct br_store *store;                /* that it is from */
 };
 
-/* The scene (borrowed, with its functions) must model the field: degree 1 is
- * the axial, 2 the bending field. On the outline's elements, of as many polynomials as it has for
- * `modes`. Fails with BR_NO_MEMORY or BR_SINGULAR. */
-enum br_status br_field_create(struct br_field **out, const struct br_scene *scene, size_t degree,
-                               const struct br_outline *outline, size_t modes,
-                               struct br_error *err);
-void br_field_free(struct br_field *field);
+/* *out (owned by the store). The scene (borrowed, with its functions) must model the field. On the
+ * outline's elements, of as many polynomials as it has for `modes`. Fails with BR_NO_MEMORY or
+ * BR_SINGULAR. */
+enum br_status br_oscillators_create(struct br_oscillators **out, const struct br_scene *scene,
+                                     const struct br_outline *outline, size_t modes,
+                                     struct br_store *store, struct br_error *err);
 
 /* out[i] = load_i(t), N. *size: out, of loads that no product gives, N: what a mode of size 1 gets
  * of them may be wrong by round-off of that. Fails with BR_NO_MEMORY, or BR_BAD_INPUT: too many
  * fronts. */
-enum br_status br_field_load(const struct br_field *field, double t, double *out, double *size,
-                             struct br_error *err);
+enum br_status br_oscillators_load(const struct br_oscillators *field, double t, double *out,
+                                   double *size, struct br_error *err);
 
-/* What a step costs in the units of effort.h: its modes, and loads that no product gives. */
-double br_field_work(const struct br_field *field);
+/* What a step costs in the units of br_effort: its modes, and loads that no product gives. */
+double br_oscillators_work(const struct br_oscillators *field);
 
 /* L2 norm over the beam of sum_i q_i mode_i, with q at every `stride`-th place. */
-double br_field_norm(const struct br_field *field, const double *q, size_t stride);
+double br_oscillators_norm(const struct br_oscillators *field, const double *q, size_t stride);
 
 #endif

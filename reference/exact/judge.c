@@ -2,7 +2,7 @@
 /* The exact reference as a judge. */
 #include <math.h>
 
-#include "reference/exact/shared.h"
+#include "reference/exact/exact.h"
 #include "reference/judge.h"
 #include "solver/clock.h"
 #include "solver/modes.h"
@@ -120,7 +120,7 @@ static enum br_status exact_advance(void *self, enum br_field_kind kind, size_t 
     return BR_OK;
 }
 
-static void exact_look(void *self, const struct br_look_at *at, struct br_view *view)
+static void exact_sample(void *self, const struct br_sample_at *at, struct br_view *view)
 {
     struct exact_judge *e = self;
     if (at->measure == BR_TIP) {
@@ -130,7 +130,7 @@ static void exact_look(void *self, const struct br_look_at *at, struct br_view *
     }
     br_view_modes(view,
                   br_mode_count((struct br_elements){at->kind, e->axial_degree}, at->measure));
-    br_exact_projection_apply(e->projection[at->kind][at->measure][at->mesh], e->exact, e->state,
+    br_exact_projection_apply(e->projection[at->kind][at->measure][at->mesh], e->state,
                               view->values, &view->rest);
 }
 
@@ -182,7 +182,7 @@ const struct br_judge br_judge_exact = {
     .create = exact_create,
     .free = exact_free,
     .advance = exact_advance,
-    .look = exact_look,
+    .sample = exact_sample,
     .report = exact_report,
     .tell = exact_tell,
 };

@@ -2,8 +2,11 @@
 #include "reference/exact/legendre.h"
 
 #include <assert.h>
+#include <gsl/gsl_integration.h>
 #include <gsl/gsl_sf_legendre.h>
+#include <lapacke.h>
 #include <math.h>
+#include <string.h>
 
 /* GSL refuses arguments outside [-1, 1] by a rounding error. */
 static double to_gsl(double xi)
@@ -11,82 +14,31 @@ static double to_gsl(double xi)
     return fmin(fmax(2 * xi - 1, -1), 1);
 }
 
-/* Roots take longer than all else; these are what the formulas below give. */
-enum { TABLE = 32 };
+/* Roots take longer than all else: those of low degrees are kept. */
+enum { KEPT = 32 };
+static double norms[KEPT], couplings[KEPT];
 
-static const double norms[TABLE] = {
-    1.0,
-    1.7320508075688772,
-    2.23606797749979,
-    2.6457513110645907,
-    3.0,
-    3.3166247903554,
-    3.605551275463989,
-    3.872983346207417,
-    4.123105625617661,
-    4.358898943540674,
-    4.58257569495584,
-    4.795831523312719,
-    5.0,
-    5.196152422706632,
-    5.385164807134504,
-    5.5677643628300215,
-    5.744562646538029,
-    5.916079783099616,
-    6.082762530298219,
-    6.244997998398398,
-    6.4031242374328485,
-    6.557438524302,
-    6.708203932499369,
-    6.855654600401044,
-    7.0,
-    7.14142842854285,
-    7.280109889280518,
-    7.416198487095663,
-    7.54983443527075,
-    7.681145747868608,
-    7.810249675906654,
-    7.937253933193772,
-};
+static double find_norm(size_t k)
+{
+    return sqrt(2.0 * (double)k + 1);
+}
 
-static const double couplings[TABLE] = {
-    0.0,
-    0.2886751345948129,
-    0.12909944487358055,
-    0.08451542547285165,
-    0.0629940788348712,
-    0.050251890762960605,
-    0.04181210050035454,
-    0.03580574370197165,
-    0.03131121455425748,
-    0.027820744203732862,
-    0.025031308716087945,
-    0.022750787759664503,
-    0.020851441405707476,
-    0.019245008972987525,
-    0.01786854224729658,
-    0.016675933649126753,
-    0.01563263498701806,
-    0.014712247158412491,
-    0.01389425035941821,
-    0.01316245316231641,
-    0.012503908082008883,
-    0.011908137705738524,
-    0.011366572324507891,
-    0.010872134550890703,
-    0.010418927964135327,
-    0.010002000600200069,
-    0.009617163101410255,
-    0.009260847332207951,
-    0.008929995329613664,
-    0.00862197125625809,
-    0.008334490981923114,
-    0.008065565308263788,
-};
+static double find_coupling(size_t k)
+{
+    return 0.5 / sqrt(4.0 * (double)k * (double)k - 1);
+}
+
+__attribute__((constructor)) static void keep_roots(void)
+{
+    for (size_t k = 0; k < KEPT; k++) {
+        norms[k] = find_norm(k);
+        couplings[k] = k ? find_coupling(k) : 0; /* nothing comes from below degree 0 */
+    }
+}
 
 static double norm(size_t k)
 {
-    return k < TABLE ? norms[k] : sqrt(2.0 * (double)k + 1);
+    return k < KEPT ? norms[k] : find_norm(k);
 }
 
 void br_legendre(size_t count, double xi, double *p)
@@ -111,7 +63,7 @@ void br_legendre_derivative(size_t count, double xi, double *p, double *dp)
 
 double br_legendre_coupling(size_t k)
 {
-    return k && k < TABLE ? couplings[k] : 0.5 / sqrt(4.0 * (double)k * (double)k - 1);
+    return k && k < KEPT ? couplings[k] : find_coupling(k);
 }
 
 void br_legendre_integral(size_t count, double xi, double *p, double *q)
@@ -148,4 +100,56 @@ void br_legendre_integrate(size_t count, double *c)
         c[k] -= br_legendre_coupling(k + 1) * after;
         before = here;
     }
+}
+
+/* ---- Radau IIA ---- */
+
+enum { S = BR_STAGES };
+
+/* The interior nodes are those of Gauss-Jacobi quadrature with weight 1 - x. */
+static enum br_status find_nodes(double node[S], struct br_error *err)
+{
+    gsl_integration_fixed_workspace *gauss =
+        gsl_integration_fixed_alloc(gsl_integration_fixed_jacobi, S - 1, 0, 1, 1, 0);
+    if (!gauss)
+        return br_no_memory(err, "the Radau nodes");
+    memcpy(node, gsl_integration_fixed_nodes(gauss), (S - 1) * sizeof *node);
+    node[S - 1] = 1;
+    gsl_integration_fixed_free(gauss);
+    return BR_OK;
+}
+
+/* The inverse of the matrix of p_k(c_j). Radau's weights would give it in closed
+ * form, but are ten times more sensitive to the nodes' rounding. */
+static enum br_status invert(struct br_radau *r, struct br_error *err)
+{
+    double value[S][S];
+    lapack_int pivot[S];
+    for (size_t j = 0; j < S; j++) {
+        br_legendre(S, r->node[j], value[j]);
+        r->to_coefficients[j][j] = 1;
+    }
+    const lapack_int info =
+        LAPACKE_dgesv(LAPACK_ROW_MAJOR, S, S, &value[0][0], S, pivot, &r->to_coefficients[0][0], S);
+    return info ? br_no_memory(err, "the Radau nodes") : BR_OK;
+}
+
+enum br_status br_radau_init(struct br_radau *r, struct br_error *err)
+{
+    *r = (struct br_radau){0};
+    br_legendre(S, 1, r->end);
+    r->integral[0][0] = 0.5;
+    for (size_t k = 1; k < S; k++) {
+        r->integral[k][k - 1] = br_legendre_coupling(k);
+        r->integral[k - 1][k] = -br_legendre_coupling(k);
+    }
+    r->integral[S - 1][S - 1] = 1.0 / (4 * S - 2); /* p_S seen at the nodes is a p_{S-1} */
+    const enum br_status status = find_nodes(r->node, err);
+    return status ? status : invert(r, err);
+}
+
+void br_radau_fit(const struct br_radau *r, const double value[S], double out[S])
+{
+    for (size_t k = 0; k < S; k++)
+        out[k] = br_radau_sum(r->to_coefficients[k], value);
 }

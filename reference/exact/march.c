@@ -7,9 +7,22 @@
 #include <gsl/gsl_roots.h>
 #include <math.h>
 
-#include "reference/exact/step.h"
-
 enum { S = BR_STAGES, SAMPLES = 24, MAX_ROOT_STEPS = 60, MAX_PHASES_AT_ONCE = 4 };
+
+enum br_status br_effort_spend(struct br_effort *effort, double work, struct br_error *err)
+{
+    const struct br_exact_options *who = effort->who;
+    effort->done += work;
+    if (who->stop && who->stop(who->stop_self))
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (who->progress)
+        who->progress(who->stop_self, effort->done / effort->most);
+    if (!(effort->done <= effort->most))
+        return br_fail(
+            err, BR_NOT_FINITE,
+            "more work than is allowed, some 20 s of a core, does not make two solutions agree");
+    return BR_OK;
+}
 
 /* A guard this far below zero, of the largest value so far, is round-off. */
 static const double dead_band = 1e-13;
@@ -23,7 +36,7 @@ struct scale {
 struct march {
     const struct br_march_options *options;
     struct br_stepper *s;
-    struct br_track *track;
+    struct br_history *track;
     struct scale scale; /* of the accepted steps */
     double h;           /* s, the next step's length */
     bool fresh;         /* the next step is the first of a phase */
@@ -41,11 +54,11 @@ static double larger(double a, double b)
 static struct scale trial_scale(const struct march *m)
 {
     const struct br_stepper *s = m->s;
-    const struct br_field *f = s->field;
+    const struct br_oscillators *f = s->field;
     const struct br_tip_state end = br_tip_at(&s->tip, 1);
     struct scale scale = m->scale;
-    scale.displacement = larger(scale.displacement, br_field_norm(f, s->q, 1));
-    scale.velocity = larger(scale.velocity, br_field_norm(f, s->series, S)); /* its mean */
+    scale.displacement = larger(scale.displacement, br_oscillators_norm(f, s->q, 1));
+    scale.velocity = larger(scale.velocity, br_oscillators_norm(f, s->series, S)); /* its mean */
     scale.tip_displacement = larger(scale.tip_displacement, fabs(end.displacement));
     scale.tip_velocity = larger(scale.tip_velocity, fabs(end.velocity));
     scale.force = larger(scale.force, fabs(end.force));
@@ -70,8 +83,8 @@ static double force_noise(const struct march *m, const struct scale *scale)
 static double step_error(const struct march *m, const struct scale *scale)
 {
     const struct br_stepper *s = m->s;
-    const double last = br_field_norm(s->field, s->series + S - 1, S);
-    const double before = br_field_norm(s->field, s->series + S - 2, S);
+    const double last = br_oscillators_norm(s->field, s->series + S - 1, S);
+    const double before = br_oscillators_norm(s->field, s->series + S - 2, S);
     const double velocity = larger(last, before / 8);
     const double force = larger(fabs(s->tip.force[S - 1]), fabs(s->tip.force[S - 2]) / 8);
     const double noise = 10 * (DBL_EPSILON * s->free_size + s->load_noise) / m->options->tolerance;
@@ -86,7 +99,7 @@ static double step_error(const struct march *m, const struct scale *scale)
 
 static double guard_at(const struct march *m, double theta)
 {
-    const struct br_tip *tip = &m->s->tip;
+    const struct br_tip_step *tip = &m->s->tip;
     const struct br_tip_state state = br_tip_at(tip, theta);
     return br_law_guard(m->s->law, tip->start + theta * tip->length, &state);
 }
@@ -163,21 +176,21 @@ static void enter(struct march *m, enum br_phase phase, double error)
     m->h = m->options->first_step;
     m->fresh = true;
     if (!m->status)
-        m->status = br_track_enter(m->track, &entry, m->err);
+        m->status = br_history_enter(m->track, &entry, m->err);
 }
 
 static void accept(struct march *m, double time)
 {
     const struct br_stepper *s = m->s;
     if (!m->status)
-        m->status = br_track_append(m->track, &s->tip, s->q, s->series, m->err);
+        m->status = br_history_append(m->track, &s->tip, s->q, s->series, m->err);
     m->scale = trial_scale(m);
     m->track->free_velocity =
         larger(m->track->free_velocity, s->free_size / sqrt(s->field->length));
     m->track->impulse += s->impulse;
     m->track->blurred += gsl_pow_2(s->blur * s->impulse);
     br_stepper_accept(m->s, time);
-    m->scale.displacement = larger(m->scale.displacement, br_field_norm(s->field, s->q, 1));
+    m->scale.displacement = larger(m->scale.displacement, br_oscillators_norm(s->field, s->q, 1));
     m->fresh = false;
     m->at_once = 0;
 }
@@ -314,7 +327,7 @@ static int by_time(const void *a, const void *b)
 static size_t list_changes(const struct march *m, struct change *change)
 {
     const struct br_breaks *jump = &m->options->outline[0]->jump;
-    const struct br_track *axial = m->s->law->axial;
+    const struct br_history *axial = m->s->law->axial;
     size_t count = 1, kept = 0;
     change[0] = (struct change){{0, 0}, 0};
     for (size_t i = 0; i < jump->count; i++)
@@ -357,7 +370,7 @@ static void march(struct march *m, const struct change *change, size_t count)
 
 static void march_all(struct march *m)
 {
-    const struct br_track *axial = m->s->law->axial;
+    const struct br_history *axial = m->s->law->axial;
     const size_t most = 1 + m->options->outline[0]->jump.count + (axial ? axial->entries : 0);
     struct change *change = br_allocate(most, sizeof *change);
     if (change)
@@ -367,20 +380,22 @@ static void march_all(struct march *m)
     free(change);
 }
 
-enum br_status br_march(const struct br_field *field, const struct br_law *law,
-                        const struct br_march_options *options, struct br_track **out,
+enum br_status br_march(const struct br_oscillators *field, const struct br_law *law,
+                        const struct br_march_options *options, struct br_history **out,
                         struct br_error *err)
 {
-    struct march m = {.options = options, .err = err};
+    struct br_store store = {0};
+    struct br_stepper stepper = {.field = field, .law = law};
+    struct march m = {.options = options, .s = &stepper, .err = err};
     *out = NULL;
-    m.status = br_stepper_create(&m.s, field, law, options->gap, err);
+    m.status = br_stepper_init(&stepper, options->gap, &store, err);
     if (!m.status)
-        m.status = br_track_create(&m.track, field->modes->count, options->gap, err);
+        m.status = br_history_create(&m.track, field->modes.count, options->gap, err);
     if (!m.status)
         march_all(&m);
-    br_stepper_free(m.s);
+    br_store_clear(&store);
     if (m.status)
-        br_track_free(m.track);
+        br_history_free(m.track);
     else
         *out = m.track;
     return m.status;

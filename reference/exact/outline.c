@@ -5,7 +5,7 @@
 #include <math.h>
 
 /* Degrees of what stands for the data: on an element, and over a Radau step. */
-enum { SPACE_DEGREE = 15, TIME_DEGREE = 8, MOST_ELEMENTS = 400, MOST_CELLS = 20000 };
+enum { SPACE_DEGREE = 15, TIME_DEGREE = 8, MOST_CELLS = 20000 };
 
 /* Functions of x and of t that the field depends on. */
 enum { MOST = 2 * BR_LOAD_TERMS + 2 };
@@ -15,23 +15,24 @@ struct subject {
     double until; /* s: it counts from 0 on */
 };
 
+/* All by br_variable where it is twofold. */
 struct work {
     struct br_outline *o;
-    const struct br_field_data *data;
-    size_t degree;
-    double length, duration, density;
-    struct subject space[MOST], time[MOST];
-    size_t spaces, times;
-    struct br_breaks bend; /* places where functions of x jump or bend, m */
+    const struct br_exact_data *data;
+    double all[2], density; /* L, m; T, s; kg/m */
+    struct subject subject[2][MOST];
+    size_t subjects[2];
+    struct br_breaks breaks[2]; /* where functions of x or t jump or bend, m and s */
+    enum br_status status;      /* where it is not BR_OK, nothing more is done */
     struct br_error *err;
 };
 
-struct br_field_data br_field_data(const struct br_scene *s, size_t degree)
+struct br_exact_data br_exact_data_of(const struct br_scene *s, size_t degree)
 {
     const struct br_axial *a = &s->axial;
     const struct br_bending *b = &s->bending;
     if (degree == 1)
-        return (struct br_field_data){
+        return (struct br_exact_data){
             .stiffness = a->stiffness,
             .viscosity = a->viscosity,
             .load = &a->load,
@@ -40,7 +41,7 @@ struct br_field_data br_field_data(const struct br_scene *s, size_t degree)
             .velocity = &a->velocity,
             .slope = &a->displacement,
         };
-    return (struct br_field_data){
+    return (struct br_exact_data){
         .stiffness = b->stiffness,
         .viscosity = b->viscosity,
         .load = &b->load,
@@ -54,25 +55,36 @@ struct br_field_data br_field_data(const struct br_scene *s, size_t degree)
 
 /* ---- who counts ---- */
 
+static bool is_known(const struct br_function *f)
+{
+    return f->ops && f->ops->bound;
+}
+
+static void list(struct work *w, enum br_variable along, const struct br_function *f, double until)
+{
+    w->subject[along][w->subjects[along]++] = (struct subject){f, until};
+}
+
+/* Of what is not known nothing can be found out but where steps end. */
 static void list_space(struct work *w, const struct br_function *f, double until)
 {
-    if (f->uses_x)
-        w->space[w->spaces++] = (struct subject){f, f->uses_t ? until : 0};
+    if (f->uses_x && is_known(f))
+        list(w, BR_X, f, f->uses_t ? until : 0);
 }
 
 static void list_time(struct work *w, const struct br_function *f)
 {
     if (f && f->uses_t && !f->uses_x)
-        w->time[w->times++] = (struct subject){f, w->duration};
+        list(w, BR_T, f, w->all[BR_T]);
 }
 
-static void list_subjects(struct work *w, const struct br_field_data *d)
+static void list_subjects(struct work *w, const struct br_exact_data *d)
 {
     for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
         const struct br_product *p = &d->load->term[i];
         if (br_product_is_zero(p))
             continue;
-        list_space(w, &p->space, w->duration);
+        list_space(w, &p->space, w->all[BR_T]);
         list_time(w, &p->space);
         list_time(w, &p->time);
     }
@@ -84,12 +96,15 @@ static void list_subjects(struct work *w, const struct br_field_data *d)
 
 static struct br_box box_of(const struct work *w, const struct subject *s)
 {
-    return (struct br_box){{0, w->length}, {0, s->until}};
+    return (struct br_box){{0, w->all[BR_X]}, {0, s->until}};
 }
 
-static bool is_known(const struct br_function *f)
+/* A part of the one axis, at the beginning of the other. */
+static struct br_box line(enum br_variable along, struct br_interval here)
 {
-    return f->ops && f->ops->bound;
+    struct br_box box = {{0, 0}, {0, 0}};
+    *br_side(&box, along) = here;
+    return box;
 }
 
 static bool inseparable(const struct subject *s)
@@ -102,11 +117,13 @@ static bool inseparable(const struct subject *s)
 /* So much apart, of a place, guards that vanish there have a sign for sure. */
 static const double apart = 8 * DBL_EPSILON;
 
-/* Part i of `breaks`->count + 1 of [0, all], as far as functions are smooth there for sure. */
-static struct br_interval part(const struct br_breaks *breaks, size_t i, double all)
+/* Part i of breaks' count + 1 of an axis, as far as functions are smooth there for sure. */
+static struct br_interval part(const struct work *w, enum br_variable along, size_t i)
 {
+    const struct br_breaks *breaks = &w->breaks[along];
     return (struct br_interval){i ? breaks->at[i - 1].high * (1 + apart) : 0,
-                                i < breaks->count ? breaks->at[i].low * (1 - apart) : all};
+                                i < breaks->count ? breaks->at[i].low * (1 - apart)
+                                                  : w->all[along]};
 }
 
 /* What is this narrow, of all, lies within one place, or in an end. */
@@ -114,8 +131,10 @@ static const double narrow = 1e-13;
 
 /* Places with nothing but round-off between them are one; what happens in it is counted by
  * count_hidden. */
-static void join_breaks(struct br_breaks *breaks, double all)
+static void join_breaks(struct work *w, enum br_variable along)
 {
+    struct br_breaks *breaks = &w->breaks[along];
+    const double all = w->all[along];
     size_t kept = 0;
     for (size_t i = 0; i < breaks->count; i++) {
         struct br_interval at = breaks->at[i];
@@ -131,31 +150,71 @@ static void join_breaks(struct br_breaks *breaks, double all)
     breaks->count = kept;
 }
 
-/* The ends of [0, all] and of the parts. */
-static enum br_status add_parts(struct br_list *list, const struct br_breaks *breaks, double all,
-                                struct br_error *err)
+static void add(struct work *w, struct br_list *to, double value)
 {
-    enum br_status status = br_list_add(list, 0, err);
-    for (size_t i = 0; i < breaks->count && !status; i++) {
-        const struct br_interval at = breaks->at[i];
-        const bool wide = at.high - at.low > narrow * all; /* no more could be told */
-        if (at.high < all && (wide || at.low > 0))
-            status = br_list_add(list, at.high, err);
-        if (!status && at.low > 0 && (wide || at.high == all))
-            status = br_list_add(list, at.low, err);
-    }
-    return status ? status : br_list_add(list, all, err);
+    if (!w->status)
+        w->status = br_list_add(to, value, w->err);
 }
 
-static enum br_status find_bends(struct work *w)
+/* The ends of an axis and of its parts. */
+static void add_parts(struct work *w, enum br_variable along, struct br_list *to)
 {
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < w->spaces && !status; i++)
-        if (is_known(w->space[i].f))
-            status = br_breaks_add(w->space[i].f, BR_X, box_of(w, &w->space[i]), &w->bend, w->err);
-    w->o->fronts = w->bend.moving;
-    join_breaks(&w->bend, w->length);
-    return status;
+    const double all = w->all[along];
+    add(w, to, 0);
+    for (size_t i = 0; i < w->breaks[along].count; i++) {
+        const struct br_interval at = w->breaks[along].at[i];
+        const bool wide = at.high - at.low > narrow * all; /* no more could be told */
+        if (at.high < all && (wide || at.low > 0))
+            add(w, to, at.high);
+        if (at.low > 0 && (wide || at.high == all))
+            add(w, to, at.low);
+    }
+    add(w, to, all);
+}
+
+static void add_breaks(struct work *w, enum br_variable along, const struct br_function *f,
+                       struct br_box box)
+{
+    if (!w->status)
+        w->status = br_breaks_add(f, along, box, &w->breaks[along], w->err);
+}
+
+static void find_bends(struct work *w)
+{
+    for (size_t i = 0; i < w->subjects[BR_X]; i++)
+        add_breaks(w, BR_X, w->subject[BR_X][i].f, box_of(w, &w->subject[BR_X][i]));
+    w->o->fronts = w->breaks[BR_X].moving;
+    join_breaks(w, BR_X);
+}
+
+/* Of functions of t alone, and of fronts that come and go. */
+static void find_jumps(struct work *w)
+{
+    for (size_t i = 0; i < w->subjects[BR_T]; i++)
+        if (is_known(w->subject[BR_T][i].f))
+            add_breaks(w, BR_T, w->subject[BR_T][i].f, box_of(w, &w->subject[BR_T][i]));
+    for (size_t i = 0; i < w->subjects[BR_X]; i++) {
+        const struct subject *s = &w->subject[BR_X][i];
+        bool complete = true;
+        if (!inseparable(s))
+            continue;
+        add_breaks(w, BR_T, s->f, box_of(w, s));
+        if (!w->status)
+            w->status = br_front_times(s->f, box_of(w, s), &w->breaks[BR_T], &complete, w->err);
+    }
+    join_breaks(w, BR_T);
+}
+
+/* Fronts that pass from one element to the next. */
+static void find_crossings(struct work *w)
+{
+    for (size_t i = 0; i < w->subjects[BR_X] && w->o->fronts; i++)
+        for (size_t e = 1; e + 1 < w->o->end.count; e++) {
+            const double x = w->o->end.at[e];
+            const struct br_box box = {{x, x}, {0, w->all[BR_T]}};
+            if (inseparable(&w->subject[BR_X][i]))
+                add_breaks(w, BR_T, w->subject[BR_X][i].f, box);
+        }
 }
 
 /* ---- meshes ---- */
@@ -167,15 +226,15 @@ static struct br_list *new_cells(struct work *w)
 
 static struct br_sight sight_of(const struct work *w, const struct subject *s)
 {
-    const struct br_box box = box_of(w, s);
-    const double x = s->f->uses_x ? w->length : 1, t = s->f->uses_t && s->until > 0 ? s->until : 1;
-    const double mean = br_sight_mean(s->f, box);
+    const double x = s->f->uses_x ? w->all[BR_X] : 1,
+                 t = s->f->uses_t && s->until > 0 ? s->until : 1;
+    const double mean = br_sight_mean(s->f, box_of(w, s));
     return (struct br_sight){
         .f = s->f,
         .degree = {SPACE_DEGREE, TIME_DEGREE},
         .mean = mean,
         .most_missed = 1e-13 * mean * x * t,
-        .least = 1e-15 * (s->f->uses_x ? w->length : w->duration),
+        .least = 1e-15 * w->all[s->f->uses_x ? BR_X : BR_T],
         .most = MOST_CELLS,
     };
 }
@@ -187,74 +246,71 @@ static void count_missed(struct work *w, const struct br_sight *sight)
         w->o->missed = fmax(w->o->missed, 1e-13 * sight->missed / sight->most_missed);
 }
 
-static enum br_status mesh_both(struct work *w, const struct subject *s)
+static void mesh_both(struct work *w, const struct subject *s)
 {
-    const struct br_breaks *bend = &w->bend, *jump = &w->o->jump;
     struct br_sight sight = sight_of(w, s);
     struct br_list ends[2] = {{0}, {0}};
-    enum br_status status = add_parts(&ends[BR_T], jump, w->duration, w->err);
-    for (size_t i = 0; i <= bend->count && !status; i++)
-        for (size_t j = 0; j <= jump->count && !status; j++) {
-            const struct br_box box = {part(bend, i, w->length), part(jump, j, w->duration)};
+    add_parts(w, BR_T, &ends[BR_T]);
+    for (size_t i = 0; i <= w->breaks[BR_X].count; i++)
+        for (size_t j = 0; j <= w->breaks[BR_T].count && !w->status; j++) {
+            const struct br_box box = {part(w, BR_X, i), part(w, BR_T, j)};
             if (box.x.high > box.x.low && box.t.high > box.t.low)
-                status = br_sight_both(&sight, box, ends, w->err);
+                w->status = br_sight_both(&sight, box, ends, w->err);
         }
-    for (size_t i = 0; i < ends[BR_X].count && !status; i++)
-        status = br_list_add(&w->o->end, ends[BR_X].at[i], w->err);
+    for (size_t i = 0; i < ends[BR_X].count; i++)
+        add(w, &w->o->end, ends[BR_X].at[i]);
     br_list_free(&ends[BR_X]);
     *new_cells(w) = ends[BR_T];
     count_missed(w, &sight);
-    return status;
 }
 
-static enum br_status mesh_parts(struct work *w, const struct subject *s, enum br_variable along,
-                                 struct br_list *ends)
+static void mesh_parts(struct work *w, const struct subject *s, enum br_variable along,
+                       struct br_list *ends)
 {
-    const struct br_breaks *breaks = along == BR_X ? &w->bend : &w->o->jump;
-    const double all = along == BR_X ? w->length : w->duration;
     struct br_sight sight = sight_of(w, s);
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i <= breaks->count && !status; i++) {
-        struct br_box box = {{0, 0}, {0, 0}};
-        const struct br_interval here = part(breaks, i, all);
-        *(along == BR_X ? &box.x : &box.t) = here;
+    for (size_t i = 0; i <= w->breaks[along].count && !w->status; i++) {
+        const struct br_interval here = part(w, along, i);
         if (here.high > here.low)
-            status = br_sight_along(&sight, along, box, ends, w->err);
+            w->status = br_sight_along(&sight, along, line(along, here), ends, w->err);
     }
     count_missed(w, &sight);
-    return status;
 }
 
-static enum br_status mesh_time(struct work *w, const struct subject *s)
+static void find_elements(struct work *w)
 {
-    struct br_list *cells = new_cells(w);
-    const enum br_status status = add_parts(cells, &w->o->jump, w->duration, w->err);
-    return status || !is_known(s->f) ? status : mesh_parts(w, s, BR_T, cells);
-}
-
-static enum br_status find_elements(struct work *w)
-{
-    enum br_status status = add_parts(&w->o->end, &w->bend, w->length, w->err);
-    for (size_t i = 0; i < w->spaces && !status; i++)
-        if (is_known(w->space[i].f))
-            status = inseparable(&w->space[i]) ? mesh_both(w, &w->space[i])
-                                               : mesh_parts(w, &w->space[i], BR_X, &w->o->end);
+    add_parts(w, BR_X, &w->o->end);
+    for (size_t i = 0; i < w->subjects[BR_X] && !w->status; i++) {
+        const struct subject *s = &w->subject[BR_X][i];
+        if (inseparable(s))
+            mesh_both(w, s);
+        else
+            mesh_parts(w, s, BR_X, &w->o->end);
+    }
     br_list_sort(&w->o->end, 0);
-    return status;
+}
+
+/* Those of functions of t alone, the last ones. */
+static void find_cells(struct work *w)
+{
+    for (size_t i = 0; i < w->subjects[BR_T] && !w->status; i++) {
+        struct br_list *cells = new_cells(w);
+        add_parts(w, BR_T, cells);
+        if (!w->status && is_known(w->subject[BR_T][i].f))
+            mesh_parts(w, &w->subject[BR_T][i], BR_T, cells);
+    }
 }
 
 /* Whether all that depends on x is smooth enough for one element [a, b]. */
 static bool fits(const struct work *w, double a, double b)
 {
-    for (size_t i = 0; i < w->bend.count; i++)
-        if (w->bend.at[i].high > a && w->bend.at[i].high < b)
+    const struct br_breaks *bend = &w->breaks[BR_X];
+    for (size_t i = 0; i < bend->count; i++)
+        if (bend->at[i].high > a && bend->at[i].high < b)
             return false;
-    for (size_t i = 0; i < w->spaces; i++) {
-        const struct subject *s = &w->space[i];
+    for (size_t i = 0; i < w->subjects[BR_X]; i++) {
+        const struct subject *s = &w->subject[BR_X][i];
         const struct br_box box = {{a * (1 + apart), b * (1 - apart)}, {0, s->until}};
         struct br_interval value;
-        if (!is_known(s->f))
-            continue;
         if (inseparable(s) || !br_function_bound(s->f, box, &value))
             return false;
         const double size = fmax(fabs(value.low), fabs(value.high));
@@ -277,74 +333,38 @@ static void join_elements(struct work *w)
     end->count = kept + 1;
 }
 
-/* ---- time ---- */
-
-static enum br_status find_jumps(struct work *w)
-{
-    struct br_breaks *jump = &w->o->jump;
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < w->times && !status; i++)
-        if (is_known(w->time[i].f))
-            status = br_breaks_add(w->time[i].f, BR_T, box_of(w, &w->time[i]), jump, w->err);
-    for (size_t i = 0; i < w->spaces && !status; i++) {
-        const struct subject *s = &w->space[i];
-        bool complete = true;
-        if (!inseparable(s) || !is_known(s->f))
-            continue;
-        status = br_breaks_add(s->f, BR_T, box_of(w, s), jump, w->err);
-        if (!status)
-            status = br_front_times(s->f, box_of(w, s), jump, &complete, w->err);
-    }
-    join_breaks(jump, w->duration);
-    return status;
-}
+/* ---- what hides in places that are wide ---- */
 
 /* What a function may do within places that are more than neighbouring numbers wide. */
-static enum br_status count_hidden(struct work *w, const struct subject *s, enum br_variable along)
+static void count_hidden(struct work *w, const struct subject *s, enum br_variable along)
 {
-    const struct br_breaks *breaks = along == BR_X ? &w->bend : &w->o->jump;
-    const double all = along == BR_X ? w->length : w->duration;
-    for (size_t i = 0; i < breaks->count; i++) {
+    const struct br_breaks *breaks = &w->breaks[along];
+    for (size_t i = 0; i < breaks->count && !w->status; i++) {
         const struct br_interval at = breaks->at[i];
         struct br_box box = box_of(w, s), where;
         struct br_interval value;
         if (!is_known(s->f) || !(at.high - at.low > 4 * DBL_EPSILON * at.high))
             continue;
-        *(along == BR_X ? &box.x : &box.t) = at;
-        if (br_prove_bounded(s->f, box, 0, &value, &where))
-            return br_must_be_finite(s->f, box, w->err);
-        const double share = (at.high - at.low) / all * (value.high - value.low);
+        *br_side(&box, along) = at;
+        if (br_prove_bounded(s->f, box, 0, &value, &where)) {
+            w->status = br_must_be_finite(s->f, box, w->err);
+            return;
+        }
+        const double share = (at.high - at.low) / w->all[along] * (value.high - value.low);
         if (share > 0)
             w->o->missed = fmax(w->o->missed, share / br_sight_mean(s->f, box_of(w, s)));
     }
-    return BR_OK;
 }
 
-static enum br_status count_all_hidden(struct work *w)
+static void count_all_hidden(struct work *w)
 {
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < w->spaces && !status; i++) {
-        status = count_hidden(w, &w->space[i], BR_X);
-        if (!status && inseparable(&w->space[i]))
-            status = count_hidden(w, &w->space[i], BR_T);
+    for (size_t i = 0; i < w->subjects[BR_X]; i++) {
+        count_hidden(w, &w->subject[BR_X][i], BR_X);
+        if (inseparable(&w->subject[BR_X][i]))
+            count_hidden(w, &w->subject[BR_X][i], BR_T);
     }
-    for (size_t i = 0; i < w->times && !status; i++)
-        status = count_hidden(w, &w->time[i], BR_T);
-    return status;
-}
-
-/* Fronts that pass from one element to the next. */
-static enum br_status find_crossings(struct work *w)
-{
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < w->spaces && w->o->fronts && !status; i++)
-        for (size_t e = 1; e + 1 < w->o->end.count && !status; e++) {
-            const double x = w->o->end.at[e];
-            const struct br_box box = {{x, x}, {0, w->duration}};
-            if (inseparable(&w->space[i]) && is_known(w->space[i].f))
-                status = br_breaks_add(w->space[i].f, BR_T, box, &w->o->jump, w->err);
-        }
-    return status;
+    for (size_t i = 0; i < w->subjects[BR_T]; i++)
+        count_hidden(w, &w->subject[BR_T][i], BR_T);
 }
 
 /* ---- layers ---- */
@@ -353,8 +373,8 @@ static enum br_status find_crossings(struct work *w)
  * less than what estimates leave out (compare.c). Infinite for none. */
 static double shortest_change(const struct work *w)
 {
-    const double least = 1e-6 * w->duration, most = 1e-3 * w->duration;
-    double width = w->o->jump.count ? least : INFINITY;
+    const double least = 1e-6 * w->all[BR_T], most = 1e-3 * w->all[BR_T];
+    double width = w->breaks[BR_T].count ? least : INFINITY;
     for (size_t i = 0; i < w->o->cells; i++)
         for (size_t j = 1; j < w->o->cell[i].count; j++)
             width = fmin(width, w->o->cell[i].at[j] - w->o->cell[i].at[j - 1]);
@@ -362,16 +382,14 @@ static double shortest_change(const struct work *w)
 }
 
 /* Elements that grow from one end of the beam as a layer there does: velocities diffuse. */
-static enum br_status grade(struct work *w, bool tip, double layer)
+static void grade(struct work *w, bool tip, double layer)
 {
-    const double growth = 3;
-    const struct br_list *end = &w->o->end;
-    const double first = tip ? w->length - end->at[end->count - 2] : end->at[1];
-    enum br_status status = BR_OK;
-    for (double d = layer; growth * d < first && !status; d *= growth)
-        status = br_list_add(&w->o->end, tip ? w->length - d : d, w->err);
-    br_list_sort(&w->o->end, 0);
-    return status;
+    const double growth = 3, length = w->all[BR_X];
+    struct br_list *end = &w->o->end;
+    const double first = tip ? length - end->at[end->count - 2] : end->at[1];
+    for (double d = layer; growth * d < first; d *= growth)
+        add(w, end, tip ? length - d : d);
+    br_list_sort(end, 0);
 }
 
 static bool has_spread_load(const struct br_load *load)
@@ -382,19 +400,19 @@ static bool has_spread_load(const struct br_load *load)
     return false;
 }
 
-static enum br_status find_layers(struct work *w)
+static void find_layers(struct work *w)
 {
-    const struct br_field_data *d = w->data;
+    const struct br_exact_data *d = w->data;
     const double layer =
-        pow(d->viscosity / w->density * shortest_change(w), 0.5 / (double)w->degree);
+        pow(d->viscosity / w->density * shortest_change(w), 0.5 / (double)w->o->degree);
     const bool tip = !br_function_is_zero(d->tip_force) ||
                      (d->tip_moment && !br_function_is_zero(d->tip_moment));
-    enum br_status status = BR_OK;
-    if (!(layer > narrow * w->length))
-        return BR_OK;
+    if (w->status || !(layer > narrow * w->all[BR_X]))
+        return;
     if (tip)
-        status = grade(w, true, layer);
-    return !status && has_spread_load(d->load) ? grade(w, false, layer) : status;
+        grade(w, true, layer);
+    if (has_spread_load(d->load))
+        grade(w, false, layer);
 }
 
 /* ---- what is proved ---- */
@@ -405,16 +423,13 @@ static void count_proved(struct work *w, const struct subject *s, enum br_variab
                          const struct br_list *ends)
 {
     double sum = 0;
-    const double all = along == BR_X ? w->length : w->duration;
     for (size_t i = 0; i + 1 < ends->count; i++) {
         const struct br_interval cell = {ends->at[i] * (1 + apart), ends->at[i + 1] * (1 - apart)};
-        struct br_box box = {{0, 0}, {0, 0}};
-        *(along == BR_X ? &box.x : &box.t) = cell;
         struct br_interval value;
-        if (!(cell.low < cell.high && br_function_bound(s->f, box, &value)))
+        if (!(cell.low < cell.high && br_function_bound(s->f, line(along, cell), &value)))
             continue;
-        const double error = br_sight_error(s->f, along, box, 15);
-        sum += (cell.high - cell.low) / all * fmin(error, value.high - value.low);
+        const double error = br_sight_error(s->f, along, line(along, cell), 15);
+        sum += (cell.high - cell.low) / w->all[along] * fmin(error, value.high - value.low);
     }
     if (sum > 0)
         w->o->proved += sum / br_sight_mean(s->f, box_of(w, s));
@@ -422,61 +437,48 @@ static void count_proved(struct work *w, const struct subject *s, enum br_variab
 
 static void count_all_proved(struct work *w)
 {
-    for (size_t i = 0; i < w->spaces; i++)
-        if (is_known(w->space[i].f) && inseparable(&w->space[i]))
+    for (size_t i = 0; i < w->subjects[BR_X]; i++)
+        if (inseparable(&w->subject[BR_X][i]))
             w->o->proved += BR_SIGHT_TOLERANCE;
-        else if (is_known(w->space[i].f))
-            count_proved(w, &w->space[i], BR_X, &w->o->end);
-    for (size_t i = 0; i < w->times; i++)
-        if (is_known(w->time[i].f))
-            count_proved(w, &w->time[i], BR_T, &w->o->cell[w->o->cells - w->times + i]);
-}
-
-static enum br_status look(struct work *w)
-{
-    w->o->cell = br_allocate(MOST, sizeof *w->o->cell);
-    if (!w->o->cell)
-        return br_no_memory(w->err, "the exact solution");
-    enum br_status status = find_bends(w);
-    if (!status)
-        status = find_jumps(w);
-    if (!status)
-        status = count_all_hidden(w);
-    if (!status)
-        status = find_elements(w);
-    if (!status)
-        join_elements(w);
-    for (size_t i = 0; i < w->times && !status; i++)
-        status = mesh_time(w, &w->time[i]);
-    if (!status)
-        status = find_layers(w);
-    if (!status)
-        status = find_crossings(w);
-    for (size_t i = 0; i < w->o->cells; i++)
-        br_list_sort(&w->o->cell[i], 0);
-    if (!status)
-        count_all_proved(w);
-    return status;
+        else
+            count_proved(w, &w->subject[BR_X][i], BR_X, &w->o->end);
+    const struct br_list *cells = w->o->cell + w->o->cells - w->subjects[BR_T];
+    for (size_t i = 0; i < w->subjects[BR_T]; i++)
+        if (is_known(w->subject[BR_T][i].f))
+            count_proved(w, &w->subject[BR_T][i], BR_T, &cells[i]);
 }
 
 enum br_status br_outline_init(struct br_outline *o, const struct br_scene *scene, size_t degree,
                                struct br_error *err)
 {
-    const struct br_field_data data = br_field_data(scene, degree);
+    const struct br_exact_data data = br_exact_data_of(scene, degree);
     struct work w = {
         .o = o,
         .data = &data,
-        .degree = degree,
-        .length = scene->length,
-        .duration = scene->duration,
+        .all = {[BR_X] = scene->length, [BR_T] = scene->duration},
         .density = scene->density,
         .err = err,
     };
-    *o = (struct br_outline){0};
+    *o = (struct br_outline){.degree = degree, .cell = br_allocate(MOST, sizeof *o->cell)};
+    if (!o->cell)
+        return br_no_memory(err, "the exact solution");
     list_subjects(&w, &data);
-    const enum br_status status = look(&w);
-    br_breaks_free(&w.bend);
-    return status;
+    find_bends(&w);
+    find_jumps(&w);
+    count_all_hidden(&w);
+    find_elements(&w);
+    if (!w.status)
+        join_elements(&w);
+    find_cells(&w);
+    find_layers(&w);
+    find_crossings(&w);
+    for (size_t i = 0; i < o->cells; i++)
+        br_list_sort(&o->cell[i], 0);
+    if (!w.status)
+        count_all_proved(&w);
+    br_breaks_free(&w.breaks[BR_X]);
+    o->jump = w.breaks[BR_T];
+    return w.status;
 }
 
 void br_outline_clear(struct br_outline *o)

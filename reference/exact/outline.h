@@ -7,7 +7,7 @@
 #include "solver/scene.h"
 
 /* What axial and bending have in common. */
-struct br_field_data {
+struct br_exact_data {
     double stiffness, viscosity;
     const struct br_load *load;
     const struct br_function *tip_force, *tip_moment; /* the moment NULL for axial */
@@ -16,9 +16,10 @@ struct br_field_data {
 };
 
 /* Degree 1 is the axial, 2 the bending field. */
-struct br_field_data br_field_data(const struct br_scene *scene, size_t degree);
+struct br_exact_data br_exact_data_of(const struct br_scene *scene, size_t degree);
 
 struct br_outline {
+    size_t degree;         /* of the field: 1 axial, 2 bending */
     struct br_list end;    /* of the elements, m: from 0 to L */
     struct br_breaks jump; /* times inside of (0, T) at which the data jump or bend */
     struct br_list *cell;  /* cells: in each, ends of cells in time, s, that no step may overlook */

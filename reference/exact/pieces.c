@@ -1,39 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference/exact/pieces.h"
 
+#include <gsl/gsl_integration.h>
 #include <math.h>
 #include <string.h>
 
 #include "reference/exact/legendre.h"
 
-enum br_status br_pieces_init(struct br_pieces *p, double length, size_t count, const double *end,
-                              const size_t *terms, struct br_error *err)
+void br_pieces_init(struct br_pieces *p, double length, size_t count, const double *end,
+                    const size_t *terms, struct br_store *store)
 {
     *p = (struct br_pieces){.length = length, .count = count};
-    p->end = br_allocate(count + 1, sizeof *p->end);
-    p->terms = br_allocate(count, sizeof *p->terms);
-    p->first = br_allocate(count + 1, sizeof *p->first);
-    if (!p->end || !p->terms || !p->first)
-        return br_no_memory(err, "the elements");
+    p->end = br_store_take(store, count + 1, sizeof *p->end);
+    p->terms = br_store_take(store, count, sizeof *p->terms);
+    p->first = br_store_take(store, count + 1, sizeof *p->first);
+    if (store->failed)
+        return;
     memcpy(p->end, end, (count + 1) * sizeof *end);
     memcpy(p->terms, terms, count * sizeof *terms);
     for (size_t e = 0; e < count; e++)
         p->first[e + 1] = p->first[e] + terms[e];
-    return BR_OK;
-}
-
-enum br_status br_pieces_whole(struct br_pieces *p, double length, size_t terms,
-                               struct br_error *err)
-{
-    return br_pieces_init(p, length, 1, (const double[]){0, length}, &terms, err);
-}
-
-void br_pieces_clear(struct br_pieces *p)
-{
-    free(p->end);
-    free(p->terms);
-    free(p->first);
-    *p = (struct br_pieces){0};
 }
 
 size_t br_pieces_find(const struct br_pieces *p, double x)
@@ -75,4 +61,183 @@ void br_pieces_integrate(const struct br_pieces *p, size_t extra, double *c)
         here[0] += one * value;
         value += gain;
     }
+}
+
+/* ---- Gauss's rule on each element ---- */
+
+/* At least twice as many points as a product of polynomials needs. GSL knows the
+ * rules with these powers of two to all digits, others to 1e-10 only. */
+static size_t rule_points(size_t terms, size_t elements)
+{
+    size_t points = elements > 1 ? 32 : 64;
+    while (points < 2 * terms && points < 1024)
+        points *= 2;
+    return points;
+}
+
+/* A place xi of [low, high], but neither end: a function may jump there. */
+static double inside(double low, double high, double xi)
+{
+    return fmin(fmax(low + (high - low) * xi, nextafter(low, high)), nextafter(high, low));
+}
+
+static void fill_rule(struct br_quadrature *q, size_t e, size_t start, struct br_store *store)
+{
+    const struct br_pieces *p = q->pieces;
+    const size_t points = q->points[e], terms = p->terms[e] + q->extra;
+    gsl_integration_glfixed_table *gauss = gsl_integration_glfixed_table_alloc(points);
+    q->table[e] = br_store_take(store, points * terms, sizeof **q->table);
+    store->failed = store->failed || !gauss;
+    for (size_t i = 0; !store->failed && i < points; i++) {
+        double xi;
+        gsl_integration_glfixed_point(0, 1, i, &xi, &q->weight[start + i], gauss);
+        q->x[start + i] = inside(p->end[e], p->end[e + 1], xi);
+        br_legendre(terms, xi, &q->table[e][i * terms]);
+    }
+    gsl_integration_glfixed_table_free(gauss);
+}
+
+void br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces, size_t extra,
+                        struct br_store *store)
+{
+    *q = (struct br_quadrature){.pieces = pieces, .extra = extra, .combine = br_combine_best()};
+    q->points = br_store_take(store, pieces->count, sizeof *q->points);
+    q->table = br_store_take(store, pieces->count, sizeof *q->table);
+    for (size_t e = 0; !store->failed && e < pieces->count; e++)
+        q->count += q->points[e] = rule_points(pieces->terms[e] + extra, pieces->count);
+    q->x = br_store_take(store, q->count, sizeof *q->x);
+    q->weight = br_store_take(store, q->count, sizeof *q->weight);
+    q->value = br_store_take(store, q->count, sizeof *q->value);
+    for (size_t e = 0, start = 0; !store->failed && e < pieces->count; start += q->points[e++])
+        fill_rule(q, e, start, store);
+}
+
+/* c[k] += sum over i of here[i] p_k, by Legendre's recurrence at all places y[i] = 2 xi[i] - 1 at
+ * once, in LANES sums, so that their order is the same on every machine. count: a multiple of them;
+ * here: destroyed; before: zeros, destroyed. */
+static void add_moments(size_t count, const double *y, double *here, double *before, size_t terms,
+                        double *c)
+{
+    enum { LANES = 8 };
+    for (size_t k = 0; k < terms; k++) {
+        const double n = (double)k, a = (2 * n + 1) / (n + 1), b = n / (n + 1);
+        double sum[LANES] = {0}, all = 0;
+        for (size_t i = 0; i < count; i += LANES)
+            for (size_t l = 0; l < LANES; l++) {
+                const double p = here[i + l];
+                sum[l] += p;
+                here[i + l] = a * y[i + l] * p - b * before[i + l];
+                before[i + l] = p;
+            }
+        for (size_t l = 0; l < LANES; l++)
+            all += sum[l];
+        c[k] += sqrt(2 * n + 1) * all;
+    }
+}
+
+/* c += the integrals over the part [low, high] of element e, m, of a function that is smooth
+ * there. start: the element's first point; its values are workspace. */
+static enum br_status add_part(const struct br_quadrature *q, const struct br_function *f, double t,
+                               size_t e, size_t start, const double part[2], double *c,
+                               struct br_error *err)
+{
+    const struct br_pieces *p = q->pieces;
+    const size_t points = q->points[e]; /* a multiple of 32 */
+    const double a = p->end[e], h = p->end[e + 1] - a;
+    double *at = br_allocate(3 * points, sizeof *at), *here = at + points, *before = here + points;
+    if (!at)
+        return br_no_memory(err, "a quadrature");
+    for (size_t i = 0; i < points; i++) /* the rule's own places are those of the whole element */
+        at[i] = inside(part[0], part[1], (q->x[start + i] - a) / h);
+    br_function_evaluate(f, points, at, t, here);
+    const double factor = sqrt(br_pieces_width(p, e)) * (part[1] - part[0]) / h;
+    for (size_t i = 0; i < points; i++) {
+        here[i] *= factor * q->weight[start + i];
+        at[i] = 2 * (at[i] - a) / h - 1;
+    }
+    add_moments(points, at, here, before, p->terms[e] + q->extra, c);
+    free(at);
+    return BR_OK;
+}
+
+/* An element that holds the fronts first to last - 1. */
+static enum br_status project_parts(const struct br_quadrature *q, const struct br_function *f,
+                                    double t, size_t e, size_t start, struct br_places fronts,
+                                    double *c, struct br_error *err)
+{
+    double part[2] = {q->pieces->end[e], 0};
+    enum br_status status = BR_OK;
+    memset(c, 0, (q->pieces->terms[e] + q->extra) * sizeof *c);
+    for (size_t i = 0; i <= fronts.count && !status; i++) {
+        part[1] = i < fronts.count ? fronts.x[i] : q->pieces->end[e + 1];
+        if (part[1] > part[0])
+            status = add_part(q, f, t, e, start, part, c, err);
+        part[0] = part[1];
+    }
+    return status;
+}
+
+/* Moves on to element e: the fronts inside of it. */
+static struct br_places fronts_in(const struct br_pieces *p, size_t e, struct br_places *left)
+{
+    while (left->count && left->x[0] <= p->end[e])
+        left->x++, left->count--;
+    struct br_places here = {0, left->x};
+    while (here.count < left->count && left->x[here.count] < p->end[e + 1])
+        here.count++;
+    return here;
+}
+
+enum br_status br_quadrature_project(const struct br_quadrature *q, const struct br_function *f,
+                                     double t, struct br_places fronts, double *c,
+                                     struct br_error *err)
+{
+    const struct br_pieces *p = q->pieces;
+    enum br_status status = BR_OK;
+    br_function_evaluate(f, q->count, q->x, t, q->value);
+    for (size_t e = 0, start = 0; e < p->count && !status; start += q->points[e++]) {
+        const struct br_places here = fronts_in(p, e, &fronts);
+        const size_t terms = p->terms[e] + q->extra;
+        double *out = &c[br_pieces_at(p, e, q->extra)], *value = &q->value[start];
+        if (here.count) {
+            status = project_parts(q, f, t, e, start, here, out, err);
+            continue;
+        }
+        const double root = sqrt(br_pieces_width(p, e));
+        for (size_t i = 0; i < q->points[e]; i++)
+            value[i] *= q->weight[start + i];
+        q->combine(q->points[e], value, terms, q->table[e], out);
+        for (size_t k = 0; k < terms; k++)
+            out[k] *= root;
+    }
+    return status;
+}
+
+/* On each element, less its value at the left end: f(b) p_k(1) - integral of f p_k'. */
+enum br_status br_quadrature_project_slope(const struct br_quadrature *q,
+                                           const struct br_function *f, double *c,
+                                           struct br_error *err)
+{
+    const struct br_pieces *p = q->pieces;
+    const size_t most = br_pieces_at(p, p->count, 0);
+    double *work = br_allocate(2 * most, sizeof *work), *unused = work, *rate = work + most;
+    if (!work)
+        return br_no_memory(err, "a quadrature");
+    br_function_evaluate(f, q->count, q->x, 0, q->value);
+    for (size_t e = 0, start = 0; e < p->count; start += q->points[e++]) {
+        double end[2], *out = &c[br_pieces_at(p, e, 0)];
+        const double h = p->end[e + 1] - p->end[e], root = sqrt(br_pieces_width(p, e));
+        br_function_evaluate(f, 2, &p->end[e], 0, end);
+        br_legendre(p->terms[e], 1, out);
+        for (size_t k = 0; k < p->terms[e]; k++)
+            out[k] *= (end[1] - end[0]) / root;
+        for (size_t i = start; i < start + q->points[e]; i++) {
+            br_legendre_derivative(p->terms[e], (q->x[i] - p->end[e]) / h, unused, rate);
+            const double factor = q->weight[i] * (q->value[i] - end[0]) / root;
+            for (size_t k = 0; k < p->terms[e]; k++)
+                out[k] -= factor * rate[k];
+        }
+    }
+    free(work);
+    return BR_OK;
 }

@@ -9,7 +9,9 @@
 
 #include <stddef.h>
 
-#include "solver/status.h"
+#include "reference/exact/combine.h"
+#include "reference/exact/store.h"
+#include "solver/function.h"
 
 struct br_pieces {
     double length; /* L, m */
@@ -19,14 +21,9 @@ struct br_pieces {
     size_t *first; /* count + 1: sum of the terms before */
 };
 
-/* Copies end and terms. Clear it even after a failure, which is BR_NO_MEMORY. */
-enum br_status br_pieces_init(struct br_pieces *pieces, double length, size_t count,
-                              const double *end, const size_t *terms, struct br_error *err);
-
-/* One element. */
-enum br_status br_pieces_whole(struct br_pieces *pieces, double length, size_t terms,
-                               struct br_error *err);
-void br_pieces_clear(struct br_pieces *pieces);
+/* Copies end and terms. After a failure, which the store tells, it is of no use. */
+void br_pieces_init(struct br_pieces *pieces, double length, size_t count, const double *end,
+                    const size_t *terms, struct br_store *store);
 
 /* Where element e's coefficients begin; with e = count, their number. */
 static inline size_t br_pieces_at(const struct br_pieces *p, size_t e, size_t extra)
@@ -48,5 +45,41 @@ double br_pieces_integral(const struct br_pieces *pieces, size_t extra, const do
 
 /* c: in, a series with `extra`; out, its integral from x = 0 in x / L, with extra + 1. */
 void br_pieces_integrate(const struct br_pieces *pieces, size_t extra, double *c);
+
+/* ---- quadrature ---- */
+
+struct br_quadrature {
+    const struct br_pieces *pieces; /* borrowed */
+    size_t extra;                   /* of the series */
+    br_combine *combine;
+    size_t *points; /* elements: of its rule */
+    size_t count;   /* all points */
+    double *x;      /* count, m: inside of the elements, never at their ends */
+    double *weight; /* count: of the rule on [0, 1] */
+    double **table; /* elements: points x (terms + extra), p_k at the points */
+    double *value;  /* count, workspace */
+};
+
+/* After a failure, which the store tells, it is of no use. */
+void br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces, size_t extra,
+                        struct br_store *store);
+
+/* Places where a function jumps or bends at one time: count of them, ascending, m. */
+struct br_places {
+    size_t count;
+    const double *x;
+};
+
+/* c (out, with extra): coefficients of the function f(x, t)'s projection: its integrals over x / L
+ * against the polynomials. Elements that hold some of `fronts` are cut there. Fails with
+ * BR_NO_MEMORY. */
+enum br_status br_quadrature_project(const struct br_quadrature *q, const struct br_function *f,
+                                     double t, struct br_places fronts, double *c,
+                                     struct br_error *err);
+
+/* c (out, extra 0): the same of the derivative in x / L of a continuous f(x, 0). */
+enum br_status br_quadrature_project_slope(const struct br_quadrature *q,
+                                           const struct br_function *f, double *c,
+                                           struct br_error *err);
 
 #endif

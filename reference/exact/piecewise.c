@@ -2,12 +2,11 @@
 /* Most elements of the mesh lie inside of one piece: those are a restriction each piece. The others
  * straddle: in each overlap of such an element with a piece, the piece's series and the element's
  * polynomials are written in the polynomials of the overlap. */
-#include "reference/exact/piecewise.h"
-
-#include <math.h>
 
 #include "reference/exact/restriction.h"
-#include "reference/exact/subinterval.h"
+
+#include <math.h>
+#include <string.h>
 
 /* An element that reaches this far out of a piece, in units of L, lies inside: round-off. */
 static const long double tolerance = 4e-16L;
@@ -32,6 +31,7 @@ struct br_piecewise {
     struct overlap *overlap;
     size_t overlaps, room;
     double *local; /* workspace: an overlap's coefficients */
+    struct br_store *store;
 };
 
 /* ---- places, in units of L ---- */
@@ -69,7 +69,7 @@ static enum br_status restrict_inside(struct br_piecewise *w, size_t e, size_t f
         .first = whole ? 0 : (node(w, first) - a) / h,
         .width = whole ? 1 : (node(w, last) - node(w, first)) / h,
     };
-    return br_restriction_create(&in->restriction, &shape, err);
+    return br_restriction_create(&in->restriction, &shape, w->store, err);
 }
 
 /* out (count x s->count) = the orthonormal polynomials of `all` in those of `part` of it. */
@@ -83,24 +83,24 @@ static void rewrite(struct br_subinterval *s, const long double part[2], const l
             out[k * s->count + l] = (double)(sqrtl(width) * s->r[k * s->count + l]);
 }
 
-static enum br_status fill_overlap(const struct br_piecewise *w, struct overlap *o,
+static enum br_status fill_overlap(struct br_piecewise *w, struct overlap *o,
                                    const long double part[2], struct br_error *err)
 {
     const size_t kept = w->mesh.degree + 1;
     const long double piece[2] = {piece_end(w, o->piece), piece_end(w, o->piece + 1)};
     const long double element[2] = {node(w, o->element), node(w, o->element + 1)};
+    struct br_store store = {0};
     struct br_subinterval s;
-    enum br_status status = br_subinterval_init(&s, o->terms, err);
-    o->series = br_allocate(o->terms * o->terms, sizeof *o->series);
-    o->kept = br_allocate(kept * o->terms, sizeof *o->kept);
-    if (!status && !(o->series && o->kept))
-        status = br_no_memory(err, "a projection");
-    if (!status) {
+    br_subinterval_init(&s, o->terms, &store);
+    o->series = br_store_take(w->store, o->terms * o->terms, sizeof *o->series);
+    o->kept = br_store_take(w->store, kept * o->terms, sizeof *o->kept);
+    const bool failed = store.failed || w->store->failed;
+    if (!failed) {
         rewrite(&s, part, piece, o->terms, o->series);
         rewrite(&s, part, element, kept, o->kept);
     }
-    br_subinterval_clear(&s);
-    return status;
+    br_store_clear(&store);
+    return failed ? br_no_memory(err, "a projection") : BR_OK;
 }
 
 static enum br_status add_overlap(struct br_piecewise *w, size_t j, size_t e,
@@ -108,12 +108,11 @@ static enum br_status add_overlap(struct br_piecewise *w, size_t j, size_t e,
 {
     if (w->overlaps == w->room) {
         const size_t room = 2 * w->room + 16;
-        struct overlap *bigger = br_allocate(room, sizeof *bigger);
+        struct overlap *bigger = br_store_take(w->store, room, sizeof *bigger);
         if (!bigger)
             return br_no_memory(err, "a projection");
-        for (size_t i = 0; i < w->overlaps; i++)
-            bigger[i] = w->overlap[i];
-        free(w->overlap);
+        if (w->overlaps)
+            memcpy(bigger, w->overlap, w->overlaps * sizeof *bigger);
         w->overlap = bigger;
         w->room = room;
     }
@@ -156,42 +155,19 @@ static enum br_status fill(struct br_piecewise *w, struct br_error *err)
 
 enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_pieces *pieces,
                                    size_t extra, const struct br_exact_mesh *mesh,
-                                   struct br_error *err)
+                                   struct br_store *store, struct br_error *err)
 {
-    *out = NULL;
-    struct br_piecewise *w = br_allocate(1, sizeof *w);
+    struct br_piecewise *w = *out = br_store_take(store, 1, sizeof *w);
     if (!w)
         return br_no_memory(err, "a projection");
-    *w = (struct br_piecewise){.pieces = pieces, .extra = extra, .mesh = *mesh};
-    w->inside = br_allocate(pieces->count, sizeof *w->inside);
-    enum br_status status = w->inside ? fill(w, err) : br_no_memory(err, "a projection");
+    *w = (struct br_piecewise){.pieces = pieces, .extra = extra, .mesh = *mesh, .store = store};
+    w->inside = br_store_take(store, pieces->count, sizeof *w->inside);
+    const enum br_status status = w->inside ? fill(w, err) : br_no_memory(err, "a projection");
     size_t most = 1;
     for (size_t i = 0; i < w->overlaps; i++)
         most = w->overlap[i].terms > most ? w->overlap[i].terms : most;
-    w->local = br_allocate(most, sizeof *w->local);
-    if (!status && !w->local)
-        status = br_no_memory(err, "a projection");
-    if (status)
-        br_piecewise_free(w);
-    else
-        *out = w;
-    return status;
-}
-
-void br_piecewise_free(struct br_piecewise *w)
-{
-    if (!w)
-        return;
-    for (size_t e = 0; w->inside && e < w->pieces->count; e++)
-        br_restriction_free(w->inside[e].restriction);
-    for (size_t i = 0; i < w->overlaps; i++) {
-        free(w->overlap[i].series);
-        free(w->overlap[i].kept);
-    }
-    free(w->inside);
-    free(w->overlap);
-    free(w->local);
-    free(w);
+    w->local = br_store_take(store, most, sizeof *w->local);
+    return status || w->local ? status : br_no_memory(err, "a projection");
 }
 
 /* ---- the application ---- */

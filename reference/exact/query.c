@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "reference/exact/exact.h"
+
 #include <cblas.h>
 #include <math.h>
+#include <pthread.h>
+#include <stdint.h>
 
+#include "reference/exact/combine.h"
 #include "reference/exact/legendre.h"
-#include "reference/exact/query.h"
+#include "reference/exact/restriction.h"
+#include "reference/exact/solution.h"
 
 struct br_exact_report br_exact_report(const struct br_exact *exact, enum br_exact_field field)
 {
@@ -29,43 +35,37 @@ const char *br_phase_text(enum br_phase phase)
 enum br_status br_exact_state_create(struct br_exact_state **out, const struct br_exact *exact,
                                      struct br_error *err)
 {
-    bool done = true;
-    *out = br_allocate(1, sizeof **out);
-    if (!*out)
+    size_t count = 0;
+    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
+        count += exact->report[i].modes;
+    struct br_exact_state *state = *out =
+        br_allocate(1, sizeof *state + 2 * count * sizeof(double));
+    if (!state)
         return br_no_memory(err, "a state of the exact solution");
+    double *next = state->memory;
     for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
         for (size_t j = 0; j < 2 && exact->solution->field[i]; j++) {
-            (*out)->mode[i][j] = br_allocate(exact->report[i].modes, sizeof(double));
-            done = done && (*out)->mode[i][j];
+            state->mode[i][j] = next;
+            next += exact->report[i].modes;
         }
-    if (done) {
-        br_exact_at(exact, 0, *out);
-        return BR_OK;
-    }
-    br_exact_state_free(*out);
-    *out = NULL;
-    return br_no_memory(err, "a state of the exact solution");
+    br_exact_at(exact, 0, state);
+    return BR_OK;
 }
 
 void br_exact_state_free(struct br_exact_state *state)
 {
-    if (!state)
-        return;
-    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
-        for (size_t j = 0; j < 2; j++)
-            free(state->mode[i][j]);
     free(state);
 }
 
 void br_exact_field_at(const struct br_exact *exact, enum br_exact_field field, double t,
                        struct br_exact_state *state)
 {
-    const struct br_track *track = exact->solution->track[field];
+    const struct br_history *track = exact->solution->track[field];
     if (!track)
         return;
     const double time = fmin(fmax(t, 0), exact->duration);
     const struct br_tip_state tip =
-        br_track_at(track, time, state->mode[field][0], state->mode[field][1]);
+        br_history_at(track, time, state->mode[field][0], state->mode[field][1]);
     state->tip[field].displacement = tip.displacement + track->gap;
     state->tip[field].velocity = tip.velocity;
     const double force = br_law_force_at(&exact->solution->law[field], time, &tip);
@@ -80,48 +80,42 @@ void br_exact_at(const struct br_exact *exact, double t, struct br_exact_state *
     state->friction_bound = br_law_bound(&exact->solution->law[BR_EXACT_BENDING], state->time);
 }
 
-enum br_status br_exact_check_part(const struct br_exact *exact, const struct br_exact_part *part,
-                                   size_t extra, struct br_error *err)
+/* Refuses (BR_BAD_INPUT) fields that are not modelled, and orders above the
+ * field's (1 axial, 2 bending) plus extra. */
+static enum br_status check_part(const struct br_exact *exact, const struct br_exact_part *part,
+                                 size_t extra, struct br_error *err)
 {
-    const struct br_field *field =
+    const struct br_oscillators *field =
         part->field < BR_EXACT_FIELDS ? exact->solution->field[part->field] : NULL;
     if (!field)
         return br_fail(err, BR_BAD_INPUT, "a field that is not modelled was asked for");
-    if (part->order > field->modes->degree + extra)
+    if (part->order > field->modes.degree + extra)
         return br_fail(err, BR_BAD_INPUT,
                        "a derivative of order %u was asked for, expected at most %zu", part->order,
-                       field->modes->degree + extra);
+                       field->modes.degree + extra);
     return BR_OK;
-}
-
-void br_exact_series(const struct br_exact *exact, const struct br_exact_state *state,
-                     const struct br_exact_part *part, double *c)
-{
-    const struct br_field *field = exact->solution->field[part->field];
-    const size_t degree = field->modes->degree;
-    const size_t order = part->order < degree ? part->order : degree;
-    const size_t length = br_modes_length(field->modes, order);
-    br_modes_expand(field->modes, order, state->mode[part->field][part->velocity], c);
-    cblas_dscal((int)length, pow(field->length, -(double)part->order), c, 1);
 }
 
 enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_exact_state *state,
                                  const struct br_exact_part *part, size_t count, const double *x,
                                  double *value, struct br_error *err)
 {
-    const enum br_status status = br_exact_check_part(exact, part, 1, err);
+    const enum br_status status = check_part(exact, part, 1, err);
     if (status)
         return status;
-    const struct br_field *field = exact->solution->field[part->field];
-    const struct br_pieces *pieces = &field->modes->pieces;
-    const size_t room = br_modes_length(field->modes, 0), degree = field->modes->degree;
+    const struct br_oscillators *field = exact->solution->field[part->field];
+    const struct br_pieces *pieces = &field->modes.pieces;
+    const size_t room = br_modes_length(&field->modes, 0), degree = field->modes.degree;
     const bool derive = part->order > degree;
     const size_t extra = derive ? 0 : degree - part->order;
     double *c = br_allocate(3 * room, sizeof *c);
     if (!c)
         return br_no_memory(err, "a series");
     double *p = c + room, *dp = p + room;
-    br_exact_series(exact, state, part, c);
+    const size_t order = derive ? degree : part->order; /* of the series; it is derived once more */
+    br_modes_expand(&field->modes, order, state->mode[part->field][part->velocity], c);
+    cblas_dscal((int)br_modes_length(&field->modes, order),
+                pow(field->length, -(double)part->order), c, 1);
     for (size_t i = 0; i < count; i++) {
         const size_t e = br_pieces_find(pieces, x[i]), terms = pieces->terms[e] + extra;
         const double h = br_pieces_width(pieces, e), *here = &c[br_pieces_at(pieces, e, extra)];
@@ -132,4 +126,183 @@ enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_e
     }
     free(c);
     return BR_OK;
+}
+
+/* ---- shared solutions ---- */
+
+/* A scene is known by its address, which is its own as long as somebody has the solution. */
+struct loan {
+    const struct br_scene *scene;
+    struct br_exact_options options;
+    struct br_exact *exact;
+    size_t users;
+    struct loan *next;
+};
+
+static struct loan *loans;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+static size_t most_modes(const struct br_exact_options *o)
+{
+    return o->max_modes ? o->max_modes : SIZE_MAX;
+}
+
+static bool below(const struct br_exact *exact, size_t limit)
+{
+    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
+        if (exact->solution->field[i] && !(exact->report[i].modes < limit))
+            return false;
+    return true;
+}
+
+/* Whether a loan is what `o` would give: a limit to the modes that was not met changes nothing. */
+static bool serves(const struct loan *loan, const struct br_scene *scene,
+                   const struct br_exact_options *o)
+{
+    const struct br_exact_options *l = &loan->options;
+    const bool same = l->tolerance == o->tolerance && l->acceptable == o->acceptable &&
+                      l->rate_tolerance == o->rate_tolerance && l->max_steps == o->max_steps;
+    return loan->scene == scene && same &&
+           (most_modes(l) == most_modes(o) ||
+            (below(loan->exact, most_modes(l)) && below(loan->exact, most_modes(o))));
+}
+
+static const struct br_exact *find(const struct br_scene *scene, const struct br_exact_options *o)
+{
+    const struct br_exact *found = NULL;
+    pthread_mutex_lock(&lock);
+    for (struct loan *loan = loans; loan && !found; loan = loan->next)
+        if (serves(loan, scene, o)) {
+            loan->users++;
+            found = loan->exact;
+        }
+    pthread_mutex_unlock(&lock);
+    return found;
+}
+
+enum br_status br_exact_borrow(const struct br_exact **out, const struct br_scene *scene,
+                               const struct br_exact_options *options, struct br_error *err)
+{
+    *out = find(scene, options);
+    if (*out)
+        return BR_OK;
+    struct loan *loan = br_allocate(1, sizeof *loan);
+    if (!loan)
+        return br_no_memory(err, "the exact solution");
+    *loan = (struct loan){.scene = scene, .options = *options, .users = 1};
+    const enum br_status status = br_exact_create(&loan->exact, scene, options, err);
+    if (status) {
+        free(loan);
+        return status;
+    }
+    pthread_mutex_lock(&lock);
+    loan->next = loans;
+    loans = loan;
+    pthread_mutex_unlock(&lock);
+    *out = loan->exact;
+    return BR_OK;
+}
+
+void br_exact_give_back(const struct br_exact *exact)
+{
+    struct loan *last = NULL;
+    pthread_mutex_lock(&lock);
+    for (struct loan **at = &loans; exact && *at; at = &(*at)->next)
+        if ((*at)->exact == exact) {
+            if (--(*at)->users == 0) {
+                last = *at;
+                *at = last->next;
+            }
+            break;
+        }
+    pthread_mutex_unlock(&lock);
+    if (last)
+        br_exact_free(last->exact);
+    free(last);
+}
+
+/* ---- projections ---- */
+
+struct br_exact_projection {
+    struct br_exact_part part;
+    size_t modes, length; /* of the field, of its part's series */
+    br_combine *combine;
+    double *expand; /* modes x length: each mode's series */
+    double *series; /* length, workspace */
+    struct br_piecewise *piecewise;
+    struct br_store store;
+};
+
+/* The series of every mode. */
+/* The series of every mode. q: modes zeros, c: the longest series; workspace. */
+static void expand_modes(struct br_exact_projection *p, const struct br_oscillators *field,
+                         double *q, double *c)
+{
+    const double scale = pow(field->length, -(double)p->part.order);
+    for (size_t i = 0; i < p->modes; i++) {
+        q[i] = 1;
+        br_modes_expand(&field->modes, p->part.order, q, c);
+        for (size_t k = 0; k < p->length; k++)
+            p->expand[i * p->length + k] = scale * c[k];
+        q[i] = 0;
+    }
+}
+
+static enum br_status projection_init(struct br_exact_projection *p,
+                                      const struct br_oscillators *field,
+                                      const struct br_exact_mesh *mesh, struct br_error *err)
+{
+    const size_t longest = br_modes_length(&field->modes, 0);
+    p->combine = br_combine_best();
+    p->modes = field->modes.count;
+    p->length = br_modes_length(&field->modes, p->part.order);
+    p->expand = br_store_take(&p->store, p->modes * p->length, sizeof *p->expand);
+    p->series = br_store_take(&p->store, p->length, sizeof *p->series);
+    double *work = br_store_take(&p->store, p->modes + longest, sizeof *work);
+    if (p->store.failed)
+        return br_no_memory(err, "a projection");
+    expand_modes(p, field, work, work + p->modes);
+    return br_piecewise_create(&p->piecewise, &field->modes.pieces,
+                               field->modes.degree - p->part.order, mesh, &p->store, err);
+}
+
+enum br_status br_exact_projection_create(struct br_exact_projection **out,
+                                          const struct br_exact *exact,
+                                          const struct br_exact_part *part,
+                                          const struct br_exact_mesh *mesh, struct br_error *err)
+{
+    *out = NULL;
+    enum br_status status = check_part(exact, part, 0, err);
+    if (!status && (!mesh->elements || mesh->degree > 8))
+        status = br_fail(err, BR_BAD_INPUT,
+                         "%zu elements of degree %zu, expected 1 or more of at most 8",
+                         mesh->elements, mesh->degree);
+    if (status)
+        return status;
+    struct br_exact_projection *p = br_allocate(1, sizeof *p);
+    if (!p)
+        return br_no_memory(err, "a projection");
+    p->part = *part;
+    status = projection_init(p, exact->solution->field[part->field], mesh, err);
+    if (status)
+        br_exact_projection_free(p);
+    else
+        *out = p;
+    return status;
+}
+
+void br_exact_projection_free(struct br_exact_projection *p)
+{
+    if (!p)
+        return;
+    br_store_clear(&p->store);
+    free(p);
+}
+
+void br_exact_projection_apply(struct br_exact_projection *p, const struct br_exact_state *state,
+                               double *c, double *rest)
+{
+    p->combine(p->modes, state->mode[p->part.field][p->part.velocity], p->length, p->expand,
+               p->series);
+    br_piecewise_apply(p->piecewise, p->series, c, rest);
 }

@@ -4,12 +4,88 @@
  * last group get it moved back over those before. */
 #include "reference/exact/restriction.h"
 
+#include <lapacke.h>
 #include <math.h>
 #include <string.h>
 
 #include "reference/exact/combine.h"
-#include "reference/exact/remainder.h"
-#include "reference/exact/subinterval.h"
+
+void br_subinterval_init(struct br_subinterval *v, size_t count, struct br_store *store)
+{
+    v->count = count;
+    v->coupling = br_store_take(store, count + 1, sizeof *v->coupling);
+    v->r = br_store_take(store, count * count, sizeof *v->r);
+    for (size_t k = 0; !store->failed && k <= count; k++) {
+        const long double x = (long double)k;
+        v->coupling[k] = k ? x / (2 * sqrtl(4 * x * x - 1)) : 0;
+    }
+}
+
+/* The recurrence of p_{k+1} in x = first + width xi, where a product with xi is the same
+ * recurrence in l. Small coefficients keep their digits: they only come from each other. */
+void br_subinterval_move(struct br_subinterval *v, long double first, long double width)
+{
+    const size_t count = v->count;
+    const long double *b = v->coupling;
+    v->r[0] = 1;
+    for (size_t k = 0; k + 1 < count; k++) {
+        const long double *here = v->r + k * count, *before = k ? here - count : here;
+        long double *next = v->r + (k + 1) * count;
+        for (size_t l = 0; l <= k + 1; l++) {
+            const long double left = l ? b[l] * here[l - 1] : 0;
+            const long double right = l < k ? b[l + 1] * here[l + 1] : 0;
+            next[l] =
+                ((first - 0.5L + width / 2) * here[l] + width * (left + right) - b[k] * before[l]) /
+                b[k + 1];
+        }
+    }
+}
+
+/* ---- what is left out, as a triangle ---- */
+
+/* |A c|^2 for a tall matrix A that comes in blocks, as |R c|^2 with a triangle: A = Q R. */
+struct remainder {
+    size_t columns, block; /* rows of a block; 0: there is nothing, R stays 0 */
+    double
+        *a; /* (columns + block) x columns, by columns: R, upper triangle, above the next block */
+    double *tau; /* workspace */
+};
+
+/* R = 0. */
+static void remainder_init(struct remainder *m, size_t columns, size_t block,
+                           struct br_store *store)
+{
+    *m = (struct remainder){.columns = columns, .block = block};
+    m->a = br_store_take(store, (columns + block) * columns, sizeof *m->a);
+    m->tau = br_store_take(store, columns, sizeof *m->tau);
+}
+
+/* An entry of R or of the next block. */
+static double *remainder_r(const struct remainder *m, size_t row, size_t column)
+{
+    return &m->a[column * (m->columns + m->block) + row];
+}
+
+static double *remainder_block(const struct remainder *m, size_t row, size_t column)
+{
+    return remainder_r(m, m->columns + row, column);
+}
+
+/* Adds the block to R, and clears it. Fails with BR_NO_MEMORY or BR_SINGULAR. */
+static enum br_status remainder_add(const struct remainder *m, struct br_error *err)
+{
+    const size_t rows = m->columns + m->block;
+    if (!m->block)
+        return BR_OK;
+    const lapack_int info = LAPACKE_dgeqrf(LAPACK_COL_MAJOR, (lapack_int)rows,
+                                           (lapack_int)m->columns, m->a, (lapack_int)rows, m->tau);
+    for (size_t k = 0; k < m->columns; k++) /* the reflectors below the diagonal are not needed */
+        memset(remainder_r(m, k + 1, k), 0, (rows - k - 1) * sizeof(double));
+    if (info == LAPACK_WORK_MEMORY_ERROR)
+        return br_no_memory(err, "a projection's remainder");
+    return info ? br_fail(err, BR_SINGULAR, "a projection's remainder failed (%d)", (int)info)
+                : BR_OK;
+}
 
 /* Local coefficients are left out of the tables where the root of the sum of their squares is
  * below this part of the series, and out of a sum at this part of what they are added to. */
@@ -26,6 +102,13 @@ struct br_restriction {
     double *local;        /* groups x terms, workspace */
     double *left;         /* length, workspace */
     double *square;       /* terms, workspace */
+};
+
+/* What the tables are made with. */
+struct making {
+    struct br_subinterval series, local; /* the series on a group, and a group's on an element */
+    struct remainder group, all;         /* what elements leave out of either */
+    struct br_store store;
 };
 
 /* The norm of a function on an element whose coefficients have the norm 1 on [0, 1]. */
@@ -86,67 +169,62 @@ static void move_inside(const struct br_restriction *r, size_t j, struct br_subi
 /* ---- what is left out ---- */
 
 /* |R_0 c|^2 is what the group's elements from `first` on leave out of its series c. */
+/* |R_0 c|^2 is what the group's elements from `first` on leave out of its series c. */
 static enum br_status reduce_group(const struct br_restriction *r, size_t first,
-                                   struct br_subinterval *local, struct br_remainder *group,
-                                   struct br_error *err)
+                                   struct making *with, struct br_error *err)
 {
-    const size_t terms = local->count, kept = r->shape.degree + 1;
-    enum br_status status = br_remainder_init(group, terms, terms > kept ? terms - kept : 0, err);
+    const struct remainder *group = &with->group;
+    const size_t terms = group->columns, kept = r->shape.degree + 1;
+    enum br_status status = BR_OK;
+    memset(group->a, 0, (terms + group->block) * terms * sizeof *group->a);
     for (size_t j = first; j < r->group && !status; j++) {
-        move_inside(r, j, local);
+        move_inside(r, j, &with->local);
         for (size_t k = 0; k < terms; k++)
             for (size_t l = kept; l < terms; l++)
-                *br_remainder_block(group, l - kept, k) =
-                    scale(r) * (double)local->r[k * terms + l];
-        status = br_remainder_add(group, err);
+                *remainder_block(group, l - kept, k) =
+                    scale(r) * (double)with->local.r[k * terms + l];
+        status = remainder_add(group, err);
     }
     return status;
 }
 
 /* Adds R_0 times the series on a group. */
-static enum br_status add_group(const struct br_remainder *group,
-                                const struct br_subinterval *series, struct br_remainder *all,
-                                struct br_error *err)
+static enum br_status add_group(const struct remainder *group, const struct br_subinterval *series,
+                                const struct remainder *all, struct br_error *err)
 {
     for (size_t k = 0; k < series->count; k++)
         for (size_t i = 0; i < group->columns; i++) {
             long double sum = 0;
             for (size_t l = i; l < group->columns && l <= k; l++)
-                sum += *br_remainder_r(group, i, l) * series->r[k * series->count + l];
-            *br_remainder_block(all, i, k) = (double)sum;
+                sum += *remainder_r(group, i, l) * series->r[k * series->count + l];
+            *remainder_block(all, i, k) = (double)sum;
         }
-    return br_remainder_add(all, err);
+    return remainder_add(all, err);
 }
 
 /* Groups first to last - 1, of which the elements before `skipped` do not count. */
-static enum br_status add_groups(struct br_restriction *r, const size_t range[2], size_t skipped,
-                                 struct br_subinterval *series, struct br_subinterval *local,
-                                 struct br_remainder *all, struct br_error *err)
+/* Groups first to last - 1, of which the elements before `skipped` do not count. */
+static enum br_status add_groups(const struct br_restriction *r, const size_t range[2],
+                                 size_t skipped, struct making *with, struct br_error *err)
 {
-    struct br_remainder group;
-    enum br_status status = reduce_group(r, skipped, local, &group, err);
+    enum br_status status = reduce_group(r, skipped, with, err);
     for (size_t g = range[0]; g < range[1] && !status; g++) {
-        move_to(r, g, series);
-        status = add_group(&group, series, all, err);
+        move_to(r, g, &with->series);
+        status = add_group(&with->group, &with->series, &with->all, err);
     }
-    br_remainder_clear(&group);
     return status;
 }
 
-static enum br_status fill_rest(struct br_restriction *r, struct br_subinterval *series,
-                                struct br_subinterval *local, struct br_error *err)
+static enum br_status fill_rest(const struct br_restriction *r, struct making *with,
+                                struct br_error *err)
 {
     const size_t length = r->shape.length, last = r->groups - 1;
     const size_t skipped = last * r->group - first_element(r, last);
-    struct br_remainder all;
-    enum br_status status = br_remainder_init(&all, length, local->count, err);
+    enum br_status status = add_groups(r, (size_t[]){0, last}, 0, with, err);
     if (!status)
-        status = add_groups(r, (size_t[]){0, last}, 0, series, local, &all, err);
-    if (!status)
-        status = add_groups(r, (size_t[]){last, r->groups}, skipped, series, local, &all, err);
+        status = add_groups(r, (size_t[]){last, r->groups}, skipped, with, err);
     for (size_t k = 0; k < length && !status; k++)
-        memcpy(&r->rest[k * length], br_remainder_r(&all, 0, k), length * sizeof *r->rest);
-    br_remainder_clear(&all);
+        memcpy(&r->rest[k * length], remainder_r(&with->all, 0, k), length * sizeof *r->rest);
     return status;
 }
 
@@ -200,73 +278,56 @@ static void fill_fine(struct br_restriction *r, struct br_subinterval *local)
     }
 }
 
-static enum br_status allocate(struct br_restriction *r, struct br_error *err)
+static enum br_status allocate(struct br_restriction *r, size_t terms, struct making *with,
+                               struct br_store *store, struct br_error *err)
 {
     const size_t length = r->shape.length, kept = r->shape.degree + 1;
-    r->coarse = br_allocate_aligned(length * r->groups * r->terms, sizeof *r->coarse);
-    r->local = br_allocate_aligned(r->groups * r->terms, sizeof *r->local);
-    r->left = br_allocate(length, sizeof *r->left);
-    r->square = br_allocate(r->terms, sizeof *r->square);
+    r->terms = r->group == 1 ? kept : terms;
+    r->coarse = br_store_take(store, length * r->groups * r->terms, sizeof *r->coarse);
+    r->local = br_store_take(store, r->groups * r->terms, sizeof *r->local);
+    r->left = br_store_take(store, length, sizeof *r->left);
+    r->square = br_store_take(store, r->terms, sizeof *r->square);
     if (r->group > 1)
-        r->fine = br_allocate_aligned(r->terms * r->group * kept, sizeof *r->fine);
-    const bool done = r->coarse && r->local && r->left && r->square && (r->fine || r->group == 1);
-    return done ? BR_OK : br_no_memory(err, "a projection");
+        r->fine = br_store_take(store, r->terms * r->group * kept, sizeof *r->fine);
+    br_subinterval_init(&with->local, terms, &with->store);
+    remainder_init(&with->group, terms, terms > kept ? terms - kept : 0, &with->store);
+    remainder_init(&with->all, length, terms, &with->store);
+    return store->failed || with->store.failed ? br_no_memory(err, "a projection") : BR_OK;
 }
 
-static enum br_status fill(struct br_restriction *r, struct br_subinterval *series,
-                           struct br_subinterval *local, struct br_error *err)
+static enum br_status fill(struct br_restriction *r, struct making *with, struct br_store *store,
+                           struct br_error *err)
 {
     const size_t length = r->shape.length;
-    enum br_status status = br_subinterval_init(series, length, err);
-    r->rest = br_allocate(length * length, sizeof *r->rest);
-    if (status || !r->rest)
+    br_subinterval_init(&with->series, length, &with->store);
+    r->rest = br_store_take(store, length * length, sizeof *r->rest);
+    if (with->store.failed || !r->rest)
         return br_no_memory(err, "a projection");
-    const size_t terms = count_terms(r, series, r->rest);
-    r->terms = r->group == 1 ? r->shape.degree + 1 : terms;
-    status = allocate(r, err);
-    if (!status)
-        status = br_subinterval_init(local, terms, err);
+    const size_t terms = count_terms(r, &with->series, r->rest);
+    const enum br_status status = allocate(r, terms, with, store, err);
     if (status)
         return status;
-    fill_coarse(r, series);
+    fill_coarse(r, &with->series);
     if (r->fine)
-        fill_fine(r, local);
-    return fill_rest(r, series, local, err);
+        fill_fine(r, &with->local);
+    return fill_rest(r, with, err);
 }
 
 enum br_status br_restriction_create(struct br_restriction **out,
-                                     const struct br_restriction_shape *shape, struct br_error *err)
+                                     const struct br_restriction_shape *shape,
+                                     struct br_store *store, struct br_error *err)
 {
-    struct br_restriction *r = br_allocate(1, sizeof *r);
-    *out = r;
+    struct br_restriction *r = *out = br_store_take(store, 1, sizeof *r);
     if (!r)
         return br_no_memory(err, "a projection");
     r->shape = *shape;
     r->combine = br_combine_best();
     r->group = choose_group(shape);
     r->groups = (shape->elements + r->group - 1) / r->group;
-    struct br_subinterval series = {0}, local = {0};
-    const enum br_status status = fill(r, &series, &local, err);
-    br_subinterval_clear(&series);
-    br_subinterval_clear(&local);
-    if (status) {
-        br_restriction_free(r);
-        *out = NULL;
-    }
+    struct making with = {0};
+    const enum br_status status = fill(r, &with, store, err);
+    br_store_clear(&with.store);
     return status;
-}
-
-void br_restriction_free(struct br_restriction *r)
-{
-    if (!r)
-        return;
-    free(r->coarse);
-    free(r->fine);
-    free(r->rest);
-    free(r->local);
-    free(r->left);
-    free(r->square);
-    free(r);
 }
 
 /* ---- the application ---- */

@@ -4,9 +4,22 @@
 #ifndef BR_REFERENCE_EXACT_RESTRICTION_H
 #define BR_REFERENCE_EXACT_RESTRICTION_H
 
-#include <stddef.h>
+#include "reference/exact/exact.h"
+#include "reference/exact/pieces.h"
 
-#include "solver/status.h"
+/* Legendre series on [0, 1] as series on an interval of it. */
+struct br_subinterval {
+    size_t count;
+    long double *coupling; /* count + 1: b in x p_k = b_{k+1} p_{k+1} + p_k / 2 + b_k p_{k-1} */
+    long double *r;        /* count x count, see br_subinterval_move; 0 for l > k */
+};
+
+/* For p_0 ... p_{count - 1}. After a failure, which the store tells, it is of no use. */
+void br_subinterval_init(struct br_subinterval *interval, size_t count, struct br_store *store);
+
+/* p_k(first + width xi) = sum over l of r[k * count + l] p_l(xi), 0 <= first and
+ * first + width <= 1. */
+void br_subinterval_move(struct br_subinterval *interval, long double first, long double width);
 
 struct br_restriction;
 
@@ -18,16 +31,29 @@ struct br_restriction_shape {
     long double first, width; /* the part: [first, first + width]; 0 and 1 for all */
 };
 
-/* *out (owned by the caller). Fails with BR_NO_MEMORY or BR_SINGULAR. */
+/* *out (owned by the store). Fails with BR_NO_MEMORY or BR_SINGULAR. */
 enum br_status br_restriction_create(struct br_restriction **out,
                                      const struct br_restriction_shape *shape,
-                                     struct br_error *err);
-void br_restriction_free(struct br_restriction *restriction);
+                                     struct br_store *store, struct br_error *err);
 
 /* c (out, elements x (degree + 1)): coefficients of the Legendre polynomials that are
  * orthonormal on each element. *rest (out): the square of the L2 norm of what these leave out of
  * the part, found without a difference. series: length, in. For one thread at a time. */
 void br_restriction_apply(struct br_restriction *restriction, const double *series, double *c,
                           double *rest);
+
+/* The L2 projection of a series on the elements of pieces.h on polynomials on equal elements. */
+struct br_piecewise;
+
+/* *out (owned by the store). Series have `extra` more terms. Fails with BR_NO_MEMORY or
+ * BR_SINGULAR.
+ */
+enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_pieces *pieces,
+                                   size_t extra, const struct br_exact_mesh *mesh,
+                                   struct br_store *store, struct br_error *err);
+
+/* c and rest as br_exact_projection_apply has them. For one thread at a time. */
+void br_piecewise_apply(struct br_piecewise *piecewise, const double *series, double *c,
+                        double *rest);
 
 #endif

@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A function of x and t that is no product. For cells along one variable the box is halved along
+ * either, whichever helps more, until in each part a polynomial along the one stands for the
+ * function, or a guard goes through it that never lets go. What counts as an end of a cell is where
+ * smooth functions ask for more, not where a guard does: that moves, and quadratures are cut at
+ * it. */
 #include "reference/exact/sight.h"
 
 #include <math.h>
@@ -53,20 +58,31 @@ static double magnitude(struct br_interval v)
     return fmax(fabs(v.low), fabs(v.high));
 }
 
-static struct br_interval *side(struct br_box *box, enum br_variable along)
+static struct br_interval along(const struct br_box *box, enum br_variable v)
 {
-    return along == BR_X ? &box->x : &box->t;
+    return v == BR_X ? box->x : box->t;
 }
 
-double br_sight_error(const struct br_function *f, enum br_variable along, struct br_box box,
+static double width(struct br_interval i)
+{
+    return i.high - i.low;
+}
+
+static void halve(struct br_box box, enum br_variable v, struct br_box half[2])
+{
+    const struct br_interval i = along(&box, v);
+    half[0] = half[1] = box;
+    br_side(&half[0], v)->high = br_side(&half[1], v)->low = i.low + width(i) / 2;
+}
+
+double br_sight_error(const struct br_function *f, enum br_variable v, struct br_box box,
                       size_t degree)
 {
     struct br_interval coefficient[17];
-    const struct br_interval here = *side(&box, along);
-    if (!br_function_taylor(f, along, box, degree + 1, coefficient))
+    if (!br_function_taylor(f, v, box, degree + 1, coefficient))
         return INFINITY;
-    const double error = 2 * magnitude(coefficient[degree + 1]) *
-                         pow((here.high - here.low) / 4, (double)degree + 1);
+    const double error =
+        2 * magnitude(coefficient[degree + 1]) * pow(width(along(&box, v)) / 4, (double)degree + 1);
     return isnan(error) ? INFINITY : error;
 }
 
@@ -114,10 +130,8 @@ double br_sight_mean(const struct br_function *f, struct br_box whole)
         const double x = box.x.high - box.x.low, t = box.t.high - box.t.low;
         const bool along_x =
             x > 0 && !(t / (whole.t.high - whole.t.low) > x / (whole.x.high - whole.x.low));
-        struct br_box half[2] = {box, box};
-        const struct br_interval cut = along_x ? box.x : box.t;
-        side(&half[0], along_x ? BR_X : BR_T)->high = cut.low + (cut.high - cut.low) / 2;
-        side(&half[1], along_x ? BR_X : BR_T)->low = cut.low + (cut.high - cut.low) / 2;
+        struct br_box half[2];
+        halve(box, along_x ? BR_X : BR_T, half);
         share[worst] = share_of(f, half[0]);
         share[count++] = share_of(f, half[1]);
     }
@@ -144,19 +158,20 @@ static enum br_status too_fine(const struct survey *s, double place)
 static enum br_status survey(const struct survey *s, struct br_box box)
 {
     struct br_sight *sight = s->sight;
-    struct br_interval value = {0, 0}, here = *side(&box, s->along);
-    const double width = here.high - here.low, middle = here.low + width / 2;
+    const struct br_interval here = along(&box, s->along);
+    struct br_interval value = {0, 0};
+    const double middle = here.low + width(here) / 2;
     const bool bounded = br_function_bound(sight->f, box, &value);
     const double size = fmax(magnitude(value), sight->mean);
-    const double unseen = width * (value.high - value.low);
-    const bool narrow = !(width > sight->least && here.low < middle && middle < here.high);
+    const double unseen = width(here) * (value.high - value.low);
+    const bool narrow = !(width(here) > sight->least && here.low < middle && middle < here.high);
     if (narrow && !bounded)
         return br_must_be_finite(sight->f, box, s->err);
     if (!bounded || !(br_sight_error(sight->f, s->along, box, sight->degree[s->along]) <=
                       BR_SIGHT_TOLERANCE * size)) {
         if (!narrow && !(bounded && unseen <= sight->most_missed)) {
-            struct br_box half[2] = {box, box};
-            side(&half[0], s->along)->high = side(&half[1], s->along)->low = middle;
+            struct br_box half[2];
+            halve(box, s->along, half);
             const enum br_status status = survey(s, half[0]);
             return status ? status : survey(s, half[1]);
         }
@@ -167,9 +182,128 @@ static enum br_status survey(const struct survey *s, struct br_box box)
     return here.high < s->end ? br_list_add(s->ends, here.high, s->err) : BR_OK;
 }
 
-enum br_status br_sight_along(struct br_sight *sight, enum br_variable along, struct br_box box,
+enum br_status br_sight_along(struct br_sight *sight, enum br_variable v, struct br_box box,
                               struct br_list *ends, struct br_error *err)
 {
-    const struct survey s = {sight, along, side(&box, along)->high, ends, err};
+    const struct survey s = {sight, v, along(&box, v).high, ends, err};
     return survey(&s, box);
+}
+
+enum { MOST_BOXES = 40000, MOST_HALVINGS = 10 };
+
+struct cover {
+    struct br_sight *sight;
+    enum br_variable along;
+    struct br_list *ends;
+    double missed;
+    struct br_box whole;
+    size_t boxes;
+    struct br_error *err;
+};
+
+/* A guard goes through the box, which is not halved any more: how much more than its values at
+ * some places the function may take there. */
+static enum br_status give_up(struct cover *c, const struct br_box *box, struct br_interval value)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (int j = 0; j <= 2; j++) {
+        double x[3], at[3];
+        for (int i = 0; i <= 2; i++)
+            x[i] = box->x.low + width(box->x) * i / 2;
+        br_function_evaluate(c->sight->f, 3, x, box->t.low + width(box->t) * j / 2, at);
+        for (int i = 0; i <= 2; i++) {
+            low = fmin(low, at[i]);
+            high = fmax(high, at[i]);
+        }
+    }
+    const double excess = fmax(low - value.low, 0) + fmax(value.high - high, 0);
+    c->missed += width(box->x) * width(box->t) * excess;
+    return BR_OK;
+}
+
+static enum br_status add_ends(struct cover *c, const struct br_box *box)
+{
+    const struct br_interval i = along(box, c->along), whole = along(&c->whole, c->along);
+    enum br_status status = BR_OK;
+    if (i.low > whole.low)
+        status = br_list_add(c->ends, i.low, c->err);
+    if (i.high < whole.high && !status)
+        status = br_list_add(c->ends, i.high, c->err);
+    return status;
+}
+
+static enum br_status cover(struct cover *c, struct br_box box);
+
+/* Covers both halves along v; ends: they are cells. */
+static enum br_status cover_halves(struct cover *c, struct br_box box, enum br_variable v,
+                                   bool ends)
+{
+    struct br_box half[2];
+    enum br_status status = BR_OK;
+    halve(box, v, half);
+    for (size_t k = 0; k < 2 && !status; k++) {
+        status = ends ? add_ends(c, &half[k]) : BR_OK;
+        if (!status)
+            status = cover(c, half[k]);
+    }
+    return status;
+}
+
+static double error_in(const struct cover *c, struct br_box box)
+{
+    return br_sight_error(c->sight->f, c->along, box, c->sight->degree[c->along]);
+}
+
+/* The larger error of both halves. */
+static double error_of_halves(const struct cover *c, struct br_box box, enum br_variable v)
+{
+    struct br_box half[2];
+    halve(box, v, half);
+    return fmax(error_in(c, half[0]), error_in(c, half[1]));
+}
+
+/* The share_along of the whole that the box takes along a variable. */
+static double share_along(const struct cover *c, const struct br_box *box, enum br_variable v)
+{
+    return width(along(box, v)) / width(along(&c->whole, v));
+}
+
+static enum br_status cover(struct cover *c, struct br_box box)
+{
+    const enum br_variable one = c->along, other = one == BR_X ? BR_T : BR_X;
+    struct br_interval value;
+    const bool bounded = br_function_bound(c->sight->f, box, &value);
+    const double size = bounded ? fmax(fabs(value.low), fabs(value.high)) : 0;
+    const double error = error_in(c, box), least = pow(0.5, MOST_HALVINGS);
+    if (++c->boxes > MOST_BOXES)
+        return br_fail(c->err, BR_NOT_FINITE,
+                       "no exact solution: a load of x and t has details that are too fine near "
+                       "x = %g m, t = %g s",
+                       box.x.low, box.t.low);
+    if (bounded && error <= BR_SIGHT_TOLERANCE * fmax(size, c->sight->mean))
+        return BR_OK;
+    if (isfinite(error)) {
+        const bool help = share_along(c, &box, other) > least &&
+                          error_of_halves(c, box, other) < error_of_halves(c, box, one);
+        return cover_halves(c, box, help ? other : one, !help);
+    }
+    const enum br_variable longer =
+        share_along(c, &box, BR_X) >= share_along(c, &box, BR_T) ? BR_X : BR_T;
+    if (share_along(c, &box, longer) > least)
+        return cover_halves(c, box, longer, false);
+    return bounded ? give_up(c, &box, value) : br_must_be_finite(c->sight->f, box, c->err);
+}
+
+enum br_status br_sight_both(struct br_sight *sight, struct br_box box, struct br_list ends[2],
+                             struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    double missed = 0;
+    for (enum br_variable v = BR_X; v <= BR_T && !status; v++) {
+        struct cover c = {.sight = sight, .along = v, .ends = &ends[v], .whole = box, .err = err};
+        status = cover(&c, box);
+        missed = fmax(missed, c.missed);
+    }
+    sight->missed += missed;
+    return status;
 }

@@ -21,6 +21,11 @@ enum br_status br_list_add(struct br_list *list, double value, struct br_error *
 /* Sorts, and keeps one of those that are closer than `least` to each other. */
 void br_list_sort(struct br_list *list, double least);
 
+static inline struct br_interval *br_side(struct br_box *box, enum br_variable along)
+{
+    return along == BR_X ? &box->x : &box->t;
+}
+
 /* Of how much a polynomial along one variable misses f in the box at most; infinite where f is not
  * smooth. */
 double br_sight_error(const struct br_function *f, enum br_variable along, struct br_box box,

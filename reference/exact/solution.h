@@ -3,21 +3,19 @@
 #ifndef BR_REFERENCE_EXACT_SOLUTION_H
 #define BR_REFERENCE_EXACT_SOLUTION_H
 
-#include "reference/exact/effort.h"
-#include "reference/exact/exact.h"
-#include "reference/exact/field.h"
-#include "reference/exact/law.h"
+#include "reference/exact/march.h"
 
 /* One march of each modelled field; the others are NULL. */
-struct br_solution {
-    struct br_field *field[BR_EXACT_FIELDS];
+struct br_exact_solution {
+    struct br_oscillators *field[BR_EXACT_FIELDS];
     struct br_law law[BR_EXACT_FIELDS];
-    struct br_track *track[BR_EXACT_FIELDS];
+    struct br_history *track[BR_EXACT_FIELDS];
+    struct br_store store; /* of the fields */
 };
 
 struct br_exact {
     double duration; /* T, s */
-    struct br_solution *solution;
+    struct br_exact_solution *solution;
     struct br_exact_report report[BR_EXACT_FIELDS];
     double noise[BR_EXACT_FIELDS]; /* m/s: where a force at the tip cancels all motion, this much
                                       of the velocity is round-off */
@@ -25,28 +23,15 @@ struct br_exact {
     struct br_exact_event *event;
 };
 
-/* How finely a solution is to be made. */
-struct br_fineness {
-    size_t modes, max_steps;
-    double tolerance, first_step; /* see br_march_options */
-};
-
-/* outline: of each field. */
-enum br_status br_solution_create(struct br_solution **out, const struct br_scene *scene,
-                                  const struct br_outline outline[BR_EXACT_FIELDS],
-                                  const struct br_fineness *fineness, struct br_effort *effort,
-                                  struct br_error *err);
-void br_solution_free(struct br_solution *solution);
-
 /* Fills exact->report with the size of exact->solution and its distance to
  * another, infinite where their events differ. Fails with BR_NO_MEMORY. */
-enum br_status br_exact_compare(struct br_exact *exact, const struct br_solution *other,
+enum br_status br_exact_compare(struct br_exact *exact, const struct br_exact_solution *other,
                                 const struct br_outline outline[BR_EXACT_FIELDS],
                                 struct br_error *err);
 
 /* Fills exact->event from exact->solution, with error bars from another that
  * has the same events. Fails with BR_NO_MEMORY. */
-enum br_status br_exact_list_events(struct br_exact *exact, const struct br_solution *other,
+enum br_status br_exact_list_events(struct br_exact *exact, const struct br_exact_solution *other,
                                     struct br_error *err);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/exact/step.h"
+#include "reference/exact/march.h"
 
 #include <cblas.h>
 #include <float.h>
@@ -9,47 +9,24 @@
 
 enum { S = BR_STAGES };
 
-enum br_status br_stepper_create(struct br_stepper **out, const struct br_field *field,
-                                 const struct br_law *law, double gap, struct br_error *err)
+enum br_status br_stepper_init(struct br_stepper *s, double gap, struct br_store *store,
+                               struct br_error *err)
 {
-    const size_t m = field->modes->count;
-    struct br_stepper *s = br_allocate(1, sizeof *s);
-    *out = s;
-    if (!s)
-        return br_no_memory(err, "a time step");
-    s->field = field;
-    s->law = law;
+    const struct br_oscillators *field = s->field;
+    const size_t m = field->modes.count;
     s->to = INFINITY;
     s->tip_displacement = field->tip_displacement - gap;
     s->tip_velocity = field->tip_velocity;
-    s->q = br_allocate(m, sizeof *s->q);
-    s->v = br_allocate(m, sizeof *s->v);
-    s->series = br_allocate(m * S, sizeof *s->series);
-    s->response = br_allocate(m * S * S, sizeof *s->response);
-    s->load = br_allocate(m * S, sizeof *s->load);
-    enum br_status status = br_radau_init(&s->radau, err);
-    if (!status && (!s->q || !s->v || !s->series || !s->response || !s->load))
-        status = br_no_memory(err, "a time step");
-    if (status) {
-        br_stepper_free(s);
-        *out = NULL;
-        return status;
-    }
+    s->q = br_store_take(store, m, sizeof *s->q);
+    s->v = br_store_take(store, m, sizeof *s->v);
+    s->series = br_store_take(store, m * S, sizeof *s->series);
+    s->response = br_store_take(store, m * S * S, sizeof *s->response);
+    s->load = br_store_take(store, m * S, sizeof *s->load);
+    if (store->failed)
+        return br_no_memory(err, "a time step");
     memcpy(s->q, field->displacement, m * sizeof *s->q);
     memcpy(s->v, field->velocity, m * sizeof *s->v);
-    return BR_OK;
-}
-
-void br_stepper_free(struct br_stepper *s)
-{
-    if (!s)
-        return;
-    free(s->q);
-    free(s->v);
-    free(s->series);
-    free(s->response);
-    free(s->load);
-    free(s);
+    return br_radau_init(&s->radau, err);
 }
 
 /* r = (mass/h + damping X + stiffness h X^2) \ X, the velocity's response to a
@@ -78,19 +55,19 @@ static enum br_status respond(struct br_stepper *s, double h, struct br_error *e
 {
     if (h == s->length)
         return BR_OK;
-    const struct br_field *f = s->field;
+    const struct br_oscillators *f = s->field;
     double *z = &s->tip_response[0][0];
     double square = 0;
     memset(z, 0, sizeof s->tip_response);
     s->length = h;
-    for (size_t i = 0; i < f->modes->count; i++) {
+    for (size_t i = 0; i < f->modes.count; i++) {
         double *r = &s->response[i * S * S];
         const enum br_status status = respond_mode(s, f->mass[i], r, err);
         if (status)
             return status;
         for (size_t k = 0; k < S * S; k++)
-            z[k] += f->modes->tip[i] * f->modes->tip[i] * r[k];
-        const double size = f->modes->size[i], gain = size * size * r[0];
+            z[k] += f->modes.tip[i] * f->modes.tip[i] * r[k];
+        const double size = f->modes.size[i], gain = size * size * r[0];
         square += gain * gain;
     }
     s->noise_response = sqrt(f->length * square);
@@ -101,11 +78,11 @@ static enum br_status respond(struct br_stepper *s, double h, struct br_error *e
  * the step, so that what remains to be found is small */
 static void residual(const struct br_stepper *s, size_t i, double out[S])
 {
-    const struct br_field *f = s->field;
+    const struct br_oscillators *f = s->field;
     const double reach = f->stiffness * s->length * s->v[i];
     double value[S];
     for (size_t j = 0; j < S; j++)
-        value[j] = s->load[j * f->modes->count + i];
+        value[j] = s->load[j * f->modes.count + i];
     br_radau_fit(&s->radau, value, out);
     out[0] -= f->damping * s->v[i] + f->stiffness * s->q[i] + reach * s->radau.integral[0][0];
     out[1] -= reach * s->radau.integral[1][0];
@@ -114,7 +91,7 @@ static void residual(const struct br_stepper *s, size_t i, double out[S])
 /* Sum of the modes' tip values. */
 static double tip_sum(const struct br_stepper *s, const double *q)
 {
-    return cblas_ddot((int)s->field->modes->count, s->field->modes->tip, 1, q, 1);
+    return cblas_ddot((int)s->field->modes.count, s->field->modes.tip, 1, q, 1);
 }
 
 /* The velocity that the tip's series starts from. A tip that sticks is held by
@@ -127,17 +104,17 @@ static double tip_start(const struct br_stepper *s)
 /* series = v + response (residual - tip force); the tip's velocity follows. */
 static void move(struct br_stepper *s)
 {
-    const struct br_field *f = s->field;
+    const struct br_oscillators *f = s->field;
     double tip[S] = {tip_start(s)};
-    for (size_t i = 0; i < f->modes->count; i++) {
+    for (size_t i = 0; i < f->modes.count; i++) {
         double r[S];
         residual(s, i, r);
         for (size_t k = 0; k < S; k++)
-            r[k] -= f->modes->tip[i] * s->tip.force[k];
+            r[k] -= f->modes.tip[i] * s->tip.force[k];
         for (size_t k = 0; k < S; k++) {
             const double gain = br_radau_sum(&s->response[(i * S + k) * S], r);
             s->series[i * S + k] = gain + (k ? 0 : s->v[i]);
-            tip[k] += f->modes->tip[i] * gain;
+            tip[k] += f->modes.tip[i] * gain;
         }
     }
     memcpy(s->tip.velocity, tip, sizeof tip);
@@ -146,13 +123,13 @@ static void move(struct br_stepper *s)
 /* The velocity that the largest of the stages' loads alone give in the step, in L2. */
 static double impulse(const struct br_stepper *s)
 {
-    const size_t m = s->field->modes->count;
+    const size_t m = s->field->modes.count;
     double sum = 0;
     for (size_t i = 0; i < m; i++) {
         double most = 0;
         for (size_t j = 0; j < S; j++)
             most = fmax(most, fabs(s->load[j * m + i]));
-        const double part = s->field->modes->size[i] * s->response[i * S * S] * most;
+        const double part = s->field->modes.size[i] * s->response[i * S * S] * most;
         sum += part * part;
     }
     return sqrt(s->field->length * sum);
@@ -160,24 +137,24 @@ static double impulse(const struct br_stepper *s)
 
 enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *err)
 {
-    const size_t m = s->field->modes->count;
+    const size_t m = s->field->modes.count;
     enum br_status status = respond(s, h, err);
-    s->work += br_field_work(s->field);
+    s->work += br_oscillators_work(s->field);
     s->load_noise = 0;
     for (size_t j = 0; j < S && !status; j++) {
         double size;
         const double t = fmin(fmax(s->time + s->radau.node[j] * h, s->from), s->to);
-        status = br_field_load(s->field, t, &s->load[j * m], &size, err);
+        status = br_oscillators_load(s->field, t, &s->load[j * m], &size, err);
         s->load_noise = fmax(s->load_noise, DBL_EPSILON * size * s->noise_response);
     }
     if (status)
         return status;
     s->impulse = impulse(s);
     s->load_noise += s->blur * s->impulse;
-    s->tip = (struct br_tip){
+    s->tip = (struct br_tip_step){
         .start = s->time, .length = h, .phase = s->phase, .displacement = s->tip_displacement};
     move(s); /* as if the tip were free */
-    s->free_size = br_field_norm(s->field, s->series, S);
+    s->free_size = br_oscillators_norm(s->field, s->series, S);
     for (int round = 0; round < (s->phase == BR_STICK ? 2 : 1) && !status; round++) {
         status = br_law_force(s->law, &s->radau, s->tip_response, &s->tip, err);
         move(s);
@@ -189,7 +166,7 @@ enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *e
 
 void br_stepper_accept(struct br_stepper *s, double time)
 {
-    for (size_t i = 0; i < s->field->modes->count; i++) {
+    for (size_t i = 0; i < s->field->modes.count; i++) {
         s->q[i] += s->tip.length * s->series[i * S]; /* the other p_k have no mean */
         s->v[i] = br_radau_sum(&s->series[i * S], s->radau.end);
     }
@@ -200,7 +177,7 @@ void br_stepper_accept(struct br_stepper *s, double time)
 
 void br_stepper_settle(struct br_stepper *s)
 {
-    const struct br_modes *modes = s->field->modes;
+    const struct br_modes *modes = &s->field->modes;
     if (s->phase == BR_OPEN || s->phase == BR_CLOSED)
         s->tip_displacement = 0;
     if (s->phase != BR_SLIP_UP && s->phase != BR_SLIP_DOWN)

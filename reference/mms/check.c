@@ -1,24 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/mms/check.h"
+#include "reference/mms/mms.h"
 
 #include <math.h>
 
-#include "reference/mms/tip.h"
 #include "solver/proof.h"
 
+/* The derivatives that the equations (3), (4), (8), (9), (11) use. */
 static const struct br_partial axial_orders[] = {
     {0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {0, 2},
 };
 static const struct br_partial bending_orders[] = {
     {0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}, {0, 2},
 };
-
-const struct br_partial *br_solution_orders(enum br_field_kind kind, size_t *count)
-{
-    *count = kind == BR_AXIAL ? sizeof axial_orders / sizeof *axial_orders
-                              : sizeof bending_orders / sizeof *bending_orders;
-    return kind == BR_AXIAL ? axial_orders : bending_orders;
-}
 
 /* "u_xxt" */
 static const char *name_of(enum br_field_kind kind, struct br_partial order, char text[16])
@@ -61,7 +54,7 @@ static void scatter(double size, double point[MIDPOINTS + NEAR])
 }
 
 /* The largest magnitude over scattered points; NaN where it is not finite. */
-static double largest_of(const struct br_solution *s, struct br_function *d)
+static double largest_of(const struct br_given *s, struct br_function *d)
 {
     double x[MIDPOINTS + NEAR], t[MIDPOINTS + NEAR], value[MIDPOINTS + NEAR], largest = 0;
     scatter(s->length, x);
@@ -76,7 +69,7 @@ static double largest_of(const struct br_solution *s, struct br_function *d)
 }
 
 /* Proves that it has no pole. */
-static enum br_status check_finite(const struct br_solution *s, const struct br_function *d,
+static enum br_status check_finite(const struct br_given *s, const struct br_function *d,
                                    struct br_partial order, struct br_error *err)
 {
     char name[16];
@@ -87,7 +80,7 @@ static enum br_status check_finite(const struct br_solution *s, const struct br_
                   : BR_OK;
 }
 
-static enum br_status check_clamp(const struct br_solution *s, const struct br_function *d,
+static enum br_status check_clamp(const struct br_given *s, const struct br_function *d,
                                   struct br_partial order, double scale, struct br_error *err)
 {
     char name[16];
@@ -106,14 +99,14 @@ static enum br_status check_clamp(const struct br_solution *s, const struct br_f
 
 /* A function that is derived by x or by t: its jumps would be lost. */
 struct derived {
-    const struct br_solution *solution;
+    const struct br_given *solution;
     struct br_function function;
     struct br_partial order;
     enum br_variable by;
     double scale;
 };
 
-static double end_of(const struct br_solution *s, enum br_variable v)
+static double end_of(const struct br_given *s, enum br_variable v)
 {
     return v == BR_X ? s->length : s->duration;
 }
@@ -177,7 +170,7 @@ static enum br_status check_lines(const struct derived *d, struct br_error *err)
 
 /* The derivative of that order: finite, clamped where it is a clamped value, and of a function
  * that does not jump. */
-static enum br_status check_order(const struct br_solution *s, struct br_partial order,
+static enum br_status check_order(const struct br_given *s, struct br_partial order,
                                   struct br_error *err)
 {
     const bool by_x = order.t == 0;
@@ -200,11 +193,12 @@ static enum br_status check_order(const struct br_solution *s, struct br_partial
     return status;
 }
 
-enum br_status br_solution_check(const struct br_solution *s, struct br_error *err)
+enum br_status br_given_check(const struct br_given *s, struct br_error *err)
 {
+    const bool axial = s->kind == BR_AXIAL;
+    const struct br_partial *orders = axial ? axial_orders : bending_orders;
+    const size_t count = (axial ? sizeof axial_orders : sizeof bending_orders) / sizeof *orders;
     enum br_status status = BR_OK;
-    size_t count;
-    const struct br_partial *orders = br_solution_orders(s->kind, &count);
     for (size_t i = 0; i < count && !status; i++)
         status = check_order(s, orders[i], err);
     return status;

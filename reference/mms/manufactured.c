@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/mms/manufactured.h"
+#include "reference/mms/mms.h"
 
 #include <math.h>
-
-#include "reference/mms/check.h"
-#include "reference/mms/tip.h"
 
 /* ---- what the solution determines must not be given ---- */
 
@@ -196,10 +193,10 @@ enum br_status br_manufactured_apply(struct br_scene *s, enum br_field_kind *cul
     enum br_status status = check_parts(s, culprit, err);
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
         *culprit = (enum br_field_kind)kind;
-        const struct br_solution solution = {solution_of(s, *culprit), *culprit, s->length,
-                                             s->duration};
+        const struct br_given solution = {solution_of(s, *culprit), *culprit, s->length,
+                                          s->duration};
         if (kind == BR_AXIAL ? s->axial.solution : s->bending.solution)
-            status = br_solution_check(&solution, err);
+            status = br_given_check(&solution, err);
     }
     if (status)
         return status;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/mms/tip.h"
+#include "reference/mms/mms.h"
 
 #include <math.h>
 

@@ -5,30 +5,24 @@
 #include <math.h>
 #include <stdint.h>
 
-/* ---- the matrices ---- */
+#include "reference/textbook.h"
 
-/* K of an element over a/h, or a/h^3 for (w, h w_x). */
-static double stiffness(enum br_field_kind kind, size_t i, size_t j)
-{
-    static const double rod[2][2] = {{1, -1}, {-1, 1}};
-    static const double beam[4][4] = {
-        {12, 6, -12, 6}, {6, 4, -6, 2}, {-12, -6, 12, -6}, {6, 2, -6, 4}};
-    return kind == BR_AXIAL ? rod[i][j] : beam[i][j];
-}
+/* ---- the matrices ---- */
 
 static void assemble(const struct br_field *f, gsl_matrix *k, gsl_matrix *m)
 {
     const size_t d = br_field_unknowns(f);
-    const double bend = f->stiffness / (f->kind == BR_AXIAL ? f->h : f->h * f->h * f->h);
+    const bool axial = f->kind == BR_AXIAL;
+    const double bend = f->stiffness / (axial ? f->h : f->h * f->h * f->h);
     for (size_t e = 0; e < f->n; e++)
         for (size_t i = 0; i < 2 * d; i++)
             for (size_t j = 0; j < 2 * d; j++) {
                 const size_t row = e * d + i, column = e * d + j;
                 if (row < d || column < d)
                     continue; /* clamped */
-                const double mass =
-                    f->kind == BR_AXIAL ? br_axial_mass[i][j] : br_bending_mass[i][j];
-                *gsl_matrix_ptr(k, row - d, column - d) += bend * stiffness(f->kind, i, j);
+                const double mass = axial ? br_rod_mass[i][j] / 6.0 : br_beam_mass[i][j] / 420.0;
+                *gsl_matrix_ptr(k, row - d, column - d) +=
+                    bend * (axial ? br_rod_stiffness[i][j] : br_beam_stiffness[i][j]);
                 *gsl_matrix_ptr(m, row - d, column - d) += f->density * f->h * mass;
             }
 }

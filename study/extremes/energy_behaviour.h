@@ -6,7 +6,7 @@
 
 #include <complex.h>
 
-#include "reference/energy.h"
+#include "reference/energy/energy.h"
 #include "reference/textbook.h"
 #include "solver/march.h"
 #include "study/grid/observer.h"

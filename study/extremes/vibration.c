@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "reference/energy.h"
+#include "reference/energy/energy.h"
 #include "study/extremes/beam_mode.h"
 
 /* ---- what a time scheme makes of y' = lambda y in a step, by its textbook ---- */

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "reference/energy.h"
+#include "reference/energy/energy.h"
 #include "solver/contact_limit.h"
 #include "study/foresee/warnings.h"
 #include "study/run/model.h"

@@ -29,11 +29,11 @@ static double *slot_of(const struct br_channel *c, struct br_slot slot)
 }
 
 /* Looks at the reference and projects it; returns its size. */
-static double project(struct br_lockstep *l, struct br_channel *c, struct br_look_at at,
+static double project(struct br_lockstep *l, struct br_channel *c, struct br_sample_at at,
                       double *projection)
 {
     for (at.mesh = 0; at.mesh < (c->ladder ? l->roots : 1); at.mesh++)
-        l->reference.judge->look(l->reference.self, &at, &c->root[at.mesh]);
+        l->reference.judge->sample(l->reference.self, &at, &c->root[at.mesh]);
     if (!c->ladder) {
         *projection = l->study->reference_tip[at.kind] = c->root[0].values[0];
         return fabs(*projection);
@@ -47,16 +47,16 @@ void br_lockstep_project(struct br_lockstep *l, enum br_field_kind kind, struct 
 {
     double *size = l->scale[slot.buffer][slot.index].size[kind];
     for (int measure = 0; measure < BR_MEASURES; measure++) {
-        const struct br_look_at at = {kind, (enum br_measure)measure, 0};
+        const struct br_sample_at at = {kind, (enum br_measure)measure, 0};
         struct br_channel *c = channel_at(l, kind, measure, level == l->study->reference.steps);
         size[measure] = c ? project(l, c, at, slot_of(c, slot)) : 0;
     }
 }
 
 /* The distance of the reference, as last looked at, from the auditor. */
-static double audit(struct br_lockstep *l, struct br_channel *c, const struct br_look_at *at)
+static double audit(struct br_lockstep *l, struct br_channel *c, const struct br_sample_at *at)
 {
-    l->auditor.judge->look(l->auditor.self, at, &c->audit);
+    l->auditor.judge->sample(l->auditor.self, at, &c->audit);
     if (!c->audit_ladder)
         return fabs(c->audit.values[0] - c->root[0].values[0]);
     br_ladder_project(c->audit_ladder, c->root, c->audit_projection);
@@ -74,7 +74,7 @@ enum br_status br_lockstep_audit(struct br_lockstep *l, enum br_field_kind kind,
     const enum br_status status = l->auditor.judge->advance(l->auditor.self, kind, level, err);
     double *size = l->audit[slot.buffer][slot.index].size[kind];
     for (int measure = 0; measure < BR_MEASURES && !status; measure++) {
-        const struct br_look_at at = {kind, (enum br_measure)measure, 0};
+        const struct br_sample_at at = {kind, (enum br_measure)measure, 0};
         struct br_channel *c = channel_at(l, kind, measure, level == l->study->reference.steps);
         size[measure] = c ? audit(l, c, &at) : 0;
     }

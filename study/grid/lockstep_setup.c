@@ -74,7 +74,7 @@ static void choose_channels(struct br_lockstep *l)
 }
 
 static enum br_status create_roots(struct br_lockstep *l, struct br_channel *c,
-                                   const struct br_look_at *at, struct br_error *err)
+                                   const struct br_sample_at *at, struct br_error *err)
 {
     c->root = br_allocate(l->roots, sizeof *c->root);
     if (!c->root)
@@ -91,7 +91,7 @@ static enum br_status create_roots(struct br_lockstep *l, struct br_channel *c,
 
 /* With the kernel that the cells are marched by, where one was asked for: then another processor
  * gives the same bits. */
-static enum br_status create_ladder(const struct br_lockstep *l, const struct br_look_at *at,
+static enum br_status create_ladder(const struct br_lockstep *l, const struct br_sample_at *at,
                                     const struct br_mesh_list *roots,
                                     const struct br_mesh_list *rungs, struct br_ladder **ladder,
                                     struct br_error *err)
@@ -106,7 +106,7 @@ static enum br_status create_ladder(const struct br_lockstep *l, const struct br
 
 /* What the auditor needs. */
 static enum br_status create_audit(struct br_lockstep *l, struct br_channel *c,
-                                   const struct br_look_at *at, struct br_error *err)
+                                   const struct br_sample_at *at, struct br_error *err)
 {
     const struct br_mesh_list root = {1, l->root};
     c->audit.values =
@@ -127,7 +127,7 @@ static enum br_status create_channel(struct br_lockstep *l, enum br_field_kind k
                                      enum br_measure measure, struct br_error *err)
 {
     struct br_channel *c = br_channel_of(l, kind, measure);
-    const struct br_look_at at = {kind, measure, 0};
+    const struct br_sample_at at = {kind, measure, 0};
     const struct br_mesh_list roots = {l->roots, l->root}, rungs = {l->study->n_count, l->study->n};
     enum br_status status = create_roots(l, c, &at, err);
     if (!status && l->study->auditor)

@@ -11,7 +11,7 @@ enum { BETWEEN_SIGNS = 1 << 18 };
 struct run {
     const struct br_run_request *request;
     struct br_run_report *report;
-    struct br_witness *witness;
+    struct br_step_checker *checker;
     struct br_energy_meter *meter;
     struct br_cost_mark record, check, output;
 };
@@ -31,9 +31,10 @@ static enum br_status start_checks(void *self, struct br_march *march, struct br
     enum br_status status =
         report->summed
             ? br_energy_meter_create(&r->meter, march, &report->marched, &report->method, err)
-            : br_energy_look(march, &report->marched, &report->energy_start, err);
+            : br_energy_sample(march, &report->marched, &report->energy_start, err);
     if (!status && report->checked)
-        status = br_witness_create(&r->witness, march, &report->marched, &r->report->method, err);
+        status =
+            br_step_checker_create(&r->checker, march, &report->marched, &r->report->method, err);
     return status;
 }
 
@@ -53,7 +54,7 @@ static enum br_status judge_step(const struct br_run_report *report, const struc
 static void check_step(struct run *r, const struct br_history_row *row, double imbalance)
 {
     struct br_run_report *report = r->report;
-    const struct br_certificate c = br_witness_step(r->witness);
+    const struct br_certificate c = br_step_checker_step(r->checker);
     struct br_error verdict = {0};
     br_certificate_merge(&report->worst, &c);
     if (!judge_step(report, &c, imbalance, &verdict))
@@ -75,7 +76,7 @@ static enum br_status watch_checks(void *self, const struct br_march *march,
     const double imbalance = r->meter ? br_energy_meter_step(r->meter) : 0;
     if (isnan(imbalance) || imbalance > report->energy_worst) /* nothing is above NAN */
         report->energy_worst = imbalance;
-    if (r->witness)
+    if (r->checker)
         check_step(r, row, imbalance);
     return BR_OK;
 }
@@ -146,7 +147,7 @@ static enum br_status read_energies(struct run *r, const struct br_march *march,
         return BR_OK;
     p->at_end = true;
     if (!p->summed)
-        return br_energy_look(march, &p->marched, &p->energy_now, err);
+        return br_energy_sample(march, &p->marched, &p->energy_now, err);
     br_energy_meter_read(r->meter, &p->energy_start, &p->energy_now, &p->work);
     return BR_OK;
 }
@@ -199,7 +200,7 @@ static enum br_status march(struct run *r, struct br_error *err)
         status = read_energies(r, made, err);
     }
     br_energy_meter_free(r->meter);
-    br_witness_free(r->witness);
+    br_step_checker_free(r->checker);
     br_march_free(made);
     return status;
 }

@@ -3,8 +3,8 @@
 #ifndef BR_STUDY_RUN_RUN_H
 #define BR_STUDY_RUN_RUN_H
 
-#include "reference/certificate.h"
-#include "reference/energy.h"
+#include "reference/certificate/certificate.h"
+#include "reference/energy/energy.h"
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
 #include "study/run/model.h"

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <yaml.h>
 
-#include "reference/mms/manufactured.h"
+#include "reference/mms/mms.h"
 #include "study/scene/products.h"
 #include "study/scene/quote.h"
 #include "study/scene/scan.h"

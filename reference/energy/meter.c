@@ -1,12 +1,67 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Works of a march as its scheme sums rates of change, stage by stage, and what the scheme takes.
  */
+#include "reference/energy/energy.h"
+
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
-#include "reference/energy_forms.h"
+#include "reference/certificate/certificate.h"
+#include "reference/certificate/watched.h"
+
+typedef long double real;
+
+/* Rates of work at one time, W. */
+struct power {
+    real load, viscous, tip; /* tip: of the contact or the friction force, which resists */
+    real load_size;          /* the sum of the sizes of the nodes' shares */
+    real residual;           /* of what a sound stage's residual may do, over its relative size */
+};
+
+/* Since t = 0, J. */
+struct field_work {
+    real load, viscous, tip, scheme, contact, noise, gained;
+    size_t steps, gaining;
+};
+
+struct meter_field {
+    struct br_field field; /* as the scene has it */
+    bool modelled;
+    struct br_field_energy start, now;
+    struct power before, row[BR_TEXTBOOK_ROWS]; /* at the step's beginning, and its stages */
+    struct field_work work;
+    real k;             /* of the step, s */
+    real largest;       /* sum of the sizes of a step's terms so far, J */
+    double *scratch[2]; /* displacement and velocity, br_field_size values each */
+};
+
+struct br_energy_meter {
+    struct br_march *march;
+    const struct br_scene *scene;
+    const struct br_method *method;
+    struct br_watched seen;
+    struct meter_field field[2]; /* by br_field_kind */
+    double limit, worst;         /* of the imbalance; worst: since the last call */
+    double update;               /* what a certificate allows the displacement's update */
+    bool any;
+    double *memory;
+};
 
 /* ---- a stage ---- */
+
+/* c'v, and the sum of the sizes of its terms (out). */
+static real nodal_product(const double *c, const double *v, size_t size, real *sizes)
+{
+    real sum = 0;
+    *sizes = 0;
+    for (size_t i = 0; i < size; i++) {
+        const real term = (real)c[i] * v[i];
+        sum += term;
+        *sizes += fabsl(term);
+    }
+    return sum;
+}
 
 /* The norms of K, without its coefficient, and of M. */
 static real bend_norm(const struct br_field *f, const double *y)
@@ -49,21 +104,21 @@ static real excess_of(const struct br_energy_meter *m, const struct br_field *f)
     return fmax(1, now / m->limit);
 }
 
-static struct br_power power_of(const struct br_energy_meter *m, enum br_field_kind kind, real tau)
+static struct power power_of(const struct br_energy_meter *m, enum br_field_kind kind, real tau)
 {
-    const struct br_meter_field *f = &m->field[kind];
+    const struct meter_field *f = &m->field[kind];
     const struct br_watched_field *seen = &m->seen.field[kind];
     const struct br_tip *tip = br_march_tip(m->march);
     const double *v = seen->y.row[seen->last].velocity;
     const real bent = br_bend_product(&f->field, v, v);
     const double force = kind == BR_AXIAL ? tip->contact_force : tip->friction_force;
-    struct br_power p = {
+    struct power p = {
         .viscous = (real)f->field.viscosity * bent,
         .residual =
             excess_of(m, &f->field) * residual_power(&f->field, seen, tau, sqrtl(bent), force),
         .tip = (real)force * v[f->field.n * br_field_unknowns(&f->field)],
     };
-    p.load = br_nodal_product(seen->load, v, br_field_size(&f->field), &p.load_size);
+    p.load = nodal_product(seen->load, v, br_field_size(&f->field), &p.load_size);
     return p;
 }
 
@@ -104,7 +159,7 @@ static const struct br_nodal *row_of(const struct br_watched_field *seen,
 }
 
 /* k^2/2 sum_i <Y'_i, sum_j m_ij Y'_j>,  m_ij = b_i a_ij + b_j a_ji - b_i b_j */
-static struct sum runge_kutta_takes(struct br_meter_field *m, const struct br_watched_field *seen,
+static struct sum runge_kutta_takes(struct meter_field *m, const struct br_watched_field *seen,
                                     const struct br_textbook *t)
 {
     struct sum taken = {0, 0};
@@ -144,7 +199,7 @@ static void difference(const struct br_watched_field *seen, int order, bool velo
 }
 
 /* 1/2 |d Y|^2 + sum <Y_n, d^j Y / j>, j = 2, ... */
-static struct sum differences_take(struct br_meter_field *m, const struct br_watched_field *seen,
+static struct sum differences_take(struct meter_field *m, const struct br_watched_field *seen,
                                    const struct br_textbook *t)
 {
     struct sum taken = {0, 0};
@@ -162,13 +217,13 @@ static struct sum differences_take(struct br_meter_field *m, const struct br_wat
 /* ---- a step ---- */
 
 /* The works of a step by the scheme's weights, J. */
-static struct sum add_works(struct br_meter_field *m, const struct br_textbook *t)
+static struct sum add_works(struct meter_field *m, const struct br_textbook *t)
 {
-    struct br_field_work *w = &m->work;
+    struct field_work *w = &m->work;
     struct sum all = {0, 0};
     for (int i = 0; i < (t->rows > 0 ? t->rows : 1); i++) {
         const real weight = m->k * (t->rows > 0 ? t->a[t->rows - 1][i] : 1);
-        const struct br_power *p = t->rows > 0 && t->c[i] == 0 ? &m->before : &m->row[i];
+        const struct power *p = t->rows > 0 && t->c[i] == 0 ? &m->before : &m->row[i];
         w->load += weight * p->load;
         w->viscous += weight * p->viscous;
         w->tip += weight * p->tip;
@@ -193,7 +248,7 @@ static double relative(real a, real size)
 /* Displacements are sums of ways k v, and as good as these, also where a step annihilates the
  * velocity it begins with: with what the certificate allows their update, relative to |w| + k |v|,
  * stored energy has that times |k v| |w|, J, in the norms of K. */
-static real noise_of_ways(const struct br_energy_meter *m, const struct br_meter_field *f,
+static real noise_of_ways(const struct br_energy_meter *m, const struct meter_field *f,
                           const struct br_watched_field *seen)
 {
     const real ways = bend_norm(&f->field, seen->y.past[0].velocity) +
@@ -204,7 +259,7 @@ static real noise_of_ways(const struct br_energy_meter *m, const struct br_meter
 
 /* What an imbalance is relative to, J: what has decayed below the last bit of the largest so far
  * counts as nothing. */
-static real scale_of(struct br_energy_meter *m, struct br_meter_field *f, real size, real noise)
+static real scale_of(struct br_energy_meter *m, struct meter_field *f, real size, real noise)
 {
     size += noise / m->limit;
     f->largest = f->largest > size ? f->largest : size;
@@ -215,7 +270,7 @@ static real scale_of(struct br_energy_meter *m, struct br_meter_field *f, real s
 /* Takes the energies at the step's end into the sums. Returns the imbalance. */
 static double add_step(struct br_energy_meter *m, enum br_field_kind kind)
 {
-    struct br_meter_field *f = &m->field[kind];
+    struct meter_field *f = &m->field[kind];
     const struct br_watched_field *seen = &m->seen.field[kind];
     const struct br_textbook *t = br_watched_textbook(&m->seen, kind);
     const struct br_nodal *y = &seen->y.row[seen->last];
@@ -253,7 +308,8 @@ static void watch_step(void *self, enum br_field_kind kind, bool switched)
     br_watched_step(&m->seen, kind, switched);
 }
 
-enum br_status br_meter_watch(struct br_energy_meter *m, struct br_error *err)
+/* By the scheme's own sums: watching. Fails as br_energy_meter_create. */
+static enum br_status meter_watch(struct br_energy_meter *m, struct br_error *err)
 {
     const enum br_status status = br_watched_init(&m->seen, m->march, m->scene, m->method, err);
     if (status)
@@ -262,4 +318,109 @@ enum br_status br_meter_watch(struct br_energy_meter *m, struct br_error *err)
         return br_fail(err, BR_BAD_INPUT, "the march has %d watchers, and room for no more",
                        BR_MOST_WATCHERS);
     return BR_OK;
+}
+
+/* Sums the works of a march. */
+
+/* ---- setting up ---- */
+
+/* A field by the scene, not by the solver. */
+static struct br_field field_of(const struct br_energy_meter *m, enum br_field_kind kind)
+{
+    struct br_field f = br_field_of_scene(m->scene, kind, br_march_field(m->march, kind)->n, NAN);
+    if (kind == BR_AXIAL)
+        f.degree = m->method->axial_degree;
+    return f;
+}
+
+static enum br_status set_up(struct br_energy_meter *m, struct br_error *err)
+{
+    size_t room = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        m->field[kind].field = field_of(m, (enum br_field_kind)kind);
+        m->field[kind].modelled = br_march_models(m->march, (enum br_field_kind)kind);
+        room += 2 * br_field_size(&m->field[kind].field);
+    }
+    double *memory = m->memory = br_allocate(room, sizeof *memory);
+    if (!memory)
+        return br_no_memory(err, "the energies");
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct meter_field *f = &m->field[kind];
+        for (int i = 0; i < 2; i++, memory += br_field_size(&f->field))
+            f->scratch[i] = memory;
+        br_march_get(m->march, (enum br_field_kind)kind, f->scratch[0], f->scratch[1]);
+        if (f->modelled)
+            f->start = f->now =
+                br_energy_of_field(&f->field, &m->scene->contact, f->scratch[0], f->scratch[1]);
+    }
+    return meter_watch(m, err);
+}
+
+enum br_status br_energy_meter_create(struct br_energy_meter **out, struct br_march *march,
+                                      const struct br_scene *scene, const struct br_method *method,
+                                      struct br_error *err)
+{
+    struct br_energy_meter *m = *out = br_allocate(1, sizeof *m);
+    if (!m)
+        return br_no_memory(err, "the energies");
+    *m = (struct br_energy_meter){.march = march, .scene = scene, .method = method};
+    m->limit = br_energy_limit(br_march_field(march, BR_AXIAL)->n, br_march_round_off(march));
+    m->update = br_certificate_limits(method->scheme, br_march_field(march, BR_AXIAL)->n,
+                                      br_march_round_off(march))
+                    .update;
+    const enum br_status status = set_up(m, err);
+    if (status) {
+        br_energy_meter_free(m);
+        *out = NULL;
+    }
+    return status;
+}
+
+void br_energy_meter_free(struct br_energy_meter *m)
+{
+    if (!m)
+        return;
+    br_march_unwatch(m->march, m);
+    br_watched_clear(&m->seen);
+    free(m->memory);
+    free(m);
+}
+
+/* ---- reading ---- */
+
+double br_energy_meter_step(struct br_energy_meter *m)
+{
+    const double worst = m->any ? m->worst : NAN;
+    m->worst = 0;
+    m->any = false;
+    return worst;
+}
+
+static void put(struct br_energy *to, enum br_field_kind kind, const struct br_field_energy *e)
+{
+    to->kinetic[kind] = (double)e->kinetic;
+    to->stored[kind] = (double)e->stored;
+    to->contact += (double)e->contact;
+}
+
+void br_energy_meter_read(const struct br_energy_meter *m, struct br_energy *start,
+                          struct br_energy *now, struct br_work *work)
+{
+    *start = *now = (struct br_energy){0};
+    *work = (struct br_work){0};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct meter_field *f = &m->field[kind];
+        const struct field_work *w = &f->work;
+        put(start, (enum br_field_kind)kind, &f->start);
+        put(now, (enum br_field_kind)kind, &f->now);
+        work->loads[kind] = (double)w->load;
+        work->viscous[kind] = (double)w->viscous;
+        work->scheme[kind] = (double)w->scheme;
+        work->noise[kind] = (double)w->noise;
+        work->steps[kind] = w->steps;
+        work->gaining[kind] = w->gaining;
+        work->gained[kind] = (double)w->gained;
+    }
+    work->friction = (double)m->field[BR_BENDING].work.tip;
+    work->scheme_contact = (double)m->field[BR_AXIAL].work.contact;
 }

@@ -4,7 +4,7 @@
  * textbook's 12, 6, 4, 2) in long double, and nothing of a solver's numerics.
  *
  * Schemes other than Euler's are certified stage by stage. A stage is an Euler step of length
- * tau that starts at a sum Z of what was before. The witness builds Z from the velocities and
+ * tau that starts at a sum Z of what was before. The step checker builds Z from the velocities and
  * the rates of change of earlier stages with the coefficients that the literature prints
  * (textbook.h), and decides by itself where a step starts anew. So a stage that passes obeys
  * the equations of motion and the laws at its own time, and belongs to that scheme.
@@ -18,8 +18,8 @@
  * it is the normal force. A residual is given relative to the sum of the same norms of
  * the terms of the equation. Rounded nodal values then cost about 2^-53 n^2 in bending
  * and 2^-53 n in axial, and no solver can do better in these numbers. */
-#ifndef BR_REFERENCE_CERTIFICATE_H
-#define BR_REFERENCE_CERTIFICATE_H
+#ifndef BR_REFERENCE_CERTIFICATE_CERTIFICATE_H
+#define BR_REFERENCE_CERTIFICATE_CERTIFICATE_H
 
 #include "solver/march.h"
 
@@ -36,6 +36,13 @@ struct br_certificate {
     double contact; /* force - c_H (u - g)_+ at u_{n-1} or u_n, relative to the force, and to
                        c_H times displacements and the way that the force alone makes */
 };
+enum { BR_CERTIFICATE_ENTRIES = sizeof(struct br_certificate) / sizeof(double) };
+
+/* Its numbers, one after the other. */
+static inline double *br_certificate_entries(struct br_certificate *certificate)
+{
+    return &certificate->axial_residual;
+}
 
 /* Nodal values of one field around a step, or of Z and a stage, laid out as in solver/field.h. */
 struct br_step_field {
@@ -93,18 +100,52 @@ struct br_certificate br_certificate_limits(const struct br_time_scheme *scheme,
 void br_certificate_merge(struct br_certificate *worst, const struct br_certificate *other);
 
 /* Watches a march, stage by stage. */
-struct br_witness;
+struct br_step_checker;
 
 /* Watches a march (br_march_watch) that has taken no step yet. The march, its scene and the method
- * must outlive the witness. Fails with BR_BAD_INPUT where the scheme is not in the tables of
- * textbook.h, with BR_NO_MEMORY; *witness is then NULL. */
-enum br_status br_witness_create(struct br_witness **witness, struct br_march *march,
-                                 const struct br_scene *scene, const struct br_method *method,
-                                 struct br_error *err);
-void br_witness_free(struct br_witness *witness); /* accepts NULL */
+ * must outlive the checker. Fails with BR_BAD_INPUT where the scheme is not in the tables of
+ * textbook.h, with BR_NO_MEMORY; *checker is then NULL. */
+enum br_status br_step_checker_create(struct br_step_checker **checker, struct br_march *march,
+                                      const struct br_scene *scene, const struct br_method *method,
+                                      struct br_error *err);
+void br_step_checker_free(struct br_step_checker *checker); /* accepts NULL */
 
 /* The certificate of the steps since the last call, the worst of all their stages; all NaN where
  * there was none. */
-struct br_certificate br_witness_step(struct br_witness *witness);
+struct br_certificate br_step_checker_step(struct br_step_checker *checker);
+
+/* ---- what a certificate is made of, for this folder alone ---- */
+
+/* Branches of a law: contact has two, open and closed; friction three, stick, slip up and down. */
+enum { BR_CONTACT_BRANCHES = 2, BR_FRICTION_BRANCHES = 3, BR_MOST_BRANCHES = 3 };
+
+/* A scheme's weights are up to 8, and its steps grow by 5. */
+enum { BR_MOST_WEIGHT = 64 };
+
+/* Nodal unknowns of a field's elements. */
+static inline size_t br_step_unknowns(const struct br_method *method, enum br_field_kind kind)
+{
+    return kind == BR_AXIAL && method->axial_degree != 2 ? 1 : 2;
+}
+
+/* a over a size, or over the last bit of the largest such size so far (in/out: in the step) where
+ * that is more; 0 for 0. */
+double br_over_scale(const struct br_step *step, enum br_field_kind kind, enum br_scale scale,
+                     double a, double size);
+
+/* The larger of two numbers; NaN where one is. */
+double br_worse_of(double a, double b);
+
+/* The residual of (27) or (28), relative; 0 where the field is not modelled. */
+double br_step_residual(const struct br_step *step, enum br_field_kind kind);
+
+/* What a certificate says of one field alone: the other's entries are 0. */
+struct br_certificate br_certify_field(const struct br_step *step, enum br_field_kind kind);
+
+/* Distances (out) from each branch of a field's law prolonged beyond its end: contact that may
+ * pull or be pressed and open, |lambda| beyond the bound. Returns how many there are; 0: the law
+ * has no branches that could be held. */
+int br_branch_distances(const struct br_step *step, enum br_field_kind kind,
+                        double distance[BR_MOST_BRANCHES]);
 
 #endif

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The residual of (27) and (28), in the norm of certificate.h. */
+#include "reference/certificate/certificate.h"
+#include "reference/textbook.h"
+
 #include <float.h>
 #include <math.h>
-
-#include "reference/certificate_parts.h"
 
 typedef long double real;
 
@@ -60,35 +61,27 @@ static void quadratic_times(const int matrix[3][3], real factor, const double *v
     out[3] = -force[1] / 4;
 }
 
-/* Rod: rho h/6 [2 1; 1 2], of three nodes rho h/30 [4 2 -1; ...].  Beam, for (w, h w_x): rho h/420
- * [...]. */
 static void mass_times(const struct balance *b, const double *v, real out[4])
 {
-    static const int rod[2][2] = {{2, 1}, {1, 2}};
-    static const int beam[4][4] = {
-        {156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}};
-    static const int three[3][3] = {{4, 2, -1}, {2, 16, 2}, {-1, 2, 4}};
     const bool axial = b->kind == BR_AXIAL;
     if (b->quadratic) {
-        quadratic_times(three, b->density * b->h / 30, v, 0, out);
+        quadratic_times(br_rod3_mass, b->density * b->h / 30, v, 0, out);
         return;
     }
     const real factor = b->density * b->h / (axial ? 6 : 420);
     for (size_t i = 0; i < 2 * b->unknowns; i++) {
         out[i] = 0;
         for (size_t j = 0; j < 2 * b->unknowns; j++)
-            out[i] += factor * (real)(axial ? rod[i][j] : beam[i][j]) * (real)v[j];
+            out[i] += factor * (real)(axial ? br_rod_mass[i][j] : br_beam_mass[i][j]) * (real)v[j];
     }
 }
 
-/* Rod: 1/h [1 -1; -1 1], of three nodes 1/(3h) [7 -8 1; ...].  Beam: 1/h^3 [12 6 -12 6; 6 4 -6 2;
- * ...]. A rigid motion has no forces, so that of the element's first node is taken off beforehand,
+/* A rigid motion has no forces, so that of the element's first node is taken off beforehand,
  * exactly but for the last bits: the last two columns remain. */
 static void stiffness_times(const struct balance *b, const double *w, real out[4])
 {
-    static const int three[3][3] = {{7, -8, 1}, {-8, 16, -8}, {1, -8, 7}};
     if (b->quadratic) {
-        quadratic_times(three, 1 / (3 * b->h), w, w[0], out);
+        quadratic_times(br_rod3_stiffness, 1 / (3 * b->h), w, w[0], out);
         return;
     }
     if (b->kind == BR_AXIAL) {
@@ -97,10 +90,10 @@ static void stiffness_times(const struct balance *b, const double *w, real out[4
         out[1] = stretch;
         return;
     }
-    static const int beam[4][2] = {{-12, 6}, {-6, 2}, {12, -6}, {-6, 4}};
     const real deflection = ((real)w[2] - w[0]) - w[1], rotation = (real)w[3] - w[1];
     for (int i = 0; i < 4; i++)
-        out[i] = (beam[i][0] * deflection + beam[i][1] * rotation) / (b->h * b->h * b->h);
+        out[i] = (br_beam_stiffness[i][2] * deflection + br_beam_stiffness[i][3] * rotation) /
+                 (b->h * b->h * b->h);
 }
 
 /* ---- resultants, from the free end to the clamped one ---- */

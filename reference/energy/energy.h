@@ -16,8 +16,8 @@
  * negative where it gives energy, as a lagged one may. What viscosity and friction take in one step
  * is signed like b_i, too.
  */
-#ifndef BR_REFERENCE_ENERGY_H
-#define BR_REFERENCE_ENERGY_H
+#ifndef BR_REFERENCE_ENERGY_ENERGY_H
+#define BR_REFERENCE_ENERGY_ENERGY_H
 
 #include "solver/march.h"
 
@@ -62,8 +62,8 @@ double br_energy_stored(const struct br_field *field, const double *displacement
 
 /* Of a march as it is (out), in a scene that models no more than it does. Fails with BR_NO_MEMORY.
  */
-enum br_status br_energy_look(const struct br_march *march, const struct br_scene *scene,
-                              struct br_energy *energy, struct br_error *err);
+enum br_status br_energy_sample(const struct br_march *march, const struct br_scene *scene,
+                                struct br_energy *energy, struct br_error *err);
 
 /* What the imbalance of a step of one field stays below, relative to the sum of the sizes of its
  * terms, given the predicted relative round-off of the solver's displacements (br_march_round_off):
@@ -92,8 +92,22 @@ void br_energy_meter_free(struct br_energy_meter *meter); /* accepts NULL */
  * that is not of the textbook. */
 double br_energy_meter_step(struct br_energy_meter *meter);
 
-/* When it was created, at its last look, and between. */
+/* When it was created, at its last step, and between. */
 void br_energy_meter_read(const struct br_energy_meter *meter, struct br_energy *start,
                           struct br_energy *now, struct br_work *work);
+
+/* ---- for the meter ---- */
+
+/* a'Mb, and a'Kb of the stiffness without its coefficient; in: br_field_size values each. */
+long double br_mass_product(const struct br_field *field, const double *a, const double *b);
+long double br_bend_product(const struct br_field *field, const double *a, const double *b);
+
+/* Of one field's state, J, with the contact's potential of an axial one. */
+struct br_field_energy {
+    long double kinetic, stored, contact;
+};
+struct br_field_energy br_energy_of_field(const struct br_field *field,
+                                          const struct br_contact *contact,
+                                          const double *displacement, const double *velocity);
 
 #endif

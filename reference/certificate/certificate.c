@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The laws at the tip and the update of the displacement, as pure numbers. */
+#include "reference/certificate/certificate.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-#include "reference/certificate_parts.h"
 
 typedef long double real;
 
@@ -352,4 +352,59 @@ struct br_certificate br_certify(const struct br_step *s)
     const struct br_certificate bending = br_certify_field(s, BR_BENDING);
     br_certificate_merge(&certificate, &bending);
     return finite_field(s, BR_AXIAL) && finite_field(s, BR_BENDING) ? certificate : not_finite;
+}
+
+/* ---- verdicts ---- */
+
+static const char *const entries[BR_CERTIFICATE_ENTRIES] = {
+    "the residual of the axial equation (27)", "the residual of the bending equation (28)",
+    "the update of the displacement",          "the distance from the friction law (12)",
+    "the distance from the contact law (10)",
+};
+
+static double entry(const struct br_certificate *c, size_t i)
+{
+    return (&c->axial_residual)[i];
+}
+
+enum br_status br_certificate_check(const struct br_certificate *certificate,
+                                    const struct br_certificate *limits, struct br_error *err)
+{
+    for (size_t i = 0; i < BR_CERTIFICATE_ENTRIES; i++)
+        if (!(entry(certificate, i) <= entry(limits, i)))
+            return br_fail(err, BR_VERDICT, "%s is %.3g, expected at most %.3g", entries[i],
+                           entry(certificate, i), entry(limits, i));
+    return BR_OK;
+}
+
+void br_certificate_merge(struct br_certificate *worst, const struct br_certificate *other)
+{
+    double *value = br_certificate_entries(worst);
+    for (size_t i = 0; i < BR_CERTIFICATE_ENTRIES; i++)
+        value[i] = br_worse_of(value[i], entry(other, i));
+}
+
+/* Of an adaptive step that ends at a switch, relative to the tip's force or way; seen are 7e-14. */
+static const double switch_accuracy = 1e-12;
+
+/* The first adaptive step is 1e-7 of the duration: of a beam that starts bent, inertia is then all
+ * that balances, and the velocities that riccati finds have 8 digits. */
+static const double small_steps = 64;
+
+/* The laws are scalar, and right to some of the tip's last bits; an update or a sum
+ * over the nodes is right to n of them. */
+struct br_certificate br_certificate_limits(const struct br_time_scheme *scheme, size_t n,
+                                            double round_off)
+{
+    const double nodes = (double)n + 1;
+    const double sums = 64 * DBL_EPSILON * nodes + round_off;
+    const double laws = sums + (scheme->adaptive ? switch_accuracy : 0);
+    const double small = scheme->adaptive ? small_steps : 1;
+    return (struct br_certificate){
+        .axial_residual = 64 * DBL_EPSILON * nodes + 16 * round_off,
+        .bending_residual = small * (64 * DBL_EPSILON * nodes * nodes + 16 * round_off),
+        .update = sums,
+        .friction = laws,
+        .contact = laws,
+    };
 }

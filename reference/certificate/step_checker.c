@@ -3,10 +3,18 @@
 #include <math.h>
 #include <string.h>
 
-#include "reference/certificate_parts.h"
-#include "reference/watched.h"
+#include "reference/certificate/certificate.h"
+#include "reference/certificate/watched.h"
 
 typedef long double real;
+
+/* The axial tip over one step, for the bound of friction. */
+struct tip_path {
+    int count;
+    double time[BR_TEXTBOOK_ROWS], u[BR_TEXTBOOK_ROWS]; /* of its stages, s and m */
+    double from, k;                                     /* s */
+    double u_from, v_from, u_to, v_to;                  /* at both ends, m and m/s */
+};
 
 /* What is known of the step that a field is in. */
 struct trial {
@@ -18,11 +26,11 @@ struct trial {
  * are set right by those of the step before. */
 enum { REMEMBERED = 8 };
 
-struct br_witness {
+struct br_step_checker {
     struct br_march *march;
     struct br_watched seen;
     struct trial trial[2]; /* by br_field_kind */
-    struct br_tip_path path;
+    struct tip_path path;
     struct br_certificate worst;  /* since the last call */
     double largest[2][BR_SCALES]; /* so far */
     double speed[2][REMEMBERED];  /* the largest of each of the last steps, m/s */
@@ -35,8 +43,8 @@ static const struct br_certificate not_good = {NAN, NAN, NAN, NAN, NAN};
 
 /* How far a stage's times are from the textbook's, over k; adaptive steps meet a time level to
  * 1e-13 of the duration. */
-static double time_error(const struct br_witness *w, const struct br_march_stage *told, real tau,
-                         real c)
+static double time_error(const struct br_step_checker *w, const struct br_march_stage *told,
+                         real tau, real c)
 {
     const double slack = 1e-12 * w->seen.scene->duration;
     const double begun = fabs(told->from - w->seen.field[told->kind].began) - slack;
@@ -47,20 +55,32 @@ static double time_error(const struct br_witness *w, const struct br_march_stage
 
 /* ---- the tip ---- */
 
-static void path_stage(struct br_witness *w, const struct br_march_stage *told)
+static void path_stage(struct br_step_checker *w, const struct br_march_stage *told)
 {
     const struct br_watched_field *f = &w->seen.field[BR_AXIAL];
-    struct br_tip_path *p = &w->path;
+    struct tip_path *p = &w->path;
     const size_t tip = w->seen.n * br_step_unknowns(w->seen.method, BR_AXIAL);
     const struct br_nodal *now = &f->y.row[f->last];
     if (told->index == 0)
-        *p = (struct br_tip_path){.from = told->from,
-                                  .k = told->k,
-                                  .u_from = f->y.past[0].displacement[tip],
-                                  .v_from = f->y.past[0].velocity[tip]};
+        *p = (struct tip_path){.from = told->from,
+                               .k = told->k,
+                               .u_from = f->y.past[0].displacement[tip],
+                               .v_from = f->y.past[0].velocity[tip]};
     p->time[p->count] = told->time;
     p->u[p->count++] = p->u_to = now->displacement[tip];
     p->v_to = now->velocity[tip];
+}
+
+/* u(L), m, at the time of a stage, s; where the axial field had none then, by the cubic that the
+ * ends of its step determine. */
+static double tip_path_at(const struct tip_path *p, double time)
+{
+    for (int i = 0; i < p->count; i++)
+        if (p->time[i] == time)
+            return p->u[i];
+    const real s = ((real)time - p->from) / p->k, d = (real)p->u_to - p->u_from;
+    const real a = (real)p->k * p->v_from - d, b = d - (real)p->k * p->v_to;
+    return (double)(p->u_from + s * d + s * (1 - s) * ((1 - s) * a + s * b));
 }
 
 /* ---- a stage ---- */
@@ -95,7 +115,7 @@ static struct br_step_field lately(const struct br_watched_field *f)
 
 /* ---- what was before ---- */
 
-static void remember(struct br_witness *w, enum br_field_kind kind)
+static void remember(struct br_step_checker *w, enum br_field_kind kind)
 {
     const struct br_watched_field *f = &w->seen.field[kind];
     double *most = &w->speed[kind][f->steps % REMEMBERED];
@@ -117,27 +137,26 @@ static double largest_of(const double remembered[REMEMBERED])
 
 /* How far the limits of this stage are above those of the march's first step: round-off depends on
  * the stage's tau, and some solvers leave a residual of their own. */
-static struct br_certificate excess_of(const struct br_witness *w, enum br_field_kind kind)
+static struct br_certificate excess_of(const struct br_step_checker *w, enum br_field_kind kind)
 {
     const struct br_method *method = w->seen.method;
-    const struct br_certificate *then = &w->limits;
-    const struct br_certificate now =
+    struct br_certificate then = w->limits;
+    struct br_certificate now =
         br_certificate_limits(method->scheme, w->seen.n, br_march_round_off(w->march));
     const double own =
         method->solver->residual
             ? method->solver->residual(br_march_field(w->march, kind), &method->linear)
             : 0;
-    return (struct br_certificate){
-        .axial_residual = fmax(1, (now.axial_residual + own) / then->axial_residual),
-        .bending_residual = fmax(1, (now.bending_residual + own) / then->bending_residual),
-        .update = fmax(1, now.update / then->update),
-        .friction = fmax(1, now.friction / then->friction),
-        .contact = fmax(1, now.contact / then->contact),
-    };
+    now.axial_residual += own;
+    now.bending_residual += own;
+    double *excess = br_certificate_entries(&now), *first = br_certificate_entries(&then);
+    for (size_t i = 0; i < BR_CERTIFICATE_ENTRIES; i++)
+        excess[i] = fmax(1, excess[i] / first[i]);
+    return now;
 }
 
 /* What the mass adds to the predicted round-off of a field, at the stage's tau. */
-static double inertia_round_off(const struct br_witness *w, enum br_field_kind kind)
+static double inertia_round_off(const struct br_step_checker *w, enum br_field_kind kind)
 {
     const struct br_method *method = w->seen.method;
     const struct br_field *field = br_march_field(w->march, kind);
@@ -147,16 +166,7 @@ static double inertia_round_off(const struct br_witness *w, enum br_field_kind k
            method->solver->round_off(&massless, &method->linear);
 }
 
-static void divide(struct br_certificate *c, const struct br_certificate *by)
-{
-    c->axial_residual /= by->axial_residual;
-    c->bending_residual /= by->bending_residual;
-    c->update /= by->update;
-    c->friction /= by->friction;
-    c->contact /= by->contact;
-}
-
-static struct br_certificate certify(struct br_witness *w, const struct br_march_stage *told,
+static struct br_certificate certify(struct br_step_checker *w, const struct br_march_stage *told,
                                      const double *axial_tip)
 {
     const struct br_watched *seen = &w->seen;
@@ -179,11 +189,12 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
     /* The axial field lends its size to the bound's round-off. */
     if (told->kind == BR_BENDING)
         step.field[BR_AXIAL] = lately(&seen->field[BR_AXIAL]);
-    const struct br_certificate excess = excess_of(w, told->kind);
+    struct br_certificate excess = excess_of(w, told->kind);
     struct br_certificate c = br_certify_field(&step, told->kind);
     double *size = &w->size[told->kind][seen->field[told->kind].steps % REMEMBERED];
     *size = br_worse_of(size_now[told->kind], *size);
-    divide(&c, &excess);
+    for (size_t i = 0; i < BR_CERTIFICATE_ENTRIES; i++)
+        br_certificate_entries(&c)[i] /= br_certificate_entries(&excess)[i];
     double distance[BR_MOST_BRANCHES];
     const int branches =
         seen->method->scheme->adaptive ? br_branch_distances(&step, told->kind, distance) : 0;
@@ -199,7 +210,7 @@ static struct br_certificate certify(struct br_witness *w, const struct br_march
 
 static void watch_stage(void *self, const struct br_march_stage *told)
 {
-    struct br_witness *w = self;
+    struct br_step_checker *w = self;
     struct trial *trial = &w->trial[told->kind];
     if (told->index == 0)
         *trial = (struct trial){0};
@@ -214,7 +225,7 @@ static void watch_stage(void *self, const struct br_march_stage *told)
     if (told->kind == BR_AXIAL)
         path_stage(w, told);
     else if (w->seen.scene->axial.modelled)
-        axial_tip = br_tip_path_at(&w->path, told->time);
+        axial_tip = tip_path_at(&w->path, told->time);
     struct br_certificate c = certify(w, told, told->kind == BR_AXIAL ? NULL : &axial_tip);
     const struct br_textbook *t = br_watched_textbook(&w->seen, told->kind);
     c.update = br_worse_of(time_error(w, told, tau, t->rows > 0 ? t->c[row] : 1), c.update);
@@ -223,7 +234,7 @@ static void watch_stage(void *self, const struct br_march_stage *told)
 
 static void watch_step(void *self, enum br_field_kind kind, bool switched)
 {
-    struct br_witness *w = self;
+    struct br_step_checker *w = self;
     br_watched_step(&w->seen, kind, switched);
     w->speed[kind][w->seen.field[kind].steps % REMEMBERED] = 0;
     w->size[kind][w->seen.field[kind].steps % REMEMBERED] = 0;
@@ -231,7 +242,7 @@ static void watch_step(void *self, enum br_field_kind kind, bool switched)
     w->any = true;
 }
 
-struct br_certificate br_witness_step(struct br_witness *w)
+struct br_certificate br_step_checker_step(struct br_step_checker *w)
 {
     const struct br_certificate worst = w->any ? w->worst : not_good;
     w->worst = (struct br_certificate){0};
@@ -239,11 +250,11 @@ struct br_certificate br_witness_step(struct br_witness *w)
     return worst;
 }
 
-enum br_status br_witness_create(struct br_witness **out, struct br_march *march,
-                                 const struct br_scene *scene, const struct br_method *method,
-                                 struct br_error *err)
+enum br_status br_step_checker_create(struct br_step_checker **out, struct br_march *march,
+                                      const struct br_scene *scene, const struct br_method *method,
+                                      struct br_error *err)
 {
-    struct br_witness *w = *out = br_allocate(1, sizeof *w);
+    struct br_step_checker *w = *out = br_allocate(1, sizeof *w);
     if (!w)
         return br_no_memory(err, "a certificate");
     w->march = march;
@@ -254,13 +265,13 @@ enum br_status br_witness_create(struct br_witness **out, struct br_march *march
         status = br_fail(err, BR_BAD_INPUT, "the march has %d watchers, and room for no more",
                          BR_MOST_WATCHERS);
     if (status) {
-        br_witness_free(w);
+        br_step_checker_free(w);
         *out = NULL;
     }
     return status;
 }
 
-void br_witness_free(struct br_witness *w)
+void br_step_checker_free(struct br_step_checker *w)
 {
     if (!w)
         return;

@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/energy_forms.h"
+#include "reference/energy/energy.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+
+#include "reference/textbook.h"
+
+typedef long double real;
 
 /* ---- products of two sets of an element's nodal values ---- */
 
@@ -22,7 +26,7 @@ static void legendre(const real *v, real out[3])
     out[2] = (v[0] - 2 * m + v[2]) / 3;
 }
 
-/* a'Mb over rho h. Rod: 1/6 [2 1; 1 2]. Beam, for (w, h w_x): 1/420 [...]. */
+/* a'Mb over rho h. */
 static real mass_form(const struct br_field *field, const real *a, const real *b)
 {
     if (br_field_is_quadratic(field)) {
@@ -33,12 +37,10 @@ static real mass_form(const struct br_field *field, const real *a, const real *b
     }
     if (field->kind == BR_AXIAL)
         return (2 * (a[0] * b[0] + a[1] * b[1]) + a[0] * b[1] + a[1] * b[0]) / 6;
-    static const int beam[4][4] = {
-        {156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}};
     real sum = 0;
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
-            sum += (real)beam[i][j] * a[i] * b[j];
+            sum += (real)br_beam_mass[i][j] * a[i] * b[j];
     return sum / 420;
 }
 
@@ -126,8 +128,8 @@ struct br_field_energy br_energy_of_field(const struct br_field *f,
     return e;
 }
 
-enum br_status br_energy_look(const struct br_march *march, const struct br_scene *scene,
-                              struct br_energy *energy, struct br_error *err)
+enum br_status br_energy_sample(const struct br_march *march, const struct br_scene *scene,
+                                struct br_energy *energy, struct br_error *err)
 {
     *energy = (struct br_energy){0};
     const size_t size = 2 * (br_march_field(march, BR_AXIAL)->n + 1); /* of either field at most */

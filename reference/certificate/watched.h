@@ -1,14 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A march as somebody sees it who looks at each stage (br_march_watch) and knows the scheme from
+/* A march as somebody sees it who samples each stage (br_march_watch) and knows the scheme from
  * textbook.h: the states of the step so far, and which row of the textbook each of them is. */
-#ifndef BR_REFERENCE_WATCHED_H
-#define BR_REFERENCE_WATCHED_H
+#ifndef BR_REFERENCE_CERTIFICATE_WATCHED_H
+#define BR_REFERENCE_CERTIFICATE_WATCHED_H
 
-#include "reference/past_states.h"
+#include "reference/textbook.h"
 #include "solver/march.h"
 
+enum { BR_MOST_BACK = 3 };
+
+/* Y = (displacement, velocity), and the rate of change of the velocity; br_past_states' size values
+ * each, m, m/s, m/s^2. */
+struct br_nodal {
+    double *displacement, *velocity, *acceleration;
+};
+
+/* Of one field. The arrays are borrowed. */
+struct br_past_states {
+    size_t size;
+    struct br_nodal past[BR_MOST_BACK];    /* Y_{n-1}, Y_{n-2}, Y_{n-3} */
+    struct br_nodal row[BR_TEXTBOOK_ROWS]; /* of the textbook, in this step */
+    struct br_nodal start;                 /* Z; without acceleration */
+};
+
 /* What decides where a step starts anew. */
-enum br_watched_regime { BR_WATCHED_NONE, BR_OPEN, BR_CLOSED, BR_STICKS, BR_UP, BR_DOWN };
+enum br_watched_regime {
+    BR_WATCHED_NONE,
+    BR_WATCHED_OPEN,
+    BR_WATCHED_CLOSED,
+    BR_WATCHED_STICKS,
+    BR_WATCHED_UP,
+    BR_WATCHED_DOWN
+};
 
 struct br_watched_field {
     struct br_past_states y;       /* what the step starts from, and its rows so far */
@@ -29,7 +52,7 @@ struct br_watched {
     double *memory;
 };
 
-/* Looks at a march at t = 0; it, its scene and the method must outlive the watched. Fails with
+/* Samples a march at t = 0; it, its scene and the method must outlive the watched. Fails with
  * BR_BAD_INPUT where the scheme is not in textbook.h, with BR_NO_MEMORY; clear it even then. */
 enum br_status br_watched_init(struct br_watched *watched, const struct br_march *march,
                                const struct br_scene *scene, const struct br_method *method,
@@ -40,7 +63,7 @@ void br_watched_clear(struct br_watched *watched);
 const struct br_textbook *br_watched_textbook(const struct br_watched *watched,
                                               enum br_field_kind kind);
 
-/* Looks at a stage: its state, rates of change and load. Returns tau, s; NAN where the textbook's
+/* Samples a stage: its state, rates of change and load. Returns tau, s; NAN where the textbook's
  * step has no such row. */
 long double br_watched_stage(struct br_watched *watched, const struct br_march_stage *told);
 

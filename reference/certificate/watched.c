@@ -1,27 +1,67 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/watched.h"
+#include "reference/certificate/watched.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef long double real;
+
+static void add(double *to, real factor, const double *from, size_t size)
+{
+    for (size_t i = 0; i < size && factor != 0; i++)
+        to[i] = (double)((real)to[i] + factor * (real)from[i]);
+}
+
+/* Z = sum of past_j Y_{n-1-j} */
+static void start_differences(struct br_past_states *f, const struct br_textbook *t)
+{
+    for (int j = 0; j < t->back; j++) {
+        add(f->start.displacement, t->past[j], f->past[j].displacement, f->size);
+        add(f->start.velocity, t->past[j], f->past[j].velocity, f->size);
+    }
+}
+
+/* Z = Y_{n-1} + k sum of a_ij Y'_j; the rate of a displacement is the velocity itself. */
+static void start_row(struct br_past_states *f, const struct br_textbook *t, int row, real k)
+{
+    add(f->start.displacement, 1, f->past[0].displacement, f->size);
+    add(f->start.velocity, 1, f->past[0].velocity, f->size);
+    for (int j = 0; j < row; j++) {
+        const struct br_nodal *y = t->c[j] == 0 ? &f->past[0] : &f->row[j];
+        add(f->start.displacement, k * t->a[row][j], y->velocity, f->size);
+        add(f->start.velocity, k * t->a[row][j], y->acceleration, f->size);
+    }
+}
+
+/* Fills Z of a row of a step of length k, s; returns tau, s. */
+static real start_of_row(struct br_past_states *f, const struct br_textbook *t, int row, real k)
+{
+    memset(f->start.displacement, 0, f->size * sizeof(double));
+    memset(f->start.velocity, 0, f->size * sizeof(double));
+    if (t->rows == 0)
+        start_differences(f, t);
+    else
+        start_row(f, t, row, k);
+    return k * (t->rows == 0 ? t->beta : t->a[row][row]);
+}
 
 static enum br_watched_regime regime_of(const struct br_watched *w, enum br_field_kind kind)
 {
     const struct br_tip *tip = br_march_tip(w->march);
     if (kind == BR_AXIAL)
         return !w->scene->contact.modelled ? BR_WATCHED_NONE
-               : tip->contact_force > 0    ? BR_CLOSED
-                                           : BR_OPEN;
+               : tip->contact_force > 0    ? BR_WATCHED_CLOSED
+                                           : BR_WATCHED_OPEN;
     if (w->scene->friction.law == BR_FRICTIONLESS || !(tip->friction_bound > 0))
         return BR_WATCHED_NONE;
     if (fabs(tip->friction_force) < tip->friction_bound)
-        return BR_STICKS;
-    return tip->friction_force > 0 ? BR_UP : BR_DOWN;
+        return BR_WATCHED_STICKS;
+    return tip->friction_force > 0 ? BR_WATCHED_UP : BR_WATCHED_DOWN;
 }
 
 /* ---- a stage ---- */
 
-static void look(struct br_watched *w, enum br_field_kind kind, struct br_nodal *into)
+static void sample(struct br_watched *w, enum br_field_kind kind, struct br_nodal *into)
 {
     br_march_get(w->march, kind, into->displacement, into->velocity);
 }
@@ -50,8 +90,8 @@ real br_watched_stage(struct br_watched *w, const struct br_march_stage *told)
         f->last = -1;
         return NAN;
     }
-    const real tau = br_start_of_row(&f->y, t, f->last, told->k);
-    look(w, told->kind, &f->y.row[f->last]);
+    const real tau = start_of_row(&f->y, t, f->last, told->k);
+    sample(w, told->kind, &f->y.row[f->last]);
     br_march_load(w->march, told->kind, f->load);
     find_acceleration(f, tau);
     return tau;
@@ -135,7 +175,7 @@ enum br_status br_watched_init(struct br_watched *w, const struct br_march *marc
     double *memory = w->memory;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         memory = place_field(w, (enum br_field_kind)kind, memory);
-        look(w, (enum br_field_kind)kind, &w->field[kind].y.past[0]);
+        sample(w, (enum br_field_kind)kind, &w->field[kind].y.past[0]);
     }
     return BR_OK;
 }

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The laws at the tip, (10) and (12), one phase at a time. In each phase the law
+ * is linear and a guard tells how far the phase is from its end. */
+#ifndef BR_REFERENCE_EXACT_TIP_H
+#define BR_REFERENCE_EXACT_TIP_H
+
+#include "reference/exact/exact.h"
+#include "reference/exact/legendre.h"
+
+/* The tip along one step; series in p_k((t - start) / length). */
+struct br_tip_step {
+    double start, length; /* s */
+    enum br_phase phase;
+    double displacement;        /* at the start, less the gap of a contact, m */
+    double velocity[BR_STAGES]; /* m/s */
+    double force[BR_STAGES];    /* of the obstacle on the beam, against +displacement, N */
+};
+
+struct br_entry {
+    double time;  /* s */
+    double error; /* of the time, from round-off alone, s */
+    enum br_phase phase;
+};
+
+struct br_history {
+    size_t modes;
+    double gap;           /* m */
+    double free_velocity; /* largest root mean square over the beam of a step's mean velocity,
+                             had the tip been let go for that step, m/s */
+    double impulse;       /* sum over the steps of the velocity that their loads alone give, L2 */
+    double blurred;       /* sum of squares of what the rounding of t may do to it */
+    size_t steps, step_room;
+    struct br_tip_step *tip; /* steps */
+    double *displacement;    /* steps x modes: at each step's start, m */
+    double *velocity;        /* steps x modes x BR_STAGES: series, m/s */
+    size_t entries, entry_room;
+    struct br_entry *entry; /* phases in order of time, the first at t = 0 */
+};
+
+/* Values at one time. */
+struct br_tip_state {
+    double displacement; /* less the gap of a contact, m */
+    double velocity;     /* m/s */
+    double force;        /* N */
+    enum br_phase phase;
+};
+
+enum br_status br_history_create(struct br_history **out, size_t modes, double gap,
+                                 struct br_error *err);
+void br_history_free(struct br_history *track);
+
+/* Appends a step: tip, q (modes) and v (modes x BR_STAGES) are copied. */
+enum br_status br_history_append(struct br_history *track, const struct br_tip_step *tip,
+                                 const double *q, const double *v, struct br_error *err);
+
+/* Appends the entry into a phase; at the time of the last one its phase is replaced. */
+enum br_status br_history_enter(struct br_history *track, const struct br_entry *entry,
+                                struct br_error *err);
+
+/* The step that holds t; where two steps meet the later one. */
+size_t br_history_find(const struct br_history *track, double t);
+
+/* The tip at the time start + theta length. */
+struct br_tip_state br_tip_at(const struct br_tip_step *tip, double theta);
+
+/* q and v (out, modes each, may be NULL): coefficients of displacement and
+ * velocity at t. Returns the tip's values. */
+struct br_tip_state br_history_at(const struct br_history *track, double t, double *q, double *v);
+
+struct br_law {
+    bool contact;                   /* (10), on the axial field; else (12), on the bending field */
+    bool obstacle;                  /* whether there is one to be in contact with */
+    double stiffness;               /* c_H, N/m; 0 without a contact */
+    enum br_friction_law friction;  /* of the bending field */
+    double coefficient;             /* c_V */
+    const struct br_history *axial; /* whose tip sets Coulomb's bound; borrowed */
+};
+
+/* The friction bound b(t), N. */
+double br_law_bound(const struct br_law *law, double t);
+
+/* The force on a tip in this state, N: the series' value only where the law does
+ * not give it. */
+double br_law_force_at(const struct br_law *law, double t, const struct br_tip_state *tip);
+
+/* The phase at t of a tip with this displacement (less the gap) and velocity;
+ * `now` is the phase before t, BR_FREE at t = 0. */
+enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now,
+                           double displacement, double velocity);
+
+/* The phase that follows when the guard of one with this tip ends it. */
+enum br_phase br_law_next(const struct br_tip_state *tip);
+
+/* Distance to the end of the phase: negative when it is over. */
+double br_law_guard(const struct br_law *law, double t, const struct br_tip_state *tip);
+
+/* tip->force (in: zero; out): series of the force over a step, from the velocity
+ * tip->velocity that the tip has without it, and the velocity's response z (row
+ * by row) to the force's coefficients. While the tip sticks, a second call with
+ * the velocity that is left improves the force. Fails with BR_SINGULAR
+ * or BR_NOT_FINITE. */
+enum br_status br_law_force(const struct br_law *law, const struct br_radau *radau,
+                            const double z[BR_STAGES][BR_STAGES], struct br_tip_step *tip,
+                            struct br_error *err);
+
+#endif

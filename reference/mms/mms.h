@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The method of manufactured solutions: a scene whose loads, tip forces and initial data
+ * are derived from a solution that is given (Roache 2002; Oberkampf and Roy 2010). */
+#ifndef BR_REFERENCE_MMS_MMS_H
+#define BR_REFERENCE_MMS_MMS_H
+
+#include "solver/field.h"
+
+/* Fills the loads, tip forces and initial data of a scene whose axial.solution or
+ * bending.solution is given, so that these solve (1)-(12); a scene without one stays as it
+ * is. A load is left as one term f(x, t). Refuses (BR_BAD_INPUT) a scene of which only one
+ * modelled part has a solution, a solution beside what it determines, and what
+ * br_given_check refuses; *culprit is then the part whose solution it is about. Fails with
+ * BR_NO_MEMORY; br_scene_clear releases what was made until then. */
+enum br_status br_manufactured_apply(struct br_scene *scene, enum br_field_kind *culprit,
+                                     struct br_error *err);
+
+/* ---- the given solution ---- */
+
+/* One field's solution on [0, length] x [0, duration]. */
+struct br_given {
+    const struct br_function *function; /* u(x, t) or w(x, t), m; borrowed */
+    enum br_field_kind kind;
+    double length, duration; /* m, s */
+};
+
+/* Refuses (BR_BAD_INPUT), naming the derivative, x, t, what was found and expected:
+ * - a solution or derivative of which it is not proved that it is finite everywhere;
+ * - u(0, t), w(0, t) or w_x(0, t) that is not zero;
+ * - a jump in what is derived, whose delta the derivative would leave out: at what the guards of
+ *   function.h tell, on lines that cross every stretch between them.
+ * Fails with BR_NO_MEMORY, too. */
+enum br_status br_given_check(const struct br_given *solution, struct br_error *err);
+
+/* Refuses (BR_BAD_INPUT) a stick force beyond the friction bound at a time at which the tip
+ * rests. u, velocity: u(L, t), m, and w_t(L, t), m/s. */
+enum br_status br_stick_check(const struct br_scene *scene, const struct br_function *u,
+                              const struct br_function *velocity, struct br_error *err);
+
+/* ---- the tip forces that make a given solution fulfil the laws (8), (10), (11), (12) ---- */
+
+/* What a tip force is made of: functions of t. */
+struct br_tip_parts {
+    struct br_function stress;   /* N: a1 u_x + c1 u_xt, or -(a2 w_xxx + c2 w_xxxt) */
+    struct br_function u;        /* u(L, t), m */
+    struct br_function velocity; /* w_t(L, t), m/s; bending only */
+    struct br_function stick;    /* lambda while that is zero, N; bending only */
+    struct br_contact contact;
+    struct br_friction friction;
+    struct br_function above_gap; /* u - g, m; made from u, owns nothing */
+};
+
+void br_tip_parts_clear(struct br_tip_parts *parts);
+
+/* stress + c_H (u - g)_+, N, from (8) and (10). The parts are taken over, even where it
+ * fails (BR_NO_MEMORY). */
+enum br_status br_tip_axial(struct br_tip_parts *parts, struct br_function *f,
+                            struct br_error *err);
+
+/* lambda + stress, N, from (11) and (12): lambda is b sign(w_t), or the stick force where
+ * w_t is zero. The parts are taken over, even where it fails (BR_NO_MEMORY). */
+enum br_status br_tip_bending(struct br_tip_parts *parts, struct br_function *f,
+                              struct br_error *err);
+
+/* The friction bound b(t), N, of a solution whose tip is at u, m. */
+double br_tip_bound(const struct br_contact *contact, const struct br_friction *friction, double u);
+
+/* ---- its derivatives in the orthonormal Legendre modes of solver/modes.h ---- */
+
+enum { BR_PROJECTION_MOST_KEPT = 8 };
+
+/* What is projected: d^x/dx^x of the displacement, or of the velocity, and how many modes
+ * of an element are kept, at most BR_PROJECTION_MOST_KEPT. */
+struct br_projected {
+    struct br_partial order; /* t: 0 displacement, 1 velocity */
+    size_t kept;
+};
+
+/* The squares of L2 norms, m^3 for a displacement. */
+struct br_projection_rest {
+    double rest; /* of what the kept modes leave out, up to degree 10 */
+    double tail; /* of the last two degrees of it: how well that is known */
+};
+
+/* n equal elements of [0, length], m. */
+struct br_projection_mesh {
+    double length;
+    size_t n;
+};
+
+struct br_projection;
+
+/* Of a solution. Fails with BR_BAD_INPUT (not kept <= BR_PROJECTION_MOST_KEPT, or as
+ * br_function_derive) or BR_NO_MEMORY; *projection is then NULL. */
+enum br_status br_projection_create(struct br_projection **projection,
+                                    const struct br_function *solution,
+                                    const struct br_projected *what,
+                                    const struct br_projection_mesh *mesh, struct br_error *err);
+void br_projection_free(struct br_projection *projection); /* accepts NULL */
+
+/* At t, s: modes out, n * kept values. */
+struct br_projection_rest br_projection_apply(struct br_projection *projection, double t,
+                                              double *modes);
+
+#endif
