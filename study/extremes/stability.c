@@ -8,7 +8,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-#include "solver/contact_limit.h"
+#include "solver/laws.h"
 #include "study/extremes/step_matrix.h"
 #include "study/grid/threads.h"
 
