@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The flexibility form, twice: as it is written down, and fast. */
+/* The flexibility form, fast. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -7,14 +7,6 @@
 #include "solver/linear/plain.h"
 #include "solver/linear/riccati/kernel.h"
 #include "solver/linear/riccati/pieces.h"
-
-/* Upper estimates; the benchmark and tests/ measure less. A tip that sticks gathers round-off of
- * its own, whatever the mesh. */
-static double plain_round_off(const struct br_field *field, const struct br_linear_options *options)
-{
-    (void)options;
-    return 4 * DBL_EPSILON * ((double)field->n + 1024);
-}
 
 /* Where a wave does not cross an element in a step, the step is the mass's alone, whose condition
  * in strains is n for a rod and n^2 for a beam: no more than that is lost. Measured for n = 40 to
@@ -45,26 +37,12 @@ const struct br_linear_solver br_riccati = {
         "discrete linear-quadratic problem in substructures, see solver/linear/riccati/pieces.h",
     .options = "--kernel",
     .axial = &br_pieces,
-    .axial_quadratic = &br_plain_axial_quadratic,
+    .axial_quadratic = &br_plain_form,
     .bending = &br_pieces,
     .round_off = riccati_round_off,
     .bytes = {40, 62, 140},
     .state_bytes = {28, 44, 32},
     .nanoseconds = 3,
-};
-
-const struct br_linear_solver br_plain = {
-    .name = "plain",
-    .title = "the same form as it is written down: one backward and one forward recursion",
-    .citation = "discrete linear-quadratic problem; Riccati recursion, see solver/linear/plain.h",
-    .options = "",
-    .axial = &br_plain_axial,
-    .axial_quadratic = &br_plain_axial_quadratic,
-    .bending = &br_plain_bending,
-    .round_off = plain_round_off,
-    .bytes = {92, 218, 140},
-    .state_bytes = {16, 32, 32},
-    .nanoseconds = 25,
 };
 
 /* ---- kernels ---- */
