@@ -7,9 +7,7 @@
  *
  * A bubble (field.h) does not reach the nodes, but it has mass and bears load: with f its load,
  *     s_i = R g_i - (0 f)' + G'p_{i+1},    p_i = A'p_{i+1} - K'(R g_i - (0 f)') - F_i.
- *
- * And once for all precisions: `real` is double for the solver and, with -DBR_WIDE, long double for
- * the exact discrete solution (reference/discrete.h). Tables are computed in long double. */
+ */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -18,33 +16,21 @@
 #include "solver/linear/plain.h"
 #include "solver/linear/states.h"
 
-typedef long double wide;
-#ifdef BR_WIDE
-typedef long double real;
-typedef struct br_wide_drive plain_drive;
-#define COPIES /* none: long double has no vectors */
-#else
-typedef double real;
-typedef struct br_drive plain_drive;
-#define COPIES BR_SWEEP
-#endif
+typedef long double real; /* of the tables, which are computed once */
 
 #define INLINE static inline __attribute__((always_inline))
 
 struct plain {
-    struct br_field field; /* but for its h and k: */
-    real h, k;             /* m, s */
+    struct br_field field;
     int d, m;
-    real alpha, r[2]; /* a / (c + ka); R, diagonal */
-    real compliance;  /* z_tip */
-    real *gain;       /* n of gain_size: A, K, S^-1, zeta, each by rows */
-    real *drive;      /* m n, workspace: S^-1 s, m/s */
-    real *state;      /* of each element the controls of the displacement, m, and of the velocity,
+    double alpha, r[2]; /* a / (c + ka); R, diagonal */
+    double compliance;  /* z_tip */
+    double *gain;       /* n of gain_size: A, K, S^-1, zeta, each by rows */
+    double *drive;      /* m n, workspace: S^-1 s, m/s */
+    double *state;      /* of each element the controls of the displacement, m, and of the velocity,
                          m/s, which do not know the step, 2 m; then at 0 and m the tip's own: see
                          tip_displacement */
-#ifndef BR_WIDE
     struct br_states states; /* the first is `state` */
-#endif
 };
 
 INLINE int gain_size(int d, int m)
@@ -53,16 +39,16 @@ INLINE int gain_size(int d, int m)
 }
 
 /* G and T: of a rod both are 1 for the elongation, and G is 0 for the bubble. */
-static const real g[2][2] = {{0.5L, (real)(-1.0L / 6)}, {1, 0}};
+static const double g[2][2] = {{0.5, -1.0 / 6}, {1, 0}};
 
 /* Row a of G kappa. */
-INLINE real control(int d, int a, const real *kappa)
+INLINE double control(int d, int a, const double *kappa)
 {
     return d == 1 ? kappa[0] : a == 1 ? kappa[0] : g[0][0] * kappa[0] + g[0][1] * kappa[1];
 }
 
 /* T y + G kappa: the node at an element's right end, from that at its left one. */
-INLINE void cross(int d, const real *kappa, real *y)
+INLINE void cross(int d, const double *kappa, double *y)
 {
     y[0] += d == 2 ? y[1] + control(d, 0, kappa) : control(d, 0, kappa);
     if (d == 2)
@@ -70,7 +56,7 @@ INLINE void cross(int d, const real *kappa, real *y)
 }
 
 /* Row c of G'p; of a rod the first. */
-INLINE real transposed_control(int d, int c, const real *p)
+INLINE double transposed_control(int d, int c, const double *p)
 {
     return d == 2 ? g[0][c] * p[0] + g[1][c] * p[1] : p[0];
 }
@@ -78,7 +64,7 @@ INLINE real transposed_control(int d, int c, const real *p)
 /* ---- tables ---- */
 
 struct block {
-    wide e[2][2];
+    real e[2][2];
 };
 
 static struct block times(struct block a, struct block b)
@@ -106,7 +92,7 @@ static struct block transpose(struct block a)
 /* S^-1; false where S is not positive definite. */
 static bool invert(struct block s, struct block *inverse)
 {
-    const wide det = s.e[0][0] * s.e[1][1] - s.e[0][1] * s.e[1][0];
+    const real det = s.e[0][0] * s.e[1][1] - s.e[0][1] * s.e[1][0];
     *inverse =
         (struct block){{{s.e[1][1] / det, -s.e[0][1] / det}, {-s.e[1][0] / det, s.e[0][0] / det}}};
     return s.e[0][0] > 0 && det > 0 && isfinite(det);
@@ -114,12 +100,12 @@ static bool invert(struct block s, struct block *inverse)
 
 /* The Riccati recursion, from the tip to the clamp. */
 struct recursion {
-    wide mass, r[2];            /* rho h / k; R */
+    real mass, r[2];            /* rho h / k; R */
     struct block p;             /* P */
-    wide influence[2];          /* pi */
-    wide compliance;            /* sum of zeta'S zeta so far */
+    real influence[2];          /* pi */
+    real compliance;            /* sum of zeta'S zeta so far */
     struct block a, k, inverse; /* out, of an element: A, K, S^-1 */
-    wide zeta[2];               /* zeta */
+    real zeta[2];               /* zeta */
 };
 
 /* Each of these turns P_{i+1} and pi_{i+1} into P_i and pi_i; false where S is not positive
@@ -128,10 +114,10 @@ struct recursion {
  * The rod, of mass m [2 1; 1 2]: Q = 2m + P, S = R + Q, H = Q + m; P = 2m + 2mA + QA^2 + RK^2. */
 static bool rod_gain(struct recursion *rec)
 {
-    const wide m = rec->mass / 6, r = rec->r[0], q = 2 * m + rec->p.e[0][0], s = r + q;
+    const real m = rec->mass / 6, r = rec->r[0], q = 2 * m + rec->p.e[0][0], s = r + q;
     if (!(s > 0 && isfinite(s)))
         return false;
-    const wide feedback = (q + m) / s, closed = (r - m) / s; /* 1 - K */
+    const real feedback = (q + m) / s, closed = (r - m) / s; /* 1 - K */
     rec->zeta[0] = rec->influence[0] / s;
     rec->compliance += rec->zeta[0] * rec->influence[0];
     rec->influence[0] *= closed;
@@ -145,25 +131,25 @@ static bool rod_gain(struct recursion *rec)
 /* (1 -K') N (1 -K')' for m times the mass N of a quadratic element, as a sum of squares, in which
  * nothing is lost: of the Legendre modes of the function that is 1 and A at the nodes and has the
  * bubble -K_1. */
-static wide mass_square(wide m, wide closed, wide elongation, wide bubble)
+static real mass_square(real m, real closed, real elongation, real bubble)
 {
-    const wide mean = (1 + closed) / 2 - bubble / 6;
+    const real mean = (1 + closed) / 2 - bubble / 6;
     return m * (mean * mean + elongation * elongation / 12 + bubble * bubble / 180);
 }
 
 /* S = R + N_kk + G'PG, H = N_ky + G'PT, P_i = (1 -K') N (1 -K')' + K'RK + A'PA. */
 static bool quadratic_gain(struct recursion *rec)
 {
-    const wide m = rec->mass, *r = rec->r, p = rec->p.e[0][0];
+    const real m = rec->mass, *r = rec->r, p = rec->p.e[0][0];
     const struct block s = {{{r[0] + m / 3 + p, -m / 12}, {-m / 12, r[1] + m / 30}}};
     const struct block h = {{{m / 2 + p}, {-m / 6}}};
     if (!invert(s, &rec->inverse))
         return false;
     rec->k = times(rec->inverse, h);
-    const wide k0 = rec->k.e[0][0], k1 = rec->k.e[1][0];
-    const wide det = s.e[0][0] * s.e[1][1] - s.e[0][1] * s.e[1][0];
+    const real k0 = rec->k.e[0][0], k1 = rec->k.e[1][0];
+    const real det = s.e[0][0] * s.e[1][1] - s.e[0][1] * s.e[1][0];
     /* 1 - K_0, whose P cancels */
-    const wide closed = (r[0] * r[1] + m * (r[0] / 30 - r[1] / 6) + m * m / 720) / det;
+    const real closed = (r[0] * r[1] + m * (r[0] / 30 - r[1] / 6) + m * m / 720) / det;
     rec->p.e[0][0] =
         mass_square(m, closed, k0, -k1) + r[0] * k0 * k0 + r[1] * k1 * k1 + closed * closed * p;
     for (int c = 0; c < 2; c++)
@@ -175,22 +161,20 @@ static bool quadratic_gain(struct recursion *rec)
 }
 
 /* The 2 by 2 block of rho h / k times the beam's element mass that starts at (row, column). */
-static struct block mass_block(wide mass, int row, int column)
+static struct block mass_block(real mass, int row, int column)
 {
     struct block m;
     for (int i = 0; i < 2; i++)
-        for (int j = 0; j < 2; j++) {
-            const double entry = br_bending_mass[row + i][column + j];
-            m.e[i][j] = mass * (sizeof(real) > sizeof entry ? roundl(420 * entry) / 420 : entry);
-        }
+        for (int j = 0; j < 2; j++)
+            m.e[i][j] = mass * br_bending_mass[row + i][column + j];
     return m;
 }
 
 /* zeta = S^-1 G'pi;  z += zeta'S zeta = zeta'G'pi;  pi = A'pi. */
 static void beam_influence(struct recursion *rec)
 {
-    const wide pi[2] = {rec->influence[0], rec->influence[1]};
-    const wide q[2] = {0.5L * pi[0] + pi[1], -pi[0] / 6};
+    const real pi[2] = {rec->influence[0], rec->influence[1]};
+    const real q[2] = {0.5L * pi[0] + pi[1], -pi[0] / 6};
     for (int c = 0; c < 2; c++) {
         rec->zeta[c] = rec->inverse.e[c][0] * q[0] + rec->inverse.e[c][1] * q[1];
         rec->influence[c] = rec->a.e[0][c] * pi[0] + rec->a.e[1][c] * pi[1];
@@ -225,11 +209,11 @@ static bool beam_gain(struct recursion *rec)
     return true;
 }
 
-static void put(int rows, int columns, const struct block *from, real **to)
+static void put(int rows, int columns, const struct block *from, double **to)
 {
     for (int i = 0; i < rows; i++)
         for (int j = 0; j < columns; j++)
-            *(*to)++ = (real)from->e[i][j];
+            *(*to)++ = (double)from->e[i][j];
 }
 
 /* All that follows from the field and its step. */
@@ -237,9 +221,9 @@ static enum br_status fill_tables(struct plain *s, struct br_error *err)
 {
     const struct br_field *f = &s->field;
     const bool axial = s->d == 1, quadratic = s->m > s->d;
-    const wide h = s->h, stiff = (wide)f->viscosity + (wide)s->k * f->stiffness;
-    const wide volume = axial ? h : h * h * h;
-    struct recursion rec = {.mass = (wide)f->density * h / s->k,
+    const real h = f->h, stiff = (real)f->viscosity + (real)f->k * f->stiffness;
+    const real volume = axial ? h : h * h * h;
+    struct recursion rec = {.mass = (real)f->density * h / f->k,
                             .r = {stiff / volume, axial ? stiff / h / 3 : stiff / (3 * h * h * h)},
                             .influence = {1, 0}};
     for (size_t i = f->n; i-- > 0;) {
@@ -247,18 +231,18 @@ static enum br_status fill_tables(struct plain *s, struct br_error *err)
             return br_fail(err, BR_SINGULAR,
                            "%s: the step is not positive definite at element %zu of %zu",
                            axial ? "axial" : "bending", i, f->n);
-        real *gain = s->gain + i * (size_t)gain_size(s->d, s->m);
+        double *gain = s->gain + i * (size_t)gain_size(s->d, s->m);
         put(s->d, s->d, &rec.a, &gain);
         put(s->m, s->d, &rec.k, &gain);
         put(s->m, s->m, &rec.inverse, &gain);
         for (int c = 0; c < s->m; c++)
-            *gain++ = (real)rec.zeta[c];
+            *gain++ = (double)rec.zeta[c];
     }
-    s->alpha = quadratic ? (real)(f->stiffness / stiff)
-                         : (real)f->stiffness / ((real)f->viscosity + s->k * f->stiffness);
+    s->alpha = quadratic ? (double)(f->stiffness / stiff)
+                         : f->stiffness / (f->viscosity + f->k * f->stiffness);
     for (int c = 0; c < 2; c++)
-        s->r[c] = (real)rec.r[c];
-    s->compliance = (real)rec.compliance;
+        s->r[c] = (double)rec.r[c];
+    s->compliance = (double)rec.compliance;
     return BR_OK;
 }
 
@@ -266,9 +250,9 @@ static enum br_status fill_tables(struct plain *s, struct br_error *err)
 
 /* factor F of a node, N. The beam's is rounded before it is added to anything, where the rod's may
  * be contracted: so are the results that this program has always had. */
-INLINE real scaled(int d, real factor, real load)
+INLINE double scaled(int d, double factor, double load)
 {
-    volatile real product;
+    volatile double product;
     if (d == 1)
         return factor * load;
     product = factor * load;
@@ -276,22 +260,22 @@ INLINE real scaled(int d, real factor, real load)
 }
 
 /* Backward sweep: drive = S^-1 s on every element. Returns v*. */
-INLINE real sweep_left(int d, int m, struct plain *s, const plain_drive *drive)
+INLINE double sweep_left(int d, int m, struct plain *s, const struct br_drive *drive)
 {
-    static const real none[4] = {0};
+    static const double none[4] = {0};
     const size_t n = s->field.n, stride = drive->vector ? (size_t)m : 0;
-    const real *load = drive->vector ? drive->vector : none;
-    const real factor = drive->factor, alpha = s->alpha, r[2] = {s->r[0], s->r[1]};
-    const real *restrict gain = s->gain, *restrict state = s->state;
-    real *restrict out = s->drive;
-    real p[2], tip[2] = {0};
+    const double *load = drive->vector ? drive->vector : none;
+    const double factor = drive->factor, alpha = s->alpha, r[2] = {s->r[0], s->r[1]};
+    const double *restrict gain = s->gain, *restrict state = s->state;
+    double *restrict out = s->drive;
+    double p[2], tip[2] = {0};
     for (int a = 0; a < d; a++)
         p[a] = -scaled(d, factor, load[stride * n + (size_t)a]) - drive->tip[a];
     for (size_t i = n; i-- > 0;) {
-        const real *closed = gain + i * (size_t)gain_size(d, m), *feedback = closed + d * d;
-        const real *inverse = feedback + m * d, *zeta = inverse + m * m;
-        const real *e = state + 2 * (size_t)m * i;
-        real rg[2], x[2], next[2];
+        const double *closed = gain + i * (size_t)gain_size(d, m), *feedback = closed + d * d;
+        const double *inverse = feedback + m * d, *zeta = inverse + m * m;
+        const double *e = state + 2 * (size_t)m * i;
+        double rg[2], x[2], next[2];
         for (int c = 0; c < m; c++)
             rg[c] = r[c] * (alpha * e[c] + e[m + c]); /* R g */
         if (m > d)
@@ -299,7 +283,7 @@ INLINE real sweep_left(int d, int m, struct plain *s, const plain_drive *drive)
         for (int c = 0; c < m; c++) /* s = R g + G'p */
             x[c] = d == 1 && c == 1 ? rg[c] : rg[c] + transposed_control(d, c, p);
         for (int c = 0; c < m; c++) { /* S^-1 s */
-            real sum = inverse[c] * x[0];
+            double sum = inverse[c] * x[0];
             if (m == 2)
                 sum += inverse[m + c] * x[1];
             out[(size_t)m * i + (size_t)c] = sum;
@@ -310,7 +294,7 @@ INLINE real sweep_left(int d, int m, struct plain *s, const plain_drive *drive)
             for (int c = 0; c < m; c++)
                 tip[c] -= zeta[c] * x[c];
         for (int a = 0; a < d; a++) { /* A'p - (K'R g + F) */
-            real sum = feedback[a] * rg[0];
+            double sum = feedback[a] * rg[0];
             if (m == 2)
                 sum += feedback[d + a] * rg[1];
             next[a] = -(sum + scaled(d, factor, load[stride * i + (size_t)a]));
@@ -325,17 +309,17 @@ INLINE real sweep_left(int d, int m, struct plain *s, const plain_drive *drive)
 
 /* Forward sweep: the increment kappa of every element's rate, with the tip's force in it, and the
  * update of the state. The tip's motion is rebuilt from it: what is only incremented drifts. */
-INLINE void sweep_right(int d, int m, struct plain *s, real force)
+INLINE void sweep_right(int d, int m, struct plain *s, double force)
 {
     const size_t n = s->field.n;
-    const real k = s->k;
-    real y[2] = {0}, u[2] = {0}, v[2] = {0}; /* at the node: of the increment, and of the state */
-    const real *restrict gain = s->gain, *restrict drive = s->drive;
-    real *restrict e = s->state;
+    const double k = s->field.k;
+    double y[2] = {0}, u[2] = {0}, v[2] = {0}; /* at the node: of the increment, and of the state */
+    const double *restrict gain = s->gain, *restrict drive = s->drive;
+    double *restrict e = s->state;
     for (size_t i = 0; i < n; i++, e += 2 * m) {
-        const real *closed = gain + i * (size_t)gain_size(d, m), *feedback = closed + d * d;
-        const real *zeta = feedback + m * d + m * m;
-        real q[2], next[2];
+        const double *closed = gain + i * (size_t)gain_size(d, m), *feedback = closed + d * d;
+        const double *zeta = feedback + m * d + m * m;
+        double q[2], next[2];
         for (int c = 0; c < m; c++)
             q[c] = -(drive[(size_t)m * i + (size_t)c] + force * zeta[c]);
         for (int a = 0; a < d; a++) { /* A y - G S^-1 s */
@@ -360,8 +344,9 @@ INLINE void sweep_right(int d, int m, struct plain *s, real force)
 }
 
 /* d and m become constants. */
-COPIES static enum br_status predict(void *self, const plain_drive *drive, real *velocity,
-                                     struct br_error *err)
+BR_SWEEP
+static enum br_status predict(void *self, const struct br_drive *drive, double *velocity,
+                              struct br_error *err)
 {
     (void)err;
     struct plain *s = self;
@@ -371,7 +356,8 @@ COPIES static enum br_status predict(void *self, const plain_drive *drive, real 
     return BR_OK;
 }
 
-COPIES static real finish(void *self, real force)
+BR_SWEEP
+static double finish(void *self, double force)
 {
     struct plain *s = self;
     if (s->d == 2)
@@ -383,19 +369,19 @@ COPIES static real finish(void *self, real force)
     return s->state[2 * (size_t)s->m * s->field.n + (size_t)s->m];
 }
 
-static real tip_displacement(const void *self)
+static double tip_displacement(const void *self)
 {
     const struct plain *s = self;
     const size_t m = (size_t)s->m, n = s->field.n;
     if (s->d == 1)
         return s->state[2 * m * n];
-    real w[2] = {0};
+    double w[2] = {0};
     for (size_t i = 0; i < n; i++)
         cross(2, s->state + 2 * m * i, w);
     return w[0];
 }
 
-static real tip_compliance(const void *self)
+static double tip_compliance(const void *self)
 {
     return ((const struct plain *)self)->compliance;
 }
@@ -409,50 +395,43 @@ static void release(void *self)
         return;
     free(s->gain);
     free(s->drive);
-#ifdef BR_WIDE
-    free(s->state);
-#else
     br_states_clear(&s->states);
-#endif
     free(s);
 }
 
-/* All but the tables. */
-static enum br_status set_up(const struct br_field *field, real h, void **self,
+static enum br_status create(const struct br_linear_solver *row, const struct br_field *field,
+                             const struct br_linear_options *options, void **self,
                              struct br_error *err)
 {
+    (void)row;
+    (void)options;
     const char *what = field->kind == BR_AXIAL ? "the axial solver" : "the bending solver";
     struct plain *s = br_allocate(1, sizeof *s);
     *self = s;
     if (!s)
         return br_no_memory(err, what);
     s->field = *field;
-    s->h = h;
-    s->k = field->k;
     s->d = field->kind == BR_AXIAL ? 1 : 2;
     s->m = (int)br_field_unknowns(field);
     s->gain = br_allocate(field->n * (size_t)gain_size(s->d, s->m), sizeof *s->gain);
     s->drive = br_allocate(field->n * (size_t)s->m, sizeof *s->drive);
-    const size_t size = 2 * (size_t)s->m * (field->n + 1);
-#ifdef BR_WIDE
-    s->state = br_allocate(size, sizeof *s->state);
-    const enum br_status status = BR_OK;
-#else
-    const enum br_status status = br_states_add(&s->states, size, 1, err);
+    if (!s->gain || !s->drive)
+        return br_no_memory(err, what);
+    const enum br_status status =
+        br_states_add(&s->states, 2 * (size_t)s->m * (field->n + 1), 1, err);
     s->state = s->states.of[0];
-#endif
-    return status ? status : s->gain && s->drive && s->state ? BR_OK : br_no_memory(err, what);
+    return status ? status : fill_tables(s, err);
 }
 
-static enum br_status set_step(void *self, real k, struct br_error *err)
+static enum br_status set_step(void *self, double k, struct br_error *err)
 {
     struct plain *s = self;
-    s->k = k;
+    s->field.k = k;
     return fill_tables(s, err);
 }
 
 /* The controls of an element, from its nodes. */
-static void control_of(const struct plain *s, const real *node, real *kappa)
+static void control_of(const struct plain *s, const double *node, double *kappa)
 {
     if (s->d == 2) {
         kappa[0] = node[3] - node[1];
@@ -464,30 +443,30 @@ static void control_of(const struct plain *s, const real *node, real *kappa)
         kappa[1] = node[3];
 }
 
-static void set(void *self, const real *displacement, const real *velocity)
+static void set(void *self, const double *displacement, const double *velocity)
 {
     struct plain *s = self;
-    const real *const nodal[2] = {displacement, velocity};
+    const double *const nodal[2] = {displacement, velocity};
     const size_t m = (size_t)s->m, n = s->field.n;
     for (size_t j = 0; j < 2; j++) {
         for (size_t i = 0; i < n; i++)
             control_of(s, nodal[j] + m * i, s->state + (2 * i + j) * m);
-        memcpy(s->state + (2 * n + j) * m, nodal[j] + m * n, m * sizeof(real));
+        memcpy(s->state + (2 * n + j) * m, nodal[j] + m * n, m * sizeof(double));
     }
 }
 
-static void get(const void *self, real *displacement, real *velocity)
+static void get(const void *self, double *displacement, double *velocity)
 {
     const struct plain *s = self;
-    real *const nodal[2] = {displacement, velocity};
+    double *const nodal[2] = {displacement, velocity};
     const size_t m = (size_t)s->m;
     for (size_t j = 0; j < 2; j++) {
-        real y[2] = {0}, *to = nodal[j];
+        double y[2] = {0}, *to = nodal[j];
         if (!to)
             continue;
         memcpy(to, y, m * sizeof *to);
         for (size_t i = 0; i < s->field.n; i++) {
-            const real *kappa = s->state + (2 * i + j) * m;
+            const double *kappa = s->state + (2 * i + j) * m;
             to += m;
             cross(s->d, kappa, y);
             if (s->m > s->d)
@@ -495,38 +474,6 @@ static void get(const void *self, real *displacement, real *velocity)
             memcpy(to, y, m * sizeof *to);
         }
     }
-}
-
-#ifdef BR_WIDE
-
-static real *state(void *self)
-{
-    return ((struct plain *)self)->state;
-}
-
-const struct br_wide_solver br_wide_plain = {
-    .create = set_up,
-    .free = release,
-    .tip_compliance = tip_compliance,
-    .set = set,
-    .get = get,
-    .state = state,
-    .set_step = set_step,
-    .predict = predict,
-    .finish = finish,
-    .tip_displacement = tip_displacement,
-};
-
-#else
-
-static enum br_status create(const struct br_linear_solver *row, const struct br_field *field,
-                             const struct br_linear_options *options, void **self,
-                             struct br_error *err)
-{
-    (void)row;
-    (void)options;
-    const enum br_status status = set_up(field, field->h, self, err);
-    return status ? status : fill_tables(*self, err);
 }
 
 static void strain_rate(const void *self, double *rate)
@@ -563,15 +510,15 @@ static void size_of(void *self, size_t which, double size[2])
     const struct plain *s = self;
     const size_t m = (size_t)s->m;
     for (size_t j = 0; j < 2; j++) {
-        wide sum[2] = {0};
+        real sum[2] = {0};
         for (size_t i = 0; i < s->field.n; i++) {
             const double *kappa = s->states.of[which] + (2 * i + j) * m;
-            const wide first = kappa[0], second = m == 2 ? kappa[1] : 0;
+            const real first = kappa[0], second = m == 2 ? kappa[1] : 0;
             sum[0] += s->d == 2 ? first * first + second * second / 3 : first * first;
             sum[1] += s->d == 2 ? 0 : second * second;
         }
-        const wide strain = sqrtl((sum[0] + sum[1] / 3) / s->h);
-        size[j] = (double)(s->d == 2 ? strain / s->h : strain);
+        const real strain = sqrtl((sum[0] + sum[1] / 3) / s->field.h);
+        size[j] = (double)(s->d == 2 ? strain / s->field.h : strain);
     }
 }
 
@@ -613,5 +560,3 @@ const struct br_linear_solver br_plain = {
     .state_bytes = {16, 32, 32},
     .nanoseconds = 25,
 };
-
-#endif

@@ -35,34 +35,4 @@
 /* For both fields, and both degrees of the axial one. */
 extern const struct br_field_solver br_plain_form;
 
-/* ---- the same in long double, for reference/discrete ---- */
-
-/* As struct br_drive. */
-struct br_wide_drive {
-    const long double *vector;
-    long double factor, tip[2];
-};
-
-/* As struct br_field_solver, with elements of length h, m, whatever the field says; `create` leaves
- * the tables to set_step, which comes before the first step. */
-struct br_wide_solver {
-    enum br_status (*create)(const struct br_field *field, long double h, void **self,
-                             struct br_error *err);
-    void (*free)(void *self);
-    long double (*tip_compliance)(const void *self);
-    enum br_status (*set_step)(void *self, long double k, struct br_error *err);
-    void (*set)(void *self, const long double *displacement, const long double *velocity);
-    void (*get)(const void *self, long double *displacement, long double *velocity);
-    enum br_status (*predict)(void *self, const struct br_wide_drive *drive, long double *velocity,
-                              struct br_error *err);
-    long double (*finish)(void *self, long double force);
-    long double (*tip_displacement)(const void *self);
-
-    /* The state: for each element, and at last for the tip's node, the u numbers of the
-     * displacement, m, and those of the velocity, m/s, u being br_field_unknowns. */
-    long double *(*state)(void *self);
-};
-
-extern const struct br_wide_solver br_wide_plain;
-
 #endif
