@@ -93,9 +93,11 @@ static struct block transpose(struct block a)
 static bool invert(struct block s, struct block *inverse)
 {
     const real det = s.e[0][0] * s.e[1][1] - s.e[0][1] * s.e[1][0];
+    if (!(s.e[0][0] > 0 && det > 0 && isfinite(det)))
+        return false;
     *inverse =
         (struct block){{{s.e[1][1] / det, -s.e[0][1] / det}, {-s.e[1][0] / det, s.e[0][0] / det}}};
-    return s.e[0][0] > 0 && det > 0 && isfinite(det);
+    return true;
 }
 
 /* The Riccati recursion, from the tip to the clamp. */
