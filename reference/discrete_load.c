@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/discrete_load.h"
-
+/* The load vector and the initial data of the exact discrete solution. */
 #include <math.h>
 #include <string.h>
+
+#include "reference/discrete_state.h"
 
 /* ---- quadrature ---- */
 

@@ -1,21 +1,99 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What discrete.c looks after and discrete_step.c steps with; for these alone. */
+/* What discrete.c, discrete_field.c and discrete_load.c share. */
 #ifndef BR_REFERENCE_DISCRETE_STATE_H
 #define BR_REFERENCE_DISCRETE_STATE_H
 
 #include "reference/discrete.h"
-#include "reference/discrete_load.h"
-#include "reference/textbook.h"
+#include "solver/load.h"
 
-/* Which branch of its law a field's tip is on. */
-enum br_discrete_regime {
-    BR_DISCRETE_NO_LAW,
-    BR_DISCRETE_OPEN,
-    BR_DISCRETE_CLOSED,
-    BR_DISCRETE_STICK,
-    BR_DISCRETE_FORWARD,
-    BR_DISCRETE_BACKWARD
+/* ---- a field and its step ---- */
+
+enum {
+    BR_DISCRETE_MOST = 2,       /* unknowns a node */
+    BR_DISCRETE_NOW = 0,        /* the state that steps are taken with */
+    BR_DISCRETE_START,          /* of the step */
+    BR_DISCRETE_PAST,           /* Y_{n-2}, Y_{n-3} */
+    BR_DISCRETE_RATE = 4,       /* Y' of the rows of a tableau */
+    BR_DISCRETE_LAST_RATE = 10, /* of the step before */
+    BR_DISCRETE_STATES,
 };
+
+/* Of an element, by its distance to the tip: q = -(gain y + inverse (g - G'p)). */
+struct br_discrete_gain {
+    long double gain[BR_DISCRETE_MOST][BR_DISCRETE_MOST];
+    long double inverse[BR_DISCRETE_MOST][BR_DISCRETE_MOST]; /* S^-1, m/s per N */
+};
+
+struct br_discrete_field {
+    size_t n, d; /* elements; unknowns a node, and strains an element */
+    long double h, density, stiffness, viscosity;
+    long double tau;                        /* s, that of the gains; 0: none yet */
+    struct br_discrete_gain *gain;          /* n */
+    long double *state[BR_DISCRETE_STATES]; /* 2 d n: strains, m; rates, m/s */
+    size_t states;                          /* 1, or all */
+    long double *response;                  /* d n: the rates for a unit force at
+                                               the tip, m/s per N */
+    long double compliance;                 /* its own at the tip, m/s per N */
+    long double *free_rate;                 /* d n: without a force from the laws */
+    long double *nodal;                     /* workspace, d (n + 1) */
+    long double *load;                      /* d (n + 1), N */
+};
+
+/* Makes room for a field at rest, without a load; `states`: 1, or BR_DISCRETE_STATES. Fails with
+ * BR_NO_MEMORY; clear it even then. */
+enum br_status br_discrete_field_init(struct br_discrete_field *f, const struct br_scene *scene,
+                                      enum br_field_kind kind, size_t n, size_t states,
+                                      struct br_error *err);
+void br_discrete_field_clear(struct br_discrete_field *f);
+
+/* Sets state 0 from nodal values, m and m/s (in, d (n + 1) each); and back (out, either may be
+ * NULL). */
+void br_discrete_field_set(struct br_discrete_field *f, const long double *displacement,
+                           const long double *velocity);
+void br_discrete_field_get(const struct br_discrete_field *f, long double *displacement,
+                           long double *velocity);
+
+/* The tip's displacement, m, or velocity, m/s, in state 0. */
+long double br_discrete_field_tip(const struct br_discrete_field *f, bool velocity);
+
+/* The gains and the tip's response for steps of tau, s. Fails with BR_SINGULAR. */
+enum br_status br_discrete_field_set_step(struct br_discrete_field *f, long double tau,
+                                          struct br_error *err);
+
+/* The tip's velocity, m/s, at the end of a step from state 0 without contact or friction, with the
+ * load and forces on the tip's unknowns, N. */
+long double br_discrete_field_predict(struct br_discrete_field *f,
+                                      const long double tip[BR_DISCRETE_MOST]);
+
+/* Ends that step: a force, N, resists the tip. */
+void br_discrete_field_finish(struct br_discrete_field *f, long double force);
+
+/* ---- forces and initial data ---- */
+
+/* The forces on a field, as functions of its own. */
+struct br_discrete_load {
+    struct br_load load;                      /* clones */
+    struct br_function tip_force, tip_moment; /* clones */
+    long double *vector[BR_LOAD_TERMS];       /* of each term; NULL: there is none */
+    long double tip[BR_DISCRETE_MOST];        /* now: N on the tip's unknowns */
+};
+
+/* Fails with BR_NOT_FINITE, BR_NO_MEMORY; clear it even then. */
+enum br_status br_discrete_load_init(struct br_discrete_load *load, const struct br_scene *scene,
+                                     enum br_field_kind kind, struct br_discrete_field *field,
+                                     struct br_error *err);
+void br_discrete_load_clear(struct br_discrete_load *load);
+
+/* At time t, s. Fails with BR_NOT_FINITE, BR_NO_MEMORY. */
+enum br_status br_discrete_load_update(struct br_discrete_load *load,
+                                       struct br_discrete_field *field, double t,
+                                       struct br_error *err);
+
+/* The interpolant of the scene's initial data as the field's state. Fails with BR_NOT_FINITE,
+ * BR_NO_MEMORY. */
+enum br_status br_discrete_set_initial(struct br_discrete_field *field,
+                                       const struct br_scene *scene, enum br_field_kind kind,
+                                       struct br_error *err);
 
 /* One field, and where its scheme is. */
 struct br_discrete_part {
@@ -24,29 +102,7 @@ struct br_discrete_part {
     struct br_discrete_field field;
     struct br_discrete_load load;
     size_t since; /* steps since t = 0 or the last switch */
-    enum br_discrete_regime regime;
+    enum br_regime regime;
 };
-
-/* The rod's tip over one step, for the friction bound. */
-struct br_discrete_path {
-    int count;
-    long double time[BR_TEXTBOOK_ROWS],
-        depth[BR_TEXTBOOK_ROWS]; /* of the stages: over k, and (u - g)_+, m */
-    long double u[2], slope[2];  /* u and k u_t at both ends, m */
-};
-
-struct br_discrete {
-    const struct br_scene *scene;
-    const char *scheme;
-    bool implicit, regularised;
-    size_t steps, done;
-    struct br_discrete_part part[2]; /* by br_field_kind */
-    struct br_discrete_path path;
-    struct br_discrete_tip tip;
-};
-
-/* One step of one field. Fails as br_discrete_step. */
-enum br_status br_discrete_step_field(struct br_discrete *discrete, enum br_field_kind kind,
-                                      struct br_error *err);
 
 #endif

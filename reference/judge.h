@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-#include "solver/look.h"
+#include "solver/march.h"
 
 struct br_judge_request {
     const struct br_scene *scene;  /* must outlive the judge */

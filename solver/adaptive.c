@@ -5,18 +5,18 @@
  * step holds the branch on which it began, through all its stages, and keeps its order. Each branch
  * has a margin that is not negative while it is the right one: the gap or the penetration, h -
  * |lambda| of a tip that sticks, the velocity of one that slips. Where it is negative at the step's
- * end, at a stage or between them (margins.h), the step is taken back and its length found at which
- * the margin is zero; the next step then finds its branches by the laws themselves, in its first
- * stage, with a length that is small. Where a branch is wrong at once, no search can begin: a small
- * step is taken by the laws themselves.
+ * end, at a stage or between them (br_margins), the step is taken back and its length found at
+ * which the margin is zero; the next step then finds its branches by the laws themselves, in its
+ * first stage, with a length that is small. Where a branch is wrong at once, no search can begin: a
+ * small step is taken by the laws themselves.
  *
  * A field without inertia and viscosity, or with so little that it answers a load within the least
  * step, jumps where its load does, at the start from rest above all. No step is small enough for
  * that, and none needs to be: the end of one obeys the equations whatever was before. So the least
  * step is taken, and what follows starts anew.
  *
- * The error of a step is estimated in strains (part.h), relative to the largest so far, or to that
- * of a rough march (rough_size.c). */
+ * The error of a step is estimated in strains (br_field_march_estimate), relative to the largest so
+ * far, or to that of a rough march (below). */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
 #include <math.h>
@@ -56,7 +56,7 @@ static void recall_all(struct br_march *m, int known)
 {
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (m->part[kind].modelled)
-            br_part_recall(&m->part[kind], known);
+            br_field_march_recall(&m->part[kind], known);
 }
 
 /* ---- a trial ---- */
@@ -129,7 +129,7 @@ static enum br_status try_fields(struct br_march *m, const struct br_step *step,
 {
     enum br_status status = BR_OK;
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        struct br_part *part = &m->part[kind];
+        struct br_field_march *part = &m->part[kind];
         if (!part->modelled)
             continue;
         m->held[kind] = !m->adaptive->free && has_branches(m, (enum br_field_kind)kind);
@@ -140,7 +140,7 @@ static enum br_status try_fields(struct br_march *m, const struct br_step *step,
         if (status)
             break;
         double error;
-        br_part_estimate(part, &trial->stages, &error, &trial->strain[kind]);
+        br_field_march_estimate(part, &trial->stages, &error, &trial->strain[kind]);
         see_error(m, (enum br_field_kind)kind, error, trial);
     }
     return status;
@@ -439,4 +439,119 @@ enum br_status br_adaptive_advance(struct br_march *m, struct br_error *err)
     }
     a->now = end;
     return BR_OK;
+}
+
+/* ---- a rough size ---- */
+
+/* The size of a solution that is not known yet. One that starts at rest has none of its own that
+ * its first errors could be compared with.
+ *
+ * Of two rough marches without common times the smaller size counts, since a short blow that one of
+ * them meets acts on it for a whole step; but not that of a march that meets the zeros of a load.
+ */
+
+static enum br_status rough_step(struct br_march *m, const struct br_step *step, double largest[2],
+                                 struct br_error *err)
+{
+    static const struct br_stages euler = {.count = 1, .stage = {{1, 1, {[BR_NOW] = 1}}}};
+    enum br_status status = BR_OK;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        struct br_field_march *part = &m->part[kind];
+        double size[2];
+        if (!part->modelled)
+            continue;
+        status = br_march_stages(m, (enum br_field_kind)kind, &euler, step, m->path, err);
+        part->solver->size(part->state, 0, size);
+        largest[kind] = fmax(largest[kind], size[0]);
+    }
+    return status;
+}
+
+/* The largest strains (out) of a few Euler steps to the end. */
+static enum br_status rough_march(struct br_march *m, int steps, double largest[2],
+                                  struct br_error *err)
+{
+    const double T = m->scene->duration;
+    const struct br_tip tip = m->tip;
+    enum br_status status = BR_OK;
+    largest[0] = largest[1] = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (m->part[kind].modelled)
+            br_field_march_keep(&m->part[kind], BR_STAGE);
+    for (int n = 0; n < steps && !status; n++) {
+        const struct br_step step = {T * n / steps, T * (n + 1) / steps, T / steps};
+        status = rough_step(m, &step, largest, err);
+    }
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (m->part[kind].modelled)
+            br_field_march_recall(&m->part[kind], BR_STAGE);
+    m->tip = tip;
+    return status;
+}
+
+enum br_status br_rough_size(struct br_march *m, double largest[2], struct br_error *err)
+{
+    const double nothing = 1e-10;
+    double one[2], other[2];
+    enum br_status status = rough_march(m, 16, one, err);
+    if (!status)
+        status = rough_march(m, 11, other, err);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        const double larger = fmax(one[kind], other[kind]), smaller = fmin(one[kind], other[kind]);
+        largest[kind] = smaller > nothing * larger ? smaller : larger;
+    }
+    return status;
+}
+
+/* ---- margins ---- */
+
+void br_margins_add(struct br_margins *m, double time, double margin)
+{
+    m->time[m->count] = time;
+    m->margin[m->count++] = margin;
+}
+
+/* Lagrange's polynomial through all of them. */
+static double interpolate(const struct br_margins *m, double time)
+{
+    double sum = 0;
+    for (size_t i = 0; i < m->count; i++) {
+        double weight = 1;
+        for (size_t j = 0; j < m->count; j++)
+            if (j != i)
+                weight *= (time - m->time[j]) / (m->time[i] - m->time[j]);
+        sum += weight * m->margin[i];
+    }
+    return sum;
+}
+
+static double first_negative(const struct br_margins *m)
+{
+    double first = 0;
+    for (size_t i = 0; i < m->count; i++)
+        if (m->time[i] > 0 && m->margin[i] < 0 && (first == 0 || m->time[i] < first))
+            first = m->time[i];
+    return first;
+}
+
+double br_margins_dip(const struct br_margins *m)
+{
+    enum { PLACES = 64 };
+    const double round_off = 1e-13;
+    double first = first_negative(m), begin = 1, largest = 0;
+    for (size_t i = 0; i < m->count; i++) {
+        begin = fmin(begin, m->time[i]);
+        largest = fmax(largest, fabs(m->margin[i]));
+    }
+    if (first > 0)
+        return first;
+    double lowest = -round_off * largest;
+    for (int i = 1; i < PLACES; i++) {
+        const double time = begin + (1 - begin) * i / PLACES, margin = interpolate(m, time);
+        if (margin < lowest) {
+            lowest = margin;
+            first = time;
+        }
+    }
+    return first;
 }

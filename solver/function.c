@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "solver/traps.h"
+#include "solver/arithmetic.h"
 
 void br_function_evaluate(const struct br_function *f, size_t count, const double *x, double t,
                           double *value)

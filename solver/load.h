@@ -5,7 +5,7 @@
 #ifndef BR_SOLVER_LOAD_H
 #define BR_SOLVER_LOAD_H
 
-#include "solver/linear_solver.h"
+#include "solver/linear/linear_solver.h"
 
 /* The forces on one field: per length and at the tip. Borrowed. */
 struct br_forces {

@@ -5,10 +5,90 @@
 #include <math.h>
 #include <string.h>
 
-#include "solver/contact_limit.h"
+#include "solver/arithmetic.h"
+#include "solver/laws.h"
 #include "solver/march_state.h"
-#include "solver/rounding.h"
-#include "solver/traps.h"
+#include "solver/method.h"
+
+/* ---- set-up ---- */
+
+static enum br_status check_method(const struct br_scene *scene, size_t n, size_t steps,
+                                   const struct br_method *method, struct br_error *err)
+{
+    if (n < 1)
+        return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
+    if (steps < 1)
+        return br_fail(err, BR_BAD_INPUT, "there are no time steps, expected at least one");
+    enum br_status status = br_method_check_scene(method, scene, err);
+    if (!status)
+        status = br_scene_check(scene, err);
+    return status ? status
+                  : br_damping_check(method, scene, n, scene->duration / (double)steps, err);
+}
+
+static enum br_status create_parts(struct br_march *m, size_t n, struct br_error *err)
+{
+    struct br_stages stages;
+    m->method.scheme->stages(0, &stages);
+    const double tau = stages.stage[0].gamma * (m->scene->duration / (double)m->steps);
+    enum br_status status = br_march_allow_lead(m, 1, err);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        struct br_field field = br_field_of_scene(m->scene, (enum br_field_kind)kind, n, tau);
+        field.degree = m->method.axial_degree;
+        status = br_field_march_create(&m->part[kind], m->scene, &field, &m->method, err);
+    }
+    if (!status && m->method.scheme->adaptive)
+        status = br_adaptive_create(m, err);
+    return status;
+}
+
+enum br_status br_march_create(struct br_march **out, const struct br_scene *scene, size_t n,
+                               size_t steps, const struct br_method *method, struct br_error *err)
+{
+    *out = NULL;
+    enum br_status status = check_method(scene, n, steps, method, err);
+    if (status)
+        return status;
+    struct br_march *m = br_allocate(1, sizeof *m);
+    if (!m)
+        return br_no_memory(err, "a march");
+    m->scene = scene;
+    m->method = *method;
+    m->steps = steps;
+    const int rounding = br_rounding_set(method->rounding);
+    status = create_parts(m, n, err);
+    br_rounding_restore(rounding);
+    if (status) {
+        br_march_free(m);
+        return status;
+    }
+    m->tip.displacement = br_march_tip_displacement(m, BR_AXIAL);
+    *out = m;
+    return BR_OK;
+}
+
+void br_march_free(struct br_march *m)
+{
+    if (!m)
+        return;
+    br_adaptive_free(m->adaptive);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        br_field_march_clear(&m->part[kind]);
+    free(m->path);
+    free(m);
+}
+
+enum br_status br_march_allow_lead(struct br_march *m, size_t steps, struct br_error *err)
+{
+    if (steps > 1 && br_fields_go_together(m))
+        return br_fail(err, BR_BAD_INPUT,
+                       "scheme %s: its fields go together, expected a scheme of fixed steps",
+                       m->method.scheme->name);
+    free(m->path);
+    m->lead = steps;
+    m->path = br_allocate(steps, sizeof *m->path);
+    return m->path ? BR_OK : br_no_memory(err, "a march");
+}
 
 /* t_n = n T / N, never summed. */
 static double time_level(const struct br_march *m, size_t n)
@@ -20,7 +100,7 @@ static double time_level(const struct br_march *m, size_t n)
 
 static enum br_status fixed_step(struct br_march *m, enum br_field_kind kind, struct br_error *err)
 {
-    struct br_part *part = &m->part[kind];
+    struct br_field_march *part = &m->part[kind];
     const struct br_step step = {time_level(m, part->done), time_level(m, part->done + 1),
                                  m->scene->duration / (double)m->steps};
     struct br_stages stages;
@@ -45,7 +125,7 @@ static enum br_status common_step(struct br_march *m, enum br_field_kind kind, s
 
 static enum br_status step_field(struct br_march *m, enum br_field_kind kind, struct br_error *err)
 {
-    struct br_part *part = &m->part[kind];
+    struct br_field_march *part = &m->part[kind];
     enum br_status status = BR_OK;
     if (br_fields_go_together(m))
         status = common_step(m, kind, err);
@@ -156,14 +236,14 @@ const struct br_tip *br_march_tip(const struct br_march *m)
 
 double br_march_tip_displacement(const struct br_march *m, enum br_field_kind kind)
 {
-    const struct br_part *part = &m->part[kind];
+    const struct br_field_march *part = &m->part[kind];
     return part->modelled ? part->solver->tip_displacement(part->state) : 0;
 }
 
 void br_march_get(const struct br_march *m, enum br_field_kind kind, double *displacement,
                   double *velocity)
 {
-    const struct br_part *part = &m->part[kind];
+    const struct br_field_march *part = &m->part[kind];
     if (part->modelled) {
         part->solver->get(part->state, displacement, velocity);
         return;
@@ -177,7 +257,7 @@ void br_march_get(const struct br_march *m, enum br_field_kind kind, double *dis
 
 void br_march_strain_rate(const struct br_march *m, enum br_field_kind kind, double *rate)
 {
-    const struct br_part *part = &m->part[kind];
+    const struct br_field_march *part = &m->part[kind];
     if (part->modelled)
         part->solver->strain_rate(part->state, rate);
     else
@@ -196,7 +276,7 @@ bool br_march_models(const struct br_march *m, enum br_field_kind kind)
 
 void br_march_load(const struct br_march *m, enum br_field_kind kind, double *load)
 {
-    const struct br_part *part = &m->part[kind];
+    const struct br_field_march *part = &m->part[kind];
     const struct br_drive *drive = &part->load.drive;
     const size_t size = br_field_size(&part->field), unknowns = br_field_unknowns(&part->field);
     for (size_t i = 0; i < size; i++)
@@ -207,7 +287,7 @@ void br_march_load(const struct br_march *m, enum br_field_kind kind, double *lo
 
 double br_march_compliance(const struct br_march *m, enum br_field_kind kind)
 {
-    const struct br_part *part = &m->part[kind];
+    const struct br_field_march *part = &m->part[kind];
     return part->solver ? part->solver->tip_compliance(part->state) : 0;
 }
 
@@ -218,7 +298,7 @@ bool br_march_contact_unstable(const struct br_march *m)
     return br_contact_grows(&m->part[BR_AXIAL].field, m->scene->contact.stiffness);
 }
 
-static double part_round_off(const struct br_march *m, const struct br_part *part)
+static double part_round_off(const struct br_march *m, const struct br_field_march *part)
 {
     if (part->solver->round_off)
         return part->solver->round_off(part->state, m->steps);
@@ -239,4 +319,106 @@ double br_march_round_off(const struct br_march *m)
         if (m->part[kind].solver)
             largest = fmax(largest, part_round_off(m, &m->part[kind]) + walk(m));
     return largest;
+}
+
+/* ---- range ---- */
+
+/* Whether a march has stayed where double precision has all its digits. */
+static const char *const names[] = {"axial", "bending"};
+
+/* Products of a few numbers of this size with those of a matrix are no less than DBL_MIN / eps. */
+static const double least_size = 1e-280;
+
+/* Squares of these are doubles, and the next step's values, too. */
+const double br_most_size = 1e150;
+
+enum br_status br_march_check_finite(const struct br_march *m, enum br_field_kind kind, double t,
+                                     struct br_error *err)
+{
+    const struct br_tip *tip = &m->tip;
+    const struct {
+        const char *what, *unit;
+        double value;
+    } values[] = {
+        {"velocity of the tip", "m/s", tip->velocity[kind]},
+        {"displacement of the tip", "m", kind == BR_AXIAL ? tip->displacement : 0},
+        {"force on the tip", "N", kind == BR_AXIAL ? tip->contact_force : tip->friction_force},
+    };
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++)
+        if (!(fabs(values[i].value) <= br_most_size))
+            return br_fail(err, BR_NOT_FINITE,
+                           "the march blew up at t = %g s (step %zu of %zu, k = %g s): the %s %s "
+                           "is %g %s",
+                           t, m->part[kind].done, m->steps, m->scene->duration / (double)m->steps,
+                           names[kind], values[i].what, values[i].value, values[i].unit);
+    return BR_OK;
+}
+
+/* A tip that is finite may have elements behind it that are not yet seen there. */
+static enum br_status check_elements(const struct br_march *m, enum br_field_kind kind,
+                                     struct br_error *err)
+{
+    const struct br_field_march *part = &m->part[kind];
+    double size[2];
+    part->solver->size(part->state, 0, size);
+    if (isfinite(size[0]) && isfinite(size[1]))
+        return BR_OK;
+    return br_fail(err, BR_NOT_FINITE,
+                   "the march blew up by t = %g s: the %s strain is %g, its rate %g 1/s",
+                   m->scene->duration, names[kind], size[0], size[1]);
+}
+
+/* What a field's own operator answers to a nodal displacement with, N/m: R of plain.h, and mass. */
+static long double resistance(const struct br_field *f)
+{
+    const long double h = f->h,
+                      stiff = (long double)f->viscosity + (long double)f->k * f->stiffness;
+    const long double volume = f->kind == BR_AXIAL ? h : h * h * h;
+    return stiff / volume + f->density * h / f->k;
+}
+
+/* Where nothing but forces and data far below the others' sizes moves a field, it has few digits,
+ * or none. What only decays to there has them, relative to what it was. */
+static enum br_status check_underflow(const struct br_field_march *part, struct br_error *err)
+{
+    const long double r = resistance(&part->field), force = part->moved_by;
+    const long double motion = fmaxl(force / r * fminl(part->field.k, 1), part->started_with);
+    const long double smaller = fminl(fmaxl(force, r * part->started_with), motion);
+    if (motion == 0 || smaller >= least_size)
+        return BR_OK;
+    return br_fail(err, BR_NOT_FINITE,
+                   "the %s motion is lost to underflow: its largest nodal force is %Lg N and its "
+                   "largest initial value %g m, which is to move an element by about %Lg m, "
+                   "expected no less than %g: choose smaller units",
+                   names[part->field.kind], force, part->started_with, motion, least_size);
+}
+
+enum br_status br_march_check_range(const struct br_march *m, enum br_field_kind kind,
+                                    struct br_error *err)
+{
+    if (!m->part[kind].solver)
+        return BR_OK;
+    const enum br_status status = check_elements(m, kind, err);
+    return status ? status : check_underflow(&m->part[kind], err);
+}
+
+void br_look(const struct br_march *march, enum br_field_kind kind, enum br_measure measure,
+             struct br_view *view)
+{
+    br_view_field(view, br_march_field(march, kind), measure);
+    switch (measure) {
+    case BR_DISPLACEMENT:
+        br_march_get(march, kind, view->values, NULL);
+        return;
+    case BR_VELOCITY:
+        br_march_get(march, kind, NULL, view->values);
+        return;
+    case BR_STRAIN_RATE:
+        br_march_strain_rate(march, kind, view->values);
+        return;
+    case BR_TIP:
+    case BR_MEASURES:
+        break;
+    }
+    *view->values = br_march_tip_displacement(march, kind);
 }

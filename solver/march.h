@@ -5,6 +5,7 @@
 #define BR_SOLVER_MARCH_H
 
 #include "solver/method.h"
+#include "solver/modes.h"
 
 /* What a march has cost so far. */
 struct br_counts {
@@ -100,7 +101,7 @@ void br_march_load(const struct br_march *march, enum br_field_kind kind, double
 /* z_tip of the field, m/s per N. */
 double br_march_compliance(const struct br_march *march, enum br_field_kind kind);
 
-/* Whether the march is beyond the stability limit of the lagged contact (contact_limit.h), and its
+/* Whether the march is beyond the stability limit of the lagged contact (laws.h), and its
  * contact has been closed in a step: that one grew, and the tip chatters, bounded or not, since the
  * contact opens. A contact that has never closed is not touched by it. */
 bool br_march_contact_unstable(const struct br_march *march);
@@ -141,5 +142,10 @@ void br_march_unwatch(struct br_march *march, const void *self);
 /* Predicted round-off of the displacements relative to the exact discrete solution, from the first
  * step on and with what equal steps gather: the larger of the modelled fields'. */
 double br_march_round_off(const struct br_march *march);
+
+/* A march, seen in one of the measures of modes.h. view: out, with br_measure_size values where its
+ * values point to; the tip has one, in m. */
+void br_look(const struct br_march *march, enum br_field_kind kind, enum br_measure measure,
+             struct br_view *view);
 
 #endif

@@ -3,9 +3,8 @@
 #ifndef BR_SOLVER_METHOD_H
 #define BR_SOLVER_METHOD_H
 
-#include "solver/contact.h"
-#include "solver/friction.h"
-#include "solver/linear_solver.h"
+#include "solver/laws.h"
+#include "solver/linear/linear_solver.h"
 #include "solver/scheme.h"
 
 /* How a scene is marched. */
@@ -38,5 +37,19 @@ enum br_status br_method_check(const struct br_method *method, struct br_error *
  * be anything. */
 enum br_status br_method_check_scene(const struct br_method *method, const struct br_scene *scene,
                                      struct br_error *err);
+
+/* ---- damping ---- */
+
+/* Schemes that need damping: how much, for the vibration that a mesh has at a step. */
+
+/* The largest step, s, with which a scheme that needs damping lets no mode of a field grow:
+ * INFINITY where any will do. spring: whether an undamped spring at the tip, the contact, may take
+ * its part of a mode. */
+double br_damping_largest_step(const struct br_field *field, bool spring);
+
+/* Refuses (BR_BAD_INPUT) a march of a scheme that needs damping on n elements with a step of k, s,
+ * where a mode would grow. */
+enum br_status br_damping_check(const struct br_method *method, const struct br_scene *scene,
+                                size_t n, double k, struct br_error *err);
 
 #endif

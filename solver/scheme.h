@@ -6,7 +6,7 @@
  * where Z is a sum of states that are known and Y' obeys the equations of motion with the contact
  * and friction laws at the stage's own time. That is an Euler step of length tau which starts at Z:
  * schemes differ in gamma and in the weights of Z alone, and the laws are the same scalar problem
- * (contact.h, friction.h), enforced exactly at every stage. The last stage of every scheme here is
+ * (laws.h), enforced exactly at every stage. The last stage of every scheme here is
  * the step's end. */
 #ifndef BR_SOLVER_SCHEME_H
 #define BR_SOLVER_SCHEME_H

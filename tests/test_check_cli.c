@@ -12,7 +12,7 @@
 
 #include "cli_driver.h"
 #include "reference/judge.h"
-#include "solver/sweep_kernel.h"
+#include "solver/linear/riccati/kernel.h"
 #include "support.h"
 
 /* A scene that takes no time, with its verify part; lines 11 to 13. */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solver/contact_limit.h"
+#include "solver/laws.h"
 #include "study/foresee/warn_contact.h"
 #include "support.h"
 

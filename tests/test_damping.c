@@ -4,7 +4,7 @@
 #include <complex.h>
 #include <math.h>
 
-#include "solver/damping.h"
+#include "solver/method.h"
 #include "support.h"
 
 /* Whether bdf3 lets a solution of y' = (z / k) y grow: a root of

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solver/damping.h"
+#include "solver/method.h"
 #include "support.h"
 #include "tests/dense_march.h"
 

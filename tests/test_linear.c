@@ -50,7 +50,7 @@ static void *created(const struct br_linear_solver *solver, const struct problem
     struct br_linear_options options = br_linear_defaults;
     options.refinement = refinement;
     void *self;
-    MUST(functions(solver, p)->create(&p->field, &options, &self, &err));
+    MUST(functions(solver, p)->create(solver, &p->field, &options, &self, &err));
     return self;
 }
 
@@ -314,7 +314,7 @@ static void refuses(const struct br_linear_solver *solver, const struct problem 
     options.refinement = refinement;
     void *self;
     const struct br_field_solver *f = functions(solver, p);
-    REFUSED(f->create(&p->field, &options, &self, &err), BR_SINGULAR, text);
+    REFUSED(f->create(solver, &p->field, &options, &self, &err), BR_SINGULAR, text);
     assert_ptr_equal(strstr(err.message, solver->name), err.message);
     f->free(self);
 }

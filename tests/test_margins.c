@@ -3,7 +3,7 @@
  * their branch of a law for a part of a step, or rest at its end, loads that jump, and blows. */
 #include <math.h>
 
-#include "solver/margins.h"
+#include "solver/march_state.h"
 #include "support.h"
 
 static struct br_margins of(size_t count, const double margin[])

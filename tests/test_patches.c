@@ -31,7 +31,7 @@ static void solve_once(const struct br_linear_solver *s, const struct br_field *
     void *self;
     double free_velocity;
     const struct br_field_solver *solver = solver_of(s, field->kind);
-    MUST(solver->create(field, &br_linear_defaults, &self, &err));
+    MUST(solver->create(s, field, &br_linear_defaults, &self, &err));
     MUST(solver->predict(self, &(struct br_drive){load, 1, true, {0, 0}}, &free_velocity, &err));
     const double velocity = solver->finish(self, tip_force);
     CLOSE(velocity, free_velocity - tip_force * solver->tip_compliance(self),
@@ -79,7 +79,7 @@ static double compliance_of(const struct br_linear_solver *s, const struct br_fi
     struct br_error err = {0};
     void *self;
     const struct br_field_solver *solver = solver_of(s, field->kind);
-    MUST(solver->create(field, &br_linear_defaults, &self, &err));
+    MUST(solver->create(s, field, &br_linear_defaults, &self, &err));
     const double z = solver->tip_compliance(self);
     solver->free(self);
     return z;

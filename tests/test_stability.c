@@ -7,7 +7,7 @@
 
 #include "figure_check.h"
 #include "plots/pictures.h"
-#include "solver/contact_limit.h"
+#include "solver/laws.h"
 #include "study/extremes/stability.h"
 #include "study/extremes/step_matrix.h"
 #include "study/grid/observer.h"

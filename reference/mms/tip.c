@@ -3,8 +3,7 @@
 
 #include <math.h>
 
-#include "solver/contact.h"
-#include "solver/friction.h"
+#include "solver/laws.h"
 
 static double value_of(const struct br_function *f, double t)
 {

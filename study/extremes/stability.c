@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solver/contact_limit.h"
+#include "solver/laws.h"
 #include "study/extremes/step_matrix.h"
 #include "study/grid/each.h"
 

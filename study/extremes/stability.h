@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where does the contact make a march unstable? Measured by marches, and against what
- * solver/contact_limit.h predicts: the lagged contact over the plane of c_H and k, contact at u_n
+ * solver/laws.h predicts: the lagged contact over the plane of c_H and k, contact at u_n
  * with every scheme, tips that rest, chatter and bounce. */
 #ifndef BR_STUDY_EXTREMES_STABILITY_H
 #define BR_STUDY_EXTREMES_STABILITY_H

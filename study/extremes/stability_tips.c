@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "reference/energy/energy.h"
-#include "solver/contact_limit.h"
+#include "solver/laws.h"
 #include "study/run/run.h"
 
 static const double tip_shares[BR_STABILITY_TIPS] = {0.5, 0.9, 0.99, 1.01, 1.1, 2, 10, 1e3, 1e6};

@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "reference/energy/energy.h"
-#include "solver/contact_limit.h"
+#include "solver/laws.h"
 #include "study/foresee/warnings.h"
 #include "study/run/model.h"
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "solver/contact_limit.h"
+#include "solver/laws.h"
 
 double br_round_steps(double least)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The warning of a lagged contact that will be unstable (solver/contact_limit.h). */
+/* The warning of a lagged contact that will be unstable (solver/laws.h). */
 #ifndef BR_STUDY_FORESEE_WARN_CONTACT_H
 #define BR_STUDY_FORESEE_WARN_CONTACT_H
 

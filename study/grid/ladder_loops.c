@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One kernel, for the instruction set BR_SET: this file is compiled for each (meson.build), and
- * contracted (solver/sweep.h). */
+ * contracted (solver/instruction_set.h). */
 #include "study/grid/ladder_vectors.h"
 
 /* The children j and ratio - 1 - j are mirror images, and so are their transfers: those from even

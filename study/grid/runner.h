@@ -3,7 +3,7 @@
 #ifndef BR_STUDY_GRID_RUNNER_H
 #define BR_STUDY_GRID_RUNNER_H
 
-#include "solver/look.h"
+#include "solver/march.h"
 
 struct br_resolution;
 

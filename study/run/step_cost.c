@@ -36,16 +36,18 @@ void br_step_cost_lap(struct br_step_cost *cost, enum br_cost_part part)
 
 /* ---- the wrapping solver ---- */
 
-static enum br_status create(const struct br_field *field, const struct br_linear_options *options,
-                             void **self, struct br_error *err)
+static enum br_status create(const struct br_linear_solver *row, const struct br_field *field,
+                             const struct br_linear_options *options, void **self,
+                             struct br_error *err)
 {
+    (void)row;
     struct wrapped *w = br_allocate(1, sizeof *w);
     *self = w;
     if (!w)
         return br_no_memory(err, "a solver");
     w->kind = field->kind;
     w->solver = br_linear_solver_for(inner, field);
-    return w->solver->create(field, options, &w->state, err);
+    return w->solver->create(inner, field, options, &w->state, err);
 }
 
 static void release(void *self)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "solver/sweep_kernel.h"
+#include "solver/linear/riccati/kernel.h"
 #include "tests/bench/bench.h"
 
 struct set {

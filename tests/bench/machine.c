@@ -3,8 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "solver/sweep_cost.h"
-#include "solver/sweep_kernel.h"
+#include "solver/linear/riccati/kernel.h"
 #include "tests/bench/bench.h"
 
 void bench_machine(void **state)

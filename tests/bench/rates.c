@@ -3,7 +3,7 @@
  * vectorised by the compiler, so that the scalar row stays scalar. */
 #include <string.h>
 
-#include "solver/sweep_kernel.h"
+#include "solver/linear/riccati/kernel.h"
 #include "tests/bench/bench.h"
 
 enum { ROUNDS = 200000, CHAINS = 12 };

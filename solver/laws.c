@@ -1,0 +1,393 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/laws.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- contact ---- */
+
+double br_penetration(const struct br_contact *contact, double displacement)
+{
+    const double depth = displacement - contact->gap;
+    return depth < 0 ? 0 : depth; /* NaN stays NaN */
+}
+
+/* r = c_H (u_{n-1} - g)_+ */
+static double lagged_force(const struct br_contact *contact, const struct br_contact_state *s)
+{
+    return contact->stiffness * br_penetration(contact, s->displacement);
+}
+
+/* r = c_H (u_n - g)_+ with u_n = u_{n-1} + k (v* - r z): piecewise linear in r. */
+static double implicit_force(const struct br_contact *contact, const struct br_contact_state *s)
+{
+    const double depth = br_penetration(contact, s->displacement + s->k * s->free_velocity);
+    return contact->stiffness * depth / (1 + contact->stiffness * s->k * s->compliance);
+}
+
+static const struct br_contact_rule lagged = {
+    .name = "lagged",
+    .title = "contact force from u_{n-1}, as the paper prints it; conditionally stable",
+    .citation = "Campo et al. 2006, (16) and (27)",
+    .force = lagged_force,
+};
+
+static const struct br_contact_rule implicit = {
+    .name = "implicit",
+    .title = "contact force from u_n, in closed form at the same cost; unconditionally stable",
+    .citation = "backward Euler; solver/laws.c",
+    .at_new_step = true,
+    .force = implicit_force,
+};
+
+const struct br_contact_rule *const br_contact_rules[] = {&lagged, &implicit, NULL};
+
+const struct br_contact_rule *br_contact_rule_find(const char *name)
+{
+    for (const struct br_contact_rule *const *rule = br_contact_rules; *rule; rule++)
+        if (strcmp((*rule)->name, name) == 0)
+            return *rule;
+    return NULL;
+}
+
+/* ---- friction ---- */
+
+const struct br_iteration br_iteration_defaults = {
+    .parameter = 0.5, .tolerance = 1e-10, .most = 10000};
+
+double br_friction_bound(const struct br_scene *scene, double penetration)
+{
+    switch (scene->friction.law) {
+    case BR_TRESCA:
+        return scene->friction.coefficient;
+    case BR_COULOMB:
+        return scene->friction.coefficient * penetration;
+    case BR_FRICTIONLESS:
+        break;
+    }
+    return 0;
+}
+
+/* lambda into [-bound, bound]; NaN stays NaN, and raises no flag. */
+static double clamp(double lambda, double bound)
+{
+    if (isgreater(lambda, bound))
+        return bound;
+    return isless(lambda, -bound) ? -bound : lambda;
+}
+
+/* (12): stick, v = 0, while |lambda| <= h; slip with |lambda| = h otherwise. Where that is certain
+ * nothing is divided, which could overflow. */
+static double exact_force(struct br_friction_state *s)
+{
+    if (isgreater(fabs(s->free_velocity), 2 * s->bound * s->compliance))
+        return copysign(s->bound, s->free_velocity);
+    return clamp(s->free_velocity / s->compliance, s->bound);
+}
+
+/* (29), corrected: lambda = h v / mu for |v| <= mu, h sign(v) beyond. With v = v* - lambda z it is
+ * h v* / (mu + h z) up to |v*| = mu + h z; no product of h and v* is formed, which could overflow
+ * or be lost. */
+static double regularised_force(struct br_friction_state *s)
+{
+    const double width = s->regularisation + s->bound * s->compliance;
+    if (isgreaterequal(fabs(s->free_velocity), width))
+        return copysign(s->bound, s->free_velocity);
+    if (s->bound * s->compliance > s->regularisation)
+        return clamp(s->free_velocity / (s->regularisation / s->bound + s->compliance), s->bound);
+    return clamp(s->free_velocity / width * s->bound, s->bound);
+}
+
+static const struct br_friction_rule exact = {
+    .name = "exact",
+    .title = "the law itself: stick is v = 0",
+    .citation = "Campo et al. 2006, (12) and (17)",
+    .force = exact_force,
+};
+
+static const struct br_friction_rule regularised = {
+    .name = "regularised",
+    .title = "smoothed over |v| <= mu with the scene's mu",
+    .citation = "Campo et al. 2006, (29)-(30), misprints corrected",
+    .needs_regularisation = true,
+    .force = regularised_force,
+};
+
+/* ---- friction by iteration ---- */
+
+/* The friction law as the literature solves it, with v = v* - lambda z: find lambda in b Sign(v).
+ *
+ * Uzawa (Glowinski 1984; Cheng and Han 2003) with rho > 0, N per m/s:
+ *     lambda <- P(lambda + rho v),  P the projection onto [-b, b].
+ *
+ * Penalty-duality (Bermudez and Moreno 1981) with omega > 0 and the dual variable
+ * q = lambda - omega v, which is in G(v) = b Sign(v) - omega v:
+ *     v (1 + omega z) = v* - z q,    q <- G_zeta(v + zeta q),
+ * G_zeta being the Yosida regularisation (I - J)/zeta, J = (I + zeta G)^-1. With zeta omega = 1/2,
+ * the largest for which they prove convergence, and g = 2 omega v + q it is, for stick and slip,
+ *     q <- 2 P(g) - g,    lambda = P(g).
+ *
+ * In units of b, with f = v* / (z b), v = z b (f - lambda), both are one iteration, with a
+ * projection or a reflection:
+ *     g = x + a (f - x),    x <- P(g) or 2 P(g) - g,    lambda = P(g),
+ *     Uzawa:              x = lambda,  a = rho z,
+ *     penalty-duality:    x = q,       a = 2 omega z / (1 + omega z).
+ * Neither P nor 2 P - I takes points apart, so an iteration leaves |1 - a| of an error at most:
+ * Uzawa converges for 0 < rho z < 2, penalty-duality for all omega z > 0, both at once for 1. */
+
+/* The projection onto [-1, 1]; NaN stays NaN, and raises no flag. */
+static double project(double g)
+{
+    if (isgreater(g, 1))
+        return 1;
+    return isless(g, -1) ? -1 : g;
+}
+
+struct iteration {
+    double a;
+    bool reflects;
+    double x; /* where it starts */
+    double f;
+};
+
+/* An upper bound of |g - its limit| after an iteration by `change`, round-off included. */
+static double error_bound(const struct iteration *i, double g, double change)
+{
+    const double left = fabs(1 - i->a);
+    const double round_off = 4 * DBL_EPSILON * (fabs(g) + fabs(i->x) + fabs(i->a * i->f));
+    return (left * fabs(change) + round_off) / (1 - left);
+}
+
+/* lambda/b; it is exact where the slip is certain. */
+static double iterate(struct iteration *i, struct br_friction_state *s)
+{
+    if (!(fabs(1 - i->a) < 1) || isnan(i->f) || isnan(i->x))
+        return NAN;
+    for (size_t count = 0; count < s->iteration.most; count++) {
+        s->iterations++;
+        const double g = i->x + i->a * (i->f - i->x), lambda = project(g);
+        const double next = i->reflects ? 2 * lambda - g : lambda;
+        const double error = error_bound(i, g, next - i->x);
+        if (error <= s->iteration.tolerance || fabs(g) - error >= 1)
+            return lambda;
+        i->x = next;
+    }
+    return NAN;
+}
+
+/* f = v* / (z b), without a product or quotient on the way that is no double. Its limit, 1e50,
+ * changes no lambda, and keeps what follows finite. */
+static double relative_force(const struct br_friction_state *s)
+{
+    const int most = 166; /* 2^166 is about 1e50 */
+    if (isinf(s->free_velocity))
+        return copysign(1e50, s->free_velocity);
+    int v = 0, z = 0, b = 0;
+    const double f = frexp(s->free_velocity, &v) / frexp(s->compliance, &z) / frexp(s->bound, &b);
+    return ldexp(f, v - z - b < most ? v - z - b : most);
+}
+
+/* lambda / b of the step before, into [-1, 1]. */
+static double relative_last(const struct br_friction_state *s)
+{
+    return isgreaterequal(fabs(s->last), s->bound) ? copysign(1, s->last) : s->last / s->bound;
+}
+
+/* Without a bound there is no friction; what is not a number stays so. */
+static bool has_no_bound(const struct br_friction_state *s)
+{
+    return s->bound == 0 && !isnan(s->free_velocity) && !isnan(s->compliance);
+}
+
+static double uzawa_contraction(double parameter)
+{
+    return fabs(1 - parameter);
+}
+
+static double uzawa_force(struct br_friction_state *s)
+{
+    if (has_no_bound(s))
+        return 0;
+    struct iteration i = {
+        .a = s->iteration.parameter,
+        .x = relative_last(s),
+        .f = relative_force(s),
+    };
+    return s->bound * iterate(&i, s);
+}
+
+static double penalty_duality_contraction(double parameter)
+{
+    return fabs(1 - parameter) / (1 + parameter);
+}
+
+static double penalty_duality_force(struct br_friction_state *s)
+{
+    if (has_no_bound(s))
+        return 0;
+    const double omega = s->iteration.parameter, f = relative_force(s);
+    const double lambda = relative_last(s);
+    struct iteration i = {
+        .a = 2 * omega / (1 + omega),
+        .reflects = true,
+        .x = lambda - omega * (f - lambda),
+        .f = f,
+    };
+    return s->bound * iterate(&i, s);
+}
+
+static const struct br_friction_rule penalty_duality = {
+    .name = "penalty-duality",
+    .title = "the law itself by the paper's iteration; its parameter is omega z_tip > 0",
+    .citation = "Bermudez and Moreno, Comput. Math. Appl. 7 (1981) 43-58",
+    .iterates = true,
+    .parameter_below = INFINITY,
+    .contraction = penalty_duality_contraction,
+    .force = penalty_duality_force,
+};
+
+static const struct br_friction_rule uzawa = {
+    .name = "uzawa",
+    .title = "the law itself by Uzawa's iteration; its parameter is rho z_tip, below 2",
+    .citation = "Glowinski, Numerical methods for nonlinear variational problems, 1984; Cheng and "
+                "Han, Comput. Methods Appl. Mech. Eng. 192 (2003) 1451-1462",
+    .iterates = true,
+    .parameter_below = 2,
+    .contraction = uzawa_contraction,
+    .force = uzawa_force,
+};
+
+/* ---- the friction rules ---- */
+
+const struct br_friction_rule *const br_friction_rules[] = {&exact, &regularised, &penalty_duality,
+                                                            &uzawa, NULL};
+
+const struct br_friction_rule *br_friction_rule_find(const char *name)
+{
+    for (const struct br_friction_rule *const *rule = br_friction_rules; *rule; rule++)
+        if (strcmp((*rule)->name, name) == 0)
+            return *rule;
+    return NULL;
+}
+
+enum br_status br_friction_check(const struct br_friction_rule *rule, const struct br_iteration *i,
+                                 struct br_error *err)
+{
+    if (!rule->iterates)
+        return BR_OK;
+    char below[32] = "";
+    if (isfinite(rule->parameter_below))
+        snprintf(below, sizeof below, " and below %g", rule->parameter_below);
+    if (!(i->parameter > 0 && i->parameter < rule->parameter_below))
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "the parameter of friction rule '%s' is %g, expected a number above 0%s, where "
+            "it converges",
+            rule->name, i->parameter, below);
+    if (!(i->tolerance > 1e-14 && i->tolerance < 1) || i->most < 1)
+        return br_fail(err, BR_BAD_INPUT,
+                       "friction rule '%s' is to iterate to %g, at most %zu times, expected a "
+                       "tolerance above 1e-14 and below 1, and at least once",
+                       rule->name, i->tolerance, i->most);
+    return BR_OK;
+}
+
+/* ---- the limit of the lagged contact ---- */
+
+/* An element without its bubble: [d o; o d] works on its two nodes. What is needed, over N/m, is
+ * d + o, which is inertia alone, and d - o. Neither subtracts anything. */
+struct element {
+    double sum, difference;
+};
+
+/* m = s^2 rho h, r = (c s + a)/h, N/m. */
+static struct element element_of(const struct br_field *field, double m, double r)
+{
+    struct element e = {m / 2, 2 * r + m / 6};
+    if (br_field_is_quadratic(field)) /* the bubble has r/3 + m/30, and couples with -m/12 */
+        e.sum = m * ((r / 6 + m / 360) / (r / 3 + m / 30));
+    return e;
+}
+
+/* A chain of n such elements, clamped at one end: with tanh^2(theta/2) = (d + o)/(d - o),
+ * displacements are sinh(i theta), and 1/G = (d - o) tanh(theta/2) coth(n theta). Where d + o
+ * exceeds d - o neighbours alternate, and the ratio's inverse stands for it. */
+double br_tip_flexibility(const struct br_field *field, double s)
+{
+    const double n = (double)field->n;
+    const double m = s * s * field->density * field->h;
+    const double r = (field->viscosity * s + field->stiffness) / field->h;
+    const struct element e = element_of(field, m, r);
+    if (!(e.sum > 0)) /* no inertia: springs in series */
+        return 2 * n / e.difference;
+    if (!isfinite(e.sum) || !isfinite(e.difference))
+        return 0;
+    const double half = sqrt(e.sum / e.difference);
+    return tanh(2 * n * atanh(half < 1 ? half : 1 / half)) / (e.difference * half);
+}
+
+double br_contact_limit_stiffness(const struct br_field *field)
+{
+    return 1 / br_tip_flexibility(field, 2 / field->k);
+}
+
+double br_contact_limit_bouncing(const struct br_field *field)
+{
+    return (field->stiffness + 2 * field->viscosity / field->k) / ((double)field->n * field->h);
+}
+
+bool br_contact_grows(const struct br_field *field, double stiffness)
+{
+    return !(stiffness * br_tip_flexibility(field, 2 / field->k) <= 1 + 1e-12);
+}
+
+/* A value that is not positive below a root and positive above it. */
+typedef double (*rising)(const struct br_field *field, double stiffness, double x);
+
+/* The root between low and high, both positive, to the last digits; the end below it. Halving needs
+ * no memory and cannot fail. */
+static double root_of(rising f, const struct br_field *field, double stiffness, double low,
+                      double high)
+{
+    for (int i = 0; i < 200; i++) {
+        const double middle = sqrt(low) * sqrt(high);
+        if (!(middle > low && middle < high))
+            break;
+        if (f(field, stiffness, middle) > 0)
+            high = middle;
+        else
+            low = middle;
+    }
+    return low;
+}
+
+static double beyond_step(const struct br_field *field, double stiffness, double k)
+{
+    return stiffness * br_tip_flexibility(field, 2 / k) - 1;
+}
+
+double br_contact_limit_step(const struct br_field *field, double stiffness)
+{
+    const double least = 1e-150, most = 1e150;
+    if (!(beyond_step(field, stiffness, most) > 0))
+        return INFINITY;
+    if (beyond_step(field, stiffness, least) > 0)
+        return 0;
+    return root_of(beyond_step, field, stiffness, least, most);
+}
+
+/* z = -r: r - c_H G((1 + 1/r)/k), from where it is negative, r = 1, to where it is not. */
+static double beyond_growth(const struct br_field *field, double stiffness, double r)
+{
+    return r - stiffness * br_tip_flexibility(field, (1 + 1 / r) / field->k);
+}
+
+double br_contact_growth(const struct br_field *field, double stiffness)
+{
+    if (!br_contact_grows(field, stiffness))
+        return 1;
+    return root_of(beyond_growth, field, stiffness, 1,
+                   stiffness * br_tip_flexibility(field, 1 / field->k));
+}

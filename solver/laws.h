@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The laws at the tip, one scalar problem a step each: normal compliance (10) and friction (12) as
+ * registries of rules, and where the lagged contact of (16) ceases to be stable. */
+#ifndef BR_SOLVER_LAWS_H
+#define BR_SOLVER_LAWS_H
+
+#include "solver/field.h"
+
+/* ---- contact ---- */
+
+/* When (10) takes its penetration. */
+
+/* The tip before and during a step. */
+struct br_contact_state {
+    double displacement;  /* u_{n-1}(L), m */
+    double free_velocity; /* v*, the tip's velocity were there no contact, m/s */
+    double compliance;    /* z_tip, m/s per N */
+    double k;             /* time step, s */
+};
+
+struct br_contact_rule {
+    const char *name;  /* as on the command line */
+    const char *title; /* one line for a person */
+    const char *citation;
+    bool at_new_step; /* the force is that at u_n */
+    /* The contact force c_H (u - g)_+ >= 0, N, that resists the tip in this step. */
+    double (*force)(const struct br_contact *contact, const struct br_contact_state *state);
+};
+
+/* NULL-terminated; the first is the default, the paper's. */
+extern const struct br_contact_rule *const br_contact_rules[];
+const struct br_contact_rule *br_contact_rule_find(const char *name);
+
+/* Penetration (u - g)_+, m. */
+double br_penetration(const struct br_contact *contact, double displacement);
+
+/* ---- friction ---- */
+
+/* How rules that iterate do so. */
+struct br_iteration {
+    double parameter; /* over the one that converges fastest, 1 / z_tip: 1 is that one */
+    double tolerance; /* of lambda, relative to the bound */
+    size_t most;      /* iterations a step; a march that needs more fails */
+};
+
+/* 1/2: as if z_tip were known within a factor of 2, and taken on its safe side, too large. 1 would
+ * be the solution in one iteration, which nobody has who does not solve for z_tip first. */
+extern const struct br_iteration br_iteration_defaults;
+
+/* With v = v* - lambda z: find lambda in bound * Sign(v), or its regularisation. */
+struct br_friction_state {
+    double free_velocity;  /* v*, m/s */
+    double compliance;     /* z_tip, m/s per N */
+    double bound;          /* h(t_n) >= 0, N */
+    double regularisation; /* mu, m/s */
+    double last;           /* lambda of the step before, N: where iterations start */
+    struct br_iteration iteration;
+    size_t iterations; /* out: added to by rules that iterate */
+};
+
+struct br_friction_rule {
+    const char *name;  /* as on the command line */
+    const char *title; /* one line for a person */
+    const char *citation;
+    bool needs_regularisation; /* the scene must give mu > 0 */
+    bool iterates;             /* heeds br_iteration */
+    double parameter_below;    /* iterations converge for parameters > 0 below this */
+    /* What an iteration leaves of an error, at most, for such a parameter; NULL: none is made. */
+    double (*contraction)(double parameter);
+    /* lambda = -sigma_V(L), N: the friction force that resists the tip. NaN: the data are, or the
+     * iterations did not converge. */
+    double (*force)(struct br_friction_state *state);
+};
+
+/* NULL-terminated; the first is the default. */
+extern const struct br_friction_rule *const br_friction_rules[];
+const struct br_friction_rule *br_friction_rule_find(const char *name);
+
+/* Refuses (BR_BAD_INPUT) an iteration with which the rule does not converge. */
+enum br_status br_friction_check(const struct br_friction_rule *rule,
+                                 const struct br_iteration *iteration, struct br_error *err);
+
+/* The friction bound h, N, at the penetration (u - g)_+, m. */
+double br_friction_bound(const struct br_scene *scene, double penetration);
+
+/* ---- the limit of the lagged contact ---- */
+
+/* Where the lagged contact of (16) ceases to be stable: exactly, for the discretisation that is
+ * marched, in closed form.
+ *
+ * While the contact is closed, a step with the force of u_{n-1} is linear. For u_n = z^n U, with
+ * s = (1 - 1/z)/k, it reads
+ *     (s^2 M + s C + K) U = -(c_H / z) U_tip e_tip,
+ * so that the step's eigenvalues are the zeros of
+ *     z + c_H G(s(z)),    G(s) = e_tip'(s^2 M + s C + K)^-1 e_tip,
+ * the tip's displacement per unit of force. For c_H = 0 all of them lie inside the unit circle. As
+ * c_H grows they leave it only where G(s)/z is real and negative on |z| = 1. With z = e^{i theta},
+ * 0 < theta < pi, the argument of s^2 is pi - theta, and so that of every x'(s^2 M + s C + K)x lies
+ * in [0, pi - theta], and not at its upper end, since K is definite. So the argument of G lies in
+ * (theta - pi, 0] and that of G/z in (-pi, -theta]: never negative. At z = 1 it is positive. What
+ * remains is z = -1, s = 2/k:
+ *     stable if and only if    c_H G(2/k) <= 1,
+ * whatever the inertia and the viscosity are. Beyond it exactly one eigenvalue is outside, real and
+ * below -1, and the closed tip's error grows by it in every step, with alternating sign. Without
+ * inertia this is c_H L <= a + 2c/k.
+ *
+ * An opening and closing contact is another matter: multiply a step with its v_n, and the energies
+ * with the contact's own do not grow, whatever the tip does, as long as
+ *     c_H <= min over v of (2/k v'Cv + v'Kv) / v_tip^2 = (a + 2c/k)/L,
+ * the limit without inertia. Between the two an impact may gain energy. */
+
+/* G(s) of an axial field, m/N, for real s > 0, 1/s; its step k does not matter. A uniform rod of
+ * linear elements, or of quadratic ones whose bubbles are eliminated, is a chain of equal springs
+ * and masses. */
+double br_tip_flexibility(const struct br_field *field, double s);
+
+/* The largest c_H, N/m, with which a lagged contact that stays closed is stable with the field's
+ * step; INFINITY where none is too large. */
+double br_contact_limit_stiffness(const struct br_field *field);
+
+/* The largest c_H, N/m, with which a lagged contact gains no energy however it opens and closes. */
+double br_contact_limit_bouncing(const struct br_field *field);
+
+/* The longest step, s, with which a closed lagged contact of that c_H, N/m, is stable: INFINITY
+ * where all are, 0 where none is. */
+double br_contact_limit_step(const struct br_field *field, double stiffness);
+
+/* Whether a closed lagged contact grows with the field's step; at the limit, to round-off, it does
+ * not. */
+bool br_contact_grows(const struct br_field *field, double stiffness);
+
+/* How much it grows in a step: the size of the eigenvalue outside the unit circle; 1 where there is
+ * none. */
+double br_contact_growth(const struct br_field *field, double stiffness);
+
+#endif

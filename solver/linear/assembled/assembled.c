@@ -1,0 +1,573 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/linear/assembled/assembled.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "solver/arithmetic.h"
+#include "solver/linear/states.h"
+#include "solver/modes.h"
+
+/* ---- the elements ---- */
+
+enum { MOST = 4 }; /* unknowns of an element */
+
+/* Element stiffness for unit material: B'B / h, or B' diag(1, 1/3) B / h^3. */
+static double stiffness_entry(const struct br_field *f, size_t a, size_t b)
+{
+    if (f->kind == BR_AXIAL)
+        return (a == b ? 1 : -1) / f->h;
+    static const double first[MOST] = {0, -1, 0, 1}, second[MOST] = {6, 3, -6, 3};
+    return (first[a] * first[b] + second[a] * second[b] / 3) / (f->h * f->h * f->h);
+}
+
+/* Of the element's M/k + C + kK. */
+static double entry(const struct br_field *f, size_t a, size_t b)
+{
+    const double mass = f->kind == BR_AXIAL ? br_axial_mass[a][b] : br_bending_mass[a][b];
+    const double stiff = f->viscosity + f->k * f->stiffness;
+    return f->density * f->h * mass / f->k + stiff * stiffness_entry(f, a, b);
+}
+
+/* The lower band of A (out, a->value: zeroed by the caller). */
+static void band_assemble(const struct br_field *f, struct br_band *m)
+{
+    const size_t u = br_field_unknowns(f), rows = m->band + 1;
+    for (size_t e = 0; e < f->n; e++)
+        for (size_t a = 0; a < 2 * u; a++)
+            for (size_t b = 0; b <= a; b++) {
+                const size_t i = e * u + a, j = e * u + b;
+                if (j < u)
+                    continue; /* clamped */
+                m->value[(j - u) * rows + i - j] += entry(f, a, b);
+            }
+}
+
+/* Each element's right half is carried on to the next node. */
+static void add_axial(const struct br_field *f, double mass, const double *v, double stiffness,
+                      const double *w, double *out)
+{
+    const double stiff = stiffness / f->h;
+    double carried = 0;
+    for (size_t i = 0; i < f->n; i++) {
+        const double force = stiff * (w[i + 1] - w[i]);
+        out[i] += carried + mass * (v[i] / 3 + v[i + 1] / 6) + force;
+        carried = mass * (v[i] / 6 + v[i + 1] / 3) - force;
+    }
+    out[f->n] += carried;
+}
+
+static void add_bending(const struct br_field *f, double mass, const double *v, double stiffness,
+                        const double *w, double *out)
+{
+    const double rigidity = stiffness / (f->h * f->h * f->h);
+    double carried[2] = {0, 0};
+    for (size_t i = 0; i < f->n; i++) {
+        const double *x = v + 2 * i;
+        double kappa[2], momentum[MOST];
+        br_curvature(w + 2 * i, kappa);
+        const double m0 = rigidity * kappa[0], m1 = rigidity / 3 * kappa[1];
+        for (int a = 0; a < MOST; a++)
+            momentum[a] = mass * (br_bending_mass[a][0] * x[0] + br_bending_mass[a][1] * x[1] +
+                                  br_bending_mass[a][2] * x[2] + br_bending_mass[a][3] * x[3]);
+        out[2 * i] += carried[0] + momentum[0] - 6 * m1;
+        out[2 * i + 1] += carried[1] + momentum[1] - (3 * m1 - m0);
+        carried[0] = momentum[2] + 6 * m1;
+        carried[1] = momentum[3] - (3 * m1 + m0);
+    }
+    out[2 * f->n] += carried[0];
+    out[2 * f->n + 1] += carried[1];
+}
+
+/* out += mass (consistent mass over h) v - stiffness (K of unit material) w, clamped node included.
+ * Nodal arrays as in field.h: v, w in; out in/out. mass: kg or kg/s; stiffness: N, N m^2, or times
+ * s. K w is formed from what deforms each element, which loses less than an assembled K would. */
+static void add_elements(const struct br_field *f, double mass, const double *v, double stiffness,
+                         const double *w, double *out)
+{
+    if (f->kind == BR_AXIAL)
+        add_axial(f, mass * f->h, v, stiffness, w, out);
+    else
+        add_bending(f, mass * f->h, v, stiffness, w, out);
+}
+
+/* ---- the system A x = b ---- */
+
+struct system {
+    struct br_field field;
+    size_t unknowns; /* a node */
+    size_t nodal;    /* length of a nodal array, clamped node included */
+    const struct br_factoriser *factoriser;
+    void *factor;
+    int refinement; /* steps a solve, at most, where the factoriser does not do it */
+    struct br_band matrix;
+    double *residual, *correction; /* workspace, nodal */
+};
+
+/* Prepares what does not depend on the values; clear it even where it fails. */
+static enum br_status system_init(struct system *s, const struct br_field *field,
+                                  const struct br_linear_options *options,
+                                  const struct br_factoriser *factoriser, struct br_error *err)
+{
+    s->field = *field;
+    s->unknowns = br_field_unknowns(field);
+    s->nodal = br_field_size(field);
+    s->factoriser = factoriser;
+    s->refinement = factoriser->refines ? 0 : options->refinement;
+    s->matrix = (struct br_band){.order = s->unknowns * field->n, .band = 2 * s->unknowns - 1};
+    if (field->n > 100 * 1000 * 1000) /* the libraries count entries in int */
+        return br_fail(err, BR_BAD_INPUT, "%s: n is %zu, expected at most 1e8", factoriser->name,
+                       field->n);
+    s->matrix.value = br_allocate(s->matrix.order * (s->matrix.band + 1), sizeof(double));
+    s->residual = br_allocate(2 * s->nodal, sizeof *s->residual);
+    if (!s->matrix.value || !s->residual)
+        return br_no_memory(err, "the stiffness form");
+    s->correction = s->residual + s->nodal;
+    return factoriser->create(&s->matrix, options, &s->factor, err);
+}
+
+static void system_clear(struct system *s)
+{
+    if (s->factoriser)
+        s->factoriser->free(s->factor);
+    free(s->matrix.value);
+    free(s->residual);
+}
+
+/* Assembles and factorises A for s->field. */
+static enum br_status system_factorise(struct system *s, struct br_error *err)
+{
+    const size_t count = s->matrix.order * (s->matrix.band + 1);
+    memset(s->matrix.value, 0, count * sizeof *s->matrix.value);
+    band_assemble(&s->field, &s->matrix);
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(s->matrix.value[i]))
+            return br_fail(err, BR_SINGULAR, "%s: the matrix has an entry %g, expected numbers",
+                           s->factoriser->name, s->matrix.value[i]);
+    const int traps = br_traps_lift(); /* libraries may try a pivot of 0 */
+    const enum br_status status = s->factoriser->factorise(s->factor, &s->matrix, err);
+    br_traps_restore(traps);
+    return status;
+}
+
+/* NaN where one of them is. */
+static double largest(const double *x, size_t count)
+{
+    double most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = isnan(most) || fabs(x[i]) <= most ? most : fabs(x[i]);
+    return most;
+}
+
+static enum br_status solve_once(struct system *s, const double *rhs, double *x,
+                                 struct br_error *err)
+{
+    return s->factoriser->solve(s->factor, rhs + s->unknowns, x + s->unknowns, err);
+}
+
+/* residual = rhs - A x */
+static void form_residual(struct system *s, const double *rhs, const double *x)
+{
+    const struct br_field *f = &s->field;
+    memcpy(s->residual, rhs, s->nodal * sizeof *rhs);
+    add_elements(f, -f->density / f->k, x, f->viscosity + f->k * f->stiffness, x, s->residual);
+}
+
+static enum br_status no_digits(const struct system *s, struct br_error *err)
+{
+    return br_fail(err, BR_SINGULAR,
+                   "%s: the refinement does not converge, since the matrix of n = %zu elements is "
+                   "too ill-conditioned for a solution with any right digit",
+                   s->factoriser->name, s->field.n);
+}
+
+/* x += A^-1 (rhs - A x), in double, until a correction is no longer half of the one before, or the
+ * next one would be round-off. The residual is formed element by element from what deforms them, so
+ * that it is as exact as one of more digits, and the error itself shrinks, not just the residual
+ * (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., SIAM 2002, section 12.1).
+ * What is not finite is left to the march, which tells it. */
+static enum br_status refine(struct system *s, const double *rhs, double *x, struct br_error *err)
+{
+    double last = largest(x, s->nodal);
+    const double enough = DBL_EPSILON * last;
+    for (int step = 0; step < s->refinement; step++) {
+        form_residual(s, rhs, x);
+        const enum br_status status = solve_once(s, s->residual, s->correction, err);
+        if (status)
+            return status;
+        const double size = largest(s->correction, s->nodal);
+        if (!(size <= last / 2))
+            return step == 0 && isfinite(size) ? no_digits(s, err) : BR_OK;
+        for (size_t i = 0; i < s->nodal; i++)
+            x[i] += s->correction[i];
+        if (size == 0 || size / last * size <= enough)
+            break;
+        last = size;
+    }
+    return BR_OK;
+}
+
+/* x = A^-1 rhs; both nodal (in, out), and the clamped node of x stays as it is, zero. */
+static enum br_status system_solve(struct system *s, const double *rhs, double *x,
+                                   struct br_error *err)
+{
+    const enum br_status status = solve_once(s, rhs, x, err);
+    return status ? status : refine(s, rhs, x, err);
+}
+
+/* How much of x = A^-1 rhs is wrong, relative to its largest value (out): the correction that one
+ * more step of refinement would make. */
+static enum br_status system_loss(struct system *s, const double *rhs, const double *x,
+                                  double *loss, struct br_error *err)
+{
+    form_residual(s, rhs, x);
+    const enum br_status status = solve_once(s, s->residual, s->correction, err);
+    if (!status)
+        *loss = largest(s->correction, s->nodal) / largest(x, s->nodal);
+    return status;
+}
+
+/* Before a march: upper estimates of what was measured for n = 100 to 100,000 and k = 1e-2 to 1e-6
+ * in the paper's examples and a vibration of little damping (study/extremes/floors.h). For bending
+ * first like the condition number, n^4, and from n = 1100 like n^3. A march measures its own. */
+static double without_refinement(const struct br_field *f)
+{
+    const double n = (double)f->n;
+    if (f->kind == BR_AXIAL)
+        return DBL_EPSILON * (100 * n + n * n / 2);
+    return DBL_EPSILON * fmax(fmax(16, fmin(n / 4, 25)), fmin(n * n / 400, 3000)) * n * n * n;
+}
+
+/* What a refinement step leaves of an error. */
+static double left_by_a_step(const struct br_field *f)
+{
+    const double n = (double)f->n;
+    return fmin(0.5, f->kind == BR_AXIAL ? without_refinement(f) : 4000 * DBL_EPSILON * n * n * n);
+}
+
+/* UMFPACK's refinement repairs residuals, not errors: with it, up to 10 times as much. */
+static double usual_loss(const struct br_field *f, bool refines,
+                         const struct br_linear_options *options)
+{
+    double loss = without_refinement(f);
+    if (options->refinement > 0)
+        loss *=
+            refines ? f->kind == BR_AXIAL ? 4 : 10 : pow(left_by_a_step(f), options->refinement);
+    return fmin(loss, 1);
+}
+
+double br_refining_library_round_off(const struct br_field *f,
+                                     const struct br_linear_options *options)
+{
+    return usual_loss(f, true, options);
+}
+
+/* No step of refinement repairs the round-off of nodal values. */
+double br_assembled_round_off(const struct br_field *f, const struct br_linear_options *options)
+{
+    return usual_loss(f, false, options) +
+           (options->refinement > 0 ? 8 * DBL_EPSILON * ((double)f->n + 1024) : 0);
+}
+
+/* Elimination is backward stable: each row is solved for a nodal force that is off by a few last
+ * bits of its terms, 24 C/h^3 |v| for bending and 2 C/h |v| for the rod (Higham, chapter 10). Such
+ * forces are at random, and what balances them is a sum of them and of their levers: of moments
+ * C |v|/L^2 the relative error is 0.5 times 2^-52 n^3.5, of normal forces 0.3 times 2^-52 n^1.5.
+ * Eight times as much. */
+double br_refining_library_residual(const struct br_field *f,
+                                    const struct br_linear_options *options)
+{
+    (void)options; /* its own refinement is of the rounded matrix */
+    const double n = (double)f->n;
+    return DBL_EPSILON * (f->kind == BR_AXIAL ? 3 * n : 4 * n * n * n) * sqrt(n);
+}
+
+double br_assembled_residual(const struct br_field *f, const struct br_linear_options *options)
+{
+    return options->refinement > 0 ? 0 : br_refining_library_residual(f, options);
+}
+
+/* ---- a field solver ---- */
+
+struct assembled {
+    struct system system;
+    struct br_states states; /* nodal: displacement, and behind it velocity */
+    double *displacement;    /* of the first of them */
+    double *velocity;
+    double *free_velocity; /* v* */
+    double *tip_response;  /* z = A^-1 e_tip, nodal */
+    double *rhs;           /* workspace, nodal */
+    double loss;   /* of a solve, relative, as system_loss has it: the largest of all steps */
+    double safety; /* how much more a march may lose, see round_off */
+    double usual;  /* loss of a march as usual_loss has it */
+};
+
+/* Index of the tip's displacement in a nodal array. */
+static size_t tip_index(const struct assembled *s)
+{
+    return s->system.field.n * s->system.unknowns;
+}
+
+/* Each step's velocity is off by what a solve loses, which inertia keeps for so many steps. */
+static double kept(const struct assembled *s, double steps)
+{
+    return fmin(1 + br_field_inertia(&s->system.field), steps);
+}
+
+/* A march that is more than a twentieth off has next to no digit left; near 1 the mass, or what the
+ * clamp holds, is not in the factors any more, and steps grow without end. */
+static const double most_loss = 0.05, few_steps = 10;
+
+/* What is lost is measured, not predicted: it depends on n, k, damping and the order of elimination
+ * by factors of thousands, and only sometimes makes a pivot negative. A force at the tip asks for
+ * the softest motion there is, which loses most. */
+static enum br_status check_digits(struct assembled *s, struct br_error *err)
+{
+    const struct br_field *f = &s->system.field;
+    double loss = NAN;
+    const enum br_status status = system_loss(&s->system, s->rhs, s->tip_response, &loss, err);
+    if (status)
+        return status;
+    s->loss = fmax(s->loss, loss);
+    const double lost = loss * kept(s, few_steps);
+    if (lost <= most_loss)
+        return BR_OK;
+    return br_fail(
+        err, BR_SINGULAR,
+        "%s: the %s matrix of n = %zu elements and k = %g s is too ill-conditioned: %.2g "
+        "of the velocity is lost in %g steps, expected at most %g; solver riccati has no "
+        "such matrix",
+        s->system.factoriser->name, f->kind == BR_AXIAL ? "axial" : "bending", f->n, f->k, lost,
+        few_steps, most_loss);
+}
+
+static enum br_status find_tip_response(struct assembled *s, struct br_error *err)
+{
+    memset(s->rhs, 0, s->system.nodal * sizeof *s->rhs);
+    s->rhs[tip_index(s)] = 1;
+    const enum br_status status = system_solve(&s->system, s->rhs, s->tip_response, err);
+    if (status)
+        return status;
+    const double compliance = s->tip_response[tip_index(s)];
+    if (compliance > 0 && isfinite(compliance))
+        return check_digits(s, err);
+    return br_fail(err, BR_SINGULAR, "%s: the tip's compliance is %g, expected > 0",
+                   s->system.factoriser->name, compliance);
+}
+
+/* All that depends on the step's length. */
+static enum br_status factorise(struct assembled *s, struct br_error *err)
+{
+    const enum br_status status = system_factorise(&s->system, err);
+    return status ? status : find_tip_response(s, err);
+}
+
+static void point_at_first(struct assembled *s)
+{
+    s->displacement = s->states.of[0];
+    s->velocity = s->displacement + s->system.nodal;
+}
+
+static enum br_status allocate(struct assembled *s, struct br_error *err)
+{
+    const size_t nodal = s->system.nodal;
+    const enum br_status status = br_states_add(&s->states, 2 * nodal, 1, err);
+    if (status)
+        return status;
+    point_at_first(s);
+    s->free_velocity = br_allocate(3 * nodal, sizeof *s->free_velocity);
+    if (!s->free_velocity)
+        return br_no_memory(err, "the stiffness form");
+    s->tip_response = s->free_velocity + nodal;
+    s->rhs = s->tip_response + nodal;
+    return BR_OK;
+}
+
+static enum br_status assembled_create(const struct br_linear_solver *row,
+                                       const struct br_field *field,
+                                       const struct br_linear_options *options, void **self,
+                                       struct br_error *err)
+{
+    const struct br_factoriser *factoriser = row->factoriser;
+    struct assembled *s = br_allocate(1, sizeof *s);
+    *self = s;
+    if (!s)
+        return br_no_memory(err, "the stiffness form");
+    s->safety = factoriser->refines && options->refinement > 0 ? 15 : 3;
+    s->usual = usual_loss(field, factoriser->refines, options);
+    enum br_status status = system_init(&s->system, field, options, factoriser, err);
+    if (!status)
+        status = allocate(s, err);
+    return status ? status : factorise(s, err);
+}
+
+static void assembled_free(void *self)
+{
+    struct assembled *s = self;
+    if (!s)
+        return;
+    system_clear(&s->system);
+    br_states_clear(&s->states);
+    free(s->free_velocity);
+    free(s);
+}
+
+static enum br_status assembled_set_step(void *self, double k, struct br_error *err)
+{
+    struct assembled *s = self;
+    s->system.field.k = k;
+    return factorise(s, err);
+}
+
+/* What is measured is one right side's, at one length of the step; at another, in another stage
+ * say, the factors' errors are others, and chance may make any of them small: of 6000 random scenes
+ * on up to 12800 elements, in all schemes, the worst lost 30 times as much. So no less than what is
+ * usual is predicted, which by the time that inertia keeps it is spread over 1 + inertia solves,
+ * and no less a solve than its sums lose. In those scenes some lost 1.7 times the usual. */
+static double march_round_off(const void *self, size_t steps)
+{
+    const struct assembled *s = self;
+    const struct br_field *f = &s->system.field;
+    const double sums = 16 * DBL_EPSILON, scatter = 3;
+    const double usual = fmin(scatter * s->usual, 1) / (1 + br_field_inertia(f)) + sums;
+    return fmax(s->safety * s->loss, usual) * kept(s, (double)steps) +
+           8 * DBL_EPSILON * ((double)f->n + 1024);
+}
+
+static double assembled_compliance(const void *self)
+{
+    const struct assembled *s = self;
+    return s->tip_response[tip_index(s)];
+}
+
+static void assembled_set(void *self, const double *displacement, const double *velocity)
+{
+    struct assembled *s = self;
+    memcpy(s->displacement, displacement, s->system.nodal * sizeof *displacement);
+    memcpy(s->velocity, velocity, s->system.nodal * sizeof *velocity);
+}
+
+static void assembled_get(const void *self, double *displacement, double *velocity)
+{
+    const struct assembled *s = self;
+    const size_t bytes = s->system.nodal * sizeof *displacement;
+    if (displacement)
+        memcpy(displacement, s->displacement, bytes);
+    if (velocity)
+        memcpy(velocity, s->velocity, bytes);
+}
+
+/* What deforms element i, from nodal values: its elongation or its two curvatures. */
+static void strain(const struct assembled *s, const double *nodal, size_t i, double *out)
+{
+    if (s->system.field.kind == BR_AXIAL)
+        out[0] = nodal[i + 1] - nodal[i];
+    else
+        br_curvature(nodal + 2 * i, out);
+}
+
+static void assembled_strain_rate(const void *self, double *rate)
+{
+    const struct assembled *s = self;
+    for (size_t i = 0; i < s->system.field.n; i++)
+        strain(s, s->velocity, i, rate + i * s->system.unknowns);
+}
+
+/* rhs = factor F + tip + M v/k - K w */
+static void form_rhs(struct assembled *s, const struct br_drive *drive)
+{
+    const struct br_field *f = &s->system.field;
+    for (size_t i = 0; i < s->system.nodal; i++)
+        s->rhs[i] = drive->vector ? drive->factor * drive->vector[i] : 0;
+    for (size_t c = 0; c < s->system.unknowns; c++)
+        s->rhs[tip_index(s) + c] += drive->tip[c];
+    add_elements(f, f->density / f->k, s->velocity, f->stiffness, s->displacement, s->rhs);
+}
+
+static enum br_status assembled_predict(void *self, const struct br_drive *drive, double *velocity,
+                                        struct br_error *err)
+{
+    struct assembled *s = self;
+    form_rhs(s, drive);
+    const enum br_status status = system_solve(&s->system, s->rhs, s->free_velocity, err);
+    *velocity = s->free_velocity[tip_index(s)];
+    return status;
+}
+
+/* v = v* - r z,  w += k v */
+static double assembled_finish(void *self, double force)
+{
+    struct assembled *s = self;
+    for (size_t i = 0; i < s->system.nodal; i++) {
+        s->velocity[i] = s->free_velocity[i] - force * s->tip_response[i];
+        s->displacement[i] += s->system.field.k * s->velocity[i];
+    }
+    return s->velocity[tip_index(s)];
+}
+
+static double assembled_tip_displacement(const void *self)
+{
+    const struct assembled *s = self;
+    return s->displacement[tip_index(s)];
+}
+
+/* ---- more states ---- */
+
+static enum br_status assembled_keep(void *self, size_t count, struct br_error *err)
+{
+    struct assembled *s = self;
+    return br_states_add(&s->states, s->states.size, count, err);
+}
+
+static void assembled_exchange(void *self, size_t a, size_t b)
+{
+    struct assembled *s = self;
+    br_states_exchange(&s->states, a, b);
+    point_at_first(s);
+}
+
+static void assembled_combine(void *self, size_t into, size_t count, const double *weight)
+{
+    struct assembled *s = self;
+    br_add_states(s->states.of[into], s->states.size, count, s->states.of, weight);
+}
+
+static void assembled_size(void *self, size_t which, double size[2])
+{
+    const struct assembled *s = self;
+    struct br_view view;
+    br_view_field(&view, &s->system.field,
+                  BR_STRAIN_RATE); /* the modes of a strain: the same scales */
+    for (int part = 0; part < 2; part++) {
+        const double *nodal = s->states.of[which] + (part ? s->system.nodal : 0);
+        long double squares = 0; /* those of small numbers are lost in double */
+        double modes[2];
+        for (size_t i = 0; i < s->system.field.n; i++) {
+            strain(s, nodal, i, modes);
+            for (size_t c = 0; c < s->system.unknowns; c++) {
+                const long double mode = (long double)view.scale[c] * modes[c];
+                squares += mode * mode;
+            }
+        }
+        size[part] = (double)sqrtl(squares);
+    }
+}
+
+const struct br_field_solver br_assembled = {
+    .create = assembled_create,
+    .free = assembled_free,
+    .tip_compliance = assembled_compliance,
+    .round_off = march_round_off,
+    .set = assembled_set,
+    .get = assembled_get,
+    .strain_rate = assembled_strain_rate,
+    .predict = assembled_predict,
+    .finish = assembled_finish,
+    .tip_displacement = assembled_tip_displacement,
+    .set_step = assembled_set_step,
+    .keep = assembled_keep,
+    .exchange = assembled_exchange,
+    .combine = assembled_combine,
+    .size = assembled_size,
+};

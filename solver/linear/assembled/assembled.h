@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The usual way: the assembled stiffness form of (27) and (28),
+ *     A v_n = F_n + M v_{n-1}/k - K w_{n-1},    A = M/k + C + kK,
+ * factorised once by a library and solved once a step. The libraries differ in the factorisation
+ * alone: each is a br_factoriser, which its row of the registry names.
+ * A's condition number grows like h^-4 for bending: see each solver's round_off. */
+#ifndef BR_SOLVER_ASSEMBLED_H
+#define BR_SOLVER_ASSEMBLED_H
+
+#include "solver/linear/linear_solver.h"
+
+/* A without the clamped node: its lower band by columns. Entry (i, j), 0 <= i - j <= band, is
+ * value[j * (band + 1) + i - j]; what would lie below the last row is zero. */
+struct br_band {
+    size_t order; /* unknowns a node times n */
+    size_t band;  /* below the diagonal: 1 axial, 3 bending */
+    double *value;
+};
+
+/* How a library factorises and solves. */
+struct br_factoriser {
+    const char *name;
+    bool refines; /* heeds the option `refinement` by itself, else the assembled form does */
+
+    /* What does not depend on A's values. Fails with BR_BAD_INPUT (an option), BR_NO_MEMORY,
+     * BR_SINGULAR; free *factor even then. */
+    enum br_status (*create)(const struct br_band *a, const struct br_linear_options *options,
+                             void **factor, struct br_error *err);
+    void (*free)(void *factor); /* accepts NULL */
+
+    /* Factorises A, whose values are finite, in place of the factors before. Fails with
+     * BR_SINGULAR where it meets that A is not positive definite, BR_NO_MEMORY. */
+    enum br_status (*factorise)(void *factor, const struct br_band *a, struct br_error *err);
+
+    /* x = A^-1 rhs; in, out: order values each, apart. Fails with BR_SINGULAR, BR_NO_MEMORY. */
+    enum br_status (*solve)(void *factor, const double *rhs, double *x, struct br_error *err);
+};
+
+/* The functions of a br_field_solver, for both fields: `create` takes the row's factoriser. */
+extern const struct br_field_solver br_assembled;
+
+/* A row's round_off and residual, where the assembled form refines: what solves usually make a
+ * march lose, relative to the largest displacement, by measurements, and what elimination without
+ * refinement leaves of the equations; and where a library refines by itself. */
+double br_assembled_round_off(const struct br_field *field,
+                              const struct br_linear_options *options);
+double br_assembled_residual(const struct br_field *field, const struct br_linear_options *options);
+double br_refining_library_round_off(const struct br_field *field,
+                                     const struct br_linear_options *options);
+double br_refining_library_residual(const struct br_field *field,
+                                    const struct br_linear_options *options);
+
+#endif

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/linear/linear_solver.h"
+
+#include <string.h>
+
+const struct br_linear_options br_linear_defaults = {
+    .scaling = "none", .refinement = 0, .kernel = NULL};
+
+const struct br_linear_solver *const br_linear_solvers[] = {
+    &br_riccati, &br_plain, &br_umfpack, &br_cholmod, &br_banded, NULL,
+};
+
+const struct br_linear_solver *br_linear_solver_find(const char *name)
+{
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
+        if (strcmp((*s)->name, name) == 0)
+            return *s;
+    return NULL;
+}
+
+const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver *solver,
+                                                   const struct br_field *field)
+{
+    if (field->kind == BR_BENDING)
+        return solver->bending;
+    return br_field_is_quadratic(field) ? solver->axial_quadratic : solver->axial;
+}
+
+bool br_linear_solver_heeds(const struct br_linear_solver *solver, const char *option)
+{
+    return strstr(solver->options, option) != NULL;
+}
+
+const struct br_kernel *br_linear_solver_kernel(const struct br_linear_solver *solver,
+                                                const struct br_linear_options *options)
+{
+    if (!br_linear_solver_heeds(solver, "--kernel"))
+        return NULL;
+    return options->kernel ? options->kernel : br_kernel_best();
+}

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Linear solvers: one interface, one row each in the registry.
+ *
+ * A solver owns the state (displacement and velocity) of one field and takes it
+ * through implicit Euler steps of equation (27) or (28). Contact and friction
+ * act on the tip alone, so a step is two halves: `predict` solves with no tip
+ * force and tells the tip's velocity v*; the laws then find the force r that
+ * resists the tip's motion; `finish` completes the step with v = v* - r z, where
+ * z = (M/k + C + kK)^-1 e_tip is computed once.
+ *
+ * To add a solver: one file that defines a `const struct br_linear_solver`, and
+ * one row in linear_solver.c. */
+#ifndef BR_SOLVER_LINEAR_SOLVER_H
+#define BR_SOLVER_LINEAR_SOLVER_H
+
+#include "solver/field.h"
+#include "solver/linear/riccati/kernel.h"
+
+/* Options that solvers may heed; each says which in its `options` text. */
+struct br_linear_options {
+    const char *scaling;            /* umfpack: "none", "sum" or "max" */
+    int refinement;                 /* assembled: largest number of refinement steps a solve */
+    const struct br_kernel *kernel; /* riccati; NULL: the best that is available */
+};
+
+extern const struct br_linear_options br_linear_defaults;
+
+/* What drives a field in one step: the load vector factor * vector, and forces on the tip. */
+struct br_drive {
+    const double *vector; /* br_field_size values, N; NULL: none */
+    double factor;
+    bool changed;  /* the vector is another one than in the step before */
+    double tip[2]; /* on the tip's unknowns, N; bending: force and moment over h */
+};
+
+struct br_linear_solver;
+struct br_factoriser;
+
+/* A march of one field: create, then predict and finish once a step. Every function but
+ * round_off is needed. */
+struct br_field_solver {
+    /* Prepares the field's operator; the state starts at rest. Fails with
+     * BR_SINGULAR, BR_BAD_INPUT (an option), BR_NO_MEMORY; free *self even then. */
+    enum br_status (*create)(const struct br_linear_solver *row, const struct br_field *field,
+                             const struct br_linear_options *options, void **self,
+                             struct br_error *err);
+    void (*free)(void *self); /* accepts NULL */
+
+    /* The tip's velocity per unit of tip force, z_tip > 0, m/s per N. */
+    double (*tip_compliance)(const void *self);
+
+    /* What a row's round_off predicts, from what was measured when the step was set, for a march of
+     * so many steps; NULL: nothing is. */
+    double (*round_off)(const void *self, size_t steps);
+
+    /* Set or get nodal displacement, m, and velocity, m/s: arrays of
+     * br_field_size values laid out as in field.h. get: either may be NULL. */
+    void (*set)(void *self, const double *displacement, const double *velocity);
+    void (*get)(const void *self, double *displacement, double *velocity);
+
+    /* What deforms the elements, by time: the rate of their elongation h u_x (if quadratic, of the
+     * pair elongation and bubble), or of the two curvature coefficients of br_curvature; n *
+     * br_field_unknowns values (out), m/s. */
+    void (*strain_rate)(const void *self, double *rate);
+
+    /* First half of a step: solves with what drives the field and no contact or friction;
+     * *velocity is the tip's free velocity v*, m/s. Fails with BR_SINGULAR where the
+     * solver itself finds it. */
+    enum br_status (*predict)(void *self, const struct br_drive *drive, double *velocity,
+                              struct br_error *err);
+
+    /* Second half: the force r, N, resists the tip; advances the state by k and
+     * returns the tip's velocity, m/s. */
+    double (*finish)(void *self, double force);
+
+    /* The tip's displacement, m. Cheap for axial; a pass over the elements for
+     * bending, whose laws do not need it. */
+    double (*tip_displacement)(const void *self);
+
+    /* ---- for schemes of more than an Euler step (scheme.h) ---- */
+
+    /* Another length of the steps, s; the state stays. Fails as create does. */
+    enum br_status (*set_step)(void *self, double k, struct br_error *err);
+
+    /* Room for `count` more states, 1, 2, ..., at rest; state 0 is the one that all else is about.
+     * Called once, if at all. Fails with BR_NO_MEMORY. */
+    enum br_status (*keep)(void *self, size_t count, struct br_error *err);
+
+    /* Two states change places. */
+    void (*exchange)(void *self, size_t a, size_t b);
+
+    /* State `into` = sum of weight[j] times state j, j < count, itself among them or not. Weights
+     * of 0 are skipped: what they belong to need not be finite. */
+    void (*combine)(void *self, size_t into, size_t count, const double *weight);
+
+    /* L2 norms (out) of a state's strain (u_x or w_xx) by displacement and by velocity, from the
+     * elements: the size of an error estimate. */
+    void (*size)(void *self, size_t state, double size[2]);
+};
+
+/* Something of an element of each kind. */
+struct br_by_element {
+    double axial, bending, quadratic; /* the last: axial, of degree 2; 0: there is none */
+};
+
+/* A row of the registry. */
+struct br_linear_solver {
+    const char *name;     /* as on the command line */
+    const char *title;    /* one line for a person */
+    const char *citation; /* where the method comes from */
+    const char *options;  /* which br_linear_options it heeds; "" for none */
+    const struct br_field_solver *axial, *bending;
+    const struct br_field_solver *axial_quadratic; /* for elements of degree 2; NULL: it has none */
+    const struct br_factoriser *factoriser; /* of the assembled form (assembled.h), or NULL */
+
+    /* Predicted round-off of a march's displacement relative to the exact discrete
+     * solution at its end, from measurements (`beamrate extremes floors`; the benchmark). */
+    double (*round_off)(const struct br_field *field, const struct br_linear_options *options);
+
+    /* What its solves leave of the equations (27) and (28) beyond the rounding of nodal values:
+     * the norm of the normal force or the moment that is missing, relative to the terms' sum.
+     * NULL: nothing. */
+    double (*residual)(const struct br_field *field, const struct br_linear_options *options);
+
+    /* Bytes an element at most, as measured: with one state, while it is set up and after; and of
+     * each state more that a scheme keeps. tests/test_resources.c compares. */
+    struct br_by_element bytes, state_bytes;
+    double nanoseconds; /* of a solve an element, both fields, about, on a core of 2 GHz */
+};
+
+extern const struct br_linear_solver br_riccati, br_plain, br_umfpack, br_cholmod, br_banded;
+
+/* The registry, in the order of help texts; NULL-terminated. The first is the default. */
+extern const struct br_linear_solver *const br_linear_solvers[];
+
+/* The solver of that name, or NULL. */
+const struct br_linear_solver *br_linear_solver_find(const char *name);
+
+/* Its solver for a field; NULL: it has none for elements of that degree. */
+const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver *solver,
+                                                   const struct br_field *field);
+
+/* Whether the solver heeds an option, "--scaling" say. */
+bool br_linear_solver_heeds(const struct br_linear_solver *solver, const char *option);
+
+/* The kernel that the solver runs with these options; NULL: it has none. */
+const struct br_kernel *br_linear_solver_kernel(const struct br_linear_solver *solver,
+                                                const struct br_linear_options *options);
+
+#endif

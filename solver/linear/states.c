@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/linear/states.h"
+
+#include "solver/instruction_set.h"
+
+enum { BLOCK = 256 }; /* numbers that stay in the nearest cache while they gather */
+
+enum br_status br_states_add(struct br_states *states, size_t size, size_t count,
+                             struct br_error *err)
+{
+    states->size = size;
+    for (size_t i = 0; i < count; i++) {
+        double *fresh = br_allocate_aligned(size, sizeof *fresh);
+        if (!fresh)
+            return br_no_memory(err, "the states of a time scheme");
+        states->of[states->count++] = fresh;
+    }
+    return BR_OK;
+}
+
+void br_states_clear(struct br_states *states)
+{
+    for (size_t i = 0; i < states->count; i++)
+        free(states->of[i]);
+    *states = (struct br_states){0};
+}
+
+void br_states_exchange(struct br_states *states, size_t a, size_t b)
+{
+    double *of_a = states->of[a];
+    states->of[a] = states->of[b];
+    states->of[b] = of_a;
+}
+
+BR_SWEEP
+static void add_block(double *restrict sum, size_t size, double weight, const double *from)
+{
+    for (size_t i = 0; i < size; i++)
+        sum[i] += weight * from[i];
+}
+
+void br_add_states(double *to, size_t size, size_t count, double *const *from, const double *weight)
+{
+    for (size_t first = 0; first < size; first += BLOCK) {
+        const size_t width = size - first < BLOCK ? size - first : BLOCK;
+        double sum[BLOCK] = {0};
+        for (size_t j = 0; j < count; j++)
+            if (weight[j] != 0)
+                add_block(sum, width, weight[j], from[j] + first);
+        for (size_t i = 0; i < width; i++)
+            to[first + i] = sum[i];
+    }
+}

@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A step of the fully discrete problem VP^hk: equation (16) is axial_stage, inequality (17) is
+ * bending_stage. A scheme of higher order is a sequence of such steps, its stages (scheme.h): each
+ * starts at a sum of known states and has a length tau of its own, which field.k is then. Implicit
+ * Euler, the paper's, has one stage, with tau = k. */
+#include <math.h>
+
+#include "solver/arithmetic.h"
+#include "solver/march_state.h"
+
+/* ---- contact ---- */
+
+/* c_H (u - g)_+, or the branch that is held. */
+static double contact_force(const struct br_march *m, const struct br_contact_state *state)
+{
+    const struct br_contact *contact = &m->scene->contact;
+    if (!contact->modelled || (m->held[BR_AXIAL] && m->regime[BR_AXIAL] == BR_REGIME_OPEN))
+        return 0;
+    if (!m->held[BR_AXIAL])
+        return m->method.contact->force(contact, state);
+    const double depth = state->displacement + state->k * state->free_velocity - contact->gap;
+    return contact->stiffness * depth / (1 + contact->stiffness * state->k * state->compliance);
+}
+
+/* (u - g)_+ at the stage's time. A contact force at u_n knows it without the loss of a difference.
+ */
+static double penetration(const struct br_march *m)
+{
+    const struct br_contact *contact = &m->scene->contact;
+    if (contact->modelled && m->method.contact->at_new_step && contact->stiffness > 0)
+        return m->tip.contact_force / contact->stiffness;
+    return br_penetration(contact, m->tip.displacement);
+}
+
+/* ---- friction ---- */
+
+/* (u - g)_+ at `part` of the step. The axial field may have had its stages at other times, where
+ * one field starts anew and the other does not: then by the cubic that its ends determine. */
+static double penetration_at(const struct br_march *m, const struct br_tip_path *path, double part)
+{
+    for (int i = 0; i < path->count; i++)
+        if (path->time[i] == part)
+            return path->penetration[i];
+    const double s = part, r = 1 - part;
+    const double u = (1 + 2 * s) * r * r * path->start[0] + s * r * r * path->start[1] +
+                     s * s * (3 - 2 * s) * path->end[0] - s * s * r * path->end[1];
+    return br_penetration(&m->scene->contact, u);
+}
+
+/* lambda by the law, or on the branch that is held. */
+static double friction_force(struct br_march *m, struct br_friction_state *state)
+{
+    if (m->scene->friction.law == BR_FRICTIONLESS)
+        return 0;
+    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_STICK)
+        return state->free_velocity / state->compliance;
+    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_FORWARD)
+        return state->bound;
+    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_BACKWARD)
+        return -state->bound;
+    return m->method.friction->force(state);
+}
+
+static enum br_status not_converged(const struct br_march *m, double t, struct br_error *err)
+{
+    const struct br_iteration *iteration = &m->method.iteration;
+    return br_fail(err, BR_NOT_FINITE,
+                   "friction rule %s did not reach its tolerance of %g in %zu iterations at t = %g "
+                   "s, with the parameter %g; --friction exact needs none",
+                   m->method.friction->name, iteration->tolerance, iteration->most, t,
+                   iteration->parameter);
+}
+
+/* ---- (16) and (17) ---- */
+
+/* Equation (16), with rho as in (27): find v_n in E^h with, for all q in E^h,
+ *
+ *     rho (delta v_n, q) + a1 (u_n,x , q_x) + c1 (v_n,x , q_x)
+ *         + c_H (u_{n-1}(L) - g)_+ q(L)  =  (f_H(t_n), q).
+ *
+ * In matrices (M/k + C + k K) v_n + r e_tip = F_n + M v_{n-1}/k - K u_{n-1}: `predict` gives the
+ * tip's velocity v* for r = 0, the contact rule r = c_H (u - g)_+, lagged at u_{n-1} as printed or
+ * at u_n, and `finish` v_n with v_n(L) = v* - r z. */
+static enum br_status axial_stage(struct br_march *m, double t, struct br_error *err)
+{
+    struct br_field_march *part = &m->part[BR_AXIAL];
+    struct br_contact_state contact = {
+        .displacement = part->solver->tip_displacement(part->state),
+        .compliance = part->solver->tip_compliance(part->state),
+        .k = part->field.k,
+    };
+    const enum br_status status = br_field_march_predict(part, t, &contact.free_velocity, err);
+    if (status)
+        return status;
+    m->tip.contact_force = contact_force(m, &contact);
+    m->was_closed |= m->tip.contact_force > 0;
+    m->tip.velocity[BR_AXIAL] = part->solver->finish(part->state, m->tip.contact_force);
+    m->tip.displacement = part->solver->tip_displacement(part->state);
+    return BR_OK;
+}
+
+/* Inequality (17), with rho as in (28): find w'_n in V^h, the velocity of w, with, for all q in
+ * V^h,
+ *
+ *     rho (delta w'_n, q - w'_n) + a2 (w_n,xx , (q - w'_n)_xx) + c2 (w'_n,xx , (q - w'_n)_xx)
+ *         + h_n |q(L)| - h_n |w'_n(L)|  >=  (f_V(t_n), q - w'_n),
+ *
+ * h_n = c_V, or c_V (u_n(L) - g)_+ at `depth`. That is the equation of a beam with the force lambda
+ * at its tip, lambda in h_n sign-set(w'_n(L)), which is one scalar problem: w'_n(L) = w'* - lambda
+ * z. The regularised rule is (30). */
+static enum br_status bending_stage(struct br_march *m, double depth, double t,
+                                    struct br_error *err)
+{
+    struct br_field_march *part = &m->part[BR_BENDING];
+    struct br_friction_state friction = {
+        .compliance = part->solver->tip_compliance(part->state),
+        .bound = br_friction_bound(m->scene, depth),
+        .regularisation = m->scene->friction.regularisation,
+        .last = m->tip.friction_force,
+        .iteration = m->method.iteration,
+    };
+    const enum br_status status = br_field_march_predict(part, t, &friction.free_velocity, err);
+    if (status)
+        return status;
+    m->tip.friction_bound = friction.bound;
+    m->tip.friction_force = friction_force(m, &friction);
+    m->counts.iterations += friction.iterations;
+    if (m->method.friction->iterates && isnan(m->tip.friction_force) &&
+        isfinite(friction.free_velocity) && isfinite(friction.bound))
+        return not_converged(m, t, err);
+    m->tip.velocity[BR_BENDING] = part->solver->finish(part->state, m->tip.friction_force);
+    return BR_OK;
+}
+
+/* ---- a step ---- */
+
+static enum br_status stage(struct br_march *m, enum br_field_kind kind,
+                            const struct br_stage *stage, const struct br_step *step, int i,
+                            struct br_tip_path *path, struct br_error *err)
+{
+    const double t = br_step_time(step, stage->time);
+    if (kind == BR_BENDING)
+        return bending_stage(m, penetration_at(m, path, stage->time), t, err);
+    const enum br_status status = axial_stage(m, t, err);
+    path->time[i] = stage->time;
+    path->penetration[i] = penetration(m);
+    return status;
+}
+
+/* Who judges a march may meet a NaN, and says so; and rounds to nearest, whatever the march does.
+ */
+struct outside {
+    int traps, rounding;
+};
+
+static struct outside step_outside(void)
+{
+    const struct outside march = {br_traps_lift(), fegetround()};
+    fesetround(FE_TONEAREST);
+    return march;
+}
+
+static void come_back(const struct outside *march)
+{
+    br_rounding_restore(march->rounding);
+    br_traps_restore(march->traps);
+}
+
+static void tell(const struct br_march *m, enum br_field_kind kind, const struct br_stages *stages,
+                 const struct br_step *step, int i)
+{
+    const struct br_march_stage told = {
+        .kind = kind,
+        .index = i,
+        .count = stages->count,
+        .from = step->from,
+        .k = step->k,
+        .time = br_step_time(step, stages->stage[i].time),
+        .tau = m->part[kind].field.k,
+    };
+    const struct outside march = step_outside();
+    for (size_t w = 0; w < m->watchers; w++)
+        m->watcher[w].stage(m->watcher[w].self, &told);
+    come_back(&march);
+}
+
+enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
+                               const struct br_stages *stages, const struct br_step *step,
+                               struct br_tip_path *path, struct br_error *err)
+{
+    struct br_field_march *part = &m->part[kind];
+    if (kind == BR_AXIAL) {
+        path->count = stages->count;
+        path->start[0] = m->tip.displacement;
+        path->start[1] = step->k * m->tip.velocity[BR_AXIAL];
+    }
+    for (int i = 0; i < stages->count; i++) {
+        enum br_status status = br_field_march_start_stage(part, stages, i, step->k, err);
+        if (!status)
+            status = stage(m, kind, &stages->stage[i], step, i, path, err);
+        if (status)
+            return status;
+        if (m->held[kind])
+            br_margins_add(&m->margins[kind], stages->stage[i].time, br_march_margin(m, kind));
+        tell(m, kind, stages, step, i);
+    }
+    if (kind == BR_AXIAL) {
+        path->end[0] = m->tip.displacement;
+        path->end[1] = step->k * m->tip.velocity[BR_AXIAL];
+    }
+    return BR_OK;
+}
+
+void br_march_accept(struct br_march *m, enum br_field_kind kind, const struct br_stages *stages,
+                     bool switched)
+{
+    br_field_march_accept(&m->part[kind], stages, switched);
+    const struct outside march = step_outside();
+    for (size_t w = 0; w < m->watchers; w++)
+        m->watcher[w].step(m->watcher[w].self, kind, switched);
+    come_back(&march);
+}
+
+/* Where the contact has a stiffness, its force tells it without the loss of a difference. One
+ * without is no switch of the field's, and equal steps go on; but steps that end at switches end
+ * there, for the kink of Coulomb's bound. */
+static bool is_closed(const struct br_march *m)
+{
+    const struct br_contact *contact = &m->scene->contact;
+    return contact->stiffness > 0 || !m->adaptive ? m->tip.contact_force > 0
+                                                  : m->tip.displacement > contact->gap;
+}
+
+enum br_regime br_march_regime(const struct br_march *m, enum br_field_kind kind)
+{
+    const struct br_tip *tip = &m->tip;
+    if (kind == BR_AXIAL && m->scene->contact.modelled)
+        return is_closed(m) ? BR_REGIME_CLOSED : BR_REGIME_OPEN;
+    if (kind == BR_AXIAL || m->scene->friction.law == BR_FRICTIONLESS || !(tip->friction_bound > 0))
+        return BR_REGIME_NONE;
+    if (fabs(tip->friction_force) < tip->friction_bound)
+        return BR_REGIME_STICK;
+    return tip->friction_force > 0 ? BR_REGIME_FORWARD : BR_REGIME_BACKWARD;
+}
+
+double br_march_margin(const struct br_march *m, enum br_field_kind kind)
+{
+    const struct br_tip *tip = &m->tip;
+    switch (m->held[kind] ? m->regime[kind] : BR_REGIME_NONE) {
+    case BR_REGIME_OPEN:
+        return m->scene->contact.gap - tip->displacement;
+    case BR_REGIME_CLOSED:
+        return tip->displacement - m->scene->contact.gap;
+    case BR_REGIME_STICK:
+        return tip->friction_bound - fabs(tip->friction_force);
+    case BR_REGIME_FORWARD:
+        return tip->velocity[BR_BENDING];
+    case BR_REGIME_BACKWARD:
+        return -tip->velocity[BR_BENDING];
+    case BR_REGIME_NONE:
+        break;
+    }
+    return 0;
+}
