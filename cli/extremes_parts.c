@@ -9,9 +9,9 @@
 #include "plots/pictures.h"
 #include "study/extremes/count.h"
 #include "study/extremes/energy_behaviour.h"
+#include "study/extremes/floors.h"
 #include "study/extremes/map.h"
 #include "study/extremes/stability.h"
-#include "study/extremes/floors.h"
 #include "tables/reports.h"
 
 /* Round-off of the linear solvers; a picture for each k. */

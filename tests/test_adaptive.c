@@ -210,8 +210,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_taken_back),         cmocka_unit_test(test_second_ends),
         cmocka_unit_test(test_estimate),           cmocka_unit_test(test_same_steps),
-        cmocka_unit_test(test_steps_of_tolerance),
-        cmocka_unit_test(test_small_load),
+        cmocka_unit_test(test_steps_of_tolerance), cmocka_unit_test(test_small_load),
     };
     return cmocka_run_group_tests_name("adaptive", tests, NULL, NULL);
 }

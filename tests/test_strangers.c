@@ -207,8 +207,8 @@ static int draw_script(const char *path, const struct stat *info, int kind, stru
     if (strstr(name, "-h.") || strstr(name, "-work.")) /* as -k, and as -schemes */
         return 0;
     snprintf(command, sizeof command,
-             "cd '%s' && sed \"s/'svg png pdf'/'svg'/\" '%s' | '%s' --default-settings 2>&1", folder,
-             name, getenv("GNUPLOT"));
+             "cd '%s' && sed \"s/'svg png pdf'/'svg'/\" '%s' | '%s' --default-settings 2>&1",
+             folder, name, getenv("GNUPLOT"));
     FILE *pipe = popen(command, "r");
     char said[256] = "";
     assert_non_null(pipe);

@@ -205,8 +205,8 @@ static double time_error(const struct march *m)
 }
 
 /* The phase ends at sample i of the trial step; at once, if it is the first one
- * of the phase's first step. A slip that ends at once with a velocity is shorter than any step: then
- * nothing is at rest yet, and the phase that follows stops the tip, as its force does. */
+ * of the phase's first step. A slip that ends at once with a velocity is shorter than any step:
+ * then nothing is at rest yet, and the phase that follows stops the tip, as its force does. */
 static void end_phase(struct march *m, size_t i)
 {
     struct br_stepper *s = m->s;

@@ -186,12 +186,15 @@ static double stiffness_of(const struct br_extreme_case *c)
     return main_part(c)->stiffness;
 }
 
-static const struct br_extreme_coordinate
-    contacts = {"c_H L/a_1", contact_ratio, -6, 18, 24},
-    shortness = {"k/T", step_ratio, -6, 0, 12}, fineness = {"n", elements_of, 0, 6, 12},
-    masses = {"ρL^4/(a_2T^2), or ρL^2/(a_1T^2)", inertia, -12, 12, 24},
-    creeps = {"c/(a T)", relaxation, -9, 6, 15}, loads = {"load (N/m)", load_of, -12, 18, 30},
-    stiffnesses = {"stiffness (N m^2 or N)", stiffness_of, -6, 12, 18};
+static const struct br_extreme_coordinate contacts = {"c_H L/a_1", contact_ratio, -6, 18, 24},
+                                          shortness = {"k/T", step_ratio, -6, 0, 12},
+                                          fineness = {"n", elements_of, 0, 6, 12},
+                                          masses = {"ρL^4/(a_2T^2), or ρL^2/(a_1T^2)", inertia, -12,
+                                                    12, 24},
+                                          creeps = {"c/(a T)", relaxation, -9, 6, 15},
+                                          loads = {"load (N/m)", load_of, -12, 18, 30},
+                                          stiffnesses = {"stiffness (N m^2 or N)", stiffness_of, -6,
+                                                         12, 18};
 
 const struct br_extreme_plane br_extreme_planes[BR_EXTREME_PLANES] = {
     {"Contact and time step", &contacts, &shortness},
