@@ -250,17 +250,6 @@ static enum br_status fill_tables(struct plain *s, struct br_error *err)
 
 /* ---- a step ---- */
 
-/* factor F of a node, N. The beam's is rounded before it is added to anything, where the rod's may
- * be contracted: so are the results that this program has always had. */
-INLINE double scaled(int d, double factor, double load)
-{
-    volatile double product;
-    if (d == 1)
-        return factor * load;
-    product = factor * load;
-    return product;
-}
-
 /* Backward sweep: drive = S^-1 s on every element. Returns v*. */
 INLINE double sweep_left(int d, int m, struct plain *s, const struct br_drive *drive)
 {
@@ -272,7 +261,7 @@ INLINE double sweep_left(int d, int m, struct plain *s, const struct br_drive *d
     double *restrict out = s->drive;
     double p[2], tip[2] = {0};
     for (int a = 0; a < d; a++)
-        p[a] = -scaled(d, factor, load[stride * n + (size_t)a]) - drive->tip[a];
+        p[a] = -factor * load[stride * n + (size_t)a] - drive->tip[a];
     for (size_t i = n; i-- > 0;) {
         const double *closed = gain + i * (size_t)gain_size(d, m), *feedback = closed + d * d;
         const double *inverse = feedback + m * d, *zeta = inverse + m * m;
@@ -299,7 +288,7 @@ INLINE double sweep_left(int d, int m, struct plain *s, const struct br_drive *d
             double sum = feedback[a] * rg[0];
             if (m == 2)
                 sum += feedback[d + a] * rg[1];
-            next[a] = -(sum + scaled(d, factor, load[stride * i + (size_t)a]));
+            next[a] = -(sum + factor * load[stride * i + (size_t)a]);
             for (int j = 0; j < d; j++)
                 next[a] += closed[j * d + a] * p[j];
         }
