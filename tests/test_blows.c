@@ -55,7 +55,7 @@ static void find_truth(const struct hard_load *c, struct truth *truth)
 
 /* ---- the judge ---- */
 
-enum outcome { RIGHT, REFUSED, WRONG, OUTCOMES };
+enum outcome { RIGHT, REFUSED, UNSURE, WRONG, OUTCOMES }; /* unsure: the oracle is */
 
 /* An estimate is the distance of two solutions; a good one may be that much too small. */
 static const double estimate_factor = 3;
@@ -131,8 +131,6 @@ static enum outcome compare(const struct hard_load *c, const struct br_exact *ex
     MUST(br_exact_state_create(&state, exact, &err));
     for (size_t k = 0; k < HARD_TIMES && right; k++) {
         const struct oracle_tip *tip = &truth->tip[k];
-        /* An oracle that is not sure would agree with much. */
-        assert_true(tip->displacement_error <= 1e-11L * largest(truth->tip, false));
         br_exact_at(exact, c->t[k], state);
         right = is_right(c, c->t[k], "displacement",
                          (double[]){state->tip[field].displacement, error.displacement,
@@ -146,6 +144,15 @@ static enum outcome compare(const struct hard_load *c, const struct br_exact *ex
     }
     br_exact_state_free(state);
     return right ? RIGHT : WRONG;
+}
+
+/* An oracle that is not sure would agree with much. */
+static bool is_sure(const struct truth *truth)
+{
+    bool sure = true;
+    for (size_t k = 0; k < HARD_TIMES; k++)
+        sure &= truth->tip[k].displacement_error <= 1e-11L * largest(truth->tip, false);
+    return sure;
 }
 
 static enum outcome refused(const struct hard_load *c, const struct br_error *err)
@@ -178,6 +185,8 @@ static enum outcome try(const struct hard_load *c)
         struct truth truth;
         find_truth(c, &truth);
         outcome = compare(c, exact, &truth);
+        if (outcome == RIGHT && !is_sure(&truth))
+            outcome = UNSURE;
     }
     if (outcome == WRONG && getenv("BR_TEST_SHOW"))
         print_message("%s\n", c->text);
@@ -190,20 +199,23 @@ static void test_hard_loads(void **state)
 {
     (void)state;
     static struct hard_load c;
-    size_t count[HARD_KINDS][OUTCOMES] = {0}, wrong = 0, refusals = 0;
+    size_t count[HARD_KINDS][OUTCOMES] = {0}, wrong = 0, refusals = 0, unsure = 0;
     const size_t cases = br_test_long() ? 2000 : 60;
     for (size_t i = 0; i < cases; i++) {
         hard_load_draw(&c, i);
         count[c.kind][try(&c)]++;
     }
     for (size_t k = 0; k < HARD_KINDS; k++) {
-        const size_t all = count[k][RIGHT] + count[k][REFUSED] + count[k][WRONG];
-        print_message("# %-20s %4zu right %4zu refused %4zu silently wrong\n", hard_kinds[k].text,
-                      count[k][RIGHT], count[k][REFUSED], count[k][WRONG]);
+        const size_t all = count[k][RIGHT] + count[k][REFUSED] + count[k][UNSURE] + count[k][WRONG];
+        print_message("# %-20s %4zu right %4zu refused %4zu not judged %4zu silently wrong\n",
+                      hard_kinds[k].text, count[k][RIGHT], count[k][REFUSED], count[k][UNSURE],
+                      count[k][WRONG]);
         wrong += count[k][WRONG];
+        unsure += count[k][UNSURE];
         refusals += (double)count[k][REFUSED] > ceil(hard_kinds[k].refused_at_most * (double)all);
     }
     assert_int_equal(wrong, 0);
+    assert_true(100 * unsure <= cases);
     assert_int_equal(refusals, 0); /* kinds of which too many are refused */
 }
 

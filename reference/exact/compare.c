@@ -131,31 +131,51 @@ static bool same_phases(const struct br_history *a, const struct br_history *b)
     return true;
 }
 
-/* Compares where each step of either solution begins, where velocities are at
- * their worst, and at some of its nodes, where displacements are. */
-static void compare_field(struct pair *p, double duration, struct br_exact_report *report)
+/* Compares where a step begins, where velocities are at their worst, and at some of its nodes,
+ * where displacements are. */
+static void compare_step(struct pair *p, const struct br_tip_step *tip, double duration,
+                         struct br_exact_report *report)
 {
     static const double inside[] = {0, 0.0913, 0.3719, 0.5452, 0.8556};
+    for (size_t j = 0; j < sizeof inside / sizeof *inside; j++) {
+        const double t = tip->start + inside[j] * tip->length;
+        const bool smooth = !in_layer(p->track[0], t, layer * duration) &&
+                            !in_layer(p->track[1], t, layer * duration) &&
+                            !br_outline_is_sharp(p->outline, t, layer * duration);
+        compare_at(p, t, smooth, report);
+    }
+}
+
+/* Work of a step's comparison: sums over all modes, as long as these are. */
+static double step_work(const struct pair *p)
+{
+    const double a = (double)p->field[0]->modes.count, b = (double)p->field[1]->modes.count;
+    return 3e-3 * (a * a + b * b);
+}
+
+/* Compares at each step of either solution. What is begun is ended, though no work be left for it;
+ * but not where somebody stops it. */
+static enum br_status compare_field(struct pair *p, double duration, struct br_effort *effort,
+                                    struct br_exact_report *report, struct br_error *err)
+{
+    struct br_error spent;
     if (!same_phases(p->track[0], p->track[1])) {
         report->error = (struct br_exact_size){INFINITY, INFINITY, INFINITY, INFINITY};
-        return;
+        return BR_OK;
     }
     for (size_t i = 0; i < 2; i++)
-        for (size_t n = 0; n < p->track[i]->steps; n++)
-            for (size_t j = 0; j < sizeof inside / sizeof *inside; j++) {
-                const struct br_tip_step *tip = &p->track[i]->tip[n];
-                const double t = tip->start + inside[j] * tip->length;
-                const bool smooth = !in_layer(p->track[0], t, layer * duration) &&
-                                    !in_layer(p->track[1], t, layer * duration) &&
-                                    !br_outline_is_sharp(p->outline, t, layer * duration);
-                compare_at(p, t, smooth, report);
-            }
+        for (size_t n = 0; n < p->track[i]->steps; n++) {
+            compare_step(p, &p->track[i]->tip[n], duration, report);
+            if (br_effort_spend(effort, step_work(p), &spent) == BR_INTERRUPTED)
+                return br_fail(err, BR_INTERRUPTED, "%s", spent.message);
+        }
     compare_at(p, duration, true, report);
+    return BR_OK;
 }
 
 enum br_status br_exact_compare(struct br_exact *exact, const struct br_exact_solution *other,
                                 const struct br_outline outline[BR_EXACT_FIELDS],
-                                struct br_error *err)
+                                struct br_effort *effort, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (size_t which = 0; which < BR_EXACT_FIELDS && !status; which++) {
@@ -169,7 +189,7 @@ enum br_status br_exact_compare(struct br_exact *exact, const struct br_exact_so
         exact->noise[which] = 1e-13 * exact->solution->track[which]->free_velocity;
         status = pair_init(&p, exact->solution, other, which, err);
         if (!status)
-            compare_field(&p, exact->duration, report);
+            status = compare_field(&p, exact->duration, effort, report, err);
         br_store_clear(&p.store);
     }
     return status;

@@ -231,7 +231,7 @@ static enum br_status next_round(struct search *s, const struct fineness *fine)
     exact->solution = next;
     if (!s->before)
         return BR_OK;
-    status = br_exact_compare(exact, s->before, s->outline, &s->cause);
+    status = br_exact_compare(exact, s->before, s->outline, &s->effort, &s->cause);
     s->worst_before = s->worst;
     s->worst = badness(exact, s->o);
     return status;

@@ -16,7 +16,7 @@ enum br_status br_effort_spend(struct br_effort *effort, double work, struct br_
     if (who->stop && who->stop(who->stop_self))
         return br_fail(err, BR_INTERRUPTED, "interrupted");
     if (who->progress)
-        who->progress(who->stop_self, effort->done / effort->most);
+        who->progress(who->stop_self, fmin(effort->done / effort->most, 1));
     if (!(effort->done <= effort->most))
         return br_fail(
             err, BR_NOT_FINITE,

@@ -24,10 +24,11 @@ struct br_exact {
 };
 
 /* Fills exact->report with the size of exact->solution and its distance to
- * another, infinite where their events differ. Fails with BR_NO_MEMORY. */
+ * another, infinite where their events differ. Its work counts. Fails with BR_NO_MEMORY or
+ * BR_INTERRUPTED. */
 enum br_status br_exact_compare(struct br_exact *exact, const struct br_exact_solution *other,
                                 const struct br_outline outline[BR_EXACT_FIELDS],
-                                struct br_error *err);
+                                struct br_effort *effort, struct br_error *err);
 
 /* Fills exact->event from exact->solution, with error bars from another that
  * has the same events. Fails with BR_NO_MEMORY. */
