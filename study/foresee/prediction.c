@@ -330,44 +330,36 @@ static void drop_what_means_nothing(struct br_prediction *p)
             each[i]->high = INFINITY;
 }
 
-static bool is_there_at_start(const struct br_function *f, double length)
-{
-    double value;
-    br_function_evaluate(f, 1, &length, 0, &value);
-    return value != 0;
-}
-
-/* Whether a field has something to balance at t = 0: initial data, or loads that do not begin at 0.
- */
-static bool starts_moved(const struct br_load *load, const struct br_function *const given[4],
-                         double length)
-{
-    bool moved = false;
-    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
-        if (!br_product_is_zero(&load->term[i]))
-            moved |= load->term[i].space.uses_t || is_there_at_start(&load->term[i].time, length);
-    for (size_t i = 0; i < 4; i++)
-        if (given[i] && !br_function_is_zero(given[i]))
-            moved |= i < 2 || is_there_at_start(given[i], length);
-    return moved;
-}
-
-static bool starts_suddenly(const struct br_scene *s)
-{
-    const struct br_function *const axial[4] = {&s->axial.displacement, &s->axial.velocity,
-                                                &s->axial.tip_force, NULL};
-    const struct br_function *const bending[4] = {&s->bending.displacement, &s->bending.velocity,
-                                                  &s->bending.tip_force, &s->bending.tip_moment};
-    return (s->axial.modelled && starts_moved(&s->axial.load, axial, s->length)) ||
-           (s->bending.modelled && starts_moved(&s->bending.load, bending, s->length));
-}
-
 /* Whether a march has followed what happens at t = 0, however quick that is: one by a tolerance. */
 static bool start_is_seen(const struct br_probe_set *s)
 {
     const struct br_probe *start = &s->probe[BR_PROBE_START];
     return s->probe[BR_PROBE_TIGHT].held ||
            (start->held && start->study.reference_method.scheme->adaptive);
+}
+
+/* Whether a field's slowest vibration, by the first mode of a clamped and free one, is quicker than
+ * steps of k, s, and more than one swing. */
+static bool swings_within(const struct br_scene *s, int kind, double k)
+{
+    const bool axial = kind == BR_AXIAL;
+    const double wave = (axial ? 1.5708 : 1.8751) / s->length;
+    const double stiffness = axial ? s->axial.stiffness : s->bending.stiffness;
+    const double viscosity = axial ? s->axial.viscosity : s->bending.viscosity;
+    const double angular = sqrt(stiffness / s->density) * (axial ? wave : wave * wave);
+    return s->density > 0 && angular * k > 1 && viscosity * angular < 2 * stiffness;
+}
+
+/* Whether swings that no march follows may open, close or slip where the marches do not. */
+static bool switches_unseen(const struct br_probe_set *s)
+{
+    const struct br_scene *scene = s->outlook->scene;
+    const enum br_probe_kind finest =
+        s->probe[BR_PROBE_WHOLE].held ? BR_PROBE_WHOLE : BR_PROBE_TIME;
+    const double k = scene->duration / (double)s->probe[finest].study.reference.steps;
+    return can_switch(scene) && !start_is_seen(s) &&
+           ((scene->axial.modelled && swings_within(scene, BR_AXIAL, k)) ||
+            (scene->bending.modelled && swings_within(scene, BR_BENDING, k)));
 }
 
 static void judge(struct br_prediction *p, const struct br_probe_set *s)
@@ -398,12 +390,10 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
     else
         snprintf(p->why, sizeof p->why,
                  "the marches that it is compared with differ too much among themselves");
-    const struct br_scene *scene = s->outlook->scene;
-    if (p->known && can_switch(scene) && scene->density > 0 && starts_suddenly(scene) &&
-        !start_is_seen(s)) {
+    if (p->known && switches_unseen(s)) {
         p->known = false;
         snprintf(p->why, sizeof p->why,
-                 "no march follows what happens at t = 0, which may open, close, stick or slip");
+                 "no march follows the swings from t = 0 on, in which the tip may switch");
     }
 }
 
