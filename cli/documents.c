@@ -71,5 +71,6 @@ enum br_status br_documents_show(const struct br_document *documents, size_t cou
         status = br_document_show(stdout, &documents[i], err);
         putchar('\n');
     }
+    fflush(stdout); /* before what follows fails; that this did is found at the end */
     return status;
 }

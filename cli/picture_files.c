@@ -49,6 +49,8 @@ enum br_status br_picture_files_draw(struct br_picture_files *f, const struct br
                                      struct br_error *err)
 {
     char name[BR_SCRIPT_NAME + 8];
+    if (br_figure_check(figure, err))
+        return err->status;
     for (int script = 0; script < 2; script++) {
         FILE *file;
         BR_SAY(name, "%s%s", figure->stem, script ? ".gp" : ".dat");

@@ -18,7 +18,7 @@ struct br_picture_files {
 };
 
 /* Writes a figure's data and script to the output and starts gnuplot on it, where there is one.
- * Fails with BR_IO, BR_INTERRUPTED. Finish the files even then. */
+ * Fails as br_figure_check, or with BR_IO, BR_INTERRUPTED. Finish the files even then. */
 enum br_status br_picture_files_draw(struct br_picture_files *files, const struct br_figure *figure,
                                      struct br_error *err);
 
