@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/picture_files.h"
+#include "cli/documents.h"
 #include "cli/signals.h"
 #include "plots/pictures.h"
 #include "plots/render.h"
