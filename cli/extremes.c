@@ -171,15 +171,6 @@ static enum br_status remove_kept(const struct run *r, struct br_error *err)
 
 /* ---- computing and writing ---- */
 
-enum br_status br_extremes_draw(const struct br_extremes_job *job, struct br_figure *figure,
-                                enum br_status drawn, struct br_error *err)
-{
-    if (br_session_draws(job->session))
-        return br_session_draw(job->session, job->report, figure, figure->title, drawn, err);
-    br_figure_clear(figure);
-    return drawn;
-}
-
 static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
 {
     const struct br_extremes_part *part = r->part[i];

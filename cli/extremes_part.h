@@ -24,9 +24,10 @@ struct br_extremes_job {
                            the file is removed when all is written. NULL: nothing is kept */
     const char *folder; /* for other files of the part (reproducer scenes): the staging folder */
     const struct br_observer *observer; /* NULL: nobody */
-    struct br_session *session;         /* that the pictures go to */
-    struct br_document *report;         /* zeros; owned by the session */
-    struct br_error *verdict;           /* zeros; BR_VERDICT: what has been found wrong */
+    struct br_session *session; /* for br_session_draw: the stems of pictures are the part's name,
+                                   or begin with it and a dash */
+    struct br_document *report; /* zeros; owned by the session */
+    struct br_error *verdict;   /* zeros; BR_VERDICT: what has been found wrong */
 };
 
 /* The options that a part heeds: others are refused. --threads is for all. */
@@ -48,11 +49,6 @@ struct br_extremes_part {
      * BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */
     enum br_status (*run)(const struct br_extremes_job *job, struct br_error *err);
 };
-
-/* For run: a picture into the files and the report, if pictures are wanted; clears the figure. Its
- * stem is the part's name, or begins with it and a dash. drawn, failures: as br_session_draw. */
-enum br_status br_extremes_draw(const struct br_extremes_job *job, struct br_figure *figure,
-                                enum br_status drawn, struct br_error *err);
 
 /* NULL-terminated, in the order in which they run (cli/extremes_parts.c). */
 extern const struct br_extremes_part *const br_extremes_parts[];

@@ -31,11 +31,8 @@ static enum br_status run_floors(const struct br_extremes_job *job, struct br_er
         br_report_floors(&floors, job->report);
         br_floors_verdict(&floors, job->verdict);
     }
-    for (size_t i = 0; i < floors.k_count && floors.n_count > 1 && !status; i++) {
-        struct br_figure figure = {0};
-        status = br_floors_draw(&floors, i, &figure, err);
-        status = br_extremes_draw(job, &figure, status, err);
-    }
+    for (size_t i = 0; i < floors.k_count && floors.n_count > 1 && !status; i++)
+        br_session_draw(job->session, job->report, br_floors_draw(&floors, i), NULL);
     br_floors_clear(&floors);
     return status;
 }
@@ -57,15 +54,13 @@ static enum br_status run_steps(const struct br_extremes_job *job, struct br_err
         .rounding = job->rounding,
     };
     struct br_drifts drifts = {0};
-    struct br_figure figure = {0};
     enum br_status status = br_drifts_run(&drifts, &plan, job->observer, err);
     if (!status) {
         br_report_drifts(&drifts, job->report);
         br_drifts_verdict(&drifts, job->verdict);
     }
     if (!status && drifts.k_count > 1)
-        status = br_drifts_draw(&drifts, &figure, err);
-    status = br_extremes_draw(job, &figure, status, err);
+        br_session_draw(job->session, job->report, br_drifts_draw(&drifts), NULL);
     br_drifts_clear(&drifts);
     return status;
 }
@@ -90,14 +85,12 @@ static enum br_status run_stability(const struct br_extremes_job *job, struct br
     if (job->n_count > 1)
         return br_fail(err, BR_BAD_INPUT, "--n: found %zu numbers, expected one", job->n_count);
     struct br_stability s = {0};
-    struct br_figure figure = {0};
     enum br_status status = br_stability_run(&request, &s, err);
     if (!status) {
         br_report_stability(&s, job->report);
         br_stability_verdict(&s, job->verdict);
-        status = br_stability_draw(&s, &figure, err);
+        br_session_draw(job->session, job->report, br_stability_draw(&s), NULL);
     }
-    status = br_extremes_draw(job, &figure, status, err);
     br_stability_clear(&s);
     return status;
 }
@@ -131,14 +124,12 @@ static enum br_status judge_energy(const struct br_energy_behaviour *b, struct b
 static enum br_status run_energy(const struct br_extremes_job *job, struct br_error *err)
 {
     struct br_energy_behaviour b = {0};
-    struct br_figure figure = {0};
     enum br_status status = br_energy_behaviour_run(&b, job->threads, job->observer, err);
     if (!status) {
         br_report_energy(&b, job->report);
         judge_energy(&b, job->verdict);
-        status = br_energy_draw(&b, &figure, err);
+        br_session_draw(job->session, job->report, br_energy_draw(&b), NULL);
     }
-    status = br_extremes_draw(job, &figure, status, err);
     br_energy_behaviour_clear(&b);
     return status;
 }
@@ -168,7 +159,6 @@ static enum br_status run_map(const struct br_extremes_job *job, struct br_error
     };
     struct br_extreme_map map = {0};
     struct br_extreme_counts counts = {0};
-    struct br_figure figure = {0};
     enum br_status status = br_extreme_map_run(&request, &map, err);
     if (!status)
         status = br_extreme_count(&map, &counts, err);
@@ -178,9 +168,8 @@ static enum br_status run_map(const struct br_extremes_job *job, struct br_error
             br_fail(job->verdict, BR_VERDICT,
                     "%zu of %zu cases are silently wrong, the first of them: %s",
                     map.count[BR_EXTREME_WRONG], map.cases, map.shrunk[0].command);
-        status = br_extreme_map_draw(&map, &figure, err);
+        br_session_draw(job->session, job->report, br_extreme_map_draw(&map), NULL);
     }
-    status = br_extremes_draw(job, &figure, status, err);
     br_extreme_counts_clear(&counts);
     br_extreme_map_clear(&map);
     return status;

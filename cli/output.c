@@ -124,13 +124,20 @@ static int take_hidden(int parent, const char *name)
     return -1;
 }
 
-/* All files but the owner's. False: some are still there. */
-static bool empty(int folder)
+/* The names in an open folder, which stays open; NULL with errno. */
+static DIR *open_list(int folder)
 {
     const int copy = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     DIR *list = copy >= 0 ? fdopendir(copy) : NULL;
     if (!list && copy >= 0)
-        close(copy);
+        close_again(copy);
+    return list;
+}
+
+/* All files but the owner's. False: some are still there. */
+static bool empty(int folder)
+{
+    DIR *list = open_list(folder);
     bool all = list;
     for (struct dirent *entry; list && (entry = readdir(list));) {
         const char *name = entry->d_name;
@@ -269,8 +276,7 @@ static bool is_hidden(const char *name)
 
 enum br_status br_output_sweep(int folder, struct br_error *err)
 {
-    const int copy = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    DIR *list = copy >= 0 ? fdopendir(copy) : NULL;
+    DIR *list = open_list(folder);
     if (!list)
         return br_fail(err, errno == ENOMEM ? BR_NO_MEMORY : BR_BAD_INPUT,
                        "cannot read the folder: %s", strerror(errno));

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/picture_files.h"
+#include "cli/documents.h"
 #include "cli/signals.h"
 #include "plots/pictures.h"
 #include "plots/render.h"
@@ -182,10 +182,10 @@ static int columns_of(FILE *letters)
 static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct br_error *err)
 {
     bool missing = false;
-    struct br_figure figure;
+    struct br_figure figure = br_history_draw(p->request.scene, &p->record);
     struct br_error why = {0};
     FILE *script = tmpfile();
-    enum br_status status = br_history_draw(p->request.scene, &p->record, &figure, err);
+    const enum br_status status = br_figure_check(&figure, err);
     if (script)
         br_figure_write_letters(script, &figure, columns_of(letters));
     br_figure_clear(&figure);

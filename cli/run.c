@@ -138,7 +138,8 @@ static enum br_status march(struct run *r, struct br_error *err)
     return status;
 }
 
-/* A summary on standard output stands there alone. */
+/* A summary on standard output stands there alone. It is shown first: a disk that is full must not
+ * hide what was computed. */
 static enum br_status write_all(struct run *r, double start, struct br_error *err)
 {
     const struct br_error *failure = &r->report.failure;
@@ -153,9 +154,9 @@ static enum br_status write_all(struct run *r, double start, struct br_error *er
         .wall_seconds = br_seconds() - start,
     };
     br_report_run(&findings, &d);
-    const bool failed = (r->out && br_run_files_commit(&r->files, &d, stopped, err)) ||
-                        (summary && br_document_print(summary, &br_document_json, &d, NULL, err)) ||
+    const bool failed = (summary && br_document_print(summary, &br_document_json, &d, NULL, err)) ||
                         (terminal && !r->session.quiet && br_document_show(terminal, &d, err)) ||
+                        (r->out && br_run_files_commit(&r->files, &d, stopped, err)) ||
                         br_whole_file_commit(&r->summary, err) ||
                         br_pictures_finish(&r->pictures, terminal, err);
     br_document_clear(&d);

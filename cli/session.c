@@ -59,29 +59,40 @@ enum br_status br_session_report(struct br_session *s, size_t documents, struct 
     return s->document ? BR_OK : br_no_memory(err, "the reports");
 }
 
-bool br_session_draws(const struct br_session *s)
+void br_session_draw(struct br_session *s, struct br_document *report, struct br_figure figure,
+                     const char *title)
 {
-    return !br_option_given(s->options, BR_OPT_NO_PLOTS);
+    struct br_session_picture **last = &s->picture;
+    if (!figure.panels || br_option_given(s->options, BR_OPT_NO_PLOTS)) {
+        br_figure_clear(&figure);
+        return;
+    }
+    br_put_picture(report, figure.stem, title ? title : figure.title);
+    while (*last)
+        last = &(*last)->next;
+    *last = br_allocate(1, sizeof **last);
+    if (*last)
+        (*last)->figure = figure;
+    else
+        br_figure_clear(&figure);
+    s->lost |= !*last;
 }
 
-enum br_status br_session_draw(struct br_session *s, struct br_document *report,
-                               struct br_figure *figure, const char *title, enum br_status drawn,
-                               struct br_error *err)
+/* They are rendered while the reports are written. */
+static enum br_status draw_all(struct br_session *s, struct br_error *err)
 {
-    s->pictures.output = &s->output;
-    if (!drawn && figure->panels) {
-        br_put_picture(report, figure->stem, title);
-        drawn = br_picture_files_draw(&s->pictures, figure, err);
-    }
-    br_figure_clear(figure);
-    return drawn;
+    enum br_status status = s->lost ? br_no_memory(err, "a figure") : BR_OK;
+    s->files.output = &s->output;
+    for (struct br_session_picture *p = s->picture; p && !status; p = p->next)
+        status = br_picture_files_draw(&s->files, &p->figure, err);
+    return status;
 }
 
 static enum br_status write_all(struct br_session *s, struct br_error *err)
 {
-    s->pictures.output = &s->output;
-    if (br_documents_write(&s->pictures, s->options, s->document, s->documents, err) ||
-        br_picture_files_finish(&s->pictures, err) || br_output_commit(&s->output, err))
+    if (draw_all(s, err) ||
+        br_documents_write(&s->files, s->options, s->document, s->documents, err) ||
+        br_picture_files_finish(&s->files, err) || br_output_commit(&s->output, err))
         return err->status;
     if (!s->quiet)
         br_output_announce(&s->output);
@@ -97,8 +108,14 @@ enum br_status br_session_finish(struct br_session *s, struct br_error *err)
 
 void br_session_close(struct br_session *s)
 {
-    br_picture_files_finish(&s->pictures, NULL);
+    br_picture_files_finish(&s->files, NULL);
     br_output_discard(&s->output);
+    for (struct br_session_picture *p = s->picture, *next; p; p = next) {
+        next = p->next;
+        br_figure_clear(&p->figure);
+        free(p);
+    }
+    s->picture = NULL;
     for (size_t i = 0; i < s->documents; i++)
         br_document_clear(&s->document[i]);
     free(s->document);

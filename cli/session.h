@@ -22,7 +22,13 @@ void br_opened_scene_clear(struct br_opened_scene *scene);
 /* Static strings, and the scene's; NULL: of no one scene. */
 struct br_provenance br_provenance_of(const struct br_opened_scene *scene, int threads);
 
-/* Begins with br_session_begin; not to be moved from the first picture on. */
+/* A picture on its way. */
+struct br_session_picture {
+    struct br_figure figure;
+    struct br_session_picture *next;
+};
+
+/* Begins with br_session_begin. */
 struct br_session {
     const struct br_options *options;
     bool writes;                  /* the first rank */
@@ -30,8 +36,10 @@ struct br_session {
     int threads;                  /* of --threads; 0: all cores */
     struct br_document *document; /* documents; owned */
     size_t documents;
-    struct br_output output; /* of --out; not open where that is not given */
-    struct br_picture_files pictures;
+    struct br_output output;            /* of --out; not open where that is not given */
+    struct br_session_picture *picture; /* the first; owned */
+    bool lost;                          /* one, where there was no memory */
+    struct br_picture_files files;
 };
 
 struct br_session br_session_begin(const struct br_options *options);
@@ -47,17 +55,14 @@ enum br_status br_session_open(struct br_session *session, struct br_error *err)
 enum br_status br_session_report(struct br_session *session, size_t documents,
                                  struct br_error *err);
 
-/* Whether the options want pictures. */
-bool br_session_draws(const struct br_session *session);
+/* Names a picture in a report and keeps it for br_session_finish, which tells of what failed; but
+ * not where it has no panels, or the options want no pictures. Takes the figure. title: NULL: its
+ * own. */
+void br_session_draw(struct br_session *session, struct br_document *report,
+                     struct br_figure figure, const char *title);
 
-/* Names a picture in a report, writes and renders it, if it has panels; clears the figure. drawn:
- * what came of filling it. Fails with that, or as br_picture_files_draw. */
-enum br_status br_session_draw(struct br_session *session, struct br_document *report,
-                               struct br_figure *figure, const char *title, enum br_status drawn,
-                               struct br_error *err);
-
-/* Shows the reports on the terminal, writes them, and puts all in place. Fails as
- * br_documents_write and br_output_commit. */
+/* Shows the reports on the terminal, draws the pictures, writes all and puts it in place. Fails as
+ * br_picture_files_draw, br_documents_write and br_output_commit; what is shown was shown then. */
 enum br_status br_session_finish(struct br_session *session, struct br_error *err);
 
 /* Removes what has not been put in place, and releases the rest. */

@@ -278,32 +278,26 @@ static enum br_status compute(struct run *r, struct br_error *err)
 
 /* ---- results ---- */
 
-static enum br_status build_report(struct run *r, size_t i, struct br_error *err)
+static void build_report(struct run *r, size_t i)
 {
     const struct br_report *report = &r->page[i].report;
     struct br_document *d = &r->session.document[i];
     const struct br_provenance provenance =
         br_provenance_of(&r->page[i].work->opened, r->session.threads);
-    enum br_status status = BR_OK;
     br_report_study(report, d);
-    for (const struct br_convergence_picture *const *p = br_convergence_pictures;
-         *p && br_session_draws(&r->session) && !status; p++) {
-        struct br_figure figure = {0};
-        if (!(*p)->applies(report))
-            continue;
-        status = br_convergence_draw(*p, report, &figure, err);
-        status = br_session_draw(&r->session, d, &figure, (*p)->title, status, err);
-    }
+    for (const struct br_convergence_picture *const *p = br_convergence_pictures; *p; p++)
+        if ((*p)->applies(report))
+            br_session_draw(&r->session, d, br_convergence_draw(*p, report), (*p)->title);
     br_put_provenance(d, &provenance);
-    return status;
 }
 
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
-    enum br_status status = br_session_report(&r->session, r->pages, err);
-    for (size_t i = 0; i < r->pages && !status; i++)
-        status = build_report(r, i, err);
-    return status ? status : br_session_finish(&r->session, err);
+    if (br_session_report(&r->session, r->pages, err))
+        return err->status;
+    for (size_t i = 0; i < r->pages; i++)
+        build_report(r, i);
+    return br_session_finish(&r->session, err);
 }
 
 /* A failed cell fails the run, after everything has been written. */

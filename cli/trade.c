@@ -143,20 +143,14 @@ static enum br_status hold(struct run *r, struct br_error *err)
 
 /* ---- results ---- */
 
-static enum br_status draw(struct run *r, size_t i, struct br_error *err)
+static void draw(struct run *r, size_t i)
 {
     struct br_document *d = &r->session.document[i];
     const struct br_trade *trade = &r->item[i].trade;
-    enum br_status status = BR_OK;
-    for (const struct br_trade_picture *const *p = br_trade_pictures;
-         *p && br_session_draws(&r->session) && !status; p++) {
-        struct br_figure figure = {0};
-        if (!br_trade_picture_applies(*p, trade))
-            continue;
-        status = br_trade_draw(*p, trade, d->name, d->caption, &figure, err);
-        status = br_session_draw(&r->session, d, &figure, (*p)->title, status, err);
-    }
-    return status;
+    for (const struct br_trade_picture *const *p = br_trade_pictures; *p; p++)
+        if (br_trade_picture_applies(*p, trade))
+            br_session_draw(&r->session, d, br_trade_draw(*p, trade, d->name, d->caption),
+                            (*p)->title);
 }
 
 /* A report of each scene, and where there are several one of all. */
@@ -171,7 +165,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         trade[i] = &r->item[i].trade;
         provenance = br_provenance_of(&r->item[i].opened, r->session.threads);
         br_report_trade(trade[i], &provenance, &d[i]);
-        status = draw(r, i, err);
+        draw(r, i);
     }
     if (!status && r->items > 1) {
         provenance = br_provenance_of(&r->item[0].opened, r->session.threads);

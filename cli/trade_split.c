@@ -129,17 +129,11 @@ static enum br_status compute(struct run *r, struct br_error *err)
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
     const struct br_provenance provenance = br_provenance_of(&r->opened, r->session.threads);
-    struct br_figure figure = {0};
     if (br_session_report(&r->session, 1, err))
         return err->status;
     br_report_split(r->split, r->splits, &provenance, r->session.document);
-    enum br_status status = BR_OK;
-    if (br_session_draws(&r->session)) {
-        status = br_split_draw(r->split, r->splits, &figure, err);
-        status =
-            br_session_draw(&r->session, r->session.document, &figure, figure.title, status, err);
-    }
-    return status ? status : br_session_finish(&r->session, err);
+    br_session_draw(&r->session, r->session.document, br_split_draw(r->split, r->splits), NULL);
+    return br_session_finish(&r->session, err);
 }
 
 enum br_status br_trade_split(const struct br_options *options, struct br_error *err)

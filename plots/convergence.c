@@ -289,24 +289,18 @@ static const struct br_convergence_picture
 const struct br_convergence_picture *const br_convergence_pictures[] = {&over_h, &over_k, &parts,
                                                                         &printed, NULL};
 
-enum br_status br_convergence_draw(const struct br_convergence_picture *picture,
-                                   const struct br_report *r, struct br_figure *f,
-                                   struct br_error *err)
+struct br_figure br_convergence_draw(const struct br_convergence_picture *picture,
+                                     const struct br_report *r)
 {
     const struct br_study *study = br_report_fitted(r);
-    *f = (struct br_figure){0};
-    if (!br_is_name(r->name))
-        return br_fail(err, BR_BAD_INPUT,
-                       "the report's name is \"%s\", expected the beginning of a file name",
-                       r->name);
-    BR_SAY(f->stem, "%.400s-%s", r->name, picture->name);
-    BR_SAY(f->title, "%s", r->caption);
-    BR_SAY(f->hollow, "not in the fits");
+    struct br_figure f = {.hollow = "not in the fits"};
+    BR_SAY(f.stem, "%.400s-%s", r->name, picture->name);
+    BR_SAY(f.title, "%s", r->caption);
     if (study->judge->nests)
-        BR_SAY(f->about, "%s Reference: n = %zu elements, N = %zu steps", picture->title,
+        BR_SAY(f.about, "%s Reference: n = %zu elements, N = %zu steps", picture->title,
                study->reference.n, study->reference.steps);
     else
-        BR_SAY(f->about, "%s Reference: %.120s", picture->title, study->judge->title);
-    picture->fill(r, f);
-    return br_figure_check(f, err);
+        BR_SAY(f.about, "%s Reference: %.120s", picture->title, study->judge->title);
+    picture->fill(r, &f);
+    return f;
 }

@@ -33,10 +33,9 @@ static void add_rounding(const struct br_floors *f, int power, struct br_figure 
     }
 }
 
-enum br_status br_floors_draw(const struct br_floors *f, size_t k, struct br_figure *figure,
-                              struct br_error *err)
+struct br_figure br_floors_draw(const struct br_floors *f, size_t k)
 {
-    *figure = (struct br_figure){0};
+    struct br_figure picture = {0}, *figure = &picture;
     BR_SAY(figure->stem, "floors-k%g", f->k[k]);
     BR_SAY(figure->title,
            "Deviation from the exact discrete solution after %d steps of Example 2, k = %g s",
@@ -48,7 +47,7 @@ enum br_status br_floors_draw(const struct br_floors *f, size_t k, struct br_fig
             add_solver(f, s, k, figure);
     add_rounding(f, 1, figure);
     add_rounding(f, 4, figure);
-    return br_figure_check(figure, err);
+    return picture;
 }
 
 /* ---- steps: deviation over N ---- */
@@ -66,10 +65,9 @@ static void add_method(const struct br_drifts *d, size_t scene, size_t contender
     }
 }
 
-enum br_status br_drifts_draw(const struct br_drifts *d, struct br_figure *figure,
-                              struct br_error *err)
+struct br_figure br_drifts_draw(const struct br_drifts *d)
 {
-    *figure = (struct br_figure){.stem = "steps", .one_y = true};
+    struct br_figure picture = {.stem = "steps", .one_y = true}, *figure = &picture;
     BR_SAY(figure->title,
            "Deviation from the exact discrete solution after N steps, n = %d, riccati", BR_DRIFT_N);
     for (size_t scene = 0; scene < BR_DRIFT_SCENES; scene++) {
@@ -82,7 +80,7 @@ enum br_status br_drifts_draw(const struct br_drifts *d, struct br_figure *figur
         for (size_t j = 0; j < d->k_count; j++)
             br_point_add(s, (double)d->steps[j], br_drift_at(d, scene, 0, j)->predicted, NULL);
     }
-    return br_figure_check(figure, err);
+    return picture;
 }
 
 /* ---- energy: loss a period over steps a period ---- */
@@ -130,10 +128,9 @@ static void add_losses(const struct br_energy_behaviour *b, bool damped, struct 
                              : br_series_add(f, BR_PEN_LINE, "%s", b->vibration[i].scheme->name));
 }
 
-enum br_status br_energy_draw(const struct br_energy_behaviour *b, struct br_figure *figure,
-                              struct br_error *err)
+struct br_figure br_energy_draw(const struct br_energy_behaviour *b)
 {
-    *figure = (struct br_figure){.stem = "energy", .one_y = true};
+    struct br_figure picture = {.stem = "energy", .one_y = true}, *figure = &picture;
     BR_SAY(figure->title, "Energy of a free vibration lost to the scheme, a period");
     for (int damped = 0; damped < 2; damped++) {
         struct br_panel *p = br_panel_add(figure, "steps a period", "share lost a period, size");
@@ -141,7 +138,7 @@ enum br_status br_energy_draw(const struct br_energy_behaviour *b, struct br_fig
         p->log_x = p->log_y = true;
         add_losses(b, damped, figure);
     }
-    return br_figure_check(figure, err);
+    return picture;
 }
 
 /* ---- stability: growth over c_H and k ---- */
@@ -172,10 +169,9 @@ static void fill_cells(const struct br_stability *s, const struct br_stability_p
     memcpy(c->value, plane->radius, s->rows * s->columns * sizeof *c->value);
 }
 
-enum br_status br_stability_draw(const struct br_stability *s, struct br_figure *figure,
-                                 struct br_error *err)
+struct br_figure br_stability_draw(const struct br_stability *s)
 {
-    *figure = (struct br_figure){.stem = "stability", .value = {1e-1, 1e3}};
+    struct br_figure picture = {.stem = "stability", .value = {1e-1, 1e3}}, *figure = &picture;
     BR_SAY(figure->title, "The closed lagged contact: growth of an error in a step, measured");
     BR_SAY(figure->value_label, "largest eigenvalue of a step");
     for (size_t i = 0; i < BR_STABILITY_RODS; i++) {
@@ -192,7 +188,7 @@ enum br_status br_stability_draw(const struct br_stability *s, struct br_figure 
             br_point_add(bouncing, plane->row[j].bouncing, plane->row[j].k, NULL);
         }
     }
-    return br_figure_check(figure, err);
+    return picture;
 }
 
 /* ---- map: verdicts over planes ---- */
@@ -203,10 +199,9 @@ static void fill_edges(const struct br_extreme_coordinate *c, double *edge)
         edge[i] = pow(10, c->low + (c->high - c->low) * (double)i / (double)c->cells);
 }
 
-enum br_status br_extreme_map_draw(const struct br_extreme_map *map, struct br_figure *figure,
-                                   struct br_error *err)
+struct br_figure br_extreme_map_draw(const struct br_extreme_map *map)
 {
-    *figure = (struct br_figure){.stem = "map", .kinds = BR_EXTREME_CLASSES};
+    struct br_figure picture = {.stem = "map", .kinds = BR_EXTREME_CLASSES}, *figure = &picture;
     BR_SAY(figure->title, "The map of extremes: what most of the cases in a cell are");
     for (int i = 0; i < BR_EXTREME_CLASSES; i++)
         BR_SAY(figure->kind[i], "%s", br_extreme_title((enum br_extreme_class)i));
@@ -222,5 +217,5 @@ enum br_status br_extreme_map_draw(const struct br_extreme_map *map, struct br_f
         fill_edges(plane->y, c->y);
         br_extreme_plane_fill(map, plane, c->value);
     }
-    return br_figure_check(figure, err);
+    return picture;
 }

@@ -175,6 +175,9 @@ double br_colour_of(const struct br_figure *f, double value)
 enum br_status br_figure_check(const struct br_figure *f, struct br_error *err)
 {
     bool failed = f->failed;
+    if (f->stem[0] && !br_is_name(f->stem))
+        return br_fail(err, BR_BAD_INPUT,
+                       "a figure's name is \"%s\", expected the beginning of a file name", f->stem);
     for (size_t i = 0; i < f->panels; i++) {
         failed |= f->panel[i].top.failed;
         for (size_t j = 0; j < f->panel[i].count; j++)

@@ -125,7 +125,8 @@ struct br_range br_extent(const struct br_panel *panel, bool along_y);
 /* What a cell is coloured by: its kind, or its value brought between the ends; -1: it is empty. */
 double br_colour_of(const struct br_figure *figure, double value);
 
-/* Fails with BR_NO_MEMORY where something is missing in the figure. */
+/* Fails with BR_NO_MEMORY where something is missing in the figure, and with BR_BAD_INPUT where its
+ * stem is not the beginning of a file's name; a figure for the terminal has none. */
 enum br_status br_figure_check(const struct br_figure *figure, struct br_error *err);
 void br_figure_clear(struct br_figure *figure);
 

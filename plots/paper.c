@@ -263,12 +263,12 @@ const struct br_paper_figure br_paper_figures[] = {
     {.number = 0},
 };
 
-enum br_status br_paper_figure_draw(const struct br_paper_figure *row, const struct br_paper *paper,
-                                    struct br_figure *f, struct br_error *err)
+struct br_figure br_paper_figure_draw(const struct br_paper_figure *row,
+                                      const struct br_paper *paper)
 {
-    *f = (struct br_figure){0};
-    BR_SAY(f->stem, "figure%d", row->number);
-    BR_SAY(f->title, "Figure %d. %s", row->number, row->title);
-    row->fill(paper, f);
-    return br_figure_check(f, err);
+    struct br_figure f = {0};
+    BR_SAY(f.stem, "figure%d", row->number);
+    BR_SAY(f.title, "Figure %d. %s", row->number, row->title);
+    row->fill(paper, &f);
+    return f;
 }

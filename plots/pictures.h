@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pictures of each report, filled from its result: nothing is computed here but where a point
- * stands. All that return a status fail with BR_NO_MEMORY; the figure (out) is to be cleared, even
- * then.
+ * stands. Clear what they return; where there was no memory for all of it, br_figure_check tells.
  *
  * To add a picture: a filler, and a row of its registry or a declaration below. */
 #ifndef BR_PLOTS_PICTURES_H
@@ -33,10 +32,9 @@ struct br_convergence_picture {
 };
 extern const struct br_convergence_picture *const br_convergence_pictures[]; /* NULL-terminated */
 
-/* Ask picture->applies first. Fails with BR_BAD_INPUT where report->name makes no file name. */
-enum br_status br_convergence_draw(const struct br_convergence_picture *picture,
-                                   const struct br_report *report, struct br_figure *figure,
-                                   struct br_error *err);
+/* Ask picture->applies first. */
+struct br_figure br_convergence_draw(const struct br_convergence_picture *picture,
+                                     const struct br_report *report);
 
 /* ---- trade.c: what a digit costs ---- */
 
@@ -54,32 +52,25 @@ extern const struct br_trade_picture *const br_trade_pictures[]; /* NULL-termina
 /* Whether it has anything to show. */
 bool br_trade_picture_applies(const struct br_trade_picture *picture, const struct br_trade *trade);
 
-enum br_status br_trade_draw(const struct br_trade_picture *picture, const struct br_trade *trade,
-                             const char *name, const char *caption, struct br_figure *figure,
-                             struct br_error *err);
+struct br_figure br_trade_draw(const struct br_trade_picture *picture, const struct br_trade *trade,
+                               const char *name, const char *caption);
 
 /* ---- split.c: where the error comes from ---- */
 
 /* A panel for each of the first two methods among the runs, over what they differ by: k on the
  * finest mesh, or else h at the smallest k; no panels where no two runs differ by either. */
-enum br_status br_split_draw(const struct br_split *split, size_t count, struct br_figure *figure,
-                             struct br_error *err);
+struct br_figure br_split_draw(const struct br_split *split, size_t count);
 
 /* ---- extremes.c ---- */
 
 /* Deviation from the exact discrete solution: over n at time step number k, and over N. */
-enum br_status br_floors_draw(const struct br_floors *floors, size_t k, struct br_figure *figure,
-                              struct br_error *err);
-enum br_status br_drifts_draw(const struct br_drifts *drifts, struct br_figure *figure,
-                              struct br_error *err);
+struct br_figure br_floors_draw(const struct br_floors *floors, size_t k);
+struct br_figure br_drifts_draw(const struct br_drifts *drifts);
 /* Loss of energy a period over steps a period. */
-enum br_status br_energy_draw(const struct br_energy_behaviour *behaviour, struct br_figure *figure,
-                              struct br_error *err);
+struct br_figure br_energy_draw(const struct br_energy_behaviour *behaviour);
 /* The lagged contact's growth over c_H and k, and what most cases of the map's cells are. */
-enum br_status br_stability_draw(const struct br_stability *stability, struct br_figure *figure,
-                                 struct br_error *err);
-enum br_status br_extreme_map_draw(const struct br_extreme_map *map, struct br_figure *figure,
-                                   struct br_error *err);
+struct br_figure br_stability_draw(const struct br_stability *stability);
+struct br_figure br_extreme_map_draw(const struct br_extreme_map *map);
 
 /* ---- paper.c: Figures 2 to 10 ---- */
 
@@ -94,8 +85,8 @@ struct br_paper_figure {
 };
 extern const struct br_paper_figure br_paper_figures[]; /* ends with number 0 */
 
-enum br_status br_paper_figure_draw(const struct br_paper_figure *row, const struct br_paper *paper,
-                                    struct br_figure *figure, struct br_error *err);
+struct br_figure br_paper_figure_draw(const struct br_paper_figure *row,
+                                      const struct br_paper *paper);
 
 /* ---- run.c: the tip of a run over time ---- */
 
@@ -107,8 +98,8 @@ void br_rows_add(struct br_figure *figure, const char *title,
                  const struct br_history_record *record, size_t place, double factor);
 
 /* For a terminal, with letters. */
-enum br_status br_history_draw(const struct br_scene *scene, const struct br_history_record *record,
-                               struct br_figure *figure, struct br_error *err);
+struct br_figure br_history_draw(const struct br_scene *scene,
+                                 const struct br_history_record *record);
 
 /* ---- movie.c: beam, obstacle, and the forces at the tip, moving ---- */
 

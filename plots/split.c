@@ -85,18 +85,17 @@ static void fill_panel(const struct line *line, struct br_figure *f)
             add_points(line, i, br_series_add(f, BR_PEN_CURVE, "%s", first->share[i].source->name));
 }
 
-enum br_status br_split_draw(const struct br_split *split, size_t count, struct br_figure *f,
-                             struct br_error *err)
+struct br_figure br_split_draw(const struct br_split *split, size_t count)
 {
     struct line line = {.split = split, .count = count};
     bool meshes = false;
-    *f = (struct br_figure){.one_y = true};
+    struct br_figure figure = {.one_y = true}, *f = &figure;
     for (size_t i = 1; i < count; i++) {
         line.over_k |= split[i].at.steps != split[0].at.steps;
         meshes |= split[i].at.n != split[0].at.n;
     }
     if (!line.over_k && !meshes)
-        return BR_OK;
+        return figure;
     BR_SAY(f->stem, "%.100s-split", split->scene->name);
     BR_SAY(f->title, "Where the error comes from: %s", split->scene->title);
     for (size_t i = 0; i < count && f->panels < PANELS; i++) {
@@ -110,5 +109,5 @@ enum br_status br_split_draw(const struct br_split *split, size_t count, struct 
                 line.finest = fixed(&line, &split[j]);
         fill_panel(&line, f);
     }
-    return br_figure_check(f, err);
+    return figure;
 }

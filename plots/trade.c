@@ -160,13 +160,12 @@ static void add_fronts(const struct br_trade_picture *p, const struct br_trade *
     }
 }
 
-enum br_status br_trade_draw(const struct br_trade_picture *picture, const struct br_trade *trade,
-                             const char *name, const char *caption, struct br_figure *f,
-                             struct br_error *err)
+struct br_figure br_trade_draw(const struct br_trade_picture *picture, const struct br_trade *trade,
+                               const char *name, const char *caption)
 {
     const size_t failed = br_trade_tally(trade, BR_TRIAL_FAILED);
     const size_t over = br_trade_tally(trade, BR_TRIAL_OVER);
-    *f = (struct br_figure){0};
+    struct br_figure figure = {0}, *f = &figure;
     BR_SAY(f->stem, "%.400s-%s", name, picture->name);
     BR_SAY(f->title, "%s", caption);
     BR_SAY(f->about, "%s", picture->title);
@@ -180,5 +179,5 @@ enum br_status br_trade_draw(const struct br_trade_picture *picture, const struc
     for (size_t i = 0; i < sizeof clouds / sizeof *clouds; i++)
         add_cloud(picture, trade, i, f);
     add_fronts(picture, trade, front, f);
-    return br_figure_check(f, err);
+    return figure;
 }

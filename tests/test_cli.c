@@ -119,6 +119,17 @@ static void test_threads(void **state)
     free(first);
 }
 
+/* Where no picture can be written for want of room, the report is shown first. */
+static void expect_shown(const char *line, const char *report)
+{
+    struct cli_outcome out;
+    cli_run_line(line, &(struct cli_circumstances){.file_size = 1024}, &out);
+    assert_int_equal(out.exit_code, 3);
+    const char *shown = strstr(out.output, report);
+    const char *failed = strstr(out.output, "could not be written whole");
+    assert_true(shown && failed && shown < failed);
+}
+
 static void test_failures(void **state)
 {
     (void)state;
@@ -126,6 +137,12 @@ static void test_failures(void **state)
     cli_expect("study example1 --out full " SMALL, &(struct cli_circumstances){.file_size = 2048},
                3, "could not be written whole");
     assert_int_equal(cli_count_files("full"), 0);
+    /* what was computed is on the terminal all the same, also of those that draw only */
+    expect_shown("study example1 --out full --n 5,10 --k 0.1,0.05", "Example 1");
+    expect_shown("trade example2 --methods euler+lagged -n 5,10 -k 0.1,0.05 --out full",
+                 "Example 2");
+    expect_shown("trade example2 --split --methods euler+lagged -n 5 -k 0.1,0.05 --out full",
+                 "Example 2");
     /* no gnuplot: the plots are written, but not drawn */
     cli_expect("study example1 --out bare --n 5,10 --k 0.1,0.05 --quiet",
                &(struct cli_circumstances){.path = "/dev/null"}, 0, "gnuplot is not installed");

@@ -117,6 +117,7 @@ static void test_circumstances(void **state)
     cli_expect("extremes fast --no-plots --quiet --out full", &full, 3,
                "could not be written whole");
     assert_false(cli_is_there("full"));
+    cli_expect("extremes fast --out full", &full, 3, "cases 0, seed 0"); /* shown, then drawn */
     cli_expect("extremes fast --out /proc/nowhere", NULL, 2, "--out: cannot make the folder");
     cli_expect("extremes fast --quiet --out bare", &bare, 0, "gnuplot is not installed");
     assert_true(cli_is_there("bare/fast-heat.gp") && !cli_is_there("bare/fast-heat.png"));

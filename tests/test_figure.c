@@ -351,7 +351,8 @@ static void test_study(void **state)
         failed->error[0] = failed->error[1] = failed->error[2] = 3e-3; /* stopped half way */
         assert_string_equal(br_convergence_pictures[i]->name, checks[i].name);
         assert_true(br_convergence_pictures[i]->applies(&m.report));
-        MUST(br_convergence_draw(br_convergence_pictures[i], &m.report, &f, &err));
+        f = br_convergence_draw(br_convergence_pictures[i], &m.report);
+        MUST(br_figure_check(&f, &err));
         assert_string_equal(f.title, BR_MADE_CAPTION);
         checks[i].check(&m.report, &f);
         figure_check(&f);
@@ -370,8 +371,9 @@ static void test_names(void **state)
     br_made_report(&m, false);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         m.report.name = bad[i];
-        REFUSED(br_convergence_draw(br_convergence_pictures[0], &m.report, &f, &err), BR_BAD_INPUT,
-                "expected the beginning of a file name");
+        f = br_convergence_draw(br_convergence_pictures[0], &m.report);
+        REFUSED(br_figure_check(&f, &err), BR_BAD_INPUT, "expected the beginning of a file name");
+        br_figure_clear(&f);
     }
     br_made_report_clear(&m);
 }
@@ -408,7 +410,8 @@ static void check_trade(const struct br_trade *t, const struct br_trade_picture 
     struct br_error err = {0};
     struct br_figure f;
     assert_true(br_trade_picture_applies(picture, t));
-    MUST(br_trade_draw(picture, t, "name", "caption", &f, &err));
+    f = br_trade_draw(picture, t, "name", "caption");
+    MUST(br_figure_check(&f, &err));
     const struct br_panel *p = &f.panel[0];
     figure_axes(p, label, "relative error (31)");
     for (size_t c = 0; c < 2; c++) {
@@ -471,7 +474,8 @@ static void test_floors(void **state)
     for (int i = 0; i < 12; i++)
         floor[i] = (struct br_floor){.deviation = {1e-15 * (i + 1), 1e-14 * (i + 1)}};
     br_fail(&floor[8].refused, BR_BAD_INPUT, "no");
-    MUST(br_floors_draw(&floors, 2, &f, &err));
+    f = br_floors_draw(&floors, 2);
+    MUST(br_figure_check(&f, &err));
     assert_string_equal(f.stem, "floors-k0.001");
     figure_axes(&f.panel[0], "elements n", "relative deviation");
     for (size_t s = 0; s < 2; s++)
@@ -500,7 +504,8 @@ static void test_drifts(void **state)
                                      .deviation = {1e-16 * (i + 1), 1e-17},
                                      .predicted = 1e-13 * (i + 1)};
     drift[11].steps = 0;
-    MUST(br_drifts_draw(&d, &f, &err));
+    f = br_drifts_draw(&d);
+    MUST(br_figure_check(&f, &err));
     for (size_t scene = 0; scene < 2; scene++) {
         const struct br_panel *p = &f.panel[scene];
         figure_axes(p, "steps N", "relative deviation");
@@ -534,7 +539,8 @@ static void test_energy(void **state)
                                           .predicted = 1e-5 * (r + 1 + 10 * i) * (density + 1)};
     }
     const struct br_energy_behaviour b = {.vibration = row, .vibrations = 4};
-    MUST(br_energy_draw(&b, &f, &err));
+    f = br_energy_draw(&b);
+    MUST(br_figure_check(&f, &err));
     for (int i = 0; i < 4; i++) {
         const struct br_panel *p = &f.panel[i / 2];
         figure_axes(p, "steps a period", "share lost a period, size");
@@ -564,7 +570,8 @@ static void test_map(void **state)
         verdict[i].which = (enum br_extreme_class)(i % BR_EXTREME_CLASSES);
     }
     const struct br_extreme_map map = {.cases = CASES, .one = one, .verdict = verdict};
-    MUST(br_extreme_map_draw(&map, &f, &err));
+    f = br_extreme_map_draw(&map);
+    MUST(br_figure_check(&f, &err));
     assert_int_equal(f.kinds, BR_EXTREME_CLASSES);
     for (size_t i = 0; i < f.kinds; i++)
         assert_string_equal(f.kind[i], br_extreme_title((enum br_extreme_class)i));
@@ -619,7 +626,8 @@ static void test_letters(void **state)
     struct br_figure f;
     struct br_scene scene = br_test_bundled("example2");
     make_record(&r, row, field);
-    MUST(br_history_draw(&scene, &r, &f, &err));
+    f = br_history_draw(&scene, &r);
+    MUST(br_figure_check(&f, &err));
     for (size_t i = 0; i < LOOKS; i++) {
         const double t = row[i].time;
         figure_point(figure_series(&f.panel[0], "u"), i, t, row[i].displacement[BR_AXIAL]);

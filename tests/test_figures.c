@@ -315,7 +315,8 @@ static void test_charts(void **state)
     int number = 2;
     for (const struct br_paper_figure *row = br_paper_figures; row->number; row++) {
         assert_int_equal(row->number, number++);
-        MUST(br_paper_figure_draw(row, &paper, &f, &err));
+        f = br_paper_figure_draw(row, &paper);
+        MUST(br_figure_check(&f, &err));
         for (size_t p = 0; p < f.panels; p++)
             check_panel(row, &f.panel[p], p);
         if (strstr(row->title, "of the contact node"))
@@ -326,8 +327,9 @@ static void test_charts(void **state)
     }
     assert_int_equal(number, 11);
     br_allocation_fails_at(0);
-    REFUSED(br_paper_figure_draw(&br_paper_figures[0], &paper, &f, &err), BR_NO_MEMORY, "a figure");
+    f = br_paper_figure_draw(&br_paper_figures[0], &paper);
     br_allocation_fails_at(-1);
+    REFUSED(br_figure_check(&f, &err), BR_NO_MEMORY, "a figure");
     br_figure_clear(&f);
 }
 

@@ -104,7 +104,8 @@ static void test_figure(void **state)
     struct sample s;
     struct br_figure f;
     sample_init(&s);
-    MUST(br_split_draw(s.split, RUNS, &f, &err));
+    f = br_split_draw(s.split, RUNS);
+    MUST(br_figure_check(&f, &err));
     assert_int_equal(f.panels, 2);
     for (size_t i = 0; i < 2; i++) {
         const struct br_panel *p = &f.panel[i];
@@ -127,12 +128,14 @@ static void test_figure(void **state)
     for (size_t i = 0; i < RUNS; i++) { /* over h, where they differ by nothing else */
         s.split[i].at = (struct br_resolution){i % 2 ? 40 : 10, 10};
     }
-    MUST(br_split_draw(s.split, RUNS, &f, &err));
+    f = br_split_draw(s.split, RUNS);
+    MUST(br_figure_check(&f, &err));
     figure_axes(&f.panel[1], "mesh size h (m)", "error (31) (m^{3/2})");
     figure_point(figure_series(&f.panel[1], "lag"), 0, s.scene.length / 40,
                  s.split[3].share[3].error[0][BR_PART_TOTAL]);
     br_figure_clear(&f);
-    MUST(br_split_draw(s.split, 1, &f, &err)); /* nothing to draw over */
+    f = br_split_draw(s.split, 1);
+    MUST(br_figure_check(&f, &err)); /* nothing to draw over */
     assert_int_equal(f.panels, 0);
 }
 

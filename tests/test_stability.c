@@ -210,7 +210,8 @@ static void test_figure(void **state)
     (void)state;
     struct br_error err = {0};
     struct br_figure f;
-    MUST(br_stability_draw(&found, &f, &err));
+    f = br_stability_draw(&found);
+    MUST(br_figure_check(&f, &err));
     assert_int_equal(f.panels, BR_STABILITY_RODS);
     for (size_t i = 0; i < f.panels; i++) {
         const struct br_cells *c = &f.panel[i].cells;

@@ -251,6 +251,7 @@ static void test_foreign(void **state)
     assert_string_equal(cli_read("set/history.csv"), "changed");
     cli_expect(new_line, NULL, 3, "history.csv was not written by an earlier run");
     assert_string_equal(cli_read("set/history.csv"), "changed");
+    cli_expect("run example2 --n 5 --k 0.1 --out set", NULL, 3, "Example 2, slip"); /* is shown */
     assert_true(cli_is_there("set/summary.csv"));
     assert_false(cli_is_there("set/.beamrate"));
 }
