@@ -198,7 +198,7 @@ static struct br_predicted measured(const struct br_probe_set *s, enum br_whole_
 
 /* ---- time ---- */
 
-static double order_in_time(const struct br_outlook *o)
+static double order_in_time(const struct br_planned_march *o)
 {
     return o->method->contact->at_new_step ? o->method->scheme->order : 1;
 }
@@ -217,8 +217,8 @@ static struct br_predicted measured_time(const struct br_probe *p, int kind)
     return around(e, reference_error(e, p->ratio, finer, 3, 1));
 }
 
-static struct br_predicted extrapolated_time(const struct br_probe *p, const struct br_outlook *o,
-                                             int kind)
+static struct br_predicted extrapolated_time(const struct br_probe *p,
+                                             const struct br_planned_march *o, int kind)
 {
     const double q = order_in_time(o), fine = cell_error(p, 1, kind);
     const double observed = log2(cell_error(p, 0, kind) / fine);
@@ -258,11 +258,11 @@ static struct br_predicted time_error(const struct br_probe_set *s, int kind)
     struct br_predicted e;
     if (is_measured(s))
         e = measured(s, BR_WHOLE_TIME, kind);
-    else if (s->outlook->method->scheme->adaptive)
+    else if (s->planned->method->scheme->adaptive)
         e = by_orders(cell_error(p, 0, kind), p->beyond, by_tolerance);
     else
         e = p->measured ? measured_time(p, kind)
-                        : and_iterated(s, extrapolated_time(p, s->outlook, kind), kind);
+                        : and_iterated(s, extrapolated_time(p, s->planned, kind), kind);
     return and_at_start(s, e, kind);
 }
 
@@ -273,9 +273,9 @@ static struct br_predicted space_error(const struct br_probe_set *s, int kind)
     const struct br_probe *p = &s->probe[BR_PROBE_SPACE];
     if (is_measured(s))
         return measured(s, BR_WHOLE_SPACE, kind);
-    const double q = kind == BR_AXIAL ? s->outlook->method->axial_degree + 1 : 4;
+    const double q = kind == BR_AXIAL ? s->planned->method->axial_degree + 1 : 4;
     const double fine = cell_error(p, p->study.n_count - 1, kind);
-    const double unseen = unresolved(s->outlook->scene, kind, p->study.reference.n);
+    const double unseen = unresolved(s->planned->scene, kind, p->study.reference.n);
     if (fine == 0) /* not modelled, or at rest */
         return (struct br_predicted){.order = NAN};
     if (p->measured)
@@ -380,7 +380,7 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
     p->whole.high = -1;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const struct size size = solution_size(s, kind);
-        if (!is_modelled(s->outlook->scene, kind))
+        if (!is_modelled(s->planned->scene, kind))
             continue;
         p->size[kind] = size.most;
         const struct br_predicted e = p->field[kind] = relative(whole_error(s, kind), size);
@@ -398,7 +398,7 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
     else
         snprintf(p->why, sizeof p->why,
                  "the marches that it is compared with differ too much among themselves");
-    const struct br_scene *scene = s->outlook->scene;
+    const struct br_scene *scene = s->planned->scene;
     if (p->known && can_switch(scene) && scene->density > 0 && starts_suddenly(scene) &&
         !start_is_seen(s)) {
         p->known = false;
@@ -428,7 +428,7 @@ double br_predicted_tip(const struct br_prediction *p, enum br_field_kind kind, 
     return br_predicted_most(p, kind) * p->size[kind] * sqrt(shape / length);
 }
 
-double br_predict_round_off(const struct br_outlook *o)
+double br_predict_round_off(const struct br_planned_march *o)
 {
     double largest = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
@@ -443,9 +443,9 @@ double br_predict_round_off(const struct br_outlook *o)
 }
 
 /* What is so short that even what the run is compared with steps over it; NULL: nothing. */
-static const char *too_short(const struct br_outlook *o)
+static const char *too_short(const struct br_planned_march *o)
 {
-    struct br_outlook finer = *o;
+    struct br_planned_march finer = *o;
     struct br_warnings unseen = {0};
     struct br_error err;
     finer.steps *= FINER_LEVELS;
@@ -459,16 +459,16 @@ static const char *too_short(const struct br_outlook *o)
                : NULL;
 }
 
-enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction *p,
+enum br_status br_predict(const struct br_planned_march *planned, struct br_prediction *p,
                           struct br_error *err)
 {
     const double begun = br_seconds();
     struct br_probe_set set;
-    *p = (struct br_prediction){.round_off = br_predict_round_off(outlook)};
-    const enum br_status status = br_probes_hold(&set, outlook, err);
+    *p = (struct br_prediction){.round_off = br_predict_round_off(planned)};
+    const enum br_status status = br_probes_hold(&set, planned, err);
     if (!status)
         judge(p, &set);
-    const char *unseen = !status && p->known ? too_short(outlook) : NULL;
+    const char *unseen = !status && p->known ? too_short(planned) : NULL;
     if (unseen) {
         p->known = p->bounded = false;
         snprintf(p->why, sizeof p->why, "%s too short for what it is compared with", unseen);

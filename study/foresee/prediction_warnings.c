@@ -20,10 +20,10 @@ static bool heeds_refinement(const struct br_method *m)
     return br_linear_solver_heeds(m->solver, "--refinement");
 }
 
-static void round_off_remedy(const struct br_outlook *o, double floor, char remedy[400])
+static void round_off_remedy(const struct br_planned_march *o, double floor, char remedy[400])
 {
     struct br_method other = *o->method;
-    struct br_outlook alternative = *o;
+    struct br_planned_march alternative = *o;
     alternative.method = &other;
     other.solver = br_linear_solvers[0];
     const double least = br_predict_round_off(&alternative);
@@ -39,7 +39,7 @@ static void round_off_remedy(const struct br_outlook *o, double floor, char reme
     snprintf(remedy + used, 400 - (size_t)used, "fewer elements, which round-off grows with");
 }
 
-static void warn_of_round_off(const struct br_outlook *o, const struct br_prediction *p,
+static void warn_of_round_off(const struct br_planned_march *o, const struct br_prediction *p,
                               struct br_warnings *w)
 {
     char remedy[400];
@@ -68,22 +68,22 @@ static double round_up(double x)
 }
 
 /* Steps with which the time error reaches the aim, by an order of at most the scheme's. */
-static double steps_needed(const struct br_outlook *o, const struct br_prediction *p)
+static double steps_needed(const struct br_planned_march *o, const struct br_prediction *p)
 {
     const double order = p->time.order >= 0.5 ? fmin(p->time.order, o->method->scheme->order) : 1;
     return round_up((double)o->steps * pow(p->time.error / aim, 1 / order));
 }
 
-static double elements_needed(const struct br_outlook *o, const struct br_prediction *p)
+static double elements_needed(const struct br_planned_march *o, const struct br_prediction *p)
 {
     return round_up((double)o->n * sqrt(p->space.error / aim));
 }
 
 /* Whether contact at u_n would do. */
-static bool lag_is_to_blame(const struct br_outlook *o)
+static bool lag_is_to_blame(const struct br_planned_march *o)
 {
     struct br_method method = *o->method;
-    struct br_outlook other = *o;
+    struct br_planned_march other = *o;
     struct br_prediction p;
     struct br_error err;
     if (method.contact->at_new_step || !o->scene->contact.modelled)
@@ -93,7 +93,7 @@ static bool lag_is_to_blame(const struct br_outlook *o)
     return br_predict(&other, &p, &err) == BR_OK && p.known && p.whole.error <= large;
 }
 
-static void accuracy_remedy(const struct br_outlook *o, const struct br_prediction *p,
+static void accuracy_remedy(const struct br_planned_march *o, const struct br_prediction *p,
                             char remedy[400])
 {
     int used = 0;
@@ -112,7 +112,7 @@ static void accuracy_remedy(const struct br_outlook *o, const struct br_predicti
                  elements_needed(o, p));
 }
 
-static void warn_of_inaccuracy(const struct br_outlook *o, const struct br_prediction *p,
+static void warn_of_inaccuracy(const struct br_planned_march *o, const struct br_prediction *p,
                                struct br_warnings *w)
 {
     char remedy[400], interval[BR_PREDICTED_TEXT];
@@ -127,7 +127,7 @@ static void warn_of_inaccuracy(const struct br_outlook *o, const struct br_predi
             p->time.error, p->space.error);
 }
 
-static void warn_of_ignorance(const struct br_outlook *o, const struct br_prediction *p,
+static void warn_of_ignorance(const struct br_planned_march *o, const struct br_prediction *p,
                               struct br_warnings *w)
 {
     char most[80] = "";
@@ -140,7 +140,8 @@ static void warn_of_ignorance(const struct br_outlook *o, const struct br_predic
             br_time_step(o->scene, o->steps), most, p->why);
 }
 
-static enum br_status look(const struct br_outlook *o, struct br_warnings *w, struct br_error *err)
+static enum br_status look(const struct br_planned_march *o, struct br_warnings *w,
+                           struct br_error *err)
 {
     struct br_prediction p;
     const enum br_status status = br_predict(o, &p, err);

@@ -42,7 +42,7 @@ static enum br_status march(const struct br_scene *scene, const struct br_method
 }
 
 /* NaN: not known. */
-static double gain(const struct br_outlook *o)
+static double gain(const struct br_planned_march *o)
 {
     struct br_scene scene;
     struct br_error failure = {0};
@@ -53,7 +53,7 @@ static double gain(const struct br_outlook *o)
     return march(&scene, o->method, n, o->steps, &share, &failure) ? NAN : share;
 }
 
-static bool applies(const struct br_outlook *o, struct br_field *field)
+static bool applies(const struct br_planned_march *o, struct br_field *field)
 {
     const struct br_scene *s = o->scene;
     if (!s->contact.modelled || o->method->contact->at_new_step)
@@ -64,7 +64,8 @@ static bool applies(const struct br_outlook *o, struct br_field *field)
            !br_contact_grows(field, s->contact.stiffness);
 }
 
-static enum br_status look(const struct br_outlook *o, struct br_warnings *w, struct br_error *err)
+static enum br_status look(const struct br_planned_march *o, struct br_warnings *w,
+                           struct br_error *err)
 {
     (void)err;
     struct br_field field;

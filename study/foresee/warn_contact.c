@@ -26,7 +26,7 @@ static double cut(double x)
     return isfinite(x / unit) ? floor(x / unit) * unit : x;
 }
 
-static void remedy(const struct br_outlook *o, const struct br_field *field, char text[400])
+static void remedy(const struct br_planned_march *o, const struct br_field *field, char text[400])
 {
     const double longest = br_contact_limit_step(field, o->scene->contact.stiffness);
     const double steps = br_round_steps(o->scene->duration / longest);
@@ -38,7 +38,7 @@ static void remedy(const struct br_outlook *o, const struct br_field *field, cha
              cut(br_contact_limit_stiffness(field)));
 }
 
-static enum br_status look(const struct br_outlook *o, struct br_warnings *warnings,
+static enum br_status look(const struct br_planned_march *o, struct br_warnings *warnings,
                            struct br_error *err)
 {
     (void)err;

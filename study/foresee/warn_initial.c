@@ -126,7 +126,8 @@ static enum br_status look_at(const struct data *d, struct br_warnings *w, struc
     return BR_OK;
 }
 
-static enum br_status look(const struct br_outlook *o, struct br_warnings *w, struct br_error *err)
+static enum br_status look(const struct br_planned_march *o, struct br_warnings *w,
+                           struct br_error *err)
 {
     const struct br_axial *a = &o->scene->axial;
     const struct br_bending *b = &o->scene->bending;

@@ -89,7 +89,7 @@ static void pass_cell(struct passage *p, double from, double to)
 
 /* Of a function with t; *known: out, whether it could be resolved. */
 static enum br_status measure(const struct br_function *f, double weight,
-                              const struct br_outlook *o, struct missed *m, bool *known,
+                              const struct br_planned_march *o, struct missed *m, bool *known,
                               struct br_error *err)
 {
     const double duration = o->scene->duration;
@@ -118,8 +118,8 @@ static enum br_status measure(const struct br_function *f, double weight,
     return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
 }
 
-static void tell(const char *name, const struct missed *m, bool known, const struct br_outlook *o,
-                 struct br_warnings *w)
+static void tell(const char *name, const struct missed *m, bool known,
+                 const struct br_planned_march *o, struct br_warnings *w)
 {
     const double k = o->scene->duration / (double)o->steps;
     const char *share = br_unseen(w, BR_WARN_LOAD_TIME, m->impulse, m->size, large);
@@ -138,7 +138,7 @@ static void tell(const char *name, const struct missed *m, bool known, const str
 }
 
 static enum br_status look_at(const struct br_function *f, const char *name,
-                              const struct br_outlook *o, struct br_warnings *w,
+                              const struct br_planned_march *o, struct br_warnings *w,
                               struct br_error *err)
 {
     struct missed m = {0};
@@ -152,7 +152,7 @@ static enum br_status look_at(const struct br_function *f, const char *name,
 /* The terms of a load, each with the largest value of its other factor; one without t has an
  * impulse, too. */
 static enum br_status look_at_load(const struct br_load *load, const char *name,
-                                   const struct br_outlook *o, struct br_warnings *w,
+                                   const struct br_planned_march *o, struct br_warnings *w,
                                    struct br_error *err)
 {
     const struct br_box box = {{0, o->scene->length}, {0, o->scene->duration}};
@@ -178,7 +178,8 @@ static enum br_status look_at_load(const struct br_load *load, const char *name,
     return status;
 }
 
-static enum br_status look(const struct br_outlook *o, struct br_warnings *w, struct br_error *err)
+static enum br_status look(const struct br_planned_march *o, struct br_warnings *w,
+                           struct br_error *err)
 {
     const struct br_axial *a = &o->scene->axial;
     const struct br_bending *b = &o->scene->bending;

@@ -131,7 +131,7 @@ static void tell(const char *name, const struct sight *s, struct br_warnings *w)
 }
 
 static enum br_status look_at(const struct br_load *load, const char *name,
-                              const struct br_outlook *o, struct br_warnings *w,
+                              const struct br_planned_march *o, struct br_warnings *w,
                               struct br_error *err)
 {
     struct sight s = {.scene = o->scene, .field = hats(o->scene, o->n), .known = true};
@@ -151,7 +151,8 @@ static enum br_status look_at(const struct br_load *load, const char *name,
     return status;
 }
 
-static enum br_status look(const struct br_outlook *o, struct br_warnings *w, struct br_error *err)
+static enum br_status look(const struct br_planned_march *o, struct br_warnings *w,
+                           struct br_error *err)
 {
     const struct br_scene *s = o->scene;
     enum br_status status = BR_OK;

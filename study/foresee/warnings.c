@@ -64,34 +64,34 @@ void br_warn(struct br_warnings *w, enum br_warning_kind kind, const char *remed
 }
 
 /* Asks those that are cheap, or those that are not. */
-static enum br_status ask(const struct br_outlook *outlook, bool every, struct br_warnings *w,
+static enum br_status ask(const struct br_planned_march *planned, bool every, struct br_warnings *w,
                           struct br_error *err)
 {
     for (const struct br_warning_source *const *s = br_warning_sources; *s; s++) {
-        const enum br_status status = (*s)->every == every ? (*s)->look(outlook, w, err) : BR_OK;
+        const enum br_status status = (*s)->every == every ? (*s)->look(planned, w, err) : BR_OK;
         if (status)
             return status;
     }
     return BR_OK;
 }
 
-enum br_status br_look_ahead(const struct br_outlook *outlook, struct br_warnings *w,
+enum br_status br_look_ahead(const struct br_planned_march *planned, struct br_warnings *w,
                              struct br_error *err)
 {
-    const enum br_status status = ask(outlook, true, w, err);
-    return status ? status : ask(outlook, false, w, err);
+    const enum br_status status = ask(planned, true, w, err);
+    return status ? status : ask(planned, false, w, err);
 }
 
-enum br_status br_look_ahead_cheaply(const struct br_outlook *outlook, struct br_warnings *w,
+enum br_status br_look_ahead_cheaply(const struct br_planned_march *planned, struct br_warnings *w,
                                      struct br_error *err)
 {
-    return ask(outlook, true, w, err);
+    return ask(planned, true, w, err);
 }
 
-enum br_status br_look_at_loads(const struct br_outlook *outlook, struct br_warnings *w,
+enum br_status br_look_at_loads(const struct br_planned_march *planned, struct br_warnings *w,
                                 struct br_error *err)
 {
-    enum br_status status = br_warn_load.look(outlook, w, err);
-    status = status ? status : br_warn_load_space.look(outlook, w, err);
-    return status ? status : br_warn_initial.look(outlook, w, err);
+    enum br_status status = br_warn_load.look(planned, w, err);
+    status = status ? status : br_warn_load_space.look(planned, w, err);
+    return status ? status : br_warn_initial.look(planned, w, err);
 }

@@ -60,7 +60,7 @@ const struct br_warning *br_warnings_find(const struct br_warnings *warnings,
 struct br_prediction;
 
 /* What is to be marched. All borrowed; the scene is the part of it that is marched (model.h). */
-struct br_outlook {
+struct br_planned_march {
     const struct br_scene *scene;
     const struct br_method *method;
     size_t n, steps;
@@ -74,7 +74,7 @@ struct br_warning_source {
     bool every;        /* so cheap that each march of a study is looked at */
     /* Adds what it has to say. What it cannot tell is no failure. Fails with BR_BAD_INPUT or
      * BR_NO_MEMORY where the march is refused, the message with the figures. */
-    enum br_status (*look)(const struct br_outlook *outlook, struct br_warnings *warnings,
+    enum br_status (*look)(const struct br_planned_march *planned, struct br_warnings *warnings,
                            struct br_error *err);
 };
 
@@ -83,18 +83,18 @@ struct br_warning_source {
 extern const struct br_warning_source *const br_warning_sources[];
 
 /* Asks all sources about one march; adds to *warnings. Fails as they do. */
-enum br_status br_look_ahead(const struct br_outlook *outlook, struct br_warnings *warnings,
+enum br_status br_look_ahead(const struct br_planned_march *planned, struct br_warnings *warnings,
                              struct br_error *err);
 
 /* Asks those that are cheap alone: for marches that are many. */
-enum br_status br_look_ahead_cheaply(const struct br_outlook *outlook, struct br_warnings *warnings,
-                                     struct br_error *err);
+enum br_status br_look_ahead_cheaply(const struct br_planned_march *planned,
+                                     struct br_warnings *warnings, struct br_error *err);
 
 /* Asks about the loads and initial data alone: what of them the time levels and the elements do
  * not see. For the finest of many marches; that takes milliseconds, or a second for loads with
  * thousands of jumps.
  */
-enum br_status br_look_at_loads(const struct br_outlook *outlook, struct br_warnings *warnings,
-                                struct br_error *err);
+enum br_status br_look_at_loads(const struct br_planned_march *planned,
+                                struct br_warnings *warnings, struct br_error *err);
 
 #endif

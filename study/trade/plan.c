@@ -29,7 +29,7 @@ const char *br_plan_end_name(enum br_plan_end end)
 
 void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
 {
-    struct br_contenders all;
+    struct br_named_methods all;
     const struct br_method usual = br_method_default();
     *plan = (struct br_plan){.request = br_trial_request_default(scene),
                              .norm = {br_norms[0]},
@@ -38,11 +38,11 @@ void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
                              .seconds = br_trial_seconds,
                              .own = NAN};
     plan->request.time_limit = 60;
-    br_contenders_default(scene, &all);
+    br_named_methods_default(scene, &all);
     for (size_t i = 0; i < all.count; i++)
         if (all.list[i].method.solver == usual.solver &&
             all.list[i].method.friction == usual.friction)
-            plan->contenders.list[plan->contenders.count++] = all.list[i];
+            plan->methods.list[plan->methods.count++] = all.list[i];
 }
 
 /* ---- what was found ---- */
@@ -100,7 +100,7 @@ struct br_plan_parts br_plan_chosen_parts(const struct br_plan *p)
     if (p->chosen == p->count)
         return (struct br_plan_parts){NAN, NAN, NAN, NAN};
     const struct br_trial *t = &p->trial[p->chosen];
-    const struct br_plan_models *m = &p->model[t->contender - p->contenders.list];
+    const struct br_plan_models *m = &p->model[t->named - p->methods.list];
     if (!m->known)
         return (struct br_plan_parts){NAN, NAN, NAN, NAN};
     return br_plan_model_parts(&m->error, log((double)t->at.n), br_plan_y(t));
@@ -194,7 +194,7 @@ static enum br_status check_goal(const struct br_plan *p, struct br_error *err)
         return br_fail(err, BR_BAD_INPUT, "found %g, expected a relative error between 0 and 1", e);
     if (!isnan(s) && !(s > 0 && isfinite(s)))
         return br_fail(err, BR_BAD_INPUT, "found %g, expected seconds > 0", s);
-    return p->contenders.count ? BR_OK : br_fail(err, BR_BAD_INPUT, "no method takes this scene");
+    return p->methods.count ? BR_OK : br_fail(err, BR_BAD_INPUT, "no method takes this scene");
 }
 
 /* After the cheap trials: whether there are any results, and whether the goal can be told. */

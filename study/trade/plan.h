@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A plan: the cheapest way to an error, or the least error for so many seconds. Cheap trials of
- * every contender tell how its errors and costs go (plan_model.h, plan_cost.h); by that the
+ * every named method tell how its errors and costs go (plan_model.h, plan_cost.h); by that the
  * cheapest resolution is proposed and tried, the models learn from it, and so on until nothing that
  * is cheaper is likely to do. Errors are relative: the norm of the error over the norm of the
  * solution, the judge's own error added. */
@@ -39,7 +39,7 @@ struct br_plan_forecast {
     double error, seconds; /* NaN in round 0 */
 };
 
-/* The models of one contender. */
+/* The models of one named method. */
 struct br_plan_models {
     bool known; /* enough of its trials came to their end */
     struct br_plan_model error;
@@ -50,7 +50,7 @@ struct br_plan {
     /* in */
     struct br_trial_request request; /* norm and norms are set by the plan */
     const struct br_norm *norm[1];
-    struct br_contenders contenders;
+    struct br_named_methods methods;
     struct br_plan_goal goal;
     size_t most_rounds;
     double (*seconds)(const struct br_trial *trial); /* what a trial costs: br_trial_seconds */
@@ -61,14 +61,14 @@ struct br_plan {
     size_t first;  /* the first proposal, the cheapest of round 1; count: none */
     size_t chosen; /* count: none */
     enum br_plan_end end;
-    struct br_plan_models model[BR_MOST_CONTENDERS];
+    struct br_plan_models model[BR_MOST_NAMED_METHODS];
     double own;          /* the judge's own relative error, where it is least; NaN: not known */
     double wall_seconds; /* of all of it */
 };
 
 /* A request with its defaults: l2, marches of at most 60 s, 8 rounds, seconds as measured. The
- * contenders of br_contenders_default that keep the default solver and friction rule.
- * Trials point to the contenders, so a plan that is made is not to be moved. */
+ * named methods of br_named_methods_default that keep the default solver and friction rule.
+ * Trials point to the named methods, so a plan that is made is not to be moved. */
 void br_plan_default(struct br_plan *plan, const struct br_scene *scene);
 
 /* Makes the plan. Fails with BR_BAD_INPUT (a goal that makes no sense, or below what the judge can

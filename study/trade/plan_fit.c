@@ -1,31 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The models of a plan's contenders, from their trials. */
+/* The models of a plan's named methods, from their trials. */
 #include <math.h>
 
 #include "study/trade/plan_steps.h"
 
 void br_plan_forget(struct br_plan *p)
 {
-    for (size_t c = 0; c < p->contenders.count; c++) {
+    for (size_t c = 0; c < p->methods.count; c++) {
         br_plan_model_clear(&p->model[c].error);
         p->model[c].known = false;
     }
 }
 
-/* What is seen of one contender's trials, in room for all. */
+/* What is seen of one named method's trials, in room for all. */
 struct seen {
     struct br_plan_point *point;
     struct br_plan_work *work;
     size_t points, works;
 };
 
-static void see(const struct br_plan *p, const struct br_contender *c, struct seen *seen)
+static void see(const struct br_plan *p, const struct br_named_method *c, struct seen *seen)
 {
     seen->points = seen->works = 0;
     for (size_t i = 0; i < p->count; i++) {
         const struct br_trial *t = &p->trial[i];
         const double error = br_trial_bound(t, 0), seconds = p->seconds(t);
-        if (t->contender != c)
+        if (t->named != c)
             continue;
         if (error > 0 && isfinite(error))
             seen->point[seen->points++] =
@@ -39,11 +39,11 @@ static void see(const struct br_plan *p, const struct br_contender *c, struct se
 /* The space error's order is 2 for elements of degree 1; of more it is measured. */
 static enum br_status fit_one(struct br_plan *p, size_t c, struct seen *seen, struct br_error *err)
 {
-    const struct br_contender *contender = &p->contenders.list[c];
+    const struct br_named_method *named = &p->methods.list[c];
     struct br_plan_models *m = &p->model[c];
-    const double p_order = 1.0 + contender->method.axial_degree;
-    const double q = br_contender_adaptive(contender) ? 1 : contender->method.scheme->order;
-    see(p, contender, seen);
+    const double p_order = 1.0 + named->method.axial_degree;
+    const double q = br_named_method_adaptive(named) ? 1 : named->method.scheme->order;
+    see(p, named, seen);
     if (seen->points < 4 || seen->works == 0)
         return BR_OK;
     enum br_status status =
@@ -60,7 +60,7 @@ enum br_status br_plan_fit(struct br_plan *p, struct br_error *err)
                         .work = br_allocate(p->count + 1, sizeof *seen.work)};
     enum br_status status = seen.point && seen.work ? BR_OK : br_no_memory(err, "the models");
     br_plan_forget(p);
-    for (size_t c = 0; c < p->contenders.count && !status; c++)
+    for (size_t c = 0; c < p->methods.count && !status; c++)
         status = fit_one(p, c, &seen, err);
     free(seen.point);
     free(seen.work);

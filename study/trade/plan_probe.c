@@ -31,18 +31,18 @@ static enum br_status add(struct br_plan *plan, const struct br_trial *trial, st
     return br_plan_add(plan, trial, &(struct br_plan_forecast){0, NAN, NAN}, &added, err);
 }
 
-static enum br_status add_fixed(struct br_plan *plan, const struct br_contender *c, size_t n,
+static enum br_status add_fixed(struct br_plan *plan, const struct br_named_method *c, size_t n,
                                 struct br_error *err)
 {
     const double stages = br_time_scheme_stages(c->method.scheme);
     enum br_status status = BR_OK;
     for (size_t j = 0; j < STEPS && !status; j += n == mesh_of_all_steps ? 1 : 2)
         if (is_cheap(n, stages * (double)steps[j]))
-            status = add(plan, &(struct br_trial){.contender = c, .at = {n, steps[j]}}, err);
+            status = add(plan, &(struct br_trial){.named = c, .at = {n, steps[j]}}, err);
     return status;
 }
 
-static enum br_status add_adaptive(struct br_plan *plan, const struct br_contender *c, size_t n,
+static enum br_status add_adaptive(struct br_plan *plan, const struct br_named_method *c, size_t n,
                                    struct br_error *err)
 {
     enum br_status status = BR_OK;
@@ -50,7 +50,7 @@ static enum br_status add_adaptive(struct br_plan *plan, const struct br_contend
         if (is_cheap(n, guessed_solves))
             status = add(plan,
                          &(struct br_trial){
-                             .contender = c, .at = {n, BR_PLAN_LEVELS}, .tolerance = tolerances[j]},
+                             .named = c, .at = {n, BR_PLAN_LEVELS}, .tolerance = tolerances[j]},
                          err);
     return status;
 }
@@ -58,11 +58,11 @@ static enum br_status add_adaptive(struct br_plan *plan, const struct br_contend
 enum br_status br_plan_add_probes(struct br_plan *plan, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t c = 0; c < plan->contenders.count; c++)
+    for (size_t c = 0; c < plan->methods.count; c++)
         for (size_t i = 0; i < MESHES && !status; i++) {
-            const struct br_contender *one = &plan->contenders.list[c];
-            status = br_contender_adaptive(one) ? add_adaptive(plan, one, meshes[i], err)
-                                                : add_fixed(plan, one, meshes[i], err);
+            const struct br_named_method *one = &plan->methods.list[c];
+            status = br_named_method_adaptive(one) ? add_adaptive(plan, one, meshes[i], err)
+                                                   : add_fixed(plan, one, meshes[i], err);
         }
     return status;
 }

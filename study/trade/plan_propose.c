@@ -20,8 +20,8 @@ static bool is_new(const struct br_plan *plan, const struct br_plan_candidate *c
     const struct br_trial wanted = br_plan_trial(c);
     for (size_t i = 0; i < plan->count; i++) {
         const struct br_trial *t = &plan->trial[i];
-        if (plan->forecast[i].round > 0 && t->contender == wanted.contender &&
-            t->at.n == wanted.at.n && fabs(br_plan_y(t) - br_plan_y(&wanted)) <= 1e-12)
+        if (plan->forecast[i].round > 0 && t->named == wanted.named && t->at.n == wanted.at.n &&
+            fabs(br_plan_y(t) - br_plan_y(&wanted)) <= 1e-12)
             return false;
     }
     return true;
@@ -40,15 +40,15 @@ static void take_least(const struct br_plan *plan, struct br_plan_batch *batch,
                        double (*key)(const struct br_plan_candidate *), double limit)
 {
     for (size_t taken = 0; taken < most; taken++) {
-        size_t least = plan->contenders.count;
-        for (size_t c = 0; c < plan->contenders.count; c++)
-            if (of[c].contender && key(&of[c]) < limit &&
-                (least == plan->contenders.count || key(&of[c]) < key(&of[least])))
+        size_t least = plan->methods.count;
+        for (size_t c = 0; c < plan->methods.count; c++)
+            if (of[c].named && key(&of[c]) < limit &&
+                (least == plan->methods.count || key(&of[c]) < key(&of[least])))
                 least = c;
-        if (least == plan->contenders.count)
+        if (least == plan->methods.count)
             return;
         take(plan, batch, &of[least]);
-        of[least].contender = NULL;
+        of[least].named = NULL;
     }
 }
 
@@ -71,16 +71,16 @@ static double error_key(const struct br_plan_candidate *c)
 static void tune(const struct br_plan *plan, struct br_plan_batch *batch, size_t best)
 {
     const struct br_trial *t = &plan->trial[best];
-    const struct br_plan_models *m = &plan->model[t->contender - plan->contenders.list];
+    const struct br_plan_models *m = &plan->model[t->named - plan->methods.list];
     const double y = br_plan_y(t), wanted = log(plan->goal.error / sqrt(br_plan_band));
     if (br_trial_bound(t, 0) * br_plan_band >= plan->goal.error || !m->known)
         return;
-    struct br_plan_candidate found = {.contender = NULL};
+    struct br_plan_candidate found = {.named = NULL};
     double nearest = INFINITY;
     for (size_t n = BR_PLAN_LEAST_N; n < t->at.n; n++) {
         const struct br_plan_prediction p = br_plan_model_predict(&m->error, log((double)n), y);
         const struct br_plan_candidate c = {
-            .contender = t->contender,
+            .named = t->named,
             .n = (double)n,
             .y = y,
             .log_error = p.log_error,
@@ -92,7 +92,7 @@ static void tune(const struct br_plan *plan, struct br_plan_batch *batch, size_t
             found = c;
         }
     }
-    if (found.contender)
+    if (found.named)
         take(plan, batch, &found);
 }
 
@@ -102,17 +102,17 @@ static void propose_for_error(const struct br_plan *plan, struct br_plan_table *
     const bool reached = best < plan->count;
     const double limit = br_plan_best_seconds(plan, best);
     double safest = limit;
-    for (size_t c = 0; c < plan->contenders.count; c++)
+    for (size_t c = 0; c < plan->methods.count; c++)
         safest = fmin(safest, table->safe[c].seconds);
     take_least(plan, batch, table->safe, SAFE, seconds_key, worth_trying * limit);
-    for (size_t c = 0; c < plan->contenders.count; c++)
+    for (size_t c = 0; c < plan->methods.count; c++)
         if (!(table->gamble[c].seconds <= worth_a_gamble * safest))
-            table->gamble[c].contender = NULL;
+            table->gamble[c].named = NULL;
     if (reached)
         tune(plan, batch, best);
     if (isfinite(safest))
         take_least(plan, batch, table->gamble, GAMBLES, score_key, -least_score);
-    if (!reached && batch->count == 0 && table->explorer.contender)
+    if (!reached && batch->count == 0 && table->explorer.named)
         take(plan, batch, &table->explorer);
 }
 

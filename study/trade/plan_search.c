@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The search for what might do, by the models, in all resolutions of all contenders. */
+/* The search for what might do, by the models, in all resolutions of all named methods. */
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
@@ -12,16 +12,16 @@ static const double safe_deviations = 1.5, safe_seconds = 0.9;
 /* Neighbouring candidates: n, steps and tolerances are so far apart, as factors. */
 static const double n_factor = 1.06, step_factor = 1.08, tolerance_factor = 1.6;
 
-/* Beyond the trials of its contender a candidate may be by so much, as factors. */
+/* Beyond the trials of its named method a candidate may be by so much, as factors. */
 static const double most_beyond = 8;
 
 /* A trial costs at most so many times what one has cost so far: models err. */
 static const double most_growth = 16;
 
-/* A search in the candidates of one contender. */
+/* A search in the candidates of one named method. */
 struct search {
     const struct br_plan *plan;
-    const struct br_contender *contender;
+    const struct br_named_method *named;
     const struct br_plan_models *models;
     double most_x, most_y; /* where there are trials */
     double most_seconds;
@@ -39,7 +39,7 @@ static bool is_near_failure(const struct search *s, double x, double y)
     for (size_t i = 0; i < s->plan->count; i++) {
         const struct br_trial *t = &s->plan->trial[i];
         const double distance = hypot(log((double)t->at.n) - x, 2 * (br_plan_y(t) - y));
-        if (t->contender == s->contender && distance < nearest) {
+        if (t->named == s->named && distance < nearest) {
             nearest = distance;
             failed = !isfinite(br_trial_bound(t, 0));
         }
@@ -82,7 +82,7 @@ static void consider_column(const struct search *s, double y)
         before = n;
         const struct br_plan_prediction p = br_plan_model_predict(&s->models->error, x, y);
         const struct br_plan_candidate c = {
-            .contender = s->contender,
+            .named = s->named,
             .n = n,
             .y = y,
             .log_error = p.log_error,
@@ -100,7 +100,7 @@ static void consider_column(const struct search *s, double y)
     }
 }
 
-/* ---- one contender ---- */
+/* ---- one named method ---- */
 
 static void consider_steps(const struct search *s)
 {
@@ -124,7 +124,7 @@ static void consider_tolerances(const struct search *s)
 static bool is_tried_column(const struct search *s, size_t i)
 {
     for (size_t j = 0; j < i; j++)
-        if (s->plan->trial[j].contender == s->contender &&
+        if (s->plan->trial[j].named == s->named &&
             fabs(br_plan_y(&s->plan->trial[j]) - br_plan_y(&s->plan->trial[i])) <= 1e-12)
             return true;
     return false;
@@ -134,7 +134,7 @@ static bool is_tried_column(const struct search *s, size_t i)
 static void consider_tried(const struct search *s)
 {
     for (size_t i = 0; i < s->plan->count; i++)
-        if (s->plan->trial[i].contender == s->contender && !is_tried_column(s, i))
+        if (s->plan->trial[i].named == s->named && !is_tried_column(s, i))
             consider_column(s, br_plan_y(&s->plan->trial[i]));
 }
 
@@ -147,13 +147,13 @@ static void look_through(struct search *s)
         s->most_y = fmax(s->most_y, p->y);
     }
     consider_tried(s);
-    if (br_contender_adaptive(s->contender))
+    if (br_named_method_adaptive(s->named))
         consider_tolerances(s);
     else
         consider_steps(s);
 }
 
-/* ---- all contenders ---- */
+/* ---- all named methods ---- */
 
 static double largest_seconds(const struct br_plan *plan)
 {
@@ -168,7 +168,7 @@ double br_plan_best_seconds(const struct br_plan *plan, size_t best)
     if (best == plan->count)
         return INFINITY;
     const struct br_trial *t = &plan->trial[best];
-    const struct br_plan_models *m = &plan->model[t->contender - plan->contenders.list];
+    const struct br_plan_models *m = &plan->model[t->named - plan->methods.list];
     const double seconds = plan->seconds(t);
     return m->known ? fmin(seconds, br_plan_cost_seconds(&m->cost, (double)t->at.n, br_plan_y(t)))
                     : seconds;
@@ -178,12 +178,12 @@ void br_plan_search(const struct br_plan *plan, size_t best, struct br_plan_tabl
 {
     const double limit = plan->request.time_limit > 0 ? plan->request.time_limit : INFINITY;
     table->explorer = (struct br_plan_candidate){.log_error = INFINITY};
-    for (size_t c = 0; c < plan->contenders.count; c++) {
+    for (size_t c = 0; c < plan->methods.count; c++) {
         table->safe[c] = (struct br_plan_candidate){.seconds = nobody, .log_error = nobody};
         table->gamble[c] = (struct br_plan_candidate){.seconds = nobody, .score = 0};
         struct search s = {
             .plan = plan,
-            .contender = &plan->contenders.list[c],
+            .named = &plan->methods.list[c],
             .models = &plan->model[c],
             .most_seconds = fmin(limit, most_growth * largest_seconds(plan)),
             .best_seconds = br_plan_best_seconds(plan, best),

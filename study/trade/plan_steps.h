@@ -14,7 +14,7 @@ enum {
 
 /* A resolution that might do. */
 struct br_plan_candidate {
-    const struct br_contender *contender;
+    const struct br_named_method *named;
     double n, y; /* whole elements; log of whole steps, or -log of the tolerance */
     double log_error, deviation, seconds;
     double score; /* of a gamble: what it may save times how likely that is */
@@ -31,22 +31,22 @@ enum br_status br_plan_add(struct br_plan *plan, const struct br_trial *trial,
                            const struct br_plan_forecast *forecast, bool *added,
                            struct br_error *err);
 
-/* Adds the cheap trials of all contenders. Fails with BR_NO_MEMORY. */
+/* Adds the cheap trials of all named methods. Fails with BR_NO_MEMORY. */
 enum br_status br_plan_add_probes(struct br_plan *plan, struct br_error *err);
 
 /* The y of a trial: log of its steps, or -log of its tolerance. */
 double br_plan_y(const struct br_trial *trial);
 struct br_trial br_plan_trial(const struct br_plan_candidate *candidate);
 
-/* Fits the models of all contenders to their trials so far. Fails with BR_NO_MEMORY. */
+/* Fits the models of all named methods to their trials so far. Fails with BR_NO_MEMORY. */
 enum br_status br_plan_fit(struct br_plan *plan, struct br_error *err);
 void br_plan_forget(struct br_plan *plan); /* clears them */
 
-/* The best candidates of every contender, by its index: the cheapest (or, for seconds, the most
+/* The best candidates of every named method, by its index: the cheapest (or, for seconds, the most
  * accurate) safe one, and the most promising gamble; and the least error of all. A candidate
- * without a contender: none. */
+ * without a named method: none. */
 struct br_plan_table {
-    struct br_plan_candidate safe[BR_MOST_CONTENDERS], gamble[BR_MOST_CONTENDERS], explorer;
+    struct br_plan_candidate safe[BR_MOST_NAMED_METHODS], gamble[BR_MOST_NAMED_METHODS], explorer;
 };
 void br_plan_search(const struct br_plan *plan, size_t best, struct br_plan_table *table);
 

@@ -7,13 +7,13 @@
 
 double br_plan_y(const struct br_trial *t)
 {
-    return br_contender_adaptive(t->contender) ? -log(t->tolerance) : log((double)t->at.steps);
+    return br_named_method_adaptive(t->named) ? -log(t->tolerance) : log((double)t->at.steps);
 }
 
 struct br_trial br_plan_trial(const struct br_plan_candidate *c)
 {
-    struct br_trial t = {.contender = c->contender, .at = {(size_t)(c->n + 0.5), BR_PLAN_LEVELS}};
-    if (br_contender_adaptive(c->contender))
+    struct br_trial t = {.named = c->named, .at = {(size_t)(c->n + 0.5), BR_PLAN_LEVELS}};
+    if (br_named_method_adaptive(c->named))
         t.tolerance = exp(-c->y);
     else
         t.at.steps = (size_t)(exp(c->y) + 0.5);
@@ -49,7 +49,7 @@ enum br_status br_plan_add(struct br_plan *p, const struct br_trial *trial,
     *added = false;
     for (size_t i = 0; i < p->count; i++)
         if ((p->forecast[i].round > 0 || forecast->round == 0) &&
-            p->trial[i].contender == trial->contender && p->trial[i].at.n == trial->at.n &&
+            p->trial[i].named == trial->named && p->trial[i].at.n == trial->at.n &&
             fabs(br_plan_y(&p->trial[i]) - br_plan_y(trial)) <= 1e-12)
             return BR_OK;
     if (p->count == p->capacity && grow(p, err))

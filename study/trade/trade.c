@@ -12,7 +12,7 @@ double br_trade_target(size_t digit)
 
 double br_trade_step(const struct br_trade *trade, const struct br_trial *trial)
 {
-    return br_contender_adaptive(trial->contender)
+    return br_named_method_adaptive(trial->named)
                ? 0
                : br_time_step(trade->request.scene, trial->at.steps);
 }
@@ -42,11 +42,11 @@ static bool is_cheaper(const struct br_trial *a, const struct br_trial *b)
 }
 
 size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double target,
-                          const struct br_contender *only)
+                          const struct br_named_method *only)
 {
     size_t best = count;
     for (size_t i = 0; i < count; i++) {
-        if (only && trial[i].contender != only)
+        if (only && trial[i].named != only)
             continue;
         if (!(br_trial_bound(&trial[i], 0) <= target) || !isfinite(br_trial_seconds(&trial[i])))
             continue;
@@ -84,9 +84,8 @@ static void choose(struct br_trade *t)
     for (size_t d = 0; d < BR_TRADE_DIGITS; d++) {
         const double target = br_trade_target(d);
         t->best[d] = br_trials_cheapest(t->trial, t->count, target, NULL);
-        for (size_t c = 0; c < t->contenders.count; c++)
-            t->best_of[c][d] =
-                br_trials_cheapest(t->trial, t->count, target, &t->contenders.list[c]);
+        for (size_t c = 0; c < t->methods.count; c++)
+            t->best_of[c][d] = br_trials_cheapest(t->trial, t->count, target, &t->methods.list[c]);
     }
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The trials of a trade: which resolutions each contender is tried at. */
+/* The trials of a trade: which resolutions each named method is tried at. */
 #include <math.h>
 
 #include "study/trade/trade.h"
@@ -45,7 +45,7 @@ static struct lists fill_in(const struct br_trade_grid *g)
     return l;
 }
 
-bool br_trade_is_printed_method(const struct br_contender *c)
+bool br_trade_is_printed_method(const struct br_named_method *c)
 {
     const struct br_method *m = &c->method, paper = br_method_default();
     return m->scheme == paper.scheme && m->contact == paper.contact &&
@@ -72,23 +72,24 @@ static void add(struct br_trade *t, const struct br_trial *trial)
 }
 
 /* Whether a default grid has it. */
-static bool is_light(const struct lists *l, const struct br_contender *c, size_t n, double steps)
+static bool is_light(const struct lists *l, const struct br_named_method *c, size_t n, double steps)
 {
     const double work = (double)n * steps * (double)br_time_scheme_stages(c->method.scheme);
     const bool quick = c->method.solver == br_linear_solvers[0];
     return !(l->capped_n || l->capped_steps) || work <= (quick ? most_work : most_slow_work);
 }
 
-static void add_adaptive(struct br_trade *t, const struct lists *l, const struct br_contender *c)
+static void add_adaptive(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
 {
     for (size_t i = 0; i < l->n_count; i++)
         for (size_t j = 0; j < l->tolerances; j++)
             if (!l->capped_n || is_light(l, c, l->n[i], guessed_steps))
                 add(t, &(struct br_trial){
-                           .contender = c, .at = {l->n[i], LEVELS}, .tolerance = l->tolerance[j]});
+                           .named = c, .at = {l->n[i], LEVELS}, .tolerance = l->tolerance[j]});
 }
 
-static bool is_listed(const struct lists *l, const struct br_contender *c, size_t n, size_t steps)
+static bool is_listed(const struct lists *l, const struct br_named_method *c, size_t n,
+                      size_t steps)
 {
     bool has_n = false, has_steps = false;
     for (size_t i = 0; i < l->n_count; i++)
@@ -99,7 +100,7 @@ static bool is_listed(const struct lists *l, const struct br_contender *c, size_
 }
 
 /* Where neither list is given, the paper's method has all that the paper prints. */
-static void add_printed(struct br_trade *t, const struct lists *l, const struct br_contender *c)
+static void add_printed(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
 {
     const struct br_scene *scene = t->request.scene;
     for (size_t i = 0; l->printed && i < l->printed->count; i++) {
@@ -107,11 +108,11 @@ static void add_printed(struct br_trade *t, const struct lists *l, const struct 
         size_t steps;
         if (br_steps_of(scene, cell->k, &steps, NULL) || is_listed(l, c, cell->n, steps))
             continue;
-        add(t, &(struct br_trial){.contender = c, .at = {cell->n, steps}, .printed = true});
+        add(t, &(struct br_trial){.named = c, .at = {cell->n, steps}, .printed = true});
     }
 }
 
-static void add_fixed(struct br_trade *t, const struct lists *l, const struct br_contender *c)
+static void add_fixed(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
 {
     const bool paper = br_trade_is_printed_method(c);
     for (size_t i = 0; i < l->n_count; i++)
@@ -119,7 +120,7 @@ static void add_fixed(struct br_trade *t, const struct lists *l, const struct br
             const size_t n = l->n[i], steps = l->steps[j];
             if (is_light(l, c, n, (double)steps))
                 add(t, &(struct br_trial){
-                           .contender = c,
+                           .named = c,
                            .at = {n, steps},
                            .printed = paper && is_printed(t->request.scene, l->printed, n, steps)});
         }
@@ -130,9 +131,9 @@ static void add_fixed(struct br_trade *t, const struct lists *l, const struct br
 static void add_all(struct br_trade *t, const struct lists *l)
 {
     t->count = 0;
-    for (size_t i = 0; i < t->contenders.count; i++) {
-        const struct br_contender *c = &t->contenders.list[i];
-        if (br_contender_adaptive(c))
+    for (size_t i = 0; i < t->methods.count; i++) {
+        const struct br_named_method *c = &t->methods.list[i];
+        if (br_named_method_adaptive(c))
             add_adaptive(t, l, c);
         else
             add_fixed(t, l, c);

@@ -29,8 +29,8 @@ struct br_trial_request br_trial_request_default(const struct br_scene *scene)
 
 struct br_method br_trial_method(const struct br_trial *trial)
 {
-    struct br_method method = trial->contender->method;
-    if (br_contender_adaptive(trial->contender))
+    struct br_method method = trial->named->method;
+    if (br_named_method_adaptive(trial->named))
         method.tolerance = trial->tolerance;
     return method;
 }

@@ -30,7 +30,7 @@ struct groups {
 static bool same_group(const struct br_trial *a, const struct br_trial *b)
 {
     return a->end == BR_TRIAL_DONE && b->end == BR_TRIAL_DONE && a->at.n == b->at.n &&
-           a->contender->method.axial_degree == b->contender->method.axial_degree;
+           a->named->method.axial_degree == b->named->method.axial_degree;
 }
 
 /* Whether a trial is to be judged, and none before it on its elements. */

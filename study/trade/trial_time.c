@@ -34,7 +34,7 @@ static bool is_stopped(const struct br_trial_request *request)
 static double foreseen(const struct clocked *c, double spent)
 {
     const double done = (double)br_march_steps_done(c->march);
-    if (br_contender_adaptive(c->trial->contender) || !(spent >= least_evidence))
+    if (br_named_method_adaptive(c->trial->named) || !(spent >= least_evidence))
         return spent;
     return c->set_up + spent * (double)c->trial->at.steps / (sure_excess * done);
 }
@@ -58,7 +58,7 @@ static enum br_status make_steps(const struct clocked *c, struct br_error *err)
 {
     const size_t steps = c->trial->at.steps;
     const size_t every = 1 + (size_t)(between_looks / (double)c->trial->at.n);
-    const bool adaptive = br_contender_adaptive(c->trial->contender);
+    const bool adaptive = br_named_method_adaptive(c->trial->named);
     enum br_status status = BR_OK;
     for (size_t i = 1; i <= steps && !status; i++) {
         status = br_march_step(c->march, &c->trial->failure);
@@ -75,9 +75,9 @@ static enum br_status march_once(struct clocked *c, struct br_trial_cost *cost,
     struct br_trial *t = c->trial;
     const struct br_method method = br_trial_method(t);
     const double start = br_thread_seconds();
-    const struct br_outlook outlook = {
+    const struct br_planned_march planned = {
         .scene = c->request->scene, .method = &method, .n = t->at.n, .steps = t->at.steps};
-    enum br_status status = br_fits_memory(&outlook, br_memory_available(), &t->failure);
+    enum br_status status = br_fits_memory(&planned, br_memory_available(), &t->failure);
     if (!status)
         status = br_march_create(&c->march, c->request->scene, t->at.n, t->at.steps, &method,
                                  &t->failure);
@@ -136,7 +136,7 @@ static enum br_status time_one(struct br_trial *trial, const struct br_trial_req
 static double work_of(const struct br_trial *trial)
 {
     return (double)trial->at.n * (double)trial->at.steps *
-               br_time_scheme_stages(trial->contender->method.scheme) +
+               br_time_scheme_stages(trial->named->method.scheme) +
            1e5;
 }
 
