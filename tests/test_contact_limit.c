@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "solver/laws.h"
-#include "study/foresee/warn_contact.h"
+#include "study/foresee/warnings.h"
 #include "support.h"
 
 /* A rod that stays pressed against its obstacle. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/fit/joint_fit.h"
+#include "study/fit/fit.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>

@@ -79,7 +79,7 @@ struct br_warning_source {
 };
 
 /* NULL-terminated: refusals first, then in the order in which warnings are told. To add one: a
- * const record in a file of its own, and a row in warnings.c. */
+ * const record and a row in warnings.c. */
 extern const struct br_warning_source *const br_warning_sources[];
 
 /* Asks all sources about one march; adds to *warnings. Fails as they do. */
@@ -96,5 +96,12 @@ enum br_status br_look_ahead_cheaply(const struct br_planned_march *planned,
  */
 enum br_status br_look_at_loads(const struct br_planned_march *planned,
                                 struct br_warnings *warnings, struct br_error *err);
+
+/* The warning of a lagged contact that will be unstable (solver/laws.h). */
+extern const struct br_warning_source br_warn_contact;
+
+/* The least round number of steps, 1, 2, 4, 5, 8, 10, 16, 20, 25, ... of `least` or more, so that a
+ * duration with few digits has time steps with few digits; INFINITY above 8e12. */
+double br_round_steps(double least);
 
 #endif

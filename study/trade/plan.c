@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/trade/plan.h"
+#include "study/trade/plan_steps.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -7,7 +7,207 @@
 
 #include "solver/clock.h"
 #include "study/fit/fit.h"
-#include "study/trade/plan_steps.h"
+
+/* ---- the list of trials ---- */
+
+double br_plan_y(const struct br_trial *t)
+{
+    return br_named_method_adaptive(t->named) ? -log(t->tolerance) : log((double)t->at.steps);
+}
+
+struct br_trial br_plan_trial(const struct br_plan_candidate *c)
+{
+    struct br_trial t = {.named = c->named, .at = {(size_t)(c->n + 0.5), BR_PLAN_LEVELS}};
+    if (br_named_method_adaptive(c->named))
+        t.tolerance = exp(-c->y);
+    else
+        t.at.steps = (size_t)(exp(c->y) + 0.5);
+    return t;
+}
+
+static enum br_status grow(struct br_plan *p, struct br_error *err)
+{
+    const size_t capacity = p->capacity ? 2 * p->capacity : 256;
+    struct br_trial *trial = br_allocate(capacity, sizeof *trial);
+    struct br_plan_forecast *forecast = br_allocate(capacity, sizeof *forecast);
+    if (!trial || !forecast) {
+        free(trial);
+        free(forecast);
+        return br_no_memory(err, "the trials");
+    }
+    if (p->count) {
+        memcpy(trial, p->trial, p->count * sizeof *trial);
+        memcpy(forecast, p->forecast, p->count * sizeof *forecast);
+    }
+    free(p->trial);
+    free(p->forecast);
+    p->trial = trial;
+    p->forecast = forecast;
+    p->capacity = capacity;
+    return BR_OK;
+}
+
+enum br_status br_plan_add(struct br_plan *p, const struct br_trial *trial,
+                           const struct br_plan_forecast *forecast, bool *added,
+                           struct br_error *err)
+{
+    *added = false;
+    for (size_t i = 0; i < p->count; i++)
+        if ((p->forecast[i].round > 0 || forecast->round == 0) &&
+            p->trial[i].named == trial->named && p->trial[i].at.n == trial->at.n &&
+            fabs(br_plan_y(&p->trial[i]) - br_plan_y(trial)) <= 1e-12)
+            return BR_OK;
+    if (p->count == p->capacity && grow(p, err))
+        return BR_NO_MEMORY;
+    p->trial[p->count] = *trial;
+    p->forecast[p->count++] = *forecast;
+    *added = true;
+    return BR_OK;
+}
+
+/* ---- cheap trials ---- */
+
+/* The cheap trials that the first models of a plan are made from. */
+
+static const size_t probe_meshes[] = {2, 4, 12, 36, 108, 324, 972, 2916};
+
+/* All of them on one mesh, every other one on the rest: probe_steps that happen to end where the
+ * solution switches are better than their neighbours. Many time levels in common spare the judge
+ * work. */
+static const size_t probe_steps[] = {10, 15, 20, 30, 40, 60, 80, 120, 160, 240};
+static const size_t mesh_of_all_steps = 108;
+
+static const double probe_tolerances[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5,
+                                          1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+
+/* A solve costs as much as so many elements more than it has; a cheap trial's solves times elements
+ * at most; solves of an adaptive scheme where they are not known yet. */
+static const double overhead = 700, most_work = 5e5, guessed_solves = 150;
+
+enum {
+    MESHES = sizeof probe_meshes / sizeof *probe_meshes,
+    STEPS = sizeof probe_steps / sizeof *probe_steps
+};
+enum { TOLERANCES = sizeof probe_tolerances / sizeof *probe_tolerances };
+
+static bool is_cheap(size_t n, double solves)
+{
+    return ((double)n + overhead) * solves <= most_work;
+}
+
+static enum br_status add_probe(struct br_plan *plan, const struct br_trial *trial,
+                                struct br_error *err)
+{
+    bool added;
+    return br_plan_add(plan, trial, &(struct br_plan_forecast){0, NAN, NAN}, &added, err);
+}
+
+static enum br_status add_fixed(struct br_plan *plan, const struct br_named_method *c, size_t n,
+                                struct br_error *err)
+{
+    const double stages = br_time_scheme_stages(c->method.scheme);
+    enum br_status status = BR_OK;
+    for (size_t j = 0; j < STEPS && !status; j += n == mesh_of_all_steps ? 1 : 2)
+        if (is_cheap(n, stages * (double)probe_steps[j]))
+            status =
+                add_probe(plan, &(struct br_trial){.named = c, .at = {n, probe_steps[j]}}, err);
+    return status;
+}
+
+static enum br_status add_adaptive(struct br_plan *plan, const struct br_named_method *c, size_t n,
+                                   struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t j = 0; j < TOLERANCES && !status; j += n == mesh_of_all_steps ? 1 : 3)
+        if (is_cheap(n, guessed_solves))
+            status = add_probe(plan,
+                               &(struct br_trial){.named = c,
+                                                  .at = {n, BR_PLAN_LEVELS},
+                                                  .tolerance = probe_tolerances[j]},
+                               err);
+    return status;
+}
+
+enum br_status br_plan_add_probes(struct br_plan *plan, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t c = 0; c < plan->methods.count; c++)
+        for (size_t i = 0; i < MESHES && !status; i++) {
+            const struct br_named_method *one = &plan->methods.list[c];
+            status = br_named_method_adaptive(one) ? add_adaptive(plan, one, probe_meshes[i], err)
+                                                   : add_fixed(plan, one, probe_meshes[i], err);
+        }
+    return status;
+}
+
+/* ---- models ---- */
+
+/* The models of a plan's named methods, from their trials. */
+
+void br_plan_forget(struct br_plan *p)
+{
+    for (size_t c = 0; c < p->methods.count; c++) {
+        br_plan_model_clear(&p->model[c].error);
+        p->model[c].known = false;
+    }
+}
+
+/* What is seen of one named method's trials, in room for all. */
+struct seen {
+    struct br_plan_point *point;
+    struct br_plan_work *work;
+    size_t points, works;
+};
+
+static void see(const struct br_plan *p, const struct br_named_method *c, struct seen *seen)
+{
+    seen->points = seen->works = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        const struct br_trial *t = &p->trial[i];
+        const double error = br_trial_bound(t, 0), seconds = p->seconds(t);
+        if (t->named != c)
+            continue;
+        if (error > 0 && isfinite(error))
+            seen->point[seen->points++] =
+                (struct br_plan_point){log((double)t->at.n), br_plan_y(t), error};
+        if (seconds > 0 && isfinite(seconds) && t->cost.counts.stages > 0)
+            seen->work[seen->works++] = (struct br_plan_work){
+                (double)t->at.n, br_plan_y(t), (double)t->cost.counts.stages, seconds};
+    }
+}
+
+/* The space error's order is 2 for elements of degree 1; of more it is measured. */
+static enum br_status fit_one(struct br_plan *p, size_t c, struct seen *seen, struct br_error *err)
+{
+    const struct br_named_method *named = &p->methods.list[c];
+    struct br_plan_models *m = &p->model[c];
+    const double p_order = 1.0 + named->method.axial_degree;
+    const double q = br_named_method_adaptive(named) ? 1 : named->method.scheme->order;
+    see(p, named, seen);
+    if (seen->points < 4 || seen->works == 0)
+        return BR_OK;
+    enum br_status status =
+        br_plan_model_fit(&m->error, seen->point, seen->points, p_order, q, err);
+    if (!status)
+        status = br_plan_cost_fit(&m->cost, seen->work, seen->works, err);
+    m->known = !status;
+    return status == BR_NO_MEMORY ? status : BR_OK;
+}
+
+enum br_status br_plan_fit(struct br_plan *p, struct br_error *err)
+{
+    struct seen seen = {.point = br_allocate(p->count + 1, sizeof *seen.point),
+                        .work = br_allocate(p->count + 1, sizeof *seen.work)};
+    enum br_status status = seen.point && seen.work ? BR_OK : br_no_memory(err, "the models");
+    br_plan_forget(p);
+    for (size_t c = 0; c < p->methods.count && !status; c++)
+        status = fit_one(p, c, &seen, err);
+    free(seen.point);
+    free(seen.work);
+    return status;
+}
+
+/* ---- plans ---- */
 
 const double br_plan_band = 3;
 

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A plan: the cheapest way to an error, or the least error for so many seconds. Cheap trials of
- * every named method tell how its errors and costs go (plan_model.h, plan_cost.h); by that the
+ * every named method tell how its errors and costs go; by that the
  * cheapest resolution is proposed and tried, the models learn from it, and so on until nothing that
  * is cheaper is likely to do. Errors are relative: the norm of the error over the norm of the
  * solution, the judge's own error added. */
 #ifndef BR_STUDY_TRADE_PLAN_H
 #define BR_STUDY_TRADE_PLAN_H
 
-#include "study/trade/plan_cost.h"
 #include "study/trade/trial.h"
 
 /* The promise: a proposal's error is at most E, and not less than E over this. */
@@ -37,6 +36,61 @@ const char *br_plan_end_name(enum br_plan_end end);
 struct br_plan_forecast {
     size_t round;          /* 0: a cheap trial that the first models were made from */
     double error, seconds; /* NaN in round 0 */
+};
+
+/* What the errors of one method are at resolutions that were not tried: a model, fitted with GSL.
+ *
+ * The space and the time error are fields that may point against each other (as in fit.h):
+ *     e^2 = a^2 + 2 r a b + b^2,   a = a(n),  b = b(k), or b(tolerance).
+ * No power law holds for b from the coarsest steps on: long steps do not look at what lies between
+ * their ends, orders are reduced while k is above the relaxation time, and switching spoils them.
+ * So log a and log b are piecewise linear in log n and log k, with a knot wherever there are
+ * trials, held smooth by a weak penalty on changes of slope: the slopes are the orders, as observed
+ * there.
+ *
+ * What the model leaves over is deterministic, not noise: a prediction follows the residual of the
+ * nearest trial, less so with the distance, and is the less certain. */
+
+/* A trial as the model sees it. */
+struct br_plan_point {
+    double x;     /* log n */
+    double y;     /* log of the steps, or -log of the tolerance */
+    double error; /* relative, > 0 */
+};
+
+enum { BR_PLAN_KNOTS = 40 };
+
+/* A piecewise linear function, with its end slopes beyond its ends. */
+struct br_plan_curve {
+    size_t count;
+    double at[BR_PLAN_KNOTS], value[BR_PLAN_KNOTS];
+};
+
+struct br_plan_model {
+    struct br_plan_curve space, time; /* log a of log n, log b of y */
+    double r;
+    double scatter; /* root mean square of log(error/model) */
+    size_t points;
+    struct br_plan_point *point; /* points; owned */
+    double *residual;            /* points, log(error/model); owned */
+};
+
+/* The parts of the error, relative, and the observed orders. */
+struct br_plan_parts {
+    double space, time, p, q;
+};
+
+/* What a march of one method costs at resolutions that were not tried: a model, fitted with GSL.
+ *     seconds = c0 + c1 n + (c2 + c3 n) solves,
+ * all c >= 0, to relative errors; the solves are counted in the trials, and interpolated over the
+ * steps or the tolerance. */
+
+enum { BR_PLAN_COSTS = 4 };
+
+struct br_plan_cost {
+    double c[BR_PLAN_COSTS];     /* s, s per element, s per solve, s per element and solve */
+    struct br_plan_curve solves; /* log of them, over y */
+    double scatter;              /* root mean square of log(seconds/model) */
 };
 
 /* The models of one named method. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a plan is made of: the cheap trials, the candidates of a round, the choice at the end. */
+/* What a plan is made of: the cheap trials, the models, the candidates of a round,
+ * the choice at the end. */
 #ifndef BR_STUDY_TRADE_PLAN_STEPS_H
 #define BR_STUDY_TRADE_PLAN_STEPS_H
 
@@ -61,5 +62,47 @@ size_t br_plan_best(const struct br_plan *plan);
 
 /* Whether a trial's error is at most the goal's, or its seconds. */
 bool br_plan_meets(const struct br_plan *plan, const struct br_trial *trial);
+
+/* ---- the model of errors ---- */
+
+struct br_plan_prediction {
+    double log_error;
+    double deviation; /* of log_error, as a factor's logarithm */
+};
+
+/* The value of a curve, and minus its slope: an order. */
+double br_plan_curve_value(const struct br_plan_curve *curve, double at);
+double br_plan_curve_order(const struct br_plan_curve *curve, double at);
+
+/* Fits the model; p and q are the orders that theory expects, which count where nothing else does.
+ * Fails with BR_BAD_INPUT (fewer than 4 points), BR_NO_MEMORY. Clear the model even then. */
+enum br_status br_plan_model_fit(struct br_plan_model *model, const struct br_plan_point *point,
+                                 size_t count, double p, double q, struct br_error *err);
+void br_plan_model_clear(struct br_plan_model *model);
+
+/* The model's own value, log e. */
+double br_plan_model_value(const struct br_plan_model *model, double x, double y);
+
+/* What to expect there. */
+struct br_plan_prediction br_plan_model_predict(const struct br_plan_model *model, double x,
+                                                double y);
+
+struct br_plan_parts br_plan_model_parts(const struct br_plan_model *model, double x, double y);
+
+/* ---- the model of costs ---- */
+
+struct br_plan_work {
+    double n, y;    /* elements; log of the steps, or -log of the tolerance */
+    double solves;  /* as counted, > 0 */
+    double seconds; /* > 0 */
+};
+
+/* Fails with BR_BAD_INPUT (no works) or BR_NO_MEMORY. */
+enum br_status br_plan_cost_fit(struct br_plan_cost *cost, const struct br_plan_work *work,
+                                size_t count, struct br_error *err);
+
+/* Solves and seconds to expect. */
+double br_plan_cost_solves(const struct br_plan_cost *cost, double y);
+double br_plan_cost_seconds(const struct br_plan_cost *cost, double n, double y);
 
 #endif

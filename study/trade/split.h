@@ -4,7 +4,7 @@
  * as functions of x and t, add up to the whole error. Of a source that acts differently beside
  * another one, the chain tells what goes where it is taken away in this order.
  *
- * To add a source: one record in split_sources.c, where the chain has it. */
+ * To add a source: one record in split.c, where the chain has it. */
 #ifndef BR_STUDY_TRADE_SPLIT_H
 #define BR_STUDY_TRADE_SPLIT_H
 
