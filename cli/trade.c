@@ -215,7 +215,7 @@ static enum br_status check_heeded(const struct run *r, struct br_error *err)
     const bool k = br_option_given(r->session.options, BR_OPT_K);
     size_t adaptive = 0;
     for (size_t i = 0; i < r->methods.count; i++)
-        adaptive += br_named_method_adaptive(&r->methods.list[i]);
+        adaptive += r->methods.list[i].method.scheme->adaptive;
     if (r->methods.count && adaptive == 0 && br_option_given(r->session.options, BR_OPT_TOLERANCES))
         return br_fail(err, BR_BAD_INPUT, "--tolerances: no method of --methods heeds it");
     if (r->methods.count && adaptive == r->methods.count &&

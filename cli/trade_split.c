@@ -36,7 +36,7 @@ static enum br_status read_request(struct run *r, struct br_error *err)
                               &r->methods, err))
         return err->status;
     for (size_t i = 0; i < r->methods.count; i++)
-        if (br_named_method_adaptive(&r->methods.list[i]))
+        if (r->methods.list[i].method.scheme->adaptive)
             return BR_OK;
     return r->tolerances
                ? br_fail(err, BR_BAD_INPUT, "--tolerances: no method of --methods heeds it")
@@ -49,7 +49,7 @@ enum { DEFAULT_N = 100, DEFAULT_STEPS = 1000 };
 
 static void add_runs(struct run *r, const struct br_named_method *c, size_t n)
 {
-    const bool chosen = br_named_method_adaptive(c) && r->tolerances;
+    const bool chosen = c->method.scheme->adaptive && r->tolerances;
     for (size_t j = 0; j < (r->step_count ? r->step_count : 1); j++)
         for (size_t t = 0; t < (chosen ? r->tolerances : 1); t++) {
             struct br_split *split = &r->split[r->splits++];

@@ -88,7 +88,7 @@ static void put_commands(struct br_document *d, const struct br_plan *p, const c
     snprintf(line, sizeof line, "beamrate run %s --n %zu --k T/%zu%s", scene, t->at.n, t->at.steps,
              br_method_options(p->request.scene, &method, options));
     br_put_command(d, "run", "To march it", line);
-    if (br_named_method_adaptive(t->named))
+    if (t->named->method.scheme->adaptive)
         snprintf(step, sizeof step, "--tolerances %.15g", t->tolerance);
     else
         snprintf(step, sizeof step, "--k T/%zu", t->at.steps);
@@ -249,7 +249,7 @@ static void put_notes(struct br_document *d, const struct br_plan *p, const char
             "By the model, the proposal has a space error of %.2e and a time error of %.2e, "
             "both relative. The observed order in h is %.2f, in %s it is %.2f.",
             parts.space, parts.time, parts.p,
-            br_named_method_adaptive(p->trial[p->chosen].named) ? "the tolerance" : "k", parts.q);
+            p->trial[p->chosen].named->method.scheme->adaptive ? "the tolerance" : "k", parts.q);
     br_put_note(d, "%s", p->norm[0]->title);
     br_put_note(d,
                 "Relative errors are over the norm of the solution; the judge's own error, %.1e, "

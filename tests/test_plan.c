@@ -163,7 +163,7 @@ static double exhaustive(const struct br_plan *plan, double most)
         for (size_t i = 0; i < N; i++)
             for (size_t j = 0; j < K; j++) {
                 const struct br_named_method *one = &plan->methods.list[c];
-                const bool adaptive = br_named_method_adaptive(one);
+                const bool adaptive = one->method.scheme->adaptive;
                 const double solves =
                     adaptive ? 150 : (double)k[j] * br_time_scheme_stages(one->method.scheme);
                 if (4e-5 + 1.8e-9 * ((double)n[i] + 700) * solves > most)

@@ -77,7 +77,7 @@ extern const double br_flag_margin;
 double br_joint_model(const struct br_joint_fit *fit, double h, double k, double h_ref,
                       double k_ref);
 
-/* ---- the joint fit, to the logarithms of the errors ---- */
+/* ---- the joint model, fitted to the logarithms of the errors ---- */
 
 /* One cell as the fit sees it. */
 struct br_observation {

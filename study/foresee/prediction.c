@@ -163,18 +163,23 @@ static double whole_reference_error(const struct br_probe *p, int kind)
            reference_error(coarse, a, finer, 2, unresolved(&p->scene, kind, p->study.reference.n));
 }
 
-/* A cell's distance from the reference, and how sure that is. */
-static struct br_predicted distance(const struct br_probe *p, enum br_whole_cell cell, int kind)
+/* A distance from a reference that may be off by so much, and is unsure by a factor beside that. */
+static struct br_predicted around(double e, double unsure, double factor)
 {
-    const double e = cell_error(p, cell, kind), unsure = whole_reference_error(p, kind);
-    /* Where a tip comes to rest decides more than a finer reference can tell. */
-    const double factor = can_switch(&p->scene) ? doubt : measured_doubt;
     return (struct br_predicted){
         .error = e,
         .low = fmax(0, (e - unsure) / factor),
         .high = factor * (e + unsure),
         .order = NAN,
     };
+}
+
+/* A cell's distance from the reference, and how sure that is. Where a tip comes to rest decides
+ * more than a finer reference can tell. */
+static struct br_predicted distance(const struct br_probe *p, enum br_whole_cell cell, int kind)
+{
+    return around(cell_error(p, cell, kind), whole_reference_error(p, kind),
+                  can_switch(&p->scene) ? doubt : measured_doubt);
 }
 
 static bool is_measured(const struct br_probe_set *s)
@@ -203,18 +208,11 @@ static double order_in_time(const struct br_planned_march *o)
     return o->method->contact->at_new_step ? o->method->scheme->order : 1;
 }
 
-/* A distance of the run's own steps or elements from a reference that may be off by so much. */
-static struct br_predicted around(double e, double unsure)
-{
-    return (struct br_predicted){
-        .error = e, .low = fmax(0, e - unsure) / doubt, .high = doubt * (e + unsure), .order = NAN};
-}
-
 static struct br_predicted measured_time(const struct br_probe *p, int kind)
 {
     const double e = cell_error(p, 0, kind);
     const double finer = p->study.k_count > 1 ? cell_error(p, 1, kind) : e / 2;
-    return around(e, reference_error(e, p->ratio, finer, 3, 1));
+    return around(e, reference_error(e, p->ratio, finer, 3, 1), doubt);
 }
 
 static struct br_predicted extrapolated_time(const struct br_probe *p,
@@ -280,7 +278,7 @@ static struct br_predicted space_error(const struct br_probe_set *s, int kind)
         return (struct br_predicted){.order = NAN};
     if (p->measured)
         return around(cell_error(p, 0, kind),
-                      reference_error(cell_error(p, 0, kind), p->ratio, fine, 2, unseen));
+                      reference_error(cell_error(p, 0, kind), p->ratio, fine, 2, unseen), doubt);
     const double observed = observed_order(cell_error(p, 0, kind), fine);
     double order[3];
     bracket(observed, q, q, order);

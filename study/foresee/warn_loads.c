@@ -80,8 +80,8 @@ static enum br_status load_mesh(const struct br_function *f, enum br_variable al
  * Over each step the impulse of a function of time is compared with that of the straight line
  * between its values at the levels, which all that a scheme with few stages sees resembles: for
  * smooth functions they differ by O(k^2), for a blow that is shorter than the step by all of it.
- * The impulse is that on a mesh on which the function is proved to be resolved; where
- * one of its cells spans several steps, the difference is bounded by the second derivative instead:
+ * The impulse is that on a mesh on which the function is proved to be resolved; where one of its
+ * cells spans several steps, the difference is bounded by the second derivative instead:
  * |c_2| k^3 / 6 a step. */
 
 static const double large_in_time = 0.05; /* of the impulse of the function's size */
@@ -90,6 +90,7 @@ enum { SEVERAL = 4 };                     /* steps in one cell */
 struct missed {
     double impulse, size; /* that the levels do not see, and of |f|; both N s for a force */
     double worst, time;   /* the step that misses most, and its middle, s */
+    bool unknown;         /* not all of it could be resolved */
 };
 
 /* A function of t on its way through the steps. */
@@ -159,9 +160,9 @@ static void pass_cell(struct passage *p, double from, double to)
     }
 }
 
-/* Of a function with t; *known: out, whether it could be resolved. */
+/* Adds what is missed of weight times a function with t. */
 static enum br_status measure_times(const struct br_function *f, double weight,
-                                    const struct br_planned_march *o, struct missed *m, bool *known,
+                                    const struct br_planned_march *o, struct missed *m,
                                     struct br_error *err)
 {
     const double duration = o->scene->duration;
@@ -184,20 +185,20 @@ static enum br_status measure_times(const struct br_function *f, double weight,
         pass_steps(&p, o->steps);
         size = fmax(fabs(values.low), fabs(values.high)) * duration / 4;
     }
-    *known = *known && !status;
+    m->unknown |= status != BR_OK;
     m->size += weight * size;
     br_mesh_free(&mesh);
     return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
 }
 
-static void report_times(const char *name, const struct missed *m, bool known,
-                         const struct br_planned_march *o, struct br_warnings *w)
+static void report_times(const char *name, const struct missed *m, const struct br_planned_march *o,
+                         struct br_warnings *w)
 {
     const double k = o->scene->duration / (double)o->steps;
     const char *share = br_unseen(w, BR_WARN_LOAD_TIME, m->impulse, m->size, large_in_time);
     if (!share)
         return;
-    if (known)
+    if (!m->unknown)
         br_warn(w, BR_WARN_LOAD_TIME, "time steps that are shorter than what happens there",
                 "%s does between the time levels what they do not see: with k = %.4g s %s of its "
                 "impulse, most of it near t = %.4g s",
@@ -209,27 +210,12 @@ static void report_times(const char *name, const struct missed *m, bool known,
                 name, k);
 }
 
-static enum br_status look_at_force(const struct br_function *f, const char *name,
-                                    const struct br_planned_march *o, struct br_warnings *w,
-                                    struct br_error *err)
-{
-    struct missed m = {0};
-    bool known = true;
-    const enum br_status status = f->uses_t ? measure_times(f, 1, o, &m, &known, err) : BR_OK;
-    if (!status)
-        report_times(name, &m, known, o, w);
-    return status;
-}
-
 /* The terms of a load, each with the largest value of its other factor; one without t has an
  * impulse, too. */
-static enum br_status look_at_load(const struct br_load *load, const char *name,
-                                   const struct br_planned_march *o, struct br_warnings *w,
-                                   struct br_error *err)
+static enum br_status measure_load(const struct br_load *load, const struct br_planned_march *o,
+                                   struct missed *m, struct br_error *err)
 {
     const struct br_box box = {{0, o->scene->length}, {0, o->scene->duration}};
-    struct missed m = {0};
-    bool known = true;
     enum br_status status = BR_OK;
     for (size_t i = 0; i < BR_LOAD_TERMS && !status; i++) {
         const struct br_product *p = &load->term[i];
@@ -241,12 +227,10 @@ static enum br_status look_at_load(const struct br_load *load, const char *name,
             continue;
         const double weight = fmax(fabs(values.low), fabs(values.high));
         if (changing->uses_t)
-            status = measure_times(changing, weight, o, &m, &known, err);
+            status = measure_times(changing, weight, o, m, err);
         else
-            m.size += weight * fabs(changing->constant) * o->scene->duration;
+            m->size += weight * fabs(changing->constant) * o->scene->duration;
     }
-    if (!status)
-        report_times(name, &m, known, o, w);
     return status;
 }
 
@@ -256,22 +240,29 @@ static enum br_status look_at_times(const struct br_planned_march *o, struct br_
     const struct br_axial *a = &o->scene->axial;
     const struct br_bending *b = &o->scene->bending;
     const struct {
-        const struct br_function *function;
+        const struct br_load *load; /* or */
+        const struct br_function *force;
         const char *name;
         bool modelled;
     } rows[] = {
-        {&a->tip_force, "the axial tip force", a->modelled},
-        {&b->tip_force, "the bending tip force", b->modelled},
-        {&b->tip_moment, "the tip moment", b->modelled},
+        {NULL, &a->tip_force, "the axial tip force", a->modelled},
+        {NULL, &b->tip_force, "the bending tip force", b->modelled},
+        {NULL, &b->tip_moment, "the tip moment", b->modelled},
+        {&a->load, NULL, "the axial load", a->modelled},
+        {&b->load, NULL, "the bending load", b->modelled},
     };
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < sizeof rows / sizeof *rows && !status; i++)
-        if (rows[i].modelled)
-            status = look_at_force(rows[i].function, rows[i].name, o, w, err);
-    if (a->modelled && !status)
-        status = look_at_load(&a->load, "the axial load", o, w, err);
-    if (b->modelled && !status)
-        status = look_at_load(&b->load, "the bending load", o, w, err);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows && !status; i++) {
+        struct missed m = {0};
+        if (!rows[i].modelled)
+            continue;
+        if (rows[i].load)
+            status = measure_load(rows[i].load, o, &m, err);
+        else if (rows[i].force->uses_t)
+            status = measure_times(rows[i].force, 1, o, &m, err);
+        if (!status)
+            report_times(rows[i].name, &m, o, w);
+    }
     return status;
 }
 

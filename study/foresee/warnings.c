@@ -12,14 +12,6 @@
 #include "study/grid/study.h"
 #include "study/run/model.h"
 
-extern const struct br_warning_source br_warn_bounce, br_warn_initial, br_warn_load,
-    br_warn_load_space, br_warn_prediction, br_warn_resources;
-
-const struct br_warning_source *const br_warning_sources[] = {
-    &br_warn_resources,  &br_warn_contact, &br_warn_bounce,     &br_warn_load,
-    &br_warn_load_space, &br_warn_initial, &br_warn_prediction, NULL,
-};
-
 const char *br_warning_word(enum br_warning_kind kind)
 {
     static const char *const words[] = {
@@ -66,39 +58,6 @@ void br_warn(struct br_warnings *w, enum br_warning_kind kind, const char *remed
     vsnprintf(added->text, sizeof added->text, format, arguments);
     va_end(arguments);
     snprintf(added->remedy, sizeof added->remedy, "%s", remedy ? remedy : "");
-}
-
-/* Asks those that are cheap, or those that are not. */
-static enum br_status ask(const struct br_planned_march *planned, bool every, struct br_warnings *w,
-                          struct br_error *err)
-{
-    for (const struct br_warning_source *const *s = br_warning_sources; *s; s++) {
-        const enum br_status status = (*s)->every == every ? (*s)->look(planned, w, err) : BR_OK;
-        if (status)
-            return status;
-    }
-    return BR_OK;
-}
-
-enum br_status br_look_ahead(const struct br_planned_march *planned, struct br_warnings *w,
-                             struct br_error *err)
-{
-    const enum br_status status = ask(planned, true, w, err);
-    return status ? status : ask(planned, false, w, err);
-}
-
-enum br_status br_look_ahead_cheaply(const struct br_planned_march *planned, struct br_warnings *w,
-                                     struct br_error *err)
-{
-    return ask(planned, true, w, err);
-}
-
-enum br_status br_look_at_loads(const struct br_planned_march *planned, struct br_warnings *w,
-                                struct br_error *err)
-{
-    enum br_status status = br_warn_load.look(planned, w, err);
-    status = status ? status : br_warn_load_space.look(planned, w, err);
-    return status ? status : br_warn_initial.look(planned, w, err);
 }
 
 /* ---- lagged contact beyond its limit ---- */
@@ -248,7 +207,7 @@ static enum br_status look_at_bounces(const struct br_planned_march *o, struct b
     return BR_OK;
 }
 
-const struct br_warning_source br_warn_bounce = {
+static const struct br_warning_source warn_bounce = {
     .title = "energy that a lagged contact gains",
     .every = true,
     .look = look_at_bounces,
@@ -406,7 +365,47 @@ static enum br_status look_at_prediction(const struct br_planned_march *o, struc
     return BR_OK;
 }
 
-const struct br_warning_source br_warn_prediction = {
+static const struct br_warning_source warn_prediction = {
     .title = "errors of discretisation and of round-off, as predicted",
     .look = look_at_prediction,
 };
+
+/* ---- all sources ---- */
+
+const struct br_warning_source *const br_warning_sources[] = {
+    &br_warn_resources,  &br_warn_contact, &warn_bounce,     &br_warn_load,
+    &br_warn_load_space, &br_warn_initial, &warn_prediction, NULL,
+};
+
+/* Asks those that are cheap, or those that are not. */
+static enum br_status ask(const struct br_planned_march *planned, bool every, struct br_warnings *w,
+                          struct br_error *err)
+{
+    for (const struct br_warning_source *const *s = br_warning_sources; *s; s++) {
+        const enum br_status status = (*s)->every == every ? (*s)->look(planned, w, err) : BR_OK;
+        if (status)
+            return status;
+    }
+    return BR_OK;
+}
+
+enum br_status br_look_ahead(const struct br_planned_march *planned, struct br_warnings *w,
+                             struct br_error *err)
+{
+    const enum br_status status = ask(planned, true, w, err);
+    return status ? status : ask(planned, false, w, err);
+}
+
+enum br_status br_look_ahead_cheaply(const struct br_planned_march *planned, struct br_warnings *w,
+                                     struct br_error *err)
+{
+    return ask(planned, true, w, err);
+}
+
+enum br_status br_look_at_loads(const struct br_planned_march *planned, struct br_warnings *w,
+                                struct br_error *err)
+{
+    enum br_status status = br_warn_load.look(planned, w, err);
+    status = status ? status : br_warn_load_space.look(planned, w, err);
+    return status ? status : br_warn_initial.look(planned, w, err);
+}

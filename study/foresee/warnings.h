@@ -100,6 +100,10 @@ enum br_status br_look_at_loads(const struct br_planned_march *planned,
 /* The warning of a lagged contact that will be unstable (solver/laws.h). */
 extern const struct br_warning_source br_warn_contact;
 
+/* Of the other files of this room. */
+extern const struct br_warning_source br_warn_initial, br_warn_load, br_warn_load_space,
+    br_warn_resources;
+
 /* The least round number of steps, 1, 2, 4, 5, 8, 10, 16, 20, 25, ... of `least` or more, so that a
  * duration with few digits has time steps with few digits; INFINITY above 8e12. */
 double br_round_steps(double least);

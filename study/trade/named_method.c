@@ -122,11 +122,6 @@ static enum br_status check(const struct br_method *m, const bool taken[KINDS],
     return status ? status : check_somewhere(m, err);
 }
 
-bool br_named_method_adaptive(const struct br_named_method *named)
-{
-    return named->method.scheme->adaptive;
-}
-
 enum br_status br_named_method_read(const char *name, struct br_named_method *c,
                                     struct br_error *err)
 {
@@ -188,37 +183,31 @@ enum br_status br_named_methods_read(const char *option, const char *text,
 
 /* ---- the default ones ---- */
 
-/* Adds the named method of that name, unless the scene or the list has no use for it. */
-static void add(const struct br_scene *scene, struct br_named_methods *all, const char *name)
-{
-    struct br_named_method c;
-    if (br_named_method_read(name, &c, NULL) || contains(all, &c) ||
-        all->count == BR_MOST_NAMED_METHODS || try_scene(scene, &c.method, NULL))
-        return;
-    all->list[all->count++] = c;
-}
-
-__attribute__((format(printf, 3, 4))) static void add_named(const struct br_scene *scene,
-                                                            struct br_named_methods *all,
-                                                            const char *format, ...)
+/* Adds the method of that name, unless the scene or the list has no use for it. */
+__attribute__((format(printf, 3, 4))) static void add(const struct br_scene *scene,
+                                                      struct br_named_methods *all,
+                                                      const char *format, ...)
 {
     char name[BR_METHOD_NAME_SIZE];
+    struct br_named_method c;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(name, sizeof name, format, arguments);
     va_end(arguments);
-    add(scene, all, name);
+    if (!br_named_method_read(name, &c, NULL) && !contains(all, &c) &&
+        all->count < BR_MOST_NAMED_METHODS && !try_scene(scene, &c.method, NULL))
+        all->list[all->count++] = c;
 }
 
 static void add_scheme(const struct br_scene *scene, const struct br_time_scheme *scheme,
                        struct br_named_methods *all)
 {
     if (!scene->contact.modelled || !scheme->may_lag) {
-        add(scene, all, scheme->name);
+        add(scene, all, "%s", scheme->name);
         return;
     }
     for (const struct br_contact_rule *const *rule = br_contact_rules; *rule; rule++)
-        add_named(scene, all, "%s+%s", scheme->name, (*rule)->name);
+        add(scene, all, "%s+%s", scheme->name, (*rule)->name);
 }
 
 /* The first scheme of order two: what the other friction rules and solvers are held with. */
@@ -234,9 +223,9 @@ static void add_solvers(const struct br_scene *scene, const char *base,
                         struct br_named_methods *all)
 {
     for (const struct br_linear_solver *const *s = &br_linear_solvers[1]; *s; s++) {
-        add_named(scene, all, "%s+%s", base, (*s)->name);
+        add(scene, all, "%s+%s", base, (*s)->name);
         if (br_linear_solver_heeds(*s, "--scaling") && br_linear_solver_heeds(*s, "--refinement"))
-            add_named(scene, all, "%s+%s+scaled+refined", base, (*s)->name);
+            add(scene, all, "%s+%s+scaled+refined", base, (*s)->name);
     }
 }
 
@@ -248,8 +237,8 @@ void br_named_methods_default(const struct br_scene *scene, struct br_named_meth
         add_scheme(scene, *s, all);
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
         if (scene->axial.modelled && (*s == base || (*s)->order > 2))
-            add_named(scene, all, "%s+p2", (*s)->name);
+            add(scene, all, "%s+p2", (*s)->name);
     for (size_t i = 1; br_friction_rules[i] && scene->friction.law != BR_FRICTIONLESS; i++)
-        add_named(scene, all, "%s+%s", base->name, br_friction_rules[i]->name);
+        add(scene, all, "%s+%s", base->name, br_friction_rules[i]->name);
     add_solvers(scene, base->name, all);
 }

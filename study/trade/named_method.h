@@ -18,9 +18,6 @@ struct br_named_methods {
     size_t count;
 };
 
-/* Whether the steps are chosen by a tolerance. */
-bool br_named_method_adaptive(const struct br_named_method *named);
-
 /* Reads one name: words joined by '+', in any order, at most one of a kind: rows of the registries
  * of time schemes, contact rules, friction rules and linear solvers; "p1" and "p2", the degree of
  * the axial elements; "scaled" and "refined", for solvers that heed that. Without a contact rule

@@ -12,13 +12,13 @@
 
 double br_plan_y(const struct br_trial *t)
 {
-    return br_named_method_adaptive(t->named) ? -log(t->tolerance) : log((double)t->at.steps);
+    return t->named->method.scheme->adaptive ? -log(t->tolerance) : log((double)t->at.steps);
 }
 
 struct br_trial br_plan_trial(const struct br_plan_candidate *c)
 {
     struct br_trial t = {.named = c->named, .at = {(size_t)(c->n + 0.5), BR_PLAN_LEVELS}};
-    if (br_named_method_adaptive(c->named))
+    if (c->named->method.scheme->adaptive)
         t.tolerance = exp(-c->y);
     else
         t.at.steps = (size_t)(exp(c->y) + 0.5);
@@ -47,21 +47,26 @@ static enum br_status grow(struct br_plan *p, struct br_error *err)
     return BR_OK;
 }
 
-enum br_status br_plan_add(struct br_plan *p, const struct br_trial *trial,
-                           const struct br_plan_forecast *forecast, bool *added,
-                           struct br_error *err)
+bool br_plan_has(const struct br_plan *p, const struct br_trial *trial, bool cheap)
 {
-    *added = false;
     for (size_t i = 0; i < p->count; i++)
-        if ((p->forecast[i].round > 0 || forecast->round == 0) &&
-            p->trial[i].named == trial->named && p->trial[i].at.n == trial->at.n &&
+        if ((p->forecast[i].round > 0 || cheap) && p->trial[i].named == trial->named &&
+            p->trial[i].at.n == trial->at.n &&
             fabs(br_plan_y(&p->trial[i]) - br_plan_y(trial)) <= 1e-12)
-            return BR_OK;
+            return true;
+    return false;
+}
+
+/* Adds a trial without an outcome, unless it was added before. Fails with BR_NO_MEMORY. */
+static enum br_status add(struct br_plan *p, const struct br_trial *trial,
+                          struct br_plan_forecast forecast, struct br_error *err)
+{
+    if (br_plan_has(p, trial, forecast.round == 0))
+        return BR_OK;
     if (p->count == p->capacity && grow(p, err))
         return BR_NO_MEMORY;
     p->trial[p->count] = *trial;
-    p->forecast[p->count++] = *forecast;
-    *added = true;
+    p->forecast[p->count++] = forecast;
     return BR_OK;
 }
 
@@ -90,53 +95,34 @@ enum {
 };
 enum { TOLERANCES = sizeof probe_tolerances / sizeof *probe_tolerances };
 
-static bool is_cheap(size_t n, double solves)
+/* Those of one method on one mesh. */
+static enum br_status add_column(struct br_plan *plan, const struct br_named_method *named,
+                                 size_t n, struct br_error *err)
 {
-    return ((double)n + overhead) * solves <= most_work;
-}
-
-static enum br_status add_probe(struct br_plan *plan, const struct br_trial *trial,
-                                struct br_error *err)
-{
-    bool added;
-    return br_plan_add(plan, trial, &(struct br_plan_forecast){0, NAN, NAN}, &added, err);
-}
-
-static enum br_status add_fixed(struct br_plan *plan, const struct br_named_method *c, size_t n,
-                                struct br_error *err)
-{
-    const double stages = br_time_scheme_stages(c->method.scheme);
+    const bool adaptive = named->method.scheme->adaptive;
+    const double stages = br_time_scheme_stages(named->method.scheme);
+    const size_t count = adaptive ? TOLERANCES : STEPS;
+    const size_t next = n == mesh_of_all_steps ? 1 : adaptive ? 3 : 2;
     enum br_status status = BR_OK;
-    for (size_t j = 0; j < STEPS && !status; j += n == mesh_of_all_steps ? 1 : 2)
-        if (is_cheap(n, stages * (double)probe_steps[j]))
-            status =
-                add_probe(plan, &(struct br_trial){.named = c, .at = {n, probe_steps[j]}}, err);
+    for (size_t j = 0; j < count && !status; j += next) {
+        struct br_trial trial = {.named = named, .at = {n, BR_PLAN_LEVELS}};
+        if (adaptive)
+            trial.tolerance = probe_tolerances[j];
+        else
+            trial.at.steps = probe_steps[j];
+        const double solves = adaptive ? guessed_solves : stages * (double)trial.at.steps;
+        if (((double)n + overhead) * solves <= most_work)
+            status = add(plan, &trial, (struct br_plan_forecast){0, NAN, NAN}, err);
+    }
     return status;
 }
 
-static enum br_status add_adaptive(struct br_plan *plan, const struct br_named_method *c, size_t n,
-                                   struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (size_t j = 0; j < TOLERANCES && !status; j += n == mesh_of_all_steps ? 1 : 3)
-        if (is_cheap(n, guessed_solves))
-            status = add_probe(plan,
-                               &(struct br_trial){.named = c,
-                                                  .at = {n, BR_PLAN_LEVELS},
-                                                  .tolerance = probe_tolerances[j]},
-                               err);
-    return status;
-}
-
-enum br_status br_plan_add_probes(struct br_plan *plan, struct br_error *err)
+static enum br_status add_probes(struct br_plan *plan, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (size_t c = 0; c < plan->methods.count; c++)
-        for (size_t i = 0; i < MESHES && !status; i++) {
-            const struct br_named_method *one = &plan->methods.list[c];
-            status = br_named_method_adaptive(one) ? add_adaptive(plan, one, probe_meshes[i], err)
-                                                   : add_fixed(plan, one, probe_meshes[i], err);
-        }
+        for (size_t i = 0; i < MESHES && !status; i++)
+            status = add_column(plan, &plan->methods.list[c], probe_meshes[i], err);
     return status;
 }
 
@@ -144,7 +130,7 @@ enum br_status br_plan_add_probes(struct br_plan *plan, struct br_error *err)
 
 /* The models of a plan's named methods, from their trials. */
 
-void br_plan_forget(struct br_plan *p)
+static void forget(struct br_plan *p)
 {
     for (size_t c = 0; c < p->methods.count; c++) {
         br_plan_model_clear(&p->model[c].error);
@@ -182,7 +168,7 @@ static enum br_status fit_one(struct br_plan *p, size_t c, struct seen *seen, st
     const struct br_named_method *named = &p->methods.list[c];
     struct br_plan_models *m = &p->model[c];
     const double p_order = 1.0 + named->method.axial_degree;
-    const double q = br_named_method_adaptive(named) ? 1 : named->method.scheme->order;
+    const double q = named->method.scheme->adaptive ? 1 : named->method.scheme->order;
     see(p, named, seen);
     if (seen->points < 4 || seen->works == 0)
         return BR_OK;
@@ -194,12 +180,12 @@ static enum br_status fit_one(struct br_plan *p, size_t c, struct seen *seen, st
     return status == BR_NO_MEMORY ? status : BR_OK;
 }
 
-enum br_status br_plan_fit(struct br_plan *p, struct br_error *err)
+static enum br_status fit_all(struct br_plan *p, struct br_error *err)
 {
     struct seen seen = {.point = br_allocate(p->count + 1, sizeof *seen.point),
                         .work = br_allocate(p->count + 1, sizeof *seen.work)};
     enum br_status status = seen.point && seen.work ? BR_OK : br_no_memory(err, "the models");
-    br_plan_forget(p);
+    forget(p);
     for (size_t c = 0; c < p->methods.count && !status; c++)
         status = fit_one(p, c, &seen, err);
     free(seen.point);
@@ -247,7 +233,8 @@ void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
 
 /* ---- what was found ---- */
 
-bool br_plan_meets(const struct br_plan *p, const struct br_trial *t)
+/* Whether a trial's error is at most the goal's, or its seconds. */
+static bool meets(const struct br_plan *p, const struct br_trial *t)
 {
     if (!isfinite(br_trial_bound(t, 0)))
         return false;
@@ -265,7 +252,7 @@ static size_t least_of(const struct br_plan *p, double least_error)
     for (size_t i = 0; i < p->count; i++) {
         const double error = br_trial_bound(&p->trial[i], 0), seconds = p->seconds(&p->trial[i]);
         const double value = by_error ? seconds : error;
-        if (p->forecast[i].round > 0 && br_plan_meets(p, &p->trial[i]) && error >= least_error &&
+        if (p->forecast[i].round > 0 && meets(p, &p->trial[i]) && error >= least_error &&
             value < least) {
             least = value;
             best = i;
@@ -345,7 +332,7 @@ static enum br_status hold_new(struct br_plan *p, size_t from, struct br_error *
 static enum br_status hold_probes(struct br_plan *p, struct br_error *err)
 {
     const size_t repeats = p->request.repeats;
-    enum br_status status = br_plan_add_probes(p, err);
+    enum br_status status = add_probes(p, err);
     p->request.repeats = 1;
     if (!status)
         status = hold_new(p, 0, err);
@@ -366,7 +353,7 @@ static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *
     struct br_plan_batch batch;
     const size_t from = p->count;
     *tried = false;
-    enum br_status status = br_plan_fit(p, err);
+    enum br_status status = fit_all(p, err);
     if (status)
         return status;
     br_plan_propose(p, &batch);
@@ -374,11 +361,10 @@ static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *
         const struct br_plan_candidate *c = &batch.candidate[i];
         const struct br_trial trial = br_plan_trial(c);
         const struct br_plan_forecast forecast = {p->rounds + 1, exp(c->log_error), c->seconds};
-        bool added = false;
-        status = br_plan_add(p, &trial, &forecast, &added, err);
-        *tried |= added;
+        status = add(p, &trial, forecast, err);
     }
-    if (!status && *tried)
+    *tried = p->count > from;
+    if (!status)
         status = hold_new(p, from, err);
     if (!status && *tried && ++p->rounds == 1)
         p->first = from;
@@ -441,7 +427,7 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
     while (!status && tried && p->rounds < p->most_rounds && !is_idle(p))
         status = go_round(p, &tried, err);
     if (!status)
-        status = br_plan_fit(p, err);
+        status = fit_all(p, err);
     if (p->first == SIZE_MAX)
         p->first = p->count;
     if (!status)
@@ -454,7 +440,7 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
 
 void br_plan_clear(struct br_plan *p)
 {
-    br_plan_forget(p);
+    forget(p);
     free(p->trial);
     free(p->forecast);
     p->trial = NULL;

@@ -84,7 +84,6 @@ struct br_plan_parts {
  *     seconds = c0 + c1 n + (c2 + c3 n) solves,
  * all c >= 0, to relative errors; the solves are counted in the trials, and interpolated over the
  * steps or the tolerance. */
-
 enum { BR_PLAN_COSTS = 4 };
 
 struct br_plan_cost {

@@ -37,7 +37,7 @@ static double fraction(const struct br_plan_curve *c, size_t i, double at)
     return (at - c->at[i]) / (c->at[i + 1] - c->at[i]);
 }
 
-double br_plan_curve_value(const struct br_plan_curve *c, double at)
+static double curve_value(const struct br_plan_curve *c, double at)
 {
     if (c->count < 2)
         return c->value[0];
@@ -45,7 +45,8 @@ double br_plan_curve_value(const struct br_plan_curve *c, double at)
     return c->value[i] + fraction(c, i, at) * (c->value[i + 1] - c->value[i]);
 }
 
-double br_plan_curve_order(const struct br_plan_curve *c, double at)
+/* Minus the slope of a curve. */
+static double curve_order(const struct br_plan_curve *c, double at)
 {
     if (c->count < 2)
         return 0;
@@ -105,9 +106,10 @@ static void spread(const struct problem *problem, const gsl_vector *v)
     m->r = problem->no_r ? 0 : most_r * tanh(gsl_vector_get(v, m->space.count + m->time.count));
 }
 
-double br_plan_model_value(const struct br_plan_model *m, double x, double y)
+/* The model's own value, log e. */
+static double model_value(const struct br_plan_model *m, double x, double y)
 {
-    const double a = br_plan_curve_value(&m->space, x), b = br_plan_curve_value(&m->time, y);
+    const double a = curve_value(&m->space, x), b = curve_value(&m->time, y);
     const double most = fmax(a, b), ratio = exp(-fabs(a - b));
     const double square = 1 + 2 * m->r * ratio + ratio * ratio;
     return most + 0.5 * log(fmax(square, 1e-6));
@@ -118,10 +120,10 @@ static size_t penalties(const struct br_plan_curve *c, double order, double stif
                         gsl_vector *out, size_t row)
 {
     for (size_t i = 0; i + 1 < c->count; i++) {
-        const double slope = br_plan_curve_order(c, (c->at[i] + c->at[i + 1]) / 2);
+        const double slope = curve_order(c, (c->at[i] + c->at[i + 1]) / 2);
         gsl_vector_set(out, row++, theory * (slope - order));
         if (i + 2 < c->count) {
-            const double next = br_plan_curve_order(c, (c->at[i + 1] + c->at[i + 2]) / 2);
+            const double next = curve_order(c, (c->at[i + 1] + c->at[i + 2]) / 2);
             gsl_vector_set(out, row++, stiffness * (next - slope));
         }
     }
@@ -141,7 +143,7 @@ static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
     size_t row = 0;
     for (; row < m->points; row++) {
         const struct br_plan_point *p = &m->point[row];
-        const double f = log(p->error) - br_plan_model_value(m, p->x, p->y);
+        const double f = log(p->error) - model_value(m, p->x, p->y);
         if (!isfinite(f))
             return GSL_EDOM;
         gsl_vector_set(out, row, f);
@@ -207,7 +209,7 @@ static void measure_residuals(struct br_plan_model *m)
     double sum = 0;
     for (size_t i = 0; i < m->points; i++) {
         const struct br_plan_point *p = &m->point[i];
-        m->residual[i] = log(p->error) - br_plan_model_value(m, p->x, p->y);
+        m->residual[i] = log(p->error) - model_value(m, p->x, p->y);
         sum += m->residual[i] * m->residual[i];
     }
     m->scatter = sqrt(sum / (double)m->points);
@@ -304,7 +306,7 @@ struct br_plan_prediction br_plan_model_predict(const struct br_plan_model *m, d
     const double unknown = m->scatter * sqrt(1 - say * say);
     const double beyond = beyond_x * excess(&m->space, x) + beyond_y * excess(&m->time, y);
     return (struct br_plan_prediction){
-        .log_error = br_plan_model_value(m, x, y) + say * residual,
+        .log_error = model_value(m, x, y) + say * residual,
         .deviation = hypot(hypot(least_deviation * fmin(1, nearest), unknown), beyond),
     };
 }
@@ -312,10 +314,10 @@ struct br_plan_prediction br_plan_model_predict(const struct br_plan_model *m, d
 struct br_plan_parts br_plan_model_parts(const struct br_plan_model *m, double x, double y)
 {
     return (struct br_plan_parts){
-        .space = exp(br_plan_curve_value(&m->space, x)),
-        .time = exp(br_plan_curve_value(&m->time, y)),
-        .p = br_plan_curve_order(&m->space, x),
-        .q = br_plan_curve_order(&m->time, y),
+        .space = exp(curve_value(&m->space, x)),
+        .time = exp(curve_value(&m->time, y)),
+        .p = curve_order(&m->space, x),
+        .q = curve_order(&m->time, y),
     };
 }
 
@@ -381,35 +383,31 @@ static enum br_status fit_terms(struct br_plan_cost *cost, const struct br_plan_
     size_t terms = 0;
     for (int i = 0; i < BR_PLAN_COSTS; i++)
         terms += used[i];
-    gsl_matrix *x = gsl_matrix_alloc(count, terms), *covariance = gsl_matrix_alloc(terms, terms);
-    gsl_vector *y = gsl_vector_alloc(count), *c = gsl_vector_alloc(terms);
+    double c[BR_PLAN_COSTS], covariance[BR_PLAN_COSTS * BR_PLAN_COSTS], sum;
+    double *x = br_allocate(count * (terms + 1), sizeof *x);
     gsl_multifit_linear_workspace *w = gsl_multifit_linear_alloc(count, terms);
-    enum br_status status = BR_OK;
-    if (!x || !y || !c || !covariance || !w) {
-        status = br_no_memory(err, "the cost model");
-        goto done;
-    }
-    for (size_t i = 0; i < count; i++) {
+    enum br_status status = x && w ? BR_OK : br_no_memory(err, "the cost model");
+    for (size_t i = 0, k = 0; i < count && !status; i++) {
         double term[BR_PLAN_COSTS];
         terms_of(work[i].n, work[i].solves, term);
-        for (size_t j = 0, k = 0; j < BR_PLAN_COSTS; j++)
+        for (size_t j = 0; j < BR_PLAN_COSTS; j++)
             if (used[j])
-                gsl_matrix_set(x, i, k++, term[j] / work[i].seconds);
-        gsl_vector_set(y, i, 1);
+                x[k++] = term[j] / work[i].seconds;
+        x[count * terms + i] = 1;
     }
-    double sum;
-    if (gsl_multifit_linear(x, y, c, covariance, &sum, w) != GSL_SUCCESS) {
-        status = br_fail(err, BR_SINGULAR, "the cost model could not be fitted");
-        goto done;
+    if (!status) {
+        gsl_matrix_view rows = gsl_matrix_view_array(x, count, terms);
+        gsl_matrix_view spread_of = gsl_matrix_view_array(covariance, terms, terms);
+        gsl_vector_view ones = gsl_vector_view_array(x + count * terms, count);
+        gsl_vector_view found = gsl_vector_view_array(c, terms);
+        if (gsl_multifit_linear(&rows.matrix, &ones.vector, &found.vector, &spread_of.matrix, &sum,
+                                w) != GSL_SUCCESS)
+            status = br_fail(err, BR_SINGULAR, "the cost model could not be fitted");
     }
-    for (size_t j = 0, k = 0; j < BR_PLAN_COSTS; j++)
-        cost->c[j] = used[j] ? gsl_vector_get(c, k++) : 0;
-done:
+    for (size_t j = 0, k = 0; j < BR_PLAN_COSTS && !status; j++)
+        cost->c[j] = used[j] ? c[k++] : 0;
     gsl_multifit_linear_free(w);
-    gsl_matrix_free(covariance);
-    gsl_matrix_free(x);
-    gsl_vector_free(c);
-    gsl_vector_free(y);
+    free(x);
     return status;
 }
 
@@ -470,7 +468,7 @@ enum br_status br_plan_cost_fit(struct br_plan_cost *cost, const struct br_plan_
 
 double br_plan_cost_solves(const struct br_plan_cost *cost, double y)
 {
-    return exp(br_plan_curve_value(&cost->solves, y));
+    return exp(curve_value(&cost->solves, y));
 }
 
 double br_plan_cost_seconds(const struct br_plan_cost *cost, double n, double y)

@@ -25,7 +25,7 @@ struct search {
     const struct br_plan_models *models;
     double most_x, most_y; /* where there are trials */
     double most_seconds;
-    double best_seconds, best_log_error;                /* of what is there; infinite: nothing */
+    double best_seconds;                                /* of what is there; infinite: nothing */
     struct br_plan_candidate *safe, *gamble, *explorer; /* out */
 };
 
@@ -49,6 +49,23 @@ static bool is_near_failure(const struct search *s, double x, double y)
 
 /* ---- one candidate ---- */
 
+static struct br_plan_candidate candidate_at(const struct br_named_method *named,
+                                             const struct br_plan_models *m, double n, double y)
+{
+    const struct br_plan_prediction p = br_plan_model_predict(&m->error, log(n), y);
+    const double seconds = br_plan_cost_seconds(&m->cost, n, y);
+    return (struct br_plan_candidate){
+        .named = named,
+        .n = n,
+        .y = y,
+        .log_error = p.log_error,
+        .deviation = p.deviation,
+        .seconds = seconds,
+        .rank = seconds,
+    };
+}
+
+/* A gamble scores what it may save times how likely that is. */
 static void consider_error(const struct search *s, const struct br_plan_candidate *c)
 {
     const double distance = log(s->plan->goal.error) - c->log_error;
@@ -56,8 +73,8 @@ static void consider_error(const struct search *s, const struct br_plan_candidat
         *s->safe = *c;
     const double gain = log(fmin(s->best_seconds, 1e3 * c->seconds) / c->seconds);
     struct br_plan_candidate gamble = *c;
-    gamble.score = gsl_cdf_ugaussian_P(distance / fmax(c->deviation, 1e-6)) * gain;
-    if (gamble.score > s->gamble->score)
+    gamble.rank = -(gsl_cdf_ugaussian_P(distance / fmax(c->deviation, 1e-6)) * gain);
+    if (gamble.rank < s->gamble->rank)
         *s->gamble = gamble;
     if (c->log_error + c->deviation < s->explorer->log_error + s->explorer->deviation)
         *s->explorer = *c;
@@ -65,9 +82,11 @@ static void consider_error(const struct search *s, const struct br_plan_candidat
 
 static void consider_seconds(const struct search *s, const struct br_plan_candidate *c)
 {
-    if (c->seconds <= safe_seconds * s->plan->goal.seconds &&
-        c->log_error + c->deviation < s->safe->log_error + s->safe->deviation)
-        *s->safe = *c;
+    if (!(c->seconds <= safe_seconds * s->plan->goal.seconds) ||
+        !(c->log_error + c->deviation < s->safe->log_error + s->safe->deviation))
+        return;
+    *s->safe = *c;
+    s->safe->rank = exp(c->log_error + c->deviation);
 }
 
 /* Of one column: elements from few to many, until the cost forbids more. */
@@ -80,15 +99,7 @@ static void consider_column(const struct search *s, double y)
         if (!(n > before))
             continue;
         before = n;
-        const struct br_plan_prediction p = br_plan_model_predict(&s->models->error, x, y);
-        const struct br_plan_candidate c = {
-            .named = s->named,
-            .n = n,
-            .y = y,
-            .log_error = p.log_error,
-            .deviation = p.deviation,
-            .seconds = br_plan_cost_seconds(&s->models->cost, n, y),
-        };
+        const struct br_plan_candidate c = candidate_at(s->named, s->models, n, y);
         if (!(c.seconds <= s->most_seconds) || (by_error && c.seconds > s->best_seconds))
             return;
         if (is_near_failure(s, x, y))
@@ -147,7 +158,7 @@ static void look_through(struct search *s)
         s->most_y = fmax(s->most_y, p->y);
     }
     consider_tried(s);
-    if (br_named_method_adaptive(s->named))
+    if (s->named->method.scheme->adaptive)
         consider_tolerances(s);
     else
         consider_steps(s);
@@ -163,7 +174,8 @@ static double largest_seconds(const struct br_plan *plan)
     return most;
 }
 
-double br_plan_best_seconds(const struct br_plan *plan, size_t best)
+/* What the trial `best` costs: clocks err, so the model has a say, too. Infinite: count. */
+static double best_seconds_of(const struct br_plan *plan, size_t best)
 {
     if (best == plan->count)
         return INFINITY;
@@ -174,19 +186,26 @@ double br_plan_best_seconds(const struct br_plan *plan, size_t best)
                     : seconds;
 }
 
-void br_plan_search(const struct br_plan *plan, size_t best, struct br_plan_table *table)
+/* The best candidates of every named method, by its index: the cheapest (or, for seconds, the most
+ * accurate) safe one, and the most promising gamble; and the least error of all. A candidate
+ * without a named method: none. */
+struct table {
+    struct br_plan_candidate safe[BR_MOST_NAMED_METHODS], gamble[BR_MOST_NAMED_METHODS], explorer;
+};
+
+static void search_all(const struct br_plan *plan, size_t best, struct table *table)
 {
     const double limit = plan->request.time_limit > 0 ? plan->request.time_limit : INFINITY;
     table->explorer = (struct br_plan_candidate){.log_error = INFINITY};
     for (size_t c = 0; c < plan->methods.count; c++) {
         table->safe[c] = (struct br_plan_candidate){.seconds = nobody, .log_error = nobody};
-        table->gamble[c] = (struct br_plan_candidate){.seconds = nobody, .score = 0};
+        table->gamble[c] = (struct br_plan_candidate){.seconds = nobody, .rank = 0};
         struct search s = {
             .plan = plan,
             .named = &plan->methods.list[c],
             .models = &plan->model[c],
             .most_seconds = fmin(limit, most_growth * largest_seconds(plan)),
-            .best_seconds = br_plan_best_seconds(plan, best),
+            .best_seconds = best_seconds_of(plan, best),
             .safe = &table->safe[c],
             .gamble = &table->gamble[c],
             .explorer = &table->explorer,
@@ -214,13 +233,7 @@ enum { SAFE = 2, GAMBLES = 4 };
 static bool is_new(const struct br_plan *plan, const struct br_plan_candidate *c)
 {
     const struct br_trial wanted = br_plan_trial(c);
-    for (size_t i = 0; i < plan->count; i++) {
-        const struct br_trial *t = &plan->trial[i];
-        if (plan->forecast[i].round > 0 && t->named == wanted.named && t->at.n == wanted.at.n &&
-            fabs(br_plan_y(t) - br_plan_y(&wanted)) <= 1e-12)
-            return false;
-    }
-    return true;
+    return !br_plan_has(plan, &wanted, false);
 }
 
 static void take(const struct br_plan *plan, struct br_plan_batch *batch,
@@ -230,37 +243,20 @@ static void take(const struct br_plan *plan, struct br_plan_batch *batch,
         batch->candidate[batch->count++] = *c;
 }
 
-/* Takes up to `most` of the candidates, the least first; key: what is least, below limit. */
+/* Takes up to `most` of the candidates, the least rank first, below limit. */
 static void take_least(const struct br_plan *plan, struct br_plan_batch *batch,
-                       struct br_plan_candidate *of, size_t most,
-                       double (*key)(const struct br_plan_candidate *), double limit)
+                       struct br_plan_candidate *of, size_t most, double limit)
 {
     for (size_t taken = 0; taken < most; taken++) {
-        size_t least = plan->methods.count;
+        struct br_plan_candidate *least = NULL;
         for (size_t c = 0; c < plan->methods.count; c++)
-            if (of[c].named && key(&of[c]) < limit &&
-                (least == plan->methods.count || key(&of[c]) < key(&of[least])))
-                least = c;
-        if (least == plan->methods.count)
+            if (of[c].named && of[c].rank < (least ? least->rank : limit))
+                least = &of[c];
+        if (!least)
             return;
-        take(plan, batch, &of[least]);
-        of[least].named = NULL;
+        take(plan, batch, least);
+        least->named = NULL;
     }
-}
-
-static double seconds_key(const struct br_plan_candidate *c)
-{
-    return c->seconds;
-}
-
-static double score_key(const struct br_plan_candidate *c)
-{
-    return -c->score;
-}
-
-static double error_key(const struct br_plan_candidate *c)
-{
-    return exp(c->log_error + c->deviation);
 }
 
 /* Fewer elements in the column of the best trial, which is better than it need be. */
@@ -274,17 +270,9 @@ static void tune(const struct br_plan *plan, struct br_plan_batch *batch, size_t
     struct br_plan_candidate found = {.named = NULL};
     double nearest = INFINITY;
     for (size_t n = BR_PLAN_LEAST_N; n < t->at.n; n++) {
-        const struct br_plan_prediction p = br_plan_model_predict(&m->error, log((double)n), y);
-        const struct br_plan_candidate c = {
-            .named = t->named,
-            .n = (double)n,
-            .y = y,
-            .log_error = p.log_error,
-            .deviation = p.deviation,
-            .seconds = br_plan_cost_seconds(&m->cost, (double)n, y),
-        };
-        if (fabs(p.log_error - wanted) < nearest && is_new(plan, &c)) {
-            nearest = fabs(p.log_error - wanted);
+        const struct br_plan_candidate c = candidate_at(t->named, m, (double)n, y);
+        if (fabs(c.log_error - wanted) < nearest && is_new(plan, &c)) {
+            nearest = fabs(c.log_error - wanted);
             found = c;
         }
     }
@@ -292,41 +280,41 @@ static void tune(const struct br_plan *plan, struct br_plan_batch *batch, size_t
         take(plan, batch, &found);
 }
 
-static void propose_for_error(const struct br_plan *plan, struct br_plan_table *table, size_t best,
+static void propose_for_error(const struct br_plan *plan, struct table *table, size_t best,
                               struct br_plan_batch *batch)
 {
     const bool reached = best < plan->count;
-    const double limit = br_plan_best_seconds(plan, best);
+    const double limit = best_seconds_of(plan, best);
     double safest = limit;
     for (size_t c = 0; c < plan->methods.count; c++)
         safest = fmin(safest, table->safe[c].seconds);
-    take_least(plan, batch, table->safe, SAFE, seconds_key, worth_trying * limit);
+    take_least(plan, batch, table->safe, SAFE, worth_trying * limit);
     for (size_t c = 0; c < plan->methods.count; c++)
         if (!(table->gamble[c].seconds <= worth_a_gamble * safest))
             table->gamble[c].named = NULL;
     if (reached)
         tune(plan, batch, best);
     if (isfinite(safest))
-        take_least(plan, batch, table->gamble, GAMBLES, score_key, -least_score);
+        take_least(plan, batch, table->gamble, GAMBLES, -least_score);
     if (!reached && batch->count == 0 && table->explorer.named)
         take(plan, batch, &table->explorer);
 }
 
-static void propose_for_seconds(const struct br_plan *plan, struct br_plan_table *table,
-                                size_t best, struct br_plan_batch *batch)
+static void propose_for_seconds(const struct br_plan *plan, struct table *table, size_t best,
+                                struct br_plan_batch *batch)
 {
     const double error = best < plan->count ? br_trial_bound(&plan->trial[best], 0) : INFINITY;
     if (best < plan->count && plan->trial[best].end == BR_TRIAL_DOUBTFUL)
         return; /* nobody could tell what is better */
-    take_least(plan, batch, table->safe, SAFE, error_key, worth_seconds * error);
+    take_least(plan, batch, table->safe, SAFE, worth_seconds * error);
 }
 
 void br_plan_propose(const struct br_plan *plan, struct br_plan_batch *batch)
 {
-    struct br_plan_table table;
+    struct table table;
     const size_t best = br_plan_best(plan);
     batch->count = 0;
-    br_plan_search(plan, best, &table);
+    search_all(plan, best, &table);
     if (isfinite(plan->goal.error))
         propose_for_error(plan, &table, best, batch);
     else

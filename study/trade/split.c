@@ -133,7 +133,8 @@ static struct br_refinement by_steps(const struct br_split *split,
     return r;
 }
 
-size_t br_refinements(const struct br_split *split, size_t most, struct br_refinement *out)
+/* Ways to refine in time, those that may be the best first, `most` of them into `out`; how many. */
+static size_t refinements(const struct br_split *split, size_t most, struct br_refinement *out)
 {
     const struct br_time_scheme *highest = br_time_schemes[0];
     size_t count = 0;
@@ -148,8 +149,7 @@ size_t br_refinements(const struct br_split *split, size_t most, struct br_refin
     return count;
 }
 
-/* ---- studies of one cell each: the distance of two marches, or of a march from the solution ----
- */
+/* ---- distances of two marches, or of a march from the solution: studies of one cell ---- */
 
 /* `heads` distances, each in all norms. */
 struct distances {
@@ -311,7 +311,7 @@ static enum br_status try_refinement(struct br_split *split, const struct br_ref
 static enum br_status refine(struct br_split *split, struct refining *r, struct br_error *err)
 {
     struct br_refinement refined[MOST_REFINEMENTS];
-    const size_t count = br_refinements(split, MOST_REFINEMENTS, refined);
+    const size_t count = refinements(split, MOST_REFINEMENTS, refined);
     enum br_status status = BR_OK;
     r->least = INFINITY;
     for (size_t i = 0; i < count && !status && !(r->least <= good_enough); i++)

@@ -12,7 +12,7 @@ double br_trade_target(size_t digit)
 
 double br_trade_step(const struct br_trade *trade, const struct br_trial *trial)
 {
-    return br_named_method_adaptive(trial->named)
+    return trial->named->method.scheme->adaptive
                ? 0
                : br_time_step(trade->request.scene, trial->at.steps);
 }
@@ -127,31 +127,27 @@ enum { LEVELS = 20 };
  * one that marches by itself and solves for more than a step. */
 static const double most_work = 4e6, most_slow_work = 4e5, guessed_steps = 100;
 
+/* A grid with its defaults filled in. */
 struct lists {
-    const size_t *n, *steps;
-    const double *tolerance;
-    size_t n_count, step_count, tolerances;
+    struct br_trade_grid grid;
     bool capped_n, capped_steps; /* defaults: leave out what is heavy */
-    const struct br_printed *printed;
 };
 
-static struct lists fill_in(const struct br_trade_grid *g)
+static struct lists fill_in(const struct br_trade_grid *given)
 {
-    struct lists l = {g->n,          g->steps, g->tolerance, g->n_count, g->step_count,
-                      g->tolerances, false,    false,        NULL};
-    if (!l.n_count) {
-        l.n = default_n, l.n_count = sizeof default_n / sizeof *default_n;
-        l.capped_n = true;
+    struct lists l = {*given, given->n_count == 0, given->step_count == 0};
+    if (l.capped_n) {
+        l.grid.n = default_n;
+        l.grid.n_count = sizeof default_n / sizeof *default_n;
     }
-    if (!l.step_count) {
-        l.steps = default_steps, l.step_count = sizeof default_steps / sizeof *default_steps;
-        l.capped_steps = true;
+    if (l.capped_steps) {
+        l.grid.steps = default_steps;
+        l.grid.step_count = sizeof default_steps / sizeof *default_steps;
     }
-    if (!l.tolerances) {
-        l.tolerance = default_tolerance;
-        l.tolerances = sizeof default_tolerance / sizeof *default_tolerance;
+    if (!given->tolerances) {
+        l.grid.tolerance = default_tolerance;
+        l.grid.tolerances = sizeof default_tolerance / sizeof *default_tolerance;
     }
-    l.printed = g->printed;
     return l;
 }
 
@@ -191,21 +187,22 @@ static bool is_light(const struct lists *l, const struct br_named_method *c, siz
 
 static void add_adaptive(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
 {
-    for (size_t i = 0; i < l->n_count; i++)
-        for (size_t j = 0; j < l->tolerances; j++)
-            if (!l->capped_n || is_light(l, c, l->n[i], guessed_steps))
-                add(t, &(struct br_trial){
-                           .named = c, .at = {l->n[i], LEVELS}, .tolerance = l->tolerance[j]});
+    for (size_t i = 0; i < l->grid.n_count; i++)
+        for (size_t j = 0; j < l->grid.tolerances; j++)
+            if (!l->capped_n || is_light(l, c, l->grid.n[i], guessed_steps))
+                add(t, &(struct br_trial){.named = c,
+                                          .at = {l->grid.n[i], LEVELS},
+                                          .tolerance = l->grid.tolerance[j]});
 }
 
 static bool is_listed(const struct lists *l, const struct br_named_method *c, size_t n,
                       size_t steps)
 {
     bool has_n = false, has_steps = false;
-    for (size_t i = 0; i < l->n_count; i++)
-        has_n |= l->n[i] == n;
-    for (size_t j = 0; j < l->step_count; j++)
-        has_steps |= l->steps[j] == steps;
+    for (size_t i = 0; i < l->grid.n_count; i++)
+        has_n |= l->grid.n[i] == n;
+    for (size_t j = 0; j < l->grid.step_count; j++)
+        has_steps |= l->grid.steps[j] == steps;
     return has_n && has_steps && is_light(l, c, n, (double)steps);
 }
 
@@ -213,8 +210,8 @@ static bool is_listed(const struct lists *l, const struct br_named_method *c, si
 static void add_printed(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
 {
     const struct br_scene *scene = t->request.scene;
-    for (size_t i = 0; l->printed && i < l->printed->count; i++) {
-        const struct br_printed_cell *cell = &l->printed->cell[i];
+    for (size_t i = 0; l->grid.printed && i < l->grid.printed->count; i++) {
+        const struct br_printed_cell *cell = &l->grid.printed->cell[i];
         size_t steps;
         if (br_steps_of(scene, cell->k, &steps, NULL) || is_listed(l, c, cell->n, steps))
             continue;
@@ -225,14 +222,15 @@ static void add_printed(struct br_trade *t, const struct lists *l, const struct 
 static void add_fixed(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
 {
     const bool paper = br_trade_is_printed_method(c);
-    for (size_t i = 0; i < l->n_count; i++)
-        for (size_t j = 0; j < l->step_count; j++) {
-            const size_t n = l->n[i], steps = l->steps[j];
+    for (size_t i = 0; i < l->grid.n_count; i++)
+        for (size_t j = 0; j < l->grid.step_count; j++) {
+            const size_t n = l->grid.n[i], steps = l->grid.steps[j];
             if (is_light(l, c, n, (double)steps))
-                add(t, &(struct br_trial){
-                           .named = c,
-                           .at = {n, steps},
-                           .printed = paper && is_printed(t->request.scene, l->printed, n, steps)});
+                add(t,
+                    &(struct br_trial){.named = c,
+                                       .at = {n, steps},
+                                       .printed = paper && is_printed(t->request.scene,
+                                                                      l->grid.printed, n, steps)});
         }
     if (paper && l->capped_n && l->capped_steps)
         add_printed(t, l, c);
@@ -243,7 +241,7 @@ static void add_all(struct br_trade *t, const struct lists *l)
     t->count = 0;
     for (size_t i = 0; i < t->methods.count; i++) {
         const struct br_named_method *c = &t->methods.list[i];
-        if (br_named_method_adaptive(c))
+        if (c->method.scheme->adaptive)
             add_adaptive(t, l, c);
         else
             add_fixed(t, l, c);

@@ -36,7 +36,7 @@ struct br_trial_request br_trial_request_default(const struct br_scene *scene)
 struct br_method br_trial_method(const struct br_trial *trial)
 {
     struct br_method method = trial->named->method;
-    if (br_named_method_adaptive(trial->named))
+    if (trial->named->method.scheme->adaptive)
         method.tolerance = trial->tolerance;
     return method;
 }
@@ -57,48 +57,6 @@ double br_trial_bound(const struct br_trial *trial, size_t m)
     const bool counts = trial->end == BR_TRIAL_DONE || trial->end == BR_TRIAL_DOUBTFUL;
     return counts && trial->scale[m] > 0 ? (trial->error[m][BR_PART_TOTAL] + own) / trial->scale[m]
                                          : NAN;
-}
-
-/* A share of the whole work, for the observer. */
-struct share {
-    const struct br_observer *whole;
-    double from, length;
-};
-
-static void tell_share(void *self, double fraction)
-{
-    const struct share *share = self;
-    share->whole->progress(share->whole->self, share->from + share->length * fraction);
-}
-
-static void tell_preparing(void *self, double fraction)
-{
-    const struct share *share = self;
-    share->whole->preparing(share->whole->self, fraction);
-}
-
-static bool stop_share(void *self)
-{
-    const struct share *share = self;
-    return share->whole->stop && share->whole->stop(share->whole->self);
-}
-
-/* Seconds take about three quarters of the time. */
-enum br_status br_trials_hold(struct br_trial *trial, size_t count,
-                              const struct br_trial_request *request, struct br_error *err)
-{
-    struct share share = {.whole = request->observer, .length = 0.75};
-    const struct br_observer part = {
-        .progress = request->observer && request->observer->progress ? tell_share : NULL,
-        .stop = stop_share,
-        .self = &share,
-        .preparing = request->observer && request->observer->preparing ? tell_preparing : NULL,
-    };
-    struct br_trial_request own = *request;
-    own.observer = request->observer ? &part : NULL;
-    enum br_status status = br_trials_time(trial, count, &own, err);
-    share = (struct share){request->observer, 0.75, 0.25};
-    return status ? status : br_trials_judge(trial, count, &own, err);
 }
 
 /* ---- seconds ---- */
@@ -133,7 +91,7 @@ static bool is_stopped(const struct br_trial_request *request)
 static double foreseen(const struct clocked *c, double spent)
 {
     const double done = (double)br_march_steps_done(c->march);
-    if (br_named_method_adaptive(c->trial->named) || !(spent >= least_evidence))
+    if (c->trial->named->method.scheme->adaptive || !(spent >= least_evidence))
         return spent;
     return c->set_up + spent * (double)c->trial->at.steps / (sure_excess * done);
 }
@@ -157,7 +115,7 @@ static enum br_status make_steps(const struct clocked *c, struct br_error *err)
 {
     const size_t steps = c->trial->at.steps;
     const size_t every = 1 + (size_t)(between_looks / (double)c->trial->at.n);
-    const bool adaptive = br_named_method_adaptive(c->trial->named);
+    const bool adaptive = c->trial->named->method.scheme->adaptive;
     enum br_status status = BR_OK;
     for (size_t i = 1; i <= steps && !status; i++) {
         status = br_march_step(c->march, &c->trial->failure);
@@ -251,8 +209,10 @@ static void begin(struct br_trial *t, const struct br_trial_request *request)
     }
 }
 
-enum br_status br_trials_time(struct br_trial *trial, size_t count,
-                              const struct br_trial_request *request, struct br_error *err)
+/* Clears what is out, and sets `cost` and, where a trial did not come to its end, `end` and
+ * `failure`. */
+static enum br_status time_all(struct br_trial *trial, size_t count,
+                               const struct br_trial_request *request, struct br_error *err)
 {
     const struct br_observer *o = request->observer;
     double whole = 0, done = 0;
@@ -274,19 +234,12 @@ enum br_status br_trials_time(struct br_trial *trial, size_t count,
 /* The errors of trials, as cells of studies: one study for each mesh and degree, whose cells are
  * marched by as many methods, so that the judge looks at that mesh once. */
 
-/* Trials on the same elements, as a chain of studies over the norms. */
-struct group {
-    struct br_trial **member; /* members, borrowed; likewise the next two */
-    size_t *steps;
-    struct br_method *method;
-    size_t members;
-};
-
+/* Trials in groups, each on the same elements: a chain of studies over the norms. */
 struct groups {
     const struct br_trial_request *request;
     size_t count;
-    struct group *group;      /* count; their lists lie in the next three, one after the other */
-    struct br_trial **member; /* all owned */
+    size_t *first;            /* count + 1: of each group in the next three lists */
+    struct br_trial **member; /* borrowed; the arrays are all owned */
     size_t *steps;
     struct br_method *method;
     struct br_study *study; /* count in the first norm, then the next norms of each */
@@ -308,26 +261,21 @@ static bool is_first(const struct br_trial *trial, size_t i)
     return trial[i].end == BR_TRIAL_DONE;
 }
 
-static void add_member(struct group *group, struct br_trial *trial)
-{
-    group->member[group->members] = trial;
-    group->steps[group->members] = trial->at.steps;
-    group->method[group->members++] = br_trial_method(trial);
-}
-
 static void collect(struct groups *g, struct br_trial *trial, size_t count)
 {
     size_t used = 0;
     for (size_t i = 0; i < count; i++) {
         if (!is_first(trial, i))
             continue;
-        struct group *group = &g->group[g->count++];
-        *group = (struct group){&g->member[used], &g->steps[used], &g->method[used], 0};
+        g->first[g->count++] = used;
         for (size_t j = i; j < count; j++)
-            if (same_group(&trial[j], &trial[i]))
-                add_member(group, &trial[j]);
-        used += group->members;
+            if (same_group(&trial[j], &trial[i])) {
+                g->member[used] = &trial[j];
+                g->steps[used] = trial[j].at.steps;
+                g->method[used++] = br_trial_method(&trial[j]);
+            }
     }
+    g->first[g->count] = used;
 }
 
 static struct br_study *study_of(const struct groups *g, size_t i, size_t m)
@@ -341,18 +289,19 @@ static void fill_studies(const struct groups *g, const struct br_judge *judge)
     for (size_t i = 0; i < g->count; i++)
         for (size_t m = 0; m < r->norms; m++) {
             struct br_study *s = study_of(g, i, m);
+            const size_t first = g->first[i];
             *s = (struct br_study){
                 .scene = r->scene,
                 .norm = r->norm[m],
-                .method = g->group[i].method[0],
-                .cell_method = g->group[i].method,
+                .method = g->method[first],
+                .cell_method = &g->method[first],
                 .judge = judge,
                 .reference_method = r->reference_method,
                 .reference = r->reference,
                 .n_count = 1,
-                .k_count = g->group[i].members,
-                .n = &g->group[i].member[0]->at.n,
-                .steps = g->group[i].steps,
+                .k_count = g->first[i + 1] - first,
+                .n = &g->member[first]->at.n,
+                .steps = &g->steps[first],
                 .next_norm = m + 1 < r->norms ? study_of(g, i, m + 1) : NULL,
             };
             s->reference_method.axial_degree = s->method.axial_degree;
@@ -397,19 +346,19 @@ static void take_cells(const struct groups *g)
     for (size_t i = 0; i < g->count; i++)
         for (size_t m = 0; m < g->request->norms; m++) {
             const struct br_study *s = study_of(g, i, m);
-            for (size_t c = 0; c < g->group[i].members; c++)
-                take_cell(g->group[i].member[c], m, s, &s->cell[c]);
+            for (size_t c = 0; c < s->k_count; c++)
+                take_cell(g->member[g->first[i] + c], m, s, &s->cell[c]);
         }
 }
 
 static enum br_status allocate(struct groups *g, size_t count, struct br_error *err)
 {
-    g->group = br_allocate(count, sizeof *g->group);
+    g->first = br_allocate(count + 1, sizeof *g->first);
     g->member = br_allocate(count, sizeof(struct br_trial *));
     g->steps = br_allocate(count, sizeof *g->steps);
     g->method = br_allocate(count, sizeof *g->method);
     g->study = br_allocate(count * g->request->norms, sizeof *g->study);
-    return g->group && g->member && g->steps && g->method && g->study
+    return g->first && g->member && g->steps && g->method && g->study
                ? BR_OK
                : br_no_memory(err, "the trials");
 }
@@ -418,15 +367,16 @@ static void clear(struct groups *g)
 {
     for (size_t i = 0; g->study && i < g->count * g->request->norms; i++)
         br_study_clear(&g->study[i]);
-    free(g->group);
+    free(g->first);
     free(g->member);
     free(g->steps);
     free(g->method);
     free(g->study);
 }
 
-enum br_status br_trials_judge(struct br_trial *trial, size_t count,
-                               const struct br_trial_request *request, struct br_error *err)
+/* Judges those that came to their end. */
+static enum br_status judge_all(struct br_trial *trial, size_t count,
+                                const struct br_trial_request *request, struct br_error *err)
 {
     const struct br_judge *judge = request->judge ? request->judge : br_judge_best(request->scene);
     if (!judge->create)
@@ -446,4 +396,48 @@ enum br_status br_trials_judge(struct br_trial *trial, size_t count,
         take_cells(&g);
     clear(&g);
     return status;
+}
+
+/* ---- both ---- */
+
+/* A share of the whole work, for the observer. */
+struct share {
+    const struct br_observer *whole;
+    double from, length;
+};
+
+static void tell_share(void *self, double fraction)
+{
+    const struct share *share = self;
+    share->whole->progress(share->whole->self, share->from + share->length * fraction);
+}
+
+static void tell_preparing(void *self, double fraction)
+{
+    const struct share *share = self;
+    share->whole->preparing(share->whole->self, fraction);
+}
+
+static bool stop_share(void *self)
+{
+    const struct share *share = self;
+    return share->whole->stop && share->whole->stop(share->whole->self);
+}
+
+/* Seconds take about three quarters of the time. */
+enum br_status br_trials_hold(struct br_trial *trial, size_t count,
+                              const struct br_trial_request *request, struct br_error *err)
+{
+    struct share share = {.whole = request->observer, .length = 0.75};
+    const struct br_observer part = {
+        .progress = request->observer && request->observer->progress ? tell_share : NULL,
+        .stop = stop_share,
+        .self = &share,
+        .preparing = request->observer && request->observer->preparing ? tell_preparing : NULL,
+    };
+    struct br_trial_request own = *request;
+    own.observer = request->observer ? &part : NULL;
+    enum br_status status = time_all(trial, count, &own, err);
+    share = (struct share){request->observer, 0.75, 0.25};
+    return status ? status : judge_all(trial, count, &own, err);
 }

@@ -74,13 +74,6 @@ struct br_trial_request br_trial_request_default(const struct br_scene *scene);
 enum br_status br_trials_hold(struct br_trial *trial, size_t count,
                               const struct br_trial_request *request, struct br_error *err);
 
-/* The halves of it. Timing clears what is out, and sets `cost` and, where a trial did not come to
- * its end, `end` and `failure`; judging is of the trials whose `end` is BR_TRIAL_DONE. */
-enum br_status br_trials_time(struct br_trial *trial, size_t count,
-                              const struct br_trial_request *request, struct br_error *err);
-enum br_status br_trials_judge(struct br_trial *trial, size_t count,
-                               const struct br_trial_request *request, struct br_error *err);
-
 /* Set-up and march, s; NaN: it did not come to its end. */
 double br_trial_seconds(const struct br_trial *trial);
 
