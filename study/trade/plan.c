@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
 
 #include "solver/clock.h"
 #include "study/fit/fit.h"
@@ -25,28 +24,6 @@ struct br_trial br_plan_trial(const struct br_plan_candidate *c)
     return t;
 }
 
-static enum br_status grow(struct br_plan *p, struct br_error *err)
-{
-    const size_t capacity = p->capacity ? 2 * p->capacity : 256;
-    struct br_trial *trial = br_allocate(capacity, sizeof *trial);
-    struct br_plan_forecast *forecast = br_allocate(capacity, sizeof *forecast);
-    if (!trial || !forecast) {
-        free(trial);
-        free(forecast);
-        return br_no_memory(err, "the trials");
-    }
-    if (p->count) {
-        memcpy(trial, p->trial, p->count * sizeof *trial);
-        memcpy(forecast, p->forecast, p->count * sizeof *forecast);
-    }
-    free(p->trial);
-    free(p->forecast);
-    p->trial = trial;
-    p->forecast = forecast;
-    p->capacity = capacity;
-    return BR_OK;
-}
-
 bool br_plan_has(const struct br_plan *p, const struct br_trial *trial, bool cheap)
 {
     for (size_t i = 0; i < p->count; i++)
@@ -57,17 +34,13 @@ bool br_plan_has(const struct br_plan *p, const struct br_trial *trial, bool che
     return false;
 }
 
-/* Adds a trial without an outcome, unless it was added before. Fails with BR_NO_MEMORY. */
-static enum br_status add(struct br_plan *p, const struct br_trial *trial,
-                          struct br_plan_forecast forecast, struct br_error *err)
+/* Adds a trial without an outcome, unless it was added before. */
+static void add(struct br_plan *p, const struct br_trial *trial, struct br_plan_forecast forecast)
 {
     if (br_plan_has(p, trial, forecast.round == 0))
-        return BR_OK;
-    if (p->count == p->capacity && grow(p, err))
-        return BR_NO_MEMORY;
+        return;
     p->trial[p->count] = *trial;
     p->forecast[p->count++] = forecast;
-    return BR_OK;
 }
 
 /* ---- cheap trials ---- */
@@ -91,20 +64,18 @@ static const double overhead = 700, most_work = 5e5, guessed_solves = 150;
 
 enum {
     MESHES = sizeof probe_meshes / sizeof *probe_meshes,
-    STEPS = sizeof probe_steps / sizeof *probe_steps
+    STEPS = sizeof probe_steps / sizeof *probe_steps,
+    TOLERANCES = sizeof probe_tolerances / sizeof *probe_tolerances
 };
-enum { TOLERANCES = sizeof probe_tolerances / sizeof *probe_tolerances };
 
 /* Those of one method on one mesh. */
-static enum br_status add_column(struct br_plan *plan, const struct br_named_method *named,
-                                 size_t n, struct br_error *err)
+static void add_column(struct br_plan *plan, const struct br_named_method *named, size_t n)
 {
     const bool adaptive = named->method.scheme->adaptive;
     const double stages = br_time_scheme_stages(named->method.scheme);
     const size_t count = adaptive ? TOLERANCES : STEPS;
     const size_t next = n == mesh_of_all_steps ? 1 : adaptive ? 3 : 2;
-    enum br_status status = BR_OK;
-    for (size_t j = 0; j < count && !status; j += next) {
+    for (size_t j = 0; j < count; j += next) {
         struct br_trial trial = {.named = named, .at = {n, BR_PLAN_LEVELS}};
         if (adaptive)
             trial.tolerance = probe_tolerances[j];
@@ -112,18 +83,25 @@ static enum br_status add_column(struct br_plan *plan, const struct br_named_met
             trial.at.steps = probe_steps[j];
         const double solves = adaptive ? guessed_solves : stages * (double)trial.at.steps;
         if (((double)n + overhead) * solves <= most_work)
-            status = add(plan, &trial, (struct br_plan_forecast){0, NAN, NAN}, err);
+            add(plan, &trial, (struct br_plan_forecast){0, NAN, NAN});
     }
-    return status;
 }
 
-static enum br_status add_probes(struct br_plan *plan, struct br_error *err)
+static void add_probes(struct br_plan *plan)
 {
-    enum br_status status = BR_OK;
     for (size_t c = 0; c < plan->methods.count; c++)
-        for (size_t i = 0; i < MESHES && !status; i++)
-            status = add_column(plan, &plan->methods.list[c], probe_meshes[i], err);
-    return status;
+        for (size_t i = 0; i < MESHES; i++)
+            add_column(plan, &plan->methods.list[c], probe_meshes[i]);
+}
+
+/* Room for all cheap trials, and for as many rounds as there may be. */
+static enum br_status make_room(struct br_plan *p, struct br_error *err)
+{
+    const size_t probes = MESHES * (STEPS > TOLERANCES ? STEPS : TOLERANCES);
+    const size_t most = p->methods.count * probes + p->most_rounds * BR_PLAN_BATCH;
+    p->trial = br_allocate(most, sizeof *p->trial);
+    p->forecast = br_allocate(most, sizeof *p->forecast);
+    return p->trial && p->forecast ? BR_OK : br_no_memory(err, "the trials");
 }
 
 /* ---- models ---- */
@@ -332,10 +310,9 @@ static enum br_status hold_new(struct br_plan *p, size_t from, struct br_error *
 static enum br_status hold_probes(struct br_plan *p, struct br_error *err)
 {
     const size_t repeats = p->request.repeats;
-    enum br_status status = add_probes(p, err);
+    add_probes(p);
     p->request.repeats = 1;
-    if (!status)
-        status = hold_new(p, 0, err);
+    const enum br_status status = hold_new(p, 0, err);
     p->request.repeats = repeats;
     return status;
 }
@@ -357,15 +334,13 @@ static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *
     if (status)
         return status;
     br_plan_propose(p, &batch);
-    for (size_t i = 0; i < batch.count && !status; i++) {
+    for (size_t i = 0; i < batch.count; i++) {
         const struct br_plan_candidate *c = &batch.candidate[i];
         const struct br_trial trial = br_plan_trial(c);
-        const struct br_plan_forecast forecast = {p->rounds + 1, exp(c->log_error), c->seconds};
-        status = add(p, &trial, forecast, err);
+        add(p, &trial, (struct br_plan_forecast){p->rounds + 1, exp(c->log_error), c->seconds});
     }
     *tried = p->count > from;
-    if (!status)
-        status = hold_new(p, from, err);
+    status = hold_new(p, from, err);
     if (!status && *tried && ++p->rounds == 1)
         p->first = from;
     return status;
@@ -419,6 +394,8 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
     p->first = SIZE_MAX;
     enum br_status status = check_goal(p, err);
     if (!status)
+        status = make_room(p, err);
+    if (!status)
         status = keep_judge(p, judge, &kept, err);
     if (!status)
         status = hold_probes(p, err);
@@ -445,5 +422,5 @@ void br_plan_clear(struct br_plan *p)
     free(p->forecast);
     p->trial = NULL;
     p->forecast = NULL;
-    p->count = p->capacity = 0;
+    p->count = 0;
 }

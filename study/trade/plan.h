@@ -110,7 +110,7 @@ struct br_plan {
     /* out */
     struct br_trial *trial;            /* count; owned */
     struct br_plan_forecast *forecast; /* count; owned */
-    size_t count, capacity, rounds;
+    size_t count, rounds;
     size_t first;  /* the first proposal, the cheapest of round 1; count: none */
     size_t chosen; /* count: none */
     enum br_plan_end end;
