@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/languages.h"
-#include "study/trade/contender.h"
+#include "study/trade/named_method.h"
 
 enum { WIDTH = 98, COLUMN = 34 };
 
@@ -129,8 +129,8 @@ static void print_methods(FILE *out)
                     heeders(&br_method_fields[i], text, sizeof text));
     fprintf(out,
             "\nNames of methods (--methods): these words joined by '+', at most one of a kind:\n");
-    for (size_t i = 0; i < br_contender_kinds(); i++) {
-        const char *title = br_contender_kind(i, text, sizeof text);
+    for (size_t i = 0; i < br_named_method_kinds(); i++) {
+        const char *title = br_named_method_kind(i, text, sizeof text);
         fprintf(out, "  %-30s %s\n", title, text);
     }
 }

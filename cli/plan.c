@@ -14,7 +14,7 @@
 struct run {
     struct br_session session;
     struct br_study_request study;
-    struct br_contenders contenders; /* count 0: not said */
+    struct br_named_methods methods; /* count 0: not said */
     struct br_opened_scene opened;
     struct br_plan plan;
 };
@@ -35,7 +35,7 @@ static enum br_status read_request(struct run *r, struct br_error *err)
     if (error == br_option_given(o, BR_OPT_SECONDS))
         return br_fail(err, BR_BAD_INPUT, "expected one of --error and --seconds, found %s",
                        error ? "both" : "none");
-    return methods ? br_contenders_read("--methods", methods, &r->contenders, err) : BR_OK;
+    return methods ? br_named_methods_read("--methods", methods, &r->methods, err) : BR_OK;
 }
 
 static enum br_status prepare(struct run *r, struct br_error *err)
@@ -52,8 +52,8 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     p->request.threads = r->session.threads;
     p->request.repeats = (size_t)br_option_number(o, BR_OPT_REPEATS, 0);
     p->request.time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
-    if (r->contenders.count)
-        p->contenders = r->contenders;
+    if (r->methods.count)
+        p->methods = r->methods;
     return br_session_open(&r->session, err);
 }
 

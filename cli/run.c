@@ -95,14 +95,14 @@ static enum br_status prepare(struct run *r, struct br_error *err)
         return err->status;
     if (r->plan.method.axial_degree != 1 && !r->marched.axial.modelled)
         return br_fail(err, BR_BAD_INPUT, "--axial-degree: no axial field is marched");
-    const struct br_outlook outlook = {
+    const struct br_planned_march planned = {
         .scene = &r->marched,
         .method = &r->plan.method,
         .n = r->plan.n,
         .steps = r->plan.steps,
         .prediction = &r->prediction,
     };
-    if (br_look_ahead(&outlook, &r->warnings, err) || open_files(r, err))
+    if (br_look_ahead(&planned, &r->warnings, err) || open_files(r, err))
         return err->status;
     br_print_warnings("", &r->warnings);
     return BR_OK;

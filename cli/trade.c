@@ -24,7 +24,7 @@ struct item {
 struct run {
     struct br_session session;
     struct br_study_request study;
-    struct br_contenders contenders; /* count 0: not said */
+    struct br_named_methods methods; /* count 0: not said */
     struct item *item;               /* items, one a scene; owned */
     size_t items;
 };
@@ -34,11 +34,11 @@ struct run {
 /* The scheme of the highest order that does not choose its steps: a fine run's. */
 static struct br_method fine_method(void)
 {
-    struct br_contender finest = {.method = br_method_default()};
+    struct br_named_method finest = {.method = br_method_default()};
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
-        struct br_contender c;
+        struct br_named_method c;
         if (!(*s)->adaptive && (*s)->order > finest.method.scheme->order &&
-            !br_contender_read((*s)->name, &c, NULL))
+            !br_named_method_read((*s)->name, &c, NULL))
             finest = c;
     }
     return finest.method;
@@ -70,10 +70,10 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
         return err->status;
     if (br_option_steps(o, scene, &item->steps, &steps, err))
         return br_failed_in(err, scene->name);
-    if (r->contenders.count)
-        item->trade.contenders = r->contenders;
+    if (r->methods.count)
+        item->trade.methods = r->methods;
     else
-        br_contenders_default(scene, &item->trade.contenders);
+        br_named_methods_default(scene, &item->trade.methods);
     const struct br_trade_grid grid = {
         .n = o->whole[BR_OPT_N],
         .steps = item->steps,
@@ -208,12 +208,11 @@ static enum br_status check_heeded(const struct run *r, struct br_error *err)
 {
     const bool k = br_option_given(r->session.options, BR_OPT_K);
     size_t adaptive = 0;
-    for (size_t i = 0; i < r->contenders.count; i++)
-        adaptive += br_contender_adaptive(&r->contenders.list[i]);
-    if (r->contenders.count && adaptive == 0 &&
-        br_option_given(r->session.options, BR_OPT_TOLERANCES))
+    for (size_t i = 0; i < r->methods.count; i++)
+        adaptive += r->methods.list[i].method.scheme->adaptive;
+    if (r->methods.count && adaptive == 0 && br_option_given(r->session.options, BR_OPT_TOLERANCES))
         return br_fail(err, BR_BAD_INPUT, "--tolerances: no method of --methods heeds it");
-    if (r->contenders.count && adaptive == r->contenders.count &&
+    if (r->methods.count && adaptive == r->methods.count &&
         (k || br_option_given(r->session.options, BR_OPT_STEPS)))
         return br_fail(err, BR_BAD_INPUT, "--%s: no method of --methods heeds it",
                        k ? "k" : "steps");
@@ -233,7 +232,7 @@ static enum br_status read_request(struct run *r, struct br_error *err)
             err, BR_BAD_INPUT,
             "--reference: found '%s', expected a judge that gives errors: exact, mms or fine:N,K",
             judge->name);
-    if (methods && br_contenders_read("--methods", methods, &r->contenders, err))
+    if (methods && br_named_methods_read("--methods", methods, &r->methods, err))
         return err->status;
     return check_heeded(r, err);
 }

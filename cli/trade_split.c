@@ -8,14 +8,14 @@
 #include "cli/study_request.h"
 #include "cli/warn.h"
 #include "plots/pictures.h"
-#include "study/trade/contender.h"
+#include "study/trade/named_method.h"
 #include "study/trade/split.h"
 #include "tables/reports.h"
 
 struct run {
     struct br_session session;
     struct br_study_request request;
-    struct br_contenders methods;
+    struct br_named_methods methods;
     struct br_opened_scene opened;
     size_t *steps;           /* step_count; owned */
     const double *tolerance; /* tolerances */
@@ -32,11 +32,11 @@ static enum br_status read_request(struct run *r, struct br_error *err)
     r->tolerance = o->number[BR_OPT_TOLERANCES];
     r->tolerances = o->count[BR_OPT_TOLERANCES];
     if (br_study_request_read(o, &r->request, err) ||
-        br_contenders_read("--methods", methods ? methods : br_time_schemes[0]->name, &r->methods,
-                           err))
+        br_named_methods_read("--methods", methods ? methods : br_time_schemes[0]->name,
+                              &r->methods, err))
         return err->status;
     for (size_t i = 0; i < r->methods.count; i++)
-        if (br_contender_adaptive(&r->methods.list[i]))
+        if (r->methods.list[i].method.scheme->adaptive)
             return BR_OK;
     return r->tolerances
                ? br_fail(err, BR_BAD_INPUT, "--tolerances: no method of --methods heeds it")
@@ -47,9 +47,9 @@ static enum br_status read_request(struct run *r, struct br_error *err)
 
 enum { DEFAULT_N = 100, DEFAULT_STEPS = 1000 };
 
-static void add_runs(struct run *r, const struct br_contender *c, size_t n)
+static void add_runs(struct run *r, const struct br_named_method *c, size_t n)
 {
-    const bool chosen = br_contender_adaptive(c) && r->tolerances;
+    const bool chosen = c->method.scheme->adaptive && r->tolerances;
     for (size_t j = 0; j < (r->step_count ? r->step_count : 1); j++)
         for (size_t t = 0; t < (chosen ? r->tolerances : 1); t++) {
             struct br_split *split = &r->split[r->splits++];

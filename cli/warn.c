@@ -37,13 +37,13 @@ void br_print_warnings(const char *scene, const struct br_warnings *warnings)
 struct look {
     const struct br_scene *scene;
     struct br_warnings warnings;
-    struct br_outlook finest; /* the march with most elements and steps; n = 0: none */
+    struct br_planned_march finest; /* the march with most elements and steps; n = 0: none */
 };
 
 static enum br_status look_at(struct look *l, const struct br_method *method, size_t n,
                               size_t steps, struct br_error *err)
 {
-    const struct br_outlook o = {.scene = l->scene, .method = method, .n = n, .steps = steps};
+    const struct br_planned_march o = {.scene = l->scene, .method = method, .n = n, .steps = steps};
     if ((double)n * (double)steps > (double)l->finest.n * (double)l->finest.steps)
         l->finest = o;
     return br_look_ahead_cheaply(&o, &l->warnings, err);
@@ -107,7 +107,7 @@ void br_warn_of_checks(const struct br_check *checks, size_t count)
         struct br_error refusal = {0};
         for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
             const struct br_verify_study *v = &c->verify->study[kind];
-            look.finest = (struct br_outlook){0};
+            look.finest = (struct br_planned_march){0};
             for (size_t i = 0; i < v->count; i++)
                 look_at(&look, &v->method, v->n[i], v->steps[i], &refusal);
             if (look.finest.n)
@@ -122,7 +122,7 @@ void br_warn_of_trade(const struct br_trade *trade)
     struct look look = {.scene = trade->request.scene};
     struct br_error refusal = {0};
     for (const struct br_trial *t = trade->trial; t < trade->trial + trade->count; t++)
-        look_at(&look, &t->contender->method, t->at.n, t->at.steps, &refusal);
+        look_at(&look, &t->named->method, t->at.n, t->at.steps, &refusal);
     end(&look, BR_OK, &refusal);
 }
 
@@ -133,6 +133,6 @@ void br_warn_of_plan(const struct br_plan *plan)
     if (plan->chosen >= plan->count)
         return;
     const struct br_trial *t = &plan->trial[plan->chosen];
-    look_at(&look, &t->contender->method, t->at.n, t->at.steps, &refusal);
+    look_at(&look, &t->named->method, t->at.n, t->at.steps, &refusal);
     end(&look, BR_OK, &refusal);
 }

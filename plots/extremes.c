@@ -52,14 +52,13 @@ struct br_figure br_floors_draw(const struct br_floors *f, size_t k)
 
 /* ---- steps: deviation over N ---- */
 
-static void add_method(const struct br_drifts *d, size_t scene, size_t contender,
-                       struct br_figure *f)
+static void add_method(const struct br_drifts *d, size_t scene, size_t named, struct br_figure *f)
 {
-    const char *name = d->contender[contender].name, *solver = strrchr(name, '+');
+    const char *name = d->named[named].name, *solver = strrchr(name, '+');
     struct br_series *s = br_series_add(
         f, BR_PEN_CURVE, "%.*s", (int)(solver ? (size_t)(solver - name) : strlen(name)), name);
     for (size_t j = 0; j < d->k_count; j++) {
-        const struct br_floor *drift = br_drift_at(d, scene, contender, j);
+        const struct br_floor *drift = br_drift_at(d, scene, named, j);
         br_point_add(s, (double)d->steps[j], drift->steps ? br_floor_deviation(drift) : (double)NAN,
                      NULL);
     }
@@ -74,7 +73,7 @@ struct br_figure br_drifts_draw(const struct br_drifts *d)
         struct br_panel *p = br_panel_add(figure, "steps N", "relative deviation");
         p->log_x = p->log_y = true;
         BR_SAY(p->title, scene ? "Example 2, slip" : "Example 1, stick");
-        for (size_t c = 0; c < d->contenders; c += d->solvers)
+        for (size_t c = 0; c < d->methods; c += d->solvers)
             add_method(d, scene, c, figure);
         struct br_series *s = br_series_add(figure, BR_PEN_GUIDE, "predicted");
         for (size_t j = 0; j < d->k_count; j++)

@@ -7,7 +7,7 @@
 #define BR_PLOTS_PICTURES_H
 
 #include "plots/figure.h"
-struct br_contender;
+struct br_named_method;
 struct br_drifts;
 struct br_energy_behaviour;
 struct br_extreme_map;
@@ -43,7 +43,7 @@ struct br_trade_picture {
     const char *name;  /* of the files: <scene>-<name>.gp and so on */
     const char *title; /* one line for a person */
     /* Which methods have a curve. */
-    bool (*shows)(const struct br_trade *trade, const struct br_contender *contender);
+    bool (*shows)(const struct br_trade *trade, const struct br_named_method *named);
     const char *label;                            /* of the axis of work, with its unit */
     double (*work)(const struct br_trial *trial); /* along that axis; NaN: not drawn */
 };

@@ -8,23 +8,23 @@
 /* ---- the registry ---- */
 
 /* With the exact law and the default solver: what is left are time schemes and elements. */
-static bool is_plain(const struct br_contender *c)
+static bool is_plain(const struct br_named_method *c)
 {
     return c->method.friction == br_friction_rules[0] && c->method.solver == br_linear_solvers[0];
 }
 
-static bool shows_schemes(const struct br_trade *t, const struct br_contender *c)
+static bool shows_schemes(const struct br_trade *t, const struct br_named_method *c)
 {
     (void)t;
     return is_plain(c);
 }
 
 /* Others, and what they are to be held against: the same scheme without. */
-static bool shows_rules(const struct br_trade *t, const struct br_contender *c)
+static bool shows_rules(const struct br_trade *t, const struct br_named_method *c)
 {
     bool compared = !is_plain(c);
-    for (size_t i = 0; i < t->contenders.count; i++) {
-        const struct br_contender *other = &t->contenders.list[i];
+    for (size_t i = 0; i < t->methods.count; i++) {
+        const struct br_named_method *other = &t->methods.list[i];
         compared |= !is_plain(other) && other->method.scheme == c->method.scheme &&
                     other->method.contact == c->method.contact &&
                     other->method.axial_degree == c->method.axial_degree;
@@ -54,8 +54,8 @@ const struct br_trade_picture *const br_trade_pictures[] = {&schemes, &work, &ru
 bool br_trade_picture_applies(const struct br_trade_picture *p, const struct br_trade *t)
 {
     bool applies = false;
-    for (size_t i = 0; i < t->contenders.count; i++)
-        applies |= p->shows(t, &t->contenders.list[i]);
+    for (size_t i = 0; i < t->methods.count; i++)
+        applies |= p->shows(t, &t->methods.list[i]);
     return applies;
 }
 
@@ -77,12 +77,12 @@ static void add_trial(const struct br_trade_picture *p, const struct br_trial *t
 /* The trials that count of a method, or of all that are shown (NULL), but those that another one
  * beats: they are as good for no more work. */
 static void add_front(const struct br_trade_picture *p, const struct br_trade *t,
-                      const struct br_contender *only, struct br_series *s)
+                      const struct br_named_method *only, struct br_series *s)
 {
     size_t kept = 0;
     for (size_t i = 0; i < t->count; i++) {
         const struct br_trial *trial = &t->trial[i];
-        if ((only ? trial->contender == only : p->shows(t, trial->contender)) &&
+        if ((only ? trial->named == only : p->shows(t, trial->named)) &&
             isfinite(br_trial_bound(trial, 0)) && has_place(p, trial))
             add_trial(p, trial, s);
     }
@@ -118,7 +118,7 @@ static void add_cloud(const struct br_trade_picture *p, const struct br_trade *t
     struct br_series *s = NULL;
     for (size_t i = 0; i < t->count; i++) {
         const struct br_trial *trial = &t->trial[i];
-        if (!p->shows(t, trial->contender) || !is_in(cloud, trial) || !has_place(p, trial))
+        if (!p->shows(t, trial->named) || !is_in(cloud, trial) || !has_place(p, trial))
             continue;
         if (!s)
             s = br_series_add(f, clouds[cloud].pen, "%s", clouds[cloud].title);
@@ -130,11 +130,11 @@ static void add_cloud(const struct br_trade_picture *p, const struct br_trade *t
 
 /* Who gets a hue first: the paper's own method, then those with most trials on the front of all. */
 static size_t merit(const struct br_trade_picture *p, const struct br_trade *t,
-                    const struct br_contender *c, const struct br_series *front)
+                    const struct br_named_method *c, const struct br_series *front)
 {
     size_t kept = 1;
     for (size_t i = 0; i < t->count; i++)
-        for (size_t k = 0; k < front->count && t->trial[i].contender == c; k++)
+        for (size_t k = 0; k < front->count && t->trial[i].named == c; k++)
             kept += front->point[k].x == p->work(&t->trial[i]) &&
                     front->point[k].y == br_trial_relative(&t->trial[i], 0, BR_PART_TOTAL);
     return br_trade_is_printed_method(c) ? t->count + 2 : kept;
@@ -144,18 +144,18 @@ static size_t merit(const struct br_trade_picture *p, const struct br_trade *t,
 static void add_fronts(const struct br_trade_picture *p, const struct br_trade *t,
                        const struct br_series *front, struct br_figure *f)
 {
-    size_t left[BR_MOST_CONTENDERS] = {0}; /* merits; 0: done, or not shown */
-    for (size_t i = 0; i < t->contenders.count; i++)
-        if (p->shows(t, &t->contenders.list[i]))
-            left[i] = merit(p, t, &t->contenders.list[i], front);
+    size_t left[BR_MOST_NAMED_METHODS] = {0}; /* merits; 0: done, or not shown */
+    for (size_t i = 0; i < t->methods.count; i++)
+        if (p->shows(t, &t->methods.list[i]))
+            left[i] = merit(p, t, &t->methods.list[i], front);
     for (;;) {
         size_t best = 0;
-        for (size_t i = 1; i < t->contenders.count; i++)
+        for (size_t i = 1; i < t->methods.count; i++)
             best = left[i] > left[best] ? i : best;
         if (!left[best])
             return;
         left[best] = 0;
-        const struct br_contender *c = &t->contenders.list[best];
+        const struct br_named_method *c = &t->methods.list[best];
         add_front(p, t, c, br_series_add(f, BR_PEN_CURVE, "%s", c->name));
     }
 }

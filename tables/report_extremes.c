@@ -91,11 +91,11 @@ static void put_drift_grid(struct br_document *d, const struct br_drifts *f)
 {
     br_put_table(d, "gathered", "Deviation from the exact discrete solution after N steps",
                  BR_FOR_PEOPLE);
-    for (size_t row = 0; row < BR_DRIFT_SCENES * f->contenders; row++) {
-        const size_t scene = row / f->contenders, method = row % f->contenders;
+    for (size_t row = 0; row < BR_DRIFT_SCENES * f->methods; row++) {
+        const size_t scene = row / f->methods, method = row % f->methods;
         br_put_row(d);
         BR_PUT(d, br_text(f->scene[scene].name), .key = "scene");
-        BR_PUT(d, br_text(f->contender[method].name), .key = "method");
+        BR_PUT(d, br_text(f->named[method].name), .key = "method");
         for (size_t j = 0; j < f->k_count; j++) {
             const struct br_floor *drift = br_drift_at(f, scene, method, j);
             char heading[32];
@@ -120,13 +120,13 @@ static const char *drift_outcome(const struct br_floor *drift)
 static void put_drifts(struct br_document *d, const struct br_drifts *f)
 {
     br_put_table(d, "steps", "Every scene, method and number of steps", BR_FILES_ONLY | BR_MAIN);
-    for (size_t i = 0; i < BR_DRIFT_SCENES * f->contenders * f->k_count; i++) {
+    for (size_t i = 0; i < BR_DRIFT_SCENES * f->methods * f->k_count; i++) {
         const struct br_floor *drift = &f->drift[i];
         const size_t row = i / f->k_count;
         const bool marched = drift->steps > 0;
         br_put_row(d);
-        BR_PUT(d, br_text(f->scene[row / f->contenders].name), .key = "scene");
-        BR_PUT(d, br_text(f->contender[row % f->contenders].name), .key = "method");
+        BR_PUT(d, br_text(f->scene[row / f->methods].name), .key = "scene");
+        BR_PUT(d, br_text(f->named[row % f->methods].name), .key = "method");
         BR_PUT(d, br_count(f->steps[i % f->k_count]), .key = "steps");
         BR_PUT(d, br_number(marched ? drift->deviation[BR_AXIAL] : NAN), .key = "axial",
                .format = "%.2e");

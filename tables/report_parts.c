@@ -48,13 +48,13 @@ void br_put_method_cells(struct br_document *d, const struct br_method *m)
 /* k, s; NaN where the steps are chosen. */
 static double step_of(const struct br_scene *scene, const struct br_trial *t)
 {
-    return br_contender_adaptive(t->contender) ? (double)NAN : br_time_step(scene, t->at.steps);
+    return t->named->method.scheme->adaptive ? (double)NAN : br_time_step(scene, t->at.steps);
 }
 
 void br_put_trial(struct br_document *d, const struct br_scene *scene, const struct br_trial *t)
 {
-    const bool adaptive = br_contender_adaptive(t->contender);
-    BR_PUT(d, br_text(t->contender->name), .key = "method");
+    const bool adaptive = t->named->method.scheme->adaptive;
+    BR_PUT(d, br_text(t->named->name), .key = "method");
     BR_PUT(d, br_count(t->at.n), .key = "n");
     br_hide(d, "steps_or_levels", NULL, br_count(t->at.steps));
     br_hide(d, "tolerance", NULL, br_if(adaptive, br_number(t->tolerance)));
@@ -66,11 +66,11 @@ void br_put_trial(struct br_document *d, const struct br_scene *scene, const str
 const char *br_trial_text(const struct br_scene *scene, const struct br_trial *t,
                           char text[BR_TRIAL_TEXT])
 {
-    if (br_contender_adaptive(t->contender))
-        snprintf(text, BR_TRIAL_TEXT, "%s, n = %zu, tolerance %.4g", t->contender->name, t->at.n,
+    if (t->named->method.scheme->adaptive)
+        snprintf(text, BR_TRIAL_TEXT, "%s, n = %zu, tolerance %.4g", t->named->name, t->at.n,
                  t->tolerance);
     else
-        snprintf(text, BR_TRIAL_TEXT, "%s, n = %zu, k = %.6g s", t->contender->name, t->at.n,
+        snprintf(text, BR_TRIAL_TEXT, "%s, n = %zu, k = %.6g s", t->named->name, t->at.n,
                  step_of(scene, t));
     return text;
 }

@@ -88,13 +88,12 @@ static void put_commands(struct br_document *d, const struct br_plan *p, const c
     snprintf(line, sizeof line, "beamrate run %s --n %zu --k T/%zu%s", scene, t->at.n, t->at.steps,
              br_method_options(p->request.scene, &method, options));
     br_put_command(d, "run", "To march it", line);
-    if (br_contender_adaptive(t->contender))
+    if (t->named->method.scheme->adaptive)
         snprintf(step, sizeof step, "--tolerances %.15g", t->tolerance);
     else
         snprintf(step, sizeof step, "--k T/%zu", t->at.steps);
     snprintf(line, sizeof line, "beamrate trade %s --methods %s --n %zu %s%s%s", scene,
-             t->contender->name, t->at.n, step, usual ? "" : " --norm ",
-             usual ? "" : p->norm[0]->name);
+             t->named->name, t->at.n, step, usual ? "" : " --norm ", usual ? "" : p->norm[0]->name);
     br_put_command(d, "trade", "To measure it again", line);
 }
 
@@ -171,11 +170,11 @@ static void put_scatter(struct br_document *d, const char *key, const char *head
 static void put_models(struct br_document *d, const struct br_plan *p)
 {
     br_put_table(d, "models", "How far the models are off (root mean square over the trials)", 0);
-    for (size_t i = 0; i < p->contenders.count; i++) {
+    for (size_t i = 0; i < p->methods.count; i++) {
         const struct br_plan_models *m = &p->model[i];
         const double *c = m->cost.c;
         br_put_row(d);
-        BR_PUT(d, br_text(p->contenders.list[i].name), .key = "method");
+        BR_PUT(d, br_text(p->methods.list[i].name), .key = "method");
         BR_PUT(d, br_count(m->error.points), .key = "trials");
         br_put_blank(d, !m->known);
         BR_PUT(d, br_number(m->error.r), .key = "r", .format = "%.2f");
@@ -208,13 +207,13 @@ static void put_curves(struct br_document *d, const struct br_plan *p)
     static const struct br_column columns[] = {
         {.key = "method"}, {.key = "curve"}, {.key = "at"}, {.key = "value"}};
     BR_TABLE(d, "curves", "Knots of the models", BR_FOR_PROGRAMS, columns);
-    for (size_t i = 0; i < p->contenders.count; i++) {
+    for (size_t i = 0; i < p->methods.count; i++) {
         const struct br_plan_models *m = &p->model[i];
         if (!m->known)
             continue;
-        put_curve(d, p->contenders.list[i].name, "log_space_error", &m->error.space);
-        put_curve(d, p->contenders.list[i].name, "log_time_error", &m->error.time);
-        put_curve(d, p->contenders.list[i].name, "log_solves", &m->cost.solves);
+        put_curve(d, p->methods.list[i].name, "log_space_error", &m->error.space);
+        put_curve(d, p->methods.list[i].name, "log_time_error", &m->error.time);
+        put_curve(d, p->methods.list[i].name, "log_solves", &m->cost.solves);
     }
 }
 
@@ -250,7 +249,7 @@ static void put_notes(struct br_document *d, const struct br_plan *p, const char
             "By the model, the proposal has a space error of %.2e and a time error of %.2e, "
             "both relative. The observed order in h is %.2f, in %s it is %.2f.",
             parts.space, parts.time, parts.p,
-            br_contender_adaptive(p->trial[p->chosen].contender) ? "the tolerance" : "k", parts.q);
+            p->trial[p->chosen].named->method.scheme->adaptive ? "the tolerance" : "k", parts.q);
     br_put_note(d, "%s", p->norm[0]->title);
     br_put_note(d,
                 "Relative errors are over the norm of the solution; the judge's own error, %.1e, "

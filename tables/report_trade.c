@@ -69,8 +69,8 @@ static void answer_front(struct br_document *d, const struct br_trade *t)
 /* What the paper's way costs to the smallest error that it reaches. */
 static void answer_paper(struct br_document *d, const struct br_trade *t)
 {
-    for (size_t c = 0; c < t->contenders.count; c++) {
-        const struct br_contender *paper = &t->contenders.list[c];
+    for (size_t c = 0; c < t->methods.count; c++) {
+        const struct br_named_method *paper = &t->methods.list[c];
         size_t digit = BR_TRADE_DIGITS;
         if (!br_trade_is_printed_method(paper))
             continue;
@@ -175,10 +175,10 @@ static void put_trials(struct br_document *d, const struct br_trade *t, bool fro
 static void put_methods(struct br_document *d, const struct br_trade *t)
 {
     br_put_table(d, "methods", "CPU seconds to an error, by method", BR_FILES_ONLY);
-    for (size_t c = 0; c < t->contenders.count; c++) {
+    for (size_t c = 0; c < t->methods.count; c++) {
         br_put_row(d);
-        BR_PUT(d, br_text(t->contenders.list[c].name), .key = "method");
-        br_put_method_cells(d, &t->contenders.list[c].method);
+        BR_PUT(d, br_text(t->methods.list[c].name), .key = "method");
+        br_put_method_cells(d, &t->methods.list[c].method);
         for (size_t i = 0; i < BR_TRADE_DIGITS; i++) {
             const size_t best = t->best_of[c][i];
             const bool reached = best < t->count;

@@ -9,7 +9,7 @@ field='(title|name|remark|message|path|caption|stem|key)'
 
 # Expressions that may be printed as they are, as "FILES EXPRESSION": words of our own.
 allowed=$(sed 's/ *#.*//' <<'END'
-* (scheme|contact|friction|solver|contender|norms?(\[[a-z0-9]*\])?)->name # of registries
+* (scheme|contact|friction|solver|named|norms?(\[[a-z0-9]*\])?)->name # of registries
 * (c|\(\*c\))->(name|title)|row(->|\[i\]\.)name # commands, options
 * (list|rows|br_method_fields|br_field_variables)\[[^,]*\]\.name|list\[i\]\.words->title # our tables
 cli/help.c list\[i\].title|title              # headings

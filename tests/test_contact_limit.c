@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "solver/laws.h"
-#include "study/foresee/warn_contact.h"
+#include "study/foresee/warnings.h"
 #include "support.h"
 
 /* A rod that stays pressed against its obstacle. */
@@ -190,8 +190,9 @@ static bool warns(const struct br_scene *scene, size_t n, size_t steps,
 {
     struct br_error err = {0};
     struct br_warnings warnings = {0};
-    const struct br_outlook outlook = {.scene = scene, .method = method, .n = n, .steps = steps};
-    MUST(br_warn_contact.look(&outlook, &warnings, &err));
+    const struct br_planned_march planned = {
+        .scene = scene, .method = method, .n = n, .steps = steps};
+    MUST(br_warn_contact.look(&planned, &warnings, &err));
     if (warnings.count)
         *first = warnings.list[0];
     return warnings.count > 0;

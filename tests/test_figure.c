@@ -387,10 +387,10 @@ static void make_trade(struct br_trade *t, struct br_trial trial[TRIALS])
 {
     struct br_error err = {0};
     *t = (struct br_trade){.trial = trial, .count = TRIALS, .norm = {&br_norm_l2}};
-    MUST(br_contenders_read("--methods", "bdf2,euler+lagged", &t->contenders, &err));
+    MUST(br_named_methods_read("--methods", "bdf2,euler+lagged", &t->methods, &err));
     for (size_t i = 0; i < TRIALS; i++) {
         trial[i] = (struct br_trial){
-            .contender = &t->contenders.list[i / 3],
+            .named = &t->methods.list[i / 3],
             .at = {10 + i, 100 + 7 * i},
             .cost = {.set_up = 0.25 * (double)(i + 1), .march = 1 + (double)i},
             .scale = {2},
@@ -415,7 +415,7 @@ static void check_trade(const struct br_trade *t, const struct br_trade_picture 
     const struct br_panel *p = &f.panel[0];
     figure_axes(p, label, "relative error (31)");
     for (size_t c = 0; c < 2; c++) {
-        const struct br_series *s = figure_series(p, t->contenders.list[c].name);
+        const struct br_series *s = figure_series(p, t->methods.list[c].name);
         assert_int_equal(s->count, 2);
         for (size_t i = 0; i < 2; i++) {
             const struct br_trial *trial = &t->trial[3 * c + i];
@@ -469,8 +469,8 @@ static void test_floors(void **state)
     struct br_floor floor[12];
     struct br_floors floors = {
         .solvers = 2, .n_count = 2, .k_count = 3, .n = n, .k = k, .floor = floor};
-    MUST(br_contender_read("euler+riccati", &floors.solver[0], &err));
-    MUST(br_contender_read("euler+umfpack", &floors.solver[1], &err));
+    MUST(br_named_method_read("euler+riccati", &floors.solver[0], &err));
+    MUST(br_named_method_read("euler+umfpack", &floors.solver[1], &err));
     for (int i = 0; i < 12; i++)
         floor[i] = (struct br_floor){.deviation = {1e-15 * (i + 1), 1e-14 * (i + 1)}};
     br_fail(&floor[8].refused, BR_BAD_INPUT, "no");
@@ -495,10 +495,9 @@ static void test_drifts(void **state)
     struct br_figure f;
     size_t steps[] = {10, 1000, 7};
     struct br_floor drift[12];
-    struct br_drifts d = {
-        .contenders = 2, .solvers = 1, .k_count = 3, .steps = steps, .drift = drift};
-    MUST(br_contender_read("euler+lagged+riccati", &d.contender[0], &err));
-    MUST(br_contender_read("bdf2+riccati", &d.contender[1], &err));
+    struct br_drifts d = {.methods = 2, .solvers = 1, .k_count = 3, .steps = steps, .drift = drift};
+    MUST(br_named_method_read("euler+lagged+riccati", &d.named[0], &err));
+    MUST(br_named_method_read("bdf2+riccati", &d.named[1], &err));
     for (int i = 0; i < 12; i++)
         drift[i] = (struct br_floor){.steps = steps[i % 3],
                                      .deviation = {1e-16 * (i + 1), 1e-17},

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "study/fit/fit.h"
-#include "study/fit/joint_fit.h"
 #include "support.h"
 
 enum { ROWS = 6, COLUMNS = 6, CELLS = ROWS * COLUMNS };

@@ -82,8 +82,8 @@ static void test_drift(void **state)
     struct br_drifts d;
     MUST(br_drifts_run(&d, &plan, NULL, &err));
     MUST(br_drifts_verdict(&d, &err));
-    assert_true(d.contenders == 16 && d.solvers == 2);
-    for (size_t c = 0; c < d.contenders; c++) /* weights that miss 1 gave 4e-15 for esdirk4 */
+    assert_true(d.methods == 16 && d.solvers == 2);
+    for (size_t c = 0; c < d.methods; c++) /* weights that miss 1 gave 4e-15 for esdirk4 */
         AT_MOST(br_drift_at(&d, 1, c, 3)->deviation[BR_AXIAL], 2.5e-15);
     d.drift[1].time_error = NAN;
     REFUSED(br_drifts_verdict(&d, &err), BR_VERDICT, "time level");

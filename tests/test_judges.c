@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "reference/exact/exact.h"
-#include "study/fit/extrapolation.h"
+#include "study/fit/fit.h"
 #include "study/grid/sweep.h"
 #include "support.h"
 

@@ -12,7 +12,7 @@ extern const struct br_warning_source br_warn_load_space;
 static struct br_warnings warnings_of(const struct br_scene *scene, size_t n)
 {
     const struct br_method method = br_method_default();
-    const struct br_outlook o = {.scene = scene, .method = &method, .n = n, .steps = 10};
+    const struct br_planned_march o = {.scene = scene, .method = &method, .n = n, .steps = 10};
     struct br_warnings w = {0};
     struct br_error err;
     MUST(br_warn_load_space.look(&o, &w, &err));

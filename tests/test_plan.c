@@ -135,7 +135,7 @@ static struct br_plan *new_plan(const struct br_scene *scene, double error, doub
     struct br_plan *plan = calloc(1, sizeof *plan);
     assert_non_null(plan);
     br_plan_default(plan, scene);
-    MUST(br_contenders_read("--methods", METHODS, &plan->contenders, &err));
+    MUST(br_named_methods_read("--methods", METHODS, &plan->methods, &err));
     plan->goal = (struct br_plan_goal){error, seconds};
     plan->seconds = counted;
     plan->request.repeats = 1;
@@ -159,20 +159,20 @@ static double exhaustive(const struct br_plan *plan, double most)
     struct br_error err = {0};
     size_t count = 0;
     assert_non_null(trial);
-    for (size_t c = 0; c < plan->contenders.count; c++)
+    for (size_t c = 0; c < plan->methods.count; c++)
         for (size_t i = 0; i < N; i++)
             for (size_t j = 0; j < K; j++) {
-                const struct br_contender *one = &plan->contenders.list[c];
-                const bool adaptive = br_contender_adaptive(one);
+                const struct br_named_method *one = &plan->methods.list[c];
+                const bool adaptive = one->method.scheme->adaptive;
                 const double solves =
                     adaptive ? 150 : (double)k[j] * br_time_scheme_stages(one->method.scheme);
                 if (4e-5 + 1.8e-9 * ((double)n[i] + 700) * solves > most)
                     continue;
                 trial[count++] = adaptive
-                                     ? (struct br_trial){.contender = one,
+                                     ? (struct br_trial){.named = one,
                                                          .at = {n[i], BR_PLAN_LEVELS},
                                                          .tolerance = pow(0.1, 0.5 + (double)j)}
-                                     : (struct br_trial){.contender = one, .at = {n[i], k[j]}};
+                                     : (struct br_trial){.named = one, .at = {n[i], k[j]}};
             }
     struct br_trial_request request = plan->request;
     request.norm = plan->norm;
@@ -208,7 +208,7 @@ static void test_promise(void **state)
                          br_plan_end_name(plan->end));
             if (!(cost <= 2 * best))
                 fail_msg("%s to %g: %s, n = %zu costs %g, the best %g", scenes[s], errors[e],
-                         t->contender->name, t->at.n, cost, best);
+                         t->named->name, t->at.n, cost, best);
             assert_true(plan->forecast[plan->chosen].round > 0);
             drop(plan);
             br_scene_clear(&scene);
@@ -282,7 +282,7 @@ static void test_refused(void **state)
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         struct br_error err = {0};
         struct br_plan *plan = new_plan(&scene, wrong[i].error, wrong[i].seconds);
-        plan->contenders.count = 1;
+        plan->methods.count = 1;
         REFUSED(br_plan_make(plan, &err), BR_BAD_INPUT, wrong[i].message);
         drop(plan);
     }

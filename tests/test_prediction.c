@@ -10,7 +10,7 @@
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
 #include "study/scene/file.h"
-#include "study/trade/contender.h"
+#include "study/trade/named_method.h"
 #include "support.h"
 
 /* ---- predicted over measured ---- */
@@ -53,11 +53,11 @@ static void count_cell(struct tally *t, const struct br_study *s, const struct b
     static const enum br_part parts[2] = {BR_PART_AXIAL, BR_PART_BENDING};
     struct br_error err = {0};
     struct br_prediction p;
-    const struct br_outlook o = {.scene = s->scene,
-                                 .method = &s->method,
-                                 .n = cell->at.n,
-                                 .steps = cell->at.steps,
-                                 .budget = budget};
+    const struct br_planned_march o = {.scene = s->scene,
+                                       .method = &s->method,
+                                       .n = cell->at.n,
+                                       .steps = cell->at.steps,
+                                       .budget = budget};
     if (cell->failure.status || cell->unstable)
         return;
     MUST(br_predict(&o, &p, &err));
@@ -75,9 +75,9 @@ static void count_cell(struct tally *t, const struct br_study *s, const struct b
 static void measure(struct tally *t, const struct br_scene *scene, const char *name,
                     const struct br_study *shape, double budget)
 {
-    struct br_contender c;
+    struct br_named_method c;
     struct br_error err = {0};
-    MUST(br_contender_read(name, &c, &err));
+    MUST(br_named_method_read(name, &c, &err));
     struct br_study s = *shape;
     s.scene = scene;
     s.norm = &br_norm_l2;
@@ -90,7 +90,7 @@ static void measure(struct tally *t, const struct br_scene *scene, const char *n
     br_study_clear(&s);
 }
 
-/* Bundled scenes against the exact solution; budget: as in struct br_outlook. */
+/* Bundled scenes against the exact solution; budget: as in struct br_planned_march. */
 static struct tally measure_bundled(double budget, const char *what)
 {
     static const char *const scenes[] = {"example1", "example2", "example3", "example4",
@@ -176,9 +176,9 @@ static void test_random(void **state)
     static const char *const methods[] = {"euler+lagged", "euler+implicit", "bdf2", "trbdf2",
                                           "esdirk3"};
     struct br_test_random r = {20061};
-    struct br_contender adaptive;
+    struct br_named_method adaptive;
     struct br_error err = {0};
-    MUST(br_contender_read("adaptive", &adaptive, &err));
+    MUST(br_named_method_read("adaptive", &adaptive, &err));
     adaptive.method.tolerance = 1e-8;
     struct tally t = {0};
     for (int i = 0; i < (br_test_quick() ? 3 : SCENES); i++) {
@@ -234,7 +234,7 @@ static void test_layer(void **state)
 static struct br_prediction predict(const struct br_scene *scene, const struct br_method *method,
                                     size_t n, size_t k)
 {
-    const struct br_outlook o = {.scene = scene, .method = method, .n = n, .steps = k};
+    const struct br_planned_march o = {.scene = scene, .method = method, .n = n, .steps = k};
     struct br_error err = {0};
     struct br_prediction p;
     MUST(br_predict(&o, &p, &err));
@@ -298,7 +298,7 @@ static void test_not_known(void **state)
 static struct br_warnings warnings_of(const struct br_scene *scene, const struct br_method *method,
                                       size_t n, size_t k)
 {
-    const struct br_outlook o = {.scene = scene, .method = method, .n = n, .steps = k};
+    const struct br_planned_march o = {.scene = scene, .method = method, .n = n, .steps = k};
     struct br_warnings w = {0};
     struct br_error err = {0};
     MUST(br_look_ahead(&o, &w, &err));
@@ -404,7 +404,7 @@ static void test_short_blows(void **state)
     const struct br_method method = br_method_default();
     struct br_error err;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const struct br_outlook o = {
+        const struct br_planned_march o = {
             .scene = &s, .method = &method, .n = 4000, .steps = rows[i].steps};
         struct br_warnings w = {0};
         s.bending.load = br_test_load(rows[i].load);
@@ -423,7 +423,7 @@ static struct br_prediction told(const char *text, struct br_warnings *w)
     struct br_prediction p;
     struct br_error err = {0};
     const struct br_method method = br_method_default();
-    const struct br_outlook o = {
+    const struct br_planned_march o = {
         .scene = &s, .method = &method, .n = 10, .steps = 800, .prediction = &p};
     char scene[1000];
     snprintf(scene, sizeof scene,
@@ -492,7 +492,7 @@ static void test_thin_layers(void **state)
         struct br_prediction p;
         snprintf(text, sizeof text, "title: t\n%s\n", rows[i].text);
         MUST(br_scene_read_text("layer", text, &s, &err));
-        const struct br_outlook o = {
+        const struct br_planned_march o = {
             .scene = &s, .method = &method, .n = rows[i].n, .steps = rows[i].steps};
         MUST(br_predict(&o, &p, &err));
         if (!(!p.known || p.whole.high >= rows[i].off))
@@ -512,13 +512,13 @@ static void test_iteration(void **state)
         "  stiffness: 3000 N m^2\n  viscosity: 0 N m^2 s\n"
         "  load: -9*sin(7*pi*x/0.2)*(t^3 - 2*t^2) [N/m]\nfriction:\n  law: tresca\n"
         "  bound: 2 N\n";
-    struct br_contender c;
+    struct br_named_method c;
     struct br_error err = {0};
     struct br_scene s;
     struct br_prediction p;
     MUST(br_scene_read_text("stick", text, &s, &err));
-    MUST(br_contender_read("euler+uzawa", &c, &err));
-    const struct br_outlook o = {.scene = &s, .method = &c.method, .n = 31, .steps = 1208};
+    MUST(br_named_method_read("euler+uzawa", &c, &err));
+    const struct br_planned_march o = {.scene = &s, .method = &c.method, .n = 31, .steps = 1208};
     MUST(br_predict(&o, &p, &err));
     assert_true(p.whole.high >= 1.36e-3);
     assert_true(p.whole.error >= 1.3e-3 / 3 && p.whole.error <= 3 * 1.3e-3);
@@ -540,7 +540,7 @@ static void test_unseen_start(void **state)
     struct br_scene s;
     struct br_prediction p;
     MUST(br_scene_read_text("start", text, &s, &err));
-    const struct br_outlook o = {.scene = &s, .method = &method, .n = 91, .steps = 1};
+    const struct br_planned_march o = {.scene = &s, .method = &method, .n = 91, .steps = 1};
     MUST(br_predict(&o, &p, &err));
     assert_false(p.known);
     assert_non_null(strstr(p.why, "t = 0"));

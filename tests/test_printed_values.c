@@ -34,7 +34,7 @@ static struct br_trade *made_trade(const struct br_scene *scene)
     struct br_error err = {0};
     struct br_trade *t = calloc(1, sizeof *t);
     assert_non_null(t);
-    MUST(br_contenders_read("--methods", "euler,adaptive", &t->contenders, &err));
+    MUST(br_named_methods_read("--methods", "euler,adaptive", &t->methods, &err));
     t->request = br_trial_request_default(scene);
     t->norm[0] = &br_norm_l2;
     t->count = 2;
@@ -43,7 +43,7 @@ static struct br_trade *made_trade(const struct br_scene *scene)
     assert_true(t->trial && t->front);
     for (size_t i = 0; i < t->count; i++)
         t->trial[i] = (struct br_trial){
-            .contender = &t->contenders.list[i],
+            .named = &t->methods.list[i],
             .at = {11 + i, 20 + i},
             .tolerance = i ? 0.0625 : 0,
             .printed = i == 0,
@@ -230,7 +230,7 @@ static struct br_plan *made_plan(const struct br_scene *scene)
     struct br_plan *p = calloc(1, sizeof *p);
     assert_non_null(p);
     br_plan_default(p, scene);
-    MUST(br_contenders_read("--methods", "euler,bdf2", &p->contenders, &err));
+    MUST(br_named_methods_read("--methods", "euler,bdf2", &p->methods, &err));
     p->goal = (struct br_plan_goal){0.5, NAN};
     p->norm[0] = &br_norm_l2;
     p->seconds = seconds_of_plan;
@@ -240,7 +240,7 @@ static struct br_plan *made_plan(const struct br_scene *scene)
     assert_true(p->trial && p->forecast);
     for (size_t i = 0; i < p->count; i++) {
         p->trial[i] = (struct br_trial){
-            .contender = &p->contenders.list[0],
+            .named = &p->methods.list[0],
             .at = {11 + i, 20 + i},
             .cost = {2.5, 3.75, 4, {.steps = 5, .stages = 6, .set_ups = 8}},
             .error = {{0.125, 0.25, 0.375}},

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/fit/extrapolation.h"
+#include "study/fit/fit.h"
 #include "study/grid/sweep.h"
 #include "study/run/history.h"
 #include "support.h"

@@ -29,7 +29,7 @@ static double held(const struct br_scene *scene, const struct br_method *method,
 
 static void compare(const struct br_scene *scene, const struct br_method *method, size_t n)
 {
-    const struct br_outlook o = {.scene = scene, .method = method, .n = n, .steps = 1000};
+    const struct br_planned_march o = {.scene = scene, .method = method, .n = n, .steps = 1000};
     const double bytes = held(scene, method, n);
     if (bytes <= 0)
         return;
@@ -71,7 +71,7 @@ static void test_refused(void **state)
     struct br_scene scene = br_test_bare();
     const struct br_method method = br_method_default();
     struct br_error err;
-    struct br_outlook o = {.scene = &scene, .method = &method, .n = 1000, .steps = 10};
+    struct br_planned_march o = {.scene = &scene, .method = &method, .n = 1000, .steps = 10};
     MUST(br_fits_memory(&o, br_march_bytes(&o), &err));
     REFUSED(br_fits_memory(&o, 0.9 * br_march_bytes(&o), &err), BR_NO_MEMORY,
             "are available: expected at most 900 elements");

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/fit/order_fit.h"
+#include "study/fit/fit.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
 #include "support.h"

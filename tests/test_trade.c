@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Contenders, trials and trades: choosing on made-up trials, and errors that are a study's. */
+/* Named methods, trials and trades: choosing on made-up trials, and errors that are a study's. */
 #include <math.h>
 #include <string.h>
 
@@ -9,13 +9,13 @@
 
 /* ---- choosing, on made-up trials ---- */
 
-static struct br_contender contenders[2];
+static struct br_named_method pair[2];
 
 /* A trial of that relative error and cost; nothing of it was marched. */
-static struct br_trial made(int contender, double error, double seconds, size_t solves)
+static struct br_trial made(int named, double error, double seconds, size_t solves)
 {
     return (struct br_trial){
-        .contender = &contenders[contender],
+        .named = &pair[named],
         .at = {10, 10},
         .cost = {.march = seconds, .counts = {.stages = solves}},
         .error = {{2 * error, error, error}},
@@ -35,7 +35,7 @@ static void test_cheapest(void **state)
     t[6].end = BR_TRIAL_FAILED;
     assert_int_equal(br_trials_cheapest(t, count, 2e-2, NULL), 2);
     assert_int_equal(br_trials_cheapest(t, count, 1e-3, NULL), 5); /* fewer solves */
-    assert_int_equal(br_trials_cheapest(t, count, 1e-3, &contenders[0]), 0);
+    assert_int_equal(br_trials_cheapest(t, count, 1e-3, &pair[0]), 0);
     assert_int_equal(br_trials_cheapest(t, count, 9e-4, NULL), count);
     assert_int_equal(br_trials_cheapest(t, 0, 1, NULL), 0);
     t[5].cost.counts.stages = 9;
@@ -101,11 +101,11 @@ static void test_names(void **state)
 {
     (void)state;
     struct br_error err = {0};
-    struct br_contender c;
-    MUST(br_contender_read("euler", &c, &err));
+    struct br_named_method c;
+    MUST(br_named_method_read("euler", &c, &err));
     assert_false(c.method.contact->at_new_step);
     assert_true(br_trade_is_printed_method(&c));
-    MUST(br_contender_read("regularised+bdf2+umfpack+scaled+p2", &c, &err));
+    MUST(br_named_method_read("regularised+bdf2+umfpack+scaled+p2", &c, &err));
     assert_true(c.method.contact->at_new_step);
     assert_string_equal(c.method.scheme->name, "bdf2");
     assert_string_equal(c.method.friction->name, "regularised");
@@ -114,35 +114,35 @@ static void test_names(void **state)
     assert_int_equal(c.method.linear.refinement, 0);
     assert_int_equal(c.method.axial_degree, 2);
     assert_false(br_trade_is_printed_method(&c));
-    REFUSED(br_contender_read("bdf9", &c, &err), BR_BAD_INPUT, "found 'bdf9'");
-    REFUSED(br_contender_read("bdf2+", &c, &err), BR_BAD_INPUT, "found ''");
-    REFUSED(br_contender_read("bdf2+euler", &c, &err), BR_BAD_INPUT, "given already");
-    REFUSED(br_contender_read("bdf2+lagged", &c, &err), BR_BAD_INPUT, "lagged");
-    REFUSED(br_contender_read("bdf2+scaled", &c, &err), BR_BAD_INPUT, "does not heed");
+    REFUSED(br_named_method_read("bdf9", &c, &err), BR_BAD_INPUT, "found 'bdf9'");
+    REFUSED(br_named_method_read("bdf2+", &c, &err), BR_BAD_INPUT, "found ''");
+    REFUSED(br_named_method_read("bdf2+euler", &c, &err), BR_BAD_INPUT, "given already");
+    REFUSED(br_named_method_read("bdf2+lagged", &c, &err), BR_BAD_INPUT, "lagged");
+    REFUSED(br_named_method_read("bdf2+scaled", &c, &err), BR_BAD_INPUT, "does not heed");
 }
 
 static void test_lists(void **state)
 {
     (void)state;
     struct br_error err = {0};
-    struct br_contenders all;
-    MUST(br_contenders_read("--methods", "euler+implicit,bdf2", &all, &err));
+    struct br_named_methods all;
+    MUST(br_named_methods_read("--methods", "euler+implicit,bdf2", &all, &err));
     assert_int_equal(all.count, 2);
-    REFUSED(br_contenders_read("--methods", "bdf2,bdf2+implicit", &all, &err), BR_BAD_INPUT,
+    REFUSED(br_named_methods_read("--methods", "bdf2,bdf2+implicit", &all, &err), BR_BAD_INPUT,
             "--methods: bdf2+implicit is given twice");
-    REFUSED(br_contenders_read("--methods", "bdf2,", &all, &err), BR_BAD_INPUT, "found ''");
+    REFUSED(br_named_methods_read("--methods", "bdf2,", &all, &err), BR_BAD_INPUT, "found ''");
 }
 
 /* All schemes are there, and none twice that is the same in this scene. */
-static void test_default_contenders(void **state)
+static void test_default_named_methods(void **state)
 {
     (void)state;
     const char *const scenes[] = {"example2", "example3"};
     for (size_t s = 0; s < 2; s++) {
         struct br_scene scene = br_test_bundled(scenes[s]);
-        struct br_contenders all;
+        struct br_named_methods all;
         size_t schemes[32] = {0};
-        br_contenders_default(&scene, &all);
+        br_named_methods_default(&scene, &all);
         for (size_t i = 0; i < all.count; i++)
             for (size_t j = 0; br_time_schemes[j]; j++)
                 schemes[j] += all.list[i].method.scheme == br_time_schemes[j];
@@ -161,13 +161,13 @@ static void test_errors_are_a_study_s(void **state)
     (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
-    struct br_contenders all;
-    MUST(br_contenders_read("--methods", "euler+lagged,bdf2,bdf2+p2", &all, &err));
+    struct br_named_methods all;
+    MUST(br_named_methods_read("--methods", "euler+lagged,bdf2,bdf2+p2", &all, &err));
     struct br_trial trial[] = {
-        {.contender = &all.list[0], .at = {8, 20}},
-        {.contender = &all.list[1], .at = {8, 20}},
-        {.contender = &all.list[0], .at = {16, 10}},
-        {.contender = &all.list[2], .at = {8, 20}},
+        {.named = &all.list[0], .at = {8, 20}},
+        {.named = &all.list[1], .at = {8, 20}},
+        {.named = &all.list[0], .at = {16, 10}},
+        {.named = &all.list[2], .at = {8, 20}},
     };
     enum { COUNT = sizeof trial / sizeof *trial };
     const struct br_norm *const norm[] = {&br_norm_l2, &br_norm_tip};
@@ -205,13 +205,13 @@ static void test_ends(void **state)
     (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
-    struct br_contenders all;
-    MUST(br_contenders_read("--methods", "euler+regularised,euler,euler+implicit", &all, &err));
+    struct br_named_methods all;
+    MUST(br_named_methods_read("--methods", "euler+regularised,euler,euler+implicit", &all, &err));
     scene.friction.regularisation = 0; /* so that the first has no mu */
     struct br_trial trial[] = {
-        {.contender = &all.list[0], .at = {8, 10}},
-        {.contender = &all.list[1], .at = {100, 100000000}},
-        {.contender = &all.list[2], .at = {8, 10}},
+        {.named = &all.list[0], .at = {8, 10}},
+        {.named = &all.list[1], .at = {100, 100000000}},
+        {.named = &all.list[2], .at = {8, 10}},
     };
     struct br_trial_request request = br_trial_request_default(&scene);
     request.time_limit = 0.02;
@@ -240,9 +240,9 @@ static void test_stops(void **state)
     (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
-    struct br_contender c;
-    MUST(br_contender_read("euler", &c, &err));
-    struct br_trial trial = {.contender = &c, .at = {100, 100000000}};
+    struct br_named_method c;
+    MUST(br_named_method_read("euler", &c, &err));
+    struct br_trial trial = {.named = &c, .at = {100, 100000000}};
     struct br_trial_request request = br_trial_request_default(&scene);
     const struct br_observer observer = {.stop = stop_at_once};
     request.observer = &observer;
@@ -258,7 +258,7 @@ static struct br_trade *laid_out(const struct br_scene *scene, const char *metho
     struct br_error err = {0};
     struct br_trade *t = calloc(1, sizeof *t);
     assert_non_null(t);
-    MUST(br_contenders_read("--methods", methods, &t->contenders, &err));
+    MUST(br_named_methods_read("--methods", methods, &t->methods, &err));
     t->request = br_trial_request_default(scene);
     MUST(br_trade_lay_out(t, grid, &err));
     return t;
@@ -282,9 +282,9 @@ static void test_printed(void **state)
     size_t marked = 0;
     for (size_t i = 0; i < t->count; i++) {
         marked += t->trial[i].printed;
-        assert_true(!t->trial[i].printed || t->trial[i].contender == &t->contenders.list[0]);
+        assert_true(!t->trial[i].printed || t->trial[i].named == &t->methods.list[0]);
         for (size_t j = 0; j < i; j++)
-            assert_false(t->trial[i].contender == t->trial[j].contender &&
+            assert_false(t->trial[i].named == t->trial[j].named &&
                          t->trial[i].at.n == t->trial[j].at.n &&
                          t->trial[i].at.steps == t->trial[j].at.steps);
     }
@@ -318,7 +318,7 @@ static void test_lists_are_tried(void **state)
 int main(void)
 {
     for (int i = 0; i < 2; i++)
-        contenders[i] = (struct br_contender){.method = br_method_default()};
+        pair[i] = (struct br_named_method){.method = br_method_default()};
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cheapest),
         cmocka_unit_test(test_own_error),
@@ -326,7 +326,7 @@ int main(void)
         cmocka_unit_test(test_digits),
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_lists),
-        cmocka_unit_test(test_default_contenders),
+        cmocka_unit_test(test_default_named_methods),
         cmocka_unit_test(test_errors_are_a_study_s),
         cmocka_unit_test(test_ends),
         cmocka_unit_test(test_stops),

@@ -17,14 +17,14 @@ static const double usual_k[] = {1e-2, 1e-4, 1e-6};
 __attribute__((format(printf, 2, 3))) static void add_solver(struct br_floors *f,
                                                              const char *format, ...)
 {
-    char name[BR_CONTENDER_NAME];
+    char name[BR_METHOD_NAME_SIZE];
     struct br_error ignored;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(name, sizeof name, format, arguments);
     va_end(arguments);
     if (f->solvers < BR_FLOOR_SOLVERS &&
-        br_contender_read(name, &f->solver[f->solvers], &ignored) == BR_OK)
+        br_named_method_read(name, &f->solver[f->solvers], &ignored) == BR_OK)
         f->solvers++;
 }
 
@@ -127,7 +127,7 @@ double br_floor_limit(const struct br_floors *f, size_t solver, const struct br_
 static enum br_status check(const struct br_floors *f, size_t solver, const struct br_floor *floor,
                             struct br_error *err)
 {
-    const struct br_contender *c = &f->solver[solver];
+    const struct br_named_method *c = &f->solver[solver];
     const bool assembled = c->method.solver->bending->round_off != NULL;
     if (floor->refused.status && assembled)
         return BR_OK; /* right, or refused */

@@ -7,7 +7,7 @@
 
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
-#include "study/trade/contender.h"
+#include "study/trade/named_method.h"
 
 /* ---- the experiment ---- */
 
@@ -27,8 +27,8 @@ struct br_floor {
 /* Marches of one scene, scheme, contact rule, mesh and number of steps, by several solvers. */
 struct br_floor_task {
     const struct br_scene *scene;
-    size_t n, steps, taken;        /* elements; steps of the duration; and as many are taken */
-    const struct br_contender *by; /* solvers */
+    size_t n, steps, taken;           /* elements; steps of the duration; and as many are taken */
+    const struct br_named_method *by; /* solvers */
     size_t solvers;
     struct br_floor *floor; /* out: of solver s it is floor[s * stride] */
     size_t stride;
@@ -61,7 +61,7 @@ struct br_floors_plan {
 
 struct br_floors {
     struct br_scene scene; /* owned */
-    struct br_contender solver[BR_FLOOR_SOLVERS];
+    struct br_named_method solver[BR_FLOOR_SOLVERS];
     size_t solvers, n_count, k_count;
     size_t *n;              /* n_count, owned */
     double *k;              /* k_count, s, owned */
@@ -89,7 +89,7 @@ enum br_status br_floors_verdict(const struct br_floors *floors, struct br_error
 
 /* A march of BR_DRIFT_N elements by every time scheme of equal steps, with contact and friction.
  * Example 1 sticks, Example 2 slips. */
-enum { BR_DRIFT_N = 10, BR_DRIFT_SCENES = 2, BR_DRIFT_CONTENDERS = 32 };
+enum { BR_DRIFT_N = 10, BR_DRIFT_SCENES = 2, BR_DRIFT_METHODS = 32 };
 
 /* What is asked for. Borrowed. */
 struct br_drifts_plan {
@@ -101,12 +101,12 @@ struct br_drifts_plan {
 };
 
 struct br_drifts {
-    struct br_scene scene[BR_DRIFT_SCENES];             /* owned */
-    struct br_contender contender[BR_DRIFT_CONTENDERS]; /* by scheme and contact; solvers of one
+    struct br_scene scene[BR_DRIFT_SCENES];         /* owned */
+    struct br_named_method named[BR_DRIFT_METHODS]; /* by scheme and contact; solvers of one
                                                            of these are neighbours */
-    size_t contenders, solvers, k_count;                /* solvers: of each scheme and contact */
-    size_t *steps;                                      /* k_count; owned */
-    struct br_floor *drift;                             /* by scene, contender, k; owned */
+    size_t methods, solvers, k_count;               /* solvers: of each scheme and contact */
+    size_t *steps;                                  /* k_count; owned */
+    struct br_floor *drift;                         /* by scene, named method, k; owned */
 };
 
 /* As br_floors_run. */
@@ -114,7 +114,7 @@ enum br_status br_drifts_run(struct br_drifts *drifts, const struct br_drifts_pl
                              const struct br_observer *observer, struct br_error *err);
 void br_drifts_clear(struct br_drifts *drifts);
 
-const struct br_floor *br_drift_at(const struct br_drifts *drifts, size_t scene, size_t contender,
+const struct br_floor *br_drift_at(const struct br_drifts *drifts, size_t scene, size_t named,
                                    size_t k);
 
 /* BR_OK, or BR_VERDICT with the first march that is above its prediction, failed (a step that the

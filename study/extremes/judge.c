@@ -390,13 +390,13 @@ static enum br_status read_case(struct trial *t, struct br_error *err)
         status = br_model_select(&t->scene, t->one->wanted, &t->marched, &said);
     if (!status)
         status = br_method_check(&t->method, &said);
-    const struct br_outlook outlook = {.scene = &t->marched,
-                                       .method = &t->method,
-                                       .n = t->one->n,
-                                       .steps = t->one->steps,
-                                       .prediction = &t->prediction};
+    const struct br_planned_march planned = {.scene = &t->marched,
+                                             .method = &t->method,
+                                             .n = t->one->n,
+                                             .steps = t->one->steps,
+                                             .prediction = &t->prediction};
     if (!status)
-        status = br_look_ahead(&outlook, &t->warnings, &said);
+        status = br_look_ahead(&planned, &t->warnings, &said);
     for (size_t i = 0; i < t->warnings.count; i++)
         t->verdict->warned |= 1u << t->warnings.list[i].kind;
     t->verdict->known = t->prediction.known;

@@ -18,25 +18,25 @@ static const size_t most_of_many = 100000, most_of_one = 1000000;
 
 /* ---- what is measured ---- */
 
-static void add_contender(struct br_drifts *d, const char *scheme, const char *contact,
-                          const char *solver)
+static void add_named_method(struct br_drifts *d, const char *scheme, const char *contact,
+                             const char *solver)
 {
-    char name[BR_CONTENDER_NAME];
+    char name[BR_METHOD_NAME_SIZE];
     struct br_error ignored;
     snprintf(name, sizeof name, "%s+%s+%s", scheme, contact, solver);
-    if (d->contenders < BR_DRIFT_CONTENDERS &&
-        br_contender_read(name, &d->contender[d->contenders], &ignored) == BR_OK)
-        d->contenders++;
+    if (d->methods < BR_DRIFT_METHODS &&
+        br_named_method_read(name, &d->named[d->methods], &ignored) == BR_OK)
+        d->methods++;
 }
 
-static void add_contenders(struct br_drifts *d)
+static void add_named_methods(struct br_drifts *d)
 {
     d->solvers = SOLVERS;
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
         for (size_t c = 0; br_contact_rules[c]; c++)
             for (size_t i = 0; i < SOLVERS; i++)
                 if (!(*s)->adaptive && ((*s)->may_lag || br_contact_rules[c]->at_new_step))
-                    add_contender(d, (*s)->name, br_contact_rules[c]->name, solvers[i]);
+                    add_named_method(d, (*s)->name, br_contact_rules[c]->name, solvers[i]);
 }
 
 static enum br_status read_scenes(struct br_drifts *d, struct br_error *err)
@@ -57,12 +57,12 @@ static enum br_status prepare(struct br_drifts *d, const struct br_drifts_plan *
     enum br_status status = read_scenes(d, err);
     if (status)
         return status;
-    add_contenders(d);
-    for (size_t i = 0; i < d->contenders; i++)
-        d->contender[i].method.rounding = plan->rounding;
+    add_named_methods(d);
+    for (size_t i = 0; i < d->methods; i++)
+        d->named[i].method.rounding = plan->rounding;
     d->k_count = plan->k ? plan->k_count : sizeof usual_steps / sizeof *usual_steps;
     d->steps = br_allocate(d->k_count, sizeof *d->steps);
-    d->drift = br_allocate(BR_DRIFT_SCENES * d->contenders * d->k_count, sizeof *d->drift);
+    d->drift = br_allocate(BR_DRIFT_SCENES * d->methods * d->k_count, sizeof *d->drift);
     if (!d->steps || !d->drift)
         return br_no_memory(err, "the drifts");
     for (size_t j = 0; j < d->k_count && !status; j++)
@@ -82,8 +82,8 @@ void br_drifts_clear(struct br_drifts *d)
     *d = (struct br_drifts){0};
 }
 
-/* first: the contender that stands for its scheme and contact. */
-static bool is_usual(const struct br_contender *first, size_t scene, size_t steps)
+/* first: the named method that stands for its scheme and contact. */
+static bool is_usual(const struct br_named_method *first, size_t scene, size_t steps)
 {
     const struct br_method *m = &first->method;
     if (br_time_scheme_stages(m->scheme) > 1)
@@ -96,17 +96,17 @@ static size_t list_tasks(struct br_drifts *d, bool chosen, struct br_floor_task 
 {
     size_t count = 0;
     for (size_t scene = 0; scene < BR_DRIFT_SCENES; scene++)
-        for (size_t first = 0; first < d->contenders; first += d->solvers)
+        for (size_t first = 0; first < d->methods; first += d->solvers)
             for (size_t j = 0; j < d->k_count; j++)
-                if (chosen || is_usual(&d->contender[first], scene, d->steps[j]))
+                if (chosen || is_usual(&d->named[first], scene, d->steps[j]))
                     tasks[count++] = (struct br_floor_task){
                         .scene = &d->scene[scene],
                         .n = BR_DRIFT_N,
                         .steps = d->steps[j],
                         .taken = d->steps[j],
-                        .by = &d->contender[first],
+                        .by = &d->named[first],
                         .solvers = d->solvers,
-                        .floor = &d->drift[(scene * d->contenders + first) * d->k_count + j],
+                        .floor = &d->drift[(scene * d->methods + first) * d->k_count + j],
                         .stride = d->k_count};
     return count;
 }
@@ -119,7 +119,7 @@ enum br_status br_drifts_run(struct br_drifts *d, const struct br_drifts_plan *p
     if (status)
         return status;
     struct br_floor_task *tasks =
-        br_allocate(BR_DRIFT_SCENES * d->contenders * d->k_count, sizeof *tasks);
+        br_allocate(BR_DRIFT_SCENES * d->methods * d->k_count, sizeof *tasks);
     if (!tasks)
         return br_no_memory(err, "the drifts");
     status = br_floor_tasks_run(tasks, list_tasks(d, plan->k != NULL, tasks), plan->threads,
@@ -130,17 +130,16 @@ enum br_status br_drifts_run(struct br_drifts *d, const struct br_drifts_plan *p
 
 /* ---- looking ---- */
 
-const struct br_floor *br_drift_at(const struct br_drifts *d, size_t scene, size_t contender,
-                                   size_t k)
+const struct br_floor *br_drift_at(const struct br_drifts *d, size_t scene, size_t named, size_t k)
 {
-    return &d->drift[(scene * d->contenders + contender) * d->k_count + k];
+    return &d->drift[(scene * d->methods + named) * d->k_count + k];
 }
 
-static enum br_status check(const struct br_drifts *d, size_t scene, size_t contender, size_t k,
+static enum br_status check(const struct br_drifts *d, size_t scene, size_t named, size_t k,
                             struct br_error *err)
 {
-    const struct br_floor *drift = br_drift_at(d, scene, contender, k);
-    const char *name = d->contender[contender].name, *of = d->scene[scene].name;
+    const struct br_floor *drift = br_drift_at(d, scene, named, k);
+    const char *name = d->named[named].name, *of = d->scene[scene].name;
     if (!drift->steps || drift->refused.status == BR_BAD_INPUT)
         return BR_OK; /* a step that is too long for the scheme is refused by rule */
     if (drift->refused.status)
@@ -162,7 +161,7 @@ enum br_status br_drifts_verdict(const struct br_drifts *d, struct br_error *err
 {
     enum br_status status = BR_OK;
     for (size_t s = 0; s < BR_DRIFT_SCENES; s++)
-        for (size_t c = 0; c < d->contenders; c++)
+        for (size_t c = 0; c < d->methods; c++)
             for (size_t k = 0; k < d->k_count && !status; k++)
                 status = check(d, s, c, k, err);
     return status;

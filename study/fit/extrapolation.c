@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/fit/extrapolation.h"
+#include "study/fit/fit.h"
 
 #include <float.h>
 #include <gsl/gsl_errno.h>

@@ -77,4 +77,71 @@ extern const double br_flag_margin;
 double br_joint_model(const struct br_joint_fit *fit, double h, double k, double h_ref,
                       double k_ref);
 
+/* ---- the joint model, fitted to the logarithms of the errors ---- */
+
+/* One cell as the fit sees it. */
+struct br_observation {
+    double h, k;         /* m, s */
+    double h_ref, k_ref; /* of what it was compared with, m, s; 0: the continuous problem */
+    double error;        /* > 0 */
+};
+
+/* Fits the model with what the observations can tell; a fit that cannot be done
+ * has converged == false. Where all have h = h_ref, or k = k_ref, it has no such part. Fails with
+ * BR_NO_MEMORY. */
+enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
+                                  struct br_joint_fit *fit, struct br_error *err);
+
+/* value -+ half width of the 95 % interval: t quantile times the deviation. */
+struct br_estimate br_estimate_of(double value, double deviation, size_t freedom);
+
+/* Akaike's criterion with Hurvich and Tsai's correction for few points, of `count` residuals with
+ * that sum of squares; infinite where there are too few. */
+double br_akaike(double sum, size_t count, size_t unknowns);
+
+/* ---- one order ----
+ *
+ * One order from a line of errors, refined in one quantity z (h/L or k/T):
+ *     e = C |z^p - z_against^p|.
+ * Any p can come out, also one that is zero or negative: errors that stall or grow. */
+
+struct br_order_point {
+    double z, z_against; /* z_against < z: of what it was compared with; 0: the solution itself */
+    double error;
+};
+
+/* Fits p to the logarithms by least squares. Its 95 % interval is the wider one of two: that of the
+ * regression, which takes what is left over for noise, and that of leaving out one point after the
+ * other (jackknife, Efron 1982), which sees a drift. NaN with less than 3 points, or where an error
+ * is not > 0. Fails with BR_NO_MEMORY. */
+enum br_status br_order_fit(const struct br_order_point *point, size_t count,
+                            struct br_estimate *order, struct br_error *err);
+
+/* ---- extrapolation ----
+ *
+ * What the tips of a grid's cells say of the tip at h = k = 0, without any reference:
+ * Richardson extrapolation with observed orders, first over k on each mesh, then over h. */
+
+/* The displacement of the tip at t = T in all cells of a grid. */
+struct br_tips {
+    size_t n_count, k_count;
+    const size_t *n, *steps; /* ascending; borrowed */
+    int axial_degree;        /* of the elements */
+    double *value[2];        /* by br_field_kind: n_count * k_count by rows of equal n, m; NaN
+                                where a cell failed or is unstable; owned */
+};
+
+/* Room for the tips of a grid, all NaN. Fails with BR_NO_MEMORY. */
+enum br_status br_tips_create(struct br_tips *tips, const struct br_study *grid,
+                              struct br_error *err);
+enum br_status br_tips_of_study(struct br_tips *tips, const struct br_study *study,
+                                struct br_error *err);
+void br_tips_clear(struct br_tips *tips);
+
+/* The value at h = k = 0, m. The interval is Roache's (1998): the distance from what the
+ * formal order and the next coarser three cells would give, times 1.25; or, where no order
+ * is observed, 3 times the last difference. NaN with less than three meshes or time steps.
+ * What the intervals are worth is tested against the exact solution. */
+struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind kind);
+
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/fit/joint_fit.h"
+#include "study/fit/fit.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
@@ -348,16 +348,17 @@ static void describe(const struct problem *problem, const struct attempt *a,
                      struct br_joint_fit *fit)
 {
     const size_t freedom = problem->count - kinds[problem->kind].count;
-    *fit = (struct br_joint_fit){0};
-    fit->kind = problem->kind;
-    fit->converged = true;
-    fit->points = problem->count;
-    fit->freedom = freedom;
-    fit->c_h = exponential(br_estimate_of(a->value[LOG_C_H], a->deviation[LOG_C_H], freedom));
-    fit->p = br_estimate_of(a->value[P], a->deviation[P], freedom);
-    fit->c_k = exponential(br_estimate_of(a->value[LOG_C_K], a->deviation[LOG_C_K], freedom));
-    fit->q = br_estimate_of(a->value[Q], a->deviation[Q], freedom);
-    fit->r = correlation(a->value[THETA], a->deviation[THETA], freedom);
+    *fit = (struct br_joint_fit){
+        .kind = problem->kind,
+        .converged = true,
+        .points = problem->count,
+        .freedom = freedom,
+        .c_h = exponential(br_estimate_of(a->value[LOG_C_H], a->deviation[LOG_C_H], freedom)),
+        .p = br_estimate_of(a->value[P], a->deviation[P], freedom),
+        .c_k = exponential(br_estimate_of(a->value[LOG_C_K], a->deviation[LOG_C_K], freedom)),
+        .q = br_estimate_of(a->value[Q], a->deviation[Q], freedom),
+        .r = correlation(a->value[THETA], a->deviation[THETA], freedom),
+    };
 
     double mean = 0, total = 0;
     for (size_t i = 0; i < problem->count; i++)
@@ -379,17 +380,11 @@ double br_joint_model(const struct br_joint_fit *fit, double h, double k, double
     return combine(a, b, fit->kind == BR_JOINT_BOTH ? fit->r.value : 0);
 }
 
-static void nothing_fitted(struct br_joint_fit *fit)
+static struct br_joint_fit nothing_fitted(size_t points)
 {
     const struct br_estimate none = {NAN, NAN, NAN};
-    *fit = (struct br_joint_fit){.c_h = none,
-                                 .p = none,
-                                 .c_k = none,
-                                 .q = none,
-                                 .r = none,
-                                 .misfit = NAN,
-                                 .worst = NAN,
-                                 .r_squared = NAN};
+    return (struct br_joint_fit){BR_JOINT_BOTH, none, none, none,   none, none,
+                                 NAN,           NAN,  NAN,  points, 0,    false};
 }
 
 /* Whether some observation differs from its reference in h (or k). */
@@ -447,8 +442,7 @@ static struct problem problem_of(const struct br_observation *observation, size_
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
                                   struct br_joint_fit *fit, struct br_error *err)
 {
-    nothing_fitted(fit);
-    fit->points = count;
+    *fit = nothing_fitted(count);
     struct br_observation *own = br_allocate(2 * count, sizeof *own);
     if (!own)
         return br_no_memory(err, "the fits");

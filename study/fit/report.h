@@ -3,7 +3,7 @@
 #ifndef BR_STUDY_FIT_REPORT_H
 #define BR_STUDY_FIT_REPORT_H
 
-#include "study/fit/extrapolation.h"
+#include "study/fit/fit.h"
 #include "study/grid/triangle.h"
 
 enum { BR_MOST_TRIANGLES = 4 };

@@ -163,18 +163,23 @@ static double whole_reference_error(const struct br_probe *p, int kind)
            reference_error(coarse, a, finer, 2, unresolved(&p->scene, kind, p->study.reference.n));
 }
 
-/* A cell's distance from the reference, and how sure that is. */
-static struct br_predicted distance(const struct br_probe *p, enum br_whole_cell cell, int kind)
+/* A distance from a reference that may be off by so much, and is unsure by a factor beside that. */
+static struct br_predicted around(double e, double unsure, double factor)
 {
-    const double e = cell_error(p, cell, kind), unsure = whole_reference_error(p, kind);
-    /* Where a tip comes to rest decides more than a finer reference can tell. */
-    const double factor = can_switch(&p->scene) ? doubt : measured_doubt;
     return (struct br_predicted){
         .error = e,
         .low = fmax(0, (e - unsure) / factor),
         .high = factor * (e + unsure),
         .order = NAN,
     };
+}
+
+/* A cell's distance from the reference, and how sure that is. Where a tip comes to rest decides
+ * more than a finer reference can tell. */
+static struct br_predicted distance(const struct br_probe *p, enum br_whole_cell cell, int kind)
+{
+    return around(cell_error(p, cell, kind), whole_reference_error(p, kind),
+                  can_switch(&p->scene) ? doubt : measured_doubt);
 }
 
 static bool is_measured(const struct br_probe_set *s)
@@ -198,27 +203,20 @@ static struct br_predicted measured(const struct br_probe_set *s, enum br_whole_
 
 /* ---- time ---- */
 
-static double order_in_time(const struct br_outlook *o)
+static double order_in_time(const struct br_planned_march *o)
 {
     return o->method->contact->at_new_step ? o->method->scheme->order : 1;
-}
-
-/* A distance of the run's own steps or elements from a reference that may be off by so much. */
-static struct br_predicted around(double e, double unsure)
-{
-    return (struct br_predicted){
-        .error = e, .low = fmax(0, e - unsure) / doubt, .high = doubt * (e + unsure), .order = NAN};
 }
 
 static struct br_predicted measured_time(const struct br_probe *p, int kind)
 {
     const double e = cell_error(p, 0, kind);
     const double finer = p->study.k_count > 1 ? cell_error(p, 1, kind) : e / 2;
-    return around(e, reference_error(e, p->ratio, finer, 3, 1));
+    return around(e, reference_error(e, p->ratio, finer, 3, 1), doubt);
 }
 
-static struct br_predicted extrapolated_time(const struct br_probe *p, const struct br_outlook *o,
-                                             int kind)
+static struct br_predicted extrapolated_time(const struct br_probe *p,
+                                             const struct br_planned_march *o, int kind)
 {
     const double q = order_in_time(o), fine = cell_error(p, 1, kind);
     const double observed = log2(cell_error(p, 0, kind) / fine);
@@ -258,11 +256,11 @@ static struct br_predicted time_error(const struct br_probe_set *s, int kind)
     struct br_predicted e;
     if (is_measured(s))
         e = measured(s, BR_WHOLE_TIME, kind);
-    else if (s->outlook->method->scheme->adaptive)
+    else if (s->planned->method->scheme->adaptive)
         e = by_orders(cell_error(p, 0, kind), p->beyond, by_tolerance);
     else
         e = p->measured ? measured_time(p, kind)
-                        : and_iterated(s, extrapolated_time(p, s->outlook, kind), kind);
+                        : and_iterated(s, extrapolated_time(p, s->planned, kind), kind);
     return and_at_start(s, e, kind);
 }
 
@@ -273,14 +271,14 @@ static struct br_predicted space_error(const struct br_probe_set *s, int kind)
     const struct br_probe *p = &s->probe[BR_PROBE_SPACE];
     if (is_measured(s))
         return measured(s, BR_WHOLE_SPACE, kind);
-    const double q = kind == BR_AXIAL ? s->outlook->method->axial_degree + 1 : 4;
+    const double q = kind == BR_AXIAL ? s->planned->method->axial_degree + 1 : 4;
     const double fine = cell_error(p, p->study.n_count - 1, kind);
-    const double unseen = unresolved(s->outlook->scene, kind, p->study.reference.n);
+    const double unseen = unresolved(s->planned->scene, kind, p->study.reference.n);
     if (fine == 0) /* not modelled, or at rest */
         return (struct br_predicted){.order = NAN};
     if (p->measured)
         return around(cell_error(p, 0, kind),
-                      reference_error(cell_error(p, 0, kind), p->ratio, fine, 2, unseen));
+                      reference_error(cell_error(p, 0, kind), p->ratio, fine, 2, unseen), doubt);
     const double observed = observed_order(cell_error(p, 0, kind), fine);
     double order[3];
     bracket(observed, q, q, order);
@@ -353,7 +351,7 @@ static bool swings_within(const struct br_scene *s, int kind, double k)
 /* Whether swings that no march follows may open, close or slip where the marches do not. */
 static bool switches_unseen(const struct br_probe_set *s)
 {
-    const struct br_scene *scene = s->outlook->scene;
+    const struct br_scene *scene = s->planned->scene;
     const enum br_probe_kind finest =
         s->probe[BR_PROBE_WHOLE].held ? BR_PROBE_WHOLE : BR_PROBE_TIME;
     const double k = scene->duration / (double)s->probe[finest].study.reference.steps;
@@ -372,7 +370,7 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
     p->whole.high = -1;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const struct size size = solution_size(s, kind);
-        if (!is_modelled(s->outlook->scene, kind))
+        if (!is_modelled(s->planned->scene, kind))
             continue;
         p->size[kind] = size.most;
         const struct br_predicted e = p->field[kind] = relative(whole_error(s, kind), size);
@@ -418,7 +416,7 @@ double br_predicted_tip(const struct br_prediction *p, enum br_field_kind kind, 
     return br_predicted_most(p, kind) * p->size[kind] * sqrt(shape / length);
 }
 
-double br_predict_round_off(const struct br_outlook *o)
+double br_predict_round_off(const struct br_planned_march *o)
 {
     double largest = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
@@ -433,9 +431,9 @@ double br_predict_round_off(const struct br_outlook *o)
 }
 
 /* What is so short that even what the run is compared with steps over it; NULL: nothing. */
-static const char *too_short(const struct br_outlook *o)
+static const char *too_short(const struct br_planned_march *o)
 {
-    struct br_outlook finer = *o;
+    struct br_planned_march finer = *o;
     struct br_warnings unseen = {0};
     struct br_error err;
     finer.steps *= FINER_LEVELS;
@@ -449,16 +447,16 @@ static const char *too_short(const struct br_outlook *o)
                : NULL;
 }
 
-enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction *p,
+enum br_status br_predict(const struct br_planned_march *planned, struct br_prediction *p,
                           struct br_error *err)
 {
     const double begun = br_seconds();
     struct br_probe_set set;
-    *p = (struct br_prediction){.round_off = br_predict_round_off(outlook)};
-    const enum br_status status = br_probes_hold(&set, outlook, err);
+    *p = (struct br_prediction){.round_off = br_predict_round_off(planned)};
+    const enum br_status status = br_probes_hold(&set, planned, err);
     if (!status)
         judge(p, &set);
-    const char *unseen = !status && p->known ? too_short(outlook) : NULL;
+    const char *unseen = !status && p->known ? too_short(planned) : NULL;
     if (unseen) {
         p->known = p->bounded = false;
         snprintf(p->why, sizeof p->why, "%s too short for what it is compared with", unseen);

@@ -45,9 +45,9 @@ struct br_prediction {
 const char *br_predicted_interval(const struct br_predicted *e, char text[BR_PREDICTED_TEXT]);
 
 /* Predicts (out). Takes some ten milliseconds, and less than the run itself where that takes
- * longer, or what outlook->budget allows; what it cannot tell is no failure. Fails with
+ * longer, or what planned->budget allows; what it cannot tell is no failure. Fails with
  * BR_NO_MEMORY. */
-enum br_status br_predict(const struct br_outlook *outlook, struct br_prediction *prediction,
+enum br_status br_predict(const struct br_planned_march *planned, struct br_prediction *prediction,
                           struct br_error *err);
 
 /* The most that a field is stated to be off, relative to its solution: the upper bound of the
@@ -62,6 +62,6 @@ double br_predicted_tip(const struct br_prediction *prediction, enum br_field_ki
 
 /* Round-off of the displacements, relative to the exact discrete solution, as the linear solver
  * predicts it: the larger of the modelled fields'. */
-double br_predict_round_off(const struct br_outlook *outlook);
+double br_predict_round_off(const struct br_planned_march *planned);
 
 #endif

@@ -57,14 +57,14 @@ static bool is_evaluated(const struct br_load *load)
 }
 
 /* A solve on so many elements. */
-static double solve(const struct br_outlook *o, double n)
+static double solve(const struct br_planned_march *o, double n)
 {
     const bool anew = (o->scene->axial.modelled && is_evaluated(&o->scene->axial.load)) ||
                       (o->scene->bending.modelled && is_evaluated(&o->scene->bending.load));
     return n * (anew ? evaluated : 1) + overhead;
 }
 
-static double budget(const struct br_outlook *o)
+static double budget(const struct br_planned_march *o)
 {
     const double own = solve(o, (double)o->n) * (double)o->steps * stages(o->method);
     if (o->budget > 0)
@@ -148,7 +148,7 @@ static size_t refinement(size_t n)
     return ratio;
 }
 
-static void set_whole_cells(struct br_probe *p, const struct br_outlook *o,
+static void set_whole_cells(struct br_probe *p, const struct br_planned_march *o,
                             const struct br_method *check, const struct br_method *reference,
                             struct finer by)
 {
@@ -176,7 +176,8 @@ static void set_whole_cells(struct br_probe *p, const struct br_outlook *o,
 }
 
 /* Work of the run, its steps on the fine mesh, and marches of the reference's method. */
-static double whole_work(const struct br_outlook *o, const struct br_method *best, struct finer by)
+static double whole_work(const struct br_planned_march *o, const struct br_method *best,
+                         struct finer by)
 {
     const double n = (double)o->n, fine = n * (double)by.elements;
     const double own = (solve(o, n) + solve(o, fine)) * stages(o->method);
@@ -185,13 +186,13 @@ static double whole_work(const struct br_outlook *o, const struct br_method *bes
     return (own + others) * (double)o->steps;
 }
 
-static bool is_affordable(const struct br_outlook *o, struct finer by)
+static bool is_affordable(const struct br_planned_march *o, struct finer by)
 {
     const struct br_method best = best_method(o->method);
     return whole_work(o, &best, by) <= budget(o);
 }
 
-static void set_whole(struct br_probe *p, const struct br_outlook *o, struct finer by)
+static void set_whole(struct br_probe *p, const struct br_planned_march *o, struct finer by)
 {
     const struct br_method best = best_method(o->method);
     p->steps[BR_WHOLE_RUN] = o->steps;
@@ -199,13 +200,13 @@ static void set_whole(struct br_probe *p, const struct br_outlook *o, struct fin
 }
 
 /* Steps that a scheme may choose within a share of the budget. */
-static size_t most_steps(const struct br_outlook *o, double n)
+static size_t most_steps(const struct br_planned_march *o, double n)
 {
     return 1 + (size_t)(budget(o) / 4 / (solve(o, n) * chosen_stages));
 }
 
 /* Where there are not so many time levels that a tolerance decides little. */
-static void set_tight(struct br_probe *p, const struct br_outlook *o)
+static void set_tight(struct br_probe *p, const struct br_planned_march *o)
 {
     const size_t finer = refinement(o->n), most = most_steps(o, (double)(o->n * finer));
     struct br_method check = tight_method(o->method, sqrt(tighter));
@@ -217,7 +218,7 @@ static void set_tight(struct br_probe *p, const struct br_outlook *o)
 }
 
 /* Where no step is small enough for a smaller tolerance, or steps are too many: equal ones. */
-static void set_whole_by_equal_steps(struct br_probe *p, const struct br_outlook *o)
+static void set_whole_by_equal_steps(struct br_probe *p, const struct br_planned_march *o)
 {
     struct br_method best = best_method(o->method);
     best.most_steps = most_steps(o, (double)(o->n * refinement(o->n)));
@@ -231,7 +232,7 @@ static void set_whole_by_equal_steps(struct br_probe *p, const struct br_outlook
 
 /* The run's few steps against many times as many; a second cell between them is there for the
  * levels at which the solution's size is seen. */
-static void measure_time(struct br_probe *p, const struct br_outlook *o, double most)
+static void measure_time(struct br_probe *p, const struct br_planned_march *o, double most)
 {
     const struct br_method best = best_method(o->method);
     const double a_step = (double)o->steps * stages(&best);
@@ -255,7 +256,7 @@ static bool is_prime(size_t a)
 
 /* a, 2a against 8a steps, a prime: their levels are not those at which a periodic load is zero or
  * largest. */
-static void extrapolate_time(struct br_probe *p, const struct br_outlook *o, double most)
+static void extrapolate_time(struct br_probe *p, const struct br_planned_march *o, double most)
 {
     const struct br_method best = best_method(o->method);
     size_t a = (size_t)(most / (3 * stages(o->method) + 8 * stages(&best))) | 1;
@@ -269,7 +270,7 @@ static void extrapolate_time(struct br_probe *p, const struct br_outlook *o, dou
     p->study.k_count = 2;
 }
 
-static void compare_tolerances(struct br_probe *p, const struct br_outlook *o)
+static void compare_tolerances(struct br_probe *p, const struct br_planned_march *o)
 {
     struct br_method method = *o->method;
     method.tolerance = fmax(method.tolerance, loosest);
@@ -283,7 +284,7 @@ static void compare_tolerances(struct br_probe *p, const struct br_outlook *o)
     set_study(p, &method, &reference, (struct br_resolution){p->n[0], TOLERANCE_LEVELS});
 }
 
-static void set_time(struct br_probe *p, const struct br_outlook *o)
+static void set_time(struct br_probe *p, const struct br_planned_march *o)
 {
     const struct br_method best = best_method(o->method);
     p->scene = *o->scene;
@@ -297,7 +298,7 @@ static void set_time(struct br_probe *p, const struct br_outlook *o)
         extrapolate_time(p, o, most);
 }
 
-static bool iterates_friction(const struct br_outlook *o)
+static bool iterates_friction(const struct br_planned_march *o)
 {
     return o->scene->friction.law != BR_FRICTIONLESS && o->method->friction->iterates;
 }
@@ -305,7 +306,7 @@ static bool iterates_friction(const struct br_outlook *o)
 /* What an iteration leaves in a step adds up over the steps, and is lost among the errors of the
  * few steps of an extrapolation. */
 static void set_iteration(struct br_probe *p, const struct br_probe *time,
-                          const struct br_outlook *o)
+                          const struct br_planned_march *o)
 {
     struct br_method direct = *o->method;
     direct.friction = br_friction_rules[0];
@@ -318,7 +319,7 @@ static void set_iteration(struct br_probe *p, const struct br_probe *time,
 
 /* The run's first steps against steps by a tolerance, which find what dies away within a step; if
  * `equal`, and more of them, against smaller equal ones. */
-static void set_start(struct br_probe *p, const struct br_outlook *o, bool equal)
+static void set_start(struct br_probe *p, const struct br_planned_march *o, bool equal)
 {
     const struct br_method best = best_method(o->method);
     struct br_method fine = equal ? best : tight_method(o->method, tighter);
@@ -336,7 +337,7 @@ static void set_start(struct br_probe *p, const struct br_outlook *o, bool equal
 
 /* ---- space ---- */
 
-static void set_space(struct br_probe *p, const struct br_outlook *o)
+static void set_space(struct br_probe *p, const struct br_planned_march *o)
 {
     const struct br_method best = best_method(o->method);
     size_t finest = 2 * SPACE_N;
@@ -443,7 +444,7 @@ static double off(const struct br_probe *p, enum br_whole_cell cell)
 
 /* Elements and steps of the next reference; where there is no room for both, of what the last one
  * was less sure of. False: no room. */
-static bool refine(const struct br_outlook *o, const struct br_probe *last, struct finer *by)
+static bool refine(const struct br_planned_march *o, const struct br_probe *last, struct finer *by)
 {
     const struct finer both = {4 * by->elements, 4 * by->steps}, space = {both.elements, by->steps},
                        time = {by->elements, both.steps};
@@ -461,14 +462,14 @@ static bool refine(const struct br_outlook *o, const struct br_probe *last, stru
 static enum br_status march_whole(struct br_probe_set *set, struct br_error *err)
 {
     struct br_probe *whole = &set->probe[BR_PROBE_WHOLE];
-    struct finer by = {refinement(set->outlook->n), 4};
+    struct finer by = {refinement(set->planned->n), 4};
     enum br_status status = BR_OK;
-    bool more = is_affordable(set->outlook, by);
+    bool more = is_affordable(set->planned, by);
     while (more && !status) {
         forget(whole);
-        set_whole(whole, set->outlook, by);
+        set_whole(whole, set->planned, by);
         status = try_probe(set, BR_PROBE_WHOLE, err);
-        more = whole->held && !is_sure(whole) && refine(set->outlook, whole, &by);
+        more = whole->held && !is_sure(whole) && refine(set->planned, whole, &by);
     }
     return status;
 }
@@ -476,15 +477,15 @@ static enum br_status march_whole(struct br_probe_set *set, struct br_error *err
 static enum br_status march_itself(struct br_probe_set *set, struct br_error *err)
 {
     struct br_probe *probe = set->probe;
-    set_tight(&probe[BR_PROBE_TIGHT], set->outlook);
+    set_tight(&probe[BR_PROBE_TIGHT], set->planned);
     enum br_status status = try_probe(set, BR_PROBE_TIGHT, err);
     if (status || is_sure(&probe[BR_PROBE_TIGHT]))
         return status;
-    if (!by_tolerance(set->outlook->method))
+    if (!by_tolerance(set->planned->method))
         return march_whole(set, err);
     if (probe[BR_PROBE_TIGHT].held)
         return BR_OK;
-    set_whole_by_equal_steps(&probe[BR_PROBE_WHOLE], set->outlook);
+    set_whole_by_equal_steps(&probe[BR_PROBE_WHOLE], set->planned);
     return try_probe(set, BR_PROBE_WHOLE, err);
 }
 
@@ -492,30 +493,30 @@ static enum br_status march_itself(struct br_probe_set *set, struct br_error *er
 static enum br_status march_start(struct br_probe_set *set, struct br_error *err)
 {
     struct br_probe *start = &set->probe[BR_PROBE_START];
-    set_start(start, set->outlook, false);
+    set_start(start, set->planned, false);
     enum br_status status = try_probe(set, BR_PROBE_START, err);
     if (status || start->held || set->probe[BR_PROBE_WHOLE].held)
         return status;
-    set_start(start, set->outlook, true);
+    set_start(start, set->planned, true);
     return march(set, BR_PROBE_START, BR_PROBE_START, err);
 }
 
-enum br_status br_probes_hold(struct br_probe_set *set, const struct br_outlook *outlook,
+enum br_status br_probes_hold(struct br_probe_set *set, const struct br_planned_march *planned,
                               struct br_error *err)
 {
-    *set = (struct br_probe_set){.outlook = outlook};
+    *set = (struct br_probe_set){.planned = planned};
     struct br_probe *probe = set->probe;
     enum br_status status = march_itself(set, err);
     if (status || probe[BR_PROBE_TIGHT].held)
         return status;
     if (!probe[BR_PROBE_WHOLE].held) {
-        set_time(&probe[BR_PROBE_TIME], outlook);
-        if (!probe[BR_PROBE_TIME].measured && iterates_friction(outlook))
-            set_iteration(&probe[BR_PROBE_ITERATION], &probe[BR_PROBE_TIME], outlook);
-        set_space(&probe[BR_PROBE_SPACE], outlook);
+        set_time(&probe[BR_PROBE_TIME], planned);
+        if (!probe[BR_PROBE_TIME].measured && iterates_friction(planned))
+            set_iteration(&probe[BR_PROBE_ITERATION], &probe[BR_PROBE_TIME], planned);
+        set_space(&probe[BR_PROBE_SPACE], planned);
         status = march(set, BR_PROBE_TIME, BR_PROBE_SPACE, err);
     }
-    if (status || by_tolerance(outlook->method))
+    if (status || by_tolerance(planned->method))
         return status;
     return march_start(set, err);
 }

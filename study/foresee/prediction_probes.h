@@ -42,7 +42,7 @@ struct br_probe {
 };
 
 struct br_probe_set {
-    const struct br_outlook *outlook;
+    const struct br_planned_march *planned;
     struct br_probe probe[BR_PROBES];
 };
 
@@ -50,7 +50,7 @@ struct br_probe_set {
  * run itself, and neither BR_PROBE_TIME nor BR_PROBE_SPACE is held. How much is
  * counted, not timed, so that a prediction is the same on any machine. What fails is left in the
  * studies. Fails with BR_NO_MEMORY. Clear them even then. */
-enum br_status br_probes_hold(struct br_probe_set *set, const struct br_outlook *outlook,
+enum br_status br_probes_hold(struct br_probe_set *set, const struct br_planned_march *planned,
                               struct br_error *err);
 void br_probes_clear(struct br_probe_set *set);
 

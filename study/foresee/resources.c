@@ -14,7 +14,7 @@ static const double solve_overhead = 1e-6;
 
 static const double day = 86400, most_days = 36525; /* a century */
 
-double br_march_bytes(const struct br_outlook *o)
+double br_march_bytes(const struct br_planned_march *o)
 {
     const struct br_linear_solver *l = o->method->solver;
     const bool quadratic = o->method->axial_degree == 2;
@@ -28,7 +28,9 @@ double br_march_bytes(const struct br_outlook *o)
     return element * (double)o->n;
 }
 
-double br_march_seconds(const struct br_outlook *o)
+/* Seconds that a march takes, about, in one thread; those of steps by a tolerance are not known:
+ * 0. */
+static double march_seconds(const struct br_planned_march *o)
 {
     if (o->method->scheme->adaptive)
         return 0;
@@ -80,7 +82,8 @@ double br_memory_available(void)
     return fmin(machine, fmin(group_limit(), address_space()));
 }
 
-enum br_status br_fits_memory(const struct br_outlook *o, double available, struct br_error *err)
+enum br_status br_fits_memory(const struct br_planned_march *o, double available,
+                              struct br_error *err)
 {
     const double bytes = br_march_bytes(o);
     if (bytes <= available)
@@ -97,10 +100,11 @@ static double study_bytes(const struct br_study *s, size_t *marches)
     double bytes = 0;
     for (size_t i = 0; i < s->n_count; i++)
         for (size_t j = 0; j < (s->path ? 1 : s->k_count); j++, ++*marches) {
-            const struct br_outlook cell = {.scene = s->scene, .method = &s->method, .n = s->n[i]};
+            const struct br_planned_march cell = {
+                .scene = s->scene, .method = &s->method, .n = s->n[i]};
             bytes += br_march_bytes(&cell);
         }
-    const struct br_outlook fine = {
+    const struct br_planned_march fine = {
         .scene = s->scene, .method = &s->reference_method, .n = s->reference.n};
     if (!s->judge || !s->judge->nests)
         return bytes;
@@ -123,10 +127,10 @@ enum br_status br_fit_together(const struct br_study *studies, size_t count, dou
                    marches, bytes / 1e9, available / 1e9);
 }
 
-static enum br_status check_time(const struct br_outlook *o, struct br_warnings *w,
+static enum br_status check_time(const struct br_planned_march *o, struct br_warnings *w,
                                  struct br_error *err)
 {
-    const double days = br_march_seconds(o) / day;
+    const double days = march_seconds(o) / day;
     if (days > most_days)
         return br_fail(err, BR_BAD_INPUT,
                        "n = %zu and %zu steps take about %.2g years, expected at most a hundred: "
@@ -138,7 +142,8 @@ static enum br_status check_time(const struct br_outlook *o, struct br_warnings 
     return BR_OK;
 }
 
-static enum br_status look(const struct br_outlook *o, struct br_warnings *w, struct br_error *err)
+static enum br_status look(const struct br_planned_march *o, struct br_warnings *w,
+                           struct br_error *err)
 {
     const enum br_status status = br_fits_memory(o, br_memory_available(), err);
     return status ? status : check_time(o, w, err);

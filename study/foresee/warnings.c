@@ -4,16 +4,13 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
-#include "study/foresee/warn_contact.h"
-
-extern const struct br_warning_source br_warn_bounce, br_warn_initial, br_warn_load,
-    br_warn_load_space, br_warn_prediction, br_warn_resources;
-
-const struct br_warning_source *const br_warning_sources[] = {
-    &br_warn_resources,  &br_warn_contact, &br_warn_bounce,     &br_warn_load,
-    &br_warn_load_space, &br_warn_initial, &br_warn_prediction, NULL,
-};
+#include "reference/energy/energy.h"
+#include "solver/laws.h"
+#include "study/foresee/prediction.h"
+#include "study/grid/study.h"
+#include "study/run/model.h"
 
 const char *br_warning_word(enum br_warning_kind kind)
 {
@@ -63,35 +60,352 @@ void br_warn(struct br_warnings *w, enum br_warning_kind kind, const char *remed
     snprintf(added->remedy, sizeof added->remedy, "%s", remedy ? remedy : "");
 }
 
+/* ---- lagged contact beyond its limit ---- */
+
+/* Warns of a lagged contact beyond its stability limit, with what would be within it. */
+
+double br_round_steps(double least)
+{
+    static const double round_ones[] = {1, 1.25, 1.6, 2, 2.5, 4, 5, 8};
+    for (double power = 1; power <= 1e12; power *= 10)
+        for (size_t i = 0; i < sizeof round_ones / sizeof *round_ones; i++) {
+            const double steps = round_ones[i] * power;
+            if (steps >= least && steps == floor(steps))
+                return steps;
+        }
+    return INFINITY;
+}
+
+/* The first digits of x, cut. */
+static double cut(double x)
+{
+    const double unit = pow(10, floor(log10(x)) - 3);
+    return isfinite(x / unit) ? floor(x / unit) * unit : x;
+}
+
+static void contact_remedy(const struct br_planned_march *o, const struct br_field *field,
+                           char text[400])
+{
+    const double longest = br_contact_limit_step(field, o->scene->contact.stiffness);
+    const double steps = br_round_steps(o->scene->duration / longest);
+    int length = snprintf(text, 400, "--contact implicit  # has no limit\n");
+    if (longest > 0 && isfinite(steps))
+        length += snprintf(text + length, 400 - (size_t)length,
+                           "--k T/%.0f  # time steps of at most %.4g s\n", steps, cut(longest));
+    snprintf(text + length, 400 - (size_t)length, "a contact stiffness of at most %.4g N/m",
+             cut(br_contact_limit_stiffness(field)));
+}
+
+static enum br_status look_at_contact(const struct br_planned_march *o,
+                                      struct br_warnings *warnings, struct br_error *err)
+{
+    (void)err;
+    const struct br_scene *scene = o->scene;
+    const double k = scene->duration / (double)o->steps;
+    struct br_field field = br_field_of_scene(scene, BR_AXIAL, o->n, k);
+    field.degree = o->method->axial_degree;
+    if (!scene->contact.modelled || o->method->contact->at_new_step ||
+        !br_contact_grows(&field, scene->contact.stiffness))
+        return BR_OK;
+    char text[400];
+    contact_remedy(o, &field, text);
+    br_warn(
+        warnings, BR_WARN_UNSTABLE, text,
+        "the lagged contact is beyond its stability limit: with k = %g s it is stable up to a "
+        "stiffness of %.4g N/m, the scene has %g N/m; while it is closed, every step multiplies "
+        "its error by -%.4g, and the tip chatters",
+        k, br_contact_limit_stiffness(&field), scene->contact.stiffness,
+        br_contact_growth(&field, scene->contact.stiffness));
+    return BR_OK;
+}
+
+const struct br_warning_source br_warn_contact = {
+    .title = "the stability limit of the lagged contact",
+    .every = true,
+    .look = look_at_contact,
+};
+
+/* ---- lagged contact that may gain energy ---- */
+
+/* Warns of a lagged contact that may gain energy as it opens and closes: within the limit of a
+ * closed one, but beyond that without inertia, below which none is gained. Whether it does is
+ * looked up in a march of the same steps on a coarse mesh: the limit does not depend on the mesh.
+ */
+
+enum { MOST_ELEMENTS = 4, MOST_STEPS = 4000 };
+
+static const double little = 0.01; /* of what was put in */
+
+/* The largest share, of the energy that was put in until then, that the scheme has added. */
+static enum br_status march_coarsely(const struct br_scene *scene, const struct br_method *method,
+                                     size_t n, size_t steps, double *share, struct br_error *err)
+{
+    struct br_march *march_coarsely = NULL;
+    struct br_energy_meter *meter = NULL;
+    struct br_energy start, now;
+    struct br_work work;
+    enum br_status status = br_march_create(&march_coarsely, scene, n, steps, method, err);
+    if (!status)
+        status = br_energy_meter_create(&meter, march_coarsely, scene, method, err);
+    for (size_t i = 0; i < steps && !status; i++) {
+        status = br_march_step(march_coarsely, err);
+        if (status)
+            break;
+        br_energy_meter_step(meter);
+        br_energy_meter_read(meter, &start, &now, &work);
+        const double put_in = br_energy_put_in(&start, &work, BR_AXIAL);
+        if (put_in > 0)
+            *share = fmax(*share, br_energy_added(&work, BR_AXIAL) / put_in);
+    }
+    br_energy_meter_free(meter);
+    br_march_free(march_coarsely);
+    return status;
+}
+
+/* NaN: not known. */
+static double gain(const struct br_planned_march *o)
+{
+    struct br_scene scene;
+    struct br_error failure = {0};
+    const size_t n = o->n < MOST_ELEMENTS ? o->n : MOST_ELEMENTS;
+    double share = 0;
+    if (o->steps > MOST_STEPS || br_model_select(o->scene, BR_WANT_AXIAL, &scene, &failure))
+        return NAN;
+    return march_coarsely(&scene, o->method, n, o->steps, &share, &failure) ? NAN : share;
+}
+
+static bool may_bounce(const struct br_planned_march *o, struct br_field *field)
+{
+    const struct br_scene *s = o->scene;
+    if (!s->contact.modelled || o->method->contact->at_new_step)
+        return false;
+    *field = br_field_of_scene(s, BR_AXIAL, o->n, s->duration / (double)o->steps);
+    field->degree = o->method->axial_degree;
+    return s->contact.stiffness > br_contact_limit_bouncing(field) &&
+           !br_contact_grows(field, s->contact.stiffness);
+}
+
+static enum br_status look_at_bounces(const struct br_planned_march *o, struct br_warnings *w,
+                                      struct br_error *err)
+{
+    (void)err;
+    struct br_field field;
+    if (!may_bounce(o, &field))
+        return BR_OK;
+    const double share = gain(o);
+    char found[120] = "";
+    if (share <= little)
+        return BR_OK;
+    if (share > little)
+        snprintf(found, sizeof found,
+                 "; on a coarse mesh it gains %.2g %% of what is put into the axial field",
+                 100 * share);
+    br_warn(w, BR_WARN_BOUNCE, "--contact implicit  # gains none",
+            "the lagged contact may gain energy as it opens and closes: with k = %.4g s it is sure "
+            "not to up to a stiffness of %.4g N/m, the scene has %g N/m%s",
+            field.k, br_contact_limit_bouncing(&field), o->scene->contact.stiffness, found);
+    return BR_OK;
+}
+
+static const struct br_warning_source warn_bounce = {
+    .title = "energy that a lagged contact gains",
+    .every = true,
+    .look = look_at_bounces,
+};
+
+/* ---- predicted errors ---- */
+
+/* Warnings of errors that are predicted: round-off above the discretisation error, a discretisation
+ * error that is large, and one that is not known. */
+
+static const double large_error = 0.05; /* relative to the solution */
+static const double doubtful = 0.2;     /* the same of an upper bound */
+static const double aim = 0.02;         /* what a remedy is to reach */
+static const double negligible = 1e-12; /* round-off that nobody minds */
+
+/* ---- round-off ---- */
+
+static bool heeds_refinement(const struct br_method *m)
+{
+    return br_linear_solver_heeds(m->solver, "--refinement");
+}
+
+static void round_off_remedy(const struct br_planned_march *o, double floor, char remedy[400])
+{
+    struct br_method other = *o->method;
+    struct br_planned_march alternative = *o;
+    alternative.method = &other;
+    other.solver = br_linear_solvers[0];
+    const double least = br_predict_round_off(&alternative);
+    other = *o->method;
+    other.linear.refinement = 2;
+    int used = 0;
+    if (least < floor / 2)
+        used = snprintf(remedy, 400, "--solver %s  # %.1e\n", br_linear_solvers[0]->name, least);
+    if (heeds_refinement(&other) && o->method->linear.refinement < 2 &&
+        br_predict_round_off(&alternative) < floor / 2)
+        used += snprintf(remedy + used, 400 - (size_t)used, "--refinement 2  # %.1e\n",
+                         br_predict_round_off(&alternative));
+    snprintf(remedy + used, 400 - (size_t)used, "fewer elements, which round-off grows with");
+}
+
+static void warn_of_round_off(const struct br_planned_march *o, const struct br_prediction *p,
+                              struct br_warnings *w)
+{
+    char remedy[400];
+    /* Of marches without that round-off. */
+    const double parts = p->time.error + p->space.error;
+    const double error = p->known ? fmin(p->whole.error, parts) : p->whole.high;
+    if (p->round_off <= fmax(p->bounded ? error : aim, negligible))
+        return;
+    round_off_remedy(o, p->round_off, remedy);
+    char beside[128] = "";
+    if (p->bounded)
+        snprintf(beside, sizeof beside, ", above the predicted discretisation error, %s%.1e",
+                 p->known ? "" : "at most ", error);
+    br_warn(w, BR_WARN_ROUND_OFF, remedy,
+            "the predicted round-off of --solver %s at n = %zu is %.1e of the solution%s",
+            o->method->solver->name, o->n, p->round_off, beside);
+}
+
+/* ---- accuracy ---- */
+
+/* The least of 1, 2 and 5 times a power of ten that is not less. */
+static double round_up(double x)
+{
+    const double power = pow(10, floor(log10(x)));
+    return power * (x <= power ? 1 : x <= 2 * power ? 2 : x <= 5 * power ? 5 : 10);
+}
+
+/* Steps with which the time error reaches the aim, by an order of at most the scheme's. */
+static double steps_needed(const struct br_planned_march *o, const struct br_prediction *p)
+{
+    const double order = p->time.order >= 0.5 ? fmin(p->time.order, o->method->scheme->order) : 1;
+    return round_up((double)o->steps * pow(p->time.error / aim, 1 / order));
+}
+
+static double elements_needed(const struct br_planned_march *o, const struct br_prediction *p)
+{
+    return round_up((double)o->n * sqrt(p->space.error / aim));
+}
+
+/* Whether contact at u_n would do. */
+static bool lag_is_to_blame(const struct br_planned_march *o)
+{
+    struct br_method method = *o->method;
+    struct br_planned_march other = *o;
+    struct br_prediction p;
+    struct br_error err;
+    if (method.contact->at_new_step || !o->scene->contact.modelled)
+        return false;
+    method.contact = br_contact_rule_find("implicit");
+    other.method = &method;
+    return br_predict(&other, &p, &err) == BR_OK && p.known && p.whole.error <= large_error;
+}
+
+static void accuracy_remedy(const struct br_planned_march *o, const struct br_prediction *p,
+                            char remedy[400])
+{
+    int used = 0;
+    remedy[0] = '\0';
+    if (lag_is_to_blame(o)) {
+        snprintf(remedy, 400, "--contact implicit");
+        return;
+    }
+    if (o->method->scheme->adaptive && p->time.error > aim)
+        used =
+            snprintf(remedy, 400, "--tolerance %.1g", o->method->tolerance * aim / p->time.error);
+    else if (p->time.error > aim && isfinite(steps_needed(o, p)))
+        used = snprintf(remedy, 400, "--k T/%.0f", steps_needed(o, p));
+    if (p->space.error > aim && isfinite(elements_needed(o, p)))
+        snprintf(remedy + used, 400 - (size_t)used, "%s--n %.0f", used ? " " : "",
+                 elements_needed(o, p));
+}
+
+static void warn_of_inaccuracy(const struct br_planned_march *o, const struct br_prediction *p,
+                               struct br_warnings *w)
+{
+    char remedy[400], interval[BR_PREDICTED_TEXT];
+    const bool likely = p->whole.error > large_error || p->whole.high > doubtful;
+    if (!p->bounded || !(p->known ? likely : p->whole.low > large_error))
+        return;
+    accuracy_remedy(o, p, remedy);
+    br_warn(w, BR_WARN_INACCURATE, remedy,
+            "the predicted discretisation error at n = %zu, k = %.4g s, relative to the "
+            "solution, is %s (of time %.2g, of space %.2g)",
+            o->n, br_time_step(o->scene, o->steps), br_predicted_interval(&p->whole, interval),
+            p->time.error, p->space.error);
+}
+
+static void warn_of_ignorance(const struct br_planned_march *o, const struct br_prediction *p,
+                              struct br_warnings *w)
+{
+    char most[80] = "";
+    if (p->known)
+        return;
+    if (p->bounded)
+        snprintf(most, sizeof most, ", and may be %.2g of the solution", p->whole.high);
+    br_warn(w, BR_WARN_UNKNOWN, "",
+            "the discretisation error at n = %zu, k = %.4g s is not known%s: %s", o->n,
+            br_time_step(o->scene, o->steps), most, p->why);
+}
+
+static enum br_status look_at_prediction(const struct br_planned_march *o, struct br_warnings *w,
+                                         struct br_error *err)
+{
+    struct br_prediction p;
+    const enum br_status status = br_predict(o, &p, err);
+    if (status)
+        return status;
+    warn_of_round_off(o, &p, w);
+    warn_of_inaccuracy(o, &p, w);
+    warn_of_ignorance(o, &p, w);
+    if (o->prediction)
+        *o->prediction = p;
+    return BR_OK;
+}
+
+static const struct br_warning_source warn_prediction = {
+    .title = "errors of discretisation and of round-off, as predicted",
+    .look = look_at_prediction,
+};
+
+/* ---- all sources ---- */
+
+const struct br_warning_source *const br_warning_sources[] = {
+    &br_warn_resources,  &br_warn_contact, &warn_bounce,     &br_warn_load,
+    &br_warn_load_space, &br_warn_initial, &warn_prediction, NULL,
+};
+
 /* Asks those that are cheap, or those that are not. */
-static enum br_status ask(const struct br_outlook *outlook, bool every, struct br_warnings *w,
+static enum br_status ask(const struct br_planned_march *planned, bool every, struct br_warnings *w,
                           struct br_error *err)
 {
     for (const struct br_warning_source *const *s = br_warning_sources; *s; s++) {
-        const enum br_status status = (*s)->every == every ? (*s)->look(outlook, w, err) : BR_OK;
+        const enum br_status status = (*s)->every == every ? (*s)->look(planned, w, err) : BR_OK;
         if (status)
             return status;
     }
     return BR_OK;
 }
 
-enum br_status br_look_ahead(const struct br_outlook *outlook, struct br_warnings *w,
+enum br_status br_look_ahead(const struct br_planned_march *planned, struct br_warnings *w,
                              struct br_error *err)
 {
-    const enum br_status status = ask(outlook, true, w, err);
-    return status ? status : ask(outlook, false, w, err);
+    const enum br_status status = ask(planned, true, w, err);
+    return status ? status : ask(planned, false, w, err);
 }
 
-enum br_status br_look_ahead_cheaply(const struct br_outlook *outlook, struct br_warnings *w,
+enum br_status br_look_ahead_cheaply(const struct br_planned_march *planned, struct br_warnings *w,
                                      struct br_error *err)
 {
-    return ask(outlook, true, w, err);
+    return ask(planned, true, w, err);
 }
 
-enum br_status br_look_at_loads(const struct br_outlook *outlook, struct br_warnings *w,
+enum br_status br_look_at_loads(const struct br_planned_march *planned, struct br_warnings *w,
                                 struct br_error *err)
 {
-    enum br_status status = br_warn_load.look(outlook, w, err);
-    status = status ? status : br_warn_load_space.look(outlook, w, err);
-    return status ? status : br_warn_initial.look(outlook, w, err);
+    enum br_status status = br_warn_load.look(planned, w, err);
+    status = status ? status : br_warn_load_space.look(planned, w, err);
+    return status ? status : br_warn_initial.look(planned, w, err);
 }

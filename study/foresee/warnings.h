@@ -60,7 +60,7 @@ const struct br_warning *br_warnings_find(const struct br_warnings *warnings,
 struct br_prediction;
 
 /* What is to be marched. All borrowed; the scene is the part of it that is marched (model.h). */
-struct br_outlook {
+struct br_planned_march {
     const struct br_scene *scene;
     const struct br_method *method;
     size_t n, steps;
@@ -74,27 +74,38 @@ struct br_warning_source {
     bool every;        /* so cheap that each march of a study is looked at */
     /* Adds what it has to say. What it cannot tell is no failure. Fails with BR_BAD_INPUT or
      * BR_NO_MEMORY where the march is refused, the message with the figures. */
-    enum br_status (*look)(const struct br_outlook *outlook, struct br_warnings *warnings,
+    enum br_status (*look)(const struct br_planned_march *planned, struct br_warnings *warnings,
                            struct br_error *err);
 };
 
 /* NULL-terminated: refusals first, then in the order in which warnings are told. To add one: a
- * const record in a file of its own, and a row in warnings.c. */
+ * const record and a row in warnings.c. */
 extern const struct br_warning_source *const br_warning_sources[];
 
 /* Asks all sources about one march; adds to *warnings. Fails as they do. */
-enum br_status br_look_ahead(const struct br_outlook *outlook, struct br_warnings *warnings,
+enum br_status br_look_ahead(const struct br_planned_march *planned, struct br_warnings *warnings,
                              struct br_error *err);
 
 /* Asks those that are cheap alone: for marches that are many. */
-enum br_status br_look_ahead_cheaply(const struct br_outlook *outlook, struct br_warnings *warnings,
-                                     struct br_error *err);
+enum br_status br_look_ahead_cheaply(const struct br_planned_march *planned,
+                                     struct br_warnings *warnings, struct br_error *err);
 
 /* Asks about the loads and initial data alone: what of them the time levels and the elements do
  * not see. For the finest of many marches; that takes milliseconds, or a second for loads with
  * thousands of jumps.
  */
-enum br_status br_look_at_loads(const struct br_outlook *outlook, struct br_warnings *warnings,
-                                struct br_error *err);
+enum br_status br_look_at_loads(const struct br_planned_march *planned,
+                                struct br_warnings *warnings, struct br_error *err);
+
+/* The warning of a lagged contact that will be unstable (solver/laws.h). */
+extern const struct br_warning_source br_warn_contact;
+
+/* Of the other files of this room. */
+extern const struct br_warning_source br_warn_initial, br_warn_load, br_warn_load_space,
+    br_warn_resources;
+
+/* The least round number of steps, 1, 2, 4, 5, 8, 10, 16, 20, 25, ... of `least` or more, so that a
+ * duration with few digits has time steps with few digits; INFINITY above 8e12. */
+double br_round_steps(double least);
 
 #endif

@@ -5,7 +5,7 @@
 #ifndef BR_STUDY_GRID_DIFFERENCES_H
 #define BR_STUDY_GRID_DIFFERENCES_H
 
-#include "study/fit/extrapolation.h"
+#include "study/fit/fit.h"
 #include "study/grid/observer.h"
 
 /* The differences of one grid in one norm: studies whose cells are compared with their

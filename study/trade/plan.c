@@ -1,13 +1,177 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/trade/plan.h"
+#include "study/trade/plan_steps.h"
 
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
 
 #include "solver/clock.h"
 #include "study/fit/fit.h"
-#include "study/trade/plan_steps.h"
+
+/* ---- the list of trials ---- */
+
+double br_plan_y(const struct br_trial *t)
+{
+    return t->named->method.scheme->adaptive ? -log(t->tolerance) : log((double)t->at.steps);
+}
+
+struct br_trial br_plan_trial(const struct br_plan_candidate *c)
+{
+    struct br_trial t = {.named = c->named, .at = {(size_t)(c->n + 0.5), BR_PLAN_LEVELS}};
+    if (c->named->method.scheme->adaptive)
+        t.tolerance = exp(-c->y);
+    else
+        t.at.steps = (size_t)(exp(c->y) + 0.5);
+    return t;
+}
+
+bool br_plan_has(const struct br_plan *p, const struct br_trial *trial, bool cheap)
+{
+    for (size_t i = 0; i < p->count; i++)
+        if ((p->forecast[i].round > 0 || cheap) && p->trial[i].named == trial->named &&
+            p->trial[i].at.n == trial->at.n &&
+            fabs(br_plan_y(&p->trial[i]) - br_plan_y(trial)) <= 1e-12)
+            return true;
+    return false;
+}
+
+/* Adds a trial without an outcome, unless it was added before. */
+static void add(struct br_plan *p, const struct br_trial *trial, struct br_plan_forecast forecast)
+{
+    if (br_plan_has(p, trial, forecast.round == 0))
+        return;
+    p->trial[p->count] = *trial;
+    p->forecast[p->count++] = forecast;
+}
+
+/* ---- cheap trials ---- */
+
+/* The cheap trials that the first models of a plan are made from. */
+
+static const size_t probe_meshes[] = {2, 4, 12, 36, 108, 324, 972, 2916};
+
+/* All of them on one mesh, every other one on the rest: probe_steps that happen to end where the
+ * solution switches are better than their neighbours. Many time levels in common spare the judge
+ * work. */
+static const size_t probe_steps[] = {10, 15, 20, 30, 40, 60, 80, 120, 160, 240};
+static const size_t mesh_of_all_steps = 108;
+
+static const double probe_tolerances[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5,
+                                          1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+
+/* A solve costs as much as so many elements more than it has; a cheap trial's solves times elements
+ * at most; solves of an adaptive scheme where they are not known yet. */
+static const double overhead = 700, most_work = 5e5, guessed_solves = 150;
+
+enum {
+    MESHES = sizeof probe_meshes / sizeof *probe_meshes,
+    STEPS = sizeof probe_steps / sizeof *probe_steps,
+    TOLERANCES = sizeof probe_tolerances / sizeof *probe_tolerances
+};
+
+/* Those of one method on one mesh. */
+static void add_column(struct br_plan *plan, const struct br_named_method *named, size_t n)
+{
+    const bool adaptive = named->method.scheme->adaptive;
+    const double stages = br_time_scheme_stages(named->method.scheme);
+    const size_t count = adaptive ? TOLERANCES : STEPS;
+    const size_t next = n == mesh_of_all_steps ? 1 : adaptive ? 3 : 2;
+    for (size_t j = 0; j < count; j += next) {
+        struct br_trial trial = {.named = named, .at = {n, BR_PLAN_LEVELS}};
+        if (adaptive)
+            trial.tolerance = probe_tolerances[j];
+        else
+            trial.at.steps = probe_steps[j];
+        const double solves = adaptive ? guessed_solves : stages * (double)trial.at.steps;
+        if (((double)n + overhead) * solves <= most_work)
+            add(plan, &trial, (struct br_plan_forecast){0, NAN, NAN});
+    }
+}
+
+static void add_probes(struct br_plan *plan)
+{
+    for (size_t c = 0; c < plan->methods.count; c++)
+        for (size_t i = 0; i < MESHES; i++)
+            add_column(plan, &plan->methods.list[c], probe_meshes[i]);
+}
+
+/* Room for all cheap trials, and for as many rounds as there may be. */
+static enum br_status make_room(struct br_plan *p, struct br_error *err)
+{
+    const size_t probes = MESHES * (STEPS > TOLERANCES ? STEPS : TOLERANCES);
+    const size_t most = p->methods.count * probes + p->most_rounds * BR_PLAN_BATCH;
+    p->trial = br_allocate(most, sizeof *p->trial);
+    p->forecast = br_allocate(most, sizeof *p->forecast);
+    return p->trial && p->forecast ? BR_OK : br_no_memory(err, "the trials");
+}
+
+/* ---- models ---- */
+
+/* The models of a plan's named methods, from their trials. */
+
+static void forget(struct br_plan *p)
+{
+    for (size_t c = 0; c < p->methods.count; c++) {
+        br_plan_model_clear(&p->model[c].error);
+        p->model[c].known = false;
+    }
+}
+
+/* What is seen of one named method's trials, in room for all. */
+struct seen {
+    struct br_plan_point *point;
+    struct br_plan_work *work;
+    size_t points, works;
+};
+
+static void see(const struct br_plan *p, const struct br_named_method *c, struct seen *seen)
+{
+    seen->points = seen->works = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        const struct br_trial *t = &p->trial[i];
+        const double error = br_trial_bound(t, 0), seconds = p->seconds(t);
+        if (t->named != c)
+            continue;
+        if (error > 0 && isfinite(error))
+            seen->point[seen->points++] =
+                (struct br_plan_point){log((double)t->at.n), br_plan_y(t), error};
+        if (seconds > 0 && isfinite(seconds) && t->cost.counts.stages > 0)
+            seen->work[seen->works++] = (struct br_plan_work){
+                (double)t->at.n, br_plan_y(t), (double)t->cost.counts.stages, seconds};
+    }
+}
+
+/* The space error's order is 2 for elements of degree 1; of more it is measured. */
+static enum br_status fit_one(struct br_plan *p, size_t c, struct seen *seen, struct br_error *err)
+{
+    const struct br_named_method *named = &p->methods.list[c];
+    struct br_plan_models *m = &p->model[c];
+    const double p_order = 1.0 + named->method.axial_degree;
+    const double q = named->method.scheme->adaptive ? 1 : named->method.scheme->order;
+    see(p, named, seen);
+    if (seen->points < 4 || seen->works == 0)
+        return BR_OK;
+    enum br_status status =
+        br_plan_model_fit(&m->error, seen->point, seen->points, p_order, q, err);
+    if (!status)
+        status = br_plan_cost_fit(&m->cost, seen->work, seen->works, err);
+    m->known = !status;
+    return status == BR_NO_MEMORY ? status : BR_OK;
+}
+
+static enum br_status fit_all(struct br_plan *p, struct br_error *err)
+{
+    struct seen seen = {.point = br_allocate(p->count + 1, sizeof *seen.point),
+                        .work = br_allocate(p->count + 1, sizeof *seen.work)};
+    enum br_status status = seen.point && seen.work ? BR_OK : br_no_memory(err, "the models");
+    forget(p);
+    for (size_t c = 0; c < p->methods.count && !status; c++)
+        status = fit_one(p, c, &seen, err);
+    free(seen.point);
+    free(seen.work);
+    return status;
+}
+
+/* ---- plans ---- */
 
 const double br_plan_band = 3;
 
@@ -29,7 +193,7 @@ const char *br_plan_end_name(enum br_plan_end end)
 
 void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
 {
-    struct br_contenders all;
+    struct br_named_methods all;
     const struct br_method usual = br_method_default();
     *plan = (struct br_plan){.request = br_trial_request_default(scene),
                              .norm = {br_norms[0]},
@@ -38,16 +202,17 @@ void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
                              .seconds = br_trial_seconds,
                              .own = NAN};
     plan->request.time_limit = 60;
-    br_contenders_default(scene, &all);
+    br_named_methods_default(scene, &all);
     for (size_t i = 0; i < all.count; i++)
         if (all.list[i].method.solver == usual.solver &&
             all.list[i].method.friction == usual.friction)
-            plan->contenders.list[plan->contenders.count++] = all.list[i];
+            plan->methods.list[plan->methods.count++] = all.list[i];
 }
 
 /* ---- what was found ---- */
 
-bool br_plan_meets(const struct br_plan *p, const struct br_trial *t)
+/* Whether a trial's error is at most the goal's, or its seconds. */
+static bool meets(const struct br_plan *p, const struct br_trial *t)
 {
     if (!isfinite(br_trial_bound(t, 0)))
         return false;
@@ -65,7 +230,7 @@ static size_t least_of(const struct br_plan *p, double least_error)
     for (size_t i = 0; i < p->count; i++) {
         const double error = br_trial_bound(&p->trial[i], 0), seconds = p->seconds(&p->trial[i]);
         const double value = by_error ? seconds : error;
-        if (p->forecast[i].round > 0 && br_plan_meets(p, &p->trial[i]) && error >= least_error &&
+        if (p->forecast[i].round > 0 && meets(p, &p->trial[i]) && error >= least_error &&
             value < least) {
             least = value;
             best = i;
@@ -100,7 +265,7 @@ struct br_plan_parts br_plan_chosen_parts(const struct br_plan *p)
     if (p->chosen == p->count)
         return (struct br_plan_parts){NAN, NAN, NAN, NAN};
     const struct br_trial *t = &p->trial[p->chosen];
-    const struct br_plan_models *m = &p->model[t->contender - p->contenders.list];
+    const struct br_plan_models *m = &p->model[t->named - p->methods.list];
     if (!m->known)
         return (struct br_plan_parts){NAN, NAN, NAN, NAN};
     return br_plan_model_parts(&m->error, log((double)t->at.n), br_plan_y(t));
@@ -145,10 +310,9 @@ static enum br_status hold_new(struct br_plan *p, size_t from, struct br_error *
 static enum br_status hold_probes(struct br_plan *p, struct br_error *err)
 {
     const size_t repeats = p->request.repeats;
-    enum br_status status = br_plan_add_probes(p, err);
+    add_probes(p);
     p->request.repeats = 1;
-    if (!status)
-        status = hold_new(p, 0, err);
+    const enum br_status status = hold_new(p, 0, err);
     p->request.repeats = repeats;
     return status;
 }
@@ -166,20 +330,17 @@ static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *
     struct br_plan_batch batch;
     const size_t from = p->count;
     *tried = false;
-    enum br_status status = br_plan_fit(p, err);
+    enum br_status status = fit_all(p, err);
     if (status)
         return status;
     br_plan_propose(p, &batch);
-    for (size_t i = 0; i < batch.count && !status; i++) {
+    for (size_t i = 0; i < batch.count; i++) {
         const struct br_plan_candidate *c = &batch.candidate[i];
         const struct br_trial trial = br_plan_trial(c);
-        const struct br_plan_forecast forecast = {p->rounds + 1, exp(c->log_error), c->seconds};
-        bool added = false;
-        status = br_plan_add(p, &trial, &forecast, &added, err);
-        *tried |= added;
+        add(p, &trial, (struct br_plan_forecast){p->rounds + 1, exp(c->log_error), c->seconds});
     }
-    if (!status && *tried)
-        status = hold_new(p, from, err);
+    *tried = p->count > from;
+    status = hold_new(p, from, err);
     if (!status && *tried && ++p->rounds == 1)
         p->first = from;
     return status;
@@ -194,7 +355,7 @@ static enum br_status check_goal(const struct br_plan *p, struct br_error *err)
         return br_fail(err, BR_BAD_INPUT, "found %g, expected a relative error between 0 and 1", e);
     if (!isnan(s) && !(s > 0 && isfinite(s)))
         return br_fail(err, BR_BAD_INPUT, "found %g, expected seconds > 0", s);
-    return p->contenders.count ? BR_OK : br_fail(err, BR_BAD_INPUT, "no method takes this scene");
+    return p->methods.count ? BR_OK : br_fail(err, BR_BAD_INPUT, "no method takes this scene");
 }
 
 /* After the cheap trials: whether there are any results, and whether the goal can be told. */
@@ -233,6 +394,8 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
     p->first = SIZE_MAX;
     enum br_status status = check_goal(p, err);
     if (!status)
+        status = make_room(p, err);
+    if (!status)
         status = keep_judge(p, judge, &kept, err);
     if (!status)
         status = hold_probes(p, err);
@@ -241,7 +404,7 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
     while (!status && tried && p->rounds < p->most_rounds && !is_idle(p))
         status = go_round(p, &tried, err);
     if (!status)
-        status = br_plan_fit(p, err);
+        status = fit_all(p, err);
     if (p->first == SIZE_MAX)
         p->first = p->count;
     if (!status)
@@ -254,10 +417,10 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
 
 void br_plan_clear(struct br_plan *p)
 {
-    br_plan_forget(p);
+    forget(p);
     free(p->trial);
     free(p->forecast);
     p->trial = NULL;
     p->forecast = NULL;
-    p->count = p->capacity = 0;
+    p->count = 0;
 }

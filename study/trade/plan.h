@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A plan: the cheapest way to an error, or the least error for so many seconds. Cheap trials of
- * every contender tell how its errors and costs go (plan_model.h, plan_cost.h); by that the
+ * every named method tell how its errors and costs go; by that the
  * cheapest resolution is proposed and tried, the models learn from it, and so on until nothing that
  * is cheaper is likely to do. Errors are relative: the norm of the error over the norm of the
  * solution, the judge's own error added. */
 #ifndef BR_STUDY_TRADE_PLAN_H
 #define BR_STUDY_TRADE_PLAN_H
 
-#include "study/trade/plan_cost.h"
 #include "study/trade/trial.h"
 
 /* The promise: a proposal's error is at most E, and not less than E over this. */
@@ -39,7 +38,61 @@ struct br_plan_forecast {
     double error, seconds; /* NaN in round 0 */
 };
 
-/* The models of one contender. */
+/* What the errors of one method are at resolutions that were not tried: a model, fitted with GSL.
+ *
+ * The space and the time error are fields that may point against each other (as in fit.h):
+ *     e^2 = a^2 + 2 r a b + b^2,   a = a(n),  b = b(k), or b(tolerance).
+ * No power law holds for b from the coarsest steps on: long steps do not look at what lies between
+ * their ends, orders are reduced while k is above the relaxation time, and switching spoils them.
+ * So log a and log b are piecewise linear in log n and log k, with a knot wherever there are
+ * trials, held smooth by a weak penalty on changes of slope: the slopes are the orders, as observed
+ * there.
+ *
+ * What the model leaves over is deterministic, not noise: a prediction follows the residual of the
+ * nearest trial, less so with the distance, and is the less certain. */
+
+/* A trial as the model sees it. */
+struct br_plan_point {
+    double x;     /* log n */
+    double y;     /* log of the steps, or -log of the tolerance */
+    double error; /* relative, > 0 */
+};
+
+enum { BR_PLAN_KNOTS = 40 };
+
+/* A piecewise linear function, with its end slopes beyond its ends. */
+struct br_plan_curve {
+    size_t count;
+    double at[BR_PLAN_KNOTS], value[BR_PLAN_KNOTS];
+};
+
+struct br_plan_model {
+    struct br_plan_curve space, time; /* log a of log n, log b of y */
+    double r;
+    double scatter; /* root mean square of log(error/model) */
+    size_t points;
+    struct br_plan_point *point; /* points; owned */
+    double *residual;            /* points, log(error/model); owned */
+};
+
+/* The parts of the error, relative, and the observed orders. */
+struct br_plan_parts {
+    double space, time, p, q;
+};
+
+/* What a march of one method costs at resolutions that were not tried: a model, fitted with GSL.
+ *     seconds = c0 + c1 n + (c2 + c3 n) solves,
+ * all c >= 0, to relative errors; the solves are counted in the trials, and interpolated over the
+ * steps or the tolerance. */
+enum { BR_PLAN_COSTS = 4 };
+
+struct br_plan_cost {
+    double c[BR_PLAN_COSTS];     /* s, s per element, s per solve, s per element and solve */
+    struct br_plan_curve solves; /* log of them, over y */
+    double scatter;              /* root mean square of log(seconds/model) */
+};
+
+/* The models of one named method. */
 struct br_plan_models {
     bool known; /* enough of its trials came to their end */
     struct br_plan_model error;
@@ -50,25 +103,25 @@ struct br_plan {
     /* in */
     struct br_trial_request request; /* norm and norms are set by the plan */
     const struct br_norm *norm[1];
-    struct br_contenders contenders;
+    struct br_named_methods methods;
     struct br_plan_goal goal;
     size_t most_rounds;
     double (*seconds)(const struct br_trial *trial); /* what a trial costs: br_trial_seconds */
     /* out */
     struct br_trial *trial;            /* count; owned */
     struct br_plan_forecast *forecast; /* count; owned */
-    size_t count, capacity, rounds;
+    size_t count, rounds;
     size_t first;  /* the first proposal, the cheapest of round 1; count: none */
     size_t chosen; /* count: none */
     enum br_plan_end end;
-    struct br_plan_models model[BR_MOST_CONTENDERS];
+    struct br_plan_models model[BR_MOST_NAMED_METHODS];
     double own;          /* the judge's own relative error, where it is least; NaN: not known */
     double wall_seconds; /* of all of it */
 };
 
 /* A request with its defaults: l2, marches of at most 60 s, 8 rounds, seconds as measured. The
- * contenders of br_contenders_default that keep the default solver and friction rule.
- * Trials point to the contenders, so a plan that is made is not to be moved. */
+ * named methods of br_named_methods_default that keep the default solver and friction rule.
+ * Trials point to the named methods, so a plan that is made is not to be moved. */
 void br_plan_default(struct br_plan *plan, const struct br_scene *scene);
 
 /* Makes the plan. Fails with BR_BAD_INPUT (a goal that makes no sense, or below what the judge can

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/trade/plan_model.h"
+#include "study/trade/plan_steps.h"
 
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_multifit.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
 #include <string.h>
@@ -36,7 +37,7 @@ static double fraction(const struct br_plan_curve *c, size_t i, double at)
     return (at - c->at[i]) / (c->at[i + 1] - c->at[i]);
 }
 
-double br_plan_curve_value(const struct br_plan_curve *c, double at)
+static double curve_value(const struct br_plan_curve *c, double at)
 {
     if (c->count < 2)
         return c->value[0];
@@ -44,7 +45,8 @@ double br_plan_curve_value(const struct br_plan_curve *c, double at)
     return c->value[i] + fraction(c, i, at) * (c->value[i + 1] - c->value[i]);
 }
 
-double br_plan_curve_order(const struct br_plan_curve *c, double at)
+/* Minus the slope of a curve. */
+static double curve_order(const struct br_plan_curve *c, double at)
 {
     if (c->count < 2)
         return 0;
@@ -104,9 +106,10 @@ static void spread(const struct problem *problem, const gsl_vector *v)
     m->r = problem->no_r ? 0 : most_r * tanh(gsl_vector_get(v, m->space.count + m->time.count));
 }
 
-double br_plan_model_value(const struct br_plan_model *m, double x, double y)
+/* The model's own value, log e. */
+static double model_value(const struct br_plan_model *m, double x, double y)
 {
-    const double a = br_plan_curve_value(&m->space, x), b = br_plan_curve_value(&m->time, y);
+    const double a = curve_value(&m->space, x), b = curve_value(&m->time, y);
     const double most = fmax(a, b), ratio = exp(-fabs(a - b));
     const double square = 1 + 2 * m->r * ratio + ratio * ratio;
     return most + 0.5 * log(fmax(square, 1e-6));
@@ -117,10 +120,10 @@ static size_t penalties(const struct br_plan_curve *c, double order, double stif
                         gsl_vector *out, size_t row)
 {
     for (size_t i = 0; i + 1 < c->count; i++) {
-        const double slope = br_plan_curve_order(c, (c->at[i] + c->at[i + 1]) / 2);
+        const double slope = curve_order(c, (c->at[i] + c->at[i + 1]) / 2);
         gsl_vector_set(out, row++, theory * (slope - order));
         if (i + 2 < c->count) {
-            const double next = br_plan_curve_order(c, (c->at[i + 1] + c->at[i + 2]) / 2);
+            const double next = curve_order(c, (c->at[i + 1] + c->at[i + 2]) / 2);
             gsl_vector_set(out, row++, stiffness * (next - slope));
         }
     }
@@ -140,7 +143,7 @@ static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
     size_t row = 0;
     for (; row < m->points; row++) {
         const struct br_plan_point *p = &m->point[row];
-        const double f = log(p->error) - br_plan_model_value(m, p->x, p->y);
+        const double f = log(p->error) - model_value(m, p->x, p->y);
         if (!isfinite(f))
             return GSL_EDOM;
         gsl_vector_set(out, row, f);
@@ -206,7 +209,7 @@ static void measure_residuals(struct br_plan_model *m)
     double sum = 0;
     for (size_t i = 0; i < m->points; i++) {
         const struct br_plan_point *p = &m->point[i];
-        m->residual[i] = log(p->error) - br_plan_model_value(m, p->x, p->y);
+        m->residual[i] = log(p->error) - model_value(m, p->x, p->y);
         sum += m->residual[i] * m->residual[i];
     }
     m->scatter = sqrt(sum / (double)m->points);
@@ -272,4 +275,203 @@ void br_plan_model_clear(struct br_plan_model *m)
     free(m->point);
     free(m->residual);
     *m = (struct br_plan_model){.r = 0};
+}
+
+/* ---- resolutions that were not tried ---- */
+
+/* What a model of errors says of resolutions that were not tried. */
+
+/* Distances, as logarithms, at which a residual has lost 1/e of its say. */
+static const double reach_x = 0.7, reach_y = 0.25;
+
+/* What a prediction is unsure by at least, and more for each unit beyond the knots. */
+static const double least_deviation = 0.03, beyond_x = 0.5, beyond_y = 0.3;
+
+static double excess(const struct br_plan_curve *c, double at)
+{
+    return fmax(0, fmax(c->at[0] - at, at - c->at[c->count - 1]));
+}
+
+struct br_plan_prediction br_plan_model_predict(const struct br_plan_model *m, double x, double y)
+{
+    double nearest = INFINITY, residual = 0;
+    for (size_t i = 0; i < m->points; i++) {
+        const double distance = hypot((m->point[i].x - x) / reach_x, (m->point[i].y - y) / reach_y);
+        if (distance <= nearest) {
+            nearest = distance;
+            residual = m->residual[i];
+        }
+    }
+    const double say = exp(-nearest);
+    const double unknown = m->scatter * sqrt(1 - say * say);
+    const double beyond = beyond_x * excess(&m->space, x) + beyond_y * excess(&m->time, y);
+    return (struct br_plan_prediction){
+        .log_error = model_value(m, x, y) + say * residual,
+        .deviation = hypot(hypot(least_deviation * fmin(1, nearest), unknown), beyond),
+    };
+}
+
+struct br_plan_parts br_plan_model_parts(const struct br_plan_model *m, double x, double y)
+{
+    return (struct br_plan_parts){
+        .space = exp(curve_value(&m->space, x)),
+        .time = exp(curve_value(&m->time, y)),
+        .p = curve_order(&m->space, x),
+        .q = curve_order(&m->time, y),
+    };
+}
+
+/* ---- costs ---- */
+
+static void terms_of(double n, double solves, double term[BR_PLAN_COSTS])
+{
+    term[0] = 1;
+    term[1] = n;
+    term[2] = solves;
+    term[3] = n * solves;
+}
+
+static double seconds_of(const struct br_plan_cost *cost, double n, double solves)
+{
+    double term[BR_PLAN_COSTS], sum = 0;
+    terms_of(n, solves, term);
+    for (int i = 0; i < BR_PLAN_COSTS; i++)
+        sum += cost->c[i] * term[i];
+    return sum;
+}
+
+/* ---- solves over steps or tolerances ---- */
+
+/* The mean of the logarithms at each y. */
+static void average_solves(struct br_plan_cost *cost, const struct br_plan_work *work, size_t count)
+{
+    struct br_plan_curve *c = &cost->solves;
+    size_t members[BR_PLAN_KNOTS] = {0};
+    c->count = 0;
+    for (size_t i = 0; i < count; i++) {
+        size_t j = 0;
+        while (j < c->count && !(fabs(c->at[j] - work[i].y) <= 1e-9))
+            j++;
+        if (j == BR_PLAN_KNOTS)
+            continue;
+        if (j == c->count) {
+            c->at[j] = work[i].y;
+            c->value[j] = 0;
+            c->count++;
+        }
+        members[j]++;
+        c->value[j] += (log(work[i].solves) - c->value[j]) / (double)members[j];
+    }
+}
+
+static void sort_curve(struct br_plan_curve *c)
+{
+    for (size_t i = 1; i < c->count; i++)
+        for (size_t j = i; j > 0 && c->at[j] < c->at[j - 1]; j--) {
+            const double at = c->at[j], value = c->value[j];
+            c->at[j] = c->at[j - 1], c->value[j] = c->value[j - 1];
+            c->at[j - 1] = at, c->value[j - 1] = value;
+        }
+}
+
+/* ---- seconds ---- */
+
+/* Least squares of seconds/model - 1 over the terms that are in use. */
+static enum br_status fit_terms(struct br_plan_cost *cost, const struct br_plan_work *work,
+                                size_t count, const bool used[BR_PLAN_COSTS], struct br_error *err)
+{
+    size_t terms = 0;
+    for (int i = 0; i < BR_PLAN_COSTS; i++)
+        terms += used[i];
+    double c[BR_PLAN_COSTS], covariance[BR_PLAN_COSTS * BR_PLAN_COSTS], sum;
+    double *x = br_allocate(count * (terms + 1), sizeof *x);
+    gsl_multifit_linear_workspace *w = gsl_multifit_linear_alloc(count, terms);
+    enum br_status status = x && w ? BR_OK : br_no_memory(err, "the cost model");
+    for (size_t i = 0, k = 0; i < count && !status; i++) {
+        double term[BR_PLAN_COSTS];
+        terms_of(work[i].n, work[i].solves, term);
+        for (size_t j = 0; j < BR_PLAN_COSTS; j++)
+            if (used[j])
+                x[k++] = term[j] / work[i].seconds;
+        x[count * terms + i] = 1;
+    }
+    if (!status) {
+        gsl_matrix_view rows = gsl_matrix_view_array(x, count, terms);
+        gsl_matrix_view spread_of = gsl_matrix_view_array(covariance, terms, terms);
+        gsl_vector_view ones = gsl_vector_view_array(x + count * terms, count);
+        gsl_vector_view found = gsl_vector_view_array(c, terms);
+        if (gsl_multifit_linear(&rows.matrix, &ones.vector, &found.vector, &spread_of.matrix, &sum,
+                                w) != GSL_SUCCESS)
+            status = br_fail(err, BR_SINGULAR, "the cost model could not be fitted");
+    }
+    for (size_t j = 0, k = 0; j < BR_PLAN_COSTS && !status; j++)
+        cost->c[j] = used[j] ? c[k++] : 0;
+    gsl_multifit_linear_free(w);
+    free(x);
+    return status;
+}
+
+/* No term is a saving: the most negative one goes, until none is. */
+static enum br_status fit_seconds(struct br_plan_cost *cost, const struct br_plan_work *work,
+                                  size_t count, struct br_error *err)
+{
+    bool used[BR_PLAN_COSTS] = {true, true, true, true};
+    enum br_status status = BR_OK;
+    for (int round = 0; round < BR_PLAN_COSTS && !status; round++) {
+        int worst = -1;
+        double saving = 0;
+        status = fit_terms(cost, work, count, used, err);
+        for (int i = 0; i < BR_PLAN_COSTS && !status; i++) {
+            double term[BR_PLAN_COSTS];
+            terms_of(work[0].n, work[0].solves, term);
+            if (used[i] && cost->c[i] * term[i] < saving)
+                worst = i, saving = cost->c[i] * term[i];
+        }
+        if (worst < 0)
+            break;
+        used[worst] = false;
+    }
+    return status;
+}
+
+/* Few works: all of the cost by elements and solves, as the largest of them has it. */
+static void guess(struct br_plan_cost *cost, const struct br_plan_work *work, size_t count)
+{
+    double most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = fmax(most, work[i].seconds / (work[i].n * work[i].solves));
+    for (int i = 0; i < BR_PLAN_COSTS; i++)
+        cost->c[i] = i == 3 ? most : 0;
+}
+
+enum br_status br_plan_cost_fit(struct br_plan_cost *cost, const struct br_plan_work *work,
+                                size_t count, struct br_error *err)
+{
+    *cost = (struct br_plan_cost){.scatter = NAN};
+    if (count == 0)
+        return br_fail(err, BR_BAD_INPUT, "no trial that a cost could be modelled from");
+    average_solves(cost, work, count);
+    sort_curve(&cost->solves);
+    enum br_status status = BR_OK;
+    gsl_error_handler_t *const before = gsl_set_error_handler_off();
+    if (count > BR_PLAN_COSTS)
+        status = fit_seconds(cost, work, count, err);
+    else
+        guess(cost, work, count);
+    gsl_set_error_handler(before);
+    double sum = 0;
+    for (size_t i = 0; i < count && !status; i++)
+        sum += pow(log(work[i].seconds / seconds_of(cost, work[i].n, work[i].solves)), 2);
+    cost->scatter = sqrt(sum / (double)count);
+    return status;
+}
+
+double br_plan_cost_solves(const struct br_plan_cost *cost, double y)
+{
+    return exp(curve_value(&cost->solves, y));
+}
+
+double br_plan_cost_seconds(const struct br_plan_cost *cost, double n, double y)
+{
+    return seconds_of(cost, n, br_plan_cost_solves(cost, y));
 }

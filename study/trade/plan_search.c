@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The search for what might do, by the models, in all resolutions of all contenders. */
+/* The search for what might do, by the models, in all resolutions of all named methods. */
+#include "study/trade/plan_steps.h"
+
 #include <gsl/gsl_cdf.h>
 #include <math.h>
-
-#include "study/trade/plan_steps.h"
 
 /* Predictions err: a candidate is safe so many deviations below E, and within this part of the
  * seconds. What was tried has no deviation. */
@@ -12,20 +12,20 @@ static const double safe_deviations = 1.5, safe_seconds = 0.9;
 /* Neighbouring candidates: n, steps and tolerances are so far apart, as factors. */
 static const double n_factor = 1.06, step_factor = 1.08, tolerance_factor = 1.6;
 
-/* Beyond the trials of its contender a candidate may be by so much, as factors. */
+/* Beyond the trials of its named method a candidate may be by so much, as factors. */
 static const double most_beyond = 8;
 
 /* A trial costs at most so many times what one has cost so far: models err. */
 static const double most_growth = 16;
 
-/* A search in the candidates of one contender. */
+/* A search in the candidates of one named method. */
 struct search {
     const struct br_plan *plan;
-    const struct br_contender *contender;
+    const struct br_named_method *named;
     const struct br_plan_models *models;
     double most_x, most_y; /* where there are trials */
     double most_seconds;
-    double best_seconds, best_log_error;                /* of what is there; infinite: nothing */
+    double best_seconds;                                /* of what is there; infinite: nothing */
     struct br_plan_candidate *safe, *gamble, *explorer; /* out */
 };
 
@@ -39,7 +39,7 @@ static bool is_near_failure(const struct search *s, double x, double y)
     for (size_t i = 0; i < s->plan->count; i++) {
         const struct br_trial *t = &s->plan->trial[i];
         const double distance = hypot(log((double)t->at.n) - x, 2 * (br_plan_y(t) - y));
-        if (t->contender == s->contender && distance < nearest) {
+        if (t->named == s->named && distance < nearest) {
             nearest = distance;
             failed = !isfinite(br_trial_bound(t, 0));
         }
@@ -49,6 +49,23 @@ static bool is_near_failure(const struct search *s, double x, double y)
 
 /* ---- one candidate ---- */
 
+static struct br_plan_candidate candidate_at(const struct br_named_method *named,
+                                             const struct br_plan_models *m, double n, double y)
+{
+    const struct br_plan_prediction p = br_plan_model_predict(&m->error, log(n), y);
+    const double seconds = br_plan_cost_seconds(&m->cost, n, y);
+    return (struct br_plan_candidate){
+        .named = named,
+        .n = n,
+        .y = y,
+        .log_error = p.log_error,
+        .deviation = p.deviation,
+        .seconds = seconds,
+        .rank = seconds,
+    };
+}
+
+/* A gamble scores what it may save times how likely that is. */
 static void consider_error(const struct search *s, const struct br_plan_candidate *c)
 {
     const double distance = log(s->plan->goal.error) - c->log_error;
@@ -56,8 +73,8 @@ static void consider_error(const struct search *s, const struct br_plan_candidat
         *s->safe = *c;
     const double gain = log(fmin(s->best_seconds, 1e3 * c->seconds) / c->seconds);
     struct br_plan_candidate gamble = *c;
-    gamble.score = gsl_cdf_ugaussian_P(distance / fmax(c->deviation, 1e-6)) * gain;
-    if (gamble.score > s->gamble->score)
+    gamble.rank = -(gsl_cdf_ugaussian_P(distance / fmax(c->deviation, 1e-6)) * gain);
+    if (gamble.rank < s->gamble->rank)
         *s->gamble = gamble;
     if (c->log_error + c->deviation < s->explorer->log_error + s->explorer->deviation)
         *s->explorer = *c;
@@ -65,9 +82,11 @@ static void consider_error(const struct search *s, const struct br_plan_candidat
 
 static void consider_seconds(const struct search *s, const struct br_plan_candidate *c)
 {
-    if (c->seconds <= safe_seconds * s->plan->goal.seconds &&
-        c->log_error + c->deviation < s->safe->log_error + s->safe->deviation)
-        *s->safe = *c;
+    if (!(c->seconds <= safe_seconds * s->plan->goal.seconds) ||
+        !(c->log_error + c->deviation < s->safe->log_error + s->safe->deviation))
+        return;
+    *s->safe = *c;
+    s->safe->rank = exp(c->log_error + c->deviation);
 }
 
 /* Of one column: elements from few to many, until the cost forbids more. */
@@ -80,15 +99,7 @@ static void consider_column(const struct search *s, double y)
         if (!(n > before))
             continue;
         before = n;
-        const struct br_plan_prediction p = br_plan_model_predict(&s->models->error, x, y);
-        const struct br_plan_candidate c = {
-            .contender = s->contender,
-            .n = n,
-            .y = y,
-            .log_error = p.log_error,
-            .deviation = p.deviation,
-            .seconds = br_plan_cost_seconds(&s->models->cost, n, y),
-        };
+        const struct br_plan_candidate c = candidate_at(s->named, s->models, n, y);
         if (!(c.seconds <= s->most_seconds) || (by_error && c.seconds > s->best_seconds))
             return;
         if (is_near_failure(s, x, y))
@@ -100,7 +111,7 @@ static void consider_column(const struct search *s, double y)
     }
 }
 
-/* ---- one contender ---- */
+/* ---- one named method ---- */
 
 static void consider_steps(const struct search *s)
 {
@@ -124,7 +135,7 @@ static void consider_tolerances(const struct search *s)
 static bool is_tried_column(const struct search *s, size_t i)
 {
     for (size_t j = 0; j < i; j++)
-        if (s->plan->trial[j].contender == s->contender &&
+        if (s->plan->trial[j].named == s->named &&
             fabs(br_plan_y(&s->plan->trial[j]) - br_plan_y(&s->plan->trial[i])) <= 1e-12)
             return true;
     return false;
@@ -134,7 +145,7 @@ static bool is_tried_column(const struct search *s, size_t i)
 static void consider_tried(const struct search *s)
 {
     for (size_t i = 0; i < s->plan->count; i++)
-        if (s->plan->trial[i].contender == s->contender && !is_tried_column(s, i))
+        if (s->plan->trial[i].named == s->named && !is_tried_column(s, i))
             consider_column(s, br_plan_y(&s->plan->trial[i]));
 }
 
@@ -147,13 +158,13 @@ static void look_through(struct search *s)
         s->most_y = fmax(s->most_y, p->y);
     }
     consider_tried(s);
-    if (br_contender_adaptive(s->contender))
+    if (s->named->method.scheme->adaptive)
         consider_tolerances(s);
     else
         consider_steps(s);
 }
 
-/* ---- all contenders ---- */
+/* ---- all named methods ---- */
 
 static double largest_seconds(const struct br_plan *plan)
 {
@@ -163,30 +174,38 @@ static double largest_seconds(const struct br_plan *plan)
     return most;
 }
 
-double br_plan_best_seconds(const struct br_plan *plan, size_t best)
+/* What the trial `best` costs: clocks err, so the model has a say, too. Infinite: count. */
+static double best_seconds_of(const struct br_plan *plan, size_t best)
 {
     if (best == plan->count)
         return INFINITY;
     const struct br_trial *t = &plan->trial[best];
-    const struct br_plan_models *m = &plan->model[t->contender - plan->contenders.list];
+    const struct br_plan_models *m = &plan->model[t->named - plan->methods.list];
     const double seconds = plan->seconds(t);
     return m->known ? fmin(seconds, br_plan_cost_seconds(&m->cost, (double)t->at.n, br_plan_y(t)))
                     : seconds;
 }
 
-void br_plan_search(const struct br_plan *plan, size_t best, struct br_plan_table *table)
+/* The best candidates of every named method, by its index: the cheapest (or, for seconds, the most
+ * accurate) safe one, and the most promising gamble; and the least error of all. A candidate
+ * without a named method: none. */
+struct table {
+    struct br_plan_candidate safe[BR_MOST_NAMED_METHODS], gamble[BR_MOST_NAMED_METHODS], explorer;
+};
+
+static void search_all(const struct br_plan *plan, size_t best, struct table *table)
 {
     const double limit = plan->request.time_limit > 0 ? plan->request.time_limit : INFINITY;
     table->explorer = (struct br_plan_candidate){.log_error = INFINITY};
-    for (size_t c = 0; c < plan->contenders.count; c++) {
+    for (size_t c = 0; c < plan->methods.count; c++) {
         table->safe[c] = (struct br_plan_candidate){.seconds = nobody, .log_error = nobody};
-        table->gamble[c] = (struct br_plan_candidate){.seconds = nobody, .score = 0};
+        table->gamble[c] = (struct br_plan_candidate){.seconds = nobody, .rank = 0};
         struct search s = {
             .plan = plan,
-            .contender = &plan->contenders.list[c],
+            .named = &plan->methods.list[c],
             .models = &plan->model[c],
             .most_seconds = fmin(limit, most_growth * largest_seconds(plan)),
-            .best_seconds = br_plan_best_seconds(plan, best),
+            .best_seconds = best_seconds_of(plan, best),
             .safe = &table->safe[c],
             .gamble = &table->gamble[c],
             .explorer = &table->explorer,
@@ -194,4 +213,110 @@ void br_plan_search(const struct br_plan *plan, size_t best, struct br_plan_tabl
         if (s.models->known)
             look_through(&s);
     }
+}
+
+/* ---- the next round ---- */
+
+/* The candidates of a plan's next round. */
+
+/* Something new has to be cheaper than what is there by this, a gamble by that. */
+static const double worth_trying = 0.9, worth_a_gamble = 0.6, least_score = 0.1;
+
+/* Something new for a number of seconds has to have an error less by this. */
+static const double worth_seconds = 0.8;
+
+/* Most of a round. */
+enum { SAFE = 2, GAMBLES = 4 };
+
+/* Whether it has not been proposed before; what was a cheap trial is tried anew, with all
+ * repeats. */
+static bool is_new(const struct br_plan *plan, const struct br_plan_candidate *c)
+{
+    const struct br_trial wanted = br_plan_trial(c);
+    return !br_plan_has(plan, &wanted, false);
+}
+
+static void take(const struct br_plan *plan, struct br_plan_batch *batch,
+                 const struct br_plan_candidate *c)
+{
+    if (batch->count < BR_PLAN_BATCH && is_new(plan, c))
+        batch->candidate[batch->count++] = *c;
+}
+
+/* Takes up to `most` of the candidates, the least rank first, below limit. */
+static void take_least(const struct br_plan *plan, struct br_plan_batch *batch,
+                       struct br_plan_candidate *of, size_t most, double limit)
+{
+    for (size_t taken = 0; taken < most; taken++) {
+        struct br_plan_candidate *least = NULL;
+        for (size_t c = 0; c < plan->methods.count; c++)
+            if (of[c].named && of[c].rank < (least ? least->rank : limit))
+                least = &of[c];
+        if (!least)
+            return;
+        take(plan, batch, least);
+        least->named = NULL;
+    }
+}
+
+/* Fewer elements in the column of the best trial, which is better than it need be. */
+static void tune(const struct br_plan *plan, struct br_plan_batch *batch, size_t best)
+{
+    const struct br_trial *t = &plan->trial[best];
+    const struct br_plan_models *m = &plan->model[t->named - plan->methods.list];
+    const double y = br_plan_y(t), wanted = log(plan->goal.error / sqrt(br_plan_band));
+    if (br_trial_bound(t, 0) * br_plan_band >= plan->goal.error || !m->known)
+        return;
+    struct br_plan_candidate found = {.named = NULL};
+    double nearest = INFINITY;
+    for (size_t n = BR_PLAN_LEAST_N; n < t->at.n; n++) {
+        const struct br_plan_candidate c = candidate_at(t->named, m, (double)n, y);
+        if (fabs(c.log_error - wanted) < nearest && is_new(plan, &c)) {
+            nearest = fabs(c.log_error - wanted);
+            found = c;
+        }
+    }
+    if (found.named)
+        take(plan, batch, &found);
+}
+
+static void propose_for_error(const struct br_plan *plan, struct table *table, size_t best,
+                              struct br_plan_batch *batch)
+{
+    const bool reached = best < plan->count;
+    const double limit = best_seconds_of(plan, best);
+    double safest = limit;
+    for (size_t c = 0; c < plan->methods.count; c++)
+        safest = fmin(safest, table->safe[c].seconds);
+    take_least(plan, batch, table->safe, SAFE, worth_trying * limit);
+    for (size_t c = 0; c < plan->methods.count; c++)
+        if (!(table->gamble[c].seconds <= worth_a_gamble * safest))
+            table->gamble[c].named = NULL;
+    if (reached)
+        tune(plan, batch, best);
+    if (isfinite(safest))
+        take_least(plan, batch, table->gamble, GAMBLES, -least_score);
+    if (!reached && batch->count == 0 && table->explorer.named)
+        take(plan, batch, &table->explorer);
+}
+
+static void propose_for_seconds(const struct br_plan *plan, struct table *table, size_t best,
+                                struct br_plan_batch *batch)
+{
+    const double error = best < plan->count ? br_trial_bound(&plan->trial[best], 0) : INFINITY;
+    if (best < plan->count && plan->trial[best].end == BR_TRIAL_DOUBTFUL)
+        return; /* nobody could tell what is better */
+    take_least(plan, batch, table->safe, SAFE, worth_seconds * error);
+}
+
+void br_plan_propose(const struct br_plan *plan, struct br_plan_batch *batch)
+{
+    struct table table;
+    const size_t best = br_plan_best(plan);
+    batch->count = 0;
+    search_all(plan, best, &table);
+    if (isfinite(plan->goal.error))
+        propose_for_error(plan, &table, best, batch);
+    else
+        propose_for_seconds(plan, &table, best, batch);
 }

@@ -4,7 +4,7 @@
  * as functions of x and t, add up to the whole error. Of a source that acts differently beside
  * another one, the chain tells what goes where it is taken away in this order.
  *
- * To add a source: one record in split_sources.c, where the chain has it. */
+ * To add a source: one row in split.c, where the chain has it. */
 #ifndef BR_STUDY_TRADE_SPLIT_H
 #define BR_STUDY_TRADE_SPLIT_H
 
@@ -82,8 +82,5 @@ bool br_share_told(const struct br_share *share, size_t norm, enum br_part part)
 /* Its norm over the sum of all parts' norms; NaN where that is 0. */
 double br_share_of_sum(const struct br_split *split, const struct br_share *share, size_t norm,
                        enum br_part part);
-
-/* Ways to refine in time, those that may be the best first, `most` of them into `out`; how many. */
-size_t br_refinements(const struct br_split *split, size_t most, struct br_refinement *out);
 
 #endif

@@ -12,7 +12,7 @@ double br_trade_target(size_t digit)
 
 double br_trade_step(const struct br_trade *trade, const struct br_trial *trial)
 {
-    return br_contender_adaptive(trial->contender)
+    return trial->named->method.scheme->adaptive
                ? 0
                : br_time_step(trade->request.scene, trial->at.steps);
 }
@@ -42,11 +42,11 @@ static bool is_cheaper(const struct br_trial *a, const struct br_trial *b)
 }
 
 size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double target,
-                          const struct br_contender *only)
+                          const struct br_named_method *only)
 {
     size_t best = count;
     for (size_t i = 0; i < count; i++) {
-        if (only && trial[i].contender != only)
+        if (only && trial[i].named != only)
             continue;
         if (!(br_trial_bound(&trial[i], 0) <= target) || !isfinite(br_trial_seconds(&trial[i])))
             continue;
@@ -84,9 +84,8 @@ static void choose(struct br_trade *t)
     for (size_t d = 0; d < BR_TRADE_DIGITS; d++) {
         const double target = br_trade_target(d);
         t->best[d] = br_trials_cheapest(t->trial, t->count, target, NULL);
-        for (size_t c = 0; c < t->contenders.count; c++)
-            t->best_of[c][d] =
-                br_trials_cheapest(t->trial, t->count, target, &t->contenders.list[c]);
+        for (size_t c = 0; c < t->methods.count; c++)
+            t->best_of[c][d] = br_trials_cheapest(t->trial, t->count, target, &t->methods.list[c]);
     }
 }
 
@@ -109,4 +108,159 @@ void br_trade_clear(struct br_trade *t)
     t->trial = NULL;
     t->front = NULL;
     t->count = 0;
+}
+
+/* ---- the grid ---- */
+
+/* The trials of a trade: which resolutions each named method is tried at. */
+
+/* Roots of ten apart in time and factors of four in space, which nest. */
+static const size_t default_n[] = {25, 100, 400, 1600, 6400};
+static const size_t default_steps[] = {10, 30, 100, 300, 1000, 3000, 10000};
+static const double default_tolerance[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10};
+
+/* An adaptive scheme is looked at so many times: each of these is the end of a step. */
+enum { LEVELS = 20 };
+
+/* Element-stages of a trial in a default grid at most, by the default solver, and by the others,
+ * which are some 20 times slower; steps of an adaptive scheme where they are not known yet, and of
+ * one that marches by itself and solves for more than a step. */
+static const double most_work = 4e6, most_slow_work = 4e5, guessed_steps = 100;
+
+/* A grid with its defaults filled in. */
+struct lists {
+    struct br_trade_grid grid;
+    bool capped_n, capped_steps; /* defaults: leave out what is heavy */
+};
+
+static struct lists fill_in(const struct br_trade_grid *given)
+{
+    struct lists l = {*given, given->n_count == 0, given->step_count == 0};
+    if (l.capped_n) {
+        l.grid.n = default_n;
+        l.grid.n_count = sizeof default_n / sizeof *default_n;
+    }
+    if (l.capped_steps) {
+        l.grid.steps = default_steps;
+        l.grid.step_count = sizeof default_steps / sizeof *default_steps;
+    }
+    if (!given->tolerances) {
+        l.grid.tolerance = default_tolerance;
+        l.grid.tolerances = sizeof default_tolerance / sizeof *default_tolerance;
+    }
+    return l;
+}
+
+bool br_trade_is_printed_method(const struct br_named_method *c)
+{
+    const struct br_method *m = &c->method, paper = br_method_default();
+    return m->scheme == paper.scheme && m->contact == paper.contact &&
+           m->friction == paper.friction && m->axial_degree == paper.axial_degree;
+}
+
+/* Whether the paper's table has a cell there. */
+static bool is_printed(const struct br_scene *scene, const struct br_printed *printed, size_t n,
+                       size_t steps)
+{
+    const double k = br_time_step(scene, steps);
+    for (size_t i = 0; printed && i < printed->count; i++)
+        if (printed->cell[i].n == n && fabs(printed->cell[i].k / k - 1) <= 1e-9)
+            return true;
+    return false;
+}
+
+/* Adds a trial; with trade->trial NULL it only counts. */
+static void add(struct br_trade *t, const struct br_trial *trial)
+{
+    if (t->trial)
+        t->trial[t->count] = *trial;
+    t->count++;
+}
+
+/* Whether a default grid has it. */
+static bool is_light(const struct lists *l, const struct br_named_method *c, size_t n, double steps)
+{
+    const double work = (double)n * steps * (double)br_time_scheme_stages(c->method.scheme);
+    const bool quick = c->method.solver == br_linear_solvers[0];
+    return !(l->capped_n || l->capped_steps) || work <= (quick ? most_work : most_slow_work);
+}
+
+static void add_adaptive(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
+{
+    for (size_t i = 0; i < l->grid.n_count; i++)
+        for (size_t j = 0; j < l->grid.tolerances; j++)
+            if (!l->capped_n || is_light(l, c, l->grid.n[i], guessed_steps))
+                add(t, &(struct br_trial){.named = c,
+                                          .at = {l->grid.n[i], LEVELS},
+                                          .tolerance = l->grid.tolerance[j]});
+}
+
+static bool is_listed(const struct lists *l, const struct br_named_method *c, size_t n,
+                      size_t steps)
+{
+    bool has_n = false, has_steps = false;
+    for (size_t i = 0; i < l->grid.n_count; i++)
+        has_n |= l->grid.n[i] == n;
+    for (size_t j = 0; j < l->grid.step_count; j++)
+        has_steps |= l->grid.steps[j] == steps;
+    return has_n && has_steps && is_light(l, c, n, (double)steps);
+}
+
+/* Where neither list is given, the paper's method has all that the paper prints. */
+static void add_printed(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
+{
+    const struct br_scene *scene = t->request.scene;
+    for (size_t i = 0; l->grid.printed && i < l->grid.printed->count; i++) {
+        const struct br_printed_cell *cell = &l->grid.printed->cell[i];
+        size_t steps;
+        if (br_steps_of(scene, cell->k, &steps, NULL) || is_listed(l, c, cell->n, steps))
+            continue;
+        add(t, &(struct br_trial){.named = c, .at = {cell->n, steps}, .printed = true});
+    }
+}
+
+static void add_fixed(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
+{
+    const bool paper = br_trade_is_printed_method(c);
+    for (size_t i = 0; i < l->grid.n_count; i++)
+        for (size_t j = 0; j < l->grid.step_count; j++) {
+            const size_t n = l->grid.n[i], steps = l->grid.steps[j];
+            if (is_light(l, c, n, (double)steps))
+                add(t,
+                    &(struct br_trial){.named = c,
+                                       .at = {n, steps},
+                                       .printed = paper && is_printed(t->request.scene,
+                                                                      l->grid.printed, n, steps)});
+        }
+    if (paper && l->capped_n && l->capped_steps)
+        add_printed(t, l, c);
+}
+
+static void add_all(struct br_trade *t, const struct lists *l)
+{
+    t->count = 0;
+    for (size_t i = 0; i < t->methods.count; i++) {
+        const struct br_named_method *c = &t->methods.list[i];
+        if (c->method.scheme->adaptive)
+            add_adaptive(t, l, c);
+        else
+            add_fixed(t, l, c);
+    }
+}
+
+enum br_status br_trade_lay_out(struct br_trade *t, const struct br_trade_grid *grid,
+                                struct br_error *err)
+{
+    const struct lists l = fill_in(grid);
+    t->trial = NULL;
+    t->front = NULL;
+    add_all(t, &l);
+    if (t->count == 0)
+        return br_fail(err, BR_BAD_INPUT, "there is nothing to try: no method takes this scene");
+    t->trial = br_allocate(t->count, sizeof *t->trial);
+    t->front = br_allocate(t->count, sizeof *t->front);
+    if (!t->trial || !t->front)
+        return br_no_memory(err, "the trials");
+    add_all(t, &l);
+    return BR_OK;
 }

@@ -21,21 +21,21 @@ struct br_trade_grid {
 };
 
 struct br_trade {
-    struct br_contenders contenders;
+    struct br_named_methods methods;
     struct br_trial_request request; /* in one norm */
     const struct br_norm *norm[1];
-    struct br_trial *trial; /* count, those of a contender together; owned */
+    struct br_trial *trial; /* count, those of a named method together; owned */
     size_t count;
     bool *front;                  /* count: on the Pareto front of all; owned */
     size_t best[BR_TRADE_DIGITS]; /* the cheapest trial to each target; `count`: none */
-    /* Likewise of each contender. */
-    size_t best_of[BR_MOST_CONTENDERS][BR_TRADE_DIGITS];
+    /* Likewise of each named method. */
+    size_t best_of[BR_MOST_NAMED_METHODS][BR_TRADE_DIGITS];
     double wall_seconds; /* of all of it */
 };
 
-/* Lays out the trials of the contenders, which are set. Without lists of its own a grid is coarse,
- * leaves out what would be heavy, and has the printed table's cells for the paper's method. Fails
- * with BR_NO_MEMORY, BR_BAD_INPUT (no trial at all). */
+/* Lays out the trials of the named methods, which are set. Without lists of its own a grid is
+ * coarse, leaves out what would be heavy, and has the printed table's cells for the paper's method.
+ * Fails with BR_NO_MEMORY, BR_BAD_INPUT (no trial at all). */
 enum br_status br_trade_lay_out(struct br_trade *trade, const struct br_trade_grid *grid,
                                 struct br_error *err);
 
@@ -44,8 +44,8 @@ enum br_status br_trade_lay_out(struct br_trade *trade, const struct br_trade_gr
 enum br_status br_trade_hold(struct br_trade *trade, struct br_error *err);
 void br_trade_clear(struct br_trade *trade);
 
-/* Whether a contender is the paper's own method. */
-bool br_trade_is_printed_method(const struct br_contender *contender);
+/* Whether a named method is the paper's own method. */
+bool br_trade_is_printed_method(const struct br_named_method *named);
 
 /* -log10 of the relative error, over the seconds; NaN: no trial that counts. */
 double br_trade_digits_per_second(const struct br_trial *trial);
@@ -58,10 +58,11 @@ size_t br_trade_tally(const struct br_trade *trade, enum br_trial_end end);
 
 /* ---- choosing, in the request's first norm ---- */
 
-/* The trial with the least seconds among those whose error is at most the target, of one contender
- * or of all (NULL); of equals the one with fewer solves, then the first. `count`: there is none. */
+/* The trial with the least seconds among those whose error is at most the target, of one named
+ * method or of all (NULL); of equals the one with fewer solves, then the first. `count`: there is
+ * none. */
 size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double target,
-                          const struct br_contender *only);
+                          const struct br_named_method *only);
 
 /* Marks (out, count) the trials that no other one beats in error or seconds without losing in the
  * other; of equals the first. A slower one must be better by more than a millionth. */

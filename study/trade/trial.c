@@ -1,8 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/trade/trial.h"
-#include "study/grid/observer.h"
 
 #include <math.h>
+#include <string.h>
+
+#include "solver/clock.h"
+#include "study/fit/fit.h"
+#include "study/foresee/resources.h"
+#include "study/grid/observer.h"
+#include "study/grid/sweep.h"
 
 const char *br_trial_end_name(enum br_trial_end end)
 {
@@ -29,8 +35,8 @@ struct br_trial_request br_trial_request_default(const struct br_scene *scene)
 
 struct br_method br_trial_method(const struct br_trial *trial)
 {
-    struct br_method method = trial->contender->method;
-    if (br_contender_adaptive(trial->contender))
+    struct br_method method = trial->named->method;
+    if (trial->named->method.scheme->adaptive)
         method.tolerance = trial->tolerance;
     return method;
 }
@@ -52,6 +58,347 @@ double br_trial_bound(const struct br_trial *trial, size_t m)
     return counts && trial->scale[m] > 0 ? (trial->error[m][BR_PART_TOTAL] + own) / trial->scale[m]
                                          : NAN;
 }
+
+/* ---- seconds ---- */
+
+/* The seconds of trials: each marches alone, in this thread, with nothing else at work. */
+
+/* Element-steps between two looks at the clock, which takes some 0.3 us. */
+static const double between_looks = 1e5;
+
+/* A march is given up early where its first steps say that it will take so many times the limit;
+ * what an adaptive scheme will do, they do not say. */
+static const double sure_excess = 1.5;
+static const double least_evidence = 0.05; /* s of steps that an extrapolation is made from */
+
+/* A trial at work. */
+struct clocked {
+    struct br_trial *trial;
+    const struct br_trial_request *request;
+    struct br_march *march;
+    double set_up; /* s */
+    double start;  /* of its steps, s of this thread */
+};
+
+static bool is_stopped(const struct br_trial_request *request)
+{
+    const struct br_observer *o = request->observer;
+    return o && o->stop && o->stop(o->self);
+}
+
+/* What the march will have taken at its end, if it goes on like this, s; less where the steps so
+ * far say nothing. */
+static double foreseen(const struct clocked *c, double spent)
+{
+    const double done = (double)br_march_steps_done(c->march);
+    if (c->trial->named->method.scheme->adaptive || !(spent >= least_evidence))
+        return spent;
+    return c->set_up + spent * (double)c->trial->at.steps / (sure_excess * done);
+}
+
+/* Ends a march that takes too long, its set-up included. */
+static enum br_status look_at_clock(const struct clocked *c, struct br_error *err)
+{
+    const double limit = c->request->time_limit, steps = br_thread_seconds() - c->start;
+    const double spent = c->set_up + steps;
+    if (is_stopped(c->request))
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (!(limit > 0) || (spent <= limit && foreseen(c, steps) <= limit))
+        return BR_OK;
+    c->trial->end = BR_TRIAL_OVER;
+    return br_fail(&c->trial->failure, BR_VERDICT,
+                   "over the time limit of %g s: %.2g s for set-up and %zu of %zu time levels",
+                   limit, spent, br_march_steps_done(c->march), c->trial->at.steps);
+}
+
+static enum br_status make_steps(const struct clocked *c, struct br_error *err)
+{
+    const size_t steps = c->trial->at.steps;
+    const size_t every = 1 + (size_t)(between_looks / (double)c->trial->at.n);
+    const bool adaptive = c->trial->named->method.scheme->adaptive;
+    enum br_status status = BR_OK;
+    for (size_t i = 1; i <= steps && !status; i++) {
+        status = br_march_step(c->march, &c->trial->failure);
+        if (!status && (i % every == 0 || i == steps || adaptive))
+            status = look_at_clock(c, err);
+    }
+    return status;
+}
+
+/* Marches once; *cost (out) is what it took. */
+static enum br_status march_once(struct clocked *c, struct br_trial_cost *cost,
+                                 struct br_error *err)
+{
+    struct br_trial *t = c->trial;
+    const struct br_method method = br_trial_method(t);
+    const double start = br_thread_seconds();
+    const struct br_planned_march planned = {
+        .scene = c->request->scene, .method = &method, .n = t->at.n, .steps = t->at.steps};
+    enum br_status status = br_fits_memory(&planned, br_memory_available(), &t->failure);
+    if (!status)
+        status = br_march_create(&c->march, c->request->scene, t->at.n, t->at.steps, &method,
+                                 &t->failure);
+    c->start = br_thread_seconds();
+    cost->set_up = c->set_up = c->start - start;
+    if (!status)
+        status = look_at_clock(c, err);
+    if (!status)
+        status = make_steps(c, err);
+    cost->march = br_thread_seconds() - c->start;
+    if (!status)
+        cost->counts = br_march_counts(c->march);
+    br_march_free(c->march);
+    c->march = NULL;
+    return status;
+}
+
+/* The first march warms up, and counts where it takes so long that it is not repeated. */
+static enum br_status repeat(struct clocked *c, struct br_error *err)
+{
+    const struct br_trial_request *r = c->request;
+    struct br_trial_cost least = {.set_up = INFINITY}, now = {0};
+    enum br_status status = march_once(c, &now, err);
+    double spent = now.set_up + now.march;
+    if (!status && !(spent <= r->repeat_seconds))
+        least = now, least.repeats = 1;
+    for (spent = 0; !status && least.repeats < r->repeats && spent <= r->repeat_seconds;) {
+        if (least.repeats == 1 && least.set_up + least.march > r->repeat_seconds)
+            break;
+        status = march_once(c, &now, err);
+        spent += now.set_up + now.march;
+        now.repeats = least.repeats + 1;
+        if (now.set_up + now.march < least.set_up + least.march)
+            least = now;
+        least.repeats = now.repeats;
+    }
+    if (!status)
+        c->trial->cost = least;
+    return status;
+}
+
+/* What a march does is a result; the rest ends the call. */
+static enum br_status time_one(struct br_trial *trial, const struct br_trial_request *request,
+                               struct br_error *err)
+{
+    struct clocked c = {.trial = trial, .request = request};
+    const enum br_status status = repeat(&c, err);
+    if (status == BR_INTERRUPTED)
+        return status;
+    if (status && trial->end != BR_TRIAL_OVER)
+        trial->end = BR_TRIAL_FAILED;
+    return BR_OK;
+}
+
+/* What a trial costs, about, for the observer. */
+static double work_of(const struct br_trial *trial)
+{
+    return (double)trial->at.n * (double)trial->at.steps *
+               br_time_scheme_stages(trial->named->method.scheme) +
+           1e5;
+}
+
+static void begin(struct br_trial *t, const struct br_trial_request *request)
+{
+    t->end = BR_TRIAL_DONE;
+    t->cost = (struct br_trial_cost){.set_up = NAN, .march = NAN};
+    t->failure = (struct br_error){0};
+    for (size_t m = 0; m < request->norms; m++) {
+        t->scale[m] = t->own[m] = NAN;
+        for (int part = 0; part < BR_PARTS; part++)
+            t->error[m][part] = NAN;
+    }
+}
+
+/* Clears what is out, and sets `cost` and, where a trial did not come to its end, `end` and
+ * `failure`. */
+static enum br_status time_all(struct br_trial *trial, size_t count,
+                               const struct br_trial_request *request, struct br_error *err)
+{
+    const struct br_observer *o = request->observer;
+    double whole = 0, done = 0;
+    for (size_t i = 0; i < count; i++)
+        begin(&trial[i], request), whole += work_of(&trial[i]);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < count && !status; i++) {
+        status = is_stopped(request) ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                                     : time_one(&trial[i], request, err);
+        done += work_of(&trial[i]);
+        if (o && o->progress)
+            o->progress(o->self, done / whole);
+    }
+    return status;
+}
+
+/* ---- errors ---- */
+
+/* The errors of trials, as cells of studies: one study for each mesh and degree, whose cells are
+ * marched by as many methods, so that the judge looks at that mesh once. */
+
+/* Trials in groups, each on the same elements: a chain of studies over the norms. */
+struct groups {
+    const struct br_trial_request *request;
+    size_t count;
+    size_t *first;            /* count + 1: of each group in the next three lists */
+    struct br_trial **member; /* borrowed; the arrays are all owned */
+    size_t *steps;
+    struct br_method *method;
+    struct br_study *study; /* count in the first norm, then the next norms of each */
+};
+
+/* Whether two trials are judged, on the same elements. */
+static bool same_group(const struct br_trial *a, const struct br_trial *b)
+{
+    return a->end == BR_TRIAL_DONE && b->end == BR_TRIAL_DONE && a->at.n == b->at.n &&
+           a->named->method.axial_degree == b->named->method.axial_degree;
+}
+
+/* Whether a trial is to be judged, and none before it on its elements. */
+static bool is_first(const struct br_trial *trial, size_t i)
+{
+    for (size_t j = 0; j < i; j++)
+        if (same_group(&trial[j], &trial[i]))
+            return false;
+    return trial[i].end == BR_TRIAL_DONE;
+}
+
+static void collect(struct groups *g, struct br_trial *trial, size_t count)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (!is_first(trial, i))
+            continue;
+        g->first[g->count++] = used;
+        for (size_t j = i; j < count; j++)
+            if (same_group(&trial[j], &trial[i])) {
+                g->member[used] = &trial[j];
+                g->steps[used] = trial[j].at.steps;
+                g->method[used++] = br_trial_method(&trial[j]);
+            }
+    }
+    g->first[g->count] = used;
+}
+
+static struct br_study *study_of(const struct groups *g, size_t i, size_t m)
+{
+    return &g->study[m == 0 ? i : g->count + i * (g->request->norms - 1) + m - 1];
+}
+
+static void fill_studies(const struct groups *g, const struct br_judge *judge)
+{
+    const struct br_trial_request *r = g->request;
+    for (size_t i = 0; i < g->count; i++)
+        for (size_t m = 0; m < r->norms; m++) {
+            struct br_study *s = study_of(g, i, m);
+            const size_t first = g->first[i];
+            *s = (struct br_study){
+                .scene = r->scene,
+                .norm = r->norm[m],
+                .method = g->method[first],
+                .cell_method = &g->method[first],
+                .judge = judge,
+                .reference_method = r->reference_method,
+                .reference = r->reference,
+                .n_count = 1,
+                .k_count = g->first[i + 1] - first,
+                .n = &g->member[first]->at.n,
+                .steps = &g->steps[first],
+                .next_norm = m + 1 < r->norms ? study_of(g, i, m + 1) : NULL,
+            };
+            s->reference_method.axial_degree = s->method.axial_degree;
+        }
+}
+
+/* The judge's own error and round-off, in a norm. */
+static double own_error(const struct br_study *s)
+{
+    const double told =
+        br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, BR_PART_TOTAL);
+    return isfinite(told) ? told + s->judged_by.round_off * s->reference_scale : NAN;
+}
+
+static void take_cell(struct br_trial *t, size_t m, const struct br_study *s,
+                      const struct br_cell *cell)
+{
+    t->scale[m] = s->reference_scale;
+    t->own[m] = own_error(s);
+    memcpy(t->error[m], cell->error, sizeof cell->error);
+    const double error = cell->error[BR_PART_TOTAL];
+    if (cell->failure.status || !isfinite(error)) {
+        t->end = BR_TRIAL_FAILED;
+        t->failure = cell->failure;
+        if (!cell->failure.status)
+            br_fail(&t->failure, BR_NOT_FINITE, "its error is not a number");
+    } else if (!(s->reference_scale > 0)) {
+        t->end = BR_TRIAL_FAILED;
+        br_fail(&t->failure, BR_NOT_FINITE, "the solution is zero: no error is relative to it");
+    } else if (t->end == BR_TRIAL_DONE && cell->unstable) {
+        t->end = BR_TRIAL_UNSTABLE;
+        br_fail(&t->failure, BR_VERDICT,
+                "the lagged contact is beyond its stability limit: bounded chatter");
+    } else if (t->end == BR_TRIAL_DONE && !(error >= br_flag_margin * t->own[m]) &&
+               isfinite(t->own[m])) {
+        t->end = BR_TRIAL_DOUBTFUL;
+    }
+}
+
+static void take_cells(const struct groups *g)
+{
+    for (size_t i = 0; i < g->count; i++)
+        for (size_t m = 0; m < g->request->norms; m++) {
+            const struct br_study *s = study_of(g, i, m);
+            for (size_t c = 0; c < s->k_count; c++)
+                take_cell(g->member[g->first[i] + c], m, s, &s->cell[c]);
+        }
+}
+
+static enum br_status allocate(struct groups *g, size_t count, struct br_error *err)
+{
+    g->first = br_allocate(count + 1, sizeof *g->first);
+    g->member = br_allocate(count, sizeof(struct br_trial *));
+    g->steps = br_allocate(count, sizeof *g->steps);
+    g->method = br_allocate(count, sizeof *g->method);
+    g->study = br_allocate(count * g->request->norms, sizeof *g->study);
+    return g->first && g->member && g->steps && g->method && g->study
+               ? BR_OK
+               : br_no_memory(err, "the trials");
+}
+
+static void clear(struct groups *g)
+{
+    for (size_t i = 0; g->study && i < g->count * g->request->norms; i++)
+        br_study_clear(&g->study[i]);
+    free(g->first);
+    free(g->member);
+    free(g->steps);
+    free(g->method);
+    free(g->study);
+}
+
+/* Judges those that came to their end. */
+static enum br_status judge_all(struct br_trial *trial, size_t count,
+                                const struct br_trial_request *request, struct br_error *err)
+{
+    const struct br_judge *judge = request->judge ? request->judge : br_judge_best(request->scene);
+    if (!judge->create)
+        return br_fail(err, BR_BAD_INPUT, "there is no judge of this scene's errors: %s",
+                       judge->title);
+    if (count == 0)
+        return BR_OK;
+    struct groups g = {.request = request};
+    enum br_status status = allocate(&g, count, err);
+    if (!status) {
+        collect(&g, trial, count);
+        fill_studies(&g, judge);
+        if (g.count)
+            status = br_study_run(g.study, g.count, request->threads, request->observer, err);
+    }
+    if (!status)
+        take_cells(&g);
+    clear(&g);
+    return status;
+}
+
+/* ---- both ---- */
 
 /* A share of the whole work, for the observer. */
 struct share {
@@ -90,7 +437,7 @@ enum br_status br_trials_hold(struct br_trial *trial, size_t count,
     };
     struct br_trial_request own = *request;
     own.observer = request->observer ? &part : NULL;
-    enum br_status status = br_trials_time(trial, count, &own, err);
+    enum br_status status = time_all(trial, count, &own, err);
     share = (struct share){request->observer, 0.75, 0.25};
-    return status ? status : br_trials_judge(trial, count, &own, err);
+    return status ? status : judge_all(trial, count, &own, err);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a result costs and what it is worth: trials. A trial is one contender at one resolution; it
- * gets the seconds of its march, undisturbed and alone, and its errors against a judge.
+/* What a result costs and what it is worth: trials. A trial is one named method at one resolution;
+ * it gets the seconds of its march, undisturbed and alone, and its errors against a judge.
  *
  * Seconds are those of the processor in one thread, the least of several repeats after a warm-up.
  * Errors come from br_study_run, the same cells that `study` shows. */
@@ -9,7 +9,7 @@
 
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
-#include "study/trade/contender.h"
+#include "study/trade/named_method.h"
 
 /* X(name, word): how a trial ended. */
 #define BR_TRIAL_LIST(X)                                                          \
@@ -36,9 +36,9 @@ struct br_trial_cost {
 
 struct br_trial {
     /* in */
-    const struct br_contender *contender; /* borrowed */
-    struct br_resolution at; /* of an adaptive contender, at.steps are the levels looked at */
-    double tolerance;        /* of an adaptive contender; otherwise 0 */
+    const struct br_named_method *named; /* borrowed */
+    struct br_resolution at; /* of an adaptive named method, at.steps are the levels looked at */
+    double tolerance;        /* of an adaptive named method; otherwise 0 */
     bool printed;            /* the paper's method at a resolution of its printed tables */
     /* out */
     enum br_trial_end end;
@@ -74,13 +74,6 @@ struct br_trial_request br_trial_request_default(const struct br_scene *scene);
 enum br_status br_trials_hold(struct br_trial *trial, size_t count,
                               const struct br_trial_request *request, struct br_error *err);
 
-/* The halves of it. Timing clears what is out, and sets `cost` and, where a trial did not come to
- * its end, `end` and `failure`; judging is of the trials whose `end` is BR_TRIAL_DONE. */
-enum br_status br_trials_time(struct br_trial *trial, size_t count,
-                              const struct br_trial_request *request, struct br_error *err);
-enum br_status br_trials_judge(struct br_trial *trial, size_t count,
-                               const struct br_trial_request *request, struct br_error *err);
-
 /* Set-up and march, s; NaN: it did not come to its end. */
 double br_trial_seconds(const struct br_trial *trial);
 
@@ -90,7 +83,7 @@ double br_trial_relative(const struct br_trial *trial, size_t m, enum br_part pa
 /* What the relative error is at most, the judge's own error added; NaN: no trial that counts. */
 double br_trial_bound(const struct br_trial *trial, size_t m);
 
-/* The method that a trial marches with: its contender's, with the trial's tolerance. */
+/* The method that a trial marches with: its named method's, with the trial's tolerance. */
 struct br_method br_trial_method(const struct br_trial *trial);
 
 #endif

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/fit/order_fit.h"
+#include "study/fit/fit.h"
 
 const char *const br_verdict_names[] = {"PASS", "FAIL", "INCONCLUSIVE"};
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/trade/contender.h"
+#include "study/trade/named_method.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -31,12 +31,12 @@ static const char *title_of(const struct br_method_field *f)
     return f->words_title ? f->words_title : f->title;
 }
 
-size_t br_contender_kinds(void)
+size_t br_named_method_kinds(void)
 {
     return KINDS;
 }
 
-const char *br_contender_kind(size_t kind, char *words, size_t size)
+const char *br_named_method_kind(size_t kind, char *words, size_t size)
 {
     size_t used = 0;
     double value;
@@ -122,18 +122,14 @@ static enum br_status check(const struct br_method *m, const bool taken[KINDS],
     return status ? status : check_somewhere(m, err);
 }
 
-bool br_contender_adaptive(const struct br_contender *contender)
-{
-    return contender->method.scheme->adaptive;
-}
-
-enum br_status br_contender_read(const char *name, struct br_contender *c, struct br_error *err)
+enum br_status br_named_method_read(const char *name, struct br_named_method *c,
+                                    struct br_error *err)
 {
     bool taken[KINDS] = {false};
-    *c = (struct br_contender){.method = br_method_default()};
+    *c = (struct br_named_method){.method = br_method_default()};
     if (strlen(name) >= sizeof c->name)
         return br_fail(err, BR_BAD_INPUT, "found '%s', expected at most %d letters", name,
-                       BR_CONTENDER_NAME - 1);
+                       BR_METHOD_NAME_SIZE - 1);
     strcpy(c->name, name);
     enum br_status status = BR_OK;
     for (const char *rest = name; !status; rest++) {
@@ -152,7 +148,7 @@ enum br_status br_contender_read(const char *name, struct br_contender *c, struc
 
 /* ---- lists ---- */
 
-static bool contains(const struct br_contenders *all, const struct br_contender *c)
+static bool contains(const struct br_named_methods *all, const struct br_named_method *c)
 {
     for (size_t i = 0; i < all->count; i++)
         if (br_methods_equal(&all->list[i].method, &c->method))
@@ -160,24 +156,24 @@ static bool contains(const struct br_contenders *all, const struct br_contender 
     return false;
 }
 
-enum br_status br_contenders_read(const char *option, const char *text, struct br_contenders *all,
-                                  struct br_error *err)
+enum br_status br_named_methods_read(const char *option, const char *text,
+                                     struct br_named_methods *all, struct br_error *err)
 {
     all->count = 0;
     for (const char *rest = text;; rest++) {
-        char name[2 * BR_CONTENDER_NAME];
-        struct br_contender c;
+        char name[2 * BR_METHOD_NAME_SIZE];
+        struct br_named_method c;
         struct br_error inner = {0};
         const size_t length = strcspn(rest, ",");
         snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1),
                  rest);
-        if (br_contender_read(name, &c, &inner))
+        if (br_named_method_read(name, &c, &inner))
             return br_fail(err, BR_BAD_INPUT, "%s: '%s': %s", option, name, inner.message);
         if (contains(all, &c))
             return br_fail(err, BR_BAD_INPUT, "%s: %s is given twice", option, name);
-        if (all->count == BR_MOST_CONTENDERS)
+        if (all->count == BR_MOST_NAMED_METHODS)
             return br_fail(err, BR_BAD_INPUT, "%s: more than %d methods", option,
-                           BR_MOST_CONTENDERS);
+                           BR_MOST_NAMED_METHODS);
         all->list[all->count++] = c;
         rest += length;
         if (!*rest)
@@ -187,37 +183,31 @@ enum br_status br_contenders_read(const char *option, const char *text, struct b
 
 /* ---- the default ones ---- */
 
-/* Adds the contender of that name, unless the scene or the list has no use for it. */
-static void add(const struct br_scene *scene, struct br_contenders *all, const char *name)
+/* Adds the method of that name, unless the scene or the list has no use for it. */
+__attribute__((format(printf, 3, 4))) static void add(const struct br_scene *scene,
+                                                      struct br_named_methods *all,
+                                                      const char *format, ...)
 {
-    struct br_contender c;
-    if (br_contender_read(name, &c, NULL) || contains(all, &c) ||
-        all->count == BR_MOST_CONTENDERS || try_scene(scene, &c.method, NULL))
-        return;
-    all->list[all->count++] = c;
-}
-
-__attribute__((format(printf, 3, 4))) static void add_named(const struct br_scene *scene,
-                                                            struct br_contenders *all,
-                                                            const char *format, ...)
-{
-    char name[BR_CONTENDER_NAME];
+    char name[BR_METHOD_NAME_SIZE];
+    struct br_named_method c;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(name, sizeof name, format, arguments);
     va_end(arguments);
-    add(scene, all, name);
+    if (!br_named_method_read(name, &c, NULL) && !contains(all, &c) &&
+        all->count < BR_MOST_NAMED_METHODS && !try_scene(scene, &c.method, NULL))
+        all->list[all->count++] = c;
 }
 
 static void add_scheme(const struct br_scene *scene, const struct br_time_scheme *scheme,
-                       struct br_contenders *all)
+                       struct br_named_methods *all)
 {
     if (!scene->contact.modelled || !scheme->may_lag) {
-        add(scene, all, scheme->name);
+        add(scene, all, "%s", scheme->name);
         return;
     }
     for (const struct br_contact_rule *const *rule = br_contact_rules; *rule; rule++)
-        add_named(scene, all, "%s+%s", scheme->name, (*rule)->name);
+        add(scene, all, "%s+%s", scheme->name, (*rule)->name);
 }
 
 /* The first scheme of order two: what the other friction rules and solvers are held with. */
@@ -229,16 +219,17 @@ static const struct br_time_scheme *base_scheme(void)
     return *scheme;
 }
 
-static void add_solvers(const struct br_scene *scene, const char *base, struct br_contenders *all)
+static void add_solvers(const struct br_scene *scene, const char *base,
+                        struct br_named_methods *all)
 {
     for (const struct br_linear_solver *const *s = &br_linear_solvers[1]; *s; s++) {
-        add_named(scene, all, "%s+%s", base, (*s)->name);
+        add(scene, all, "%s+%s", base, (*s)->name);
         if (br_linear_solver_heeds(*s, "--scaling") && br_linear_solver_heeds(*s, "--refinement"))
-            add_named(scene, all, "%s+%s+scaled+refined", base, (*s)->name);
+            add(scene, all, "%s+%s+scaled+refined", base, (*s)->name);
     }
 }
 
-void br_contenders_default(const struct br_scene *scene, struct br_contenders *all)
+void br_named_methods_default(const struct br_scene *scene, struct br_named_methods *all)
 {
     const struct br_time_scheme *base = base_scheme();
     all->count = 0;
@@ -246,8 +237,8 @@ void br_contenders_default(const struct br_scene *scene, struct br_contenders *a
         add_scheme(scene, *s, all);
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
         if (scene->axial.modelled && (*s == base || (*s)->order > 2))
-            add_named(scene, all, "%s+p2", (*s)->name);
+            add(scene, all, "%s+p2", (*s)->name);
     for (size_t i = 1; br_friction_rules[i] && scene->friction.law != BR_FRICTIONLESS; i++)
-        add_named(scene, all, "%s+%s", base->name, br_friction_rules[i]->name);
+        add(scene, all, "%s+%s", base->name, br_friction_rules[i]->name);
     add_solvers(scene, base->name, all);
 }
