@@ -89,8 +89,8 @@ static enum br_status compute(struct run *r, struct br_error *err)
     const struct br_observer *observer = br_progress_start("marching", quiet);
     const enum br_status status = br_paper_run(&r->paper, &request, observer, err);
     br_progress_end();
-    for (size_t i = 0; br_claims[i] && !status; i++)
-        r->finding[i] = br_claim_measure(br_claims[i], &r->paper);
+    for (size_t i = 0; br_claims[i].name && !status; i++)
+        r->finding[i] = br_claim_measure(&br_claims[i], &r->paper);
     if (!status)
         report(r);
     return status;

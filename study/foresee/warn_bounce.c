@@ -9,7 +9,7 @@
 #include "reference/energy/energy.h"
 #include "solver/laws.h"
 #include "study/foresee/warnings.h"
-#include "study/run/model.h"
+#include "study/run/run.h"
 
 enum { MOST_ELEMENTS = 4, MOST_STEPS = 4000 };
 

@@ -7,10 +7,11 @@
  * operations whichever threads run it, so the result has the same bits on any number. */
 #include "study/grid/lockstep.h"
 
-#include "study/grid/lockstep_state.h"
-#include "study/grid/observer.h"
-#include "study/grid/threads.h"
 #include <stdio.h>
+
+#include "solver/clock.h"
+#include "study/grid/each.h"
+#include "study/grid/sweep.h"
 
 static size_t batch_end(const struct br_lockstep *l, size_t b)
 {
@@ -77,6 +78,16 @@ static void add_up_batch(struct br_lockstep *l, size_t b)
         br_lockstep_add_up(l, slot_at(l, i), i);
 }
 
+/* Steps on to the cell's time level `step`, and counts the seconds. */
+static enum br_status advance(struct br_runner *r, size_t step)
+{
+    const double start = br_seconds();
+    while (!r->error.status && br_march_steps_done(r->march) < step)
+        br_march_step(r->march, &r->error);
+    r->seconds += br_seconds() - start;
+    return r->error.status;
+}
+
 /* A cell goes on to the level of that index, if it is one of its own, and is measured there. */
 static void cell_level(struct br_lockstep *l, size_t index, size_t cell)
 {
@@ -84,7 +95,7 @@ static void cell_level(struct br_lockstep *l, size_t index, size_t cell)
     const size_t ratio = l->study->reference.steps / l->study->cell[cell].at.steps;
     if (r->error.status || l->level[index] % ratio != 0)
         return;
-    if (br_runner_advance(r, l->level[index] / ratio))
+    if (advance(r, l->level[index] / ratio))
         br_cell_failed(l->study, cell, &r->error);
     else
         br_lockstep_measure(l, cell, slot_at(l, index));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
-#include "study/grid/lockstep_state.h"
+#include "study/grid/lockstep.h"
 
 /* The channel, or NULL where it is not in use at that level. */
 static struct br_channel *channel_at(struct br_lockstep *l, enum br_field_kind kind, int measure,
@@ -126,7 +126,7 @@ void br_lockstep_measure(struct br_lockstep *l, size_t index, struct br_slot slo
             const struct br_channel *c = channel_at(l, (enum br_field_kind)kind, measure, last);
             if (!c)
                 continue;
-            br_runner_look(r, (enum br_field_kind)kind, (enum br_measure)measure);
+            br_look(r->march, (enum br_field_kind)kind, (enum br_measure)measure, &r->view);
             const double size = distance(l, index, c, slot_of(c, slot));
             if (!isfinite(size))
                 br_fail(&r->error, BR_NOT_FINITE, "the error at t = %g s is %g", t, size);

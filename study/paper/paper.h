@@ -93,14 +93,4 @@ void br_paper_clear(struct br_paper *paper);
 /* The times of an example's curves, s, ascending; *count of them. */
 const double *br_figure_times(size_t example, size_t *count);
 
-/* Inside: each fills its part of the paper. */
-enum br_status br_paper_sweep_create(struct br_paper *paper, struct br_error *err);
-enum br_status br_paper_sweep_point(struct br_paper *paper, size_t sweep, size_t point,
-                                    struct br_error *err);
-enum br_status br_paper_exact(struct br_paper *paper, size_t example,
-                              const struct br_observer *observer, struct br_error *err);
-enum br_status br_paper_early(struct br_paper *paper, struct br_error *err);
-enum br_status br_paper_tables(struct br_paper *paper, const struct br_observer *observer,
-                               struct br_error *err);
-
 #endif

@@ -6,8 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/scene/interval.h"
-
 typedef struct br_interval iv;
 
 static iv add(iv a, iv b)

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "study/scene/expression.h"
-#include "study/scene/products.h"
 
 /* "path:line: key: ..." */
 enum br_status br_scene_refuse(const struct br_scene_reader *r, size_t line, const char *key,
