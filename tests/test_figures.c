@@ -299,7 +299,7 @@ static void check_panel(const struct br_paper_figure *row, const struct br_panel
             if (p->series[j]->pen == BR_PEN_LINE && (row->number != 9 || j != 1)) /* -h(t) */
                 check_rows(p, p->series[j], row->example - 1);
     } else {
-        const struct br_exact_point *e = &paper.early.exact[100];
+        const struct br_history_row *e = &paper.early.exact[100];
         assert_string_equal(p->x_label, "time t (µs)");
         figure_point(p->series[0], 100, 1e6 * e->time,
                      row->number == 2 ? 1e9 * e->displacement[BR_BENDING] : -e->friction_force);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What lockstep.c runs, lockstep_setup.c sets up and lockstep_measure.c measures; for
- * these alone. */
+/* What lockstep_setup.c sets up and lockstep.c runs and measures; for these alone. */
 #ifndef BR_STUDY_GRID_LOCKSTEP_H
 #define BR_STUDY_GRID_LOCKSTEP_H
 
@@ -88,31 +87,6 @@ static inline struct br_elements br_lockstep_elements(const struct br_lockstep *
 enum br_status br_lockstep_create(struct br_lockstep *lockstep, struct br_study *study,
                                   const struct br_observer *observer, struct br_error *err);
 void br_lockstep_clear(struct br_lockstep *lockstep);
-
-/* A place for the reference at one time level. */
-struct br_slot {
-    size_t buffer, index;
-};
-
-/* Looks at one field of the reference, which is at a level, and projects it into a slot. */
-void br_lockstep_project(struct br_lockstep *lockstep, enum br_field_kind kind, struct br_slot slot,
-                         size_t level);
-
-/* Whether the reference is audited at the level of that index. */
-bool br_lockstep_audits(const struct br_lockstep *lockstep, size_t index);
-
-/* Measures that field, as last looked at, against the auditor, into a slot. */
-enum br_status br_lockstep_audit(struct br_lockstep *lockstep, enum br_field_kind kind,
-                                 struct br_slot slot, size_t level, struct br_error *err);
-
-/* Adds up what has been measured of the reference in a slot, level after level. */
-void br_lockstep_add_up(struct br_lockstep *lockstep, struct br_slot slot, size_t index);
-
-/* Measures a cell as it stands against a slot. */
-void br_lockstep_measure(struct br_lockstep *lockstep, size_t cell, struct br_slot slot);
-
-/* What has been measured, into the studies. */
-void br_lockstep_conclude(struct br_lockstep *lockstep);
 
 /* Marks a cell as failed in all norms, with the reason. */
 void br_cell_failed(struct br_study *study, size_t cell, const struct br_error *error);

@@ -309,21 +309,12 @@ enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
     l->observer = observer;
     atomic_init(&l->first_failed, SIZE_MAX);
     choose_channels(l);
-    enum br_status status = list_levels(l, err);
-    if (!status)
-        status = list_roots(l, err);
-    if (!status)
-        status = create_channels(l, err);
-    if (!status)
-        status = create_buffers(l, err);
-    if (!status)
-        status = create_sums(l, err);
-    if (!status)
-        status = create_judges(l, err);
-    if (!status)
-        status = create_cells(l, err);
-    if (!status)
-        status = create_crews(l, err);
+    enum br_status (*const create[])(struct br_lockstep *, struct br_error *) = {
+        list_levels, list_roots,    create_channels, create_buffers,
+        create_sums, create_judges, create_cells,    create_crews};
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < sizeof create / sizeof *create && !status; i++)
+        status = create[i](l, err);
     return status;
 }
 

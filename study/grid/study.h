@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the error of a cell is: a registry. A norm is built from measures (solver/modes.h)
- * of the difference at a cell's time levels: the largest over time of one measure and,
- * in the energy norm, a sum over time of another. Axial and bending apart, and both. */
+/* A convergence study, its cells and their errors. */
 #ifndef BR_STUDY_GRID_STUDY_H
 #define BR_STUDY_GRID_STUDY_H
 
 #include "reference/judge.h"
 #include "solver/modes.h"
+
+/* ---- norms ---- */
+
+/* What the error of a cell is: a registry. A norm is built from measures (solver/modes.h)
+ * of the difference at a cell's time levels: the largest over time of one measure and,
+ * in the energy norm, a sum over time of another. Axial and bending apart, and both. */
 
 /* The error and its parts, each with its own maximum over the time levels. */
 enum br_part { BR_PART_TOTAL, BR_PART_AXIAL, BR_PART_BENDING, BR_PARTS };

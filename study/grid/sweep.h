@@ -20,9 +20,7 @@ enum br_status br_study_run(struct br_study *studies, size_t count, int threads,
 enum br_status br_study_run_each(struct br_study *studies, size_t count, int threads,
                                  const struct br_observer *observer, struct br_error *err);
 
-/* ---- the engine ---- */
-
-/* The engine of br_study_run: reference and cells in lockstep, as tasks. */
+/* ---- the engine: reference and cells in lockstep, as tasks ---- */
 
 /* Marches prepared studies (cells allocated, grids known to nest) that have not failed already; see
  * br_study_run_each. */

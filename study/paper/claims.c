@@ -55,11 +55,11 @@ double br_smaller(double a, double b)
 /* ---- Example 1: stick ---- */
 
 /* The largest |w(L, t)| over the rows, m. */
-static double most_deflection(const struct br_history_record *record)
+static double most_deflection(const struct br_history_row *row, size_t rows)
 {
     double most = 0;
-    for (size_t i = 0; i < record->rows; i++)
-        most = br_larger(most, fabs(record->row[i].displacement[BR_BENDING]));
+    for (size_t i = 0; i < rows; i++)
+        most = br_larger(most, fabs(row[i].displacement[BR_BENDING]));
     return most;
 }
 
@@ -81,10 +81,8 @@ enum { VISIBLE = 100 };
 static void measure_clamped(const struct br_paper *p, struct br_finding *f)
 {
     const struct br_example *e = &p->example[0];
-    f->value = most_deflection(&e->record);
-    f->exact = 0;
-    for (size_t i = 0; i < e->exacts; i++)
-        f->exact = br_larger(f->exact, fabs(e->exact[i].displacement[BR_BENDING]));
+    f->value = most_deflection(e->record.row, e->record.rows);
+    f->exact = most_deflection(e->exact, e->exacts);
     f->error = fabs(f->value - f->exact);
     const double visible = most_of_beam(&e->record) / VISIBLE;
     f->agreement = br_below(f->value, f->error, visible);
@@ -93,22 +91,19 @@ static void measure_clamped(const struct br_paper *p, struct br_finding *f)
 }
 
 /* The largest |sigma_V| / h over the steps; the first has no stress. */
-static double most_used(const struct br_history_record *record)
+static double most_used(const struct br_history_row *row, size_t rows)
 {
     double most = 0;
-    for (size_t i = 1; i < record->rows; i++)
-        most = br_larger(most, fabs(record->row[i].friction_force) / record->row[i].friction_bound);
+    for (size_t i = 1; i < rows; i++)
+        most = br_larger(most, fabs(row[i].friction_force) / row[i].friction_bound);
     return most;
 }
 
 static void measure_below(const struct br_paper *p, struct br_finding *f)
 {
     const struct br_example *e = &p->example[0];
-    f->value = most_used(&e->record);
-    f->exact = 0;
-    for (size_t i = 1; i < e->exacts; i++)
-        f->exact =
-            br_larger(f->exact, fabs(e->exact[i].friction_force) / e->exact[i].friction_bound);
+    f->value = most_used(e->record.row, e->record.rows);
+    f->exact = most_used(e->exact, e->exacts);
     f->error = fabs(f->value - f->exact);
     f->agreement = br_below(f->value, f->error, 1);
     snprintf(f->note, sizeof f->note, "at the figure's time levels, from t = %.3g s on",
@@ -241,17 +236,20 @@ static void measure_moves(const struct br_paper *p, struct br_finding *f)
     snprintf(f->note, sizeof f->note, "the slowest step moves at %.3g m/s", slowest);
 }
 
+/* The largest relative distance of |sigma_V| from the bound over the steps. */
+static double farthest_from_bound(const struct br_history_row *row, size_t rows)
+{
+    double most = 0;
+    for (size_t i = 1; i < rows; i++)
+        most = br_larger(most, fabs(fabs(row[i].friction_force) / row[i].friction_bound - 1));
+    return most;
+}
+
 static void measure_at_bound(const struct br_paper *p, struct br_finding *f)
 {
     const struct br_example *e = &p->example[1];
-    f->value = f->exact = 0;
-    for (size_t i = 1; i < e->record.rows; i++) {
-        const struct br_history_row *row = &e->record.row[i];
-        f->value = br_larger(f->value, fabs(fabs(row->friction_force) / row->friction_bound - 1));
-    }
-    for (size_t i = 1; i < e->exacts; i++)
-        f->exact = br_larger(
-            f->exact, fabs(fabs(e->exact[i].friction_force) / e->exact[i].friction_bound - 1));
+    f->value = farthest_from_bound(e->record.row, e->record.rows);
+    f->exact = farthest_from_bound(e->exact, e->exacts);
     f->error = fabs(f->value - f->exact);
     f->agreement = br_below(f->value, f->error, 1e-9);
 }
@@ -330,16 +328,22 @@ static void measure_reaches(const struct br_paper *p, struct br_finding *f)
 
 /* ---- Example 4 ---- */
 
+/* The least u(L, t) - gap over the steps, m. */
+static double least_penetration(const struct br_history_row *row, size_t rows, double gap)
+{
+    double least = INFINITY;
+    for (size_t i = 1; i < rows; i++)
+        least = br_smaller(least, row[i].displacement[BR_AXIAL] - gap);
+    return least;
+}
+
 static void measure_penetrates(const struct br_paper *p, struct br_finding *f)
 {
     const struct br_example *e = &p->example[3];
     const double gap = e->scene.contact.gap;
     bool opens = false;
-    f->value = f->exact = INFINITY;
-    for (size_t i = 1; i < e->record.rows; i++)
-        f->value = br_smaller(f->value, e->record.row[i].displacement[BR_AXIAL] - gap);
-    for (size_t i = 1; i < e->exacts; i++)
-        f->exact = br_smaller(f->exact, e->exact[i].displacement[BR_AXIAL] - gap);
+    f->value = least_penetration(e->record.row, e->record.rows, gap);
+    f->exact = least_penetration(e->exact, e->exacts, gap);
     for (size_t i = 0; i < e->events; i++)
         opens = opens || e->event[i].phase == BR_OPEN;
     f->error = fabs(f->value - f->exact);

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "reference/printed.h"
+#include "reference/textbook.h"
 #include "solver/clock.h"
 #include "study/grid/each.h"
-#include "study/grid/observer.h"
 #include "study/grid/sweep.h"
 #include "study/scene/file.h"
 
@@ -58,7 +58,8 @@ static double square(const struct br_field *field, const double *nodal)
         for (size_t i = 0; i < size; i++)
             for (size_t j = 0; j < size; j++)
                 sum += nodal[e * unknowns + i] * nodal[e * unknowns + j] *
-                       (field->kind == BR_AXIAL ? br_axial_mass[i][j] : br_bending_mass[i][j]);
+                       (field->kind == BR_AXIAL ? br_rod_mass[i][j] / 6.0
+                                                : br_beam_mass[i][j] / 420.0);
     return field->h * sum;
 }
 
@@ -145,20 +146,17 @@ static enum br_status run_sweep_point(struct br_paper *p, size_t sweep, size_t i
 /* ---- exact solutions ---- */
 
 /* The exact solutions of the examples, and two cells of each table judged by them. */
-static struct br_exact_point point_at(const struct br_exact *exact, double time,
-                                      struct br_exact_state *state)
+static struct br_history_row row_at(const struct br_exact *exact, double time,
+                                    struct br_exact_state *state)
 {
     br_exact_at(exact, time, state);
-    struct br_exact_point point = {
+    return (struct br_history_row){
         .time = time,
+        .displacement = {state->tip[BR_AXIAL].displacement, state->tip[BR_BENDING].displacement},
+        .velocity = {state->tip[BR_AXIAL].velocity, state->tip[BR_BENDING].velocity},
         .friction_force = state->friction_force,
         .friction_bound = state->friction_bound,
     };
-    for (int kind = 0; kind < 2; kind++) {
-        point.displacement[kind] = state->tip[kind].displacement;
-        point.velocity[kind] = state->tip[kind].velocity;
-    }
-    return point;
 }
 
 /* The same time levels as the scheme's, and for Example 1 the first instants. */
@@ -175,9 +173,9 @@ static enum br_status sample(struct br_paper *p, size_t i, const struct br_exact
     if (e->exact) {
         e->exacts = steps + 1;
         for (size_t j = 0; j <= steps; j++)
-            e->exact[j] = point_at(exact, (double)j / (double)steps * e->scene.duration, state);
+            e->exact[j] = row_at(exact, (double)j / (double)steps * e->scene.duration, state);
         for (size_t j = 0; j <= BR_EXACT_EARLY && i == 0; j++)
-            p->early.exact[j] = point_at(exact, (double)j / BR_EXACT_EARLY * 1e-4, state);
+            p->early.exact[j] = row_at(exact, (double)j / BR_EXACT_EARLY * 1e-4, state);
     }
     br_exact_state_free(state);
     return e->exact ? BR_OK : br_no_memory(err, "the exact solution");

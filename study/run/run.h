@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run models of its scene and what it skips, and why. */
+/* One scene, marched once, with all that can be told of it; what is modelled, what is skipped, and
+ * why. */
 #ifndef BR_STUDY_RUN_RUN_H
 #define BR_STUDY_RUN_RUN_H
 
@@ -44,8 +45,6 @@ size_t br_model_rows(const struct br_model_question *question,
                      struct br_model_row row[BR_MOST_MODEL_ROWS]);
 
 /* ---- a run ---- */
-
-/* One scene, marched once, with all that can be told of it. */
 
 enum { BR_MOST_OUTPUTS = 8 };
 

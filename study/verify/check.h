@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A verdict on one expectation: from the order's 95 % interval, not from a slope. */
+/* Checks of scenes against what is expected of them (verify.h), with a verdict on each expectation:
+ * from the order's 95 % interval, not from a slope. */
 #ifndef BR_STUDY_VERIFY_CHECK_H
 #define BR_STUDY_VERIFY_CHECK_H
 
