@@ -42,14 +42,15 @@ enum br_agreement br_same(const struct br_finding *f, double half_digit)
     return away <= half_digit + bar ? BR_AGREES : BR_DIFFERS;
 }
 
-double br_larger(double a, double b)
+/* The larger, the smaller; or a NaN if there is one. */
+static double larger(double a, double b)
 {
     return isnan(a) || isnan(b) ? NAN : fmax(a, b);
 }
 
-double br_smaller(double a, double b)
+static double smaller(double a, double b)
 {
-    return -br_larger(-a, -b);
+    return -larger(-a, -b);
 }
 
 /* ---- Example 1: stick ---- */
@@ -59,7 +60,7 @@ static double most_deflection(const struct br_history_row *row, size_t rows)
 {
     double most = 0;
     for (size_t i = 0; i < rows; i++)
-        most = br_larger(most, fabs(row[i].displacement[BR_BENDING]));
+        most = larger(most, fabs(row[i].displacement[BR_BENDING]));
     return most;
 }
 
@@ -70,7 +71,7 @@ static double most_of_beam(const struct br_history_record *record)
     for (size_t look = 0; look < record->looks; look++) {
         const double *nodal = br_history_field(record, look, BR_BENDING, false);
         for (size_t node = 0; node <= record->n; node++)
-            most = br_larger(most, fabs(nodal[2 * node]));
+            most = larger(most, fabs(nodal[2 * node]));
     }
     return most;
 }
@@ -95,7 +96,7 @@ static double most_used(const struct br_history_row *row, size_t rows)
 {
     double most = 0;
     for (size_t i = 1; i < rows; i++)
-        most = br_larger(most, fabs(row[i].friction_force) / row[i].friction_bound);
+        most = larger(most, fabs(row[i].friction_force) / row[i].friction_bound);
     return most;
 }
 
@@ -207,7 +208,7 @@ static double resting(const struct br_history_record *record, double *slowest)
     for (size_t i = 1; i < record->rows; i++) {
         const double speed = fabs(record->row[i].velocity[BR_BENDING]);
         steps += !(speed > 0);
-        *slowest = br_smaller(*slowest, speed);
+        *slowest = smaller(*slowest, speed);
     }
     return record->rows > 1 ? (double)steps * record->row[1].time : NAN;
 }
@@ -241,7 +242,7 @@ static double farthest_from_bound(const struct br_history_row *row, size_t rows)
 {
     double most = 0;
     for (size_t i = 1; i < rows; i++)
-        most = br_larger(most, fabs(fabs(row[i].friction_force) / row[i].friction_bound - 1));
+        most = larger(most, fabs(fabs(row[i].friction_force) / row[i].friction_bound - 1));
     return most;
 }
 
@@ -333,7 +334,7 @@ static double least_penetration(const struct br_history_row *row, size_t rows, d
 {
     double least = INFINITY;
     for (size_t i = 1; i < rows; i++)
-        least = br_smaller(least, row[i].displacement[BR_AXIAL] - gap);
+        least = smaller(least, row[i].displacement[BR_AXIAL] - gap);
     return least;
 }
 
@@ -369,8 +370,8 @@ static double norm_at(const struct br_sweep *s, size_t i, bool doubled)
 static double unsettled(const struct br_sweep *s, size_t decade, bool doubled)
 {
     const size_t last = s->points - 1;
-    return br_larger(fabs(norm_at(s, decade, doubled) / norm_at(s, 0, doubled) - 1),
-                     fabs(norm_at(s, last - decade, doubled) / norm_at(s, last, doubled) - 1));
+    return larger(fabs(norm_at(s, decade, doubled) / norm_at(s, 0, doubled) - 1),
+                  fabs(norm_at(s, last - decade, doubled) / norm_at(s, last, doubled) - 1));
 }
 
 static void measure_sweep(const struct br_paper *p, size_t which, struct br_finding *f)
@@ -380,7 +381,7 @@ static void measure_sweep(const struct br_paper *p, size_t which, struct br_find
     const double low = norm_at(s, 0, false), high = norm_at(s, last, false);
     double most = 0;
     for (size_t i = 0; i <= last; i++)
-        most = br_larger(most, norm_at(s, i, false));
+        most = larger(most, norm_at(s, i, false));
     f->value = unsettled(s, p->request.per_decade, false);
     f->error = fabs(f->value - unsettled(s, p->request.per_decade, true));
     f->agreement = br_below(f->value, f->error, 0.01);

@@ -53,8 +53,4 @@ enum br_agreement br_above(double value, double error, double limit);
  * or of the scheme's where that is not known. */
 enum br_agreement br_same(const struct br_finding *finding, double half_digit);
 
-/* The larger, the smaller; or a NaN if there is one. */
-double br_larger(double a, double b);
-double br_smaller(double a, double b);
-
 #endif

@@ -7,6 +7,8 @@
 #ifndef BR_STUDY_SCENE_ELEMENTARY_H
 #define BR_STUDY_SCENE_ELEMENTARY_H
 
+#include <fenv.h>
+
 #include "solver/instruction_set.h"
 #include "study/scene/expression.h"
 
@@ -30,5 +32,20 @@ extern const struct br_elementary *const br_elementary_all[];
 /* Any operation with arguments: out[i] = operation(a[i], b[i], c[i]); as `apply`. */
 void br_operation_apply(const struct br_elementary *set, enum br_operation operation, size_t count,
                         const double *const argument[3], double *out);
+
+/* Around what needs rounding to nearest: the mode before, to be set again. */
+static inline int br_round_to_nearest(void)
+{
+    const int before = fegetround();
+    if (before != FE_TONEAREST)
+        fesetround(FE_TONEAREST);
+    return before;
+}
+
+static inline void br_round_as_before(int before)
+{
+    if (before != FE_TONEAREST)
+        fesetround(before);
+}
 
 #endif

@@ -21,10 +21,6 @@ bool br_is_point(struct br_interval a);
 bool br_has_zero(struct br_interval a);
 double br_magnitude(struct br_interval a); /* the largest |a| */
 
-/* The neighbouring number below and above; of the infinite ones the largest finite one. */
-double br_next_down(double a);
-double br_next_up(double a);
-
 struct br_interval br_interval_add(struct br_interval a, struct br_interval b);
 struct br_interval br_interval_subtract(struct br_interval a, struct br_interval b);
 struct br_interval br_interval_multiply(struct br_interval a, struct br_interval b);

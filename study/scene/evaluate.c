@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trees: made, and evaluated node by node over arrays of places. What does not use x is computed
  * once a call. */
-#include <fenv.h>
 #include <math.h>
 #include <string.h>
 
@@ -253,10 +252,9 @@ double br_operation_value(enum br_operation operation, double a, double b, doubl
     }
     const struct br_elementary *set = br_elementary_all[br_instruction_set_best()];
     const double *const argument[3] = {value[0], value[1], value[2]};
-    const int rounding = fegetround();
-    fesetround(FE_TONEAREST);
+    const int rounding = br_round_to_nearest();
     br_operation_apply(set, operation, set->width, argument, value[3]);
-    fesetround(rounding);
+    br_round_as_before(rounding);
     return value[3][0];
 }
 
@@ -414,17 +412,14 @@ static void expression_evaluate(void *self, size_t count, const double *x, doubl
 {
     const struct expression *e = self;
     const double *root = e->array[e->tree.count - 1];
-    const int rounding = fegetround();
-    if (rounding != FE_TONEAREST)
-        fesetround(FE_TONEAREST);
+    const int rounding = br_round_to_nearest();
     evaluate_once(e, t, count < CHUNK ? round_up(count, e->set->width) : CHUNK);
     for (size_t done = 0; done < count; done += CHUNK) {
         const size_t some = count - done < CHUNK ? count - done : CHUNK;
         evaluate_places(e, some, x + done);
         memcpy(value + done, root, some * sizeof *value);
     }
-    if (rounding != FE_TONEAREST)
-        fesetround(rounding);
+    br_round_as_before(rounding);
 }
 
 static enum br_status expression_derive(const void *self, const struct br_derivation *what,
