@@ -49,8 +49,8 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     if (br_session_report(&r->session, 1, err))
         return err->status;
     struct br_document *d = r->session.document;
-    for (size_t i = 0; br_claims[i]; i++)
-        finding[i] = br_claim_measure(br_claims[i], &r->paper);
+    for (size_t i = 0; br_claims[i].name; i++)
+        finding[i] = br_claim_measure(&br_claims[i], &r->paper);
     br_report_claims(finding, r->paper.request.n, r->paper.request.per_second, d);
     for (const struct br_paper_figure *f = br_paper_figures; f->number; f++) {
         br_session_draw(&r->session, d, br_paper_figure_draw(f, &r->paper), NULL);

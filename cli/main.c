@@ -9,8 +9,8 @@
 #include "cli/signals.h"
 #include "plots/render.h"
 #include "study/ranks/ranks.h"
-#include "study/scene/nearest.h"
 #include "study/scene/quote.h"
+#include "study/scene/words.h"
 #include "tables/json_value.h"
 
 extern const struct br_command br_command_check, br_command_completions, br_command_extremes,

@@ -15,7 +15,7 @@
 struct br_run_plan {
     struct br_method method;
     size_t n, steps, stride;
-    unsigned wanted; /* see study/run/model.h */
+    unsigned wanted; /* see study/run/run.h */
     size_t *level;   /* levels, ascending; owned; the output times */
     size_t levels;
 };

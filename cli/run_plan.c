@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "study/run/history.h"
-#include "study/run/model.h"
+#include "study/run/run.h"
 
 /* ---- times ---- */
 

@@ -15,7 +15,6 @@
 #include "solver/clock.h"
 #include "study/fit/report.h"
 #include "study/foresee/resources.h"
-#include "study/grid/differences.h"
 #include "study/grid/sweep.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"

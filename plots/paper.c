@@ -70,7 +70,7 @@ static void fill2(const struct br_paper *paper, struct br_figure *f)
 static void fill3(const struct br_paper *paper, struct br_figure *f)
 {
     static const char bound[] = "friction bound h(t) = c_V u(1,t)";
-    const struct br_exact_point *exact = paper->early.exact;
+    const struct br_history_row *exact = paper->early.exact;
     struct br_panel *p = br_panel_add(f, over_time, "force (N)");
     p->log_y = true;
     BR_SAY(p->title, "the scheme");

@@ -73,7 +73,7 @@ struct br_judge {
 
 extern const struct br_judge br_judge_fine, br_judge_exact, br_judge_mms;
 
-/* No judge, a row all the same: its functions are NULL (study/grid/differences.h). */
+/* No judge, a row all the same: its functions are NULL (study/grid/sweep.h). */
 extern const struct br_judge br_judge_none;
 
 /* NULL-terminated. */

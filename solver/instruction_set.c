@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/instruction_set.h"
 
+#include <string.h>
+
 #if defined __x86_64__ && !defined BR_NO_FMA
 bool br_has_avx512(void)
 {
@@ -27,4 +29,27 @@ bool br_has_avx2(void)
 bool br_has_portable(void)
 {
     return true;
+}
+
+static const struct {
+    const char *name;
+    bool (*available)(void);
+} sets[] = {
+#define ROW(set) {#set, br_has_##set},
+    BR_INSTRUCTION_SETS(ROW)};
+
+size_t br_instruction_set_best(void)
+{
+    size_t place = 0;
+    while (!sets[place].available())
+        place++;
+    return place;
+}
+
+size_t br_instruction_set_find(const char *name)
+{
+    size_t place = 0;
+    while (place < sizeof sets / sizeof *sets && strcmp(sets[place].name, name) != 0)
+        place++;
+    return place;
 }

@@ -6,6 +6,7 @@
 #define BR_SOLVER_INSTRUCTION_SET_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 /* EXPAND(name) for each, the fastest first; the last runs anywhere. */
 #define BR_INSTRUCTION_SETS(EXPAND) EXPAND(avx512) EXPAND(avx2) EXPAND(portable)
@@ -19,6 +20,12 @@
 bool br_has_avx512(void);
 bool br_has_avx2(void);
 bool br_has_portable(void);
+
+/* A list of what is compiled for each set has them in this order, and NULL behind the last. The
+ * place in it of the first set that the processor has; of a set by its name, which may be NULL's:
+ * there is none. */
+size_t br_instruction_set_best(void);
+size_t br_instruction_set_find(const char *name);
 
 /* ---- loops that the compiler makes copies of ---- */
 

@@ -44,7 +44,7 @@ void br_report_claims(const struct br_finding *finding, size_t n, size_t per_sec
 {
     size_t count[3] = {0};
     br_document_begin(d, "claims", "beamrate figures", 1, "What section 3.2 of the paper says");
-    for (size_t i = 0; br_claims[i]; i++)
+    for (size_t i = 0; br_claims[i].name; i++)
         count[finding[i].agreement]++;
     br_put_answer(d, "The paper's claims: %zu agree, %zu differ, %zu undecided.", count[BR_AGREES],
                   count[BR_DIFFERS], count[BR_UNDECIDED]);
@@ -53,6 +53,6 @@ void br_report_claims(const struct br_finding *finding, size_t n, size_t per_sec
                   "to the exact solution, or, where there is none, to a second resolution.",
                   n, per_second);
     br_put_table(d, "claims", "The claims", BR_MAIN);
-    for (size_t i = 0; br_claims[i]; i++)
-        put_claim(d, br_claims[i], &finding[i]);
+    for (size_t i = 0; br_claims[i].name; i++)
+        put_claim(d, &br_claims[i], &finding[i]);
 }

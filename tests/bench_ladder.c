@@ -8,7 +8,6 @@
 
 #include "solver/clock.h"
 #include "study/grid/ladder.h"
-#include "study/grid/ladder_kernel.h"
 #include "support.h"
 
 enum { ROOT = 12800, RUNGS = 6, REPEATS = 30, CALLS = 10 };

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/grid/lockstep.h"
+#include "study/grid/sweep.h"
 #include "study/ranks/batches.h"
 #include "study/ranks/ranks.h"
 #include "support.h"

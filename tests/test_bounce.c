@@ -5,7 +5,7 @@
 
 #include "reference/energy/energy.h"
 #include "study/foresee/warnings.h"
-#include "study/run/model.h"
+#include "study/run/run.h"
 #include "study/scene/file.h"
 #include "support.h"
 

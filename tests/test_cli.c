@@ -10,7 +10,7 @@
 
 #include "cli_driver.h"
 #include "reference/judge.h"
-#include "study/grid/norm.h"
+#include "study/grid/study.h"
 #include "support.h"
 #include "tables/document.h"
 

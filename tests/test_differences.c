@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "study/grid/differences.h"
 #include "study/grid/sweep.h"
 #include "support.h"
 

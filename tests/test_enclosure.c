@@ -10,7 +10,6 @@
 #include <stdio.h>
 
 #include "study/scene/expression.h"
-#include "study/scene/interval.h"
 #include "support.h"
 #include "tests/operation_oracle.h"
 

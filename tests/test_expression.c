@@ -9,7 +9,6 @@
 #include "solver/march.h"
 #include "study/scene/elementary.h"
 #include "study/scene/expression.h"
-#include "study/scene/products.h"
 #include "support.h"
 
 static double value_of(const char *text, double x, double t)

@@ -43,9 +43,9 @@ static int clear_paper(void **state)
 
 static struct br_finding find(const char *name)
 {
-    for (size_t i = 0; br_claims[i]; i++)
-        if (strcmp(br_claims[i]->name, name) == 0)
-            return br_claim_measure(br_claims[i], &paper);
+    for (size_t i = 0; br_claims[i].name; i++)
+        if (strcmp(br_claims[i].name, name) == 0)
+            return br_claim_measure(&br_claims[i], &paper);
     fail_msg("no claim %s", name);
     return (struct br_finding){0};
 }
@@ -179,10 +179,10 @@ static void test_verdicts(void **state)
     (void)state;
     static const char *const differ[] = {"table1", "table2", "stuck", "release", "stable-printed"};
     size_t differing = 0;
-    for (size_t i = 0; br_claims[i]; i++) {
-        const struct br_finding f = br_claim_measure(br_claims[i], &paper);
+    for (size_t i = 0; br_claims[i].name; i++) {
+        const struct br_finding f = br_claim_measure(&br_claims[i], &paper);
         if (!isfinite(f.value) || f.agreement == BR_UNDECIDED)
-            fail_msg("%s: %g +- %g is undecided", br_claims[i]->name, f.value, f.error);
+            fail_msg("%s: %g +- %g is undecided", br_claims[i].name, f.value, f.error);
         differing += f.agreement == BR_DIFFERS;
     }
     for (size_t i = 0; i < sizeof differ / sizeof *differ; i++)
@@ -230,9 +230,9 @@ static void test_threads(void **state)
             assert_memory_equal(a->most, b->most, sizeof a->most);
             assert_memory_equal(a->last, b->last, sizeof a->last);
         }
-    for (size_t i = 0; br_claims[i]; i++) {
-        const double a = br_claim_measure(br_claims[i], &runs[0]).value;
-        const double b = br_claim_measure(br_claims[i], &runs[1]).value;
+    for (size_t i = 0; br_claims[i].name; i++) {
+        const double a = br_claim_measure(&br_claims[i], &runs[0]).value;
+        const double b = br_claim_measure(&br_claims[i], &runs[1]).value;
         assert_memory_equal(&a, &b, sizeof a);
     }
     for (int i = 0; i < 2; i++)
@@ -299,7 +299,7 @@ static void check_panel(const struct br_paper_figure *row, const struct br_panel
             if (p->series[j]->pen == BR_PEN_LINE && (row->number != 9 || j != 1)) /* -h(t) */
                 check_rows(p, p->series[j], row->example - 1);
     } else {
-        const struct br_exact_point *e = &paper.early.exact[100];
+        const struct br_history_row *e = &paper.early.exact[100];
         assert_string_equal(p->x_label, "time t (µs)");
         figure_point(p->series[0], 100, 1e6 * e->time,
                      row->number == 2 ? 1e9 * e->displacement[BR_BENDING] : -e->friction_force);

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "study/grid/ladder.h"
-#include "study/grid/ladder_kernel.h"
 #include "support.h"
 
 typedef long double real;
@@ -199,7 +198,7 @@ static void test_all_kernels(void **state)
                     check_project(&r, &k, ns[i], ratios[j]);
             }
         }
-    assert_true(br_ladder_kernel_best()->available());
+    assert_true(br_ladder_kernels[br_instruction_set_best()]->available());
 }
 
 /* The norm of the projected function is that of the function, and every rung has the same
@@ -272,12 +271,13 @@ static void test_counterparts(void **state)
 {
     (void)state;
     for (const struct br_kernel *const *k = br_kernels; *k; k++) {
-        const struct br_ladder_kernel *other = br_ladder_kernel_find((*k)->name);
+        const struct br_ladder_kernel *other =
+            br_ladder_kernels[br_instruction_set_find((*k)->name)];
         assert_non_null(other);
         assert_string_equal(other->name, (*k)->name);
         assert_int_equal(other->available(), (*k)->available());
     }
-    assert_null(br_ladder_kernel_find("sse2"));
+    assert_null(br_ladder_kernels[br_instruction_set_find("sse2")]);
 }
 
 int main(void)

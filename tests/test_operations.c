@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/scene/derive.h"
 #include "study/scene/elementary.h"
 #include "study/scene/expression.h"
 #include "support.h"

@@ -55,9 +55,9 @@ static void test_figures(void **state)
         snprintf(name, sizeof name, "figures/%s", tables[t]);
         assert_true(cli_is_there(name));
     }
-    for (size_t i = 0; br_claims[i]; i++) {
+    for (size_t i = 0; br_claims[i].name; i++) {
         char row[128];
-        snprintf(row, sizeof row, "\n%s,%s,", br_claims[i]->name, br_claims[i]->section);
+        snprintf(row, sizeof row, "\n%s,%s,", br_claims[i].name, br_claims[i].section);
         assert_true(cli_file_contains("figures/claims.csv", row));
     }
     assert_true(

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/grid/differences.h"
 #include "study/grid/sweep.h"
 #include "study/run/run.h"
 #include "study/scene/rescale.h"

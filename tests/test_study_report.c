@@ -497,7 +497,7 @@ static void test_claims(void **state)
     struct br_error err = {0};
     struct br_document d = {0};
     size_t count = 0;
-    for (; br_claims[count]; count++) {
+    for (; br_claims[count].name; count++) {
         const double x = (double)count;
         finding[count] = (struct br_finding){
             x + 0.1, x + 0.2, x + 0.3, x + 0.4, (enum br_agreement)(count % 3), "why"};
@@ -514,7 +514,7 @@ static void test_claims(void **state)
     const struct br_document_table *t = grid_of(&d, "claims");
     assert_int_equal(t->rows, count);
     for (size_t i = 0; i < count; i++) {
-        const struct br_claim *c = br_claims[i];
+        const struct br_claim *c = &br_claims[i];
         const struct br_finding *f = &finding[i];
         const char *unit = strcmp(c->unit, "1") == 0 ? "" : c->unit, *space = *unit ? " " : "";
         assert_string_equal(seen(t, i, 0), c->name);

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/verify/verdict.h"
+#include "study/verify/check.h"
 #include "support.h"
 
 enum { MOST = 12 };

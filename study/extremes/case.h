@@ -76,7 +76,7 @@ struct br_extreme_case {
     double gap, contact_stiffness; /* m, N/m */
     enum br_friction_law law;
     double friction, regularisation; /* c_V: N or N/m; mu: m/s */
-    unsigned wanted;                 /* fields, see study/run/model.h */
+    unsigned wanted;                 /* fields, see study/run/run.h */
     struct br_method method;
     size_t n, steps;
 };

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "study/extremes/random.h"
-#include "study/run/model.h"
+#include "study/run/run.h"
 #include "study/scene/file.h"
 
 const char *br_extreme_special_name(enum br_extreme_special special)

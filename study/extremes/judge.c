@@ -10,7 +10,7 @@
 #include "study/extremes/random.h"
 #include "study/extremes/track.h"
 #include "study/foresee/prediction.h"
-#include "study/run/model.h"
+#include "study/run/run.h"
 #include "study/scene/file.h"
 #include "study/scene/rescale.h"
 

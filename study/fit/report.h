@@ -4,7 +4,7 @@
 #define BR_STUDY_FIT_REPORT_H
 
 #include "study/fit/fit.h"
-#include "study/grid/triangle.h"
+#include "study/grid/sweep.h"
 
 enum { BR_MOST_TRIANGLES = 4 };
 

@@ -10,7 +10,7 @@
 #include "solver/laws.h"
 #include "study/foresee/prediction.h"
 #include "study/grid/study.h"
-#include "study/run/model.h"
+#include "study/run/run.h"
 
 const char *br_warning_word(enum br_warning_kind kind)
 {

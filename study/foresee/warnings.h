@@ -59,7 +59,8 @@ const struct br_warning *br_warnings_find(const struct br_warnings *warnings,
 
 struct br_prediction;
 
-/* What is to be marched. All borrowed; the scene is the part of it that is marched (model.h). */
+/* What is to be marched. All borrowed; the scene is the part of it that is marched
+ * (study/run/run.h). */
 struct br_planned_march {
     const struct br_scene *scene;
     const struct br_method *method;

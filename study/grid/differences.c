@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/grid/differences.h"
 #include "study/grid/sweep.h"
 
 #include <math.h>

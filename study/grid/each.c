@@ -4,8 +4,6 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
-#include "study/grid/threads.h"
-
 struct loop {
     const struct br_each *each;
     atomic_bool over;

@@ -4,9 +4,23 @@
 #define BR_STUDY_GRID_EACH_H
 
 #include <stddef.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 #include "solver/status.h"
 #include "study/grid/observer.h"
+
+/* `wanted`, or where that is 0 one for each core; 1 in a build without OpenMP. */
+static inline int br_threads(int wanted)
+{
+#ifdef _OPENMP
+    return wanted > 0 ? wanted : omp_get_num_procs();
+#else
+    (void)wanted;
+    return 1;
+#endif
+}
 
 struct br_each {
     size_t count;                       /* turns */

@@ -5,14 +5,15 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/grid/ladder_kernel.h"
+#define ROW(set) &br_ladder_##set,
+const struct br_ladder_kernel *const br_ladder_kernels[] = {BR_INSTRUCTION_SETS(ROW) NULL};
 
 struct rung {
     size_t n;
     size_t parent;    /* what it is projected from: a rung, or `count` + a root */
     size_t ratio;     /* parent's n over n */
     size_t offset;    /* of its modes in a projection, where they are in lanes */
-    double *transfer; /* as in ladder_kernel.h */
+    double *transfer; /* as in ladder.h */
 };
 
 struct br_ladder {
@@ -148,7 +149,7 @@ enum br_status br_ladder_create(struct br_ladder **out, size_t modes,
     *out = ladder;
     if (!ladder)
         return br_no_memory(err, "the ladder of meshes");
-    ladder->kernel = br_ladder_kernel_best();
+    ladder->kernel = br_ladder_kernels[br_instruction_set_best()];
     ladder->modes = modes;
     ladder->root = br_allocate(roots->count, sizeof *ladder->root);
     if (!ladder->root)

@@ -14,6 +14,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "solver/instruction_set.h"
 #include "solver/modes.h"
 #include "solver/status.h"
 
@@ -34,7 +35,7 @@ enum br_status br_ladder_create(struct br_ladder **ladder, size_t modes,
                                 struct br_error *err);
 void br_ladder_free(struct br_ladder *ladder); /* accepts NULL */
 
-/* Takes this kernel (ladder_kernel.h), not the best one; its last digits are its own. */
+/* Takes this kernel, not the best one; its last digits are its own. */
 void br_ladder_use(struct br_ladder *ladder, const struct br_ladder_kernel *kernel);
 
 /* Doubles in a projection of one function onto all rungs, a multiple of 8: fastest at the start
@@ -52,5 +53,38 @@ double br_ladder_distance(const struct br_ladder *ladder, size_t rung, const str
 
 /* L2 norm of the projected function. */
 double br_ladder_norm(const struct br_ladder *ladder, const double *projection);
+
+/* ---- kernels ---- */
+
+/* The element loops, elements of a rung side by side in the lanes of vectors.
+ * Every sum is taken in an order that depends on the mesh alone. */
+
+/* One rung from its parent. */
+struct br_projecting {
+    struct br_view fine;    /* a function on ratio * n elements */
+    size_t n, ratio;        /* elements of the rung; of its parent's, those in one of the rung */
+    const double *transfer; /* E_j of the first (ratio + 1)/2 children, modes^2 by rows each, zero
+                               below the diagonal; the others' are their mirror images */
+    double *coarse;         /* out: modes in lanes (BR_IN_LANES) */
+};
+
+struct br_ladder_kernel {
+    const char *name; /* the instruction set */
+    size_t lanes;     /* of its vectors, at most BR_MOST_LANES, and of the modes in lanes */
+    bool (*available)(void);
+
+    /* coarse = sum_j E_j' fine_j; returns the sum of the squares of what that loses,
+     * fine_j - E_j coarse. */
+    double (*project)(const struct br_projecting *p);
+
+    /* The sum of the squares of a - b, n elements; b has the modes in lanes. */
+    double (*distance)(const struct br_view *a, size_t n, const double *b);
+};
+
+#define BR_LADDER_KERNEL(set) extern const struct br_ladder_kernel br_ladder_##set;
+BR_INSTRUCTION_SETS(BR_LADDER_KERNEL)
+
+/* In the order of the instruction sets; NULL behind the last. */
+extern const struct br_ladder_kernel *const br_ladder_kernels[];
 
 #endif

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdint.h>
 
-#include "study/grid/ladder_kernel.h"
-#include "study/grid/lockstep_state.h"
-#include "study/grid/observer.h"
+#include "solver/clock.h"
+#include "study/grid/lockstep.h"
 
 static const size_t buffer_bytes = 1u << 20; /* of a batch's projections, at most */
 static const size_t most_levels = 32;        /* in a batch */
@@ -100,7 +99,7 @@ static enum br_status create_ladder(const struct br_lockstep *l, const struct br
     const size_t modes = br_mode_count(br_lockstep_elements(l, at->kind), at->measure);
     const enum br_status status = br_ladder_create(ladder, modes, roots, rungs, err);
     if (!status && kernel)
-        br_ladder_use(*ladder, br_ladder_kernel_find(kernel->name));
+        br_ladder_use(*ladder, br_ladder_kernels[br_instruction_set_find(kernel->name)]);
     return status;
 }
 
@@ -239,6 +238,22 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
     return BR_OK;
 }
 
+/* Starts the march of a cell; what fails is kept in runner->error. */
+static void start(struct br_runner *r, const struct br_scene *scene, struct br_resolution at,
+                  const struct br_method *method)
+{
+    const double begun = br_seconds();
+    const enum br_status status =
+        br_march_create(&r->march, scene, at.n, at.steps, method, &r->error);
+    r->seconds += br_seconds() - begun;
+    r->error.status = status;
+    if (status)
+        return;
+    r->view.values = br_allocate_aligned(BR_MOST_MODES * at.n, sizeof *r->view.values);
+    if (!r->view.values)
+        br_no_memory(&r->error, "a cell");
+}
+
 static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
 {
     const struct br_study *s = l->study;
@@ -247,7 +262,7 @@ static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
     if (!l->cell)
         return br_no_memory(err, "the cells");
     for (size_t i = 0; i < cells; i++) {
-        br_runner_start(&l->cell[i], s->scene, s->cell[i].at, br_study_method(s, i));
+        start(&l->cell[i], s->scene, s->cell[i].at, br_study_method(s, i));
         if (l->cell[i].march && l->observer)
             br_march_stop_when(l->cell[i].march, l->observer->stop, l->observer->self);
         const enum br_status failure = l->cell[i].error.status;
@@ -294,21 +309,12 @@ enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
     l->observer = observer;
     atomic_init(&l->first_failed, SIZE_MAX);
     choose_channels(l);
-    enum br_status status = list_levels(l, err);
-    if (!status)
-        status = list_roots(l, err);
-    if (!status)
-        status = create_channels(l, err);
-    if (!status)
-        status = create_buffers(l, err);
-    if (!status)
-        status = create_sums(l, err);
-    if (!status)
-        status = create_judges(l, err);
-    if (!status)
-        status = create_cells(l, err);
-    if (!status)
-        status = create_crews(l, err);
+    enum br_status (*const create[])(struct br_lockstep *, struct br_error *) = {
+        list_levels, list_roots,    create_channels, create_buffers,
+        create_sums, create_judges, create_cells,    create_crews};
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < sizeof create / sizeof *create && !status; i++)
+        status = create[i](l, err);
     return status;
 }
 
@@ -333,8 +339,10 @@ void br_lockstep_clear(struct br_lockstep *l)
         l->reference.judge->free(l->reference.self);
     if (l->auditor.judge)
         l->auditor.judge->free(l->auditor.self);
-    for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++)
-        br_runner_clear(&l->cell[i]);
+    for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++) {
+        br_march_free(l->cell[i].march);
+        free(l->cell[i].view.values);
+    }
     for (int b = 0; b < BR_LOCKSTEP_BUFFERS; b++) {
         free(l->scale[b]);
         free(l->audit[b]);

@@ -1,11 +1,72 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A convergence study: a grid of cells (n, k) against one reference, with the error in
- * one norm over all the time levels of each cell. */
+/* A convergence study, its cells and their errors. */
 #ifndef BR_STUDY_GRID_STUDY_H
 #define BR_STUDY_GRID_STUDY_H
 
 #include "reference/judge.h"
-#include "study/grid/norm.h"
+#include "solver/modes.h"
+
+/* ---- norms ---- */
+
+/* What the error of a cell is: a registry. A norm is built from measures (solver/modes.h)
+ * of the difference at a cell's time levels: the largest over time of one measure and,
+ * in the energy norm, a sum over time of another. Axial and bending apart, and both. */
+
+/* The error and its parts, each with its own maximum over the time levels. */
+enum br_part { BR_PART_TOTAL, BR_PART_AXIAL, BR_PART_BENDING, BR_PARTS };
+extern const char *const br_part_names[BR_PARTS];
+
+struct br_norm {
+    const char *name;                          /* as on the command line, and in file names */
+    const char *title;                         /* a sentence for a person: what the error is */
+    const char *symbol;                        /* a few words, for the axis of a plot */
+    const char *unit, *unit_markup, *unit_tex; /* plain, for gnuplot, for LaTeX */
+    const char *theory;                        /* a sentence: what is proved of it */
+    enum br_measure level;                     /* its largest value over the time levels counts */
+    bool energy;  /* squares add up, and the strain rates' are summed over time */
+    bool printed; /* the norm of the paper's tables */
+};
+
+extern const struct br_norm br_norm_l2, br_norm_energy, br_norm_tip;
+
+/* NULL-terminated, at most BR_MOST_NORMS; the first is the default. */
+enum { BR_MOST_NORMS = 8 };
+extern const struct br_norm *const br_norms[];
+const struct br_norm *br_norm_find(const char *name);
+
+/* Whether a norm is built from a measure. */
+bool br_norm_needs(const struct br_norm *norm, enum br_measure measure);
+
+/* A difference at one time level. */
+struct br_sample {
+    double time;                 /* s */
+    double weight;               /* time since the last sample, s; 0 at t = 0 */
+    double size[2][BR_MEASURES]; /* by br_field_kind */
+};
+
+/* A norm on its way through the time levels; begins as zeros. */
+struct br_norm_sum {
+    double most[BR_PARTS]; /* squared in the energy norm; a NaN stays */
+    double time[BR_PARTS]; /* of the largest, s */
+    double sum[BR_PARTS];
+};
+
+/* Adds a sample. */
+void br_norm_add(const struct br_norm *norm, const struct br_scene *scene,
+                 const struct br_sample *sample, struct br_norm_sum *sum);
+
+/* The norm of one part so far. */
+double br_norm_value(const struct br_norm *norm, const struct br_norm_sum *sum, enum br_part part);
+
+/* The norm of a difference that is `size`, by br_field_kind, all the time: NaN where one
+ * that is needed of a modelled field is. */
+double br_norm_of_constant(const struct br_norm *norm, const struct br_scene *scene,
+                           const double size[2][BR_MEASURES], enum br_part part);
+
+/* ---- a study ---- */
+
+/* A convergence study: a grid of cells (n, k) against one reference, with the error in
+ * one norm over all the time levels of each cell. */
 
 /* A discretisation: n equal elements, `steps` equal time steps of T/steps. */
 struct br_resolution {

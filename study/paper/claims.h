@@ -3,7 +3,7 @@
  * its value from the marches of study/paper/paper.h, and from the exact solution where that knows
  * it.
  *
- * To add a claim: a function in claims_stick.c, claims_slip.c or claims_sweep.c, and one row. */
+ * To add a claim: a function and a row in claims.c. */
 #ifndef BR_STUDY_PAPER_CLAIMS_H
 #define BR_STUDY_PAPER_CLAIMS_H
 
@@ -37,9 +37,9 @@ struct br_claim {
     void (*measure)(const struct br_paper *paper, struct br_finding *finding);
 };
 
-/* NULL-terminated, at most BR_MOST_CLAIMS. */
+/* Ends with a row whose name is NULL; at most BR_MOST_CLAIMS. */
 enum { BR_MOST_CLAIMS = 32 };
-extern const struct br_claim *const br_claims[];
+extern const struct br_claim br_claims[];
 
 /* Measures one claim; a value that is no number leaves it undecided. */
 struct br_finding br_claim_measure(const struct br_claim *claim, const struct br_paper *paper);
@@ -52,9 +52,5 @@ enum br_agreement br_above(double value, double error, double limit);
 /* Agrees where a printed number lies within half of its last digit and the bar of the exact value,
  * or of the scheme's where that is not known. */
 enum br_agreement br_same(const struct br_finding *finding, double half_digit);
-
-/* The larger, the smaller; or a NaN if there is one. */
-double br_larger(double a, double b);
-double br_smaller(double a, double b);
 
 #endif

@@ -3,11 +3,262 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
+#include "reference/printed.h"
+#include "reference/textbook.h"
 #include "solver/clock.h"
-#include "study/grid/observer.h"
-#include "study/grid/threads.h"
+#include "study/grid/each.h"
+#include "study/grid/sweep.h"
 #include "study/scene/file.h"
+
+/* ---- Figure 10 ---- */
+
+/* Example 4 with other coefficients of contact and friction. The paper does not say
+ * which ones, nor at what time: c_H from 1 to 1e8 N/m, c_V from 10 to 1e9 N/m; at t = T, and the
+ * most. */
+enum { LOOKS = 300 };
+
+static const struct range {
+    double low;
+    size_t decades;
+} ranges[BR_SWEEPS] = {{1, 8}, {10, 8}};
+
+static enum br_status create_sweeps(struct br_paper *p, struct br_error *err)
+{
+    const struct br_scene *scene = &p->example[3].scene;
+    p->sweep[BR_SWEEP_CONTACT].paper = scene->contact.stiffness;
+    p->sweep[BR_SWEEP_FRICTION].paper = scene->friction.coefficient;
+    for (size_t s = 0; s < BR_SWEEPS; s++) {
+        struct br_sweep *sweep = &p->sweep[s];
+        const size_t count = ranges[s].decades * p->request.per_decade + 1;
+        sweep->point = br_allocate(count, sizeof *sweep->point);
+        if (!sweep->point)
+            return br_no_memory(err, "the sweep");
+        sweep->points = count;
+        for (size_t i = 0; i < count; i++)
+            sweep->point[i].coefficient =
+                ranges[s].low * pow(10, (double)i / (double)p->request.per_decade);
+    }
+    return BR_OK;
+}
+
+/* |u| + |w| of a march, in L2. */
+struct size {
+    double *nodal;
+    double last, most; /* m^(3/2) */
+};
+
+/* The square of the L2 norm of nodal values, by the element's mass. */
+static double square(const struct br_field *field, const double *nodal)
+{
+    const size_t unknowns = br_field_unknowns(field), size = 2 * unknowns;
+    double sum = 0;
+    for (size_t e = 0; e < field->n; e++)
+        for (size_t i = 0; i < size; i++)
+            for (size_t j = 0; j < size; j++)
+                sum += nodal[e * unknowns + i] * nodal[e * unknowns + j] *
+                       (field->kind == BR_AXIAL ? br_rod_mass[i][j] / 6.0
+                                                : br_beam_mass[i][j] / 420.0);
+    return field->h * sum;
+}
+
+static enum br_status measure(void *self, const struct br_march *march,
+                              const struct br_history_row *row, struct br_error *err)
+{
+    (void)row, (void)err;
+    struct size *s = self;
+    s->last = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        br_march_get(march, (enum br_field_kind)kind, s->nodal, NULL);
+        s->last += sqrt(square(br_march_field(march, (enum br_field_kind)kind), s->nodal));
+    }
+    s->most = s->last <= s->most ? s->most : s->last; /* keeps a NaN */
+    return BR_OK;
+}
+
+/* How a point is marched. */
+struct way {
+    bool implicit;  /* the contact force at the new step */
+    size_t coarser; /* h and k times this */
+};
+
+static enum br_status run(const struct br_paper *p, const struct br_scene *scene,
+                          const struct way *way, struct size *size, bool *unstable,
+                          struct br_error *err)
+{
+    struct br_method method = br_method_default();
+    for (size_t c = 0; br_contact_rules[c]; c++)
+        if (br_contact_rules[c]->at_new_step == way->implicit)
+            method.contact = br_contact_rules[c];
+    size_t level[LOOKS];
+    const size_t steps = p->request.per_second * (size_t)lround(scene->duration) / way->coarser;
+    const size_t looks = steps < LOOKS ? steps : LOOKS;
+    for (size_t i = 0; i < looks; i++)
+        level[i] = (i + 1) * steps / looks;
+    const struct br_history_observer observer = {.self = size, .look = measure};
+    const struct br_history_request request = {
+        .scene = scene,
+        .method = &method,
+        .n = p->request.n / way->coarser,
+        .steps = steps,
+        .level = level,
+        .levels = looks,
+        .observer = &observer,
+        .observers = 1,
+    };
+    struct br_march *march = NULL;
+    struct br_history_end end;
+    const enum br_status status = br_history_run(&request, &march, &end, err);
+    if (march && unstable)
+        *unstable = br_march_contact_unstable(march);
+    br_march_free(march);
+    return status;
+}
+
+static enum br_status run_sweep_point(struct br_paper *p, size_t sweep, size_t i,
+                                      struct br_error *err)
+{
+    struct br_sweep_point *point = &p->sweep[sweep].point[i];
+    struct br_scene scene = p->example[3].scene; /* borrows its functions */
+    if (sweep == BR_SWEEP_CONTACT)
+        scene.contact.stiffness = point->coefficient;
+    else
+        scene.friction.coefficient = point->coefficient;
+    struct size size = {.nodal = br_allocate(2 * (p->request.n + 1), sizeof *size.nodal)};
+    if (!size.nodal)
+        return br_no_memory(err, "the sweep");
+    enum br_status status = BR_OK;
+    for (int rule = 0; rule < 2 && !status; rule++) {
+        size.last = size.most = 0;
+        status = run(p, &scene, &(struct way){rule, 1}, &size, rule ? NULL : &point->unstable, err);
+        point->last[rule] = size.last;
+        point->most[rule] = size.most;
+    }
+    size.last = size.most = 0;
+    if (!status)
+        status = run(p, &scene, &(struct way){true, 2}, &size, NULL, err);
+    point->doubled = size.most;
+    free(size.nodal);
+    return status;
+}
+
+/* ---- exact solutions ---- */
+
+/* The exact solutions of the examples, and two cells of each table judged by them. */
+static struct br_history_row row_at(const struct br_exact *exact, double time,
+                                    struct br_exact_state *state)
+{
+    br_exact_at(exact, time, state);
+    return (struct br_history_row){
+        .time = time,
+        .displacement = {state->tip[BR_AXIAL].displacement, state->tip[BR_BENDING].displacement},
+        .velocity = {state->tip[BR_AXIAL].velocity, state->tip[BR_BENDING].velocity},
+        .friction_force = state->friction_force,
+        .friction_bound = state->friction_bound,
+    };
+}
+
+/* The same time levels as the scheme's, and for Example 1 the first instants. */
+static enum br_status sample(struct br_paper *p, size_t i, const struct br_exact *exact,
+                             struct br_error *err)
+{
+    struct br_example *e = &p->example[i];
+    struct br_exact_state *state = NULL;
+    const size_t steps = p->request.per_second * (size_t)(e->scene.duration + 0.5);
+    enum br_status status = br_exact_state_create(&state, exact, err);
+    if (status)
+        return status;
+    e->exact = br_allocate(steps + 1, sizeof *e->exact);
+    if (e->exact) {
+        e->exacts = steps + 1;
+        for (size_t j = 0; j <= steps; j++)
+            e->exact[j] = row_at(exact, (double)j / (double)steps * e->scene.duration, state);
+        for (size_t j = 0; j <= BR_EXACT_EARLY && i == 0; j++)
+            p->early.exact[j] = row_at(exact, (double)j / BR_EXACT_EARLY * 1e-4, state);
+    }
+    br_exact_state_free(state);
+    return e->exact ? BR_OK : br_no_memory(err, "the exact solution");
+}
+
+static enum br_status keep_events(struct br_example *e, const struct br_exact *exact,
+                                  struct br_error *err)
+{
+    const struct br_exact_event *event = br_exact_events(exact, &e->events);
+    e->event = br_allocate(e->events + 1, sizeof *event);
+    if (!e->event)
+        return br_no_memory(err, "the events");
+    memcpy(e->event, event, e->events * sizeof *event);
+    for (int f = 0; f < BR_EXACT_FIELDS; f++)
+        e->report[f] = br_exact_report(exact, (enum br_exact_field)f);
+    return BR_OK;
+}
+
+static enum br_status solve_exactly(struct br_paper *p, size_t i,
+                                    const struct br_observer *observer, struct br_error *err)
+{
+    struct br_exact *exact = NULL;
+    struct br_exact_options options = {0};
+    if (observer) {
+        options.stop = observer->stop;
+        options.progress = observer->preparing;
+        options.stop_self = observer->self;
+    }
+    enum br_status status = br_exact_create(&exact, &p->example[i].scene, &options, err);
+    if (!status)
+        status = keep_events(&p->example[i], exact, err);
+    if (!status)
+        status = sample(p, i, exact, err);
+    br_exact_free(exact);
+    return status;
+}
+
+static enum br_status read_printed(struct br_paper_table *t, const char *file, struct br_error *err)
+{
+    char path[1024];
+    struct br_printed printed;
+    br_data_path(file, path, sizeof path);
+    const enum br_status status = br_printed_read(path, &printed, err);
+    for (size_t j = 0; j < 2 && !status; j++)
+        t->printed[j] =
+            br_printed_error(&printed, t->n[0], br_time_step(t->study.scene, t->steps[j]));
+    if (!status)
+        br_printed_clear(&printed);
+    return status;
+}
+
+static enum br_status run_tables(struct br_paper *p, const struct br_observer *observer,
+                                 struct br_error *err)
+{
+    static const char *const file[BR_PAPER_TABLES] = {"reference/printed/table1.csv",
+                                                      "reference/printed/table2.csv"};
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < BR_PAPER_TABLES && !status; i++) {
+        struct br_paper_table *t = &p->table[i];
+        t->n[0] = 100, t->steps[0] = 100, t->steps[1] = 200;
+        t->study = (struct br_study){
+            .scene = &p->example[i].scene,
+            .norm = &br_norm_l2,
+            .method = br_method_default(),
+            .judge = &br_judge_exact,
+            .n_count = 1,
+            .k_count = 2,
+            .n = t->n,
+            .steps = t->steps,
+        };
+        status = read_printed(t, file[i], err);
+        if (!status)
+            status = br_study_run(&t->study, 1, p->request.threads,
+                                  observer ? &(struct br_observer){.stop = observer->stop,
+                                                                   .self = observer->self,
+                                                                   .preparing = observer->preparing}
+                                           : NULL,
+                                  err);
+    }
+    return status;
+}
+
+/* ---- the marches ---- */
 
 /* The times of the curves, s. Example 3 has the two at which its tip is said to let go. */
 static const double figure_times[BR_EXAMPLES][BR_FIGURE_TIMES] = {
@@ -67,7 +318,7 @@ static enum br_status run_example(struct br_paper *p, size_t i, struct br_error 
 }
 
 /* Example 1 up to 100 microseconds, with k = 0.1 microseconds. */
-enum br_status br_paper_early(struct br_paper *p, struct br_error *err)
+static enum br_status run_early(struct br_paper *p, struct br_error *err)
 {
     struct br_scene scene = p->example[0].scene; /* borrows its functions */
     scene.duration = p->early.duration = 1e-4;
@@ -100,53 +351,38 @@ static enum br_status run_coupled(struct br_paper *p, struct br_error *err)
 
 struct work {
     struct br_paper *paper;
+    const struct br_observer *observer;
     size_t sweep[BR_SWEEPS]; /* points */
-    size_t tasks;
 };
 
 /* The long ones first: exact solutions, examples, the sweep, the rest. */
-static enum br_status run_task(const struct work *w, size_t task,
-                               const struct br_observer *observer, struct br_error *err)
+static enum br_status run_task(void *self, size_t task, struct br_error *err)
 {
+    const struct work *w = self;
     if (task < BR_EXAMPLES)
-        return br_paper_exact(w->paper, task, observer, err);
+        return solve_exactly(w->paper, task, w->observer, err);
     task -= BR_EXAMPLES;
     if (task < BR_EXAMPLES)
         return run_example(w->paper, task, err);
     task -= BR_EXAMPLES;
     for (size_t s = 0; s < BR_SWEEPS; task -= w->sweep[s++])
         if (task < w->sweep[s])
-            return br_paper_sweep_point(w->paper, s, task, err);
-    return task ? run_coupled(w->paper, err) : br_paper_early(w->paper, err);
+            return run_sweep_point(w->paper, s, task, err);
+    return task ? run_coupled(w->paper, err) : run_early(w->paper, err);
 }
 
-/* Runs all tasks; the first failure, by number, is what the call fails with. */
-static enum br_status run_tasks(const struct work *w, const struct br_observer *observer,
+static enum br_status run_tasks(struct br_paper *p, const struct br_observer *observer,
                                 struct br_error *err)
 {
-    struct br_error first = {0};
-    size_t failed = w->tasks, done = 0;
-    const int threads = br_threads(w->paper->request.threads);
-    (void)threads;
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (size_t i = 0; i < w->tasks; i++) {
-        struct br_error failure = {0};
-        if (observer && observer->stop && observer->stop(observer->self))
-            br_fail(&failure, BR_INTERRUPTED, "interrupted");
-        else
-            run_task(w, i, observer, &failure);
-#pragma omp critical(paper)
-        {
-            if (failure.status && i < failed) {
-                failed = i;
-                first = failure;
-            }
-            done++;
-            if (observer && observer->progress)
-                observer->progress(observer->self, (double)done / (double)w->tasks);
-        }
-    }
-    return first.status ? br_fail(err, first.status, "%s", first.message) : BR_OK;
+    struct work work = {p, observer, {p->sweep[0].points, p->sweep[1].points}};
+    const struct br_each each = {
+        .count = 2 * BR_EXAMPLES + work.sweep[0] + work.sweep[1] + 2,
+        .threads = p->request.threads,
+        .observer = observer,
+        .turn = run_task,
+        .self = &work,
+    };
+    return br_each(&each, err);
 }
 
 enum br_status br_paper_scene(size_t i, struct br_scene *scene, struct br_error *err)
@@ -180,15 +416,11 @@ enum br_status br_paper_run(struct br_paper *p, const struct br_paper_request *r
             request->n, request->per_second);
     enum br_status status = read_scenes(p, err);
     if (!status)
-        status = br_paper_sweep_create(p, err);
-    struct work work = {.paper = p};
-    for (size_t s = 0; s < BR_SWEEPS; s++)
-        work.sweep[s] = p->sweep[s].points;
-    work.tasks = 2 * BR_EXAMPLES + work.sweep[0] + work.sweep[1] + 2;
+        status = create_sweeps(p, err);
     if (!status)
-        status = run_tasks(&work, observer, err);
+        status = run_tasks(p, observer, err);
     if (!status)
-        status = br_paper_tables(p, observer, err);
+        status = run_tables(p, observer, err);
     p->wall_seconds = br_seconds() - start;
     return status;
 }

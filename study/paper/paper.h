@@ -24,19 +24,11 @@ struct br_paper_request br_paper_request_default(void);
 /* Reads Example i + 1, i below BR_EXAMPLES; clear it even after a failure. Fails as scenes do. */
 enum br_status br_paper_scene(size_t i, struct br_scene *scene, struct br_error *err);
 
-/* The exact solution at one time. */
-struct br_exact_point {
-    double time;                           /* s */
-    double displacement[2];                /* at x = L, by br_field_kind, m */
-    double velocity[2];                    /* m/s */
-    double friction_force, friction_bound; /* N */
-};
-
 /* One example. */
 struct br_example {
     struct br_scene scene;
     struct br_history_record record; /* rows: every step; looks: at the figures' times */
-    struct br_exact_point *exact;    /* exacts, at the rows' times; owned */
+    struct br_history_row *exact;    /* exacts, at the rows' times, without contact force; owned */
     size_t exacts;
     struct br_exact_event *event; /* events; owned */
     size_t events;
@@ -47,7 +39,7 @@ struct br_example {
 struct br_early {
     double duration;                 /* s */
     struct br_history_record record; /* of the scheme, with k = duration / 1000 */
-    struct br_exact_point exact[BR_EXACT_EARLY + 1];
+    struct br_history_row exact[BR_EXACT_EARLY + 1];
 };
 
 /* One coefficient of Example 4 varied. */
@@ -92,15 +84,5 @@ void br_paper_clear(struct br_paper *paper);
 
 /* The times of an example's curves, s, ascending; *count of them. */
 const double *br_figure_times(size_t example, size_t *count);
-
-/* Inside: each fills its part of the paper. */
-enum br_status br_paper_sweep_create(struct br_paper *paper, struct br_error *err);
-enum br_status br_paper_sweep_point(struct br_paper *paper, size_t sweep, size_t point,
-                                    struct br_error *err);
-enum br_status br_paper_exact(struct br_paper *paper, size_t example,
-                              const struct br_observer *observer, struct br_error *err);
-enum br_status br_paper_early(struct br_paper *paper, struct br_error *err);
-enum br_status br_paper_tables(struct br_paper *paper, const struct br_observer *observer,
-                               struct br_error *err);
 
 #endif

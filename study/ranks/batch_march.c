@@ -3,7 +3,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "study/grid/lockstep.h"
+#include "study/grid/sweep.h"
 #include "study/ranks/batches.h"
 
 /* The batches of study s's cells. */

@@ -23,7 +23,7 @@
 #include <unistd.h>
 
 #include "solver/clock.h"
-#include "study/grid/lockstep.h"
+#include "study/grid/sweep.h"
 #include "study/ranks/batches.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/quote.h"

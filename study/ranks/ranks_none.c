@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A build without MPI: there are no other ranks. */
-#include "study/grid/lockstep.h"
+#include "study/grid/sweep.h"
 #include "study/ranks/ranks.h"
 
 static struct br_launch launch = {.size = 1};

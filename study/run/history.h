@@ -84,4 +84,131 @@ void br_history_record_clear(struct br_history_record *record);
 const double *br_history_field(const struct br_history_record *record, size_t look,
                                enum br_field_kind kind, bool velocity);
 
+/* ---- what happens at the tip ---- */
+
+/* What happens at the tip, from every step of a march: when it closed, opened, stuck, slipped and
+ * reversed, and the extremes. An event is seen at the first time level of the new regime, so it
+ * happened within the step before it. */
+
+/* X(name, word): what the tip did. */
+#define BR_EVENT_LIST(X)         \
+    X(BR_TIP_CLOSED, "closed")   \
+    X(BR_TIP_OPENED, "opened")   \
+    X(BR_TIP_STUCK, "stuck")     \
+    X(BR_TIP_SLIPPED, "slipped") \
+    X(BR_TIP_REVERSED, "reversed") /* slips the other way than it last did */
+
+enum br_tip_event_kind {
+#define X(name, word) name,
+    BR_EVENT_LIST(X)
+#undef X
+        BR_TIP_EVENTS
+};
+
+/* The friction's regime. */
+enum br_tip_regime {
+    BR_TIP_FREE,  /* the bound is 0: friction carries nothing */
+    BR_TIP_STICK, /* |lambda| below the bound */
+    BR_TIP_SLIP,  /* at the bound */
+    BR_TIP_REGIMES
+};
+
+struct br_tip_event {
+    enum br_tip_event_kind kind;
+    size_t step;   /* the first of the new regime */
+    double time;   /* of that level, s; the one before is k earlier */
+    int direction; /* of a slip: that of the motion, -1 or 1; else 0 */
+};
+
+enum { BR_MOST_EVENTS = 1000 }; /* kept; all are counted */
+
+/* A value with the time of its level, s. */
+struct br_extreme {
+    double value, time;
+};
+
+/* Zeroed at first, but for what br_tip_watch_start sets. */
+struct br_tip_watch {
+    double gap;                         /* m */
+    bool contact, friction;             /* modelled */
+    bool closed_at_start;               /* at t = 0 */
+    enum br_tip_regime regime_at_start; /* in the first step */
+    int direction_at_start;             /* of a slip there */
+    struct br_tip_event event[BR_MOST_EVENTS];
+    size_t events;               /* that are kept */
+    size_t count[BR_TIP_EVENTS]; /* of each kind */
+    size_t regime_steps[BR_TIP_REGIMES], closed_steps, steps;
+    struct br_extreme contact_force, friction_force; /* largest in size, N */
+    bool trapezoidal;     /* the sum of friction_work, for schemes that are not Euler's */
+    double power;         /* lambda v of the step before, W */
+    double friction_work; /* sum of k lambda v, J */
+
+    double k; /* private from here on: s */
+    bool closed;
+    enum br_tip_regime regime;
+    int direction; /* of the last slip */
+};
+
+const char *br_tip_event_word(enum br_tip_event_kind kind);
+const char *br_tip_regime_word(enum br_tip_regime regime);
+
+/* An observer that fills a watch (out; it must outlive the march). */
+struct br_history_observer br_tip_watch_start(struct br_tip_watch *watch,
+                                              const struct br_scene *scene, size_t steps);
+
+/* ---- what a step costs ---- */
+
+/* What the parts of a step cost, as measured: the march's solver is wrapped in one that reads the
+ * clock around what it calls, so that the march itself knows nothing of it. */
+
+/* X(name, text): the parts. */
+#define BR_COST_LIST(X)                          \
+    X(BR_COST_LOAD_AXIAL, "load, axial")         \
+    X(BR_COST_FIELD_AXIAL, "axial field")        \
+    X(BR_COST_CONTACT, "contact law")            \
+    X(BR_COST_LOAD_BENDING, "load, bending")     \
+    X(BR_COST_FIELD_BENDING, "bending field")    \
+    X(BR_COST_FRICTION, "friction law")          \
+    X(BR_COST_RECORD, "records")                 \
+    X(BR_COST_CHECK, "certificate and energies") \
+    X(BR_COST_OUTPUT, "output")
+
+enum br_cost_part {
+#define X(name, text) name,
+    BR_COST_LIST(X)
+#undef X
+        BR_COST_PARTS
+};
+
+/* One march's cost; one at a time in a thread. */
+struct br_step_cost {
+    double seconds[BR_COST_PARTS]; /* the clock's own cost is taken off by br_step_cost_end */
+    size_t laps[BR_COST_PARTS];
+    double lap_seconds;                  /* what a reading of the clock costs */
+    double last;                         /* private: time of the last reading, s */
+    struct br_linear_solver wrapped;     /* private */
+    struct br_field_solver measuring[2]; /* private; by br_field_kind */
+};
+
+const char *br_cost_part_text(enum br_cost_part part);
+
+/* Begins: method (in/out) gets a solver that measures, for marches that are created and made in
+ * this thread until br_step_cost_end. cost: out; it must outlive the march. */
+void br_step_cost_begin(struct br_step_cost *cost, struct br_method *method);
+
+/* Ends, and takes off what reading the clock took. */
+void br_step_cost_end(struct br_step_cost *cost);
+
+/* The time since the last reading goes to a part; cost NULL: nothing. For observers. */
+void br_step_cost_lap(struct br_step_cost *cost, enum br_cost_part part);
+
+/* An observer that ends a part: put it behind the observers whose work that is. `step` tells which
+ * of an observer's calls are meant: that of every step, or those of rows and looks. */
+struct br_cost_mark {
+    struct br_step_cost *cost;
+    enum br_cost_part part;
+};
+struct br_history_observer br_cost_mark_step(struct br_cost_mark *mark);
+struct br_history_observer br_cost_mark_output(struct br_cost_mark *mark);
+
 #endif

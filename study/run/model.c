@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/run/model.h"
+#include "study/run/run.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,18 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/run/step_cost.h"
+#include "study/run/history.h"
 
 #include "solver/clock.h"
 
-/* A field solver's state with the one that it wraps. */
-struct wrapped {
-    const struct br_field_solver *solver;
-    enum br_field_kind kind;
-    void *state;
-};
-
-/* The march that is measured in this thread, and the solver that it is made with. */
+/* The march that is measured in this thread, and the solvers of its fields. */
 static _Thread_local struct br_step_cost *current;
-static _Thread_local const struct br_linear_solver *inner;
+static _Thread_local const struct br_field_solver *inner[2]; /* by br_field_kind */
 
 const char *br_cost_part_text(enum br_cost_part part)
 {
@@ -34,128 +27,58 @@ void br_step_cost_lap(struct br_step_cost *cost, enum br_cost_part part)
     cost->last = now;
 }
 
-/* ---- the wrapping solver ---- */
+/* ---- the measuring solver ---- */
 
-static enum br_status create(const struct br_linear_solver *row, const struct br_field *field,
-                             const struct br_linear_options *options, void **self,
-                             struct br_error *err)
+static enum br_status predict(enum br_field_kind kind, void *self, const struct br_drive *drive,
+                              double *velocity, struct br_error *err)
 {
-    (void)row;
-    struct wrapped *w = br_allocate(1, sizeof *w);
-    *self = w;
-    if (!w)
-        return br_no_memory(err, "a solver");
-    w->kind = field->kind;
-    w->solver = br_linear_solver_for(inner, field);
-    return w->solver->create(inner, field, options, &w->state, err);
-}
-
-static void release(void *self)
-{
-    struct wrapped *w = self;
-    if (!w)
-        return;
-    w->solver->free(w->state);
-    free(w);
-}
-
-static double tip_compliance(const void *self)
-{
-    const struct wrapped *w = self;
-    return w->solver->tip_compliance(w->state);
-}
-
-static void set(void *self, const double *displacement, const double *velocity)
-{
-    struct wrapped *w = self;
-    w->solver->set(w->state, displacement, velocity);
-}
-
-static void get(const void *self, double *displacement, double *velocity)
-{
-    const struct wrapped *w = self;
-    w->solver->get(w->state, displacement, velocity);
-}
-
-static void strain_rate(const void *self, double *rate)
-{
-    const struct wrapped *w = self;
-    w->solver->strain_rate(w->state, rate);
-}
-
-static double tip_displacement(const void *self)
-{
-    const struct wrapped *w = self;
-    return w->solver->tip_displacement(w->state);
-}
-
-static enum br_status set_step(void *self, double k, struct br_error *err)
-{
-    struct wrapped *w = self;
-    return w->solver->set_step(w->state, k, err);
-}
-
-static enum br_status keep(void *self, size_t count, struct br_error *err)
-{
-    struct wrapped *w = self;
-    return w->solver->keep(w->state, count, err);
-}
-
-static void exchange(void *self, size_t a, size_t b)
-{
-    struct wrapped *w = self;
-    w->solver->exchange(w->state, a, b);
-}
-
-static void combine(void *self, size_t into, size_t count, const double *weight)
-{
-    struct wrapped *w = self;
-    w->solver->combine(w->state, into, count, weight);
-}
-
-static void size(void *self, size_t state, double sizes[2])
-{
-    struct wrapped *w = self;
-    w->solver->size(w->state, state, sizes);
-}
-
-static enum br_status predict(void *self, const struct br_drive *drive, double *velocity,
-                              struct br_error *err)
-{
-    struct wrapped *w = self;
-    const bool axial = w->kind == BR_AXIAL;
+    const bool axial = kind == BR_AXIAL;
     br_step_cost_lap(current, axial ? BR_COST_LOAD_AXIAL : BR_COST_LOAD_BENDING);
-    const enum br_status status = w->solver->predict(w->state, drive, velocity, err);
+    const enum br_status status = inner[kind]->predict(self, drive, velocity, err);
     br_step_cost_lap(current, axial ? BR_COST_FIELD_AXIAL : BR_COST_FIELD_BENDING);
     return status;
 }
 
-static double finish(void *self, double force)
+static enum br_status predict_axial(void *self, const struct br_drive *drive, double *velocity,
+                                    struct br_error *err)
 {
-    struct wrapped *w = self;
-    const bool axial = w->kind == BR_AXIAL;
+    return predict(BR_AXIAL, self, drive, velocity, err);
+}
+
+static enum br_status predict_bending(void *self, const struct br_drive *drive, double *velocity,
+                                      struct br_error *err)
+{
+    return predict(BR_BENDING, self, drive, velocity, err);
+}
+
+static double finish(enum br_field_kind kind, void *self, double force)
+{
+    const bool axial = kind == BR_AXIAL;
     br_step_cost_lap(current, axial ? BR_COST_CONTACT : BR_COST_FRICTION);
-    const double velocity = w->solver->finish(w->state, force);
+    const double velocity = inner[kind]->finish(self, force);
     br_step_cost_lap(current, axial ? BR_COST_FIELD_AXIAL : BR_COST_FIELD_BENDING);
     return velocity;
 }
 
-static const struct br_field_solver measuring = {
-    .create = create,
-    .free = release,
-    .tip_compliance = tip_compliance,
-    .set = set,
-    .get = get,
-    .strain_rate = strain_rate,
-    .predict = predict,
-    .finish = finish,
-    .tip_displacement = tip_displacement,
-    .set_step = set_step,
-    .keep = keep,
-    .exchange = exchange,
-    .combine = combine,
-    .size = size,
-};
+static double finish_axial(void *self, double force)
+{
+    return finish(BR_AXIAL, self, force);
+}
+
+static double finish_bending(void *self, double force)
+{
+    return finish(BR_BENDING, self, force);
+}
+
+/* The solver of a field, but for the two functions of a step. */
+static const struct br_field_solver *measuring(struct br_step_cost *cost, enum br_field_kind kind)
+{
+    struct br_field_solver *own = &cost->measuring[kind];
+    *own = *inner[kind];
+    own->predict = kind == BR_AXIAL ? predict_axial : predict_bending;
+    own->finish = kind == BR_AXIAL ? finish_axial : finish_bending;
+    return own;
+}
 
 /* What one lap adds to itself: the least of some trials, so that a pause does not count. */
 static double measure_lap(void)
@@ -172,10 +95,14 @@ static double measure_lap(void)
 
 void br_step_cost_begin(struct br_step_cost *cost, struct br_method *method)
 {
-    *cost = (struct br_step_cost){.lap_seconds = measure_lap(), .wrapped = *method->solver};
-    cost->wrapped.axial = cost->wrapped.bending = &measuring;
-    cost->wrapped.axial_quadratic = method->solver->axial_quadratic ? &measuring : NULL;
-    inner = method->solver;
+    const struct br_linear_solver *solver = method->solver;
+    *cost = (struct br_step_cost){.lap_seconds = measure_lap(), .wrapped = *solver};
+    const bool quadratic = method->axial_degree == 2 && solver->axial_quadratic;
+    inner[BR_AXIAL] = quadratic ? solver->axial_quadratic : solver->axial;
+    inner[BR_BENDING] = solver->bending;
+    cost->wrapped.axial = measuring(cost, BR_AXIAL);
+    cost->wrapped.bending = measuring(cost, BR_BENDING);
+    cost->wrapped.axial_quadratic = solver->axial_quadratic ? cost->wrapped.axial : NULL;
     current = cost;
     method->solver = &cost->wrapped;
 }

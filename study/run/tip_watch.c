@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/run/tip_watch.h"
+#include "study/run/history.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/scene/derive.h"
+#include "study/scene/expression.h"
 
 #include <math.h>
 

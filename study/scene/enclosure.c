@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/scene/enclosure.h"
 
-#include <fenv.h>
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "study/scene/interval.h"
+#include "study/scene/elementary.h"
 
 typedef struct br_interval iv;
 
@@ -360,22 +359,6 @@ static void apply_series(enum br_operation o, size_t order, const iv *const argu
     }
 }
 
-/* ---- rounding to nearest, around what needs it ---- */
-
-static int round_to_nearest(void)
-{
-    const int before = fegetround();
-    if (before != FE_TONEAREST)
-        fesetround(FE_TONEAREST);
-    return before;
-}
-
-static void round_as_before(int before)
-{
-    if (before != FE_TONEAREST)
-        fesetround(before);
-}
-
 static iv variable_of(const struct br_node *n, struct br_box box)
 {
     return n->operation == BR_OP_NUMBER ? br_point(n->number)
@@ -388,7 +371,7 @@ bool br_tree_taylor(const struct br_tree *tree, iv *work, enum br_variable along
 {
     const enum br_operation variable = along == BR_X ? BR_OP_X : BR_OP_T;
     const size_t size = order + 1;
-    const int rounding = round_to_nearest();
+    const int rounding = br_round_to_nearest();
     for (size_t i = 0; i < tree->count; i++) {
         const struct br_node *n = &tree->node[i];
         iv *out = work + i * size;
@@ -403,7 +386,7 @@ bool br_tree_taylor(const struct br_tree *tree, iv *work, enum br_variable along
         for (size_t k = 1; k <= order; k++)
             out[k] = br_point(k == 1 && n->operation == variable);
     }
-    round_as_before(rounding);
+    br_round_as_before(rounding);
     memcpy(coefficient, work + (tree->count - 1) * size, size * sizeof *coefficient);
     bool finite = true;
     for (size_t k = 0; k <= order; k++)
@@ -539,7 +522,7 @@ static void bound_node(const struct br_node *n, const struct form *forms, bool w
 bool br_tree_bound(const struct br_tree *tree, iv *work, struct br_box box, iv *value)
 {
     struct form *forms = (struct form *)work;
-    const int rounding = round_to_nearest();
+    const int rounding = br_round_to_nearest();
     const struct br_box middle = {centre_of(box.x), centre_of(box.t)};
     const bool wide = !br_is_point(box.x) || !br_is_point(box.t);
     for (size_t i = 0; i < tree->count; i++) {
@@ -553,7 +536,7 @@ bool br_tree_bound(const struct br_tree *tree, iv *work, struct br_box box, iv *
                 .centre = variable_of(n, middle),
                 .slope = {br_point(n->operation == BR_OP_X), br_point(n->operation == BR_OP_T)}};
     }
-    round_as_before(rounding);
+    br_round_as_before(rounding);
     *value = forms[tree->count - 1].range;
     return br_is_finite(*value);
 }

@@ -1,13 +1,267 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A tree as a function: node by node over arrays of places. What does not use x is computed once a
- * call. */
-#include <fenv.h>
+/* Trees: made, and evaluated node by node over arrays of places. What does not use x is computed
+ * once a call. */
+#include <math.h>
 #include <string.h>
 
-#include "study/scene/derive.h"
 #include "study/scene/elementary.h"
 #include "study/scene/enclosure.h"
+#include "study/scene/expression.h"
 
+/* ---- trees ---- */
+
+static const struct {
+    unsigned arguments;
+    const char *word;
+} operations[] = {
+#define X(name, arguments, word) {arguments, word},
+    BR_OPERATION_LIST(X)
+#undef X
+};
+
+unsigned br_operation_arguments(enum br_operation operation)
+{
+    return operations[operation].arguments;
+}
+
+const char *br_operation_word(enum br_operation operation)
+{
+    return operations[operation].word;
+}
+
+void br_tree_clear(struct br_tree *tree)
+{
+    free(tree->node);
+    *tree = (struct br_tree){0};
+}
+
+/* By bits: 0 is not -0. */
+static bool are_equal(const struct br_node *a, const struct br_node *b)
+{
+    return a->operation == b->operation &&
+           memcmp(a->argument, b->argument, sizeof a->argument) == 0 &&
+           memcmp(&a->number, &b->number, sizeof a->number) == 0;
+}
+
+static unsigned give_up(struct br_tree_builder *b, enum br_status status)
+{
+    b->status = status;
+    return BR_NO_NODE;
+}
+
+static bool make_room(struct br_tree_builder *b)
+{
+    if (b->tree.count < b->room)
+        return true;
+    const size_t room = b->room ? 2 * b->room : 32;
+    struct br_node *node = br_allocate(room, sizeof *node);
+    if (!node)
+        return false;
+    if (b->tree.count)
+        memcpy(node, b->tree.node, b->tree.count * sizeof *node);
+    free(b->tree.node);
+    b->tree.node = node;
+    b->room = room;
+    return true;
+}
+
+static unsigned find_or_append(struct br_tree_builder *b, const struct br_node *node)
+{
+    for (size_t i = 0; i < b->tree.count; i++)
+        if (are_equal(&b->tree.node[i], node))
+            return (unsigned)i;
+    if (b->tree.count == BR_TREE_MOST_NODES)
+        return give_up(b, BR_BAD_INPUT);
+    if (!make_room(b))
+        return give_up(b, BR_NO_MEMORY);
+    b->tree.node[b->tree.count] = *node;
+    return (unsigned)b->tree.count++;
+}
+
+unsigned br_tree_number(struct br_tree_builder *b, double number)
+{
+    const struct br_node node = {.operation = BR_OP_NUMBER, .number = number};
+    return b->status ? BR_NO_NODE : find_or_append(b, &node);
+}
+
+unsigned br_tree_node(struct br_tree_builder *b, enum br_operation operation, unsigned first,
+                      unsigned second, unsigned third)
+{
+    const unsigned argument[] = {first, second, third};
+    struct br_node node = {
+        .operation = operation, .uses_x = operation == BR_OP_X, .uses_t = operation == BR_OP_T};
+    double number[3] = {0};
+    size_t numbers = 0;
+    for (unsigned i = 0; i < operations[operation].arguments; i++) {
+        if (b->status || argument[i] == BR_NO_NODE)
+            return BR_NO_NODE;
+        const struct br_node *a = &b->tree.node[argument[i]];
+        node.argument[i] = argument[i];
+        node.uses_x |= a->uses_x;
+        node.uses_t |= a->uses_t;
+        numbers += a->operation == BR_OP_NUMBER;
+        number[i] = a->number;
+    }
+    if (numbers && numbers == operations[operation].arguments)
+        return br_tree_number(b, br_operation_value(operation, number[0], number[1], number[2]));
+    return b->status ? BR_NO_NODE : find_or_append(b, &node);
+}
+
+unsigned br_tree_graft(struct br_tree_builder *b, const struct br_tree *from, unsigned root)
+{
+    unsigned *place = br_allocate(root + 1, sizeof *place);
+    if (!place)
+        return give_up(b, BR_NO_MEMORY);
+    place[root] = 1; /* first: whether it is used */
+    for (unsigned i = root + 1; i-- > 0;)
+        for (unsigned k = 0; place[i] && k < operations[from->node[i].operation].arguments; k++)
+            place[from->node[i].argument[k]] = 1;
+    for (unsigned i = 0; i <= root; i++) { /* then: where it went */
+        const struct br_node *n = &from->node[i];
+        if (place[i] && n->operation == BR_OP_NUMBER)
+            place[i] = br_tree_number(b, n->number);
+        else if (place[i])
+            place[i] = br_tree_node(b, n->operation, place[n->argument[0]], place[n->argument[1]],
+                                    place[n->argument[2]]);
+    }
+    const unsigned out = place[root];
+    free(place);
+    return out;
+}
+
+enum br_status br_tree_finish(struct br_tree_builder *b, unsigned root, struct br_tree *tree,
+                              struct br_error *err)
+{
+    struct br_tree_builder out = {0};
+    if (!b->status)
+        br_tree_graft(&out, &b->tree, root);
+    const enum br_status status = b->status ? b->status : out.status;
+    br_tree_clear(&b->tree);
+    *b = (struct br_tree_builder){0};
+    if (status)
+        br_tree_clear(&out.tree);
+    *tree = out.tree;
+    return status == BR_NO_MEMORY ? br_no_memory(err, "an expression")
+           : status ? br_fail(err, status, "it has more than %d operations", BR_TREE_MOST_NODES)
+                    : BR_OK;
+}
+
+/* ---- operations on arrays ---- */
+
+#define ROW(set) &br_elementary_##set,
+const struct br_elementary *const br_elementary_all[] = {BR_INSTRUCTION_SETS(ROW) NULL};
+
+/* ---- powers ---- */
+
+static bool is_small_power(double b)
+{
+    return b == 1 || b == 2 || b == 3 || b == 4 || b == -1;
+}
+
+static double small_power(double a, double b)
+{
+    if (b == -1)
+        return 1 / a;
+    return b == 1 ? a : b == 2 ? a * a : b == 3 ? a * a * a : (a * a) * (a * a);
+}
+
+static void power(const struct br_elementary *set, size_t count, const double *a, const double *b,
+                  double *out)
+{
+    bool small = true; /* all of them */
+    for (size_t i = 0; i < count && small; i++)
+        small = is_small_power(b[i]);
+    if (!small)
+        set->apply(BR_OP_POW, count, a, b, out);
+    for (size_t i = 0; i < count; i++)
+        if (is_small_power(b[i]))
+            out[i] = small_power(a[i], b[i]);
+}
+
+/* ---- where SLEEF gives up before the doubles do ---- */
+
+static void mend(enum br_operation operation, size_t count, const double *a, double *out)
+{
+    const bool grows = operation == BR_OP_SINH || operation == BR_OP_COSH;
+    for (size_t i = 0; i < count; i++) {
+        if (fabs(a[i]) <= (grows ? 709 : 1e150))
+            continue;
+        out[i] = operation == BR_OP_SINH    ? sinh(a[i])
+                 : operation == BR_OP_COSH  ? cosh(a[i])
+                 : operation == BR_OP_ASINH ? asinh(a[i])
+                                            : acosh(a[i]);
+    }
+}
+
+/* ---- all operations ---- */
+
+#define LOOP(operation, value)             \
+    case operation:                        \
+        for (size_t i = 0; i < count; i++) \
+            out[i] = (value);              \
+        break;
+
+/* A truth of two numbers. */
+#define TRUTH(operation, truth) LOOP(operation, isunordered(a[i], b[i]) ? NAN : (double)(truth))
+
+void br_operation_apply(const struct br_elementary *set, enum br_operation operation, size_t count,
+                        const double *const argument[3], double *out)
+{
+    const double *const a = argument[0], *const b = argument[1], *const c = argument[2];
+    switch (operation) {
+        LOOP(BR_OP_NEGATE, -a[i])
+        LOOP(BR_OP_NOT, isnan(a[i]) ? NAN : (double)(a[i] == 0))
+        LOOP(BR_OP_SQRT, sqrt(a[i]))
+        LOOP(BR_OP_ABS, fabs(a[i]))
+        LOOP(BR_OP_SIGN, a[i] > 0 ? 1 : a[i] < 0 ? -1 : a[i])
+        LOOP(BR_OP_STEP, a[i] >= 0 ? 1 : a[i] < 0 ? 0 : NAN)
+        LOOP(BR_OP_ADD, a[i] + b[i])
+        LOOP(BR_OP_SUBTRACT, a[i] - b[i])
+        LOOP(BR_OP_MULTIPLY, a[i] * b[i])
+        LOOP(BR_OP_DIVIDE, a[i] / b[i])
+        LOOP(BR_OP_MIN, isnan(a[i]) || a[i] < b[i] ? a[i] : b[i])
+        LOOP(BR_OP_MAX, isnan(a[i]) || a[i] > b[i] ? a[i] : b[i])
+        TRUTH(BR_OP_LESS, a[i] < b[i])
+        TRUTH(BR_OP_LESS_EQUAL, a[i] <= b[i])
+        TRUTH(BR_OP_GREATER, a[i] > b[i])
+        TRUTH(BR_OP_GREATER_EQUAL, a[i] >= b[i])
+        TRUTH(BR_OP_EQUAL, a[i] == b[i])
+        TRUTH(BR_OP_NOT_EQUAL, a[i] != b[i])
+        TRUTH(BR_OP_AND, a[i] != 0 && b[i] != 0)
+        TRUTH(BR_OP_OR, a[i] != 0 || b[i] != 0)
+        LOOP(BR_OP_CHOOSE, isnan(a[i]) ? NAN : a[i] != 0 ? b[i] : c[i])
+    case BR_OP_POW:
+        power(set, count, a, b, out);
+        break;
+    default:
+        set->apply(operation, count, a, b, out);
+        if (operation == BR_OP_SINH || operation == BR_OP_COSH || operation == BR_OP_ASINH ||
+            operation == BR_OP_ACOSH)
+            mend(operation, count, a, out);
+    }
+}
+
+double br_operation_value(enum br_operation operation, double a, double b, double c)
+{
+    enum { MOST_WIDTH = 8 };
+    _Alignas(64) double value[4][MOST_WIDTH];
+    for (size_t i = 0; i < MOST_WIDTH; i++) {
+        value[0][i] = a;
+        value[1][i] = b;
+        value[2][i] = c;
+    }
+    const struct br_elementary *set = br_elementary_all[br_instruction_set_best()];
+    const double *const argument[3] = {value[0], value[1], value[2]};
+    const int rounding = br_round_to_nearest();
+    br_operation_apply(set, operation, set->width, argument, value[3]);
+    br_round_as_before(rounding);
+    return value[3][0];
+}
+
+/* ---- trees as functions ---- */
+
+/* A tree as a function: node by node over arrays of places. What does not use x is computed once a
+ * call. */
 enum { CHUNK = 256 }; /* places at a time: the arrays stay in the first caches */
 
 struct expression {
@@ -93,7 +347,7 @@ static struct expression *create(struct br_tree *tree)
     }
     e->tree = *tree;
     *tree = (struct br_tree){0};
-    e->set = br_elementary_best();
+    e->set = br_elementary_all[br_instruction_set_best()];
     struct br_error unsaid;
     if (make_arrays(e) && !br_proofs_init(&e->proofs, &e->tree, &unsaid))
         return e;
@@ -158,17 +412,14 @@ static void expression_evaluate(void *self, size_t count, const double *x, doubl
 {
     const struct expression *e = self;
     const double *root = e->array[e->tree.count - 1];
-    const int rounding = fegetround();
-    if (rounding != FE_TONEAREST)
-        fesetround(FE_TONEAREST);
+    const int rounding = br_round_to_nearest();
     evaluate_once(e, t, count < CHUNK ? round_up(count, e->set->width) : CHUNK);
     for (size_t done = 0; done < count; done += CHUNK) {
         const size_t some = count - done < CHUNK ? count - done : CHUNK;
         evaluate_places(e, some, x + done);
         memcpy(value + done, root, some * sizeof *value);
     }
-    if (rounding != FE_TONEAREST)
-        fesetround(rounding);
+    br_round_as_before(rounding);
 }
 
 static enum br_status expression_derive(const void *self, const struct br_derivation *what,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes as YAML files; the format is described by the table in scene_file.c. */
+/* Scenes as YAML files; the format is described by the table in schema.c. */
 #ifndef BR_STUDY_SCENE_FILE_H
 #define BR_STUDY_SCENE_FILE_H
 

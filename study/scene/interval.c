@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/scene/interval.h"
+#include "study/scene/enclosure.h"
 
 #include <float.h>
 #include <math.h>
@@ -38,7 +38,8 @@ double br_magnitude(iv a)
 
 /* ---- rounding outward ---- */
 
-double br_next_up(double a)
+/* The neighbouring number above; of -infinity the least finite one. */
+static double next_up(double a)
 {
     if (a == 0)
         return 0x1p-1074;
@@ -51,9 +52,9 @@ double br_next_up(double a)
     return a;
 }
 
-double br_next_down(double a)
+static double next_down(double a)
 {
-    return -br_next_up(-a);
+    return -next_up(-a);
 }
 
 /* By so many neighbours, but not through zero: the value's sign is right. */
@@ -61,7 +62,7 @@ static double lower(double a, int neighbours)
 {
     const bool positive = !signbit(a);
     for (int i = 0; i < neighbours && !(positive && a == 0); i++)
-        a = br_next_down(a);
+        a = next_down(a);
     return a;
 }
 
@@ -91,8 +92,8 @@ iv br_interval_add(iv a, iv b)
     if (br_is_none(a) || br_is_none(b) || a.low + b.high != a.low + b.high ||
         a.high + b.low != a.high + b.low)
         return br_no_interval; /* infinity less infinity, too */
-    return (iv){is_sum(low, a.low, b.low) ? low : br_next_down(low),
-                is_sum(high, a.high, b.high) ? high : br_next_up(high)};
+    return (iv){is_sum(low, a.low, b.low) ? low : next_down(low),
+                is_sum(high, a.high, b.high) ? high : next_up(high)};
 }
 
 static iv negate(iv a)

@@ -5,7 +5,6 @@
 #define BR_STUDY_SCENE_METHOD_FIELDS_H
 
 #include "solver/method.h"
-#include "study/scene/number_list.h"
 #include "study/scene/words.h"
 
 enum br_method_key {

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "study/scene/expression.h"
-#include "study/scene/products.h"
 
 /* "path:line: key: ..." */
 enum br_status br_scene_refuse(const struct br_scene_reader *r, size_t line, const char *key,
@@ -129,20 +128,25 @@ static enum br_status forbid(const struct br_scene_reader *r, const struct br_sc
                            variable);
 }
 
-static enum br_status read_initial(const struct br_scene_reader *r, const struct br_scene_key *key,
-                                   const yaml_node_t *node)
+static enum br_status read_function(const struct br_scene_reader *r, const struct br_scene_key *key,
+                                    const yaml_node_t *node)
 {
     struct br_function *f = (struct br_function *)((char *)r->scene + key->offset);
+    const bool initial = key->kind == BR_KEY_INITIAL;
     const enum br_status status = read_expression(r, key, key->unit, node, f);
-    return status ? status : forbid(r, key, node, f->uses_t, "t");
+    return status ? status
+                  : forbid(r, key, node, initial ? f->uses_t : f->uses_x, initial ? "t" : "x");
 }
 
-static enum br_status read_history(const struct br_scene_reader *r, const struct br_scene_key *key,
-                                   const yaml_node_t *node)
+static enum br_status keep_text(const struct br_scene_reader *r, const struct br_scene_key *key,
+                                const char *text)
 {
-    struct br_function *f = (struct br_function *)((char *)r->scene + key->offset);
-    const enum br_status status = read_expression(r, key, key->unit, node, f);
-    return status ? status : forbid(r, key, node, f->uses_x, "x");
+    char **copy = (char **)((char *)r->scene + key->offset);
+    *copy = br_allocate(strlen(text) + 1, 1);
+    if (!*copy)
+        return br_no_memory(r->err, "the scene");
+    strcpy(*copy, text);
+    return BR_OK;
 }
 
 /* An expression that is kept as text, too. */
@@ -155,14 +159,7 @@ static enum br_status read_solution(const struct br_scene_reader *r, const struc
         r, key, key->unit, node, axial ? &r->scene->axial.given : &r->scene->bending.given);
     if (!status)
         status = split_unit(r, key, key->unit, node, text);
-    if (status)
-        return status;
-    char **copy = (char **)((char *)r->scene + key->offset);
-    *copy = br_allocate(strlen(text) + 1, 1);
-    if (!*copy)
-        return br_no_memory(r->err, "the scene");
-    strcpy(*copy, text);
-    return BR_OK;
+    return status ? status : keep_text(r, key, text);
 }
 
 /* A product {shape: F(x), history: G(t)}. */
@@ -212,17 +209,6 @@ static enum br_status read_load(const struct br_scene_reader *r, const struct br
     return br_products(&f, load, r->err);
 }
 
-static enum br_status read_text(const struct br_scene_reader *r, const struct br_scene_key *key,
-                                const yaml_node_t *node)
-{
-    char **text = (char **)((char *)r->scene + key->offset);
-    *text = br_allocate(strlen(br_yaml_text(node)) + 1, 1);
-    if (!*text)
-        return br_no_memory(r->err, "the scene");
-    strcpy(*text, br_yaml_text(node));
-    return BR_OK;
-}
-
 static enum br_status read_law(const struct br_scene_reader *r, const struct br_scene_key *key,
                                const yaml_node_t *node)
 {
@@ -248,9 +234,8 @@ enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct
     case BR_KEY_NOT_NEGATIVE:
         return read_number(r, key, node);
     case BR_KEY_INITIAL:
-        return read_initial(r, key, node);
     case BR_KEY_HISTORY:
-        return read_history(r, key, node);
+        return read_function(r, key, node);
     case BR_KEY_LOAD:
         return read_load(r, key, node);
     case BR_KEY_SOLUTION:
@@ -262,5 +247,5 @@ enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct
     case BR_KEY_VERIFY:
         break;
     }
-    return read_text(r, key, node);
+    return keep_text(r, key, br_yaml_text(node));
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/verify/verdict.h"
+#include "study/verify/check.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -67,4 +67,13 @@ enum br_status br_verify_check(const struct br_scene *scene, const struct br_ver
 
 void br_verify_clear(struct br_verify *verify);
 
+struct br_scene_reader;
+struct yaml_node_s;
+
+/* Reads and checks the `verify` part of a scene's file (an example is in
+ * study/scenes/example1.yaml); the reader's scene is whole. Fails with BR_BAD_INPUT, naming file,
+ * line and key, or BR_NO_MEMORY; the caller clears `verify` even then. */
+enum br_status br_verify_read(const struct br_scene_reader *r, const struct yaml_node_s *node,
+                              struct br_verify *verify);
+
 #endif

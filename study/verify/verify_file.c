@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/verify/verify_file.h"
+#include "study/verify/verify.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "study/scene/method_fields.h"
-#include "study/scene/number_list.h"
+#include "study/scene/value.h"
+#include "study/scene/words.h"
 
 /* One study on its way: its lists are put together when both are known. */
 struct block {

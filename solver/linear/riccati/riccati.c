@@ -52,16 +52,10 @@ const struct br_kernel *const br_kernels[] = {BR_INSTRUCTION_SETS(ROW) NULL};
 
 const struct br_kernel *br_kernel_best(void)
 {
-    const struct br_kernel *const *kernel = br_kernels;
-    while (!(*kernel)->available())
-        kernel++;
-    return *kernel;
+    return br_kernels[br_instruction_set_best()];
 }
 
 const struct br_kernel *br_kernel_find(const char *name)
 {
-    for (const struct br_kernel *const *kernel = br_kernels; *kernel; kernel++)
-        if (strcmp((*kernel)->name, name) == 0)
-            return *kernel;
-    return NULL;
+    return br_kernels[br_instruction_set_find(name)];
 }
