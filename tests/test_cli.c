@@ -9,10 +9,7 @@
 #include <unistd.h>
 
 #include "cli_driver.h"
-#include "reference/judge.h"
-#include "study/grid/study.h"
 #include "support.h"
-#include "tables/document.h"
 
 /* A CSV file of cells without its timings: the column of seconds. */
 static char *read_without_seconds(const char *name)
@@ -67,23 +64,6 @@ static void test_good_run(void **state)
     assert_int_equal(cli_count_files("r"), 9);
     cli_expect("study example3 --out one --format csv " SMALL, NULL, 0, "");
     assert_int_equal(cli_count_files("one"), 4); /* cells, slopes, fits, tips */
-}
-
-static void test_tables(void **state)
-{
-    (void)state;
-    cli_expect("tables --n 5,10,20 --k 0.1,0.05,0.025 --reference fine:40,0.0125 --out t", NULL, 0,
-               "Written to t/");
-    static const char *const stems[] = {"t/table1", "t/table2"};
-    static const char *const endings[] = {".csv",  ".md",   ".tex",        ".json", ".txt",
-                                          "-h.gp", "-k.gp", "-printed.gp", "-h.dat"};
-    for (size_t i = 0; i < 2; i++)
-        for (size_t j = 0; j < sizeof endings / sizeof *endings; j++) {
-            char name[64];
-            snprintf(name, sizeof name, "%s%s", stems[i], endings[j]);
-            if (!cli_is_there(name))
-                fail_msg("%s is missing", name);
-        }
 }
 
 /* One cell contradicts nothing, and the table does not say that it does. */
@@ -180,37 +160,7 @@ static void test_norms(void **state)
     assert_true(cli_file_contains("none/example2-energy-steps.txt", "Error (25)"));
 }
 
-/* Every row of a registry, and what stands on two screens. */
-static void test_help(void **state)
-{
-    (void)state;
-    static struct cli_outcome out;
-    static const char *const same[] = {"--help", "-h", "help"};
-    for (size_t i = 0; i < 3; i++)
-        cli_expect(same[i], NULL, 0, "\n  tables ");
-    cli_run_line("help methods", NULL, &out);
-    assert_int_equal(out.exit_code, 0);
-    for (size_t j = 0; br_time_schemes[j]; j++)
-        assert_non_null(strstr(out.output, br_time_schemes[j]->title));
-    for (size_t j = 0; br_linear_solvers[j]; j++)
-        assert_non_null(strstr(out.output, br_linear_solvers[j]->title));
-    for (size_t j = 0; br_kernels[j]; j++)
-        assert_non_null(strstr(out.output, br_kernels[j]->name));
-    for (size_t j = 0; br_contact_rules[j]; j++)
-        assert_non_null(strstr(out.output, br_contact_rules[j]->title));
-    for (size_t j = 0; br_friction_rules[j]; j++)
-        assert_non_null(strstr(out.output, br_friction_rules[j]->title));
-    for (size_t j = 0; br_judges[j]; j++)
-        assert_non_null(strstr(out.output, br_judges[j]->title));
-    for (size_t j = 0; br_norms[j]; j++)
-        assert_non_null(strstr(out.output, br_norms[j]->title));
-    for (size_t j = 0; br_document_formats[j]; j++)
-        assert_non_null(strstr(out.output, br_document_formats[j]->title));
-    cli_expect("help methods", NULL, 0, "  --scaling               --solver umfpack\n");
-    cli_expect("--version", NULL, 0, "beamrate ");
-}
-
-/* A command's own help: both ways to it, two screens at most, its defaults. */
+/* A command's own help: both ways to it, two screens at most. */
 static void test_command_help(void **state)
 {
     (void)state;
@@ -233,9 +183,6 @@ static void test_command_help(void **state)
             width = strcspn(c, "\n") > width ? strcspn(c, "\n") : width;
         assert_true(lines <= 60 && width <= 100);
     }
-    cli_expect("study -h", NULL, 0, "elements of the meshes (default 25,50,100,200)\n");
-    cli_expect("run -h", NULL, 0, "--scheme NAME               time scheme (default euler)\n");
-    cli_expect("study -h", NULL, 0, "  -j, --threads COUNT ");
 }
 
 /* Numbers of steps, and parts of the duration, are the same cells as seconds. */
@@ -334,11 +281,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bad_scene),
         cmocka_unit_test(test_good_run),
-        cmocka_unit_test(test_tables),
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_single_cell),
         cmocka_unit_test(test_failures),
-        cmocka_unit_test(test_help),
         cmocka_unit_test(test_command_help),
         cmocka_unit_test(test_steps),
         cmocka_unit_test(test_data_folder),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures: what is filled in stands in the data file, and gnuplot draws the script; and the
- * pictures of studies, trades and extremes have the numbers of their results, along axes that name
- * them. No two numbers of the made results are the same. */
+/* Figures: what is filled in stands in the data file, and gnuplot draws the script; and those
+ * pictures that golden/ does not hold have the numbers of their results, along axes that name them.
+ */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +17,6 @@
 #include "study/extremes/energy_behaviour.h"
 #include "study/extremes/floors.h"
 #include "study/run/history.h"
-#include "study/trade/trade.h"
 
 /* ---- any figure ---- */
 
@@ -238,129 +237,6 @@ static void test_no_memory(void **state)
 
 /* ---- a study ---- */
 
-/* What stands at a place of an axis, by the axis' own name. */
-static double along(const struct br_report *r, const char *label, const struct br_cell *c)
-{
-    const struct br_scene *scene = br_report_fitted(r)->scene;
-    if (strncmp(label, "mesh size h (m)", 15) == 0)
-        return scene->length / (double)c->at.n;
-    assert_int_equal(strncmp(label, "time step k (s)", 15), 0);
-    return scene->duration / (double)c->at.steps;
-}
-
-/* A curve over h at one k, or over k at one n, whose cells are first, first + every, ... */
-static void check_curve(const struct br_report *r, const struct br_panel *p, const char *title,
-                        size_t first, enum br_part part, const double *printed)
-{
-    const bool over_h = p->x_label[0] == 'm';
-    const struct br_series *s = figure_series(p, title);
-    assert_int_equal(s->count, over_h ? BR_MADE_N : BR_MADE_K);
-    for (size_t i = 0; i < s->count; i++) {
-        const size_t cell = first + i * (over_h ? BR_MADE_K : 1);
-        const struct br_cell *c = &br_report_fitted(r)->cell[cell];
-        const bool lost = c->flag[part] == BR_FLAG_FAILED;
-        figure_point(s, i, along(r, p->x_label, c),
-                     printed ? printed[cell]
-                     : lost  ? (double)NAN
-                             : c->error[part]);
-        const char *flag = s->point[i].flag ? s->point[i].flag : "";
-        assert_string_equal(flag, printed ? "" : br_flag_name(c->flag[part]));
-        figure_point(&p->top, i, along(r, p->x_label, c), (double)(over_h ? c->at.n : c->at.steps));
-    }
-}
-
-static void check_h(const struct br_report *r, const struct br_figure *f)
-{
-    static const char *const titles[BR_MADE_K] = {"k = 0.12 s", "k = 0.06 s", "k = 0.03 s",
-                                                  "k = 0.015 s"};
-    figure_axes(&f->panel[0], "mesh size h (m)", "error (31) (m^{3/2})");
-    for (size_t j = 0; j < BR_MADE_K; j++)
-        check_curve(r, &f->panel[0], titles[j], j, BR_PART_TOTAL, NULL);
-}
-
-static void check_k(const struct br_report *r, const struct br_figure *f)
-{
-    static const char *const titles[BR_MADE_N] = {"n = 10", "n = 20", "n = 40"};
-    const struct br_study *s = br_report_fitted(r);
-    figure_axes(&f->panel[0], "time step k (s)", "error (31) (m^{3/2})");
-    figure_axes(&f->panel[1], "time step k (s)", "error / joint fit - 1");
-    for (size_t i = 0; i < BR_MADE_N; i++) {
-        check_curve(r, &f->panel[0], titles[i], i * BR_MADE_K, BR_PART_TOTAL, NULL);
-        const struct br_cell *c = &s->cell[i * BR_MADE_K + 1];
-        const double model =
-            br_joint_model(&r->fits[0].joint, 2.0 / (double)c->at.n, 3.0 / (double)c->at.steps,
-                           br_reference_mesh(s), br_reference_step(s));
-        const struct br_series *curve = figure_series(&f->panel[1], titles[i]);
-        assert_true(curve->point[1].x == 3.0 / (double)c->at.steps);
-        CLOSE(curve->point[1].y, c->error[0] / model - 1, 1e-12);
-    }
-}
-
-static void check_parts(const struct br_report *r, const struct br_figure *f)
-{
-    figure_axes(&f->panel[0], "mesh size h (m), at k = 0.015 s", "error (31) (m^{3/2})");
-    figure_axes(&f->panel[1], "time step k (s), at n = 40", "error (31) (m^{3/2})");
-    for (int part = 0; part < BR_PARTS; part++) {
-        const char *name = br_part_names[part];
-        check_curve(r, &f->panel[0], name, BR_MADE_K - 1, (enum br_part)part, NULL);
-        check_curve(r, &f->panel[1], name, (BR_MADE_N - 1) * BR_MADE_K, (enum br_part)part, NULL);
-    }
-}
-
-/* The hue tells whose error it is, the mark which curve. */
-static void check_printed(const struct br_report *r, const struct br_figure *f)
-{
-    for (size_t i = 0; i < 2; i++) {
-        struct br_panel *p = (struct br_panel *)&f->panel[i];
-        const bool over_h = p->x_label[0] == 'm';
-        const size_t curves = over_h ? BR_MADE_K : BR_MADE_N;
-        figure_axes(p, over_h ? "mesh size h (m)" : "time step k (s)", "error (31) (m^{3/2})");
-        for (size_t j = 0; j < 2 * curves; j++) {
-            struct br_series *s = p->series[j];
-            const size_t first = j / 2 * (over_h ? 1 : BR_MADE_K);
-            char title[sizeof s->title];
-            assert_string_equal(s->title, j % 2 ? "printed" : "computed");
-            assert_int_equal(s->look, 1 + j % 2);
-            assert_int_equal(s->mark, j / 2 + 1);
-            BR_SAY(title, "%s", s->title);
-            BR_SAY(s->title, "this");
-            check_curve(r, p, "this", first, BR_PART_TOTAL, j % 2 ? r->printed : NULL);
-            BR_SAY(s->title, "%s", title);
-        }
-    }
-    assert_int_equal(figure_series(&f->panel[1], "left n = 20, right k = 0.06 s")->mark, 2);
-    assert_int_equal(figure_series(&f->panel[1], "right k = 0.015 s")->mark, 4);
-}
-
-static void test_study(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *name;
-        void (*check)(const struct br_report *, const struct br_figure *);
-    } checks[] = {
-        {"h", check_h}, {"k", check_k}, {"parts", check_parts}, {"printed", check_printed}};
-    for (size_t i = 0; br_convergence_pictures[i]; i++) {
-        struct br_made_report m;
-        struct br_error err = {0};
-        struct br_figure f;
-        br_made_report(&m, i % 2);
-        m.scene.length = 2; /* h is not 1/n, nor k 1/N */
-        m.scene.duration = 3;
-        struct br_cell *failed = &m.cell[i % 2][11];
-        failed->error[0] = failed->error[1] = failed->error[2] = 3e-3; /* stopped half way */
-        assert_string_equal(br_convergence_pictures[i]->name, checks[i].name);
-        assert_true(br_convergence_pictures[i]->applies(&m.report));
-        f = br_convergence_draw(br_convergence_pictures[i], &m.report);
-        MUST(br_figure_check(&f, &err));
-        assert_string_equal(f.title, BR_MADE_CAPTION);
-        checks[i].check(&m.report, &f);
-        figure_check(&f);
-        br_figure_clear(&f);
-        br_made_report_clear(&m);
-    }
-}
-
 static void test_names(void **state)
 {
     (void)state;
@@ -376,85 +252,6 @@ static void test_names(void **state)
         br_figure_clear(&f);
     }
     br_made_report_clear(&m);
-}
-
-/* ---- a trade ---- */
-
-enum { TRIALS = 6 };
-
-/* Two methods; the third of each is worse than its second in both. */
-static void make_trade(struct br_trade *t, struct br_trial trial[TRIALS])
-{
-    struct br_error err = {0};
-    *t = (struct br_trade){.trial = trial, .count = TRIALS, .norm = {&br_norm_l2}};
-    MUST(br_named_methods_read("--methods", "bdf2,euler+lagged", &t->methods, &err));
-    for (size_t i = 0; i < TRIALS; i++) {
-        trial[i] = (struct br_trial){
-            .named = &t->methods.list[i / 3],
-            .at = {10 + i, 100 + 7 * i},
-            .cost = {.set_up = 0.25 * (double)(i + 1), .march = 1 + (double)i},
-            .scale = {2},
-            .own = {0},
-        };
-        trial[i].cost.counts.stages = 1000 + 31 * i;
-        trial[i].error[0][BR_PART_TOTAL] = i % 3 == 2 ? 0.9 : pow(10, -1.0 - (double)i);
-        trial[i].error[0][BR_PART_AXIAL] = 0.123;
-    }
-    trial[5].end = BR_TRIAL_UNSTABLE;
-    trial[4].printed = true;
-}
-
-static void check_trade(const struct br_trade *t, const struct br_trade_picture *picture,
-                        const char *label, double (*work)(const struct br_trial *))
-{
-    struct br_error err = {0};
-    struct br_figure f;
-    assert_true(br_trade_picture_applies(picture, t));
-    f = br_trade_draw(picture, t, "name", "caption");
-    MUST(br_figure_check(&f, &err));
-    const struct br_panel *p = &f.panel[0];
-    figure_axes(p, label, "relative error (31)");
-    for (size_t c = 0; c < 2; c++) {
-        const struct br_series *s = figure_series(p, t->methods.list[c].name);
-        assert_int_equal(s->count, 2);
-        for (size_t i = 0; i < 2; i++) {
-            const struct br_trial *trial = &t->trial[3 * c + i];
-            figure_point(s, i, work(trial), trial->error[0][BR_PART_TOTAL] / 2);
-        }
-    }
-    assert_int_equal(figure_series(p, "euler+lagged")->look, 1); /* the paper's own comes first */
-    const struct br_series *dots = figure_series(p, "other trials");
-    assert_int_equal(dots->count, 5);
-    figure_point(dots, 2, work(&t->trial[2]), 0.45);
-    figure_point(figure_series(p, "beyond the limit of lagging"), 0, work(&t->trial[5]), 0.45);
-    figure_point(figure_series(p, "printed in the paper"), 0, work(&t->trial[4]),
-                 t->trial[4].error[0][0] / 2);
-    assert_int_equal(figure_series(p, "Pareto front")->count, 4);
-    figure_check(&f);
-    br_figure_clear(&f);
-}
-
-static double seconds(const struct br_trial *t)
-{
-    return t->cost.set_up + t->cost.march;
-}
-
-static double solves(const struct br_trial *t)
-{
-    return (double)t->at.n * (double)t->cost.counts.stages;
-}
-
-static void test_trade(void **state)
-{
-    (void)state;
-    struct br_trade t;
-    struct br_trial trial[TRIALS];
-    make_trade(&t, trial);
-    assert_string_equal(br_trade_pictures[0]->name, "schemes");
-    assert_string_equal(br_trade_pictures[1]->name, "work");
-    check_trade(&t, br_trade_pictures[0], "CPU time of one thread (s)", seconds);
-    check_trade(&t, br_trade_pictures[1], "elements times linear solves a field", solves);
-    assert_false(br_trade_picture_applies(br_trade_pictures[2], &t));
 }
 
 /* ---- extremes ---- */
@@ -642,47 +439,15 @@ static void test_letters(void **state)
     br_scene_clear(&scene);
 }
 
-/* The tip of all frames, and in each the fields of its look. */
-static void test_movie(void **state)
-{
-    (void)state;
-    static const char tip[] = "\n0.5 3 5 11 13 0 19\n1 6 10 22 26 34 38\n1.5 9 15 33 39 51 57\n";
-    struct br_history_record r;
-    struct br_history_row row[LOOKS];
-    double field[LOOKS * 18];
-    char text[1 << 13], frame[200];
-    struct br_scene scene = br_test_bundled("example2");
-    make_record(&r, row, field);
-    const struct br_movie movie = {&scene, &r, br_movie_format_of("m.gif"), "m"};
-    FILE *out = fmemopen(text, sizeof text, "w");
-    br_movie_write_script(out, &movie);
-    fclose(out);
-    assert_non_null(strstr(text, "\nframes = 3\nlength = 1; gap = 0 # m\ntouches = 1; rubs = 1 "));
-    out = fmemopen(text, sizeof text, "w");
-    br_movie_write_data(out, &movie);
-    fclose(out);
-    assert_non_null(strstr(text, tip));
-    for (size_t look = 0; look < LOOKS; look++) {
-        const double *u = br_history_field(&r, look, BR_AXIAL, false);
-        const double *w = br_history_field(&r, look, BR_BENDING, false);
-        snprintf(frame, sizeof frame, "t = %.9g s\n0 %g %g\n0.5 %g %g\n1 %g %g\n", row[look].time,
-                 u[0], w[0], u[1], w[2], u[2], w[4]);
-        assert_non_null(strstr(text, frame));
-    }
-    br_scene_clear(&scene);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_data),      cmocka_unit_test(test_colours),
-        cmocka_unit_test(test_hues),      cmocka_unit_test(test_slopes),
-        cmocka_unit_test(test_drawn),     cmocka_unit_test(test_study),
-        cmocka_unit_test(test_names),     cmocka_unit_test(test_trade),
-        cmocka_unit_test(test_floors),    cmocka_unit_test(test_drifts),
-        cmocka_unit_test(test_energy),    cmocka_unit_test(test_map),
-        cmocka_unit_test(test_letters),   cmocka_unit_test(test_movie),
-        cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(test_data),    cmocka_unit_test(test_colours),
+        cmocka_unit_test(test_hues),    cmocka_unit_test(test_slopes),
+        cmocka_unit_test(test_drawn),   cmocka_unit_test(test_names),
+        cmocka_unit_test(test_floors),  cmocka_unit_test(test_drifts),
+        cmocka_unit_test(test_energy),  cmocka_unit_test(test_map),
+        cmocka_unit_test(test_letters), cmocka_unit_test(test_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,6 @@
 
 #include "cli_driver.h"
 #include "plots/pictures.h"
-#include "study/paper/claims.h"
 #include "support.h"
 
 static bool has_gnuplot(void)
@@ -43,25 +42,9 @@ static void test_figures(void **state)
             if (!cli_is_there(name))
                 fail_msg("%s is not there", name);
         }
-        snprintf(name, sizeof name, "Figure %d. The paper: %.20s", f->number, f->says);
-        assert_true(cli_file_contains("figures/claims.txt", name));
         snprintf(name, sizeof name, "figure%d.gp", f->number);
         assert_true(!has_gnuplot() || is_silent("figures", name));
     }
-    static const char *const tables[] = {"claims.txt", "claims.csv", "claims.md", "claims.tex",
-                                         "claims.json"};
-    for (size_t t = 0; t < sizeof tables / sizeof *tables; t++) {
-        char name[64];
-        snprintf(name, sizeof name, "figures/%s", tables[t]);
-        assert_true(cli_is_there(name));
-    }
-    for (size_t i = 0; br_claims[i].name; i++) {
-        char row[128];
-        snprintf(row, sizeof row, "\n%s,%s,", br_claims[i].name, br_claims[i].section);
-        assert_true(cli_file_contains("figures/claims.csv", row));
-    }
-    assert_true(
-        cli_file_contains("figures/claims.md", "| 0.68 s | 0.8 +- 0.001 s | 0.8 s | differ |"));
 }
 
 static void test_without_gnuplot(void **state)
