@@ -84,7 +84,7 @@ static struct br_trade *made_trade(const struct br_scene *scene)
     struct br_error err = {0};
     struct br_trade *t = calloc(1, sizeof *t);
     assert_non_null(t);
-    MUST(br_methods_read("--methods", "euler,adaptive", &t->methods, &err));
+    MUST(br_named_methods_read("--methods", "euler,adaptive", &t->methods, &err));
     t->request = br_trial_request_default(scene);
     t->norm[0] = &br_norm_l2;
     t->count = 2;
@@ -162,7 +162,7 @@ static struct br_plan *made_plan(const struct br_scene *scene)
     struct br_plan *p = calloc(1, sizeof *p);
     assert_non_null(p);
     br_plan_default(p, scene);
-    MUST(br_methods_read("--methods", "euler,bdf2", &p->methods, &err));
+    MUST(br_named_methods_read("--methods", "euler,bdf2", &p->methods, &err));
     p->goal = (struct br_plan_goal){0.5, NAN};
     p->norm[0] = &br_norm_l2;
     p->seconds = seconds_of_plan;
