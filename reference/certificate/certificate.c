@@ -224,15 +224,16 @@ static double exact_law(double v, double lambda, double bound, struct slack left
 }
 
 /* The same for (29), corrected; mu in the unit of v. */
-static double regularised_law(double v, double lambda, double bound, double mu)
+static double regularised_law(double v, double lambda, double bound, double mu, struct slack left)
 {
     const double law = br_worse_of(-bound, smaller(bound * v / mu, bound));
     const double in_force = fabs(lambda - law);
     if (!(fabs(lambda) <= bound) || bound == 0)
         return in_force;
-    return smaller(in_force, fabs(v - mu * lambda / bound));
+    return smaller(in_force, positive(fabs(v - mu * lambda / bound) - left.speed));
 }
 
+/* The march's own bound, which is that of the nodes to their round-off, and the law with it. */
 static double friction_error(const struct br_step *s)
 {
     const double lambda = s->tip.friction_force;
@@ -246,7 +247,7 @@ static double friction_error(const struct br_step *s)
                                        br_worse_of(fabs(lambda), bound) + bound_scale(s));
     const double told = ratio(bound_error(s, bound), force);
     const double v = ratio(at_tip(s, BR_BENDING, nodal), speed);
-    const double l = ratio(lambda, force), b = ratio(bound, force);
+    const double l = ratio(lambda, force), b = ratio(s->tip.friction_bound, force);
     const double tolerance = s->method->friction->iterates ? s->method->iteration.tolerance : 0;
     const struct slack left = {
         tolerance * b,
@@ -255,7 +256,7 @@ static double friction_error(const struct br_step *s)
         return br_worse_of(told, exact_law(v, l, b, left));
     if (speed == 0)
         return br_worse_of(told, fabs(l));
-    return br_worse_of(told, regularised_law(v, l, b, s->scene->friction.regularisation / speed));
+    return br_worse_of(told, regularised_law(v, l, b, s->scene->friction.regularisation / speed, left));
 }
 
 /* ---- branches ---- */

@@ -119,8 +119,8 @@ struct br_certificate br_step_checker_step(struct br_step_checker *checker);
 /* Branches of a law: contact has two, open and closed; friction three, stick, slip up and down. */
 enum { BR_CONTACT_BRANCHES = 2, BR_FRICTION_BRANCHES = 3, BR_MOST_BRANCHES = 3 };
 
-/* A scheme's weights are up to 8, and its steps grow by 5. */
-enum { BR_MOST_WEIGHT = 64 };
+/* A stage adds up to six velocities, by weights up to 8, of steps that grow by 5. */
+enum { BR_MOST_WEIGHT = 240 };
 
 /* Nodal unknowns of a field's elements. */
 static inline size_t br_step_unknowns(const struct br_method *method, enum br_field_kind kind)

@@ -355,7 +355,8 @@ static enum br_status judge_units(struct trial *t, struct br_error *err)
     if (status || !exist)
         return status;
     const double units = t->verdict->units, limit = allowed(t);
-    if (units <= limit || (isnan(units) && !t->other->begun))
+    const bool refused = !t->other->begun || (t->other->failure.status && limit >= 1);
+    if (units <= limit || (isnan(units) && refused))
         return status;
     char why[120];
     snprintf(why, sizeof why, "%.110s", t->other->failure.message);

@@ -24,7 +24,7 @@ struct br_track_places br_track_places(size_t n, size_t steps)
 {
     struct br_track_places p = {.n = n, .steps = steps, .parts = 1};
     const size_t parts = steps < BR_TRACK_LEVELS ? steps : BR_TRACK_LEVELS;
-    while (n * p.parts < 64 * BR_TRACK_EVEN) /* room for those near the tip */
+    while (n * p.parts < 256 * BR_TRACK_EVEN) /* room for those near the tip */
         p.parts *= 2;
     p.levels = parts + 1;
     p.points = choose_places(n * p.parts, p.parts, p.place);

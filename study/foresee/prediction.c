@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "solver/clock.h"
+#include "solver/laws.h"
 #include "study/foresee/prediction_probes.h"
 
 /* What an error that was extrapolated is unsure by: a factor. */
@@ -348,13 +349,33 @@ static bool swings_within(const struct br_scene *s, int kind, double k)
     return s->density > 0 && angular * k > 1 && viscosity * angular < 2 * stiffness;
 }
 
+static double finest_step(const struct br_probe_set *s)
+{
+    const enum br_probe_kind finest =
+        s->probe[BR_PROBE_WHOLE].held ? BR_PROBE_WHOLE : BR_PROBE_TIME;
+    return s->planned->scene->duration / (double)s->probe[finest].study.reference.steps;
+}
+
+/* Whether the tip starts pressed into a contact that throws it back within the steps of every
+ * march: what energy that gives the rod, no march knows. */
+static bool release_unseen(const struct br_probe_set *s)
+{
+    const struct br_scene *scene = s->planned->scene;
+    if (!scene->axial.modelled || !scene->contact.modelled || start_is_seen(s))
+        return false;
+    double tip;
+    br_function_evaluate(&scene->axial.displacement, 1, &scene->length, 0, &tip);
+    const struct br_field field =
+        br_field_of_scene(scene, BR_AXIAL, s->planned->n, finest_step(s));
+    return tip > scene->contact.gap &&
+           scene->contact.stiffness > br_contact_limit_stiffness(&field);
+}
+
 /* Whether swings that no march follows may open, close or slip where the marches do not. */
 static bool switches_unseen(const struct br_probe_set *s)
 {
     const struct br_scene *scene = s->planned->scene;
-    const enum br_probe_kind finest =
-        s->probe[BR_PROBE_WHOLE].held ? BR_PROBE_WHOLE : BR_PROBE_TIME;
-    const double k = scene->duration / (double)s->probe[finest].study.reference.steps;
+    const double k = finest_step(s);
     return can_switch(scene) && !start_is_seen(s) &&
            ((scene->axial.modelled && swings_within(scene, BR_AXIAL, k)) ||
             (scene->bending.modelled && swings_within(scene, BR_BENDING, k)));
@@ -388,10 +409,13 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
     else
         snprintf(p->why, sizeof p->why,
                  "the marches that it is compared with differ too much among themselves");
-    if (p->known && switches_unseen(s)) {
+    const char *unseen =
+        release_unseen(s)    ? "how the contact, pressed at t = 0, throws the tip back"
+        : switches_unseen(s) ? "the swings from t = 0 on, in which the tip may switch"
+                             : NULL;
+    if (p->known && unseen) {
         p->known = false;
-        snprintf(p->why, sizeof p->why,
-                 "no march follows the swings from t = 0 on, in which the tip may switch");
+        snprintf(p->why, sizeof p->why, "no march follows %s", unseen);
     }
 }
 
