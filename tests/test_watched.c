@@ -438,7 +438,7 @@ static void test_spoilt_heavy_beams(void **state)
     static const struct {
         size_t n;
         double by;
-    } meshes[] = {{20, 1e-9}, {40, 1e-6}, {59, 1e-6}, {200, 2e-5}};
+    } meshes[] = {{20, 1e-9}, {40, 1e-6}, {59, 4e-6}, {200, 5e-4}};
     for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++) {
         struct watched w = {.scene = heavy_scene(1e5), .method = br_method_default()};
         const struct br_scene off =
