@@ -77,8 +77,10 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
         br_scene_read_verify(item->path, &item->scene, &item->verify, err) ||
         choose_method(r, item, err))
         return err->status;
-    r->check[r->count++] =
-        (struct br_check){.path = item->path, .scene = &item->scene, .verify = &item->verify};
+    r->check[r->count++] = (struct br_check){.path = item->path,
+                                             .name = item->scene.name,
+                                             .scene = &item->scene,
+                                             .verify = &item->verify};
     return BR_OK;
 }
 

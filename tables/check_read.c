@@ -118,6 +118,9 @@ static enum br_status read_scene(const char *path, const json_t *o, struct br_ol
         !read_number(json_object_get(o, "element_steps"), 0, &cost->element_steps) ||
         !read_methods(json_object_get(o, "methods"), cost) || !json_is_array(list))
         return refuse(path, "scenes", "scenes with a name, methods, a cost and cases", err);
+    const json_t *problem = json_object_get(o, "problem"); /* null: of a scene; or of before */
+    if (json_is_string(problem) && !read_word(problem, cost->problem, sizeof cost->problem))
+        return refuse(path, "problem", "a hash", err);
     for (size_t i = 0; i + 1 < old->scenes; i++)
         if (strcmp(old->costs[i].scene, cost->scene) == 0)
             return refuse(path, cost->scene, "each scene once", err);

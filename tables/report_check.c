@@ -14,8 +14,7 @@ enum { NAME = 64, FIRST_FAILURES = 3 };
 /* "space l2 axial" */
 static const char *name_of(const struct br_case *c, char name[NAME])
 {
-    snprintf(name, NAME, "%s %s %s", br_verify_names[c->kind], c->expected.norm->name,
-             br_part_names[c->expected.part]);
+    snprintf(name, NAME, "%s %s %s", br_verify_names[c->kind], c->measure, c->part);
     return name;
 }
 
@@ -46,7 +45,7 @@ static void answer_failures(struct br_document *d, const struct br_check_finding
     size_t failures = 0;
     for (size_t i = 0; i < f->count; i++)
         if (f->checks[i].failure.status && ++failures <= FIRST_FAILURES)
-            br_put_answer(d, "%s cannot be verified: %s", f->checks[i].scene->name,
+            br_put_answer(d, "%s cannot be verified: %s", f->checks[i].name,
                           f->checks[i].failure.message);
     for (size_t i = 0; i < f->count; i++)
         for (size_t j = 0; j < f->checks[i].count; j++) {
@@ -57,7 +56,7 @@ static void answer_failures(struct br_document *d, const struct br_check_finding
                 *place = '\0';
             if (c->verdict != BR_PASS && ++failures <= FIRST_FAILURES)
                 br_put_answer(d, "%s, %s, %s%s: %s", br_verdict_names[c->verdict],
-                              f->checks[i].scene->name, name_of(c, name), place, c->reason);
+                              f->checks[i].name, name_of(c, name), place, c->reason);
         }
     if (failures > FIRST_FAILURES)
         br_put_answer(d, "%zu more do not pass: see the verdicts.", failures - FIRST_FAILURES);
@@ -80,10 +79,10 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
 {
     static const enum br_outcome outcomes[] = {BR_OUTCOME_PASS, BR_OUTCOME_FAIL,
                                                BR_OUTCOME_INCONCLUSIVE};
-    char name[NAME], against[NAME];
+    char name[NAME], at[NAME], against[NAME];
     br_put_verdict(d, &(struct br_document_verdict){
                           .outcome = outcomes[c->verdict],
-                          .group = check->scene->name,
+                          .group = check->name,
                           .name = name_of(c, name),
                           .message = c->verdict == BR_PASS ? c->note : c->reason,
                           .file = check->path,
@@ -95,8 +94,12 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
     for (size_t i = 0; i < c->points; i++) {
         const struct br_point *p = &c->point[i];
         snprintf(against, sizeof against, "n = %zu, k = T/%zu", p->against.n, p->against.steps);
-        br_put_verdict_detail(d, "n = %zu, k = T/%zu against %s: error %.4e, constant %.4e%s%s",
-                              p->at.n, p->at.steps, p->against.n ? against : "the solution",
+        snprintf(at, sizeof at, "n = %zu, k = T/%zu", p->at.n, p->at.steps);
+        br_put_verdict_detail(d, "%s against %s: error %.4e, constant %.4e%s%s",
+                              p->at.n ? at : p->label,
+                              p->against.n   ? against
+                              : p->z_against ? "the next finer one"
+                                             : "the solution",
                               p->error, p->constant,
                               p->flag    ? ", left out: "
                               : !p->used ? ", coarser than those that count"
@@ -109,10 +112,10 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
 static void begin_row(struct br_document *d, const struct br_check *check, const struct br_case *c)
 {
     br_put_row(d);
-    br_put(d, "scene", br_text(check->scene->name));
+    br_put(d, "scene", br_text(check->name));
     br_put(d, "study", br_text(br_verify_names[c->kind]));
-    br_put(d, "norm", br_text(c->expected.norm->name));
-    br_put(d, "part", br_text(br_part_names[c->expected.part]));
+    br_put(d, "norm", br_text(c->measure));
+    br_put(d, "part", br_text(c->part));
 }
 
 static void put_order(struct br_document *d, const struct br_check *check, const struct br_case *c)
@@ -161,7 +164,7 @@ static void put_orders(struct br_document *d, const struct br_check_findings *f)
         const struct br_check *check = &f->checks[i];
         if (check->failure.status)
             br_put_verdict(d, &(struct br_document_verdict){.outcome = BR_OUTCOME_ERROR,
-                                                            .group = check->scene->name,
+                                                            .group = check->name,
                                                             .name = "verify",
                                                             .message = check->failure.message,
                                                             .file = check->path,
@@ -177,8 +180,10 @@ static void put_point(struct br_document *d, const struct br_check *check, const
                       const struct br_point *p)
 {
     begin_row(d, check, c);
-    br_put(d, "n", br_count(p->at.n));
-    br_put(d, "steps", br_count(p->at.steps));
+    if (p->at.n) {
+        br_put(d, "n", br_count(p->at.n));
+        br_put(d, "steps", br_count(p->at.steps));
+    }
     br_put(d, "against_n", br_count(p->against.n));
     br_put(d, "against_steps", br_count(p->against.steps));
     br_put(d, "error", br_number(p->error));
@@ -186,6 +191,7 @@ static void put_point(struct br_document *d, const struct br_check *check, const
     br_put(d, "used", br_truth(p->used));
     br_put(d, "flag", br_text(br_flag_name(p->flag)));
     br_put(d, "failure", br_text(p->failure));
+    br_put(d, "at", br_text(p->label));
 }
 
 /* People see them with the verdicts. */
@@ -195,7 +201,7 @@ static void put_points(struct br_document *d, const struct br_check_findings *f)
         {.key = "scene"},   {.key = "study"},    {.key = "norm"},      {.key = "part"},
         {.key = "n"},       {.key = "steps"},    {.key = "against_n"}, {.key = "against_steps"},
         {.key = "error"},   {.key = "constant"}, {.key = "used"},      {.key = "flag"},
-        {.key = "failure"},
+        {.key = "failure"}, {.key = "at"},
     };
     BR_TABLE(d, "points", "Errors", BR_FOR_PROGRAMS, columns);
     for (size_t i = 0; i < f->count; i++)
@@ -242,29 +248,30 @@ static void put_defaults(struct br_document *d, const struct br_check *check, si
 static void put_scenes(struct br_document *d, const struct br_check_findings *f)
 {
     static const struct br_column columns[] = {
-        {.key = "scene"},   {.key = "path"},          {.key = "by_default"},
-        {.key = "seconds"}, {.key = "element_steps"}, {.key = "failure"},
+        {.key = "scene"},         {.key = "path"},    {.key = "by_default"}, {.key = "seconds"},
+        {.key = "element_steps"}, {.key = "failure"}, {.key = "problem"},
     };
     char key[NAME];
     BR_TABLE(d, "scenes", "Scenes", BR_FOR_PROGRAMS, columns);
     for (size_t i = 0; i < f->count; i++) {
         const struct br_check *check = &f->checks[i];
         br_put_row(d);
-        br_put(d, "scene", br_text(check->scene->name));
+        br_put(d, "scene", br_text(check->name));
         br_put(d, "path", br_text(check->path));
-        br_put(d, "by_default", br_truth(check->verify->by_default));
+        br_put(d, "by_default", br_truth(check->verify && check->verify->by_default));
         br_put(d, "seconds", br_number(check->seconds));
         br_put(d, "element_steps", br_number(check->element_steps));
         br_put(d, "failure", br_failure_text(&check->failure));
+        br_put(d, "problem", br_text(*check->problem ? check->problem : NULL));
     }
     for (size_t i = 0; i < f->count; i++)
-        for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+        for (int kind = 0; kind < BR_VERIFY_KINDS && f->checks[i].verify; kind++) {
             snprintf(key, sizeof key, "methods.%zu.%s", i, br_verify_names[kind]);
             if (f->checks[i].verify->study[kind].count)
                 br_put_method_facts(d, key, &f->checks[i].verify->study[kind].method);
         }
     for (size_t i = 0; i < f->count; i++)
-        if (f->checks[i].verify->by_default)
+        if (f->checks[i].verify && f->checks[i].verify->by_default)
             put_defaults(d, &f->checks[i], i);
 }
 

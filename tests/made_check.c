@@ -9,7 +9,8 @@ void made_create(struct made_check *m)
     m->scene.axial.load = br_test_load("sin(x)*(1 + t)");
     MUST(br_verify_default(&m->scene, &m->verify, &err));
     m->verify.study[BR_VERIFY_JOINT].count = 4; /* the fifth cell costs more than all others */
-    m->check = (struct br_check){.path = "made.yaml", .scene = &m->scene, .verify = &m->verify};
+    m->check = (struct br_check){
+        .path = "made.yaml", .name = "made", .scene = &m->scene, .verify = &m->verify};
 }
 
 void made_clear(struct made_check *m)

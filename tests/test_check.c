@@ -177,12 +177,13 @@ static void test_threads(void **state)
     char path[1024];
     MUST(br_scene_find("example2", path, sizeof path, &err));
     MUST(br_scene_read_verify(path, &scene, &verify, &err));
-    struct br_check first = {.path = path, .scene = &scene, .verify = &verify};
+    struct br_check first = {.path = path, .name = scene.name, .scene = &scene, .verify = &verify};
     MUST(br_check_run(&first, 1, 1, NULL, &err));
     assert_true(first.count > 0);
     assert_int_equal(br_check_tally(&first, 1, BR_PASS), first.count);
     for (int threads = 1; threads <= (br_test_quick() ? 2 : 8); threads *= 2) {
-        struct br_check again = {.path = path, .scene = &scene, .verify = &verify};
+        struct br_check again = {
+            .path = path, .name = scene.name, .scene = &scene, .verify = &verify};
         MUST(br_check_run(&again, 1, threads, NULL, &err));
         for (size_t i = 0; i < first.count; i++) {
             assert_true(same_estimate(&first.cases[i].order, &again.cases[i].order));

@@ -20,12 +20,17 @@ static void make(struct made *m, const double *error, size_t count)
     *m = (struct made){
         .it = {.kind = BR_VERIFY_JOINT,
                .expected = {&br_norm_l2, BR_PART_TOTAL, 1, 0.1, NAN, NAN, 7},
+               .measure = "l2",
+               .part = "total",
+               .unit = "m^(3/2)",
                .point = m->point,
                .points = count},
     };
     for (size_t i = 0; i < count; i++) {
         m->point[i] = (struct br_point){.at = {10u << i, 100u << i}, .error = error[i]};
         m->point[i].z = 1 / (double)m->point[i].at.steps;
+        snprintf(m->point[i].label, sizeof m->point[i].label, "(n = %zu, k = T/%zu)",
+                 m->point[i].at.n, m->point[i].at.steps);
     }
 }
 

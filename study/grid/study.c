@@ -6,7 +6,8 @@
 
 const char *br_flag_name(enum br_flag flag)
 {
-    static const char *const names[] = {"", "reference", "round-off", "failed", "unstable"};
+    static const char *const names[] = {"",       "reference", "round-off",
+                                        "failed", "unstable",  "stagnation"};
     return names[flag];
 }
 

@@ -80,9 +80,10 @@ enum br_flag {
     BR_FLAG_ROUND_OFF, /* it is at the round-off of a solver */
     BR_FLAG_FAILED,    /* the march failed, or its error is not a number */
     BR_FLAG_UNSTABLE,  /* lagged contact beyond its stability limit: bounded chatter */
+    BR_FLAG_STALLED,   /* finer grids have no smaller error */
 };
 const char *br_flag_name(
-    enum br_flag flag); /* "", "reference", "round-off", "failed", "unstable" */
+    enum br_flag flag); /* "", "reference", "round-off", "failed", "unstable", "stagnation" */
 
 struct br_cell {
     struct br_resolution at;

@@ -161,6 +161,12 @@ static struct br_point point_at(const struct plan *plan, const struct section *s
         if (p.flag == BR_FLAG_NONE && study->judged_by.unstable)
             p.flag = BR_FLAG_UNSTABLE; /* what it is compared with */
     }
+    if (s->kind == BR_VERIFY_SPACE)
+        snprintf(p.label, sizeof p.label, "n = %zu", p.at.n);
+    else if (s->kind == BR_VERIFY_TIME)
+        snprintf(p.label, sizeof p.label, "k = T/%zu", p.at.steps);
+    else
+        snprintf(p.label, sizeof p.label, "(n = %zu, k = T/%zu)", p.at.n, p.at.steps);
     snprintf(p.failure, sizeof p.failure, "%.255s", failure->status ? failure->message : "");
     return p;
 }
@@ -171,6 +177,9 @@ static enum br_status conclude_case(const struct plan *plan, const struct sectio
 {
     c->kind = s->kind;
     c->expected = *e;
+    c->measure = e->norm->name;
+    c->part = br_part_names[e->part];
+    c->unit = e->norm->unit;
     c->points = br_verify_points(s->kind, study_of(s)->count);
     c->point = br_allocate(c->points, sizeof *c->point);
     if (!c->point)

@@ -22,6 +22,7 @@ struct br_point {
     double z, z_against;              /* h/L or k/T, what the order is in; and that of `against` */
     double error;                     /* in the norm's unit */
     double constant;                  /* C of e = C (z^order - z_against^order) */
+    char label[64];                   /* "n = 40", for messages */
     enum br_flag flag;                /* why it is left out */
     bool used;                        /* for the verdict: among the finest that are not left out */
     char failure[256];                /* of the march; "": it went well */
@@ -30,19 +31,29 @@ struct br_point {
 /* An expectation with what was seen. */
 struct br_case {
     enum br_verify_kind kind;
-    struct br_expectation expected;
-    struct br_point *point; /* points, from coarse to fine; owned */
+    struct br_expectation expected; /* order: NaN where nothing is expected */
+    const char *measure, *part;     /* what the errors are of: a norm, or a column; borrowed */
+    const char *unit;               /* of the errors; "": not known; borrowed */
+    struct br_point *point;         /* points, from coarse to fine; owned */
     size_t points, used;
     struct br_estimate order;
     double constant; /* the largest of the used points'; NaN: none */
+    double down_to;  /* errors stop falling there, as is expected; 0: nowhere */
     double margin;   /* from the interval to the nearer end of the band; < 0: outside */
     enum br_verdict verdict;
     char reason[768]; /* why it does not pass, and what would make it conclusive; or "" */
     char note[512];   /* what was left out; or "" */
 };
 
-/* Judges a case whose kind, expected and points (at, against, z, z_against, error, flag, failure)
- * are set: sets the rest. Fails with BR_NO_MEMORY. */
+/* Finds the order of a case whose kind, expected, measure, part, unit and points (at, against, z,
+ * z_against, error, label, flag, failure) are set, from at least so many that are not left out;
+ * without a verdict. Fails with BR_NO_MEMORY. */
+enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error *err);
+
+/* The verdict on what was observed. */
+void br_case_judge(struct br_case *c);
+
+/* Both, for an order that needs BR_VERIFY_LEAST_POINTS. */
 enum br_status br_verdict_reach(struct br_case *c, struct br_error *err);
 
 /* ---- checks of scenes ---- */
@@ -51,9 +62,11 @@ enum br_status br_verdict_reach(struct br_case *c, struct br_error *err);
 
 struct br_check {
     /* in; borrowed */
-    const char *path; /* of the scene, for messages */
-    const struct br_scene *scene;
-    const struct br_verify *verify;
+    const char *path;               /* of the scene, for messages */
+    const char *name;               /* of the scene, or of the study of another program */
+    const struct br_scene *scene;   /* NULL: of another program; its cases are there before */
+    const struct br_verify *verify; /* NULL likewise */
+    char problem[40];               /* a hash of what is solved, for comparisons; "": none */
     /* out */
     struct br_error failure; /* BR_BAD_INPUT: the scene cannot be verified (its reference or a
                                 method refuses it), with file and line; there are no cases then */

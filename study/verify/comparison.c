@@ -72,19 +72,17 @@ static bool same_name(const char *old, const char *now)
 static bool is_case(const struct br_old_case *old, const struct br_check *check,
                     const struct br_case *c)
 {
-    return same_name(old->scene, check->scene->name) &&
+    return same_name(old->scene, check->name) &&
            strcmp(old->study, br_verify_names[c->kind]) == 0 &&
-           strcmp(old->norm, c->expected.norm->name) == 0 &&
-           strcmp(old->part, br_part_names[c->expected.part]) == 0;
+           strcmp(old->norm, c->measure) == 0 && strcmp(old->part, c->part) == 0;
 }
 
 static struct br_difference about_case(const struct br_check *check, const struct br_case *c,
                                        const char *what)
 {
     struct br_difference d = {0};
-    snprintf(d.subject, sizeof d.subject, "%.100s %s %s %s: %s", check->scene->name,
-             br_verify_names[c->kind], c->expected.norm->name, br_part_names[c->expected.part],
-             what);
+    snprintf(d.subject, sizeof d.subject, "%.100s %s %s %s: %s", check->name,
+             br_verify_names[c->kind], c->measure, c->part, what);
     return d;
 }
 
@@ -173,7 +171,7 @@ static void report_lost(struct br_comparison *out, const struct br_check *checks
 {
     bool scene = whole;
     for (size_t i = 0; i < count; i++) {
-        scene |= same_name(old->scene, checks[i].scene->name);
+        scene |= same_name(old->scene, checks[i].name);
         for (size_t c = 0; c < checks[i].count; c++)
             if (is_case(old, &checks[i], &checks[i].cases[c]))
                 return;
@@ -202,8 +200,7 @@ static void compare_method(struct br_comparison *out, const struct br_check *che
     struct br_difference d = {.before = NAN, .now = NAN, .severity = BR_NOTE};
     struct br_old_method now;
     br_old_method_of(&check->verify->study[kind].method, &now);
-    snprintf(d.subject, sizeof d.subject, "%.100s %s: method", check->scene->name,
-             br_verify_names[kind]);
+    snprintf(d.subject, sizeof d.subject, "%.100s %s: method", check->name, br_verify_names[kind]);
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const struct br_method_field *f = &br_method_fields[i];
         const char *a = old->value[i], *b = now.value[i];
@@ -218,7 +215,7 @@ static void compare_method(struct br_comparison *out, const struct br_check *che
 static void compare_methods(struct br_comparison *out, const struct br_check *check,
                             const struct br_old_cost *old)
 {
-    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+    for (int kind = 0; kind < BR_VERIFY_KINDS && check->verify; kind++)
         if (old->method[kind].known && check->verify->study[kind].count)
             compare_method(out, check, (enum br_verify_kind)kind, &old->method[kind]);
 }
@@ -229,12 +226,12 @@ static void compare_cost(struct br_comparison *out, const struct br_check *check
                          const struct br_old_cost *old)
 {
     struct br_difference d = {.before = old->element_steps, .now = check->element_steps};
-    snprintf(d.subject, sizeof d.subject, "%.100s: element-steps", check->scene->name);
+    snprintf(d.subject, sizeof d.subject, "%.100s: element-steps", check->name);
     d.severity = grade(factor(d.before, d.now), work_steps);
     add(out, &d);
     d = (struct br_difference){.before = old->seconds / old->element_steps * 1e9,
                                .now = check->seconds / check->element_steps * 1e9};
-    snprintf(d.subject, sizeof d.subject, "%.100s: ns per element-step", check->scene->name);
+    snprintf(d.subject, sizeof d.subject, "%.100s: ns per element-step", check->name);
     if (!isfinite(d.before) || !isfinite(d.now))
         return; /* one of the two did not march */
     d.severity = grade(factor(d.before, d.now), time_steps);
@@ -249,19 +246,36 @@ static int by_severity(const void *a, const void *b)
                                       : strcmp(x->subject, y->subject);
 }
 
+/* Numbers of two problems differ for more reasons than a comparison can tell. */
+static enum br_status check_problem(const struct br_check *check, const struct br_old_cost *old,
+                                    struct br_error *err)
+{
+    if (!*check->problem || !*old->problem || strcmp(check->problem, old->problem) == 0)
+        return BR_OK;
+    return br_fail(
+        err, BR_BAD_INPUT,
+        "%s: the earlier check was of another problem: another command, other columns or "
+        "other expectations (%.8s..., now %.8s...)",
+        check->name, old->problem, check->problem);
+}
+
 enum br_status br_compare_check(const struct br_check *checks, size_t count,
                                 const struct br_old_check *old, struct br_error *err)
 {
     bool found = false;
     for (size_t i = 0; i < count; i++) {
         for (size_t j = 0; j < i; j++)
-            if (strcmp(checks[i].scene->name, checks[j].scene->name) == 0)
+            if (strcmp(checks[i].name, checks[j].name) == 0)
                 return br_fail(err, BR_BAD_INPUT,
                                "two scenes are called %s, expected names that tell them apart from "
                                "each other in a comparison",
-                               checks[i].scene->name);
+                               checks[i].name);
         for (size_t s = 0; s < old->scenes; s++)
-            found |= same_name(old->costs[s].scene, checks[i].scene->name);
+            if (same_name(old->costs[s].scene, checks[i].name)) {
+                found = true;
+                if (check_problem(&checks[i], &old->costs[s], err))
+                    return err->status;
+            }
     }
     return found ? BR_OK
                  : br_fail(err, BR_BAD_INPUT,
@@ -283,7 +297,7 @@ enum br_status br_compare(const struct br_check *checks, size_t count, bool whol
         for (size_t c = 0; c < checks[i].count; c++)
             compare_case(out, &checks[i], &checks[i].cases[c], old);
         for (size_t s = 0; s < old->scenes; s++)
-            if (same_name(old->costs[s].scene, checks[i].scene->name)) {
+            if (same_name(old->costs[s].scene, checks[i].name)) {
                 compare_methods(out, &checks[i], &old->costs[s]);
                 compare_cost(out, &checks[i], &old->costs[s]);
             }

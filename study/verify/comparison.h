@@ -35,6 +35,7 @@ void br_old_method_of(const struct br_method *m, struct br_old_method *old);
 /* And what one of its scenes cost. */
 struct br_old_cost {
     char scene[256];
+    char problem[40]; /* as br_check has it */
     double seconds, element_steps;
     struct br_old_method method[BR_VERIFY_KINDS];
 };
@@ -61,7 +62,8 @@ struct br_comparison {
 };
 
 /* Whether a comparison makes sense, before anything is run: scenes are told apart by their names,
- * and at least one of them must have been there before. Fails with BR_BAD_INPUT. */
+ * and at least one of them must have been there before, of the same problem. Fails with
+ * BR_BAD_INPUT. */
 enum br_status br_compare_check(const struct br_check *checks, size_t count,
                                 const struct br_old_check *old, struct br_error *err);
 

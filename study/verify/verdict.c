@@ -31,18 +31,6 @@ __attribute__((format(printf, 3, 4))) static void append(char *text, size_t size
     va_end(args);
 }
 
-/* "n = 40" over space, "k = T/400" over time, both jointly. */
-static const char *name_point(const struct br_case *c, const struct br_point *p, char text[64])
-{
-    if (c->kind == BR_VERIFY_SPACE)
-        snprintf(text, 64, "n = %zu", p->at.n);
-    else if (c->kind == BR_VERIFY_TIME)
-        snprintf(text, 64, "k = T/%zu", p->at.steps);
-    else
-        snprintf(text, 64, "(n = %zu, k = T/%zu)", p->at.n, p->at.steps);
-    return text;
-}
-
 /* ---- what is seen ---- */
 
 /* The finest points that are not left out. */
@@ -70,10 +58,9 @@ static const struct br_point *first_failed(const struct br_case *c)
 static void list_left_out(struct br_case *c)
 {
     for (size_t i = 0; i < c->points; i++) {
-        char name[64];
         if (c->point[i].flag)
             append(c->note, sizeof c->note, "%s%s (%s, error %.1e)",
-                   c->note[0] ? ", " : "left out: ", name_point(c, &c->point[i], name),
+                   c->note[0] ? ", " : "left out: ", c->point[i].label,
                    br_flag_name(c->point[i].flag), c->point[i].error);
     }
 }
@@ -162,6 +149,25 @@ static void judge_too_few(struct br_case *c)
                       : "coarser grids have errors that are not lost in what limits them");
 }
 
+/* An error that stays where it is belongs to another solution, a reference or a tolerance. */
+static const struct br_point *first_stalled(const struct br_case *c)
+{
+    for (size_t i = 0; i < c->points; i++)
+        if (c->point[i].flag == BR_FLAG_STALLED && !(c->point[i].error <= c->down_to))
+            return &c->point[i];
+    return NULL;
+}
+
+static void judge_stalled(struct br_case *c, const struct br_point *stalled)
+{
+    char text[64];
+    br_order_text(&c->order, text, sizeof text);
+    conclude(c, BR_INCONCLUSIVE,
+             "the order is %s, but from %s on the errors do not fall, %.2e: if that is the "
+             "reference's own error, expect the order 'down to %.0e'",
+             text, stalled->label, stalled->error, 4 * stalled->error);
+}
+
 static void straddle(struct br_case *c, const char *order, double low, double high)
 {
     const bool below = c->order.low<low, above = c->order.high> high;
@@ -207,13 +213,13 @@ static void judge_constant(struct br_case *c)
     const enum br_verdict so_far = c->verdict;
     char before[sizeof c->reason];
     snprintf(before, sizeof before, "%s", c->reason);
-    conclude(c, BR_FAIL, "the constant, %.4g %s, is %s, %.4g", c->constant, e->norm->unit,
+    conclude(c, BR_FAIL, "the constant, %.4g %s, is %s, %.4g", c->constant, c->unit,
              high ? "above its ceiling" : "below its floor", high ? e->ceiling : e->floor);
     if (so_far != BR_PASS)
         append(c->reason, sizeof c->reason, "; and %s", before);
 }
 
-enum br_status br_verdict_reach(struct br_case *c, struct br_error *err)
+enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error *err)
 {
     c->order = (struct br_estimate){NAN, NAN, NAN};
     c->margin = NAN;
@@ -221,26 +227,32 @@ enum br_status br_verdict_reach(struct br_case *c, struct br_error *err)
     choose_points(c);
     list_left_out(c);
     find_constants(c);
-    const struct br_point *failed = first_failed(c);
-    char name[64];
-    if (failed) {
-        conclude(c, BR_FAIL, "at %s %s", name_point(c, failed, name),
+    return first_failed(c) || c->points < least || c->used < least ? BR_OK : find_order(c, err);
+}
+
+void br_case_judge(struct br_case *c)
+{
+    const struct br_point *failed = first_failed(c), *stalled = first_stalled(c);
+    if (failed)
+        conclude(c, BR_FAIL, "at %s %s", failed->label,
                  failed->failure[0] ? failed->failure : "the error is not a number");
-        return BR_OK;
-    }
-    if (c->points < BR_VERIFY_LEAST_POINTS) {
+    else if (c->points < BR_VERIFY_LEAST_POINTS)
         conclude(c, BR_FAIL, "the study has %zu errors, expected at least %d", c->points,
                  BR_VERIFY_LEAST_POINTS);
-        return BR_OK;
-    }
-    if (c->used < BR_VERIFY_LEAST_POINTS) {
+    else if (c->used < BR_VERIFY_LEAST_POINTS)
         judge_too_few(c);
-        return BR_OK;
-    }
-    const enum br_status status = find_order(c, err);
-    if (!status)
+    else if (stalled)
+        judge_stalled(c, stalled);
+    else {
         judge_order(c);
-    if (!status)
         judge_constant(c);
+    }
+}
+
+enum br_status br_verdict_reach(struct br_case *c, struct br_error *err)
+{
+    const enum br_status status = br_case_observe(c, BR_VERIFY_LEAST_POINTS, err);
+    if (!status)
+        br_case_judge(c);
     return status;
 }

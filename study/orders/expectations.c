@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is expected of a program's orders, and the verdicts on that. */
+#include "study/orders/orders.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "study/scene/words.h"
+
+/* ---- the text ---- */
+
+struct reader {
+    const char *where, *at;
+    struct br_error *err;
+};
+
+static void skip_blanks(struct reader *r)
+{
+    r->at += strspn(r->at, " \t\n");
+}
+
+static bool takes(struct reader *r, const char *word)
+{
+    skip_blanks(r);
+    const size_t length = strlen(word);
+    const bool found = strncmp(r->at, word, length) == 0;
+    r->at += found ? length : 0;
+    return found;
+}
+
+static enum br_status refuse(const struct reader *r, const char *expected)
+{
+    return br_fail(r->err, BR_BAD_INPUT, "%s: found '%.30s', expected %s, as in 'l2: h 2 +- 0.1'",
+                   r->where, r->at, expected);
+}
+
+static bool take_number(struct reader *r, double *value)
+{
+    skip_blanks(r);
+    const char *end = br_read_number(r->at, value);
+    r->at = end ? end : r->at;
+    return end && *value > 0;
+}
+
+/* "h 2 +- 0.1 down to 1e-9" */
+static enum br_status take_order(struct reader *r, struct br_order_expectation *e)
+{
+    e->axis = BR_AXES;
+    for (int axis = 0; axis < BR_AXES && e->axis == BR_AXES; axis++)
+        if (takes(r, br_axis_letters[axis]))
+            e->axis = (enum br_axis)axis;
+    if (e->axis == BR_AXES)
+        return refuse(r, "h or k");
+    if (!take_number(r, &e->order))
+        return refuse(r, "an order above 0");
+    if (!takes(r, "+-") && !takes(r, "\u00b1"))
+        return refuse(r, "'+-'");
+    if (!take_number(r, &e->tolerance) || !(e->tolerance < e->order))
+        return refuse(r, "a tolerance above 0 and below the order");
+    if (takes(r, "down to") && !take_number(r, &e->down_to))
+        return refuse(r, "an error above 0");
+    return BR_OK;
+}
+
+static enum br_status take_name(struct reader *r, char name[64])
+{
+    skip_blanks(r);
+    const size_t length = strcspn(r->at, ":");
+    if (length == 0 || length > 63 || r->at[length] != ':')
+        return refuse(r, "a name and ':'");
+    memcpy(name, r->at, length);
+    name[length] = '\0';
+    r->at += length + 1;
+    return BR_OK;
+}
+
+enum br_status br_expectations_read(const char *where, const char *text,
+                                    struct br_order_expectation **expectations, size_t *count,
+                                    struct br_error *err)
+{
+    struct reader r = {where, text, err};
+    size_t most = 1;
+    for (const char *c = text; *c; c++)
+        most += *c == ',' || *c == ';';
+    *count = 0;
+    *expectations = br_allocate(most, sizeof **expectations);
+    if (!*expectations)
+        return br_no_memory(err, "the expectations");
+    char name[64] = "";
+    bool goes_on = true, named = false;
+    while (goes_on) {
+        struct br_order_expectation *e = &(*expectations)[(*count)++];
+        if ((!named && take_name(&r, name)) || take_order(&r, e))
+            return err->status;
+        strcpy(e->quantity, name);
+        for (const struct br_order_expectation *f = *expectations; f < e; f++)
+            if (f->axis == e->axis && strcmp(f->quantity, name) == 0)
+                return br_fail(err, BR_BAD_INPUT, "%s: the order of %s in %s is given twice", where,
+                               name, br_axis_letters[e->axis]);
+        named = takes(&r, ",");
+        goes_on = named || takes(&r, ";");
+    }
+    skip_blanks(&r);
+    return *r.at ? refuse(&r, "',' or ';' or the end") : BR_OK;
+}
+
+/* ---- verdicts ---- */
+
+static const struct br_quantity_orders *orders_of(const struct br_orders *o, const char *name)
+{
+    for (size_t i = 0; i < o->count; i++)
+        if (strcmp(o->numbers->quantity[o->of[i].quantity].name, name) == 0)
+            return &o->of[i];
+    return NULL;
+}
+
+/* The line along an axis at the finest size of the other one: lines come from coarse to fine. */
+static const struct br_orders_line *finest_line(const struct br_quantity_orders *of,
+                                                enum br_axis axis)
+{
+    const struct br_orders_line *finest = NULL;
+    for (size_t i = 0; i < of->lines; i++)
+        if (of->line[i].axis == axis)
+            finest = &of->line[i];
+    return finest;
+}
+
+/* The case of a line, with points of its own and an order by the joint fit where that is sure. */
+static enum br_status copy_case(const struct br_quantity_orders *of,
+                                const struct br_orders_line *line, struct br_case *c,
+                                struct br_error *err)
+{
+    *c = line->observed;
+    c->point = br_allocate(c->points + 1, sizeof *c->point);
+    if (!c->point)
+        return br_no_memory(err, "the verdict");
+    memcpy(c->point, line->observed.point, c->points * sizeof *c->point);
+    const struct br_estimate *joint = line->axis == BR_AXIS_SPACE ? &of->joint.p : &of->joint.q;
+    if (br_joint_describes(&of->joint) && br_order_determined(joint))
+        c->order = *joint;
+    return BR_OK;
+}
+
+static enum br_status judge(const struct br_orders *o, const struct br_order_expectation *e,
+                            const char *path, struct br_case *c, struct br_error *err)
+{
+    const struct br_quantity_orders *of = orders_of(o, e->quantity);
+    const struct br_orders_line *line = of ? finest_line(of, e->axis) : NULL;
+    if (!of)
+        return br_fail(err, BR_BAD_INPUT,
+                       "%s: an order of '%s' is expected, and there is no such "
+                       "column",
+                       path, e->quantity);
+    if (!line)
+        return br_fail(err, BR_BAD_INPUT,
+                       "%s: an order of %s in %s is expected, and there are fewer than %d sizes",
+                       path, e->quantity, br_axis_letters[e->axis], BR_VERIFY_LEAST_POINTS);
+    if (copy_case(of, line, c, err))
+        return err->status;
+    c->expected.order = e->order;
+    c->expected.tolerance = e->tolerance;
+    c->expected.line = e->line;
+    c->down_to = e->down_to;
+    br_case_judge(c);
+    return BR_OK;
+}
+
+enum br_status br_orders_check(const struct br_orders *o, const struct br_order_expectation *e,
+                               size_t count, struct br_check *check, struct br_error *err)
+{
+    check->cases = br_allocate(count + 1, sizeof *check->cases);
+    check->count = 0;
+    if (!check->cases)
+        return br_no_memory(err, "the verdicts");
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < count && !status; i++)
+        status = judge(o, &e[i], check->path, &check->cases[check->count++], err);
+    return status;
+}
