@@ -5,26 +5,22 @@
 
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/session.h"
+#include "cli/study_file.h"
+#include "cli/verdicts.h"
 #include "cli/warn.h"
 #include "solver/clock.h"
 #include "study/scene/file.h"
-#include "study/verify/comparison.h"
-#include "tables/reports.h"
 
 /* A scene on its way; checks point into it. */
 struct item {
     char path[1024];
     struct br_scene scene;
     struct br_verify verify;
+    struct br_study_file study; /* of another program, instead of both */
 };
-
-/* A format's name is an option's. */
-enum { MOST_FORMATS = 8 };
 
 struct run {
     struct br_session session;
-    const char *compare; /* --compare; NULL: not given */
     bool all, fail_fast;
     char **listed;     /* all bundled scenes; owned; NULL: those that are given */
     struct item *item; /* most */
@@ -33,21 +29,8 @@ struct run {
     size_t count;
     size_t done; /* checks that have been run */
     double wall_seconds;
-    struct br_whole_file file[MOST_FORMATS];
-    struct br_old_check old;
-    struct br_comparison comparison;
+    struct br_verdicts verdicts;
 };
-
-/* The file that a format's option names, or NULL. */
-static const char *file_of(const struct run *r, const char *format)
-{
-    struct br_option row[BR_OPTIONS];
-    const size_t count = br_options_of(r->session.options->command, row);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(row[i].name, format) == 0)
-            return br_option_text(r->session.options, row[i].id);
-    return NULL;
-}
 
 /* ---- scenes ---- */
 
@@ -70,12 +53,35 @@ static enum br_status choose_method(const struct run *r, struct item *item, stru
     return status;
 }
 
+/* Of another program. */
+static enum br_status read_study(struct run *r, struct item *item, const char *text,
+                                 struct br_error *err)
+{
+    const struct br_options *o = r->session.options;
+    enum br_status status = br_study_file_read(item->path, text, o, &item->study, err);
+    if (!status && item->study.request.expectations == 0)
+        status = br_fail(err, BR_BAD_INPUT, "%s: verify: missing, expected what is to be checked",
+                         item->path);
+    item->study.request.jobs = r->session.threads;
+    item->study.request.kept = br_option_text(o, BR_OPT_KEEP);
+    r->check[r->count] = br_study_file_check(&item->study);
+    r->count += !status;
+    return status;
+}
+
 static enum br_status read_scene(struct run *r, size_t i, const char *name, struct br_error *err)
 {
     struct item *item = &r->item[i];
+    char *text = NULL;
     if (br_scene_find(name, item->path, sizeof item->path, err) ||
-        br_scene_read_verify(item->path, &item->scene, &item->verify, err) ||
-        choose_method(r, item, err))
+        br_scene_load(item->path, &text, err))
+        return err->status;
+    const bool foreign = br_is_study_file(text);
+    const enum br_status status =
+        foreign ? read_study(r, item, text, err)
+                : br_scene_read_verify_text(item->path, text, &item->scene, &item->verify, err);
+    free(text);
+    if (status || foreign || choose_method(r, item, err))
         return err->status;
     r->check[r->count++] = (struct br_check){.path = item->path,
                                              .name = item->scene.name,
@@ -109,7 +115,7 @@ static enum br_status check_heeded(const struct run *r, struct br_error *err)
         return br_no_memory(err, "the options");
     for (size_t i = 0; i < r->count; i++)
         for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
-            if (r->check[i].verify->study[kind].count)
+            if (r->check[i].verify && r->check[i].verify->study[kind].count)
                 method[count++] = &r->check[i].verify->study[kind].method;
     const enum br_status status = br_method_check_heeded(&r->session.options->given[BR_OPT_METHOD],
                                                          BR_METHOD_OPTION, method, count, err);
@@ -140,6 +146,21 @@ static bool failed_so_far(const struct run *r)
            br_check_failures(r->check, r->done, &first) > 0;
 }
 
+/* Those of other programs among the checks from `first` on. */
+static enum br_status run_studies(struct run *r, size_t first, size_t count,
+                                  const struct br_observer *observer, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < r->most; i++)
+        for (size_t c = first; c < first + count && !status; c++)
+            if (r->item[i].study.request.path &&
+                r->check[c].path == r->item[i].study.request.path) {
+                r->item[i].study.request.observer = observer;
+                status = br_study_file_run(&r->item[i].study, &r->check[c], err);
+            }
+    return status;
+}
+
 /* With --fail-fast one after the other, the cheapest first, else all at once. */
 static enum br_status compute(struct run *r, struct br_error *err)
 {
@@ -150,7 +171,9 @@ static enum br_status compute(struct run *r, struct br_error *err)
     const struct br_observer *observer = br_progress_start("checking", r->session.quiet);
     enum br_status status = BR_OK;
     while (r->done < r->count && !status && !(r->fail_fast && failed_so_far(r))) {
-        status = br_check_run(&r->check[r->done], at_once, r->session.threads, observer, err);
+        status = run_studies(r, r->done, at_once, observer, err);
+        if (!status)
+            status = br_check_run(&r->check[r->done], at_once, r->session.threads, observer, err);
         r->done += status ? 0 : at_once;
     }
     br_progress_end();
@@ -160,96 +183,26 @@ static enum br_status compute(struct run *r, struct br_error *err)
 
 /* ---- results ---- */
 
-static enum br_status open_files(struct run *r, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (size_t i = 1; br_check_formats[i] && !status; i++)
-        status = br_whole_file_open(&r->file[i], br_check_formats[i]->name,
-                                    file_of(r, br_check_formats[i]->name), err);
-    return status;
-}
-
-/* No report may end where another one does, or in the place of what is read. */
-static enum br_status check_places(const struct run *r, struct br_error *err)
-{
-    for (size_t i = 1; br_check_formats[i]; i++) {
-        const struct br_whole_file *f = &r->file[i];
-        const char *name = br_check_formats[i]->name;
-        for (size_t j = 1; j < i; j++)
-            if (br_whole_file_same(f, &r->file[j]))
-                return br_fail(err, BR_BAD_INPUT, "--%s and --%s both write %s",
-                               br_check_formats[j]->name, name, f->path);
-        for (size_t s = 0; s < r->count; s++)
-            if (br_whole_file_replaces(f, r->check[s].path))
-                return br_fail(err, BR_BAD_INPUT, "--%s would replace the scene %s", name, f->path);
-        if (r->compare && br_whole_file_replaces(f, r->compare))
-            return br_fail(err, BR_BAD_INPUT, "--%s would replace what it is compared with, %s",
-                           name, f->path);
-    }
-    return BR_OK;
-}
-
-static enum br_status print(struct run *r, const struct br_document *d, struct br_error *err)
-{
-    bool quiet = r->session.quiet;
-    for (size_t i = 1; br_check_formats[i]; i++)
-        quiet |= r->file[i].file == stdout;
-    enum br_status status = quiet ? BR_OK : br_document_show(stdout, d, err);
-    for (size_t i = 1; br_check_formats[i] && !status; i++)
-        if (r->file[i].file)
-            status = br_document_print(r->file[i].file, br_check_formats[i], d, NULL, err);
-    for (size_t i = 1; br_check_formats[i] && !status; i++)
-        status = br_whole_file_commit(&r->file[i], err);
-    return status;
-}
-
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
-    const struct br_provenance provenance = br_provenance_of(NULL, r->session.threads);
-    struct br_document d = {0};
-    if (r->compare &&
-        br_compare(r->check, r->done, r->all && r->done == r->count, &r->old, &r->comparison, err))
-        return err->status;
     const struct br_check_findings findings = {
         .checks = r->check,
         .count = r->done,
         .stopped = r->done < r->count,
         .wall_seconds = r->wall_seconds,
-        .comparison = r->compare ? &r->comparison : NULL,
-        .provenance = &provenance,
     };
-    br_report_check(&findings, &d);
-    const enum br_status status = print(r, &d, err);
-    br_document_clear(&d);
-    return status;
-}
-
-/* What has not passed, for the exit code. */
-static enum br_status conclude(const struct run *r, struct br_error *err)
-{
-    const size_t all = orders(r), passed = br_check_tally(r->check, r->done, BR_PASS);
-    const struct br_check *refused;
-    if (br_check_failures(r->check, r->done, &refused) > 0)
-        return br_fail(err, BR_BAD_INPUT, "%s", refused->failure.message);
-    if (all == 0)
-        return br_fail(err, BR_VERDICT, "no order was checked");
-    if (passed < all)
-        return br_fail(err, BR_VERDICT, "%zu of %zu orders do not pass", all - passed, all);
-    if (r->comparison.tally[BR_SERIOUS])
-        return br_fail(err, BR_VERDICT, "%zu serious differences from %s",
-                       r->comparison.tally[BR_SERIOUS], r->compare);
-    return BR_OK;
+    return br_verdicts_write(&r->verdicts, &r->session, &findings, r->all && r->done == r->count,
+                             err);
 }
 
 /* What the reports need, before a long computation. */
 static enum br_status prepare_reports(struct run *r, struct br_error *err)
 {
-    if ((r->compare && (br_check_read_json(r->compare, &r->old, err) ||
-                        br_compare_check(r->check, r->count, &r->old, err))) ||
-        open_files(r, err) || check_places(r, err))
-        return err->status;
-    br_warn_of_checks(r->check, r->count);
-    return BR_OK;
+    const struct br_options *o = r->session.options;
+    const enum br_status status = br_verdicts_open(&r->verdicts, o, r->check, r->count, err);
+    if (!status)
+        br_warn_of_checks(r->check, r->count);
+    return status;
 }
 
 static void clear(struct run *r)
@@ -257,15 +210,13 @@ static void clear(struct run *r)
     for (size_t i = 0; i < r->done; i++)
         br_check_clear(&r->check[i]);
     for (size_t i = 0; r->item && i < r->most; i++) {
+        br_study_file_clear(&r->item[i].study);
         br_verify_clear(&r->item[i].verify);
         br_scene_clear(&r->item[i].scene);
     }
-    for (size_t i = 1; br_check_formats[i]; i++)
-        br_whole_file_discard(&r->file[i]);
     free(r->item);
     free(r->check);
-    br_old_check_clear(&r->old);
-    br_comparison_clear(&r->comparison);
+    br_verdicts_clear(&r->verdicts);
     br_scene_list_free(r->listed, r->listed ? r->most : 0);
 }
 
@@ -274,7 +225,6 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 {
     static struct run r;
     r = (struct run){.session = br_session_begin(options),
-                     .compare = br_option_text(options, BR_OPT_COMPARE),
                      .all = br_option_given(options, BR_OPT_ALL),
                      .fail_fast = br_option_given(options, BR_OPT_FAIL_FAST)};
     if (r.all == (options->words > 0))
@@ -283,9 +233,10 @@ static enum br_status run(const struct br_options *options, struct br_error *err
             r.all ? "--all and scenes are given, expected one of the two"
                   : "no scene is given, expected files, names of bundled scenes, or --all");
     const bool writes = r.session.writes;
-    const bool failed = read_scenes(&r, err) || check_heeded(&r, err) ||
-                        (writes && prepare_reports(&r, err)) || compute(&r, err) ||
-                        (writes && (write_all(&r, err) || conclude(&r, err)));
+    const bool failed =
+        read_scenes(&r, err) || check_heeded(&r, err) || (writes && prepare_reports(&r, err)) ||
+        compute(&r, err) ||
+        (writes && (write_all(&r, err) || br_verdicts_conclude(&r.verdicts, r.check, r.done, err)));
     clear(&r);
     return failed ? err->status : BR_OK;
 }

@@ -220,7 +220,13 @@ static enum br_status take(poptContext context, struct br_options *o, const stru
                            struct br_error *err)
 {
     char *text = row->kind == BR_TAKES_FLAG ? strdup("") : poptGetOptArg(context);
-    const bool twice = o->given[row->id] && row->kind != BR_TAKES_FLAG;
+    const bool twice = o->given[row->id] && row->kind != BR_TAKES_FLAG && !row->repeats;
+    if (text && row->repeats && o->given[row->id]) {
+        char *both = NULL;
+        const bool joined = asprintf(&both, "%s\n%s", o->given[row->id], text) >= 0;
+        free(text);
+        text = joined ? both : NULL;
+    }
     if (!text)
         return br_no_memory(err, "the options");
     free((char *)o->given[row->id]);

@@ -22,6 +22,7 @@ enum {
     BR_FOR_SCENES = 256,
     BR_FOR_COMPLETIONS = 512,
     BR_FOR_HELP = 1024,
+    BR_FOR_ORDERS = 2048,
 };
 
 enum br_option_id {
@@ -54,6 +55,16 @@ enum br_option_id {
     BR_OPT_JSON,
     BR_OPT_TAP,
     BR_OPT_MARKDOWN,
+    BR_OPT_UPDATE_BASELINE,
+    BR_OPT_VALUE,
+    BR_OPT_DOFS,
+    BR_OPT_DIMENSION,
+    BR_OPT_FORMAL,
+    BR_OPT_RUN,
+    BR_OPT_READ,
+    BR_OPT_EXPECT,
+    BR_OPT_TRUST,
+    BR_OPT_KEEP,
     BR_OPT_CASES,
     BR_OPT_SEED,
     BR_OPT_RESUME,
@@ -98,6 +109,7 @@ struct br_option {
     const struct br_words *words;
     unsigned commands; /* who takes it */
     const char *more;  /* sentences for the manual; NULL: none */
+    bool repeats;      /* it may be given several times: its text has a line for each */
 };
 
 struct br_command;

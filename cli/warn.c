@@ -105,7 +105,7 @@ void br_warn_of_checks(const struct br_check *checks, size_t count)
     for (const struct br_check *c = checks; c < checks + count; c++) {
         struct look look = {.scene = c->scene};
         struct br_error refusal = {0};
-        for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+        for (int kind = 0; kind < BR_VERIFY_KINDS && c->verify; kind++) {
             const struct br_verify_study *v = &c->verify->study[kind];
             look.finest = (struct br_planned_march){0};
             for (size_t i = 0; i < v->count; i++)
@@ -113,7 +113,7 @@ void br_warn_of_checks(const struct br_check *checks, size_t count)
             if (look.finest.n)
                 br_look_at_loads(&look.finest, &look.warnings, &refusal);
         }
-        br_print_warnings(c->scene->name, &look.warnings);
+        br_print_warnings(c->name, &look.warnings);
     }
 }
 

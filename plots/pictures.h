@@ -8,6 +8,7 @@
 
 #include "plots/figure.h"
 struct br_named_method;
+struct br_orders;
 struct br_drifts;
 struct br_energy_behaviour;
 struct br_extreme_map;
@@ -60,6 +61,12 @@ struct br_figure br_trade_draw(const struct br_trade_picture *picture, const str
 /* A panel for each of the first two methods among the runs, over what they differ by: k on the
  * finest mesh, or else h at the smallest k; no panels where no two runs differ by either. */
 struct br_figure br_split_draw(const struct br_split *split, size_t count);
+
+/* ---- orders.c: any program's errors ---- */
+
+/* A panel over the size of elements, and of steps; the line of each quantity at the finest size of
+ * the other. */
+struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption);
 
 /* ---- extremes.c ---- */
 

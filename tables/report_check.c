@@ -14,7 +14,8 @@ enum { NAME = 64, FIRST_FAILURES = 3 };
 /* "space l2 axial" */
 static const char *name_of(const struct br_case *c, char name[NAME])
 {
-    snprintf(name, NAME, "%s %s %s", br_verify_names[c->kind], c->measure, c->part);
+    snprintf(name, NAME, "%s %s%s%s", br_verify_names[c->kind], c->measure, *c->part ? " " : "",
+             c->part);
     return name;
 }
 

@@ -17,6 +17,7 @@ struct br_finding;
 struct br_floors;
 struct br_history_row;
 struct br_old_check;
+struct br_orders;
 struct br_plan;
 struct br_prediction;
 struct br_report;
@@ -58,6 +59,12 @@ void br_history_csv_row(FILE *out, const struct br_history_row *row);
 
 /* The last line of a march that did not reach T: a comment, "# stopped: ...". */
 void br_history_csv_stopped(FILE *out, const char *message);
+
+/* ---- orders ---- */
+
+/* Orders of any program's numbers, limits of its values, and all rows: without provenance. */
+void br_report_orders(const struct br_orders *orders, const char *caption,
+                      struct br_document *d);
 
 /* ---- check ---- */
 

@@ -117,6 +117,13 @@ struct br_order_point {
 enum br_status br_order_fit(const struct br_order_point *point, size_t count,
                             struct br_estimate *order, struct br_error *err);
 
+/* The same of errors that may still be far from their asymptotic range,
+ *     e = C |z^p - z_against^p| exp(D z):
+ * where D explains nearly all that a plain power law leaves over, the order is that of this model,
+ * and its interval reaches to what the power law says, at least. It needs five points. */
+enum br_status br_order_fit_drifting(const struct br_order_point *point, size_t count,
+                                     struct br_estimate *order, struct br_error *err);
+
 /* ---- extrapolation ----
  *
  * What the tips of a grid's cells say of the tip at h = k = 0, without any reference:

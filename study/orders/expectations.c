@@ -125,16 +125,27 @@ static const struct br_orders_line *finest_line(const struct br_quantity_orders 
     return finest;
 }
 
-/* The case of a line, with points of its own and an order by the joint fit where that is sure. */
-static enum br_status copy_case(const struct br_quantity_orders *of,
-                                const struct br_orders_line *line, struct br_case *c,
-                                struct br_error *err)
+/* What is expected of a line, with points of its own, and an order by the joint fit where that is
+ * sure. */
+static enum br_status observe(const struct br_quantity_orders *of,
+                              const struct br_orders_line *line,
+                              const struct br_order_expectation *e, struct br_case *c,
+                              struct br_error *err)
 {
     *c = line->observed;
+    c->expected.order = e->order;
+    c->expected.tolerance = e->tolerance;
+    c->expected.line = e->line;
+    c->down_to = e->down_to;
     c->point = br_allocate(c->points + 1, sizeof *c->point);
     if (!c->point)
         return br_no_memory(err, "the verdict");
     memcpy(c->point, line->observed.point, c->points * sizeof *c->point);
+    for (size_t i = 0; i < c->points; i++)
+        if (c->point[i].flag == BR_FLAG_NONE && c->point[i].error <= e->down_to)
+            c->point[i].flag = BR_FLAG_STALLED;
+    if (br_case_observe(c, BR_VERIFY_LEAST_POINTS, err))
+        return err->status;
     const struct br_estimate *joint = line->axis == BR_AXIS_SPACE ? &of->joint.p : &of->joint.q;
     if (br_joint_describes(&of->joint) && br_order_determined(joint))
         c->order = *joint;
@@ -155,12 +166,8 @@ static enum br_status judge(const struct br_orders *o, const struct br_order_exp
         return br_fail(err, BR_BAD_INPUT,
                        "%s: an order of %s in %s is expected, and there are fewer than %d sizes",
                        path, e->quantity, br_axis_letters[e->axis], BR_VERIFY_LEAST_POINTS);
-    if (copy_case(of, line, c, err))
+    if (observe(of, line, e, c, err))
         return err->status;
-    c->expected.order = e->order;
-    c->expected.tolerance = e->tolerance;
-    c->expected.line = e->line;
-    c->down_to = e->down_to;
     br_case_judge(c);
     return BR_OK;
 }

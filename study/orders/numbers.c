@@ -8,11 +8,11 @@ const char *const br_axis_letters[] = {"h", "k"};
 
 const struct br_resolution_column br_resolution_columns[] = {
     {"h", BR_AXIS_SPACE, .is_size = true},
-    {"n", BR_AXIS_SPACE},
+    {"n", BR_AXIS_SPACE, .is_size = false},
     {"dofs", BR_AXIS_SPACE, .is_volume = true},
     {"k", BR_AXIS_TIME, .is_size = true},
     {"dt", BR_AXIS_TIME, .is_size = true},
-    {"steps", BR_AXIS_TIME},
+    {"steps", BR_AXIS_TIME, .is_size = false},
     {0},
 };
 
@@ -27,6 +27,17 @@ const struct br_resolution_column *br_resolution_column_find(const char *name)
 double br_numbers_z(const struct br_resolution_column *column, double given, double dimension)
 {
     return column->is_size ? given : column->is_volume ? pow(given, -1 / dimension) : 1 / given;
+}
+
+bool br_lists(const char *list, const char *name)
+{
+    const size_t length = strlen(name);
+    for (const char *at = list; at && *at; at += strcspn(at, ","), at += *at == ',') {
+        at += strspn(at, " ");
+        if (strncmp(at, name, length) == 0 && strchr(", ", at[length]))
+            return true;
+    }
+    return false;
 }
 
 void br_numbers_clear(struct br_numbers *numbers)

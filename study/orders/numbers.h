@@ -57,6 +57,9 @@ void br_numbers_clear(struct br_numbers *numbers); /* accepts zeros */
 /* z of what a column gives. */
 double br_numbers_z(const struct br_resolution_column *column, double given, double dimension);
 
+/* Whether a list "a,b" (NULL: an empty one) has a name. */
+bool br_lists(const char *list, const char *name);
+
 /* Brings the rows into their order, and refuses (BR_BAD_INPUT, beginning with `path` and the line)
  * resolutions that are not above 0 or are there twice, and fewer than three of them. */
 enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, struct br_error *err);

@@ -14,12 +14,16 @@ static enum br_axis other(enum br_axis axis)
 
 /* ---- stagnation ---- */
 
-/* From the first pair of points that stagnates on, no order is seen: a pair's rate is below this
- * share of what the pairs before show. */
-static const double stagnates = 0.25;
+/* Errors have stopped falling where a pair of points shows less than this share of the rate of the
+ * pairs before. Beside a limit that is as small as round-off, more of it is enough: there an order
+ * that falls is no order of the program any more. */
+static const double stagnates = 0.25, stagnates_deep = 0.6;
 
 /* What is that much smaller than the coarsest error is taken for round-off. */
-static const double round_off_share = 1e-6;
+static const double deep = 1e-6;
+
+/* What is less than this many times the level at which errors stay is off by that level. */
+static const double beside = 10;
 
 static double rate(const struct br_point *coarse, const struct br_point *fine)
 {
@@ -35,21 +39,22 @@ static double median_rate(const struct br_point *p, size_t last, double *room)
     return last ? room[last / 2] : NAN;
 }
 
-/* The first point of the fine end where errors do not fall any more; count: there is none. All
- * pairs from there on stagnate. */
+/* The first point that is hardly smaller than the one before it, as are all finer ones; count:
+ * there is none. */
 static size_t find_plateau(const struct br_point *p, size_t count, double *room)
 {
     size_t first = count;
     for (size_t i = count; i-- > LEAST_POINTS;) {
         const double before = median_rate(p, i - 1, room);
-        if (!(before > stagnates && rate(&p[i - 1], &p[i]) < stagnates * before))
+        const double share = p[i].error <= deep * p[0].error ? stagnates_deep : stagnates;
+        if (!(before > stagnates && rate(&p[i - 1], &p[i]) < share * before))
             break;
-        first = i - 1;
+        first = i;
     }
     return first;
 }
 
-/* Flags what is near the level where a line's errors stay: as far as a study leaves cells out. */
+/* Flags what is near the level where a line's errors stay. */
 static enum br_status flag_plateau(struct br_case *c, struct br_error *err)
 {
     struct br_point *p = c->point;
@@ -59,14 +64,12 @@ static enum br_status flag_plateau(struct br_case *c, struct br_error *err)
     size_t good = 0;
     while (good < c->points && p[good].flag == BR_FLAG_NONE)
         good++;
-    const size_t first = find_plateau(p, good, room);
     double level = 0;
-    for (size_t i = first; i < good; i++)
+    for (size_t i = find_plateau(p, good, room); i < good; i++)
         level = fmax(level, p[i].error);
-    const bool deep = level <= round_off_share * p[0].error;
-    for (size_t i = 0; i < good && first < good; i++)
-        if (!(p[i].error >= br_flag_margin * level))
-            p[i].flag = deep ? BR_FLAG_ROUND_OFF : BR_FLAG_STALLED;
+    for (size_t i = 0; i < good; i++)
+        if (p[i].error < beside * level)
+            p[i].flag = level <= deep * p[0].error ? BR_FLAG_ROUND_OFF : BR_FLAG_STALLED;
     free(room);
     return BR_OK;
 }
@@ -126,8 +129,8 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
     return p;
 }
 
-static enum br_status observe(const struct br_orders *o, size_t quantity,
-                              struct br_orders_line *line, size_t rows, struct br_error *err)
+static enum br_status make_points(const struct br_orders *o, size_t quantity,
+                                  struct br_orders_line *line, size_t rows, struct br_error *err)
 {
     const struct br_quantity *q = &o->numbers->quantity[quantity];
     struct br_case *c = &line->observed;
@@ -138,15 +141,39 @@ static enum br_status observe(const struct br_orders *o, size_t quantity,
         .part = "",
         .unit = q->unit ? q->unit : "",
         .points = rows - q->is_value,
+        .drifts = true,
     };
     c->point = br_allocate(c->points + 1, sizeof *c->point);
     if (!c->point)
         return br_no_memory(err, "the orders");
     for (size_t i = 0; i < c->points; i++)
         c->point[i] = point_of(o, quantity, line, i);
-    if (flag_plateau(c, err))
-        return err->status;
-    return br_case_observe(c, LEAST_POINTS, err);
+    return BR_OK;
+}
+
+/* What the values of a line tend to; nothing is known where there are too few. */
+static enum br_status find_limit(const struct br_orders *o, size_t quantity, size_t rows,
+                                 struct br_orders_line *line, struct br_error *err)
+{
+    double *h = br_allocate(2 * rows, sizeof *h), *value = h + rows;
+    size_t count = 0;
+    line->limit.value = (struct br_estimate){NAN, NAN, NAN};
+    if (!h)
+        return br_no_memory(err, "the limits");
+    for (size_t i = 0; i < rows; i++) {
+        const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
+        if (isnan(row->number[quantity]) || row->failure)
+            continue;
+        h[count] = row->z[line->axis];
+        value[count++] = row->number[quantity];
+    }
+    enum br_status status = BR_OK;
+    if (count >= LEAST_POINTS)
+        status = br_limit_of_values(h, value, count, o->formal, &line->limit, err);
+    if (count >= LEAST_POINTS && !status)
+        status = br_gci(h, value, count, &line->gci, err);
+    free(h);
+    return status;
 }
 
 static enum br_status add_line(const struct br_orders *o, struct br_quantity_orders *of,
@@ -167,7 +194,10 @@ static enum br_status add_line(const struct br_orders *o, struct br_quantity_ord
     of->lines++;
     if (numbers->column[other(axis)] && !o->tied)
         name_place(numbers, first, other(axis), line->at);
-    return observe(o, of->quantity, line, rows, err);
+    const enum br_status status = make_points(o, of->quantity, line, rows, err);
+    return status || !numbers->quantity[of->quantity].is_value
+               ? status
+               : find_limit(o, of->quantity, rows, line, err);
 }
 
 /* Whether no row before has its size along the other axis. */
@@ -184,14 +214,31 @@ static bool begins_line(const struct br_orders *o, enum br_axis axis, size_t row
 
 /* ---- both axes ---- */
 
-/* Whether a row counts in all lines that it is in. */
-static bool counts(const struct br_quantity_orders *of, size_t row)
+/* The point of a row on a line along an axis; NULL: it is on none. */
+static struct br_point *point_on(const struct br_quantity_orders *of, enum br_axis axis, size_t row)
 {
     for (size_t l = 0; l < of->lines; l++)
         for (size_t i = 0; i < of->line[l].observed.points; i++)
-            if (of->line[l].row[i] == row && of->line[l].observed.point[i].flag != BR_FLAG_NONE)
-                return false;
-    return true;
+            if (of->line[l].axis == axis && of->line[l].row[i] == row)
+                return &of->line[l].observed.point[i];
+    return NULL;
+}
+
+/* Errors that stay along one axis, but fall along the other one, are that one's, and count. */
+static void flag_corners(const struct br_orders *o, struct br_quantity_orders *of)
+{
+    for (size_t i = 0; i < o->numbers->rows; i++) {
+        struct br_point *a = point_on(of, BR_AXIS_SPACE, i), *b = point_on(of, BR_AXIS_TIME, i);
+        if (a && b && (a->flag == BR_FLAG_NONE || b->flag == BR_FLAG_NONE))
+            a->flag = b->flag = BR_FLAG_NONE;
+    }
+}
+
+static bool counts(const struct br_quantity_orders *of, size_t row)
+{
+    const struct br_point *a = point_on(of, BR_AXIS_SPACE, row),
+                          *b = point_on(of, BR_AXIS_TIME, row);
+    return (!a || a->flag == BR_FLAG_NONE) && (!b || b->flag == BR_FLAG_NONE);
 }
 
 static enum br_status fit_both(const struct br_orders *o, struct br_quantity_orders *of,
@@ -221,6 +268,23 @@ static bool is_grid(const struct br_orders *o)
     return o->numbers->column[BR_AXIS_SPACE] && o->numbers->column[BR_AXIS_TIME] && !o->tied;
 }
 
+/* Leaves out what is at a floor. On a grid errors may stay along one axis for the other one's;
+ * where the joint fit describes them all, nothing is left out. */
+static enum br_status leave_out(const struct br_orders *o, struct br_quantity_orders *of,
+                                struct br_error *err)
+{
+    const bool joint = is_grid(o) && !o->numbers->quantity[of->quantity].is_value;
+    enum br_status status = joint ? fit_both(o, of, err) : BR_OK;
+    if (status || (joint && br_joint_describes(&of->joint)))
+        return status;
+    for (size_t l = 0; l < of->lines && !status; l++)
+        status = flag_plateau(&of->line[l].observed, err);
+    if (status || !joint)
+        return status;
+    flag_corners(o, of);
+    return fit_both(o, of, err);
+}
+
 static enum br_status find_quantity(const struct br_orders *o, struct br_quantity_orders *of,
                                     struct br_error *err)
 {
@@ -234,8 +298,10 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
             if (numbers->column[axis] && begins_line(o, (enum br_axis)axis, i) &&
                 !(o->tied && axis == BR_AXIS_TIME))
                 status = add_line(o, of, (enum br_axis)axis, i, err);
-    if (!status && is_grid(o) && !numbers->quantity[of->quantity].is_value)
-        status = fit_both(o, of, err);
+    if (!status)
+        status = leave_out(o, of, err);
+    for (size_t l = 0; l < of->lines && !status; l++)
+        status = br_case_observe(&of->line[l].observed, LEAST_POINTS, err);
     return status;
 }
 
@@ -256,10 +322,10 @@ static bool are_tied(struct br_orders *o)
     return true;
 }
 
-enum br_status br_orders_find(const struct br_numbers *numbers, struct br_orders *o,
+enum br_status br_orders_find(const struct br_numbers *numbers, double formal, struct br_orders *o,
                               struct br_error *err)
 {
-    *o = (struct br_orders){.numbers = numbers};
+    *o = (struct br_orders){.numbers = numbers, .formal = formal};
     o->tied = are_tied(o);
     o->of = br_allocate(numbers->quantities, sizeof *o->of);
     if (!o->of)

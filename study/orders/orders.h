@@ -14,8 +14,10 @@ struct br_orders_line {
     char at[64]; /* "k = 0.01"; "": the other axis is not refined, or goes along */
     size_t *row; /* of the numbers, from coarse to fine; observed.points of them, and one
                     more of a value; owned */
-    struct br_case observed;    /* of a value: of its differences from the next finer one */
-    struct br_grid_limit limit; /* of a value; NaN of an error */
+    struct br_case observed; /* of a value: of its differences from the next finer one */
+    /* Of a value, by all its rows that have a number: */
+    struct br_grid_limit limit; /* method: as many rows as there are */
+    struct br_gci gci;          /* of the three finest */
 };
 
 struct br_quantity_orders {
@@ -27,15 +29,17 @@ struct br_quantity_orders {
 
 struct br_orders {
     const struct br_numbers *numbers;
+    double formal;                 /* order of values */
     struct br_quantity_orders *of; /* count; owned */
     size_t count;
     bool tied; /* no line has three points at one size of the other axis: both go along in one */
 };
 
 /* Finds all orders. Rows without a number, at a floor or beyond stagnation are left out by name.
- * The numbers are borrowed. Fails with BR_NO_MEMORY; clear it even then. */
-enum br_status br_orders_find(const struct br_numbers *numbers, struct br_orders *orders,
-                              struct br_error *err);
+ * formal: the order that theory gives values, for the intervals of their limits. The numbers are
+ * borrowed. Fails with BR_NO_MEMORY; clear it even then. */
+enum br_status br_orders_find(const struct br_numbers *numbers, double formal,
+                              struct br_orders *orders, struct br_error *err);
 void br_orders_clear(struct br_orders *orders);
 
 /* The order that point i and the coarser one before it show; NaN: none. */

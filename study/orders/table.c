@@ -246,18 +246,6 @@ static char *split_unit(char *heading)
     return open[1] ? open + 1 : NULL;
 }
 
-/* Whether a list "a,b" has a name. */
-static bool lists(const char *list, const char *name)
-{
-    const size_t length = strlen(name);
-    for (const char *at = list; at && *at; at += strcspn(at, ","), at += *at == ',') {
-        at += strspn(at, " ");
-        if (strncmp(at, name, length) == 0 && strchr(", ", at[length]))
-            return true;
-    }
-    return false;
-}
-
 static bool is_number(const char *field, double *value)
 {
     const char *end = br_read_number(field, value);
@@ -335,7 +323,7 @@ static enum br_status take_quantity(const struct grid *g, const struct br_table_
     struct br_quantity *quantity = &numbers->quantity[index];
     *quantity = (struct br_quantity){.name = strdup(g->heading[place]),
                                      .unit = unit ? strdup(unit) : NULL,
-                                     .is_value = lists(q->values, g->heading[place])};
+                                     .is_value = br_lists(q->values, g->heading[place])};
     if (!quantity->name || (unit && !quantity->unit))
         return br_no_memory(err, "the table");
     for (size_t i = 0; i < g->rows; i++) {
@@ -355,7 +343,7 @@ static bool is_studied(const struct grid *g, const struct br_table_request *q, s
 {
     const char *name = g->heading[place];
     if (q->errors || q->values)
-        return lists(q->errors, name) || lists(q->values, name);
+        return br_lists(q->errors, name) || br_lists(q->values, name);
     return has_number(g, place);
 }
 
@@ -374,7 +362,7 @@ static enum br_status check_list(const struct grid *g, const struct br_table_req
         if (!found)
             return br_fail(err, BR_BAD_INPUT, "%s: %s: there is no column '%s'", q->path, option,
                            name);
-        if (lists(other, name))
+        if (br_lists(other, name))
             return br_fail(err, BR_BAD_INPUT, "%s: '%s' is given as an error and as a value",
                            option, name);
         at += length;

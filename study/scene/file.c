@@ -345,9 +345,7 @@ static enum br_status read_document(const struct br_scene_reader *r, struct br_v
     if (!root)
         return br_scene_refuse(r, 1, "scene", "the file is empty");
     size_t seen[MOST_KEYS] = {0};
-    enum br_status status = check_texts(r);
-    if (!status)
-        status = read_section(r, "", root, seen);
+    enum br_status status = read_section(r, "", root, seen);
     if (!status)
         status = set_name(r);
     struct br_error inner = {0};
@@ -424,25 +422,24 @@ static enum br_status check_depth(const char *path, const char *text, struct br_
                                       path, line, DEEPEST);
 }
 
-static enum br_status parse(const char *path, const char *text, struct br_scene *scene,
-                            struct br_verify *verify, struct br_error *err)
+enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *take, void *self,
+                            struct br_error *err)
 {
     yaml_parser_t parser;
     yaml_document_t document;
-    *scene = (struct br_scene){0};
-    if (verify)
-        *verify = (struct br_verify){0};
     enum br_status status = check_depth(path, text, err);
     if (status)
         return status;
     if (!yaml_parser_initialize(&parser))
         return br_no_memory(err, "the YAML parser");
     yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
-    const struct br_scene_reader r = {path, &document, scene, err};
+    struct br_scene_reader r = {path, &document, NULL, err};
     if (!yaml_parser_load(&parser, &document))
         status = not_yaml(&r, &parser);
     else {
-        status = read_document(&r, verify);
+        status = yaml_document_get_root_node(&document) ? check_texts(&r) : BR_OK;
+        if (!status)
+            status = take(&r, self);
         yaml_document_delete(&document);
     }
     if (!status)
@@ -451,10 +448,40 @@ static enum br_status parse(const char *path, const char *text, struct br_scene 
     return status;
 }
 
+/* What a scene's file is read into; verify: NULL where nobody asks for it. */
+struct target {
+    struct br_scene *scene;
+    struct br_verify *verify;
+};
+
+static enum br_status take_scene(const struct br_scene_reader *reader, void *self)
+{
+    const struct target *to = self;
+    struct br_scene_reader r = *reader;
+    r.scene = to->scene;
+    return read_document(&r, to->verify);
+}
+
+static enum br_status parse(const char *path, const char *text, struct br_scene *scene,
+                            struct br_verify *verify, struct br_error *err)
+{
+    struct target to = {scene, verify};
+    *scene = (struct br_scene){0};
+    if (verify)
+        *verify = (struct br_verify){0};
+    return br_yaml_read(path, text, take_scene, &to, err);
+}
+
 enum br_status br_scene_read_text(const char *path, const char *text, struct br_scene *scene,
                                   struct br_error *err)
 {
     return parse(path, text, scene, NULL, err);
+}
+
+enum br_status br_scene_read_verify_text(const char *path, const char *text, struct br_scene *scene,
+                                         struct br_verify *verify, struct br_error *err)
+{
+    return parse(path, text, scene, verify, err);
 }
 
 enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,

@@ -19,6 +19,9 @@ enum br_status br_scene_read_text(const char *name, const char *text, struct br_
 enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
                                     struct br_verify *verify, struct br_error *err);
 
+enum br_status br_scene_read_verify_text(const char *name, const char *text, struct br_scene *scene,
+                                         struct br_verify *verify, struct br_error *err);
+
 enum { BR_LONGEST_SCENE = 1 << 20 }; /* bytes */
 
 /* Finds a scene, reads its file once, and the scene from that: path (out, size bytes), *text (out):

@@ -25,6 +25,18 @@ const struct br_quoting br_for_gnuplot = {
               {'}', "\\175"}},
 };
 
+const struct br_quoting br_for_markup = {
+    .around = "",
+    .stead = {{'_', "\\_"},
+              {'^', "\\^"},
+              {'{', "\\{"},
+              {'}', "\\}"},
+              {'@', "\\@"},
+              {'&', "\\&"},
+              {'~', "\\~"},
+              {'\\', "\\\\"}},
+};
+
 /* [ is in braces since it could be the option of a \\ before it. */
 const struct br_quoting br_for_latex = {
     .around = "",

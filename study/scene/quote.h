@@ -30,6 +30,7 @@ struct br_quoting {
 
 extern const struct br_quoting br_for_text;       /* a terminal, a text file */
 extern const struct br_quoting br_for_gnuplot;    /* a string, with its quotes */
+extern const struct br_quoting br_for_markup;     /* gnuplot's enhanced text, within a string */
 extern const struct br_quoting br_for_latex;      /* running text, or a cell */
 extern const struct br_quoting br_for_markdown;   /* the same; no HTML comes through */
 extern const struct br_quoting br_for_xml;        /* text, or an attribute's value */

@@ -11,9 +11,17 @@
 struct br_scene_reader {
     const char *path;
     yaml_document_t *document;
-    struct br_scene *scene;
+    struct br_scene *scene; /* NULL: of another kind of file */
     struct br_error *err;
 };
+
+/* Takes what it wants from a document, whose root may be NULL: an empty file. */
+typedef enum br_status br_yaml_take(const struct br_scene_reader *r, void *self);
+
+/* Parses a text of one YAML document without zero bytes, nested no deeper than is sound, and hands
+ * it over. Fails as `take` does, with BR_BAD_INPUT and the line, or with BR_NO_MEMORY. */
+enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *take, void *self,
+                            struct br_error *err);
 
 /* Refuses with "path:line: key: ..."; returns BR_BAD_INPUT. */
 __attribute__((format(printf, 4, 5))) enum br_status br_scene_refuse(

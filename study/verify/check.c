@@ -109,7 +109,7 @@ static enum br_status make_plan(struct plan *plan, const struct br_check *checks
     if (!plan->section)
         return br_no_memory(err, "the check");
     for (size_t i = 0; i < count; i++)
-        for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+        for (int kind = 0; kind < BR_VERIFY_KINDS && checks[i].scene; kind++)
             add_section(plan, &checks[i], (enum br_verify_kind)kind);
     plan->study = br_allocate(plan->studies, sizeof *plan->study);
     if (!plan->study)
@@ -266,6 +266,8 @@ enum br_status br_check_run(struct br_check *checks, size_t count, int threads,
                             const struct br_observer *observer, struct br_error *err)
 {
     for (size_t i = 0; i < count; i++) {
+        if (!checks[i].scene)
+            continue;
         checks[i].failure = (struct br_error){0};
         checks[i].cases = NULL;
         checks[i].count = 0;
@@ -276,7 +278,7 @@ enum br_status br_check_run(struct br_check *checks, size_t count, int threads,
     if (!status)
         status = br_study_run_each(plan.study, plan.heads, threads, observer, err);
     for (size_t i = 0; i < count && !status; i++)
-        status = conclude_check(&plan, &checks[i], err);
+        status = checks[i].scene ? conclude_check(&plan, &checks[i], err) : BR_OK;
     for (size_t i = 0; i < count && status; i++)
         br_check_clear(&checks[i]);
     clear_plan(&plan);
@@ -294,6 +296,8 @@ void br_check_clear(struct br_check *check)
 
 double br_check_work(const struct br_check *check)
 {
+    if (!check->scene)
+        return 0; /* not known */
     const double fields = check->scene->axial.modelled + check->scene->bending.modelled;
     double work = 0;
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {

@@ -38,6 +38,7 @@ struct br_case {
     size_t points, used;
     struct br_estimate order;
     double constant; /* the largest of the used points'; NaN: none */
+    bool drifts;     /* errors may be far from their asymptotic range (br_order_fit_drifting) */
     double down_to;  /* errors stop falling there, as is expected; 0: nowhere */
     double margin;   /* from the interval to the nearer end of the band; < 0: outside */
     enum br_verdict verdict;
@@ -76,7 +77,7 @@ struct br_check {
     double element_steps; /* of these, elements times steps, a field */
 };
 
-/* Checks scenes, all at once, on `threads` threads (0: all cores); the verdicts do not depend on
+/* Checks scenes, all at once (those of other programs are left as they are), on `threads` threads (0: all cores); the verdicts do not depend on
  * their number. A march that fails is a verdict; a scene that cannot be verified has a `failure`,
  * and the others go on. Fails as br_study_run_each does. */
 enum br_status br_check_run(struct br_check *checks, size_t count, int threads,

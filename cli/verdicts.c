@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cli/verdicts.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The file that a format's option names, or NULL. */
+static const char *file_of(const struct br_options *options, const char *format)
+{
+    struct br_option row[BR_OPTIONS];
+    const size_t count = br_options_of(options->command, row);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(row[i].name, format) == 0)
+            return br_option_text(options, row[i].id);
+    return NULL;
+}
+
+static enum br_status open_files(struct br_verdicts *v, const struct br_options *options,
+                                 struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t i = 1; br_check_formats[i] && !status; i++)
+        status = br_whole_file_open(&v->file[i], br_check_formats[i]->name,
+                                    file_of(options, br_check_formats[i]->name), err);
+    if (!status && br_option_given(options, BR_OPT_UPDATE_BASELINE))
+        status = br_whole_file_open(&v->baseline, "compare",
+                                    br_option_text(options, BR_OPT_COMPARE), err);
+    return status;
+}
+
+/* No report may end where another one does, or in the place of what is read. */
+static enum br_status check_places(const struct br_verdicts *v, const char *baseline,
+                                   const struct br_check *checks, size_t count,
+                                   struct br_error *err)
+{
+    for (size_t i = 1; br_check_formats[i]; i++) {
+        const struct br_whole_file *f = &v->file[i];
+        const char *name = br_check_formats[i]->name;
+        for (size_t j = 1; j < i; j++)
+            if (br_whole_file_same(f, &v->file[j]))
+                return br_fail(err, BR_BAD_INPUT, "--%s and --%s both write %s",
+                               br_check_formats[j]->name, name, f->path);
+        for (size_t s = 0; s < count; s++)
+            if (br_whole_file_replaces(f, checks[s].path))
+                return br_fail(err, BR_BAD_INPUT, "--%s would replace the scene %s", name, f->path);
+        if (baseline &&
+            (br_whole_file_replaces(f, baseline) || br_whole_file_same(f, &v->baseline)))
+            return br_fail(err, BR_BAD_INPUT, "--%s would replace what it is compared with, %s",
+                           name, f->path);
+    }
+    return BR_OK;
+}
+
+/* A baseline that is to be written need not be there yet, nor be of the same problem. */
+static enum br_status read_baseline(struct br_verdicts *v, const struct br_options *options,
+                                    const struct br_check *checks, size_t count,
+                                    struct br_error *err)
+{
+    const bool update = br_option_given(options, BR_OPT_UPDATE_BASELINE);
+    v->compare = br_option_text(options, BR_OPT_COMPARE);
+    if (update && !v->compare)
+        return br_fail(err, BR_BAD_INPUT,
+                       "--update-baseline is given without --compare, expected its file");
+    if (update && access(v->compare, F_OK) != 0)
+        v->compare = NULL;
+    if (!v->compare)
+        return BR_OK;
+    enum br_status status = br_check_read_json(v->compare, &v->old, err);
+    if (!status)
+        status = br_compare_check(checks, count, &v->old, err);
+    if (status == BR_BAD_INPUT && update) {
+        v->compare = NULL;
+        status = BR_OK;
+    }
+    return status;
+}
+
+enum br_status br_verdicts_open(struct br_verdicts *v, const struct br_options *options,
+                                const struct br_check *checks, size_t count, struct br_error *err)
+{
+    enum br_status status = read_baseline(v, options, checks, count, err);
+    if (!status)
+        status = open_files(v, options, err);
+    return status ? status
+                  : check_places(v, br_option_text(options, BR_OPT_COMPARE), checks, count, err);
+}
+
+static enum br_status print(struct br_verdicts *v, bool quiet, const struct br_document *d,
+                            struct br_error *err)
+{
+    for (size_t i = 1; br_check_formats[i]; i++)
+        quiet |= v->file[i].file == stdout;
+    enum br_status status = quiet ? BR_OK : br_document_show(stdout, d, err);
+    for (size_t i = 1; br_check_formats[i] && !status; i++)
+        if (v->file[i].file)
+            status = br_document_print(v->file[i].file, br_check_formats[i], d, NULL, err);
+    if (v->baseline.file && !status)
+        status = br_document_print(v->baseline.file, &br_document_json, d, NULL, err);
+    for (size_t i = 1; br_check_formats[i] && !status; i++)
+        status = br_whole_file_commit(&v->file[i], err);
+    return status ? status : br_whole_file_commit(&v->baseline, err);
+}
+
+enum br_status br_verdicts_write(struct br_verdicts *v, const struct br_session *session,
+                                 const struct br_check_findings *findings, bool whole,
+                                 struct br_error *err)
+{
+    const struct br_provenance provenance = br_provenance_of(NULL, session->threads);
+    struct br_check_findings all = *findings;
+    struct br_document d = {0};
+    if (v->compare && br_compare(all.checks, all.count, whole, &v->old, &v->comparison, err))
+        return err->status;
+    all.comparison = v->compare ? &v->comparison : NULL;
+    all.provenance = &provenance;
+    br_report_check(&all, &d);
+    const enum br_status status = print(v, session->quiet, &d, err);
+    br_document_clear(&d);
+    return status;
+}
+
+enum br_status br_verdicts_conclude(const struct br_verdicts *v, const struct br_check *checks,
+                                    size_t count, struct br_error *err)
+{
+    size_t all = 0;
+    const size_t passed = br_check_tally(checks, count, BR_PASS);
+    const struct br_check *refused;
+    for (size_t i = 0; i < count; i++)
+        all += checks[i].count;
+    if (br_check_failures(checks, count, &refused) > 0)
+        return br_fail(err, BR_BAD_INPUT, "%s", refused->failure.message);
+    if (all == 0)
+        return br_fail(err, BR_VERDICT, "no order was checked");
+    if (passed < all)
+        return br_fail(err, BR_VERDICT, "%zu of %zu orders do not pass", all - passed, all);
+    if (v->comparison.tally[BR_SERIOUS])
+        return br_fail(err, BR_VERDICT, "%zu serious differences from %s",
+                       v->comparison.tally[BR_SERIOUS], v->compare);
+    return BR_OK;
+}
+
+void br_verdicts_clear(struct br_verdicts *v)
+{
+    for (size_t i = 1; br_check_formats[i]; i++)
+        br_whole_file_discard(&v->file[i]);
+    br_whole_file_discard(&v->baseline);
+    br_old_check_clear(&v->old);
+    br_comparison_clear(&v->comparison);
+}

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a command with verdicts writes: the terminal's report, a file for each format that an option
+ * names, and a comparison with an earlier check, the baseline. */
+#ifndef BR_CLI_VERDICTS_H
+#define BR_CLI_VERDICTS_H
+
+#include "cli/session.h"
+#include "study/verify/comparison.h"
+#include "tables/reports.h"
+
+/* A format's name is an option's; and the baseline is one more file. */
+enum { BR_VERDICT_FILES = 8 };
+
+/* Begins as zeros. */
+struct br_verdicts {
+    const char *compare; /* --compare; NULL: not given, or there is none yet */
+    struct br_whole_file file[BR_VERDICT_FILES], baseline;
+    struct br_old_check old;
+    struct br_comparison comparison;
+};
+
+/* What the reports need, before a long computation: reads the baseline, and refuses one of other
+ * problems; opens the files; no two may be one, nor the place of what is read. Fails with
+ * BR_BAD_INPUT, BR_NO_MEMORY. Clear it even then. */
+enum br_status br_verdicts_open(struct br_verdicts *verdicts, const struct br_options *options,
+                                const struct br_check *checks, size_t count, struct br_error *err);
+
+/* Writes them all. findings: without comparison and provenance. whole: all that there is was
+ * checked. Fails as br_document_print and br_whole_file_commit. */
+enum br_status br_verdicts_write(struct br_verdicts *verdicts, const struct br_session *session,
+                                 const struct br_check_findings *findings, bool whole,
+                                 struct br_error *err);
+
+/* BR_VERDICT where not all passed or the comparison is serious; BR_BAD_INPUT where something could
+ * not be verified. */
+enum br_status br_verdicts_conclude(const struct br_verdicts *verdicts,
+                                    const struct br_check *checks, size_t count,
+                                    struct br_error *err);
+
+void br_verdicts_clear(struct br_verdicts *verdicts);
+
+#endif

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/orders/request.h"
+
+#include <string.h>
+
+#include "study/orders/sha256.h"
+#include "study/orders/table.h"
+#include "study/scene/words.h"
+
+struct br_orders_request br_orders_request_default(void)
+{
+    return (struct br_orders_request){.dimension = 2, .formal = 2, .seconds = BR_PROGRAM_SECONDS};
+}
+
+void br_orders_request_clear(struct br_orders_request *r)
+{
+    for (size_t i = 0; i < r->readings; i++) {
+        free((char *)r->reading[i].name);
+        free((char *)r->reading[i].what);
+    }
+    for (int axis = 0; axis < BR_AXES; axis++)
+        free((double *)r->axis[axis].given);
+    free(r->path);
+    free(r->title);
+    free(r->table);
+    free(r->command);
+    free(r->errors);
+    free(r->values);
+    free(r->reading);
+    free(r->expectation);
+    *r = (struct br_orders_request){0};
+}
+
+/* ---- sources ---- */
+
+static bool has_table(const struct br_orders_request *r)
+{
+    return r->table;
+}
+
+static enum br_status read_table(const struct br_orders_request *r, struct br_numbers *numbers,
+                                 struct br_error *err)
+{
+    const struct br_table_request q = {r->path, r->errors, r->values, r->dimension};
+    return br_table_read(r->table, &q, numbers, err);
+}
+
+static bool has_command(const struct br_orders_request *r)
+{
+    return r->command;
+}
+
+static enum br_status run_program(const struct br_orders_request *r, struct br_numbers *numbers,
+                                  struct br_error *err)
+{
+    for (size_t i = 0; i < r->readings; i++)
+        r->reading[i].is_value = br_lists(r->values, r->reading[i].name);
+    const struct br_program program = {
+        .command = r->command,
+        .axis = {r->axis[BR_AXIS_SPACE], r->axis[BR_AXIS_TIME]},
+        .dimension = r->dimension,
+        .reading = r->reading,
+        .readings = r->readings,
+        .jobs = r->jobs,
+        .seconds = r->seconds,
+        .kept = r->kept,
+        .observer = r->observer,
+    };
+    const enum br_status status = br_program_run(&program, numbers, err);
+    return status ? status : br_numbers_check(numbers, r->path, err);
+}
+
+static const struct br_orders_source table = {"table", "a table in a file: CSV, TSV or JSON lines",
+                                              has_table, read_table};
+static const struct br_orders_source program = {
+    "program", "a program that is run at each resolution", has_command, run_program};
+const struct br_orders_source *const br_orders_sources[] = {&program, &table, NULL};
+
+enum br_status br_orders_read(const struct br_orders_request *r, struct br_numbers *numbers,
+                              struct br_error *err)
+{
+    *numbers = (struct br_numbers){0};
+    for (const struct br_orders_source *const *s = br_orders_sources; *s; s++)
+        if ((*s)->applies(r))
+            return (*s)->read(r, numbers, err);
+    return br_fail(err, BR_BAD_INPUT, "%s: found neither a table nor a command", r->path);
+}
+
+/* ---- parts ---- */
+
+enum br_status br_orders_request_axis(struct br_orders_request *r, const char *column,
+                                      const char *list, struct br_error *err)
+{
+    const struct br_resolution_column *c = br_resolution_column_find(column);
+    double *given = NULL;
+    size_t count;
+    if (r->axis[c->axis].column)
+        return br_fail(err, BR_BAD_INPUT, "%s and %s are given, expected one of the two",
+                       r->axis[c->axis].column->name, column);
+    const enum br_status status = br_read_numbers(column, list, &given, &count, err);
+    r->axis[c->axis] = (struct br_program_axis){c, given, count};
+    return status;
+}
+
+enum br_status br_orders_request_reading(struct br_orders_request *r, const char *name,
+                                         const char *what, struct br_error *err)
+{
+    static const struct {
+        const char *prefix;
+        enum br_reading_kind kind;
+    } kinds[] = {{"json:", BR_READING_JSON}, {"csv:", BR_READING_CSV}};
+    struct br_reading reading = {.kind = BR_READING_REGEX};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (strncmp(what, kinds[i].prefix, strlen(kinds[i].prefix)) == 0) {
+            reading.kind = kinds[i].kind;
+            what += strlen(kinds[i].prefix);
+        }
+    for (size_t i = 0; i < r->readings; i++)
+        if (strcmp(r->reading[i].name, name) == 0)
+            return br_fail(err, BR_BAD_INPUT, "%s is read twice", name);
+    struct br_reading *more = br_allocate(r->readings + 1, sizeof *more);
+    if (!more)
+        return br_no_memory(err, "what is read");
+    if (r->readings)
+        memcpy(more, r->reading, r->readings * sizeof *more);
+    free(r->reading);
+    r->reading = more;
+    reading.name = strdup(name);
+    reading.what = strdup(what);
+    more[r->readings++] = reading;
+    return reading.name && reading.what ? BR_OK : br_no_memory(err, "what is read");
+}
+
+enum br_status br_orders_request_expect(struct br_orders_request *r, const char *where,
+                                        const char *text, size_t line, struct br_error *err)
+{
+    struct br_order_expectation *more = NULL;
+    size_t count = 0;
+    enum br_status status = br_expectations_read(where, text, &more, &count, err);
+    struct br_order_expectation *all =
+        status ? NULL : br_allocate(r->expectations + count, sizeof *all);
+    if (!status && !all)
+        status = br_no_memory(err, "what is expected");
+    if (!status) {
+        if (r->expectations)
+            memcpy(all, r->expectation, r->expectations * sizeof *all);
+        memcpy(all + r->expectations, more, count * sizeof *all);
+        for (size_t i = 0; i < count; i++)
+            all[r->expectations + i].line = line;
+        free(r->expectation);
+        r->expectation = all;
+        r->expectations += count;
+    }
+    free(more);
+    return status;
+}
+
+/* ---- what is solved ---- */
+
+static void add_text(struct br_sha256 *sum, const char *text)
+{
+    br_sha256_add(sum, text ? text : "", text ? strlen(text) + 1 : 1);
+}
+
+void br_orders_problem(const struct br_orders_request *r, char problem[40])
+{
+    struct br_sha256 sum;
+    char digest[BR_SHA256_TEXT], text[200];
+    br_sha256_start(&sum);
+    add_text(&sum, r->command);
+    add_text(&sum, r->errors);
+    add_text(&sum, r->values);
+    for (size_t i = 0; i < r->readings; i++) {
+        add_text(&sum, r->reading[i].name);
+        add_text(&sum, r->reading[i].what);
+    }
+    for (size_t i = 0; i < r->expectations; i++) {
+        const struct br_order_expectation *e = &r->expectation[i];
+        snprintf(text, sizeof text, "%s %s %.17g %.17g %.17g", e->quantity,
+                 br_axis_letters[e->axis], e->order, e->tolerance, e->down_to);
+        add_text(&sum, text);
+    }
+    br_sha256_end(&sum, digest);
+    snprintf(problem, 40, "%.32s", digest);
+}

@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A study of any program as a YAML file: one row a key. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "study/orders/request.h"
+#include "study/scene/file.h"
+#include "study/scene/value.h"
+#include "study/scene/words.h"
+
+/* A key on its way. */
+struct entry {
+    const struct br_scene_reader *r;
+    struct br_orders_request *request;
+    const char *key, *text; /* text: NULL where the value is a mapping */
+    const yaml_node_t *node;
+};
+
+static enum br_status refuse_inner(const struct entry *e, size_t line, const struct br_error *inner)
+{
+    if (inner->status != BR_BAD_INPUT)
+        return br_fail(e->r->err, inner->status, "%s", inner->message);
+    return br_scene_refuse(e->r, line, e->key, "%s", inner->message);
+}
+
+static enum br_status keep_text(const struct entry *e, char **to)
+{
+    *to = strdup(e->text);
+    return *to ? BR_OK : br_no_memory(e->r->err, "the study");
+}
+
+static enum br_status take_title(const struct entry *e)
+{
+    return keep_text(e, &e->request->title);
+}
+
+static enum br_status take_command(const struct entry *e)
+{
+    return keep_text(e, &e->request->command);
+}
+
+static enum br_status take_error(const struct entry *e)
+{
+    return keep_text(e, &e->request->errors);
+}
+
+static enum br_status take_value(const struct entry *e)
+{
+    return keep_text(e, &e->request->values);
+}
+
+/* In the folder of the study file. */
+static enum br_status take_table(const struct entry *e)
+{
+    const char *slash = strrchr(e->r->path, '/');
+    const int folder = slash && *e->text != '/' ? (int)(slash - e->r->path) + 1 : 0;
+    char path[4096];
+    struct br_error inner = {0};
+    snprintf(path, sizeof path, "%.*s%s", folder, e->r->path, e->text);
+    return br_scene_load(path, &e->request->table, &inner)
+               ? refuse_inner(e, br_yaml_line(e->node), &inner)
+               : BR_OK;
+}
+
+static enum br_status take_list(const struct entry *e)
+{
+    struct br_error inner = {0};
+    return br_orders_request_axis(e->request, e->key, e->text, &inner)
+               ? refuse_inner(e, br_yaml_line(e->node), &inner)
+               : BR_OK;
+}
+
+/* A number above 0, with the unit that is expected behind it. */
+static enum br_status take_number(const struct entry *e, const char *unit, double *value)
+{
+    const char *end = br_read_number(e->text, value);
+    end = end ? end + strspn(end, " ") : NULL;
+    if (end && strcmp(end, unit) == 0 && *value > 0)
+        return BR_OK;
+    return br_scene_refuse(e->r, br_yaml_line(e->node), e->key,
+                           "found '%s', expected a number above 0%s%s", e->text,
+                           *unit ? " and its unit, " : "", unit);
+}
+
+static enum br_status take_dimension(const struct entry *e)
+{
+    return take_number(e, "", &e->request->dimension);
+}
+
+static enum br_status take_formal(const struct entry *e)
+{
+    return take_number(e, "", &e->request->formal);
+}
+
+static enum br_status take_limit(const struct entry *e)
+{
+    return take_number(e, "s", &e->request->seconds);
+}
+
+/* Each pair of a mapping of names to texts. */
+static enum br_status each_pair(const struct entry *e,
+                                enum br_status (*take)(const struct entry *e, const char *name,
+                                                       const yaml_node_t *value))
+{
+    enum br_status status = BR_OK;
+    for (yaml_node_pair_t *p = e->node->data.mapping.pairs.start;
+         p < e->node->data.mapping.pairs.top && !status; p++) {
+        const yaml_node_t *name = yaml_document_get_node(e->r->document, p->key);
+        const yaml_node_t *value = yaml_document_get_node(e->r->document, p->value);
+        status = name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE
+                     ? br_scene_refuse(e->r, br_yaml_line(name), e->key,
+                                       "expected names with a text each")
+                     : take(e, br_yaml_text(name), value);
+    }
+    return status;
+}
+
+static enum br_status take_reading(const struct entry *e, const char *name,
+                                   const yaml_node_t *value)
+{
+    struct br_error inner = {0};
+    return br_orders_request_reading(e->request, name, br_yaml_text(value), &inner)
+               ? refuse_inner(e, br_yaml_line(value), &inner)
+               : BR_OK;
+}
+
+static enum br_status take_readings(const struct entry *e)
+{
+    return each_pair(e, take_reading);
+}
+
+static enum br_status take_expectation(const struct entry *e, const char *name,
+                                       const yaml_node_t *value)
+{
+    char where[1200], text[1200];
+    const size_t line = br_yaml_line(value);
+    snprintf(where, sizeof where, "%.1000s:%zu: verify", e->r->path, line);
+    snprintf(text, sizeof text, "%.60s: %.1000s", name, br_yaml_text(value));
+    return br_orders_request_expect(e->request, where, text, line, e->r->err);
+}
+
+static enum br_status take_expectations(const struct entry *e)
+{
+    return each_pair(e, take_expectation);
+}
+
+static const struct key {
+    const char *name;
+    bool mapping;
+    enum br_status (*take)(const struct entry *e);
+} keys[] = {
+    {"title", false, take_title},
+    {"run", false, take_command},
+    {"table", false, take_table},
+    {"n", false, take_list},
+    {"h", false, take_list},
+    {"dofs", false, take_list},
+    {"k", false, take_list},
+    {"dt", false, take_list},
+    {"steps", false, take_list},
+    {"read", true, take_readings},
+    {"error", false, take_error},
+    {"value", false, take_value},
+    {"dimension", false, take_dimension},
+    {"formal_order", false, take_formal},
+    {"time_limit", false, take_limit},
+    {"verify", true, take_expectations},
+};
+enum { KEYS = sizeof keys / sizeof *keys };
+
+static enum br_status take_entry(const struct br_scene_reader *r, const yaml_node_pair_t *pair,
+                                 bool seen[KEYS], struct br_orders_request *request)
+{
+    const yaml_node_t *name = yaml_document_get_node(r->document, pair->key);
+    const yaml_node_t *value = yaml_document_get_node(r->document, pair->value);
+    if (name->type != YAML_SCALAR_NODE)
+        return br_scene_refuse(r, br_yaml_line(name), "study", "expected a key");
+    const char *text = br_yaml_text(name);
+    for (size_t i = 0; i < KEYS; i++) {
+        if (strcmp(keys[i].name, text) != 0)
+            continue;
+        if (seen[i])
+            return br_scene_refuse(r, br_yaml_line(name), text, "is given twice");
+        if (value->type != (keys[i].mapping ? YAML_MAPPING_NODE : YAML_SCALAR_NODE))
+            return br_scene_refuse(r, br_yaml_line(value), text, "expected %s",
+                                   keys[i].mapping ? "names with a text each" : "one text");
+        seen[i] = true;
+        return keys[i].take(
+            &(struct entry){r, request, text, keys[i].mapping ? NULL : br_yaml_text(value), value});
+    }
+    char known[400] = "";
+    for (size_t i = 0; i < KEYS; i++)
+        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i ? ", " : "",
+                 keys[i].name);
+    return br_scene_refuse(r, br_yaml_line(name), text, "unknown key, expected one of: %s", known);
+}
+
+static enum br_status take_study(const struct br_scene_reader *r, void *self)
+{
+    struct br_orders_request *request = self;
+    const yaml_node_t *root = yaml_document_get_root_node(r->document);
+    bool seen[KEYS] = {false};
+    enum br_status status = BR_OK;
+    if (!root || root->type != YAML_MAPPING_NODE)
+        return br_scene_refuse(r, 1, "study", "expected a mapping of keys to values");
+    for (yaml_node_pair_t *p = root->data.mapping.pairs.start;
+         p < root->data.mapping.pairs.top && !status; p++)
+        status = take_entry(r, p, seen, request);
+    if (!status && !request->command == !request->table)
+        status = br_scene_refuse(r, br_yaml_line(root), "study",
+                                 "expected 'run' or 'table', one of the two");
+    if (!status && request->command && request->readings == 0)
+        status = br_scene_refuse(r, br_yaml_line(root), "read",
+                                 "missing, expected what is read of the output");
+    return status;
+}
+
+enum br_status br_orders_request_read(const char *path, const char *text,
+                                      struct br_orders_request *request, struct br_error *err)
+{
+    *request = br_orders_request_default();
+    request->path = strdup(path);
+    return request->path ? br_yaml_read(path, text, take_study, request, err)
+                         : br_no_memory(err, "the study");
+}
+
+bool br_is_study_file(const char *text)
+{
+    for (const char *line = text; line; line = strchr(line, '\n')) {
+        line += *line == '\n';
+        if (strncmp(line, "run:", 4) == 0 || strncmp(line, "table:", 6) == 0)
+            return true;
+    }
+    return false;
+}

@@ -1,0 +1,337 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <string.h>
+
+#include "study/orders/orders.h"
+#include "tables/report_parts.h"
+
+static const struct br_quantity *quantity_of(const struct br_orders *o,
+                                             const struct br_quantity_orders *of)
+{
+    return &o->numbers->quantity[of->quantity];
+}
+
+static const char *const limit_methods[] = {
+    [BR_LIMIT_TWO_GRIDS] = "GCI of two grids",
+    [BR_LIMIT_GCI] = "GCI, Celik et al. 2008",
+    [BR_LIMIT_LEAST_SQUARES] = "least squares, Eca and Hoekstra 2014",
+};
+
+/* ---- the answer ---- */
+
+/* The line at the finest size of the other axis; NULL: none. */
+static const struct br_orders_line *finest_line(const struct br_quantity_orders *of,
+                                                enum br_axis axis)
+{
+    const struct br_orders_line *line = NULL;
+    for (size_t i = 0; i < of->lines; i++)
+        line = of->line[i].axis == axis ? &of->line[i] : line;
+    return line;
+}
+
+static void say_order(struct br_document *d, const struct br_estimate *order, enum br_axis axis,
+                      const char *where)
+{
+    char text[64];
+    br_put_more(d, " order in %s %s%s%s%s;", br_axis_letters[axis],
+                isfinite(order->value) ? br_order_text(order, text, sizeof text) : "not known",
+                isfinite(order->value) && !br_order_determined(order) ? " (not determined)" : "",
+                *where ? " at " : "", where);
+}
+
+static void say_orders(struct br_document *d, const struct br_quantity_orders *of)
+{
+    const bool joint = br_joint_describes(&of->joint);
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        const struct br_orders_line *line = finest_line(of, (enum br_axis)axis);
+        if (joint)
+            say_order(d, axis == BR_AXIS_SPACE ? &of->joint.p : &of->joint.q, (enum br_axis)axis,
+                      "");
+        else if (line)
+            say_order(d, &line->observed.order, (enum br_axis)axis, line->at);
+    }
+    if (joint)
+        br_put_more(d, " by the joint fit of %zu rows, misfit %.2g %%;", of->joint.points,
+                    100 * of->joint.misfit);
+}
+
+/* How many rows are left out, the first reason and where it begins. */
+static void say_left_out(struct br_document *d, const struct br_quantity_orders *of)
+{
+    size_t count = 0, points = 0;
+    const struct br_point *first = NULL;
+    for (size_t l = 0; l < of->lines; l++)
+        for (size_t i = 0; i < of->line[l].observed.points; i++) {
+            const struct br_point *p = &of->line[l].observed.point[i];
+            if (of->line[l].axis != of->line[0].axis)
+                continue;
+            points++;
+            count += p->flag != BR_FLAG_NONE;
+            first = !first && p->flag ? p : first;
+        }
+    if (count)
+        br_put_more(d, " %zu of %zu left out, the first at %s (%s, %.1e).", count, points,
+                    first->label, br_flag_name(first->flag), first->error);
+}
+
+static void say_limit(struct br_document *d, const struct br_grid_limit *limit)
+{
+    if (isfinite(limit->value.low))
+        br_put_more(d, " limit %.9g, between %.9g and %.9g (%s), %s;", limit->value.value,
+                    limit->value.low, limit->value.high, limit_methods[limit->method],
+                    br_sequence_text(limit->sequence));
+    else
+        br_put_more(d, " no limit: %s;", br_sequence_text(limit->sequence));
+}
+
+static void put_answers(struct br_document *d, const struct br_orders *o)
+{
+    for (size_t i = 0; i < o->count && i < BR_MOST_ANSWERS - 2; i++) {
+        const struct br_quantity_orders *of = &o->of[i];
+        const struct br_orders_line *line = of->lines ? finest_line(of, of->line[0].axis) : NULL;
+        br_put_answer(d, "%s:", quantity_of(o, of)->name);
+        if (!line)
+            br_put_more(d, " no order: fewer than three sizes.");
+        if (line && quantity_of(o, of)->is_value)
+            say_limit(d, &line->limit);
+        say_orders(d, of);
+        say_left_out(d, of);
+    }
+    if (o->count > BR_MOST_ANSWERS - 2)
+        br_put_answer(d, "%zu more columns: see the tables.", o->count - (BR_MOST_ANSWERS - 2));
+    if (o->tied)
+        br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
+}
+
+/* ---- tables ---- */
+
+/* Point of a row in the lines along an axis; NULL: it is in none. */
+static const struct br_point *point_of(const struct br_quantity_orders *of, enum br_axis axis,
+                                       size_t row, double *rate)
+{
+    for (size_t l = 0; l < of->lines; l++)
+        for (size_t i = 0; i < of->line[l].observed.points; i++)
+            if (of->line[l].axis == axis && of->line[l].row[i] == row) {
+                *rate = br_orders_rate(&of->line[l], i);
+                return &of->line[l].observed.point[i];
+            }
+    *rate = NAN;
+    return NULL;
+}
+
+static void put_given(struct br_document *d, const struct br_numbers *numbers, size_t row)
+{
+    for (int axis = 0; axis < BR_AXES; axis++)
+        if (numbers->column[axis])
+            BR_PUT(d, br_number(numbers->row[row].given[axis]), .key = numbers->column[axis]->name,
+                   .unit = numbers->unit[axis], .format = "%.6g");
+}
+
+static void put_row(struct br_document *d, const struct br_orders *o,
+                    const struct br_quantity_orders *of, size_t row)
+{
+    static const char *const rates[] = {"rate_h", "rate_k"}, *const headings[] = {"rate in h",
+                                                                                  "rate in k"};
+    const struct br_numbers *numbers = o->numbers;
+    const struct br_quantity *q = quantity_of(o, of);
+    const char *left_out = "";
+    br_put_row(d);
+    BR_PUT(d, br_text(q->name), .key = "quantity");
+    put_given(d, numbers, row);
+    BR_PUT(d, br_number(numbers->row[row].number[of->quantity]),
+           .key = q->is_value ? "value" : "error", .unit = q->unit,
+           .format = q->is_value ? "%.9g" : "%.3e");
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        double rate;
+        const struct br_point *p = point_of(of, (enum br_axis)axis, row, &rate);
+        if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME))
+            BR_PUT(d, br_number(rate), .key = rates[axis], .heading = headings[axis],
+                   .format = "%.2f");
+        if (p && p->flag)
+            left_out = br_flag_name(p->flag);
+    }
+    BR_PUT(d, br_text(left_out), .key = "left_out", .heading = "left out");
+    BR_PUT(d, br_text(numbers->row[row].failure), .key = "failure", .flags = BR_FILES_ONLY);
+}
+
+static void put_rows(struct br_document *d, const struct br_orders *o,
+                     const struct br_quantity_orders *of)
+{
+    char key[80], title[160];
+    const struct br_quantity *q = quantity_of(o, of);
+    snprintf(key, sizeof key, "rows-%zu", of->quantity + 1);
+    snprintf(title, sizeof title, "%s %s, row by row", q->is_value ? "Value" : "Error", q->name);
+    br_put_table(d, key, title, BR_LONG);
+    for (size_t i = 0; i < o->numbers->rows; i++)
+        put_row(d, o, of, i);
+}
+
+static void put_order(struct br_document *d, const struct br_orders *o,
+                      const struct br_quantity_orders *of, const struct br_orders_line *line)
+{
+    char text[64];
+    const struct br_case *c = &line->observed;
+    br_put_row(d);
+    br_put(d, "quantity", br_text(quantity_of(o, of)->name));
+    br_put(d, "in", br_text(br_axis_letters[line->axis]));
+    br_put(d, "at", br_text(line->at));
+    br_put(d, "order", br_number(c->order.value));
+    br_put_shown(d, "%s", br_order_text(&c->order, text, sizeof text));
+    br_put(d, "low", br_number(c->order.low));
+    br_put(d, "high", br_number(c->order.high));
+    br_put(d, "points", br_count(c->points));
+    br_put(d, "used", br_count(c->used));
+    br_put(d, "note", br_text(c->note));
+}
+
+static void put_orders(struct br_document *d, const struct br_orders *o)
+{
+    static const struct br_column columns[] = {
+        {.key = "quantity"},
+        {.key = "in"},
+        {.key = "at"},
+        {.key = "order", .heading = "order [95 %]"},
+        {.key = "low", .flags = BR_FOR_PROGRAMS},
+        {.key = "high", .flags = BR_FOR_PROGRAMS},
+        {.key = "points"},
+        {.key = "used"},
+        {.key = "note", .flags = BR_FILES_ONLY | BR_WRAP},
+    };
+    BR_TABLE(d, "orders", "Orders along lines", BR_MAIN, columns);
+    for (size_t i = 0; i < o->count; i++)
+        for (size_t l = 0; l < o->of[i].lines; l++)
+            put_order(d, o, &o->of[i], &o->of[i].line[l]);
+}
+
+static void put_estimate(struct br_document *d, const char *key, const struct br_estimate *e)
+{
+    char name[32], text[64];
+    br_put(d, key, br_number(e->value));
+    br_put_shown(d, "%s", br_order_text(e, text, sizeof text));
+    snprintf(name, sizeof name, "%s_low", key);
+    br_put(d, name, br_number(e->low));
+    snprintf(name, sizeof name, "%s_high", key);
+    br_put(d, name, br_number(e->high));
+}
+
+static void put_joint_fits(struct br_document *d, const struct br_orders *o)
+{
+    static const struct br_column columns[] = {
+        {.key = "quantity"},
+        {.key = "order_h", .heading = "order in h [95 %]"},
+        {.key = "order_h_low", .flags = BR_FOR_PROGRAMS},
+        {.key = "order_h_high", .flags = BR_FOR_PROGRAMS},
+        {.key = "order_k", .heading = "order in k [95 %]"},
+        {.key = "order_k_low", .flags = BR_FOR_PROGRAMS},
+        {.key = "order_k_high", .flags = BR_FOR_PROGRAMS},
+        {.key = "c_h", .heading = "C_h", .format = "%.3e"},
+        {.key = "c_k", .heading = "C_k", .format = "%.3e"},
+        {.key = "rows"},
+        {.key = "misfit", .format = "%.2e"},
+    };
+    BR_TABLE(d, "joint", "Joint fit of the signed errors C_h h^p and C_k k^q", 0, columns);
+    for (size_t i = 0; i < o->count; i++) {
+        const struct br_joint_fit *f = &o->of[i].joint;
+        if (!f->converged)
+            continue;
+        br_put_row(d);
+        br_put(d, "quantity", br_text(quantity_of(o, &o->of[i])->name));
+        put_estimate(d, "order_h", &f->p);
+        put_estimate(d, "order_k", &f->q);
+        br_put(d, "c_h", br_number(f->c_h.value));
+        br_put(d, "c_k", br_number(f->c_k.value));
+        br_put(d, "rows", br_count(f->points));
+        br_put(d, "misfit", br_number(f->misfit));
+    }
+}
+
+/* ---- values: what they tend to ---- */
+
+static void put_limit(struct br_document *d, const struct br_orders *o,
+                      const struct br_quantity_orders *of, const struct br_orders_line *line)
+{
+    const struct br_gci *g = &line->gci;
+    br_put_row(d);
+    br_put(d, "quantity", br_text(quantity_of(o, of)->name));
+    br_put(d, "in", br_text(br_axis_letters[line->axis]));
+    br_put(d, "at", br_text(line->at));
+    br_put(d, "sequence", br_text(br_sequence_text(line->limit.sequence)));
+    br_put(d, "limit", br_number(line->limit.value.value));
+    br_put(d, "low", br_number(line->limit.value.low));
+    br_put(d, "high", br_number(line->limit.value.high));
+    br_put(d, "method", br_text(limit_methods[line->limit.method]));
+    br_put(d, "p", br_number(g->order));
+    br_put(d, "r21", br_number(g->fine.ratio));
+    br_put(d, "r32", br_number(g->coarse.ratio));
+    br_put(d, "phi_ext", br_number(g->fine.limit));
+    br_put(d, "e_a", br_number(g->fine.relative));
+    br_put(d, "e_ext", br_number(g->fine.relative_extrapolated));
+    br_put(d, "gci_fine", br_number(g->fine.index));
+    br_put(d, "gci_coarse", br_number(g->coarse.index));
+    br_put(d, "asymptotic", br_number(g->asymptotic));
+    br_put(d, "of_three", br_text(br_sequence_text(g->sequence)));
+}
+
+/* The grid convergence index is that of the three finest rows, relative as Celik et al. print it.
+ */
+static void put_limits(struct br_document *d, const struct br_orders *o)
+{
+    static const struct br_column columns[] = {
+        {.key = "quantity"},
+        {.key = "in"},
+        {.key = "at"},
+        {.key = "sequence"},
+        {.key = "limit", .format = "%.9g"},
+        {.key = "low", .format = "%.9g"},
+        {.key = "high", .format = "%.9g"},
+        {.key = "method", .flags = BR_FILES_ONLY},
+        {.key = "p", .heading = "p of three", .format = "%.4f"},
+        {.key = "r21", .format = "%.4g", .flags = BR_FILES_ONLY},
+        {.key = "r32", .format = "%.4g", .flags = BR_FILES_ONLY},
+        {.key = "phi_ext", .format = "%.9g", .flags = BR_FILES_ONLY},
+        {.key = "e_a", .format = "%.3e", .flags = BR_FILES_ONLY},
+        {.key = "e_ext", .format = "%.3e", .flags = BR_FILES_ONLY},
+        {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
+        {.key = "gci_coarse", .heading = "GCI coarse", .format = "%.3e"},
+        {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
+        {.key = "of_three", .flags = BR_FOR_PROGRAMS},
+    };
+    BR_TABLE(d, "limits", "Limits of values, and the grid convergence index", 0, columns);
+    for (size_t i = 0; i < o->count; i++)
+        for (size_t l = 0; l < o->of[i].lines && quantity_of(o, &o->of[i])->is_value; l++)
+            put_limit(d, o, &o->of[i], &o->of[i].line[l]);
+}
+
+/* ---- what it costs ---- */
+
+static void put_costs(struct br_document *d, const struct br_numbers *numbers)
+{
+    bool measured = false;
+    for (size_t i = 0; i < numbers->rows; i++)
+        measured |= isfinite(numbers->row[i].seconds);
+    if (!measured)
+        return;
+    br_put_table(d, "costs", "What each run costs", 0);
+    for (size_t i = 0; i < numbers->rows; i++) {
+        const struct br_numbers_row *row = &numbers->row[i];
+        br_put_row(d);
+        put_given(d, numbers, i);
+        BR_PUT(d, br_number(row->seconds), .key = "cpu_seconds", .heading = "processor time",
+               .unit = "s", .format = "%.3g");
+        BR_PUT(d, br_number(row->bytes / 1e6), .key = "peak_memory", .heading = "peak memory",
+               .unit = "MB", .format = "%.3g");
+        BR_PUT(d, br_truth(row->kept), .key = "kept", .flags = BR_FILES_ONLY);
+    }
+}
+
+void br_report_orders(const struct br_orders *o, const char *caption, struct br_document *d)
+{
+    br_document_begin(d, "orders", "beamrate orders", 1, caption);
+    put_answers(d, o);
+    put_orders(d, o);
+    put_joint_fits(d, o);
+    put_limits(d, o);
+    put_costs(d, o->numbers);
+    for (size_t i = 0; i < o->count; i++)
+        put_rows(d, o, &o->of[i]);
+}
