@@ -400,7 +400,8 @@ static struct oracle oracle_of(const struct named *c, double formal)
 
 /* What random sequences have led to. */
 struct seen {
-    int observed, first, formal, both, weighted, equal, rough, careful, kind[8];
+    int observed, first, formal, both, both_without_order, weighted, equal, rough, careful;
+    int kind[BR_SEQUENCE_ANOMALOUS + 1];
 };
 
 static void compare(const struct named *c, double formal, struct seen *seen)
@@ -423,6 +424,7 @@ static void compare(const struct named *c, double formal, struct seen *seen)
     seen->first += r.fit.terms == 1 && !r.fit.observed && r.fit.power[0] == 1;
     seen->formal += r.fit.terms == 1 && !r.fit.observed && r.fit.power[0] == formal;
     seen->both += r.fit.terms == 2;
+    seen->both_without_order += r.fit.terms == 2 && isnan(r.order);
     seen->weighted += r.fit.weighted;
     seen->equal += !r.fit.weighted;
     seen->rough += !(r.fit.sigma < r.range);
@@ -443,7 +445,9 @@ static void test_random_sequences(void **state)
         double h = br_test_log_uniform(&random, 1e-3, 10);
         for (size_t j = 0; j < c.count; j++) {
             c.h[j] = h;
-            c.value[j] = 0.7 + 5 * pow(h / c.h[0], p) + noise * br_test_uniform(&random, -1, 1);
+            const double side = i % 5 == 0 && j % 2 ? -1 : 1; /* some alternate */
+            c.value[j] =
+                0.7 + side * 5 * pow(h / c.h[0], p) + noise * br_test_uniform(&random, -1, 1);
             h /= br_test_uniform(&random, 1.2, 2.2);
         }
         compare(&c, i % 4 ? 2 : 1 + (double)br_test_index(&random, 4), &seen);
@@ -451,6 +455,7 @@ static void test_random_sequences(void **state)
     if (br_test_quick())
         return;
     assert_true(seen.observed > 10 && seen.first > 5 && seen.formal > 5 && seen.both > 5);
+    assert_true(seen.both_without_order > 3);
     assert_true(seen.weighted > 10 && seen.equal > 10 && seen.rough > 3 && seen.careful > 10);
     assert_true(seen.kind[BR_MONOTONE_CONVERGENCE] > 10 && seen.kind[BR_MONOTONE_DIVERGENCE] > 3);
 }
@@ -532,6 +537,7 @@ static void test_sequence_kinds(void **state)
         {5, {16, 8, 4, 2, 1}, {2, 0.75, 1.0625, 0.984375, 1.00390625}, BR_OSCILLATORY_CONVERGENCE},
         {5, {16, 8, 4, 2, 1}, {1.00390625, 0.984375, 1.0625, 0.75, 2}, BR_OSCILLATORY_DIVERGENCE},
         {4, {8, 4, 2, 1}, {1, 0, 0, 0}, BR_SEQUENCE_ANOMALOUS},
+        {4, {8, 4, 2, 1}, {1, 0x1p-14, 0x1p-28, 0x1p-42}, BR_SEQUENCE_ANOMALOUS}, /* order 14 */
         {4, {8, 4, 2, 1}, {3, 3, 3, 3}, BR_SEQUENCE_CONSTANT},
         {4, {8, 4, 2, 1}, {0, 0, 0, 0}, BR_SEQUENCE_CONSTANT},
     };

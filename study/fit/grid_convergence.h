@@ -92,9 +92,9 @@ struct br_expansion_fit {
 };
 
 /* Kinds of sequences: monotone by the sign of the observed order, whatever scatter there is. Where
- * no order between -12 and 12 fits best, none can be established. Such a sequence is anomalous; we
- * call it oscillatory if a third of its triplets or more turn back, convergent or divergent by the
- * order of the magnitudes of successive differences (br_order_of_values). */
+ * no order between -12 and 12 fits best, none can be established. Such a sequence is oscillatory if
+ * its differences change sign count/3 times (rounded down) or more: convergent or divergent by the
+ * order of their magnitudes (br_order_of_values). Else it is anomalous. */
 struct br_least_squares {
     enum br_sequence sequence;
     double order;                /* p of phi_0 + alpha h^p; NaN where none can be established */
