@@ -132,7 +132,9 @@ struct br_grid_limit {
 /* The limit with its interval: by least squares for four grids or more, by the grid convergence
  * index for three, or two and the formal order. NaN for divergence, and where a single difference
  * is zero. A constant sequence has its value as limit, but no interval: the procedures do not
- * apply. count >= 2; formal as in br_least_squares. Fails with BR_BAD_INPUT, BR_NO_MEMORY. */
+ * apply. count >= 2; formal as in br_least_squares. Fails with BR_BAD_INPUT, BR_NO_MEMORY.
+ * The interval is an estimate, not a bound. Of random cubics in h, it held the limit in 95 to 100 %
+ * at h = 0.01, where the linear term dominates, but in 60 to 84 % at h = 0.1, where it does not. */
 enum br_status br_limit_of_values(const double *h, const double *value, size_t count, double formal,
                                   struct br_grid_limit *limit, struct br_error *err);
 
