@@ -1,0 +1,528 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Equation numbers: of Celik et al. (2008) for the grid convergence index, of Eca and Hoekstra
+ * (2014) for least squares. */
+#include "study/fit/grid_convergence.h"
+
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_min.h>
+#include <gsl/gsl_multifit.h>
+#include <gsl/gsl_roots.h>
+#include <math.h>
+
+static const double safety_observed = 1.25; /* with an observed order */
+static const double safety_else = 3;
+
+const char *br_sequence_text(enum br_sequence sequence)
+{
+    static const char *const texts[] = {
+#define X(name, text) [name] = text,
+        BR_SEQUENCE_LIST(X)
+#undef X
+    };
+    return texts[sequence];
+}
+
+static enum br_status check_line(const double *h, const double *value, size_t count, size_t least,
+                                 struct br_error *err)
+{
+    if (count < least)
+        return br_fail(err, BR_BAD_INPUT, "%zu grids, expected at least %zu", count, least);
+    for (size_t i = 0; i < count; i++) {
+        if (!(h[i] > 0 && isfinite(h[i])))
+            return br_fail(err, BR_BAD_INPUT, "h[%zu] is %g, expected a finite number > 0", i,
+                           h[i]);
+        if (i > 0 && !(h[i - 1] / h[i] > 1 && isfinite(h[i - 1] / h[i])))
+            return br_fail(err, BR_BAD_INPUT, "h[%zu] is %.17g, expected less than %.17g before it",
+                           i, h[i], h[i - 1]);
+        if (!(fabs(value[i]) <= DBL_MAX / 4)) /* differences do not overflow */
+            return br_fail(err, BR_BAD_INPUT, "value[%zu] is %g, expected a finite number", i,
+                           value[i]);
+    }
+    return BR_OK;
+}
+
+static enum br_status check_formal(double formal, double least, double most, struct br_error *err)
+{
+    if (!(formal >= least && formal <= most))
+        return br_fail(err, BR_BAD_INPUT, "the formal order is %g, expected %g to %g", formal,
+                       least, most);
+    return BR_OK;
+}
+
+/* What may be round-off in the difference of two values, as in extrapolation.c. */
+static double round_off_of(const double *value, size_t count)
+{
+    double largest = 0;
+    for (size_t i = 0; i < count; i++)
+        largest = fmax(largest, fabs(value[i]));
+    return 64 * DBL_EPSILON * largest;
+}
+
+/* ---- the grid convergence index ---- */
+
+/* What (3) needs of the three finest grids. */
+struct triplet {
+    double ln21, ln32; /* logarithms of the refinement ratios */
+    double ln_growth;  /* ln |e32/e21| */
+    int s;             /* sign(e32/e21), (3c) */
+};
+
+/* ln |e^x - s|, also where e^x overflows */
+static double ln_gain(double x, int s)
+{
+    return fmax(x, 0) + (s > 0 ? log(-expm1(-fabs(x))) : log1p(exp(-fabs(x))));
+}
+
+/* (3a) and (3b): p ln r21 - ln |e32/e21| - q(p), q = ln((r21^p - s)/(r32^p - s)). It increases
+ * with p from -infinity to infinity. Celik et al. take the magnitude of the right side; without
+ * it, divergence has a negative order. */
+static double order_mismatch(double p, void *self)
+{
+    const struct triplet *t = self;
+    double q = ln_gain(p * t->ln21, t->s) - ln_gain(p * t->ln32, t->s);
+    if (p == 0)
+        q = t->s > 0 ? log(t->ln21 / t->ln32) : 0;
+    return p * t->ln21 - t->ln_growth - q;
+}
+
+/* The root of (3). The paper's iteration p <- (ln |e32/e21| + q(p))/ln r21 has the same fixed
+ * point, but runs away from it where r32 is greater than about r21^2: so the root is bracketed. */
+static enum br_status find_order(struct triplet *t, double *order, struct br_error *err)
+{
+    double low = -1, high = 1;
+    while (order_mismatch(low, t) > 0)
+        low *= 2;
+    while (order_mismatch(high, t) < 0)
+        high *= 2;
+    gsl_function f = {order_mismatch, t};
+    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+    if (!solver)
+        return br_no_memory(err, "the apparent order");
+    *order = NAN;
+    if (gsl_root_fsolver_set(solver, &f, low, high) == GSL_SUCCESS)
+        for (int i = 0; i < 200 && gsl_root_fsolver_iterate(solver) == GSL_SUCCESS; i++) {
+            *order = gsl_root_fsolver_root(solver);
+            if (gsl_root_test_interval(gsl_root_fsolver_x_lower(solver),
+                                       gsl_root_fsolver_x_upper(solver), 1e-14,
+                                       1e-14) == GSL_SUCCESS)
+                break;
+        }
+    gsl_root_fsolver_free(solver);
+    return BR_OK;
+}
+
+static enum br_sequence sequence_of(const struct triplet *t)
+{
+    if (t->s < 0)
+        return t->ln_growth > 0 ? BR_OSCILLATORY_CONVERGENCE : BR_OSCILLATORY_DIVERGENCE;
+    return t->ln_growth > log(t->ln32 / t->ln21) ? BR_MONOTONE_CONVERGENCE : BR_MONOTONE_DIVERGENCE;
+}
+
+static bool convergent(enum br_sequence sequence)
+{
+    return sequence == BR_MONOTONE_CONVERGENCE || sequence == BR_OSCILLATORY_CONVERGENCE;
+}
+
+static double relative_to(double difference, double value)
+{
+    return value != 0 ? fabs(difference / value) : NAN;
+}
+
+/* h[0], value[0]: the coarser grid; h[1], value[1]: the finer one. order: NaN if there is none. */
+static struct br_gci_pair pair_of(const double *h, const double *value, double order, double safety)
+{
+    const double ratio = h[0] / h[1], fine = value[1];
+    const double step = (fine - value[0]) / expm1(order * log(ratio)); /* e/(r^p - 1) */
+    const double limit = fine + step, uncertainty = safety * fabs(step);
+    return (struct br_gci_pair){
+        .ratio = ratio,
+        .difference = fabs(fine - value[0]),
+        .limit = limit,
+        .uncertainty = uncertainty,
+        .relative = relative_to(fine - value[0], fine),
+        .relative_extrapolated = relative_to(step, limit),
+        .index = relative_to(uncertainty, fine),
+    };
+}
+
+/* Sets kind and order from the three grids h[0] to h[2]. */
+static enum br_status judge_triplet(const double *h, const double *value, struct br_gci *gci,
+                                    struct br_error *err)
+{
+    const double e21 = value[1] - value[2], e32 = value[0] - value[1];
+    const double zero = round_off_of(value, 3);
+    if (fabs(e21) <= zero || fabs(e32) <= zero) {
+        const bool both = fabs(e21) <= zero && fabs(e32) <= zero;
+        gci->sequence = both ? BR_SEQUENCE_CONSTANT : BR_SEQUENCE_UNKNOWN;
+        return BR_OK;
+    }
+    struct triplet t = {
+        .ln21 = log(h[1] / h[2]),
+        .ln32 = log(h[0] / h[1]),
+        .ln_growth = log(fabs(e32)) - log(fabs(e21)),
+        .s = (e32 > 0) == (e21 > 0) ? 1 : -1,
+    };
+    gci->sequence = sequence_of(&t);
+    return find_order(&t, &gci->order, err);
+}
+
+enum br_status br_gci(const double *h, const double *value, size_t count, struct br_gci *gci,
+                      struct br_error *err)
+{
+    *gci = (struct br_gci){.order = NAN, .safety = safety_observed};
+    enum br_status status = check_line(h, value, count, 3, err);
+    if (status)
+        return status;
+    h += count - 3;
+    value += count - 3;
+    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* it would end the program */
+    status = judge_triplet(h, value, gci, err);
+    gsl_set_error_handler(handler);
+    const double order = convergent(gci->sequence) ? gci->order : NAN;
+    gci->fine = pair_of(h + 1, value + 1, order, gci->safety);
+    gci->coarse = pair_of(h, value, order, gci->safety);
+    gci->asymptotic = gci->coarse.index / (pow(gci->fine.ratio, order) * gci->fine.index);
+    return status;
+}
+
+enum br_status br_gci_two(const double *h, const double *value, size_t count, double formal,
+                          struct br_gci *gci, struct br_error *err)
+{
+    *gci = (struct br_gci){.order = NAN, .safety = safety_else};
+    enum br_status status = check_line(h, value, count, 2, err);
+    if (!status)
+        status = check_formal(formal, DBL_MIN, DBL_MAX, err);
+    if (status)
+        return status;
+    h += count - 2;
+    value += count - 2;
+    const bool constant = fabs(value[0] - value[1]) <= round_off_of(value, 2);
+    gci->sequence = constant ? BR_SEQUENCE_CONSTANT : BR_SEQUENCE_UNKNOWN;
+    gci->order = constant ? NAN : formal;
+    gci->fine = pair_of(h, value, gci->order, gci->safety);
+    gci->coarse = (struct br_gci_pair){NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    gci->asymptotic = NAN;
+    return BR_OK;
+}
+
+/* ---- least squares ---- */
+
+/* The values less the finest one, over (max - min): fits do not depend on units and offsets. */
+struct data {
+    size_t count;
+    double *y;         /* count */
+    double *ln_h;      /* count: ln(h/h_1) */
+    double *weight[2]; /* count each, sum 1: equal ones, and (16) */
+    double *x;         /* 3 count: workspace for the columns of a fit */
+    gsl_multifit_linear_workspace *linear;
+    gsl_min_fminimizer *minimizer;
+};
+
+static void data_free(struct data *d)
+{
+    free(d->y);
+    if (d->linear)
+        gsl_multifit_linear_free(d->linear);
+    if (d->minimizer)
+        gsl_min_fminimizer_free(d->minimizer);
+}
+
+/* Takes h and the values; full: max - min > 0. */
+static enum br_status data_create(struct data *d, const double *h, const double *value,
+                                  size_t count, double full, struct br_error *err)
+{
+    *d = (struct data){.count = count, .y = br_allocate(7 * count, sizeof(double))};
+    if (!d->y)
+        return br_no_memory(err, "the fits");
+    d->ln_h = d->y + count;
+    d->weight[0] = d->y + 2 * count;
+    d->weight[1] = d->y + 3 * count;
+    d->x = d->y + 4 * count;
+    d->linear = gsl_multifit_linear_alloc(count, 3);
+    d->minimizer = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
+    if (!d->linear || !d->minimizer)
+        return br_no_memory(err, "the fits");
+    const double finest = h[count - 1];
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += finest / h[i];
+    for (size_t i = 0; i < count; i++) {
+        d->y[i] = (value[i] - value[count - 1]) / full;
+        d->ln_h[i] = log(h[i] / finest);
+        d->weight[0][i] = 1 / (double)count;
+        d->weight[1][i] = finest / h[i] / sum; /* (16) */
+    }
+    return BR_OK;
+}
+
+/* The columns 1 and ((h/h_1)^power - 1)/power of each term. They span what 1 and h^power do, but
+ * stay apart as power -> 0. Returns whether all are finite. */
+static bool fill_columns(const struct data *d, const struct br_expansion_fit *fit)
+{
+    const size_t columns = 1 + fit->terms;
+    bool finite = true;
+    for (size_t i = 0; i < d->count; i++) {
+        double *row = d->x + i * columns;
+        row[0] = 1;
+        for (size_t j = 0; j < fit->terms; j++) {
+            const double p = fit->power[j];
+            row[1 + j] = p == 0 ? d->ln_h[i] : expm1(p * d->ln_h[i]) / p;
+            finite = finite && isfinite(row[1 + j]);
+        }
+    }
+    return finite;
+}
+
+/* Fits the expansion whose first four members are given; sigma is NaN if it cannot be done.
+ * sigma^2 = sum n w_i (phi_i - fit_i)^2 / (n - parameters), Appendix B. */
+static void fit_expansion(const struct data *d, struct br_expansion_fit *fit)
+{
+    const size_t n = d->count, columns = 1 + fit->terms;
+    fit->limit = fit->error = fit->misfit = fit->sigma = NAN;
+    if (!fill_columns(d, fit))
+        return;
+    double c[3], covariance[9], sum;
+    gsl_matrix_view x = gsl_matrix_view_array(d->x, n, columns);
+    gsl_vector_view y = gsl_vector_view_array(d->y, n);
+    gsl_vector_view w = gsl_vector_view_array(d->weight[fit->weighted], n);
+    gsl_vector_view solution = gsl_vector_view_array(c, columns);
+    gsl_matrix_view cov = gsl_matrix_view_array(covariance, columns, columns);
+    if (gsl_multifit_wlinear(&x.matrix, &w.vector, &y.vector, &solution.vector, &cov.matrix, &sum,
+                             d->linear) != GSL_SUCCESS)
+        return;
+    fit->error = 0;
+    for (size_t j = 0; j < fit->terms; j++)
+        fit->error += c[1 + j] / fit->power[j];
+    fit->limit = c[0] - fit->error;
+    fit->misfit = -c[0]; /* y is 0 on the finest grid */
+    fit->sigma = sqrt((double)n * sum / (double)(n - columns - (fit->observed ? 1 : 0)));
+}
+
+struct scan {
+    const struct data *data;
+    bool weighted;
+};
+
+static double variance_at(double p, void *self)
+{
+    const struct scan *s = self;
+    struct br_expansion_fit fit = {1, {p, NAN}, true, s->weighted, NAN, NAN, NAN, NAN};
+    fit_expansion(s->data, &fit);
+    return fit.sigma * fit.sigma;
+}
+
+/* phi_0 + alpha h^p with the best p, (1). For a given p the fit is linear; the variance can have
+ * several minima over p, so it is scanned before the lowest one is refined. A best p at either end
+ * of the scan is none: no terms. */
+static struct br_expansion_fit fit_observed(const struct data *d, bool weighted)
+{
+    enum { STEPS = 480 };
+    const double most = 12, width = 2 * most / STEPS;
+    struct scan scan = {d, weighted};
+    double best = INFINITY;
+    size_t at = 0;
+    for (size_t i = 0; i <= STEPS; i++) {
+        const double variance = variance_at((double)i * width - most, &scan);
+        if (variance < best) {
+            best = variance;
+            at = i;
+        }
+    }
+    struct br_expansion_fit fit = {0, {NAN, NAN}, true, weighted, NAN, NAN, NAN, NAN};
+    if (at == 0 || at == STEPS)
+        return fit;
+    double p = (double)at * width - most;
+    gsl_function f = {variance_at, &scan};
+    gsl_min_fminimizer *m = d->minimizer;
+    if (gsl_min_fminimizer_set(m, &f, p, p - width, p + width) == GSL_SUCCESS)
+        for (int i = 0; i < 100 && gsl_min_fminimizer_iterate(m) == GSL_SUCCESS; i++) {
+            p = gsl_min_fminimizer_x_minimum(m);
+            if (gsl_min_fminimizer_x_upper(m) - gsl_min_fminimizer_x_lower(m) <= 1e-12)
+                break;
+        }
+    fit.terms = 1;
+    fit.power[0] = p;
+    fit_expansion(d, &fit);
+    return fit;
+}
+
+/* Replaces a fit by one with a smaller sigma. */
+static void keep_better(struct br_expansion_fit *best, const struct br_expansion_fit *other)
+{
+    if (other->terms > 0 && (best->terms == 0 || other->sigma < best->sigma))
+        *best = *other;
+}
+
+static void try_fixed(const struct data *d, size_t terms, double first, double second,
+                      struct br_expansion_fit *best)
+{
+    for (int weighted = 0; weighted < 2; weighted++) {
+        struct br_expansion_fit fit = {.terms = terms, .weighted = weighted};
+        fit.power[0] = first;
+        fit.power[1] = second;
+        fit_expansion(d, &fit);
+        if (fit.sigma >= 0)
+            keep_better(best, &fit);
+    }
+}
+
+/* Appendix A, step 1. */
+static void choose_fit(const struct data *d, double formal, struct br_least_squares *r)
+{
+    struct br_expansion_fit growing = {.power = {NAN, NAN}}, falling = growing;
+    for (int weighted = 0; weighted < 2; weighted++) {
+        const struct br_expansion_fit fit = fit_observed(d, weighted);
+        keep_better(fit.power[0] > 0 ? &falling : &growing, &fit);
+        if (fit.power[0] >= 0.5 && fit.power[0] <= formal)
+            keep_better(&r->fit, &fit);
+    }
+    if (r->fit.terms > 0) {
+        r->order = r->fit.power[0];
+        return;
+    }
+    r->order = falling.terms > 0 ? falling.power[0] : growing.power[0];
+    try_fixed(d, 1, 1, NAN, &r->fit); /* (5) */
+    if (formal > 1)
+        try_fixed(d, 1, formal, NAN, &r->fit); /* (6) */
+    if (!(r->order > formal))
+        try_fixed(d, 2, 1, formal > 1 ? formal : 2, &r->fit); /* (7) */
+}
+
+/* Appendix A, steps 2 to 4, in units of max - min. */
+static void find_uncertainty(size_t count, double formal, struct br_least_squares *r)
+{
+    const double sigma = r->fit.sigma, error = fabs(r->fit.error), misfit = fabs(r->fit.misfit);
+    r->range = 1 / (double)(count - 1); /* (19) */
+    const bool smooth = sigma < r->range;
+    const bool reliable = smooth && r->order >= 0.5 && r->order < formal + 0.1;
+    r->safety = reliable ? safety_observed : safety_else;
+    r->uncertainty = smooth ? r->safety * error + sigma + misfit               /* (20) */
+                            : 3 * sigma / r->range * (error + sigma + misfit); /* (21) */
+}
+
+static enum br_status name_sequence(const double *h, const double *value, size_t count,
+                                    struct br_least_squares *r, struct br_error *err)
+{
+    if (!isnan(r->order)) {
+        r->sequence = r->order > 0 ? BR_MONOTONE_CONVERGENCE : BR_MONOTONE_DIVERGENCE;
+        return BR_OK;
+    }
+    size_t changes = 0;
+    for (size_t i = 2; i < count; i++)
+        changes += (value[i] > value[i - 1] && value[i - 1] < value[i - 2]) ||
+                   (value[i] < value[i - 1] && value[i - 1] > value[i - 2]);
+    r->sequence = BR_SEQUENCE_ANOMALOUS;
+    if (changes < count / 3)
+        return BR_OK;
+    struct br_estimate order;
+    const enum br_status status = br_order_of_values(h, value, count, &order, err);
+    if (order.value > 0)
+        r->sequence = BR_OSCILLATORY_CONVERGENCE;
+    if (order.value <= 0)
+        r->sequence = BR_OSCILLATORY_DIVERGENCE;
+    return status;
+}
+
+/* From units of max - min to those of the values. */
+static void rescale(struct br_least_squares *r, double full, double finest)
+{
+    r->range *= full;
+    r->uncertainty *= full;
+    r->fit.limit = finest + full * r->fit.limit;
+    r->fit.error *= full;
+    r->fit.misfit *= full;
+    r->fit.sigma *= full;
+}
+
+enum br_status br_least_squares(const double *h, const double *value, size_t count, double formal,
+                                struct br_least_squares *result, struct br_error *err)
+{
+    const struct br_expansion_fit none = {0, {NAN, NAN}, false, false, NAN, NAN, NAN, NAN};
+    *result = (struct br_least_squares){BR_SEQUENCE_UNKNOWN, NAN, none, NAN, NAN, NAN};
+    enum br_status status = check_line(h, value, count, 4, err);
+    if (!status)
+        status = check_formal(formal, 1, 10, err);
+    if (status)
+        return status;
+    double least = value[0], most = value[0];
+    for (size_t i = 1; i < count; i++) {
+        least = fmin(least, value[i]);
+        most = fmax(most, value[i]);
+    }
+    if (most - least <= round_off_of(value, count)) {
+        result->sequence = BR_SEQUENCE_CONSTANT;
+        result->range = (most - least) / (double)(count - 1);
+        return BR_OK;
+    }
+    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* it would end the program */
+    struct data data;
+    status = data_create(&data, h, value, count, most - least, err);
+    if (!status) {
+        choose_fit(&data, formal, result);
+        find_uncertainty(count, formal, result);
+        rescale(result, most - least, value[count - 1]);
+        status = name_sequence(h, value, count, result, err);
+    }
+    data_free(&data);
+    gsl_set_error_handler(handler);
+    return status;
+}
+
+/* ---- either ---- */
+
+enum br_status br_order_of_values(const double *h, const double *value, size_t count,
+                                  struct br_estimate *order, struct br_error *err)
+{
+    *order = (struct br_estimate){NAN, NAN, NAN};
+    enum br_status status = check_line(h, value, count, 2, err);
+    if (status)
+        return status;
+    struct br_order_point *point = br_allocate(count - 1, sizeof *point);
+    if (!point)
+        return br_no_memory(err, "the order");
+    for (size_t i = 0; i + 1 < count; i++)
+        point[i] = (struct br_order_point){h[i], h[i + 1], fabs(value[i] - value[i + 1])};
+    status = br_order_fit(point, count - 1, order, err);
+    free(point);
+    return status;
+}
+
+/* The limit with the uncertainty around the finest value. */
+static struct br_estimate around_finest(double limit, double finest, double uncertainty)
+{
+    return (struct br_estimate){limit, finest - uncertainty, finest + uncertainty};
+}
+
+enum br_status br_limit_of_values(const double *h, const double *value, size_t count, double formal,
+                                  struct br_grid_limit *limit, struct br_error *err)
+{
+    *limit = (struct br_grid_limit){.value = {NAN, NAN, NAN}, .order = NAN};
+    enum br_status status = check_line(h, value, count, 2, err);
+    if (!status)
+        status = check_formal(formal, 1, 10, err);
+    if (status)
+        return status;
+    const double finest = value[count - 1];
+    if (count > 3) {
+        struct br_least_squares fit;
+        status = br_least_squares(h, value, count, formal, &fit, err);
+        limit->method = BR_LIMIT_LEAST_SQUARES;
+        limit->sequence = fit.sequence;
+        limit->order = fit.order;
+        limit->value = around_finest(fit.fit.limit, finest, fit.uncertainty);
+    } else {
+        struct br_gci gci;
+        status = count == 3 ? br_gci(h, value, count, &gci, err)
+                            : br_gci_two(h, value, count, formal, &gci, err);
+        limit->method = count == 3 ? BR_LIMIT_GCI : BR_LIMIT_TWO_GRIDS;
+        limit->sequence = gci.sequence;
+        limit->order = gci.order;
+        limit->value = around_finest(gci.fine.limit, finest, gci.fine.uncertainty);
+    }
+    if (limit->sequence == BR_MONOTONE_DIVERGENCE || limit->sequence == BR_OSCILLATORY_DIVERGENCE)
+        limit->value = (struct br_estimate){NAN, NAN, NAN};
+    if (limit->sequence == BR_SEQUENCE_CONSTANT)
+        limit->value = (struct br_estimate){finest, NAN, NAN};
+    return status;
+}

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Values of a quantity on finer and finer grids, without a reference: what they converge to, and
+ * how far from that the finest one may be.
+ *
+ * Three grids: the grid convergence index of Celik, Ghia, Roache, Freitas, Coleman and Raad,
+ * "Procedure for Estimation and Reporting of Uncertainty Due to Discretization in CFD
+ * Applications", J. Fluids Eng. 130, 078001 (2008), and of ASME V&V 20-2009.
+ * Four or more: the least squares of Eca and Hoekstra, "A procedure for the estimation of the
+ * numerical uncertainty of CFD calculations based on grid refinement studies", J. Comput. Phys.
+ * 262, 104-130 (2014).
+ *
+ * In all functions, h[count] are mesh sizes or time steps > 0 in any unit, from coarse to fine, and
+ * value[count] is the quantity on these grids. The papers count from the finest grid: their h_1 is
+ * h[count - 1]. NaN in a result: not known. BR_BAD_INPUT: too few grids, an h that is not smaller
+ * than the one before, a number that is not finite, a formal order out of its range. */
+#ifndef BR_STUDY_FIT_GRID_CONVERGENCE_H
+#define BR_STUDY_FIT_GRID_CONVERGENCE_H
+
+#include "study/fit/fit.h"
+
+/* X(name, text): how a sequence of values behaves. */
+#define BR_SEQUENCE_LIST(X)                                  \
+    X(BR_SEQUENCE_UNKNOWN, "not known")                      \
+    X(BR_SEQUENCE_CONSTANT, "constant")                      \
+    X(BR_MONOTONE_CONVERGENCE, "monotone convergence")       \
+    X(BR_OSCILLATORY_CONVERGENCE, "oscillatory convergence") \
+    X(BR_MONOTONE_DIVERGENCE, "monotone divergence")         \
+    X(BR_OSCILLATORY_DIVERGENCE, "oscillatory divergence")   \
+    X(BR_SEQUENCE_ANOMALOUS, "anomalous behaviour")
+
+enum br_sequence {
+#define X(name, text) name,
+    BR_SEQUENCE_LIST(X)
+#undef X
+};
+
+const char *br_sequence_text(enum br_sequence sequence);
+
+/* ---- the grid convergence index ---- */
+
+/* A grid and the next coarser one: indices 21 or 32 of Celik et al. */
+struct br_gci_pair {
+    double ratio;                 /* r = h_coarse/h_fine > 1 */
+    double difference;            /* |phi_fine - phi_coarse|, in the unit of the values */
+    double limit;                 /* phi_ext, equation (4) */
+    double uncertainty;           /* safety |phi_fine - phi_coarse| / (r^p - 1), in that unit */
+    double relative;              /* e_a, (5), of phi_fine; relative ones are NaN beside 0 */
+    double relative_extrapolated; /* e_ext, (6), of phi_ext */
+    double index;                 /* GCI, (7): the uncertainty relative to phi_fine */
+};
+
+/* With e21 = phi_2 - phi_1 and e32 = phi_3 - phi_2, convergence means that the order is positive:
+ *     e21/e32 ln r32/ln r21 < 1 where both differences have the same sign,
+ *     |e21/e32| < 1             where the signs alternate.
+ * For equal ratios both are R = e21/e32 of the literature. For unequal ones R alone misleads:
+ * values 1 + h at h = 1, 1/10 and 1/100000 have R = 0.11, but at h = 1, 10/11 and 5/11 R = 5. The
+ * logarithms are the limit of (r32^p - 1)/(r21^p - 1) for p = 0.
+ * Differences within round-off are zero: both, the sequence is constant; one, it is not known. */
+struct br_gci {
+    enum br_sequence sequence;
+    double order;  /* p, (3): negative if divergent, given if there are two grids */
+    double safety; /* 1.25 with an observed order, 3 with two grids (V&V 20) */
+    struct br_gci_pair fine, coarse; /* 21 and 32; without convergence only ratio, difference and
+                                        relative are known */
+    double asymptotic; /* GCI_32/(r21^p GCI_21), near 1 in the asymptotic range. With monotone
+                          convergence it is |phi_1/phi_2| by construction and shows little. */
+};
+
+/* From the three finest grids; count >= 3. An order far above the formal one makes the uncertainty
+ * too small (Xing and Stern, J. Fluids Eng. 132, 061403, 2010): look at it. Fails with
+ * BR_BAD_INPUT, BR_NO_MEMORY. */
+enum br_status br_gci(const double *h, const double *value, size_t count, struct br_gci *gci,
+                      struct br_error *err);
+
+/* From the two finest grids and the formal order > 0; count >= 2. Nothing shows whether the values
+ * converge. Fails with BR_BAD_INPUT. */
+enum br_status br_gci_two(const double *h, const double *value, size_t count, double formal,
+                          struct br_gci *gci, struct br_error *err);
+
+/* ---- least squares ---- */
+
+/* phi_0 + sum alpha_j h^power_j, fitted to the values. */
+struct br_expansion_fit {
+    size_t terms;    /* 1 or 2; 0: no fit */
+    double power[2]; /* of each term */
+    bool observed;   /* power[0] is the observed order; else fixed */
+    bool weighted;   /* by 1/h */
+    double limit;    /* phi_0 */
+    double error;    /* eps: the fit at the finest grid less phi_0 */
+    double misfit;   /* the finest value less the fit there */
+    double sigma;    /* standard deviation of the fit */
+};
+
+/* Kinds of sequences: monotone by the sign of the observed order, whatever scatter there is. Where
+ * no order between -12 and 12 fits best, none can be established. Such a sequence is oscillatory if
+ * its differences change sign count/3 times (rounded down) or more: convergent or divergent by the
+ * order of their magnitudes (br_order_of_values). Else it is anomalous. */
+struct br_least_squares {
+    enum br_sequence sequence;
+    double order;                /* p of phi_0 + alpha h^p; NaN where none can be established */
+    struct br_expansion_fit fit; /* the one with the smallest sigma of those that may be chosen */
+    double range;                /* Delta_phi = (max - min)/(count - 1) */
+    double safety;               /* 1.25 for a reliable fit, else 3 */
+    double uncertainty;          /* U of the finest value, 95 % */
+};
+
+/* The paper is about methods of formal order 2. Another formal order, 1 to 10, takes the place of 2
+ * as the highest order that is believed (2.1: formal + 0.1) and as the exponent of the second
+ * term; for formal order 1 the second term is h^2, and never stands alone. count >= 4. An
+ * uncertainty comes out for each kind of sequence but a constant one, also for divergence. Fails
+ * with BR_BAD_INPUT, BR_NO_MEMORY. */
+enum br_status br_least_squares(const double *h, const double *value, size_t count, double formal,
+                                struct br_least_squares *result, struct br_error *err);
+
+/* ---- either ---- */
+
+/* The observed order with its interval from the differences of successive values (br_order_fit); it
+ * needs four grids. Fails with BR_BAD_INPUT, BR_NO_MEMORY. */
+enum br_status br_order_of_values(const double *h, const double *value, size_t count,
+                                  struct br_estimate *order, struct br_error *err);
+
+enum br_limit_method { BR_LIMIT_TWO_GRIDS, BR_LIMIT_GCI, BR_LIMIT_LEAST_SQUARES };
+
+struct br_grid_limit {
+    struct br_estimate value; /* low, high: the finest value -+ its uncertainty, so they do not lie
+                                 symmetrically around the limit */
+    double order;             /* p; the formal one for two grids */
+    enum br_limit_method method;
+    enum br_sequence sequence;
+};
+
+/* The limit with its interval: by least squares for four grids or more, by the grid convergence
+ * index for three, or two and the formal order. NaN for divergence, and where a single difference
+ * is zero. A constant sequence has its value as limit, but no interval: the procedures do not
+ * apply. count >= 2; formal as in br_least_squares. Fails with BR_BAD_INPUT, BR_NO_MEMORY.
+ * The interval is an estimate, not a bound. Of random cubics in h, it held the limit in 95 to 100 %
+ * at h = 0.01, where the linear term dominates, but in 60 to 84 % at h = 0.1, where it does not. */
+enum br_status br_limit_of_values(const double *h, const double *value, size_t count, double formal,
+                                  struct br_grid_limit *limit, struct br_error *err);
+
+#endif
