@@ -4,7 +4,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/random.h>
@@ -14,6 +13,7 @@
 
 #include "cli/output.h"
 #include "cli/provenance.h"
+#include "study/orders/sha256.h"
 #include "tables/json_value.h"
 
 static const char format[] = "beamrate-set 1";
@@ -33,120 +33,7 @@ enum br_status br_run_id_make(char run[BR_RUN_ID], struct br_error *err)
     return BR_OK;
 }
 
-/* ---- SHA-256: FIPS 180-4, section 6.2, with its letters ---- */
-
-/* Of a stream of bytes: start it, add to it, end it once. */
-struct sha256 {
-    uint32_t state[8];
-    uint64_t length; /* bytes so far */
-    unsigned char block[64];
-};
-
-enum { SHA256_TEXT = 65 }; /* 64 hexadecimal digits, as sha256sum prints them */
-
-static const uint32_t K[64] = {
-    0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
-    0xd807aa98, 0x12835b01, 0x243185be, 0x550c7dc3, 0x72be5d74, 0x80deb1fe, 0x9bdc06a7, 0xc19bf174,
-    0xe49b69c1, 0xefbe4786, 0x0fc19dc6, 0x240ca1cc, 0x2de92c6f, 0x4a7484aa, 0x5cb0a9dc, 0x76f988da,
-    0x983e5152, 0xa831c66d, 0xb00327c8, 0xbf597fc7, 0xc6e00bf3, 0xd5a79147, 0x06ca6351, 0x14292967,
-    0x27b70a85, 0x2e1b2138, 0x4d2c6dfc, 0x53380d13, 0x650a7354, 0x766a0abb, 0x81c2c92e, 0x92722c85,
-    0xa2bfe8a1, 0xa81a664b, 0xc24b8b70, 0xc76c51a3, 0xd192e819, 0xd6990624, 0xf40e3585, 0x106aa070,
-    0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
-    0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
-
-static uint32_t rotate(uint32_t x, int n)
-{
-    return x >> n | x << (32 - n);
-}
-
-/* W: the message schedule. */
-static void expand(const unsigned char block[64], uint32_t W[64])
-{
-    for (int t = 0; t < 16; t++)
-        W[t] = (uint32_t)block[4 * t] << 24 | (uint32_t)block[4 * t + 1] << 16 |
-               (uint32_t)block[4 * t + 2] << 8 | block[4 * t + 3];
-    for (int t = 16; t < 64; t++) {
-        const uint32_t a = W[t - 15], b = W[t - 2];
-        W[t] = (rotate(b, 17) ^ rotate(b, 19) ^ b >> 10) + W[t - 7] +
-               (rotate(a, 7) ^ rotate(a, 18) ^ a >> 3) + W[t - 16];
-    }
-}
-
-/* h: a to h of the standard. */
-static void compress(uint32_t state[8], const unsigned char block[64])
-{
-    uint32_t W[64], h[8];
-    expand(block, W);
-    memcpy(h, state, sizeof h);
-    for (int t = 0; t < 64; t++) {
-        const uint32_t a = h[0], e = h[4];
-        const uint32_t choice = (e & h[5]) ^ (~e & h[6]);
-        const uint32_t majority = (a & h[1]) ^ (a & h[2]) ^ (h[1] & h[2]);
-        const uint32_t first =
-            h[7] + (rotate(e, 6) ^ rotate(e, 11) ^ rotate(e, 25)) + choice + K[t] + W[t];
-        const uint32_t second = (rotate(a, 2) ^ rotate(a, 13) ^ rotate(a, 22)) + majority;
-        memmove(h + 1, h, 7 * sizeof *h);
-        h[4] += first;
-        h[0] = first + second;
-    }
-    for (int i = 0; i < 8; i++)
-        state[i] += h[i];
-}
-
-static void start_sum(struct sha256 *s)
-{
-    *s = (struct sha256){.state = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f,
-                                   0x9b05688c, 0x1f83d9ab, 0x5be0cd19}};
-}
-
-static void add_to_sum(struct sha256 *s, const void *bytes, size_t count)
-{
-    const unsigned char *from = bytes;
-    while (count) {
-        const size_t used = s->length % 64, room = 64 - used, piece = count < room ? count : room;
-        memcpy(s->block + used, from, piece);
-        s->length += piece;
-        from += piece;
-        count -= piece;
-        if (s->length % 64 == 0)
-            compress(s->state, s->block);
-    }
-}
-
-static void end_sum(struct sha256 *s, char text[SHA256_TEXT])
-{
-    static const unsigned char padding[64] = {0x80};
-    const uint64_t bits = 8 * s->length;
-    unsigned char size[8];
-    for (int i = 0; i < 8; i++)
-        size[i] = (unsigned char)(bits >> (56 - 8 * i));
-    add_to_sum(s, padding, 1 + (119 - s->length % 64) % 64);
-    add_to_sum(s, size, sizeof size);
-    for (int i = 0; i < 8; i++)
-        snprintf(text + 8 * i, 9, "%08x", s->state[i]);
-}
-
 /* ---- files ---- */
-
-/* Size and sum of an open file. */
-static bool measure(int file, long long *size, char text[SHA256_TEXT])
-{
-    struct sha256 sum;
-    char piece[1 << 15];
-    ssize_t got;
-    *size = 0;
-    start_sum(&sum);
-    while ((got = read(file, piece, sizeof piece)) != 0) {
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got < 0)
-            return false;
-        add_to_sum(&sum, piece, (size_t)got);
-        *size += got;
-    }
-    end_sum(&sum, text);
-    return true;
-}
 
 const char *br_listed_name(const json_t *file)
 {
@@ -161,7 +48,7 @@ static const char *sum_of(const json_t *file)
 enum br_status br_listed_compare(int folder, const json_t *listed, bool *same, struct br_error *err)
 {
     const char *name = br_listed_name(listed);
-    char sum[SHA256_TEXT];
+    char sum[BR_SHA256_TEXT];
     long long size;
     struct stat info;
     const int file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
@@ -169,7 +56,7 @@ enum br_status br_listed_compare(int folder, const json_t *listed, bool *same, s
     if (file < 0 && errno == ELOOP)
         return BR_OK; /* a symbolic link now */
     const bool known = file >= 0 && fstat(file, &info) == 0;
-    const bool read = known && (!S_ISREG(info.st_mode) || measure(file, &size, sum));
+    const bool read = known && (!S_ISREG(info.st_mode) || br_sha256_file(file, &size, sum));
     const int reason = errno;
     if (file >= 0)
         close(file);
@@ -236,7 +123,7 @@ static bool is_file(const json_t *file)
 {
     const char *name = br_listed_name(file), *sum = sum_of(file);
     return json_is_integer(json_object_get(file, "size")) && sum &&
-           strlen(sum) == SHA256_TEXT - 1 && name && *name && *name != '.' && !strchr(name, '/');
+           strlen(sum) == BR_SHA256_TEXT - 1 && name && *name && *name != '.' && !strchr(name, '/');
 }
 
 static bool are_sets(const json_t *sets)
@@ -302,10 +189,10 @@ static int is_listed(const struct dirent *entry)
 
 static enum br_status list_one(int folder, const char *name, json_t *files, struct br_error *err)
 {
-    char sum[SHA256_TEXT];
+    char sum[BR_SHA256_TEXT];
     long long size;
     const int file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
-    const bool read = file >= 0 && fsync(file) == 0 && measure(file, &size, sum);
+    const bool read = file >= 0 && fsync(file) == 0 && br_sha256_file(file, &size, sum);
     const int reason = errno;
     if (file >= 0)
         close(file);

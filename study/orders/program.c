@@ -1,0 +1,659 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/orders/program.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <ftw.h>
+#include <limits.h>
+#include <math.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdint.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "solver/clock.h"
+#include "study/grid/each.h"
+#include "study/scene/quote.h"
+
+enum {
+    NUMBER = 32,            /* bytes of a resolution's text, with its end */
+    SHOWN = 200,            /* bytes of foreign text in a message */
+    TAIL = 301,             /* bytes of a failed run's last lines, with the end */
+    MOST_PRINTED = 1 << 24, /* bytes of a run */
+    GRACE = 2               /* s from SIGTERM to SIGKILL */
+};
+
+/* One run to be. */
+struct cell {
+    char **words;  /* owned, with a NULL at the end */
+    char *letters; /* of the words; owned */
+    char *program; /* absolute path; owned */
+};
+
+struct job {
+    const struct br_program *program;
+    struct br_numbers *numbers;
+    struct cell *cell;  /* by row; owned */
+    char **environment; /* owned; its texts are not */
+};
+
+/* ---- the command ---- */
+
+/* Counts have no point, sizes no more digits than they need. */
+static void print_number(const struct br_resolution_column *column, double x, char text[NUMBER])
+{
+    if (!column->is_size)
+        snprintf(text, NUMBER, "%.0f", x);
+    for (int digits = 1; column->is_size && digits <= 17; digits++) {
+        snprintf(text, NUMBER, "%.*g", digits, x);
+        if (strtod(text, NULL) == x)
+            break;
+    }
+}
+
+/* What stands for the brace at *c, past which this moves. used (in/out): by axis. */
+static enum br_status replace(const struct br_program *p, const struct br_numbers_row *row,
+                              const char **c, char text[NUMBER], bool used[BR_AXES],
+                              struct br_error *err)
+{
+    char shown[NUMBER], expected[2 * NUMBER] = "";
+    if ((*c)[1] == '{') {
+        strcpy(text, "{");
+        *c += 2;
+        return BR_OK;
+    }
+    for (int i = 0; i < BR_AXES; i++) {
+        const struct br_resolution_column *column = p->axis[i].column;
+        const size_t length = column ? strlen(column->name) : 0, end = strlen(expected);
+        if (column && strncmp(*c + 1, column->name, length) == 0 && (*c)[1 + length] == '}') {
+            print_number(column, row->given[i], text);
+            used[i] = true;
+            *c += length + 2;
+            return BR_OK;
+        }
+        if (column)
+            snprintf(expected + end, sizeof expected - end, "%s{%s}", end ? " or " : "",
+                     column->name);
+    }
+    return br_fail(err, BR_BAD_INPUT, "the command has '{' before '%s', expected %s; {{ is a brace",
+                   br_quoted(shown, sizeof shown, &br_for_text, *c + 1), expected);
+}
+
+static bool is_escape(const char *c, char quote)
+{
+    return *c == '\\' && c[1] && (!quote || (quote == '"' && strchr("\"\\$`", c[1])));
+}
+
+/* Splits the command and replaces its braces. What replaces them has neither blanks nor quotes. */
+static enum br_status make_words(const struct br_program *p, const struct br_numbers_row *row,
+                                 struct cell *cell, bool used[BR_AXES], struct br_error *err)
+{
+    const size_t most = strlen(p->command) + 1;
+    cell->letters = br_allocate(most, NUMBER);
+    cell->words = br_allocate(most + 1, sizeof *cell->words);
+    if (!cell->letters || !cell->words)
+        return br_no_memory(err, "the words of a command");
+    char *to = cell->letters, **word = cell->words, quote = '\0';
+    bool within = false;
+    enum br_status status = BR_OK;
+    for (const char *c = p->command; *c && !status;) {
+        if (!quote && strchr(" \t\n", *c)) {
+            to += within; /* past the word's end */
+            within = false;
+            c++;
+            continue;
+        }
+        if (!within)
+            *word++ = to;
+        within = true;
+        if (*c == quote) {
+            quote = '\0';
+            c++;
+        } else if (!quote && (*c == '\'' || *c == '"')) {
+            quote = *c++;
+        } else if (is_escape(c, quote)) {
+            *to++ = c[1];
+            c += 2;
+        } else if (*c == '\\' && !quote && !c[1]) {
+            status = br_fail(err, BR_BAD_INPUT, "the command ends with a backslash");
+        } else if (*c == '{') {
+            status = replace(p, row, &c, to, used, err);
+            to += strlen(to);
+        } else {
+            *to++ = *c++;
+        }
+    }
+    if (!status && quote)
+        return br_fail(err, BR_BAD_INPUT, "the command's quote %c is not closed", quote);
+    if (!status && (word == cell->words || !**cell->words))
+        return br_fail(err, BR_BAD_INPUT, "the command is empty, expected a program");
+    return status;
+}
+
+static bool is_program(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISREG(info.st_mode) && access(path, X_OK) == 0;
+}
+
+/* As a shell finds it. path: in and out of `here` where it is relative. */
+static enum br_status find_program(struct cell *cell, struct br_error *err)
+{
+    const char *name = *cell->words, *folders = getenv("PATH");
+    char shown[SHOWN], here[PATH_MAX];
+    const bool direct = strchr(name, '/');
+    if (!getcwd(here, sizeof here))
+        return br_fail(err, BR_IO, "the working folder: %s", strerror(errno));
+    for (const char *f = direct ? "" : folders ? folders : "/usr/bin:/bin"; f;) {
+        const int length = (int)strcspn(f, ":");
+        const bool absolute = direct ? *name == '/' : *f == '/';
+        free(cell->program);
+        if (asprintf(&cell->program, "%s%s%.*s%s%s", absolute ? "" : here, absolute ? "" : "/",
+                     length, f, length ? "/" : "", name) < 0) {
+            cell->program = NULL;
+            return br_no_memory(err, "a program's path");
+        }
+        if (is_program(cell->program))
+            return BR_OK;
+        f = f[length] ? f + length + 1 : NULL;
+    }
+    return br_fail(err, BR_BAD_INPUT, "'%s' is no program%s",
+                   br_quoted(shown, sizeof shown, &br_for_text, name),
+                   direct ? "" : ", no folder of PATH has it");
+}
+
+static void clear_cells(struct job *j)
+{
+    for (size_t i = 0; i < j->numbers->rows && j->cell; i++) {
+        free(j->cell[i].words);
+        free(j->cell[i].letters);
+        free(j->cell[i].program);
+    }
+    free(j->cell);
+    free(j->environment);
+}
+
+static enum br_status make_cells(struct job *j, struct br_error *err)
+{
+    const struct br_program *p = j->program;
+    bool used[BR_AXES] = {false};
+    j->cell = br_allocate(j->numbers->rows, sizeof *j->cell);
+    enum br_status status = j->cell ? BR_OK : br_no_memory(err, "the cells of a study");
+    for (size_t i = 0; i < j->numbers->rows && !status; i++) {
+        status = make_words(p, &j->numbers->row[i], &j->cell[i], used, err);
+        if (!status)
+            status = find_program(&j->cell[i], err);
+    }
+    for (int i = 0; i < BR_AXES && !status; i++)
+        if (p->axis[i].column && !used[i])
+            status =
+                br_fail(err, BR_BAD_INPUT, "the command has no {%s}, expected one for its list",
+                        p->axis[i].column->name);
+    return status;
+}
+
+static enum br_status make_environment(struct job *j, struct br_error *err)
+{
+    static char plain[] = "LC_ALL=C";
+    size_t count = 0, kept = 0;
+    while (environ[count])
+        count++;
+    j->environment = br_allocate(count + 2, sizeof *j->environment);
+    if (!j->environment)
+        return br_no_memory(err, "a program's environment");
+    for (size_t i = 0; i < count; i++)
+        if (strncmp(environ[i], "LC_ALL=", 7) != 0)
+            j->environment[kept++] = environ[i];
+    j->environment[kept] = plain;
+    return BR_OK;
+}
+
+/* ---- one run ---- */
+
+struct run {
+    char folder[PATH_MAX];
+    int printed[2]; /* files of standard output and error */
+    pid_t child;
+    double own_peak; /* of this process when it began, bytes */
+    enum { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH } end;
+    int status; /* as of wait4 */
+    struct rusage usage;
+};
+
+/* A file without a name, which the program cannot find in its folder. */
+static bool open_printed(struct run *r, int i)
+{
+    char path[PATH_MAX + NUMBER];
+    snprintf(path, sizeof path, "%s/printed-XXXXXX", r->folder);
+    r->printed[i] = mkostemp(path, O_APPEND | O_CLOEXEC);
+    return r->printed[i] >= 0 && unlink(path) == 0;
+}
+
+static enum br_status make_folder(struct run *r, struct br_error *err)
+{
+    const char *where = getenv("TMPDIR");
+    r->printed[0] = r->printed[1] = -1;
+    snprintf(r->folder, sizeof r->folder, "%s/beamrate-XXXXXX", where && *where ? where : "/tmp");
+    if (mkdtemp(r->folder) && open_printed(r, 0) && open_printed(r, 1))
+        return BR_OK;
+    return br_fail(err, BR_IO, "%.900s: no folder to run a program in: %s", r->folder,
+                   strerror(errno));
+}
+
+static int remove_one(const char *path, const struct stat *info, int type, struct FTW *where)
+{
+    (void)info;
+    (void)type;
+    (void)where;
+    remove(path);
+    return 0;
+}
+
+/* What has just been killed may still be there for a moment, and write. */
+static void remove_folder(struct run *r)
+{
+    static const struct timespec moment = {.tv_nsec = 10000000};
+    for (int i = 0; i < 2; i++)
+        if (r->printed[i] >= 0)
+            close(r->printed[i]);
+    for (int tries = 0; tries < 20 && access(r->folder, F_OK) == 0; tries++) {
+        if (tries > 0)
+            nanosleep(&moment, NULL);
+        nftw(r->folder, remove_one, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
+    }
+}
+
+/* The group is its own, and so are its signals: those that beamrate ignores would stay ignored. */
+static int set_attributes(posix_spawnattr_t *attributes)
+{
+    static const int usual[] = {SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXFSZ};
+    sigset_t set;
+    sigemptyset(&set);
+    int failure = posix_spawnattr_setsigmask(attributes, &set);
+    for (size_t i = 0; i < sizeof usual / sizeof *usual; i++)
+        sigaddset(&set, usual[i]);
+    if (!failure)
+        failure = posix_spawnattr_setsigdefault(attributes, &set);
+    return failure ? failure
+                   : posix_spawnattr_setflags(attributes, POSIX_SPAWN_SETPGROUP |
+                                                              POSIX_SPAWN_SETSIGMASK |
+                                                              POSIX_SPAWN_SETSIGDEF);
+}
+
+/* Returns an errno. */
+static int spawn(const struct job *j, const struct cell *cell, struct run *r)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    int failure = posix_spawn_file_actions_init(&actions);
+    if (failure)
+        return failure;
+    failure = posix_spawnattr_init(&attributes);
+    if (failure) {
+        posix_spawn_file_actions_destroy(&actions);
+        return failure;
+    }
+    failure = posix_spawn_file_actions_addchdir_np(&actions, r->folder);
+    for (int i = 0; i < 2 && !failure; i++)
+        failure = posix_spawn_file_actions_adddup2(&actions, r->printed[i], i + 1);
+    if (!failure)
+        failure = posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    if (!failure)
+        failure = set_attributes(&attributes);
+    if (!failure)
+        failure = posix_spawn(&r->child, cell->program, &actions, &attributes, cell->words,
+                              j->environment);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return failure;
+}
+
+static enum br_status begin(const struct job *j, const struct cell *cell, struct run *r,
+                            struct br_error *err)
+{
+    struct rusage own;
+    const enum br_status status = make_folder(r, err);
+    if (status)
+        return status;
+    const int failure = spawn(j, cell, r);
+    /* Until it has become another program, its memory was ours: the kernel counts that, too. */
+    getrusage(RUSAGE_SELF, &own);
+    r->own_peak = 1024.0 * (double)own.ru_maxrss;
+    if (!failure)
+        return BR_OK;
+    const bool wrong = failure == ENOENT || failure == ENOEXEC || failure == EACCES;
+    return br_fail(err, wrong ? BR_BAD_INPUT : BR_IO, "%.900s cannot be run: %s%s", cell->program,
+                   strerror(failure), failure == ENOENT ? " (its interpreter?)" : "");
+}
+
+/* It stays a zombie, so that nobody else gets the number of its group. */
+static bool has_ended(pid_t child)
+{
+    siginfo_t info = {.si_pid = 0};
+    return waitid(P_PID, (id_t)child, &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid != 0;
+}
+
+static size_t size_of(int file)
+{
+    struct stat info;
+    return fstat(file, &info) == 0 ? (size_t)info.st_size : SIZE_MAX;
+}
+
+static bool prints_too_much(const struct run *r)
+{
+    return size_of(r->printed[0]) > MOST_PRINTED || size_of(r->printed[1]) > MOST_PRINTED;
+}
+
+static bool must_stop(const struct br_observer *o)
+{
+    return o && o->stop && o->stop(o->self);
+}
+
+static double limit_of(const struct br_program *p)
+{
+    return p->seconds > 0 ? p->seconds : BR_PROGRAM_SECONDS;
+}
+
+static void watch(const struct br_program *p, struct run *r)
+{
+    const double start = br_seconds();
+    struct timespec pause = {.tv_nsec = 1000000};
+    while (!has_ended(r->child)) {
+        const double late = br_seconds() - start - limit_of(p); /* s */
+        if (must_stop(p->observer))
+            r->end = STOPPED;
+        else if (!r->end && prints_too_much(r))
+            r->end = TOO_MUCH;
+        else if (!r->end && late > 0)
+            r->end = TOO_LONG;
+        if (r->end)
+            kill(-r->child, r->end == TOO_LONG && late < GRACE ? SIGTERM : SIGKILL);
+        nanosleep(&pause, NULL);
+        if (pause.tv_nsec < 16000000)
+            pause.tv_nsec *= 2;
+    }
+    kill(-r->child, SIGKILL); /* what it has left */
+    while (wait4(r->child, &r->status, 0, &r->usage) < 0 && errno == EINTR)
+        ;
+    if (!r->end && prints_too_much(r))
+        r->end = TOO_MUCH;
+}
+
+/* ---- what it has left ---- */
+
+/* The last three lines of a file, visible, or as much of them as has room. */
+static void last_lines(int file, char shown[TAIL])
+{
+    char text[TAIL];
+    const size_t size = size_of(file), from = size < TAIL ? 0 : size - (TAIL - 1);
+    ssize_t length = pread(file, text, TAIL - 1, (off_t)from);
+    while (length > 0 && strchr(" \t\r\n", text[length - 1]))
+        length--;
+    text[length > 0 ? length : 0] = '\0';
+    char *begin = text;
+    for (ssize_t i = length - 1, lines = 1; i >= 0; i--) {
+        if (text[i] == '\0')
+            text[i] = '?';
+        if (text[i] == '\n' && begin == text && lines++ == 3)
+            begin = text + i + 1;
+    }
+    while ((*begin & 0xc0) == 0x80) /* the rest of a character */
+        begin++;
+    br_quoted(shown, TAIL, &br_for_text, begin);
+}
+
+/* why: what was wrong with its numbers. */
+static enum br_status tell_failure(const struct br_program *p, const struct run *r, const char *why,
+                                   struct br_numbers_row *row, struct br_error *err)
+{
+    char what[sizeof err->message], tail[TAIL];
+    if (r->end == TOO_LONG)
+        snprintf(what, sizeof what, "it did not end within %g s", limit_of(p));
+    else if (r->end == TOO_MUCH)
+        snprintf(what, sizeof what, "it printed more than %d MiB", MOST_PRINTED >> 20);
+    else if (WIFSIGNALED(r->status))
+        snprintf(what, sizeof what, "signal %d (%s)", WTERMSIG(r->status),
+                 strsignal(WTERMSIG(r->status)));
+    else if (WEXITSTATUS(r->status) != 0)
+        snprintf(what, sizeof what, "exit code %d", WEXITSTATUS(r->status));
+    else
+        snprintf(what, sizeof what, "%s", why);
+    last_lines(r->printed[1], tail);
+    if (!*tail)
+        last_lines(r->printed[0], tail);
+    if (asprintf(&row->failure, "%s; %s%s", what, *tail ? "it printed: " : "it printed nothing",
+                 tail) >= 0)
+        return BR_OK;
+    row->failure = NULL;
+    return br_no_memory(err, "why a run failed");
+}
+
+static enum br_status read_numbers(const struct br_program *p, const struct run *r,
+                                   struct br_numbers_row *row, struct br_error *why)
+{
+    const size_t size = size_of(r->printed[0]);
+    char *text = br_allocate(size + 1, 1);
+    if (!text)
+        return br_no_memory(why, "a program's output");
+    size_t length = 0;
+    for (ssize_t got = 1; length < size && got > 0; length += got > 0 ? (size_t)got : 0)
+        got = pread(r->printed[0], text + length, size - length, (off_t)length);
+    enum br_status status =
+        length == size ? BR_OK : br_fail(why, BR_IO, "a program's output: %s", strerror(errno));
+    for (size_t i = 0; i < p->readings && !status; i++)
+        status = br_reading_take(&p->reading[i], text, length, &row->number[i], why);
+    free(text);
+    return status;
+}
+
+static enum br_status finish(const struct br_program *p, const struct run *r,
+                             struct br_numbers_row *row, struct br_error *err)
+{
+    struct br_error why = {0};
+    const struct timeval *user = &r->usage.ru_utime, *system = &r->usage.ru_stime;
+    const double peak = 1024.0 * (double)r->usage.ru_maxrss;
+    if (r->end == STOPPED)
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
+    row->seconds =
+        (double)(user->tv_sec + system->tv_sec) + 1e-6 * (double)(user->tv_usec + system->tv_usec);
+    row->bytes = peak > r->own_peak ? peak : (double)NAN;
+    if (!r->end && WIFEXITED(r->status) && WEXITSTATUS(r->status) == 0) {
+        const enum br_status status = read_numbers(p, r, row, &why);
+        if (!status)
+            return BR_OK;
+        if (status != BR_BAD_INPUT)
+            return br_fail(err, status, "%s", why.message);
+    }
+    for (size_t i = 0; i < p->readings; i++)
+        row->number[i] = (double)NAN;
+    return tell_failure(p, r, why.message, row, err);
+}
+
+static enum br_status run_cell(const struct job *j, const struct cell *cell,
+                               struct br_numbers_row *row, struct br_error *err)
+{
+    struct run r = {.child = 0};
+    enum br_status status = begin(j, cell, &r, err);
+    if (!status) {
+        watch(j->program, &r);
+        status = finish(j->program, &r, row, err);
+    }
+    remove_folder(&r);
+    return status;
+}
+
+/* A cell whose program has changed meanwhile is not kept. */
+static enum br_status take_cell(void *self, size_t i, struct br_error *err)
+{
+    const struct job *j = self;
+    const struct br_program *p = j->program;
+    const struct cell *cell = &j->cell[i];
+    struct br_numbers_row *row = &j->numbers->row[i];
+    char key[BR_CELL_KEY], now[BR_CELL_KEY];
+    if (!p->kept)
+        return run_cell(j, cell, row, err);
+    enum br_status status =
+        br_cell_key(cell->program, cell->words, p->reading, p->readings, key, err);
+    if (status || br_cell_find(p->kept, key, p->readings, row))
+        return status;
+    status = run_cell(j, cell, row, err);
+    if (!status && !row->failure)
+        status = br_cell_key(cell->program, cell->words, p->reading, p->readings, now, err);
+    if (!status && !row->failure && strcmp(key, now) == 0)
+        status = br_cell_keep(p->kept, key, cell->words, p->readings, row, err);
+    return status;
+}
+
+/* ---- the grid ---- */
+
+/* One resolution of an axis. */
+struct resolution {
+    double given, z;
+};
+
+static int from_coarse(const void *a, const void *b)
+{
+    const double first = ((const struct resolution *)a)->z;
+    const double second = ((const struct resolution *)b)->z;
+    return (first < second) - (first > second);
+}
+
+/* list (out): from coarse to fine; one NaN where the axis is not refined. */
+static enum br_status list_axis(const struct br_program_axis *axis, double dimension,
+                                struct resolution *list, struct br_error *err)
+{
+    const struct br_resolution_column *column = axis->column;
+    *list = (struct resolution){(double)NAN, (double)NAN};
+    for (size_t i = 0; i < axis->count && column; i++) {
+        const double given = axis->given[i];
+        if (!(given > 0 && isfinite(given)) || (!column->is_size && given != floor(given)))
+            return br_fail(err, BR_BAD_INPUT, "%s: found %g, expected a %s above 0", column->name,
+                           given, column->is_size ? "finite size" : "whole number");
+        list[i] = (struct resolution){given, br_numbers_z(column, given, dimension)};
+    }
+    qsort(list, axis->count, sizeof *list, from_coarse);
+    for (size_t i = 1; i < axis->count && column; i++)
+        if (!(list[i].z < list[i - 1].z))
+            return br_fail(err, BR_BAD_INPUT, "%s: found %.17g twice", column->name, list[i].given);
+    return BR_OK;
+}
+
+static size_t count_of(const struct br_program_axis *axis)
+{
+    return axis->column ? axis->count : 1;
+}
+
+static enum br_status make_rows(const struct br_program *p, struct resolution *list[BR_AXES],
+                                struct br_numbers *numbers, struct br_error *err)
+{
+    const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
+    numbers->row = br_allocate(numbers->rows, sizeof *numbers->row);
+    if (!numbers->row) {
+        numbers->rows = 0;
+        return br_no_memory(err, "the rows of a study");
+    }
+    for (size_t i = 0; i < numbers->rows; i++) {
+        struct br_numbers_row *row = &numbers->row[i];
+        const size_t at[BR_AXES] = {[BR_AXIS_SPACE] = i / inner, [BR_AXIS_TIME] = i % inner};
+        for (int a = 0; a < BR_AXES; a++) {
+            row->given[a] = list[a][at[a]].given;
+            row->z[a] = list[a][at[a]].z;
+        }
+        row->seconds = row->bytes = (double)NAN;
+        row->number = br_allocate(p->readings, sizeof *row->number);
+        if (!row->number)
+            return br_no_memory(err, "the numbers of a study");
+    }
+    return BR_OK;
+}
+
+static enum br_status make_grid(const struct br_program *p, struct br_numbers *numbers,
+                                struct br_error *err)
+{
+    struct resolution *list[BR_AXES] = {NULL};
+    enum br_status status = BR_OK;
+    numbers->rows = 1;
+    for (int a = 0; a < BR_AXES; a++) {
+        numbers->column[a] = p->axis[a].column;
+        numbers->rows *= count_of(&p->axis[a]);
+        list[a] = br_allocate(count_of(&p->axis[a]) + 1, sizeof *list[a]);
+        if (!list[a] && !status)
+            status = br_no_memory(err, "a list of resolutions");
+        if (!status)
+            status = list_axis(&p->axis[a], p->dimension, list[a], err);
+    }
+    if (!status)
+        status = make_rows(p, list, numbers, err);
+    else
+        numbers->rows = 0;
+    for (int a = 0; a < BR_AXES; a++)
+        free(list[a]);
+    return status;
+}
+
+static enum br_status make_quantities(const struct br_program *p, struct br_numbers *numbers,
+                                      struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    numbers->quantity = br_allocate(p->readings, sizeof *numbers->quantity);
+    if (!numbers->quantity)
+        return br_no_memory(err, "the quantities of a study");
+    for (size_t i = 0; i < p->readings && !status; i++) {
+        status = br_reading_check(&p->reading[i], err);
+        for (size_t k = 0; k < i && !status; k++)
+            if (strcmp(p->reading[k].name, p->reading[i].name) == 0)
+                status = br_fail(err, BR_BAD_INPUT, "the reading '%s' is there twice",
+                                 p->reading[i].name);
+        numbers->quantity[i].is_value = p->reading[i].is_value;
+        numbers->quantity[i].name = strdup(p->reading[i].name);
+        numbers->quantities = i + 1;
+        if (!numbers->quantity[i].name && !status)
+            status = br_no_memory(err, "the quantities of a study");
+    }
+    return status;
+}
+
+static enum br_status check(const struct br_program *p, struct br_error *err)
+{
+    const size_t *counts = (const size_t[]){count_of(&p->axis[0]), count_of(&p->axis[1])};
+    if (!p->axis[0].column && !p->axis[1].column)
+        return br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
+    if (counts[0] == 0 || counts[1] == 0)
+        return br_fail(err, BR_BAD_INPUT, "a list of resolutions is empty");
+    if (p->readings == 0)
+        return br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
+    if (p->kept && mkdir(p->kept, 0777) != 0 && errno != EEXIST)
+        return br_fail(err, BR_IO, "%.900s: %s", p->kept, strerror(errno));
+    return BR_OK;
+}
+
+enum br_status br_program_run(const struct br_program *program, struct br_numbers *numbers,
+                              struct br_error *err)
+{
+    struct job j = {.program = program, .numbers = numbers};
+    *numbers = (struct br_numbers){.rows = 0};
+    enum br_status status = check(program, err);
+    if (!status)
+        status = make_quantities(program, numbers, err);
+    if (!status)
+        status = make_grid(program, numbers, err);
+    if (!status)
+        status = make_cells(&j, err);
+    if (!status)
+        status = make_environment(&j, err);
+    const struct br_each each = {.count = numbers->rows,
+                                 .threads = program->jobs,
+                                 .observer = program->observer,
+                                 .turn = take_cell,
+                                 .self = &j};
+    if (!status)
+        status = br_each(&each, err);
+    clear_cells(&j);
+    if (status)
+        br_numbers_clear(numbers);
+    return status;
+}

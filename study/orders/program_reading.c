@@ -1,0 +1,400 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <ctype.h>
+#include <errno.h>
+#include <jansson.h>
+#include <math.h>
+#include <regex.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "study/orders/program.h"
+#include "study/scene/quote.h"
+
+enum { SHOWN = 80 }; /* bytes of foreign text in a message */
+
+/* An output on its way to a number. */
+struct search {
+    const struct br_reading *reading;
+    char *output; /* owned */
+    size_t length;
+    char text[64]; /* out: the number as it stands there */
+    struct br_error *err;
+};
+
+__attribute__((format(printf, 2, 3))) static enum br_status refuse(const struct search *s,
+                                                                   const char *format, ...)
+{
+    char name[SHOWN], why[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(why, sizeof why, format, arguments);
+    va_end(arguments);
+    return br_fail(s->err, BR_BAD_INPUT, "%s: %s",
+                   br_quoted(name, sizeof name, &br_for_text, s->reading->name), why);
+}
+
+static const char *shown(char buffer[SHOWN], const char *text)
+{
+    return br_quoted(buffer, SHOWN, &br_for_text, text);
+}
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+/* Without blanks around it; what has no room is no number either. */
+static enum br_status take_text(struct search *s, const char *from, size_t length)
+{
+    char buffer[SHOWN];
+    for (; length && is_blank(*from); length--)
+        from++;
+    while (length && is_blank(from[length - 1]))
+        length--;
+    if (length < sizeof s->text) {
+        memcpy(s->text, from, length);
+        s->text[length] = '\0';
+        return BR_OK;
+    }
+    snprintf(s->text, sizeof s->text, "%.*s", (int)sizeof s->text - 1, from);
+    return refuse(s, "found '%s...' of %zu bytes, expected a number", shown(buffer, s->text),
+                  length);
+}
+
+/* ---- regular expressions ---- */
+
+static bool continues(const char *s)
+{
+    return isalnum((unsigned char)*s) || *s == '.' || *s == '_' ||
+           (*s == ',' && isdigit((unsigned char)s[1]));
+}
+
+/* Whether the group has a part of a number only, as ([0-9.]+) has of 1.5e-7, 1.5D-7 and 1,5: a
+ * longer number ends behind it, or one that begins before it reaches into it. What the expression
+ * itself names around its group is meant so. */
+static bool is_cut(const char *line, const regmatch_t match[2])
+{
+    const char *from = line + match[1].rm_so, *to = line + match[1].rm_eo;
+    char *end;
+    strtod(from, &end);
+    if (end > to || (match[1].rm_eo == match[0].rm_eo && to > from && continues(to)))
+        return true;
+    for (const char *c = from; c > line && from - c < (int)sizeof(((struct search *)0)->text);) {
+        c--;
+        const bool sign = (*c == '-' || *c == '+') && (c == line || !isalnum((unsigned char)c[-1]));
+        if (!isdigit((unsigned char)*c) && *c != '.' && !sign)
+            continue;
+        strtod(c, &end);
+        if (end > from)
+            return true;
+    }
+    return false;
+}
+
+/* Where the expression matches. */
+struct matches {
+    size_t count;
+    char lines[64]; /* their numbers */
+};
+
+/* The first match in a line from `at`, its offsets counted from the line's beginning. */
+static bool match_from(const regex_t *regex, const char *line, size_t at, regmatch_t match[2])
+{
+    if (regexec(regex, line + at, 2, match, at > 0 ? REG_NOTBOL : 0) != 0)
+        return false;
+    for (int i = 0; i < 2; i++)
+        if (match[i].rm_so >= 0) { /* (a)|b has not always its group */
+            match[i].rm_so += (regoff_t)at;
+            match[i].rm_eo += (regoff_t)at;
+        }
+    return true;
+}
+
+static enum br_status take_group(struct search *s, const char *line, const regmatch_t match[2],
+                                 size_t number)
+{
+    char buffer[SHOWN];
+    if (match[1].rm_so < 0)
+        return take_text(s, "", 0);
+    if (is_cut(line, match))
+        return refuse(s, "its group has a part of a number only, on line %zu: '%s'", number,
+                      shown(buffer, line + match[0].rm_so));
+    return take_text(s, line + match[1].rm_so, (size_t)(match[1].rm_eo - match[1].rm_so));
+}
+
+/* Takes the first match of all; counts those of the line. */
+static enum br_status search_line(struct search *s, const regex_t *regex, const char *line,
+                                  size_t number, struct matches *m)
+{
+    const size_t length = strlen(line);
+    regmatch_t match[2];
+    enum br_status status = BR_OK;
+    for (size_t at = 0; at <= length && !status && match_from(regex, line, at, match);) {
+        const size_t used = strlen(m->lines);
+        if (used < sizeof m->lines - 24)
+            snprintf(m->lines + used, sizeof m->lines - used, "%s%zu", used ? ", " : "", number);
+        if (m->count++ == 0)
+            status = take_group(s, line, match, number);
+        at = (size_t)match[0].rm_eo + (match[0].rm_eo == match[0].rm_so);
+    }
+    return status;
+}
+
+static enum br_status search_regex(struct search *s)
+{
+    char buffer[SHOWN], *rest = s->output;
+    regex_t regex;
+    struct matches m = {0};
+    enum br_status status = BR_OK;
+    if (strlen(s->output) != s->length)
+        return refuse(s, "the output has a zero byte, expected text");
+    if (regcomp(&regex, s->reading->what, REG_EXTENDED) != 0)
+        return br_no_memory(s->err, "a regular expression");
+    for (size_t number = 1; rest && !status; number++) {
+        const char *line = strsep(&rest, "\n");
+        if (rest || *line) /* else it is what follows the last line end */
+            status = search_line(s, &regex, line, number, &m);
+    }
+    regfree(&regex);
+    if (status || m.count == 1)
+        return status;
+    if (m.count == 0)
+        return refuse(s, "'%s' matches nothing in the output", shown(buffer, s->reading->what));
+    return refuse(s, "'%s' matches %zu times, expected once; lines %s",
+                  shown(buffer, s->reading->what), m.count, m.lines);
+}
+
+/* ---- JSON ---- */
+
+/* One step of RFC 6901: reads a token, which ends at a slash, and moves past it. */
+static const json_t *step_into(const json_t *value, const char **pointer, char *token)
+{
+    char *to = token;
+    for (; **pointer && **pointer != '/'; (*pointer)++) {
+        const bool escaped = **pointer == '~';
+        *pointer += escaped;
+        *to++ = escaped ? (char)(**pointer == '1' ? '/' : '~') : **pointer;
+    }
+    *to = '\0';
+    if (!json_is_array(value))
+        return json_object_get(value, token);
+    const size_t digits = strspn(token, "0123456789");
+    const bool index =
+        digits > 0 && digits < 10 && !token[digits] && (*token != '0' || digits == 1);
+    return index ? json_array_get(value, strtoul(token, NULL, 10)) : NULL;
+}
+
+static enum br_status search_json(struct search *s)
+{
+    static const char *const types[] = {"an object", "an array", "a text", "a number",
+                                        "a number",  "true",     "false",  "null"};
+    json_error_t why;
+    char buffer[SHOWN], *token = br_allocate(strlen(s->reading->what) + 1, 1);
+    if (!token)
+        return br_no_memory(s->err, "a JSON pointer");
+    json_t *root =
+        json_loadb(s->output, s->length,
+                   JSON_DECODE_ANY | JSON_DECODE_INT_AS_REAL | JSON_REJECT_DUPLICATES, &why);
+    const json_t *value = root;
+    for (const char *pointer = s->reading->what; *pointer == '/' && value;) {
+        pointer++;
+        value = step_into(value, &pointer, token);
+    }
+    free(token);
+    enum br_status status = BR_OK;
+    if (!root)
+        status = refuse(s, "the output is no JSON, line %d: %s", why.line, shown(buffer, why.text));
+    else if (!value)
+        status = refuse(s, "the output has no '%s'", shown(buffer, s->reading->what));
+    else if (!json_is_number(value))
+        status = refuse(s, "'%s' is %s, expected a number", shown(buffer, s->reading->what),
+                        types[json_typeof(value)]);
+    else
+        snprintf(s->text, sizeof s->text, "%.17g", json_number_value(value));
+    json_decref(root);
+    return status;
+}
+
+/* ---- CSV ---- */
+
+/* A table that is read field by field. */
+struct table {
+    char *at;     /* what is left */
+    size_t line;  /* of it */
+    char *field;  /* the last one, without quotes, made in place */
+    bool row_end; /* it is the last of its row */
+    bool broken;  /* it has a quote that does not end, or text around one */
+};
+
+/* A "" within is a quote. */
+static void read_quoted(struct table *t)
+{
+    char *to = t->field;
+    for (t->at++; *t->at && (*t->at != '"' || t->at[1] == '"'); t->at++) {
+        t->at += *t->at == '"';
+        t->line += *t->at == '\n';
+        *to++ = *t->at;
+    }
+    t->broken = *t->at != '"';
+    t->at += *t->at == '"';
+    t->at += *t->at == '\r';
+    if (!strchr(",\n", *t->at)) /* which finds the end, too */
+        t->broken = true;
+    t->row_end = *t->at != ',';
+    t->line += *t->at == '\n';
+    t->at += *t->at != '\0';
+    *to = '\0';
+}
+
+static void read_field(struct table *t)
+{
+    t->field = t->at;
+    if (*t->at == '"') {
+        read_quoted(t);
+        return;
+    }
+    t->at += strcspn(t->at, ",\n");
+    const char end = *t->at;
+    *t->at = '\0';
+    t->broken = strchr(t->field, '"');
+    t->row_end = end != ',';
+    t->line += end == '\n';
+    t->at += end != '\0';
+}
+
+static bool is_heading(const char *field, const char *name)
+{
+    const size_t length = strlen(name);
+    field += strspn(field, " \t");
+    return strncmp(field, name, length) == 0 && !field[length + strspn(field + length, " \t\r")];
+}
+
+/* What is known of the table so far. */
+struct found {
+    size_t fields;  /* of its heading; 0: it has not come */
+    size_t column;  /* the one that is looked for */
+    size_t columns; /* so many have its name */
+    size_t rows;    /* below the heading */
+    char *last;     /* its field of the last row */
+};
+
+static enum br_status read_row(const struct search *s, struct table *t, struct found *f)
+{
+    const size_t line = t->line;
+    size_t fields = 0;
+    do {
+        read_field(t);
+        if (t->broken)
+            return refuse(s, "a quote is not closed, or not alone in its field, on line %zu", line);
+        if (!f->fields && is_heading(t->field, s->reading->what)) {
+            f->column = fields;
+            f->columns++;
+        }
+        if (f->fields && fields == f->column)
+            f->last = t->field;
+        fields++;
+    } while (!t->row_end);
+    if (f->fields && fields != f->fields)
+        return refuse(s, "found %zu fields on line %zu, expected %zu as in the heading", fields,
+                      line, f->fields);
+    f->rows += f->fields > 0;
+    f->fields = fields;
+    return BR_OK;
+}
+
+/* Empty lines and those that begin with # are none of the table's. */
+static enum br_status search_csv(struct search *s)
+{
+    struct table t = {.at = s->output, .line = 1};
+    struct found f = {0};
+    char buffer[SHOWN];
+    enum br_status status = BR_OK;
+    if (strlen(s->output) != s->length)
+        return refuse(s, "the output has a zero byte, expected text");
+    while (*t.at && !status) {
+        if (*t.at != '#' && t.at[strspn(t.at, "\r")] != '\n') {
+            status = read_row(s, &t, &f);
+            continue;
+        }
+        t.at += strcspn(t.at, "\n");
+        t.at += *t.at != '\0';
+        t.line++;
+    }
+    if (status)
+        return status;
+    if (f.columns != 1)
+        return refuse(s, "found %zu columns '%s' in the heading, expected one", f.columns,
+                      shown(buffer, s->reading->what));
+    if (f.rows == 0)
+        return refuse(s, "the table has no row below its heading");
+    return take_text(s, f.last, strlen(f.last));
+}
+
+/* ---- all ---- */
+
+static bool is_pointer(const char *text)
+{
+    bool valid = *text == '\0' || *text == '/';
+    for (; *text && valid; text++)
+        valid = *text != '~' || text[1] == '0' || text[1] == '1';
+    return valid;
+}
+
+enum br_status br_reading_check(const struct br_reading *reading, struct br_error *err)
+{
+    const struct search s = {.reading = reading, .err = err};
+    char buffer[SHOWN], why[SHOWN];
+    regex_t regex;
+    if (!*reading->name)
+        return br_fail(err, BR_BAD_INPUT, "a reading has no name");
+    if (reading->kind == BR_READING_JSON && !is_pointer(reading->what))
+        return refuse(&s, "'%s' is no JSON pointer, expected /NAME/..., with ~1 for / and ~0 for ~",
+                      shown(buffer, reading->what));
+    if (reading->kind == BR_READING_CSV && !*reading->what)
+        return refuse(&s, "found no column, expected its heading");
+    if (reading->kind != BR_READING_REGEX)
+        return BR_OK;
+    const int failure = regcomp(&regex, reading->what, REG_EXTENDED);
+    if (failure) {
+        regerror(failure, &regex, why, sizeof why);
+        return refuse(&s, "'%s' is no extended regular expression: %s",
+                      shown(buffer, reading->what), why);
+    }
+    const size_t groups = regex.re_nsub;
+    regfree(&regex);
+    return groups == 1 ? BR_OK
+                       : refuse(&s, "'%s' has %zu groups, expected one around the number",
+                                shown(buffer, reading->what), groups);
+}
+
+/* One whole finite number in C's notation. */
+static enum br_status convert(const struct search *s, double *number)
+{
+    char buffer[SHOWN], *end;
+    errno = 0;
+    *number = strtod(s->text, &end);
+    const bool whole = *s->text && !is_blank(*s->text) && !*end;
+    if (whole && isfinite(*number) && !(errno == ERANGE && *number == 0))
+        return BR_OK;
+    return refuse(s, "found '%s', expected a finite number", shown(buffer, s->text));
+}
+
+enum br_status br_reading_take(const struct br_reading *reading, const char *output, size_t length,
+                               double *number, struct br_error *err)
+{
+    static enum br_status (*const search[])(struct search *) = {
+        [BR_READING_REGEX] = search_regex,
+        [BR_READING_JSON] = search_json,
+        [BR_READING_CSV] = search_csv,
+    };
+    struct search s = {.reading = reading, .length = length, .err = err};
+    s.output = br_allocate(length + 1, 1);
+    if (!s.output)
+        return br_no_memory(err, "a program's output");
+    memcpy(s.output, output, length);
+    enum br_status status = search[reading->kind](&s);
+    if (!status)
+        status = convert(&s, number);
+    free(s.output);
+    return status;
+}

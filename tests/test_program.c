@@ -1,0 +1,735 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Foreign programs: small scripts, written here, that do what programs do, good and bad. */
+#include "support.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <ftw.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "solver/clock.h"
+#include "study/orders/program.h"
+
+/* Where a program has these without numbers.c. */
+__attribute__((weak)) double br_numbers_z(const struct br_resolution_column *column, double given,
+                                          double dimension);
+__attribute__((weak)) void br_numbers_clear(struct br_numbers *numbers);
+
+double br_numbers_z(const struct br_resolution_column *column, double given, double dimension)
+{
+    const double size = column->is_size ? given : 1 / given;
+    return column->is_volume ? pow(size, 1 / dimension) : size;
+}
+
+void br_numbers_clear(struct br_numbers *numbers)
+{
+    for (size_t i = 0; i < numbers->quantities; i++) {
+        free(numbers->quantity[i].name);
+        free(numbers->quantity[i].unit);
+    }
+    for (size_t i = 0; i < numbers->rows; i++) {
+        free(numbers->row[i].number);
+        free(numbers->row[i].failure);
+    }
+    free(numbers->quantity);
+    free(numbers->row);
+    *numbers = (struct br_numbers){.rows = 0};
+}
+
+static const struct br_resolution_column cells = {"n", BR_AXIS_SPACE, false, false};
+static const struct br_resolution_column unknowns = {"dofs", BR_AXIS_SPACE, false, true};
+static const struct br_resolution_column step = {"k", BR_AXIS_TIME, true, false};
+
+static char folder[] = "/tmp/beamrate-test-XXXXXX";
+static const double three[] = {16, 4, 8}, two[] = {0.05, 0.1};
+static const struct br_reading err_reading = {"err", "err=(.*)", BR_READING_REGEX, false};
+
+/* n in {4, 8, 16}, one run at once. */
+static struct br_program program(const char *command)
+{
+    return (struct br_program){.command = command,
+                               .axis[BR_AXIS_SPACE] = {&cells, three, 3},
+                               .dimension = 1,
+                               .reading = &err_reading,
+                               .readings = 1,
+                               .jobs = 1,
+                               .seconds = 20};
+}
+
+static const char *path_of(const char *name)
+{
+    static char path[4][128];
+    static size_t last;
+    last = (last + 1) % 4;
+    snprintf(path[last], sizeof path[last], "%s/%s", folder, name);
+    return path[last];
+}
+
+static void write_script(const char *name, const char *text)
+{
+    FILE *file = fopen(path_of(name), "w");
+    assert_non_null(file);
+    fprintf(file, "#!/bin/sh\n%s\n", text);
+    assert_int_equal(fclose(file), 0);
+    assert_int_equal(chmod(path_of(name), 0755), 0);
+}
+
+/* The command of a script in the folder, with these words behind it. */
+static const char *command_of(const char *name, const char *words)
+{
+    static char command[512];
+    snprintf(command, sizeof command, "%s %s", path_of(name), words);
+    return command;
+}
+
+static size_t lines_of(const char *name)
+{
+    FILE *file = fopen(path_of(name), "r");
+    size_t lines = 0;
+    for (int c; file && (c = getc(file)) != EOF;)
+        lines += c == '\n';
+    if (file)
+        fclose(file);
+    return lines;
+}
+
+static size_t entries_of(const char *path)
+{
+    DIR *open = opendir(path);
+    size_t count = 0;
+    assert_non_null(open);
+    while (readdir(open))
+        count++;
+    closedir(open);
+    return count - 2;
+}
+
+static struct br_numbers run(const struct br_program *p)
+{
+    struct br_numbers numbers;
+    struct br_error err;
+    MUST(br_program_run(p, &numbers, &err));
+    assert_int_equal(entries_of(path_of("tmp")), 0);
+    return numbers;
+}
+
+/* ---- good programs ---- */
+
+static const char good[] = "awk -v n=$1 -v k=$2 'BEGIN { printf \"err=%.17g\\n\", 1 / n^2 + k }'";
+
+static struct br_program on_grid(int jobs)
+{
+    write_script("good", good);
+    struct br_program p = program(command_of("good", "{n} {k}"));
+    p.axis[BR_AXIS_TIME] = (struct br_program_axis){&step, two, 2};
+    p.jobs = jobs;
+    return p;
+}
+
+static void test_grid(void **state)
+{
+    (void)state;
+    static const double n[] = {4, 4, 8, 8, 16, 16}, k[] = {0.1, 0.05, 0.1, 0.05, 0.1, 0.05};
+    for (int jobs = 1; jobs <= 4; jobs += 3) {
+        const struct br_program p = on_grid(jobs);
+        struct br_numbers numbers = run(&p);
+        assert_int_equal(numbers.rows, 6);
+        assert_int_equal(numbers.quantities, 1);
+        assert_string_equal(numbers.quantity[0].name, "err");
+        assert_false(numbers.quantity[0].is_value);
+        assert_ptr_equal(numbers.column[BR_AXIS_TIME], &step);
+        for (size_t i = 0; i < 6; i++) {
+            const struct br_numbers_row *row = &numbers.row[i];
+            assert_null(row->failure);
+            assert_false(row->kept);
+            assert_true(row->given[BR_AXIS_SPACE] == n[i] && row->given[BR_AXIS_TIME] == k[i]);
+            assert_true(row->z[BR_AXIS_SPACE] == 1 / n[i] && row->z[BR_AXIS_TIME] == k[i]);
+            CLOSE(row->number[0], 1 / (n[i] * n[i]) + k[i], 1e-15);
+        }
+        br_numbers_clear(&numbers);
+    }
+}
+
+static void test_unknowns(void **state)
+{
+    (void)state;
+    static const double list[] = {64, 8000};
+    struct br_program p = program("/usr/bin/printf 'err={dofs}\\n'");
+    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&unknowns, list, 2};
+    p.dimension = 3;
+    struct br_numbers numbers = run(&p);
+    CLOSE(numbers.row[0].z[BR_AXIS_SPACE], 0.25, 1e-15);
+    CLOSE(numbers.row[1].z[BR_AXIS_SPACE], 0.05, 1e-15);
+    assert_true(numbers.row[1].number[0] == 8000);
+    assert_true(isnan(numbers.row[1].z[BR_AXIS_TIME]));
+    br_numbers_clear(&numbers);
+}
+
+/* A program as another one sees it: words, folder, environment, input. */
+static void test_words(void **state)
+{
+    (void)state;
+    static const double list[] = {1e6}, dt[] = {1e-7};
+    write_script("words", "{ printf '[%s]' \"$@\"; printf ' %s %s %s\\n' \"$LC_ALL\" \"$(ls -A)\" "
+                          "\"$(cat)\"; } > $0.out; pwd > $0.where; echo err=1");
+    struct br_program p = program(command_of(
+        "words", "a\\ b 'c  d' \"e \\\"f\\\" \\g\" ; | '' x\"y\"'z' $(touch PWN) `touch PWN` "
+                 "'; touch PWN' {n}/{k} '{{n} {n}' }"));
+    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, list, 1};
+    p.axis[BR_AXIS_TIME] = (struct br_program_axis){&step, dt, 1};
+    struct br_numbers numbers = run(&p);
+    char text[512] = "";
+    FILE *file = fopen(path_of("words.out"), "r");
+    assert_non_null(file);
+    assert_non_null(fgets(text, sizeof text, file));
+    fclose(file);
+    assert_string_equal(text, "[a b][c  d][e \"f\" \\g][;][|][][xyz][$(touch][PWN)][`touch][PWN`]"
+                              "[; touch PWN][1000000/1e-07][{n} 1000000][}] C  \n");
+    assert_int_not_equal(access("PWN", F_OK), 0);
+    assert_int_not_equal(access(path_of("PWN"), F_OK), 0);
+    file = fopen(path_of("words.where"), "r");
+    assert_non_null(fgets(text, sizeof text, file));
+    fclose(file);
+    assert_ptr_equal(strstr(text, path_of("tmp")), text);
+    br_numbers_clear(&numbers);
+}
+
+/* A path with a slash is the caller's; a name is of PATH. */
+static void test_relative(void **state)
+{
+    (void)state;
+    char before[512];
+    assert_non_null(getcwd(before, sizeof before));
+    assert_int_equal(chdir(folder), 0);
+    write_script("here", "echo err=$1");
+    struct br_program p = program("./here {n}");
+    struct br_numbers numbers = run(&p);
+    assert_true(numbers.row[2].number[0] == 16);
+    br_numbers_clear(&numbers);
+    struct br_error err;
+    p.command = "here {n}";
+    REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "'here' is no program");
+    assert_int_equal(chdir(before), 0);
+}
+
+/* ---- what is refused ---- */
+
+static void test_refused(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        {"", "empty"},
+        {"  ", "empty"},
+        {"'' {n}", "empty"},
+        {"true", "no {n}"},
+        {"true {{n}", "no {n}"},
+        {"true {n} {k}", "expected {n}"},
+        {"true {n} {m}", "'m}'"},
+        {"true {n", "expected {n}"},
+        {"true '{n}", "' is not closed"},
+        {"true \"{n}", "\" is not closed"},
+        {"true {n} \\", "backslash"},
+        {"no-such-program-here {n}", "'no-such-program-here' is no program"},
+        {"/no/such/program {n}", "'/no/such/program' is no program"},
+        {"/tmp {n}", "'/tmp' is no program"},
+        {"/etc/passwd {n}", "'/etc/passwd' is no program"},
+    };
+    struct br_numbers numbers;
+    struct br_error err;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const struct br_program p = program(cases[i][0]);
+        REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, cases[i][1]);
+        assert_null(numbers.row);
+    }
+    write_script("noshell", "");
+    FILE *file = fopen(path_of("noshell"), "w");
+    fputs("echo err=1\n", file);
+    fclose(file);
+    const struct br_program p = program(command_of("noshell", "{n}"));
+    REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "cannot be run");
+}
+
+static void test_refused_lists(void **state)
+{
+    (void)state;
+    static const double lists[][3] = {{4, 8, 4},           {4, 0, 8},        {4, -8, 16},
+                                      {4, (double)NAN, 8}, {4, INFINITY, 8}, {4, 8.5, 16}};
+    struct br_numbers numbers;
+    struct br_error err;
+    struct br_program p = program("true {n}");
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        p.axis[BR_AXIS_SPACE].given = lists[i];
+        REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT,
+                i == 0 ? "n: found 4 twice" : "expected a whole number above 0");
+    }
+    p.axis[BR_AXIS_SPACE].count = 0;
+    REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "empty");
+    p.axis[BR_AXIS_SPACE].column = NULL;
+    REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "no list");
+    p = program("true {n}");
+    const struct br_reading twice[] = {err_reading, err_reading};
+    p.reading = twice;
+    p.readings = 2;
+    REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "'err' is there twice");
+    p.readings = 0;
+    REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "no reading");
+}
+
+/* ---- bad programs ---- */
+
+static void test_failures(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *script, *failure;
+    } cases[] = {
+        {"echo one; echo err=1; exit 4", "exit code 4; it printed: one err=1"},
+        {"echo a >&2; echo b >&2; printf 'c\\033[1m\\nd\\n\\n' >&2; echo out; exit 3",
+         "exit code 3; it printed: b c\\x1b[1m d"},
+        {"exit 5", "exit code 5; it printed nothing"},
+        {"kill -SEGV $$", "signal 11"},
+        {"echo err=nan", "err: found 'nan', expected a finite number; it printed: err=nan"},
+        {"echo err=-inf", "found '-inf'"},
+        {"echo err=1,5", "found '1,5'"},
+        {"echo err=", "found ''"},
+        {"true", "matches nothing in the output; it printed nothing"},
+        {"echo err=1; echo; echo err=2", "matches 2 times, expected once; lines 1, 3"},
+        {"head -c 20971520 /dev/zero", "it printed more than 16 MiB"},
+        {"echo err=1; head -c 20971520 /dev/zero >&2", "it printed more than 16 MiB"},
+        {"yes err=1", "it printed more than 16 MiB"},
+        {"printf 'err=1\\n\\0'", "zero byte"},
+        {"exec 2>&-; echo err=1; sed -n 1p /nowhere", "exit code 2"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[256];
+        snprintf(text, sizeof text, "if [ $1 != 8 ]; then echo err=$1; exit; fi\n%s",
+                 cases[i].script);
+        write_script("bad", text);
+        const struct br_program p = program(command_of("bad", "{n}"));
+        struct br_numbers numbers = run(&p);
+        assert_null(numbers.row[0].failure);
+        assert_null(numbers.row[2].failure);
+        assert_true(numbers.row[2].number[0] == 16);
+        assert_true(isnan(numbers.row[1].number[0]));
+        if (!numbers.row[1].failure || !strstr(numbers.row[1].failure, cases[i].failure))
+            fail_msg("'%s': %s", cases[i].script, numbers.row[1].failure);
+        br_numbers_clear(&numbers);
+    }
+}
+
+/* Of what is long its end is shown, in at most 300 bytes. */
+static void test_long_complaint(void **state)
+{
+    (void)state;
+    write_script("long", "awk 'BEGIN { for (i = 0; i < 999; i++) printf \"\303\244%d \", i }' >&2\n"
+                         "echo >&2; echo the reason >&2; exit 1");
+    const struct br_program p = program(command_of("long", "{n}"));
+    struct br_numbers numbers = run(&p);
+    const char *tail = strstr(numbers.row[0].failure, "printed: ") + 9;
+    AT_MOST((double)strlen(tail), 300);
+    assert_true(strlen(tail) > 250);
+    assert_null(strstr(tail, "\\x"));
+    assert_string_equal(tail + strlen(tail) - 11, " the reason");
+    br_numbers_clear(&numbers);
+}
+
+/* Whether the process whose number is in the file does something: a dead one may wait to be
+ * buried by others. */
+static bool is_alive(const char *name)
+{
+    char path[64], text[256] = "", *end;
+    int number = 0;
+    FILE *file = fopen(path_of(name), "r");
+    assert_non_null(file);
+    assert_int_equal(fscanf(file, "%d", &number), 1);
+    fclose(file);
+    snprintf(path, sizeof path, "/proc/%d/stat", number);
+    file = fopen(path, "r");
+    if (!file)
+        return false;
+    const size_t length = fread(text, 1, sizeof text - 1, file);
+    fclose(file);
+    text[length] = '\0';
+    end = strrchr(text, ')');
+    return length && end && end[2] != 'Z' && end[2] != 'X';
+}
+
+/* The first obeys SIGTERM, the second and what it starts do not, the third leaves what it has
+ * started; no child of theirs survives. */
+static void test_hanging(void **state)
+{
+    (void)state;
+    write_script("hang", "[ $1 = 8 ] && trap '' TERM\n"
+                         "sleep 60 & echo $! > $0.$1\n"
+                         "echo before >&2\n"
+                         "[ $1 = 16 ] && echo err=1 && exit\n"
+                         "wait");
+    struct br_program p = program(command_of("hang", "{n}"));
+    p.jobs = 3;
+    p.seconds = 1;
+    const double start = br_seconds();
+    struct br_numbers numbers = run(&p);
+    AT_MOST(br_seconds() - start, 6);
+    AT_MOST(2.9, br_seconds() - start);
+    assert_string_equal(numbers.row[0].failure, "it did not end within 1 s; it printed: before");
+    assert_string_equal(numbers.row[1].failure, "it did not end within 1 s; it printed: before");
+    assert_null(numbers.row[2].failure);
+    assert_false(is_alive("hang.4"));
+    assert_false(is_alive("hang.8"));
+    assert_false(is_alive("hang.16"));
+    br_numbers_clear(&numbers);
+}
+
+/* ---- cost ---- */
+
+static void test_cost(void **state)
+{
+    (void)state;
+    write_script("cost", "case $1 in\n"
+                         "4) sleep 0.3;;\n"
+                         "8) awk 'BEGIN { for (i = 0; i < 4000000; i++) s += i }';;\n"
+                         "16) awk 'BEGIN { s = \"x\"; while (length(s) < 1e8) s = s s }';;\n"
+                         "esac; echo err=1");
+    const struct br_program p = program(command_of("cost", "{n}"));
+    struct br_numbers numbers = run(&p);
+    AT_MOST(numbers.row[0].seconds, 0.1);
+    AT_MOST(0.05, numbers.row[1].seconds);
+    AT_MOST(numbers.row[1].seconds, 5);
+    AT_MOST(1.3e8, numbers.row[2].bytes);
+    AT_MOST(numbers.row[2].bytes, 9e8);
+    if (!isnan(numbers.row[0].bytes))
+        AT_MOST(numbers.row[0].bytes, 2e7);
+    br_numbers_clear(&numbers);
+}
+
+/* ---- kept cells ---- */
+
+static const char counting[] = "echo run >> $0.runs; [ $1 = 8 ] && [ -e $0.fails ] && exit 1\n"
+                               "echo err=$1";
+
+static void expect_run(struct br_program *p, size_t runs, double factor)
+{
+    struct br_numbers numbers = run(p);
+    size_t kept = 0;
+    for (size_t i = 0; i < numbers.rows; i++) {
+        assert_null(numbers.row[i].failure);
+        assert_true(numbers.row[i].number[0] == factor * numbers.row[i].given[0]);
+        AT_MOST(numbers.row[i].seconds, 5);
+        kept += numbers.row[i].kept;
+    }
+    assert_int_equal(kept, numbers.rows - runs);
+    br_numbers_clear(&numbers);
+    assert_int_equal(lines_of("count.runs"), runs);
+    unlink(path_of("count.runs"));
+}
+
+static void test_kept(void **state)
+{
+    (void)state;
+    static const double four[] = {4, 8, 16, 32};
+    write_script("count", counting);
+    char kept[128];
+    snprintf(kept, sizeof kept, "%s", path_of("kept"));
+    struct br_program p = program(command_of("count", "{n}"));
+    p.kept = kept;
+    expect_run(&p, 3, 1);
+    expect_run(&p, 0, 1);
+    assert_int_equal(entries_of(kept), 3);
+    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, four, 4};
+    expect_run(&p, 1, 1);
+    const struct br_reading other = {"err", "err=0*([0-9]+)", BR_READING_REGEX, false};
+    p.reading = &other;
+    expect_run(&p, 4, 1);
+    p.reading = &err_reading;
+    write_script("count", "echo run >> $0.runs; echo err=$(($1 * 2))");
+    expect_run(&p, 4, 2);
+    expect_run(&p, 0, 2);
+    assert_int_equal(entries_of(kept), 12);
+    write_script("count", counting); /* as it was */
+    expect_run(&p, 0, 1);
+}
+
+/* A script that an interpreter runs counts, too, also behind a =. */
+static void test_kept_script(void **state)
+{
+    (void)state;
+    static const char *const forms[] = {"/bin/sh %s {n}", "/usr/bin/env SCRIPT=%s sh -c "
+                                                          "'. $SCRIPT' x {n}"};
+    char command[256], kept[128];
+    snprintf(kept, sizeof kept, "%s", path_of("kept-script"));
+    for (size_t i = 0; i < 2; i++) {
+        snprintf(command, sizeof command, forms[i], path_of("script"));
+        struct br_program p = program(command);
+        p.kept = kept;
+        for (int version = 1; version <= 2; version++) {
+            char text[64];
+            snprintf(text, sizeof text, "echo err=%d", version);
+            write_script("script", text);
+            for (int again = 0; again < 2; again++) {
+                struct br_numbers numbers = run(&p);
+                assert_true(numbers.row[0].number[0] == version);
+                assert_int_equal(numbers.row[0].kept, again);
+                br_numbers_clear(&numbers);
+            }
+        }
+    }
+}
+
+static int spoil(const char *path, const struct stat *info, int type, struct FTW *where)
+{
+    (void)info;
+    (void)where;
+    if (type != FTW_F)
+        return 0;
+    FILE *file = fopen(path, "r+");
+    assert_non_null(file);
+    fputs("{\"format\": \"beamrate-cell 1\", \"numbers\": [7", file);
+    assert_int_equal(ftruncate(fileno(file), ftell(file)), 0);
+    fclose(file);
+    return 0;
+}
+
+/* Failed cells are not kept, nor read those that are broken; a program that changes while it runs
+ * is not kept under its old name. */
+static void test_not_kept(void **state)
+{
+    (void)state;
+    char kept[128];
+    snprintf(kept, sizeof kept, "%s", path_of("kept-not"));
+    write_script("count", counting);
+    write_script("count.fails", "");
+    struct br_program p = program(command_of("count", "{n}"));
+    p.kept = kept;
+    struct br_numbers numbers = run(&p);
+    assert_non_null(numbers.row[1].failure);
+    br_numbers_clear(&numbers);
+    assert_int_equal(entries_of(kept), 2);
+    unlink(path_of("count.fails"));
+    unlink(path_of("count.runs"));
+    expect_run(&p, 1, 1);
+    assert_int_equal(nftw(kept, spoil, 8, FTW_PHYS), 0);
+    expect_run(&p, 3, 1);
+    expect_run(&p, 0, 1);
+    write_script("count", "echo run >> $0.runs; echo '#' >> $0; echo err=$1");
+    expect_run(&p, 3, 1);
+    assert_int_equal(entries_of(kept), 3);
+}
+
+/* ---- interruption ---- */
+
+static bool has_started(void *self)
+{
+    (void)self;
+    return access(path_of("slow.started"), F_OK) == 0;
+}
+
+static void take_progress(void *self, double fraction)
+{
+    double *last = self;
+    assert_true(fraction > *last && fraction <= 1);
+    *last = fraction;
+}
+
+static void test_interrupted(void **state)
+{
+    (void)state;
+    double last = 0;
+    const struct br_observer observer = {
+        .progress = take_progress, .stop = has_started, .self = &last};
+    char kept[128];
+    snprintf(kept, sizeof kept, "%s", path_of("kept-slow"));
+    write_script("slow", "[ $1 != 16 ] && echo err=$1 && exit\n"
+                         "echo $$ > $0.pid; touch $0.started; sleep 60");
+    struct br_program p = program(command_of("slow", "{n}"));
+    p.kept = kept;
+    p.observer = &observer;
+    struct br_numbers numbers;
+    struct br_error err;
+    const double start = br_seconds();
+    REFUSED(br_program_run(&p, &numbers, &err), BR_INTERRUPTED, "interrupted");
+    AT_MOST(br_seconds() - start, 5);
+    assert_null(numbers.row);
+    assert_false(is_alive("slow.pid"));
+    assert_int_equal(entries_of(path_of("tmp")), 0);
+    assert_int_equal(entries_of(kept), 2);
+    static const double done[] = {4, 8};
+    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, done, 2};
+    p.observer = NULL;
+    numbers = run(&p);
+    assert_true(numbers.row[0].kept && numbers.row[1].kept);
+    br_numbers_clear(&numbers);
+}
+
+/* ---- readings ---- */
+
+static void test_readings(void **state)
+{
+    (void)state;
+    enum { REGEX = BR_READING_REGEX, JSON = BR_READING_JSON, CSV = BR_READING_CSV };
+    static const struct {
+        int kind;
+        const char *what, *output;
+        double number;       /* NaN: it fails ... */
+        const char *failure; /* ... with this */
+    } cases[] = {
+        {REGEX, "L2 *= *([-+.0-9e]+)", "x\nL2 = 1.5e-7\ny", 1.5e-7, NULL},
+        {REGEX, "^([^ ]+) m$", "0x1p-3 m\r\n1 s\n-2.5e+3 m\n", -2500, NULL},
+        {REGEX, "err=(.*)", "err= 12 \r\n", 12, NULL},
+        {REGEX, "e=([0-9]+),", "e=1,5\n", 1, NULL},
+        {REGEX, "err-([0-9]+)", "err-3 ", 3, NULL},
+        {REGEX, "^(.*)$", "3", 3, NULL},
+        {REGEX, "e=([0-9.]+)", "e=1.5e-7", NAN, "a part of a number only, on line 1: 'e=1.5e-7'"},
+        {REGEX, "e=([0-9.]+)", "\ne=1.5D-7", NAN, "part of a number only, on line 2"},
+        {REGEX, "e=([0-9.]+)", "e=1,5", NAN, "part of a number"},
+        {REGEX, "e=.*([0-9]+)", "e=12", NAN, "part of a number"},
+        {REGEX, "e=.*([0-9]+)", "e=1.5e-7", NAN, "part of a number"},
+        {REGEX, "e=-?([0-9]+)", "e=-12", NAN, "part of a number"},
+        {REGEX, "e=(.*)", "e=1e999", NAN, "found '1e999'"},
+        {REGEX, "e=(.*)", "e=1e-999", NAN, "found '1e-999'"},
+        {REGEX, "e=(.*)", "e=1 2", NAN, "found '1 2'"},
+        {REGEX, "e=(.*)", "e=infinity", NAN, "found 'infinity'"},
+        {REGEX, "([0-9])", "1 2 3", NAN, "matches 3 times, expected once; lines 1, 1, 1"},
+        {REGEX, "x|e=(1)", "x", NAN, "found ''"},
+        {REGEX, "e=(.*)", "", NAN, "matches nothing"},
+        {REGEX, "e(.*)",
+         "e1111111111111111111111111111111111111111111111111111111111111111111111111111", NAN,
+         "of 76 bytes"},
+        {JSON, "/a/1/b~1c~0d", "{\"a\": [0, {\"b/c~d\": -2.5e3}]}\n", -2500, NULL},
+        {JSON, "", " 12345678901234567890 ", 12345678901234567890.0, NULL},
+        {JSON, "/", "{\"\": 1}", 1, NULL},
+        {JSON, "/a/01", "{\"a\": [0, 1]}", NAN, "has no '/a/01'"},
+        {JSON, "/a/-", "{\"a\": [0, 1]}", NAN, "has no"},
+        {JSON, "/a/2", "{\"a\": [0, 1]}", NAN, "has no"},
+        {JSON, "/a/b", "{\"a\": 1}", NAN, "has no"},
+        {JSON, "/a", "{\"a\": \"1\"}", NAN, "is a text, expected a number"},
+        {JSON, "/a", "{\"a\": null}", NAN, "is null"},
+        {JSON, "/a", "{\"a\": [1]}", NAN, "is an array"},
+        {JSON, "/a", "{\"a\": NaN}", NAN, "no JSON, line 1"},
+        {JSON, "/a", "{\"a\": 1e999}", NAN, "no JSON, line 1"},
+        {JSON, "/a", "{\"a\": 1, \"a\": 2}", NAN, "no JSON"},
+        {JSON, "/a", "{\"a\": 1} x", NAN, "no JSON"},
+        {JSON, "/a", "", NAN, "no JSON"},
+        {CSV, "L2", "n,L2,x\n4,0.5,1\n8,0.25,2\n", 0.25, NULL},
+        {CSV, "L2", "# a\r\n\r\nn, \"L2\"\r\n", NAN, "not alone in its field, on line 3"},
+        {CSV, "a \"b\", c", "\"n\",\"a \"\"b\"\", c\"\r\n\"1\n2\",\"0.5\"\r\n", 0.5, NULL},
+        {CSV, "x", "n,x\n4, 0.5", 0.5, NULL},
+        {CSV, "n", "n\n\n3\n\n", 3, NULL},
+        {CSV, "y", "n,x\n4,0.5", NAN, "found 0 columns 'y'"},
+        {CSV, "x", "x,x\n4,0.5", NAN, "found 2 columns 'x'"},
+        {CSV, "x", "n,x\n", NAN, "no row below"},
+        {CSV, "x", "", NAN, "found 0 columns"},
+        {CSV, "x", "n,x\n1,5,2\n", NAN, "found 3 fields on line 2, expected 2"},
+        {CSV, "x", "n,x\n1\n", NAN, "found 1 fields on line 2, expected 2"},
+        {CSV, "x", "n,x\n1,\n", NAN, "found ''"},
+        {CSV, "x", "n,x\n1,nan\n", NAN, "found 'nan'"},
+        {CSV, "x", "n,x\n1,\"2", NAN, "quote"},
+        {CSV, "x", "n,x\n1,\"2\"3", NAN, "quote"},
+        {CSV, "x", "n,x\n1,2\"", NAN, "quote"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const struct br_reading reading = {"q", cases[i].what, (enum br_reading_kind)cases[i].kind,
+                                           false};
+        const char *output = cases[i].output;
+        struct br_error err = {0};
+        double number = 0;
+        MUST(br_reading_check(&reading, &err));
+        const enum br_status status =
+            br_reading_take(&reading, output, strlen(output), &number, &err);
+        if (!cases[i].failure && !(status == BR_OK && number == cases[i].number))
+            fail_msg("'%s' in '%s': %g, %s", cases[i].what, output, number, err.message);
+        if (cases[i].failure && !(status == BR_BAD_INPUT && strstr(err.message, cases[i].failure)))
+            fail_msg("'%s' in '%s': %g, %s", cases[i].what, output, number, err.message);
+        if (cases[i].failure)
+            assert_memory_equal(err.message, "q: ", 3);
+    }
+}
+
+static void test_refused_readings(void **state)
+{
+    (void)state;
+    static const struct {
+        struct br_reading reading;
+        const char *message;
+    } cases[] = {
+        {{"", "(.)", BR_READING_REGEX, false}, "no name"},
+        {{"q", "(", BR_READING_REGEX, false}, "q: '(' is no extended regular expression"},
+        {{"q", "a", BR_READING_REGEX, false}, "has 0 groups, expected one"},
+        {{"q", "(a)(b)", BR_READING_REGEX, false}, "has 2 groups"},
+        {{"q", "a", BR_READING_JSON, false}, "'a' is no JSON pointer"},
+        {{"q", "/a~2", BR_READING_JSON, false}, "is no JSON pointer"},
+        {{"q", "/a~", BR_READING_JSON, false}, "is no JSON pointer"},
+        {{"q", "", BR_READING_CSV, false}, "no column"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct br_program p = program("true {n}");
+        struct br_numbers numbers;
+        struct br_error err;
+        p.reading = &cases[i].reading;
+        REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, cases[i].message);
+    }
+}
+
+/* ---- memory ---- */
+
+static enum br_status attempt(const void *data, struct br_error *err)
+{
+    struct br_numbers numbers;
+    const enum br_status status = br_program_run(data, &numbers, err);
+    br_numbers_clear(&numbers);
+    return status;
+}
+
+static void test_without_memory(void **state)
+{
+    (void)state;
+    static const double list[] = {4};
+    struct br_program p = program("/usr/bin/printf '{{\"a\": {n}}'");
+    const struct br_reading reading = {"a", "/a", BR_READING_JSON, true};
+    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, list, 1};
+    p.reading = &reading;
+    br_test_without_memory(attempt, &p, 10);
+}
+
+static int remove_one(const char *path, const struct stat *info, int type, struct FTW *where)
+{
+    (void)info;
+    (void)type;
+    (void)where;
+    return remove(path);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) && mkdir(path_of("tmp"), 0777) == 0 &&
+                   setenv("TMPDIR", path_of("tmp"), 1) == 0
+               ? 0
+               : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_grid),           cmocka_unit_test(test_unknowns),
+        cmocka_unit_test(test_words),          cmocka_unit_test(test_relative),
+        cmocka_unit_test(test_refused),        cmocka_unit_test(test_refused_lists),
+        cmocka_unit_test(test_failures),       cmocka_unit_test(test_long_complaint),
+        cmocka_unit_test(test_hanging),        cmocka_unit_test(test_cost),
+        cmocka_unit_test(test_kept),           cmocka_unit_test(test_kept_script),
+        cmocka_unit_test(test_not_kept),       cmocka_unit_test(test_interrupted),
+        cmocka_unit_test(test_readings),       cmocka_unit_test(test_refused_readings),
+        cmocka_unit_test(test_without_memory),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
