@@ -81,7 +81,9 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
         foreign ? read_study(r, item, text, err)
                 : br_scene_read_verify_text(item->path, text, &item->scene, &item->verify, err);
     free(text);
-    if (status || foreign || choose_method(r, item, err))
+    if (status || foreign)
+        return status;
+    if (choose_method(r, item, err))
         return err->status;
     r->check[r->count++] = (struct br_check){.path = item->path,
                                              .name = item->scene.name,

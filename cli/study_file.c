@@ -2,6 +2,7 @@
 #include "cli/study_file.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -96,7 +97,10 @@ enum br_status br_study_file_read(const char *path, const char *text,
 struct br_check br_study_file_check(const struct br_study_file *f)
 {
     const struct br_orders_request *r = &f->request;
-    struct br_check check = {.path = r->path, .name = r->title ? r->title : r->path};
+    struct br_check check = {.path = r->path,
+                             .name = r->title     ? r->title
+                                     : r->command ? r->command
+                                                  : r->path};
     br_orders_problem(r, check.problem);
     return check;
 }
@@ -106,6 +110,8 @@ enum br_status br_study_file_run(struct br_study_file *f, struct br_check *check
 {
     struct br_orders_request *r = &f->request;
     enum br_status status = br_orders_read(r, &f->numbers, err);
+    for (size_t i = 0; i < f->numbers.rows; i++)
+        check->seconds += isfinite(f->numbers.row[i].seconds) ? f->numbers.row[i].seconds : 0;
     if (!status)
         status = br_orders_find(&f->numbers, r->formal, &f->orders, err);
     return status ? status

@@ -227,6 +227,8 @@ static void compare_cost(struct br_comparison *out, const struct br_check *check
 {
     struct br_difference d = {.before = old->element_steps, .now = check->element_steps};
     snprintf(d.subject, sizeof d.subject, "%.100s: element-steps", check->name);
+    if (!check->scene)
+        return; /* another program's work is not known */
     d.severity = grade(factor(d.before, d.now), work_steps);
     add(out, &d);
     d = (struct br_difference){.before = old->seconds / old->element_steps * 1e9,
