@@ -152,15 +152,6 @@ static const struct br_contact_rule *implicit_contact(void)
     return *rule;
 }
 
-/* A beam without density whose viscosity is gone within a step k, s, follows its load at once, and
- * friction keeps what the load's peaks and jumps have left. Stages of a higher order go beyond
- * these; Euler's steps do not. */
-static bool follows_at_once(const struct br_scene *s, double k)
-{
-    return s->bending.modelled && s->density == 0 &&
-           s->bending.viscosity <= k * s->bending.stiffness && s->friction.law != BR_FRICTIONLESS;
-}
-
 /* By riccati, whose round-off is least, with contact at the new level, which has no limit, and a
  * scheme that takes little energy from a vibration, but is not the one that errors are predicted
  * by. */
@@ -174,7 +165,7 @@ static enum br_status march_finer(struct trial *t, size_t finer, double times,
     fine.contact = implicit_contact();
     if (fine.friction->iterates) /* what an iteration leaves adds up over many steps */
         fine.friction = br_friction_rules[0];
-    const bool at_once = follows_at_once(&t->marched, br_time_step(&t->marched, t->one->steps));
+    const bool at_once = br_follows_at_once(&t->marched, br_time_step(&t->marched, t->one->steps));
     fine.scheme = br_time_scheme_find(chosen ? "adaptive" : at_once ? "euler" : "esdirk3");
     fine.tolerance = fmax(1e-11, fine.tolerance / (100 * times));
     fine.most_steps = 4 * MOST_STEPS;
@@ -440,7 +431,7 @@ static enum br_status judge(struct trial *t, struct br_error *err)
     if (!status && !t->done)
         status = judge_accuracy(t, err);
     if (!status && t->own->begun && !t->own->failure.status && !t->judging->quick &&
-        t->verdict->which != BR_EXTREME_WRONG)
+        t->verdict->which != BR_EXTREME_WRONG && t->verdict->which != BR_EXTREME_UNSTABLE)
         status = judge_units(t, err);
     return status;
 }

@@ -365,8 +365,7 @@ static bool release_unseen(const struct br_probe_set *s)
         return false;
     double tip;
     br_function_evaluate(&scene->axial.displacement, 1, &scene->length, 0, &tip);
-    const struct br_field field =
-        br_field_of_scene(scene, BR_AXIAL, s->planned->n, finest_step(s));
+    const struct br_field field = br_field_of_scene(scene, BR_AXIAL, s->planned->n, finest_step(s));
     return tip > scene->contact.gap &&
            scene->contact.stiffness > br_contact_limit_stiffness(&field);
 }

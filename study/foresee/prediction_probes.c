@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/foresee/prediction_probes.h"
+#include "study/foresee/prediction.h"
 #include "study/grid/sweep.h"
 
 #include <math.h>
@@ -88,14 +89,25 @@ static const struct br_contact_rule *contact_without_lag(void)
     return *rule;
 }
 
-/* What solves the same equations more accurately on the same steps: the scheme of the highest
- * order, which takes next to no energy from a vibration, contact at the new time level, friction
- * that does not iterate, and the solver of the least round-off. A reference of the run's own scheme
- * would not show what that damps away in both. */
-static struct br_method best_method(const struct br_method *own)
+bool br_follows_at_once(const struct br_scene *s, double k)
+{
+    return s->bending.modelled && s->density == 0 &&
+           s->bending.viscosity <= k * s->bending.stiffness && s->friction.law != BR_FRICTIONLESS;
+}
+
+static bool follows_at_once(const struct br_planned_march *o)
+{
+    return br_follows_at_once(o->scene, br_time_step(o->scene, o->steps));
+}
+
+/* What solves the same equations more accurately on the same steps: a scheme that takes next to no
+ * energy from a vibration, contact at the new time level, friction that does not iterate, and the
+ * solver of the least round-off. A reference of the run's own scheme would not show what that damps
+ * away in both. */
+static struct br_method with_scheme(const struct br_method *own, const char *scheme)
 {
     struct br_method m = *own;
-    m.scheme = br_time_scheme_find("esdirk4");
+    m.scheme = br_time_scheme_find(scheme);
     m.solver = br_linear_solvers[0];
     m.contact = contact_without_lag();
     if (m.friction->iterates)
@@ -104,12 +116,17 @@ static struct br_method best_method(const struct br_method *own)
     return m;
 }
 
+/* By equal steps: of the highest order where that is reached. */
+static struct br_method best_method(const struct br_planned_march *o)
+{
+    return with_scheme(o->method, follows_at_once(o) ? "euler" : "esdirk4");
+}
+
 /* The same by a tolerance, smaller than the run's, or than that of a check. */
 static struct br_method tight_method(const struct br_method *own, double times)
 {
     const double from = by_tolerance(own) ? own->tolerance : tight * tighter;
-    struct br_method m = best_method(own);
-    m.scheme = br_time_scheme_find("adaptive");
+    struct br_method m = with_scheme(own, "adaptive");
     m.tolerance = fmax(from / times, tightest);
     return m;
 }
@@ -188,13 +205,13 @@ static double whole_work(const struct br_planned_march *o, const struct br_metho
 
 static bool is_affordable(const struct br_planned_march *o, struct finer by)
 {
-    const struct br_method best = best_method(o->method);
+    const struct br_method best = best_method(o);
     return whole_work(o, &best, by) <= budget(o);
 }
 
 static void set_whole(struct br_probe *p, const struct br_planned_march *o, struct finer by)
 {
-    const struct br_method best = best_method(o->method);
+    const struct br_method best = best_method(o);
     p->steps[BR_WHOLE_RUN] = o->steps;
     set_whole_cells(p, o, &best, &best, by);
 }
@@ -213,6 +230,8 @@ static void set_tight(struct br_probe *p, const struct br_planned_march *o)
     struct br_method reference = tight_method(o->method, tighter);
     check.most_steps = reference.most_steps = most;
     p->steps[BR_WHOLE_RUN] = by_tolerance(o->method) ? least(o->steps, TOLERANCE_LEVELS) : o->steps;
+    if (!by_tolerance(o->method) && follows_at_once(o))
+        return;
     if (p->steps[BR_WHOLE_RUN] + LEAST_CHOSEN <= most)
         set_whole_cells(p, o, &check, &reference, (struct finer){finer, 1});
 }
@@ -220,7 +239,7 @@ static void set_tight(struct br_probe *p, const struct br_planned_march *o)
 /* Where no step is small enough for a smaller tolerance, or steps are too many: equal ones. */
 static void set_whole_by_equal_steps(struct br_probe *p, const struct br_planned_march *o)
 {
-    struct br_method best = best_method(o->method);
+    struct br_method best = best_method(o);
     best.most_steps = most_steps(o, (double)(o->n * refinement(o->n)));
     p->steps[BR_WHOLE_RUN] = least(o->steps, TOLERANCE_LEVELS);
     const double many = (double)best.most_steps / (double)p->steps[BR_WHOLE_RUN];
@@ -234,7 +253,7 @@ static void set_whole_by_equal_steps(struct br_probe *p, const struct br_planned
  * levels at which the solution's size is seen. */
 static void measure_time(struct br_probe *p, const struct br_planned_march *o, double most)
 {
-    const struct br_method best = best_method(o->method);
+    const struct br_method best = best_method(o);
     const double a_step = (double)o->steps * stages(&best);
     const size_t ratio = a_step * 31 <= most ? 27 : a_step * 11 <= most ? 9 : 3;
     p->measured = true;
@@ -258,7 +277,7 @@ static bool is_prime(size_t a)
  * largest. */
 static void extrapolate_time(struct br_probe *p, const struct br_planned_march *o, double most)
 {
-    const struct br_method best = best_method(o->method);
+    const struct br_method best = best_method(o);
     size_t a = (size_t)(most / (3 * stages(o->method) + 8 * stages(&best))) | 1;
     while (a > 3 && !is_prime(a))
         a -= 2;
@@ -286,7 +305,7 @@ static void compare_tolerances(struct br_probe *p, const struct br_planned_march
 
 static void set_time(struct br_probe *p, const struct br_planned_march *o)
 {
-    const struct br_method best = best_method(o->method);
+    const struct br_method best = best_method(o);
     p->scene = *o->scene;
     p->n[0] = least(o->n, TIME_N);
     const double most = time_share * budget(o) / solve(o, (double)p->n[0]);
@@ -321,7 +340,7 @@ static void set_iteration(struct br_probe *p, const struct br_probe *time,
  * `equal`, and more of them, against smaller equal ones. */
 static void set_start(struct br_probe *p, const struct br_planned_march *o, bool equal)
 {
-    const struct br_method best = best_method(o->method);
+    const struct br_method best = best_method(o);
     struct br_method fine = equal ? best : tight_method(o->method, tighter);
     p->scene = *o->scene;
     p->n[0] = least(o->n, TIME_N);
@@ -339,7 +358,7 @@ static void set_start(struct br_probe *p, const struct br_planned_march *o, bool
 
 static void set_space(struct br_probe *p, const struct br_planned_march *o)
 {
-    const struct br_method best = best_method(o->method);
+    const struct br_method best = best_method(o);
     size_t finest = 2 * SPACE_N;
     p->scene = *o->scene;
     p->measured = o->n <= SPACE_N;
@@ -493,8 +512,11 @@ static enum br_status march_itself(struct br_probe_set *set, struct br_error *er
 static enum br_status march_start(struct br_probe_set *set, struct br_error *err)
 {
     struct br_probe *start = &set->probe[BR_PROBE_START];
-    set_start(start, set->planned, false);
-    enum br_status status = try_probe(set, BR_PROBE_START, err);
+    enum br_status status = BR_OK;
+    if (!follows_at_once(set->planned)) {
+        set_start(start, set->planned, false);
+        status = try_probe(set, BR_PROBE_START, err);
+    }
     if (status || start->held || set->probe[BR_PROBE_WHOLE].held)
         return status;
     set_start(start, set->planned, true);
