@@ -220,13 +220,16 @@ static struct br_extreme_verdict judge(struct named which, const struct br_extre
  * stiffer than the rod (690, 1136), by what elimination leaves (502, 852), by a scheme that began
  * anew where a contact without stiffness opened (102). Seed 7: by a
  * judge whose iterations add up (91). Seed 4: by a residual
- * where load and velocity cross zero at once (94). */
+ * where load and velocity cross zero at once (94), by steps that add many velocities (1851). By a
+ * friction force that obeys the march's bound, which is that of the nodes to round-off (3, 512; 5,
+ * 241; 10, 151); by what a light beam's velocities are rounded to (8, 811). */
 static void test_sound_cases(void **state)
 {
     (void)state;
     static const struct named sound[] = {
-        {1, 240}, {1, 246}, {1, 351},  {1, 502},  {1, 503},  {1, 681}, {1, 690}, {1, 741}, {1, 751},
-        {1, 852}, {1, 866}, {1, 1136}, {1, 1277}, {1, 1304}, {7, 91},  {1, 102}, {4, 94}};
+        {1, 240}, {1, 246},  {1, 351}, {1, 502},  {1, 503},  {1, 681},  {1, 690}, {1, 741},
+        {1, 751}, {1, 852},  {1, 866}, {1, 1136}, {1, 1277}, {1, 1304}, {7, 91},  {1, 102},
+        {4, 94},  {4, 1851}, {3, 512}, {5, 241},  {10, 151}, {8, 811}};
     const struct br_extreme_judging judging = {.quick = true};
     for (size_t i = 0; i < sizeof sound / sizeof *sound; i++) {
         const struct br_extreme_verdict verdict = judge(sound[i], &judging);
@@ -243,17 +246,19 @@ static void test_sound_cases(void **state)
  * than a fine one (5, 229), and where Coulomb's bound begins at a gap without contact stiffness,
  * which the exact solution missed, too (3, 101; 1, 212), where two tolerances choose the same
  * steps (2, 284; 4, 71), where chosen steps have few levels (4,
- * 145), and where a gap is no number in other units (11, 108). Those that take long are
- * for long tests.
- */
+ * 145), and where a gap is no number in other units (11, 108); where a contact throws a pressed tip
+ * back within a step (7, 430), a layer lies between the judge's places (7, 813), a beam follows its
+ * load at once (6, 459), and where other units cannot be compared: round-off refuses them (11,
+ * 1154) or grows without bound (12, 472). Those that take long are for long tests. */
 static void test_hard_cases(void **state)
 {
     (void)state;
-    static const struct named hard[] = {{3, 20},  {3, 101},  {1, 212}, {2, 284}, {4, 71},
-                                        {4, 145}, {11, 108}, {5, 229}, {3, 26},  {4, 175},
-                                        {5, 45},  {3, 186},  {3, 889}, {3, 1883}};
+    static const struct named hard[] = {{3, 20},  {3, 101},   {1, 212},  {2, 284}, {4, 71},
+                                        {4, 145}, {11, 108},  {5, 229},  {7, 430}, {7, 813},
+                                        {6, 459}, {11, 1154}, {12, 472}, {3, 26},  {4, 175},
+                                        {5, 45},  {3, 186},   {3, 889},  {3, 1883}};
     const struct br_extreme_judging judging = {0};
-    const size_t count = br_test_long() ? sizeof hard / sizeof *hard : 9;
+    const size_t count = br_test_long() ? sizeof hard / sizeof *hard : 14;
     for (size_t i = 0; i < count; i++) {
         const struct br_extreme_verdict verdict = judge(hard[i], &judging);
         if (verdict.which == BR_EXTREME_WRONG)
