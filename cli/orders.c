@@ -190,11 +190,15 @@ static enum br_status compute(struct run *r, struct br_error *err)
 static enum br_status write_orders(struct run *r, struct br_error *err)
 {
     const char *caption = r->check.name;
+    struct br_estimate growth[BR_AXES];
+    for (int axis = 0; axis < BR_AXES; axis++)
+        if (br_orders_growth(&r->study.orders, (enum br_axis)axis, &growth[axis], err))
+            return err->status;
     const struct br_provenance provenance = br_provenance_of(NULL, r->session.threads);
     if (br_session_report(&r->session, 1, err))
         return err->status;
     struct br_document *d = &r->session.document[0];
-    br_report_orders(&r->study.orders, caption, d);
+    br_report_orders(&r->study.orders, growth, caption, d);
     if (br_output_is_open(&r->session.output))
         br_session_draw(&r->session, d, br_orders_draw(&r->study.orders, caption),
                         "Errors over the size of elements and steps");

@@ -55,6 +55,34 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
         br_slopes_add(f, slopes, slope);
 }
 
+/* Where runs were timed: errors over processor time. */
+static void add_costs(struct br_figure *f, const struct br_orders *o)
+{
+    const struct br_numbers *numbers = o->numbers;
+    bool timed = false;
+    for (size_t i = 0; i < numbers->rows; i++)
+        timed |= numbers->row[i].seconds > 0;
+    if (!timed)
+        return;
+    struct br_panel *p = br_panel_add(f, "processor time (s)", "error");
+    p->log_x = p->log_y = true;
+    for (size_t i = 0; i < o->count; i++) {
+        char quoted[400];
+        const struct br_quantity *q = &numbers->quantity[o->of[i].quantity];
+        if (q->is_value)
+            continue;
+        struct br_series *s = br_series_add(
+            f, BR_PEN_CURVE, "%s", br_quoted(quoted, sizeof quoted, &br_for_markup, q->name));
+        for (size_t row = 0; row < numbers->rows; row++)
+            if (br_orders_cheapest(o, o->of[i].quantity,
+                                   numbers->row[row].number[o->of[i].quantity]) ==
+                &numbers->row[row])
+                br_point_add(s, numbers->row[row].seconds,
+                             numbers->row[row].number[o->of[i].quantity], NULL);
+        br_series_sort(s);
+    }
+}
+
 static bool has_line(const struct br_orders *o, enum br_axis axis)
 {
     for (size_t i = 0; i < o->count; i++)
@@ -74,5 +102,6 @@ struct br_figure br_orders_draw(const struct br_orders *orders, const char *capt
     for (int axis = 0; axis < BR_AXES; axis++)
         if (has_line(orders, (enum br_axis)axis))
             add_panel(&f, orders, (enum br_axis)axis);
+    add_costs(&f, orders);
     return f;
 }

@@ -84,7 +84,8 @@ static void say_limit(struct br_document *d, const struct br_grid_limit *limit)
         br_put_more(d, " no limit: %s;", br_sequence_text(limit->sequence));
 }
 
-static void put_answers(struct br_document *d, const struct br_orders *o)
+static void put_answers(struct br_document *d, const struct br_orders *o,
+                        const struct br_estimate *growth)
 {
     for (size_t i = 0; i < o->count && i < BR_MOST_ANSWERS - 2; i++) {
         const struct br_quantity_orders *of = &o->of[i];
@@ -99,6 +100,10 @@ static void put_answers(struct br_document *d, const struct br_orders *o)
     }
     if (o->count > BR_MOST_ANSWERS - 2)
         br_put_answer(d, "%zu more columns: see the tables.", o->count - (BR_MOST_ANSWERS - 2));
+    for (int axis = 0; axis < BR_AXES; axis++)
+        if (isfinite(growth[axis].value))
+            br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
+                          br_order_text(&growth[axis], (char[64]){0}, 64));
     if (o->tied)
         br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
 }
@@ -324,14 +329,45 @@ static void put_costs(struct br_document *d, const struct br_numbers *numbers)
     }
 }
 
-void br_report_orders(const struct br_orders *o, const char *caption, struct br_document *d)
+/* The errors that are asked for are powers of ten, from the largest down to what is reached. */
+static void put_cheapest_of(struct br_document *d, const struct br_orders *o, size_t quantity)
+{
+    const struct br_numbers *numbers = o->numbers;
+    const struct br_numbers_row *run = NULL;
+    double most = 0;
+    for (size_t i = 0; i < numbers->rows; i++)
+        most = fmax(most, numbers->row[i].number[quantity]);
+    double error = pow(10, floor(log10(most)));
+    for (int digit = 0; digit < 17 && (run = br_orders_cheapest(o, quantity, error)); digit++) {
+        br_put_row(d);
+        BR_PUT(d, br_text(numbers->quantity[quantity].name), .key = "quantity");
+        BR_PUT(d, br_number(error), .key = "wanted", .heading = "error at most", .format = "%.0e");
+        put_given(d, numbers, (size_t)(run - numbers->row));
+        BR_PUT(d, br_number(run->number[quantity]), .key = "error", .format = "%.3e");
+        BR_PUT(d, br_number(run->seconds), .key = "cpu_seconds", .heading = "processor time",
+               .unit = "s", .format = "%.3g");
+        error /= 10;
+    }
+}
+
+static void put_cheapest(struct br_document *d, const struct br_orders *o)
+{
+    br_put_table(d, "cheapest", "The cheapest run to each digit", 0);
+    for (size_t i = 0; i < o->count; i++)
+        if (!o->numbers->quantity[o->of[i].quantity].is_value)
+            put_cheapest_of(d, o, o->of[i].quantity);
+}
+
+void br_report_orders(const struct br_orders *o, const struct br_estimate *growth,
+                      const char *caption, struct br_document *d)
 {
     br_document_begin(d, "orders", "beamrate orders", 1, caption);
-    put_answers(d, o);
+    put_answers(d, o, growth);
     put_orders(d, o);
     put_joint_fits(d, o);
     put_limits(d, o);
     put_costs(d, o->numbers);
+    put_cheapest(d, o);
     for (size_t i = 0; i < o->count; i++)
         put_rows(d, o, &o->of[i]);
 }

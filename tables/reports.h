@@ -11,6 +11,7 @@ struct br_check;
 struct br_comparison;
 struct br_drifts;
 struct br_energy_behaviour;
+struct br_estimate;
 struct br_extreme_counts;
 struct br_extreme_map;
 struct br_finding;
@@ -62,9 +63,10 @@ void br_history_csv_stopped(FILE *out, const char *message);
 
 /* ---- orders ---- */
 
-/* Orders of any program's numbers, limits of its values, and all rows: without provenance. */
-void br_report_orders(const struct br_orders *orders, const char *caption,
-                      struct br_document *d);
+/* Orders of any program's numbers, limits of its values, what runs cost (growth: by enum br_axis,
+ * NaN where it is not known), and all rows: without provenance. */
+void br_report_orders(const struct br_orders *orders, const struct br_estimate *growth,
+                      const char *caption, struct br_document *d);
 
 /* ---- check ---- */
 

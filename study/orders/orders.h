@@ -45,6 +45,19 @@ void br_orders_clear(struct br_orders *orders);
 /* The order that point i and the coarser one before it show; NaN: none. */
 double br_orders_rate(const struct br_orders_line *line, size_t i);
 
+/* ---- costs ---- */
+
+/* The exponent by which processor time grows with finer elements or steps, on the line at the
+ * finest size of the other axis; NaN with less than three runs of 0.02 s or more. Fails with
+ * BR_NO_MEMORY. */
+enum br_status br_orders_growth(const struct br_orders *orders, enum br_axis axis,
+                                struct br_estimate *growth, struct br_error *err);
+
+/* The cheapest run whose error in a quantity is at most so large; NULL: none, or no run was timed.
+ */
+const struct br_numbers_row *br_orders_cheapest(const struct br_orders *orders, size_t quantity,
+                                                double error);
+
 /* ---- verdicts ---- */
 
 struct br_order_expectation {

@@ -31,6 +31,8 @@ enum {
 struct cell {
     char **words;  /* owned, with a NULL at the end */
     char *letters; /* of the words; owned */
+    char **file;   /* files: the words that are paths of files; owned */
+    size_t files;
     char *program; /* absolute path; owned */
 };
 
@@ -140,14 +142,46 @@ static bool is_program(const char *path)
     return stat(path, &info) == 0 && S_ISREG(info.st_mode) && access(path, X_OK) == 0;
 }
 
+/* Where relative names are looked up (out). */
+static enum br_status find_folder(const struct br_program *p, char here[PATH_MAX],
+                                  struct br_error *err)
+{
+    if (p->folder ? realpath(p->folder, here) : getcwd(here, PATH_MAX))
+        return BR_OK;
+    return br_fail(err, BR_IO, "the folder of the command: %s", strerror(errno));
+}
+
+/* Words that name a file get its whole path, since the program runs elsewhere. */
+static enum br_status find_files(const char *here, struct cell *cell, struct br_error *err)
+{
+    size_t count = 0;
+    while (cell->words[count])
+        count++;
+    cell->file = br_allocate(count + 1, sizeof *cell->file);
+    if (!cell->file)
+        return br_no_memory(err, "the files of a command");
+    for (size_t i = 1; i < count; i++) {
+        struct stat info;
+        char *path = NULL;
+        if (*cell->words[i] == '/' || !*cell->words[i])
+            continue;
+        if (asprintf(&path, "%s/%s", here, cell->words[i]) < 0)
+            return br_no_memory(err, "a file's path");
+        if (stat(path, &info) != 0 || !S_ISREG(info.st_mode)) {
+            free(path);
+            continue;
+        }
+        cell->file[cell->files++] = cell->words[i] = path;
+    }
+    return BR_OK;
+}
+
 /* As a shell finds it. path: in and out of `here` where it is relative. */
-static enum br_status find_program(struct cell *cell, struct br_error *err)
+static enum br_status find_program(const char *here, struct cell *cell, struct br_error *err)
 {
     const char *name = *cell->words, *folders = getenv("PATH");
-    char shown[SHOWN], here[PATH_MAX];
+    char shown[SHOWN];
     const bool direct = strchr(name, '/');
-    if (!getcwd(here, sizeof here))
-        return br_fail(err, BR_IO, "the working folder: %s", strerror(errno));
     for (const char *f = direct ? "" : folders ? folders : "/usr/bin:/bin"; f;) {
         const int length = (int)strcspn(f, ":");
         const bool absolute = direct ? *name == '/' : *f == '/';
@@ -172,6 +206,9 @@ static void clear_cells(struct job *j)
         free(j->cell[i].words);
         free(j->cell[i].letters);
         free(j->cell[i].program);
+        for (size_t f = 0; f < j->cell[i].files; f++)
+            free(j->cell[i].file[f]);
+        free(j->cell[i].file);
     }
     free(j->cell);
     free(j->environment);
@@ -182,11 +219,15 @@ static enum br_status make_cells(struct job *j, struct br_error *err)
     const struct br_program *p = j->program;
     bool used[BR_AXES] = {false};
     j->cell = br_allocate(j->numbers->rows, sizeof *j->cell);
-    enum br_status status = j->cell ? BR_OK : br_no_memory(err, "the cells of a study");
+    char here[PATH_MAX];
+    enum br_status status =
+        j->cell ? find_folder(p, here, err) : br_no_memory(err, "the cells of a study");
     for (size_t i = 0; i < j->numbers->rows && !status; i++) {
         status = make_words(p, &j->numbers->row[i], &j->cell[i], used, err);
         if (!status)
-            status = find_program(&j->cell[i], err);
+            status = find_program(here, &j->cell[i], err);
+        if (!status)
+            status = find_files(here, &j->cell[i], err);
     }
     for (int i = 0; i < BR_AXES && !status; i++)
         if (p->axis[i].column && !used[i])

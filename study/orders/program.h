@@ -40,10 +40,10 @@ enum { BR_PROGRAM_SECONDS = 600 };
 /* All borrowed. */
 struct br_program {
     /* Words as a shell has them: blanks, '...', "...", \; nothing else has a meaning. In a word,
-     * {n} is the resolution of the column n, {{ a brace. A program's path with a slash is relative
-     * to the caller's folder. The program runs elsewhere, so that files in other words need
-     * absolute paths. */
+     * {n} is the resolution of the column n, {{ a brace. A program's path with a slash, and words
+     * that name a file, are looked up in `folder`; the program itself runs elsewhere. */
     const char *command;
+    const char *folder; /* NULL: the caller's */
     struct br_program_axis axis[BR_AXES];
     double dimension; /* of the domain: for a number of unknowns */
     const struct br_reading *reading;

@@ -24,6 +24,7 @@ void br_orders_request_clear(struct br_orders_request *r)
     free(r->title);
     free(r->table);
     free(r->command);
+    free(r->folder);
     free(r->errors);
     free(r->values);
     free(r->reading);
@@ -57,6 +58,7 @@ static enum br_status run_program(const struct br_orders_request *r, struct br_n
         r->reading[i].is_value = br_lists(r->values, r->reading[i].name);
     const struct br_program program = {
         .command = r->command,
+        .folder = r->folder,
         .axis = {r->axis[BR_AXIS_SPACE], r->axis[BR_AXIS_TIME]},
         .dimension = r->dimension,
         .reading = r->reading,

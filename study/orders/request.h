@@ -13,6 +13,7 @@ struct br_orders_request {
     char *title;           /* one line; NULL: the path */
     char *table;           /* text of a table; NULL: none */
     char *command;         /* that is run; NULL: none */
+    char *folder;          /* of the study file; NULL: none */
     char *errors, *values; /* columns of the table, or readings that are values */
     struct br_program_axis axis[BR_AXES];
     struct br_reading *reading; /* readings */

@@ -220,9 +220,11 @@ enum br_status br_orders_request_read(const char *path, const char *text,
                                       struct br_orders_request *request, struct br_error *err)
 {
     *request = br_orders_request_default();
+    const char *slash = strrchr(path, '/');
     request->path = strdup(path);
-    return request->path ? br_yaml_read(path, text, take_study, request, err)
-                         : br_no_memory(err, "the study");
+    request->folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
+    return request->path && request->folder ? br_yaml_read(path, text, take_study, request, err)
+                                            : br_no_memory(err, "the study");
 }
 
 bool br_is_study_file(const char *text)
