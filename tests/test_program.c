@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "solver/clock.h"
@@ -174,7 +175,7 @@ static void test_unknowns(void **state)
 static void test_words(void **state)
 {
     (void)state;
-    static const double list[] = {1e6}, dt[] = {1e-7};
+    static const double list[] = {1e6}, dt[] = {1.25e-7};
     write_script("words", "{ printf '[%s]' \"$@\"; printf ' %s %s %s\\n' \"$LC_ALL\" \"$(ls -A)\" "
                           "\"$(cat)\"; } > $0.out; pwd > $0.where; echo err=1");
     struct br_program p = program(command_of(
@@ -189,7 +190,7 @@ static void test_words(void **state)
     assert_non_null(fgets(text, sizeof text, file));
     fclose(file);
     assert_string_equal(text, "[a b][c  d][e \"f\" \\g][;][|][][xyz][$(touch][PWN)][`touch][PWN`]"
-                              "[; touch PWN][1000000/1e-07][{n} 1000000][}] C  \n");
+                              "[; touch PWN][1000000/1.25e-07][{n} 1000000][}] C  \n");
     assert_int_not_equal(access("PWN", F_OK), 0);
     assert_int_not_equal(access(path_of("PWN"), F_OK), 0);
     file = fopen(path_of("words.where"), "r");
@@ -197,6 +198,45 @@ static void test_words(void **state)
     fclose(file);
     assert_ptr_equal(strstr(text, path_of("tmp")), text);
     br_numbers_clear(&numbers);
+}
+
+/* The language is there once, whatever the caller's is. */
+static void test_environment(void **state)
+{
+    (void)state;
+    const struct br_reading reading = {"language", "^LC_ALL=(.*)", BR_READING_REGEX, true};
+    struct br_program p = program("/usr/bin/env err={n}");
+    p.reading = &reading;
+    setenv("LC_ALL", "POSIX", 1);
+    struct br_numbers numbers = run(&p);
+    unsetenv("LC_ALL");
+    assert_true(numbers.quantity[0].is_value);
+    assert_non_null(
+        strstr(numbers.row[0].failure, "language: found 'C', expected a finite number"));
+    br_numbers_clear(&numbers);
+}
+
+/* Without a folder to run in nothing is run, and nothing removed. */
+static void test_no_folder(void **state)
+{
+    (void)state;
+    struct br_program p = program("true {n}");
+    struct br_numbers numbers;
+    struct br_error err;
+    char *there = strdup(path_of("tmp")), *long_name = malloc(6000);
+    assert_non_null(long_name);
+    int length = snprintf(long_name, 6000, "%s", there); /* cut, it names the folder */
+    while (length < 5999)
+        long_name[length++] = '/';
+    long_name[length] = '\0';
+    setenv("TMPDIR", long_name, 1);
+    REFUSED(br_program_run(&p, &numbers, &err), BR_IO, "File name too long");
+    setenv("TMPDIR", "/no/such/folder", 1);
+    REFUSED(br_program_run(&p, &numbers, &err), BR_IO, "/no/such/folder: no folder to run");
+    setenv("TMPDIR", there, 1);
+    assert_int_equal(access(there, F_OK), 0);
+    free(there);
+    free(long_name);
 }
 
 /* A path with a slash is the caller's; a name is of PATH. */
@@ -233,7 +273,7 @@ static void test_refused(void **state)
         {"true {n", "expected {n}"},
         {"true '{n}", "' is not closed"},
         {"true \"{n}", "\" is not closed"},
-        {"true {n} \\", "backslash"},
+        {"true {n} \\", "quote \\ is not closed"},
         {"no-such-program-here {n}", "'no-such-program-here' is no program"},
         {"/no/such/program {n}", "'/no/such/program' is no program"},
         {"/tmp {n}", "'/tmp' is no program"},
@@ -246,6 +286,12 @@ static void test_refused(void **state)
         REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, cases[i][1]);
         assert_null(numbers.row);
     }
+    write_script("nobody", "");
+    FILE *script = fopen(path_of("nobody"), "w");
+    fputs("#!/no/such/interpreter\n", script);
+    fclose(script);
+    const struct br_program nobody = program(command_of("nobody", "{n}"));
+    REFUSED(br_program_run(&nobody, &numbers, &err), BR_BAD_INPUT, "(its interpreter?)");
     write_script("noshell", "");
     FILE *file = fopen(path_of("noshell"), "w");
     fputs("echo err=1\n", file);
@@ -268,7 +314,7 @@ static void test_refused_lists(void **state)
                 i == 0 ? "n: found 4 twice" : "expected a whole number above 0");
     }
     p.axis[BR_AXIS_SPACE].count = 0;
-    REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "empty");
+    REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "n: the list is empty");
     p.axis[BR_AXIS_SPACE].column = NULL;
     REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "no list");
     p = program("true {n}");
@@ -520,6 +566,34 @@ static void test_not_kept(void **state)
     assert_int_equal(entries_of(kept), 3);
 }
 
+/* Studies that run beside each other with one folder of kept cells. */
+static void test_together(void **state)
+{
+    (void)state;
+    char kept[128];
+    snprintf(kept, sizeof kept, "%s", path_of("kept-together"));
+    struct br_program p = on_grid(1);
+    p.kept = kept;
+    pid_t child[3];
+    for (int i = 0; i < 3; i++) {
+        struct br_numbers numbers;
+        child[i] = fork();
+        assert_true(child[i] >= 0);
+        if (child[i] == 0)
+            _exit(br_program_run(&p, &numbers, NULL) || numbers.row[5].failure);
+    }
+    for (int i = 0; i < 3; i++) {
+        int status;
+        assert_int_equal(waitpid(child[i], &status, 0), child[i]);
+        assert_int_equal(status, 0);
+    }
+    assert_int_equal(entries_of(kept), 6);
+    struct br_numbers numbers = run(&p);
+    for (size_t i = 0; i < 6; i++)
+        assert_true(numbers.row[i].kept);
+    br_numbers_clear(&numbers);
+}
+
 /* ---- interruption ---- */
 
 static bool has_started(void *self)
@@ -721,14 +795,25 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grid),           cmocka_unit_test(test_unknowns),
-        cmocka_unit_test(test_words),          cmocka_unit_test(test_relative),
-        cmocka_unit_test(test_refused),        cmocka_unit_test(test_refused_lists),
-        cmocka_unit_test(test_failures),       cmocka_unit_test(test_long_complaint),
-        cmocka_unit_test(test_hanging),        cmocka_unit_test(test_cost),
-        cmocka_unit_test(test_kept),           cmocka_unit_test(test_kept_script),
-        cmocka_unit_test(test_not_kept),       cmocka_unit_test(test_interrupted),
-        cmocka_unit_test(test_readings),       cmocka_unit_test(test_refused_readings),
+        cmocka_unit_test(test_grid),
+        cmocka_unit_test(test_unknowns),
+        cmocka_unit_test(test_words),
+        cmocka_unit_test(test_relative),
+        cmocka_unit_test(test_environment),
+        cmocka_unit_test(test_no_folder),
+        cmocka_unit_test(test_together),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_refused_lists),
+        cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_long_complaint),
+        cmocka_unit_test(test_hanging),
+        cmocka_unit_test(test_cost),
+        cmocka_unit_test(test_kept),
+        cmocka_unit_test(test_kept_script),
+        cmocka_unit_test(test_not_kept),
+        cmocka_unit_test(test_interrupted),
+        cmocka_unit_test(test_readings),
+        cmocka_unit_test(test_refused_readings),
         cmocka_unit_test(test_without_memory),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
