@@ -27,6 +27,8 @@ enum {
     GRACE = 2               /* s from SIGTERM to SIGKILL */
 };
 
+static const double MOST_COUNTED = 0x1p53; /* all whole numbers below are doubles */
+
 /* One run to be. */
 struct cell {
     char **words;  /* owned, with a NULL at the end */
@@ -235,12 +237,14 @@ static enum br_status make_environment(struct job *j, struct br_error *err)
 
 /* ---- one run ---- */
 
+enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH, UNSEEN };
+
 struct run {
     char folder[PATH_MAX]; /* empty: it could not be made */
     int printed[2];        /* files of standard output and error */
     pid_t child;
     double own_peak; /* of this process when it began, bytes */
-    enum { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH } end;
+    enum end end;
     int status; /* as of wait4 */
     struct rusage usage;
 };
@@ -295,7 +299,7 @@ static void remove_folder(struct run *r)
 static int set_up(posix_spawn_file_actions_t *actions, posix_spawnattr_t *attributes,
                   const struct run *r)
 {
-    static const int usual[] = {SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXFSZ};
+    static const int usual[] = {SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXFSZ, SIGCHLD};
     const short flags = POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF;
     sigset_t none, defaults;
     int e;
@@ -355,7 +359,8 @@ static enum br_status begin(const struct job *j, const struct cell *cell, struct
 static bool has_ended(pid_t child)
 {
     siginfo_t info = {.si_pid = 0};
-    return waitid(P_PID, (id_t)child, &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid != 0;
+    const int failed = waitid(P_PID, (id_t)child, &info, WEXITED | WNOHANG | WNOWAIT);
+    return failed ? errno != EINTR : info.si_pid != 0;
 }
 
 static size_t size_of(int file)
@@ -369,14 +374,19 @@ static bool prints_too_much(const struct run *r)
     return size_of(r->printed[0]) > MOST_PRINTED || size_of(r->printed[1]) > MOST_PRINTED;
 }
 
-static bool must_stop(const struct br_observer *o)
-{
-    return o && o->stop && o->stop(o->self);
-}
-
 static double limit_of(const struct br_program *p)
 {
     return p->seconds > 0 ? p->seconds : BR_PROGRAM_SECONDS;
+}
+
+/* Why it must end before it does. */
+static enum end end_of(const struct br_program *p, const struct run *r, double late)
+{
+    if (p->observer && p->observer->stop && p->observer->stop(p->observer->self))
+        return STOPPED;
+    if (r->end)
+        return r->end;
+    return prints_too_much(r) ? TOO_MUCH : late > 0 ? TOO_LONG : BY_ITSELF;
 }
 
 static void watch(const struct br_program *p, struct run *r)
@@ -385,21 +395,23 @@ static void watch(const struct br_program *p, struct run *r)
     struct timespec pause = {.tv_nsec = 1000000};
     while (!has_ended(r->child)) {
         const double late = br_seconds() - start - limit_of(p); /* s */
-        if (must_stop(p->observer))
-            r->end = STOPPED;
-        else if (!r->end && prints_too_much(r))
-            r->end = TOO_MUCH;
-        else if (!r->end && late > 0)
-            r->end = TOO_LONG;
-        if (r->end)
-            kill(-r->child, r->end == TOO_LONG && late < GRACE ? SIGTERM : SIGKILL);
+        const enum end before = r->end;
+        r->end = end_of(p, r, late);
+        if (r->end == TOO_LONG && !before)
+            kill(-r->child, SIGTERM); /* once: a second one may mean more haste */
+        else if (r->end && (r->end != TOO_LONG || late > GRACE))
+            kill(-r->child, SIGKILL);
         nanosleep(&pause, NULL);
         if (pause.tv_nsec < 16000000)
             pause.tv_nsec *= 2;
     }
     kill(-r->child, SIGKILL); /* what it has left */
-    while (wait4(r->child, &r->status, 0, &r->usage) < 0 && errno == EINTR)
-        ;
+    pid_t ended;
+    do
+        ended = wait4(r->child, &r->status, 0, &r->usage);
+    while (ended < 0 && errno == EINTR);
+    if (ended < 0 && r->end != STOPPED)
+        r->end = UNSEEN;
     if (!r->end && prints_too_much(r))
         r->end = TOO_MUCH;
 }
@@ -479,6 +491,8 @@ static enum br_status finish(const struct br_program *p, const struct run *r,
     const double peak = 1024.0 * (double)r->usage.ru_maxrss;
     if (r->end == STOPPED)
         return br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (r->end == UNSEEN)
+        return br_fail(err, BR_IO, "how a program ended was not told; SIGCHLD must not be ignored");
     row->seconds =
         (double)(user->tv_sec + system->tv_sec) + 1e-6 * (double)(user->tv_usec + system->tv_usec);
     row->bytes = peak > r->own_peak ? peak : (double)NAN;
@@ -541,7 +555,8 @@ static enum br_status check_list(const struct br_program_axis *axis, struct br_e
     const struct br_resolution_column *column = axis->column;
     for (size_t i = 0; i < axis->count; i++) {
         const double given = axis->given[i];
-        if (!(given > 0 && isfinite(given)) || (!column->is_size && given != floor(given)))
+        const bool whole = given == floor(given) && given < MOST_COUNTED;
+        if (!(given > 0 && isfinite(given)) || !(column->is_size || whole))
             return br_fail(err, BR_BAD_INPUT, "%s: found %g, expected a %s above 0", column->name,
                            given, column->is_size ? "finite size" : "whole number");
         for (size_t k = 0; k < i; k++)
