@@ -60,7 +60,7 @@ static struct br_program program(const char *command)
                                .reading = &err_reading,
                                .readings = 1,
                                .jobs = 1,
-                               .seconds = 20};
+                               .seconds = 10};
 }
 
 static const char *path_of(const char *name)
@@ -155,6 +155,23 @@ static void test_grid(void **state)
         }
         br_numbers_clear(&numbers);
     }
+}
+
+/* Each waits for the others. */
+static void test_at_once(void **state)
+{
+    (void)state;
+#ifdef _OPENMP
+    write_script("meet", "touch $0.$1\n"
+                         "until [ -e $0.4 ] && [ -e $0.8 ] && [ -e $0.16 ]; do sleep 0.02; done\n"
+                         "echo err=1");
+    struct br_program p = program(command_of("meet", "{n}"));
+    p.jobs = 3;
+    struct br_numbers numbers = run(&p);
+    for (size_t i = 0; i < 3; i++)
+        assert_null(numbers.row[i].failure);
+    br_numbers_clear(&numbers);
+#endif
 }
 
 static void test_unknowns(void **state)
@@ -339,6 +356,7 @@ static void test_failures(void **state)
         {"echo one; echo err=1; exit 4", "exit code 4; it printed: one err=1"},
         {"echo a >&2; echo b >&2; printf 'c\\033[1m\\nd\\n\\n' >&2; echo out; exit 3",
          "exit code 3; it printed: b c\\x1b[1m d"},
+        {"printf 'a\\0b'; exit 1", "printed: a?b"},
         {"exit 5", "exit code 5; it printed nothing"},
         {"kill -SEGV $$", "signal 11"},
         {"echo err=nan", "err: found 'nan', expected a finite number; it printed: err=nan"},
@@ -370,19 +388,21 @@ static void test_failures(void **state)
     }
 }
 
-/* Of what is long its end is shown, in at most 300 bytes. */
+/* Of what is long its end is shown, in at most 300 bytes, beginning with a whole character. */
 static void test_long_complaint(void **state)
 {
     (void)state;
-    write_script("long", "awk 'BEGIN { for (i = 0; i < 999; i++) printf \"\303\244%d \", i }' >&2\n"
-                         "echo >&2; echo the reason >&2; exit 1");
+    write_script("long", "{ awk 'BEGIN { for (i = 0; i < 400; i++) printf \"\303\244\" }'\n"
+                         "[ $1 = 8 ] && odd=x; echo; echo \"${odd}the reason\"; } >&2; exit 1");
     const struct br_program p = program(command_of("long", "{n}"));
     struct br_numbers numbers = run(&p);
-    const char *tail = strstr(numbers.row[0].failure, "printed: ") + 9;
-    AT_MOST((double)strlen(tail), 300);
-    assert_true(strlen(tail) > 250);
-    assert_null(strstr(tail, "\\x"));
-    assert_string_equal(tail + strlen(tail) - 11, " the reason");
+    for (size_t i = 0; i < 2; i++) {
+        const char *tail = strstr(numbers.row[i].failure, "printed: ") + 9;
+        AT_MOST((double)strlen(tail), 300);
+        assert_true(strlen(tail) > 250);
+        assert_null(strstr(tail, "\\x"));
+        assert_string_equal(tail + strlen(tail) - 10, "the reason");
+    }
     br_numbers_clear(&numbers);
 }
 
@@ -517,11 +537,15 @@ static void test_kept(void **state)
 static void test_kept_script(void **state)
 {
     (void)state;
-    static const char *const forms[] = {"/bin/sh %s {n}", "/usr/bin/env SCRIPT=%s sh -c "
-                                                          "'. $SCRIPT' x {n}"};
-    char command[256], kept[128];
+    static const char *const forms[] = {"script {n}", "/bin/sh %s {n}",
+                                        "/usr/bin/env SCRIPT=%s sh -c "
+                                        "'. $SCRIPT' x {n}"};
+    char command[256], kept[128], folders[256];
+    char *before = strdup(getenv("PATH"));
     snprintf(kept, sizeof kept, "%s", path_of("kept-script"));
-    for (size_t i = 0; i < 2; i++) {
+    snprintf(folders, sizeof folders, "/no/such/folder:%s:/usr/bin:/bin", folder);
+    setenv("PATH", folders, 1);
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
         snprintf(command, sizeof command, forms[i], path_of("script"));
         struct br_program p = program(command);
         p.kept = kept;
@@ -537,7 +561,11 @@ static void test_kept_script(void **state)
             }
         }
     }
+    setenv("PATH", before, 1);
+    free(before);
 }
+
+static const char *spoilt;
 
 static int spoil(const char *path, const struct stat *info, int type, struct FTW *where)
 {
@@ -547,7 +575,7 @@ static int spoil(const char *path, const struct stat *info, int type, struct FTW
         return 0;
     FILE *file = fopen(path, "r+");
     assert_non_null(file);
-    fputs("{\"format\": \"beamrate-cell 1\", \"numbers\": [7", file);
+    fputs(spoilt, file);
     assert_int_equal(ftruncate(fileno(file), ftell(file)), 0);
     fclose(file);
     return 0;
@@ -571,8 +599,15 @@ static void test_not_kept(void **state)
     unlink(path_of("count.fails"));
     unlink(path_of("count.runs"));
     expect_run(&p, 1, 1);
-    assert_int_equal(nftw(kept, spoil, 8, FTW_PHYS), 0);
-    expect_run(&p, 3, 1);
+    static const char *const texts[] = {"{\"format\": \"beamrate-cell 1\", \"numbers\": [7",
+                                        "{\"format\": \"beamrate-cell 1\", \"numbers\": [null]}",
+                                        "{\"format\": \"beamrate-cell 1\", \"numbers\": [7, 8]}",
+                                        "{\"format\": \"beamrate-cell 2\", \"numbers\": [7]}", ""};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        spoilt = texts[i];
+        assert_int_equal(nftw(kept, spoil, 8, FTW_PHYS), 0);
+        expect_run(&p, 3, 1);
+    }
     expect_run(&p, 0, 1);
     write_script("count", "echo run >> $0.runs; echo '#' >> $0; echo err=$1");
     expect_run(&p, 3, 1);
@@ -691,6 +726,7 @@ static void test_readings(void **state)
         {REGEX, "^(.*)$", "3", 3, NULL},
         {REGEX, "e=([0-9.]+)", "e=1.5e-7", NAN, "a part of a number only, on line 1: 'e=1.5e-7'"},
         {REGEX, "e=([0-9.]+)", "\ne=1.5D-7", NAN, "part of a number only, on line 2"},
+        {REGEX, "e=([0-9.]+)e", "e=1.5e-7", NAN, "part of a number"},
         {REGEX, "e=([0-9.]+)", "e=1,5", NAN, "part of a number"},
         {REGEX, "e=.*([0-9]+)", "e=12", NAN, "part of a number"},
         {REGEX, "e=.*([0-9]+)", "e=1.5e-7", NAN, "part of a number"},
@@ -827,16 +863,27 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grid),           cmocka_unit_test(test_unknowns),
-        cmocka_unit_test(test_words),          cmocka_unit_test(test_relative),
-        cmocka_unit_test(test_environment),    cmocka_unit_test(test_no_folder),
-        cmocka_unit_test(test_together),       cmocka_unit_test(test_unseen),
-        cmocka_unit_test(test_refused),        cmocka_unit_test(test_refused_lists),
-        cmocka_unit_test(test_failures),       cmocka_unit_test(test_long_complaint),
-        cmocka_unit_test(test_hanging),        cmocka_unit_test(test_cost),
-        cmocka_unit_test(test_kept),           cmocka_unit_test(test_kept_script),
-        cmocka_unit_test(test_not_kept),       cmocka_unit_test(test_interrupted),
-        cmocka_unit_test(test_readings),       cmocka_unit_test(test_refused_readings),
+        cmocka_unit_test(test_grid),
+        cmocka_unit_test(test_at_once),
+        cmocka_unit_test(test_unknowns),
+        cmocka_unit_test(test_words),
+        cmocka_unit_test(test_relative),
+        cmocka_unit_test(test_environment),
+        cmocka_unit_test(test_no_folder),
+        cmocka_unit_test(test_together),
+        cmocka_unit_test(test_unseen),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_refused_lists),
+        cmocka_unit_test(test_failures),
+        cmocka_unit_test(test_long_complaint),
+        cmocka_unit_test(test_hanging),
+        cmocka_unit_test(test_cost),
+        cmocka_unit_test(test_kept),
+        cmocka_unit_test(test_kept_script),
+        cmocka_unit_test(test_not_kept),
+        cmocka_unit_test(test_interrupted),
+        cmocka_unit_test(test_readings),
+        cmocka_unit_test(test_refused_readings),
         cmocka_unit_test(test_without_memory),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

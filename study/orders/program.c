@@ -536,11 +536,12 @@ static enum br_status take_cell(void *self, size_t i, struct br_error *err)
     if (status || br_cell_find(p->kept, key, p->readings, row))
         return status;
     status = run_cell(j, cell, row, err);
-    if (!status && !row->failure)
-        status = br_cell_key(cell->program, cell->words, p->reading, p->readings, now, err);
-    if (!status && !row->failure && strcmp(key, now) == 0)
-        status = br_cell_keep(p->kept, key, cell->words, p->readings, row, err);
-    return status;
+    if (status || row->failure)
+        return status;
+    status = br_cell_key(cell->program, cell->words, p->reading, p->readings, now, err);
+    if (status || strcmp(key, now) != 0)
+        return status;
+    return br_cell_keep(p->kept, key, cell->words, p->readings, row, err);
 }
 
 /* ---- the grid ---- */
