@@ -612,6 +612,12 @@ static void test_not_kept(void **state)
     write_script("count", "echo run >> $0.runs; echo '#' >> $0; echo err=$1");
     expect_run(&p, 3, 1);
     assert_int_equal(entries_of(kept), 3);
+    struct br_error err = {0};
+    write_script("count", counting);
+    p.kept = "/dev/null";
+    REFUSED(br_program_run(&p, &numbers, &err), BR_IO, "/dev/null: a finished cell could not be");
+    p.kept = "/no/such/folder";
+    REFUSED(br_program_run(&p, &numbers, &err), BR_IO, "/no/such/folder: No such file");
 }
 
 /* The kernel tells no exit codes to those who ignore SIGCHLD. */
