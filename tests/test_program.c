@@ -537,9 +537,11 @@ static void test_kept(void **state)
 static void test_kept_script(void **state)
 {
     (void)state;
-    static const char *const forms[] = {"script {n}", "/bin/sh %s {n}",
-                                        "/usr/bin/env SCRIPT=%s sh -c "
-                                        "'. $SCRIPT' x {n}"};
+    static const char *const forms[] = {
+        "script {n}",
+        "/bin/sh %s {n}",
+        "/usr/bin/env SCRIPT=%s sh -c '. $SCRIPT' x {n}",
+    };
     char command[256], kept[128], folders[256];
     char *before = strdup(getenv("PATH"));
     snprintf(kept, sizeof kept, "%s", path_of("kept-script"));
