@@ -9,12 +9,10 @@
 static void add_line(struct br_figure *f, const struct br_orders *o,
                      const struct br_quantity_orders *of, const struct br_orders_line *line)
 {
-    const char *name = o->numbers->quantity[of->quantity].name;
-    char title[200];
-    snprintf(title, sizeof title, "%s%s%s", name, *line->at ? ", " : "", line->at);
     char quoted[400];
-    struct br_series *s = br_series_add(f, BR_PEN_CURVE, "%s",
-                                        br_quoted(quoted, sizeof quoted, &br_for_markup, title));
+    struct br_series *s = br_series_add(
+        f, BR_PEN_CURVE, "%s",
+        br_quoted(quoted, sizeof quoted, &br_for_markup, o->numbers->quantity[of->quantity].name));
     for (size_t i = 0; i < line->observed.points; i++) {
         const struct br_point *p = &line->observed.point[i];
         br_point_add(s, p->z, p->flag == BR_FLAG_FAILED ? (double)NAN : p->error,
@@ -38,6 +36,8 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
         if (!finest)
             continue;
         add_line(f, o, &o->of[i], finest);
+        if (*finest->at)
+            BR_SAY(p->title, "at %s", finest->at);
         const double order = round(finest->observed.order.value);
         bool known = slopes == 3 || !(order >= 1);
         for (size_t s = 0; s < slopes; s++)

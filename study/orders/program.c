@@ -27,6 +27,8 @@ enum {
     GRACE = 2               /* s from SIGTERM to SIGKILL */
 };
 
+static const double MOST_COUNTED = 0x1p53; /* all whole numbers below are doubles */
+
 /* One run to be. */
 struct cell {
     char **words;  /* owned, with a NULL at the end */
@@ -57,32 +59,41 @@ static void print_number(const struct br_resolution_column *column, double x, ch
     }
 }
 
-/* What stands for the brace at *c, past which this moves. used (in/out): by axis. */
-static enum br_status replace(const struct br_program *p, const struct br_numbers_row *row,
-                              const char **c, char text[NUMBER], bool used[BR_AXES],
-                              struct br_error *err)
+/* A command on its way to words. */
+struct split {
+    const struct br_program *program;
+    const struct br_numbers_row *row;
+    const char *rest;
+    char *to;   /* where the next letter goes */
+    char quote; /* that is open, or zero */
+    bool used[BR_AXES];
+};
+
+/* Puts what stands for a brace. */
+static enum br_status replace(struct split *s, struct br_error *err)
 {
     char shown[NUMBER], expected[2 * NUMBER] = "";
-    if ((*c)[1] == '{') {
-        strcpy(text, "{");
-        *c += 2;
+    if (s->rest[1] == '{') {
+        *s->to++ = '{';
+        s->rest += 2;
         return BR_OK;
     }
     for (int i = 0; i < BR_AXES; i++) {
-        const struct br_resolution_column *column = p->axis[i].column;
+        const struct br_resolution_column *column = s->program->axis[i].column;
         const size_t length = column ? strlen(column->name) : 0, end = strlen(expected);
-        if (column && strncmp(*c + 1, column->name, length) == 0 && (*c)[1 + length] == '}') {
-            print_number(column, row->given[i], text);
-            used[i] = true;
-            *c += length + 2;
+        if (!column)
+            continue;
+        if (strncmp(s->rest + 1, column->name, length) == 0 && s->rest[1 + length] == '}') {
+            print_number(column, s->row->given[i], s->to);
+            s->to += strlen(s->to);
+            s->rest += length + 2;
+            s->used[i] = true;
             return BR_OK;
         }
-        if (column)
-            snprintf(expected + end, sizeof expected - end, "%s{%s}", end ? " or " : "",
-                     column->name);
+        snprintf(expected + end, sizeof expected - end, "%s{%s}", end ? " or " : "", column->name);
     }
     return br_fail(err, BR_BAD_INPUT, "the command has '{' before '%s', expected %s; {{ is a brace",
-                   br_quoted(shown, sizeof shown, &br_for_text, *c + 1), expected);
+                   br_quoted(shown, sizeof shown, &br_for_text, s->rest + 1), expected);
 }
 
 static bool is_escape(const char *c, char quote)
@@ -90,50 +101,66 @@ static bool is_escape(const char *c, char quote)
     return *c == '\\' && c[1] && (!quote || (quote == '"' && strchr("\"\\$`", c[1])));
 }
 
-/* Splits the command and replaces its braces. What replaces them has neither blanks nor quotes. */
-static enum br_status make_words(const struct br_program *p, const struct br_numbers_row *row,
-                                 struct cell *cell, bool used[BR_AXES], struct br_error *err)
+/* Moves on by one piece of a word. */
+static enum br_status put_piece(struct split *s, struct br_error *err)
 {
-    const size_t most = strlen(p->command) + 1;
-    cell->letters = br_allocate(most, NUMBER);
+    const char c = *s->rest;
+    if (is_escape(s->rest, s->quote)) {
+        *s->to++ = s->rest[1];
+        s->rest += 2;
+    } else if (c == s->quote) {
+        s->quote = '\0';
+        s->rest++;
+    } else if (!s->quote && strchr("'\"\\", c)) { /* \: the last, which has nothing to quote */
+        s->quote = c;
+        s->rest++;
+    } else if (c == '{') {
+        return replace(s, err);
+    } else {
+        *s->to++ = c;
+        s->rest++;
+    }
+    return BR_OK;
+}
+
+/* Splits the command and replaces its braces. What replaces them has neither blanks nor quotes. */
+static enum br_status make_words(struct split *s, struct cell *cell, struct br_error *err)
+{
+    const size_t most = strlen(s->rest) + 1;
+    cell->letters = s->to = br_allocate(most, NUMBER);
     cell->words = br_allocate(most + 1, sizeof *cell->words);
     if (!cell->letters || !cell->words)
         return br_no_memory(err, "the words of a command");
-    char *to = cell->letters, **word = cell->words, quote = '\0';
+    char **word = cell->words;
     bool within = false;
-    enum br_status status = BR_OK;
-    for (const char *c = p->command; *c && !status;) {
-        if (!quote && strchr(" \t\n", *c)) {
-            to += within; /* past the word's end */
+    while (*s->rest) {
+        if (!s->quote && strchr(" \t\n", *s->rest)) {
+            s->to += within; /* past the word's end */
             within = false;
-            c++;
+            s->rest++;
             continue;
         }
         if (!within)
-            *word++ = to;
+            *word++ = s->to;
         within = true;
-        if (*c == quote) {
-            quote = '\0';
-            c++;
-        } else if (!quote && (*c == '\'' || *c == '"')) {
-            quote = *c++;
-        } else if (is_escape(c, quote)) {
-            *to++ = c[1];
-            c += 2;
-        } else if (*c == '\\' && !quote && !c[1]) {
-            status = br_fail(err, BR_BAD_INPUT, "the command ends with a backslash");
-        } else if (*c == '{') {
-            status = replace(p, row, &c, to, used, err);
-            to += strlen(to);
-        } else {
-            *to++ = *c++;
-        }
+        const enum br_status status = put_piece(s, err);
+        if (status)
+            return status;
     }
-    if (!status && quote)
-        return br_fail(err, BR_BAD_INPUT, "the command's quote %c is not closed", quote);
-    if (!status && (word == cell->words || !**cell->words))
-        return br_fail(err, BR_BAD_INPUT, "the command is empty, expected a program");
-    return status;
+    if (s->quote)
+        return br_fail(err, BR_BAD_INPUT, "the command's quote %c is not closed", s->quote);
+    return cell->words[0] && *cell->words[0]
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT, "the command is empty, expected a program");
+}
+
+static enum br_status check_used(const struct split *s, struct br_error *err)
+{
+    for (int i = 0; i < BR_AXES; i++)
+        if (s->program->axis[i].column && !s->used[i])
+            return br_fail(err, BR_BAD_INPUT, "the command has no {%s}, expected one for its list",
+                           s->program->axis[i].column->name);
+    return BR_OK;
 }
 
 static bool is_program(const char *path)
@@ -216,24 +243,20 @@ static void clear_cells(struct job *j)
 
 static enum br_status make_cells(struct job *j, struct br_error *err)
 {
-    const struct br_program *p = j->program;
-    bool used[BR_AXES] = {false};
     j->cell = br_allocate(j->numbers->rows, sizeof *j->cell);
     char here[PATH_MAX];
     enum br_status status =
-        j->cell ? find_folder(p, here, err) : br_no_memory(err, "the cells of a study");
+        j->cell ? find_folder(j->program, here, err) : br_no_memory(err, "the cells of a study");
     for (size_t i = 0; i < j->numbers->rows && !status; i++) {
-        status = make_words(p, &j->numbers->row[i], &j->cell[i], used, err);
+        struct split s = {j->program, &j->numbers->row[i], .rest = j->program->command};
+        status = make_words(&s, &j->cell[i], err);
+        if (!status)
+            status = check_used(&s, err);
         if (!status)
             status = find_program(here, &j->cell[i], err);
         if (!status)
             status = find_files(here, &j->cell[i], err);
     }
-    for (int i = 0; i < BR_AXES && !status; i++)
-        if (p->axis[i].column && !used[i])
-            status =
-                br_fail(err, BR_BAD_INPUT, "the command has no {%s}, expected one for its list",
-                        p->axis[i].column->name);
     return status;
 }
 
@@ -255,12 +278,14 @@ static enum br_status make_environment(struct job *j, struct br_error *err)
 
 /* ---- one run ---- */
 
+enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH, UNSEEN };
+
 struct run {
-    char folder[PATH_MAX];
-    int printed[2]; /* files of standard output and error */
+    char folder[PATH_MAX]; /* empty: it could not be made */
+    int printed[2];        /* files of standard output and error */
     pid_t child;
     double own_peak; /* of this process when it began, bytes */
-    enum { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH } end;
+    enum end end;
     int status; /* as of wait4 */
     struct rusage usage;
 };
@@ -276,13 +301,15 @@ static bool open_printed(struct run *r, int i)
 
 static enum br_status make_folder(struct run *r, struct br_error *err)
 {
-    const char *where = getenv("TMPDIR");
+    const char *set = getenv("TMPDIR"), *where = set && *set ? set : "/tmp";
     r->printed[0] = r->printed[1] = -1;
-    snprintf(r->folder, sizeof r->folder, "%s/beamrate-XXXXXX", where && *where ? where : "/tmp");
-    if (mkdtemp(r->folder) && open_printed(r, 0) && open_printed(r, 1))
+    const int length = snprintf(r->folder, sizeof r->folder, "%s/beamrate-XXXXXX", where);
+    errno = ENAMETOOLONG;
+    if ((size_t)length >= sizeof r->folder || !mkdtemp(r->folder))
+        r->folder[0] = '\0'; /* never remove what is another's */
+    if (*r->folder && open_printed(r, 0) && open_printed(r, 1))
         return BR_OK;
-    return br_fail(err, BR_IO, "%.900s: no folder to run a program in: %s", r->folder,
-                   strerror(errno));
+    return br_fail(err, BR_IO, "%.900s: no folder to run a program in: %s", where, strerror(errno));
 }
 
 static int remove_one(const char *path, const struct stat *info, int type, struct FTW *where)
@@ -301,28 +328,34 @@ static void remove_folder(struct run *r)
     for (int i = 0; i < 2; i++)
         if (r->printed[i] >= 0)
             close(r->printed[i]);
-    for (int tries = 0; tries < 20 && access(r->folder, F_OK) == 0; tries++) {
+    for (int tries = 0; tries < 20 && *r->folder && access(r->folder, F_OK) == 0; tries++) {
         if (tries > 0)
             nanosleep(&moment, NULL);
         nftw(r->folder, remove_one, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
     }
 }
 
-/* The group is its own, and so are its signals: those that beamrate ignores would stay ignored. */
-static int set_attributes(posix_spawnattr_t *attributes)
+/* The group is its own, and so are its signals: those that beamrate ignores would stay ignored.
+ * Returns an errno. */
+static int set_up(posix_spawn_file_actions_t *actions, posix_spawnattr_t *attributes,
+                  const struct run *r)
 {
-    static const int usual[] = {SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXFSZ};
-    sigset_t set;
-    sigemptyset(&set);
-    int failure = posix_spawnattr_setsigmask(attributes, &set);
+    static const int usual[] = {SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXFSZ, SIGCHLD};
+    const short flags = POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF;
+    sigset_t none, defaults;
+    int e;
+    sigemptyset(&none);
+    sigemptyset(&defaults);
     for (size_t i = 0; i < sizeof usual / sizeof *usual; i++)
-        sigaddset(&set, usual[i]);
-    if (!failure)
-        failure = posix_spawnattr_setsigdefault(attributes, &set);
-    return failure ? failure
-                   : posix_spawnattr_setflags(attributes, POSIX_SPAWN_SETPGROUP |
-                                                              POSIX_SPAWN_SETSIGMASK |
-                                                              POSIX_SPAWN_SETSIGDEF);
+        sigaddset(&defaults, usual[i]);
+    (void)((e = posix_spawnattr_setflags(attributes, flags)) ||
+           (e = posix_spawnattr_setsigmask(attributes, &none)) ||
+           (e = posix_spawnattr_setsigdefault(attributes, &defaults)) ||
+           (e = posix_spawn_file_actions_addchdir_np(actions, r->folder)) ||
+           (e = posix_spawn_file_actions_adddup2(actions, r->printed[0], 1)) ||
+           (e = posix_spawn_file_actions_adddup2(actions, r->printed[1], 2)) ||
+           (e = posix_spawn_file_actions_addopen(actions, 0, "/dev/null", O_RDONLY, 0)));
+    return e;
 }
 
 /* Returns an errno. */
@@ -334,21 +367,13 @@ static int spawn(const struct job *j, const struct cell *cell, struct run *r)
     if (failure)
         return failure;
     failure = posix_spawnattr_init(&attributes);
-    if (failure) {
-        posix_spawn_file_actions_destroy(&actions);
-        return failure;
+    if (!failure) {
+        failure = set_up(&actions, &attributes, r);
+        if (!failure)
+            failure = posix_spawn(&r->child, cell->program, &actions, &attributes, cell->words,
+                                  j->environment);
+        posix_spawnattr_destroy(&attributes);
     }
-    failure = posix_spawn_file_actions_addchdir_np(&actions, r->folder);
-    for (int i = 0; i < 2 && !failure; i++)
-        failure = posix_spawn_file_actions_adddup2(&actions, r->printed[i], i + 1);
-    if (!failure)
-        failure = posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-    if (!failure)
-        failure = set_attributes(&attributes);
-    if (!failure)
-        failure = posix_spawn(&r->child, cell->program, &actions, &attributes, cell->words,
-                              j->environment);
-    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     return failure;
 }
@@ -375,7 +400,8 @@ static enum br_status begin(const struct job *j, const struct cell *cell, struct
 static bool has_ended(pid_t child)
 {
     siginfo_t info = {.si_pid = 0};
-    return waitid(P_PID, (id_t)child, &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid != 0;
+    const int failed = waitid(P_PID, (id_t)child, &info, WEXITED | WNOHANG | WNOWAIT);
+    return failed ? errno != EINTR : info.si_pid != 0;
 }
 
 static size_t size_of(int file)
@@ -389,14 +415,19 @@ static bool prints_too_much(const struct run *r)
     return size_of(r->printed[0]) > MOST_PRINTED || size_of(r->printed[1]) > MOST_PRINTED;
 }
 
-static bool must_stop(const struct br_observer *o)
-{
-    return o && o->stop && o->stop(o->self);
-}
-
 static double limit_of(const struct br_program *p)
 {
     return p->seconds > 0 ? p->seconds : BR_PROGRAM_SECONDS;
+}
+
+/* Why it must end before it does. */
+static enum end end_of(const struct br_program *p, const struct run *r, double late)
+{
+    if (p->observer && p->observer->stop && p->observer->stop(p->observer->self))
+        return STOPPED;
+    if (r->end)
+        return r->end;
+    return prints_too_much(r) ? TOO_MUCH : late > 0 ? TOO_LONG : BY_ITSELF;
 }
 
 static void watch(const struct br_program *p, struct run *r)
@@ -405,21 +436,23 @@ static void watch(const struct br_program *p, struct run *r)
     struct timespec pause = {.tv_nsec = 1000000};
     while (!has_ended(r->child)) {
         const double late = br_seconds() - start - limit_of(p); /* s */
-        if (must_stop(p->observer))
-            r->end = STOPPED;
-        else if (!r->end && prints_too_much(r))
-            r->end = TOO_MUCH;
-        else if (!r->end && late > 0)
-            r->end = TOO_LONG;
-        if (r->end)
-            kill(-r->child, r->end == TOO_LONG && late < GRACE ? SIGTERM : SIGKILL);
+        const enum end before = r->end;
+        r->end = end_of(p, r, late);
+        if (r->end == TOO_LONG && !before)
+            kill(-r->child, SIGTERM); /* once: a second one may mean more haste */
+        else if (r->end && (r->end != TOO_LONG || late > GRACE))
+            kill(-r->child, SIGKILL);
         nanosleep(&pause, NULL);
         if (pause.tv_nsec < 16000000)
             pause.tv_nsec *= 2;
     }
     kill(-r->child, SIGKILL); /* what it has left */
-    while (wait4(r->child, &r->status, 0, &r->usage) < 0 && errno == EINTR)
-        ;
+    pid_t ended;
+    do
+        ended = wait4(r->child, &r->status, 0, &r->usage);
+    while (ended < 0 && errno == EINTR);
+    if (ended < 0 && r->end != STOPPED)
+        r->end = UNSEEN;
     if (!r->end && prints_too_much(r))
         r->end = TOO_MUCH;
 }
@@ -499,6 +532,8 @@ static enum br_status finish(const struct br_program *p, const struct run *r,
     const double peak = 1024.0 * (double)r->usage.ru_maxrss;
     if (r->end == STOPPED)
         return br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (r->end == UNSEEN)
+        return br_fail(err, BR_IO, "how a program ended was not told; SIGCHLD must not be ignored");
     row->seconds =
         (double)(user->tv_sec + system->tv_sec) + 1e-6 * (double)(user->tv_usec + system->tv_usec);
     row->bytes = peak > r->own_peak ? peak : (double)NAN;
@@ -542,98 +577,73 @@ static enum br_status take_cell(void *self, size_t i, struct br_error *err)
     if (status || br_cell_find(p->kept, key, p->readings, row))
         return status;
     status = run_cell(j, cell, row, err);
-    if (!status && !row->failure)
-        status = br_cell_key(cell->program, cell->words, p->reading, p->readings, now, err);
-    if (!status && !row->failure && strcmp(key, now) == 0)
-        status = br_cell_keep(p->kept, key, cell->words, p->readings, row, err);
-    return status;
+    if (status || row->failure)
+        return status;
+    status = br_cell_key(cell->program, cell->words, p->reading, p->readings, now, err);
+    if (status || strcmp(key, now) != 0)
+        return status;
+    return br_cell_keep(p->kept, key, cell->words, p->readings, row, err);
 }
 
 /* ---- the grid ---- */
-
-/* One resolution of an axis. */
-struct resolution {
-    double given, z;
-};
-
-static int from_coarse(const void *a, const void *b)
-{
-    const double first = ((const struct resolution *)a)->z;
-    const double second = ((const struct resolution *)b)->z;
-    return (first < second) - (first > second);
-}
-
-/* list (out): from coarse to fine; one NaN where the axis is not refined. */
-static enum br_status list_axis(const struct br_program_axis *axis, double dimension,
-                                struct resolution *list, struct br_error *err)
-{
-    const struct br_resolution_column *column = axis->column;
-    *list = (struct resolution){(double)NAN, (double)NAN};
-    for (size_t i = 0; i < axis->count && column; i++) {
-        const double given = axis->given[i];
-        if (!(given > 0 && isfinite(given)) || (!column->is_size && given != floor(given)))
-            return br_fail(err, BR_BAD_INPUT, "%s: found %g, expected a %s above 0", column->name,
-                           given, column->is_size ? "finite size" : "whole number");
-        list[i] = (struct resolution){given, br_numbers_z(column, given, dimension)};
-    }
-    qsort(list, axis->count, sizeof *list, from_coarse);
-    for (size_t i = 1; i < axis->count && column; i++)
-        if (!(list[i].z < list[i - 1].z))
-            return br_fail(err, BR_BAD_INPUT, "%s: found %.17g twice", column->name, list[i].given);
-    return BR_OK;
-}
 
 static size_t count_of(const struct br_program_axis *axis)
 {
     return axis->column ? axis->count : 1;
 }
 
-static enum br_status make_rows(const struct br_program *p, struct resolution *list[BR_AXES],
-                                struct br_numbers *numbers, struct br_error *err)
+static enum br_status check_list(const struct br_program_axis *axis, struct br_error *err)
+{
+    const struct br_resolution_column *column = axis->column;
+    for (size_t i = 0; i < axis->count; i++) {
+        const double given = axis->given[i];
+        const bool whole = given == floor(given) && given < MOST_COUNTED;
+        if (!(given > 0 && isfinite(given)) || !(column->is_size || whole))
+            return br_fail(err, BR_BAD_INPUT, "%s: found %g, expected a %s above 0", column->name,
+                           given, column->is_size ? "finite size" : "whole number");
+        for (size_t k = 0; k < i; k++)
+            if (axis->given[k] == given)
+                return br_fail(err, BR_BAD_INPUT, "%s: found %.17g twice", column->name, given);
+    }
+    return axis->count ? BR_OK : br_fail(err, BR_BAD_INPUT, "%s: the list is empty", column->name);
+}
+
+/* First over space. */
+static int from_coarse(const void *a, const void *b)
+{
+    const double *first = ((const struct br_numbers_row *)a)->z;
+    const double *second = ((const struct br_numbers_row *)b)->z;
+    int order = 0;
+    for (int i = 0; i < BR_AXES && order == 0; i++) /* NaN: both have no such axis */
+        order = (first[i] < second[i]) - (first[i] > second[i]);
+    return order;
+}
+
+static enum br_status make_rows(const struct br_program *p, struct br_numbers *numbers,
+                                struct br_error *err)
 {
     const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
-    numbers->row = br_allocate(numbers->rows, sizeof *numbers->row);
-    if (!numbers->row) {
-        numbers->rows = 0;
-        return br_no_memory(err, "the rows of a study");
-    }
-    for (size_t i = 0; i < numbers->rows; i++) {
-        struct br_numbers_row *row = &numbers->row[i];
-        const size_t at[BR_AXES] = {[BR_AXIS_SPACE] = i / inner, [BR_AXIS_TIME] = i % inner};
-        for (int a = 0; a < BR_AXES; a++) {
-            row->given[a] = list[a][at[a]].given;
-            row->z[a] = list[a][at[a]].z;
+    const size_t rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner;
+    numbers->row = br_allocate(rows, sizeof *numbers->row);
+    for (; numbers->row && numbers->rows < rows; numbers->rows++) {
+        struct br_numbers_row *row = &numbers->row[numbers->rows];
+        const size_t at[BR_AXES] = {
+            [BR_AXIS_SPACE] = numbers->rows / inner, [BR_AXIS_TIME] = numbers->rows % inner};
+        for (int i = 0; i < BR_AXES; i++) {
+            const struct br_resolution_column *column = p->axis[i].column;
+            numbers->column[i] = column;
+            row->given[i] = column ? p->axis[i].given[at[i]] : (double)NAN;
+            row->z[i] = column ? br_numbers_z(column, row->given[i], p->dimension) : (double)NAN;
         }
         row->seconds = row->bytes = (double)NAN;
         row->number = br_allocate(p->readings, sizeof *row->number);
         if (!row->number)
-            return br_no_memory(err, "the numbers of a study");
+            break;
     }
+    if (!numbers->row || numbers->rows < rows)
+        return br_no_memory(err, "the numbers of a study");
+    qsort(numbers->row, rows, sizeof *numbers->row, from_coarse);
     return BR_OK;
-}
-
-static enum br_status make_grid(const struct br_program *p, struct br_numbers *numbers,
-                                struct br_error *err)
-{
-    struct resolution *list[BR_AXES] = {NULL};
-    enum br_status status = BR_OK;
-    numbers->rows = 1;
-    for (int a = 0; a < BR_AXES; a++) {
-        numbers->column[a] = p->axis[a].column;
-        numbers->rows *= count_of(&p->axis[a]);
-        list[a] = br_allocate(count_of(&p->axis[a]) + 1, sizeof *list[a]);
-        if (!list[a] && !status)
-            status = br_no_memory(err, "a list of resolutions");
-        if (!status)
-            status = list_axis(&p->axis[a], p->dimension, list[a], err);
-    }
-    if (!status)
-        status = make_rows(p, list, numbers, err);
-    else
-        numbers->rows = 0;
-    for (int a = 0; a < BR_AXES; a++)
-        free(list[a]);
-    return status;
 }
 
 static enum br_status make_quantities(const struct br_program *p, struct br_numbers *numbers,
@@ -660,16 +670,15 @@ static enum br_status make_quantities(const struct br_program *p, struct br_numb
 
 static enum br_status check(const struct br_program *p, struct br_error *err)
 {
-    const size_t *counts = (const size_t[]){count_of(&p->axis[0]), count_of(&p->axis[1])};
-    if (!p->axis[0].column && !p->axis[1].column)
+    enum br_status status = BR_OK;
+    if (!p->axis[BR_AXIS_SPACE].column && !p->axis[BR_AXIS_TIME].column)
         return br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
-    if (counts[0] == 0 || counts[1] == 0)
-        return br_fail(err, BR_BAD_INPUT, "a list of resolutions is empty");
     if (p->readings == 0)
         return br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
-    if (p->kept && mkdir(p->kept, 0777) != 0 && errno != EEXIST)
-        return br_fail(err, BR_IO, "%.900s: %s", p->kept, strerror(errno));
-    return BR_OK;
+    for (int i = 0; i < BR_AXES && !status; i++)
+        if (p->axis[i].column)
+            status = check_list(&p->axis[i], err);
+    return status;
 }
 
 enum br_status br_program_run(const struct br_program *program, struct br_numbers *numbers,
@@ -681,11 +690,13 @@ enum br_status br_program_run(const struct br_program *program, struct br_number
     if (!status)
         status = make_quantities(program, numbers, err);
     if (!status)
-        status = make_grid(program, numbers, err);
+        status = make_rows(program, numbers, err);
     if (!status)
         status = make_cells(&j, err);
     if (!status)
         status = make_environment(&j, err);
+    if (!status && program->kept && mkdir(program->kept, 0777) != 0 && errno != EEXIST)
+        status = br_fail(err, BR_IO, "%.900s: %s", program->kept, strerror(errno));
     const struct br_each each = {.count = numbers->rows,
                                  .threads = program->jobs,
                                  .observer = program->observer,

@@ -64,7 +64,9 @@ struct br_program {
  * the kernel does not tell them apart.
  *
  * BR_BAD_INPUT: a command, list or reading is none, the program cannot be found or begun.
- * BR_INTERRUPTED: the observer says stop; runs are killed, finished cells stay kept. */
+ * BR_INTERRUPTED: the observer says stop; runs are killed, finished cells stay kept.
+ * BR_IO: no folder to run in, a cell cannot be kept, or SIGCHLD is ignored: then no ends are told.
+ */
 enum br_status br_program_run(const struct br_program *program, struct br_numbers *numbers,
                               struct br_error *err);
 

@@ -17,9 +17,10 @@ static const char format[] = "beamrate-cell 1";
 
 enum { LARGEST_WORD_FILE = 1 << 26 }; /* bytes that are read for a word */
 
-/* With its end, so that "a", "b" is not "ab". */
-static void add_text(struct br_sha256 *sum, const char *text)
+/* With what it is and its end, so that no two lists of texts are the same bytes. */
+static void add_text(struct br_sha256 *sum, char kind, const char *text)
 {
+    br_sha256_add(sum, &kind, 1);
     br_sha256_add(sum, text, strlen(text) + 1);
 }
 
@@ -45,7 +46,7 @@ static enum br_status add_file(struct br_sha256 *sum, const char *path, long lon
                            "%.800s cannot be read, so that finished cells cannot be kept: %s", path,
                            strerror(reason));
     }
-    add_text(sum, text);
+    add_text(sum, 'f', text);
     return BR_OK;
 }
 
@@ -55,20 +56,19 @@ enum br_status br_cell_key(const char *program, char *const *words,
 {
     struct br_sha256 sum;
     br_sha256_start(&sum);
-    add_text(&sum, format);
-    add_text(&sum, program);
+    add_text(&sum, 'v', format);
+    add_text(&sum, 'p', program);
     enum br_status status = add_file(&sum, program, INT64_MAX, err);
     for (; *words && !status; words++) {
         const char *behind = strchr(*words, '=');
-        add_text(&sum, *words);
+        add_text(&sum, 'w', *words);
         status = add_file(&sum, *words, LARGEST_WORD_FILE, err);
         if (behind && !status)
             status = add_file(&sum, behind + 1, LARGEST_WORD_FILE, err);
     }
     for (size_t i = 0; i < readings; i++) {
-        add_text(&sum, reading[i].name);
-        add_text(&sum, (const char *[]){"regex", "json", "csv"}[reading[i].kind]);
-        add_text(&sum, reading[i].what);
+        add_text(&sum, 'n', reading[i].name);
+        add_text(&sum, "rjc"[reading[i].kind], reading[i].what);
     }
     br_sha256_end(&sum, key);
     return status;

@@ -10,14 +10,17 @@
 #include "study/orders/program.h"
 #include "study/scene/quote.h"
 
-enum { SHOWN = 80 }; /* bytes of foreign text in a message */
+enum {
+    SHOWN = 80,  /* bytes of foreign text in a message */
+    LONGEST = 64 /* of a number, with its end */
+};
 
 /* An output on its way to a number. */
 struct search {
     const struct br_reading *reading;
     char *output; /* owned */
     size_t length;
-    char text[64]; /* out: the number as it stands there */
+    char text[LONGEST]; /* out: the number as it stands there */
     struct br_error *err;
 };
 
@@ -79,8 +82,7 @@ static bool is_cut(const char *line, const regmatch_t match[2])
     strtod(from, &end);
     if (end > to || (match[1].rm_eo == match[0].rm_eo && to > from && continues(to)))
         return true;
-    for (const char *c = from; c > line && from - c < (int)sizeof(((struct search *)0)->text);) {
-        c--;
+    for (const char *c = from - 1; c >= line && from - c < LONGEST; c--) {
         const bool sign = (*c == '-' || *c == '+') && (c == line || !isalnum((unsigned char)c[-1]));
         if (!isdigit((unsigned char)*c) && *c != '.' && !sign)
             continue;
@@ -97,17 +99,17 @@ struct matches {
     char lines[64]; /* their numbers */
 };
 
-/* The first match in a line from `at`, its offsets counted from the line's beginning. */
-static bool match_from(const regex_t *regex, const char *line, size_t at, regmatch_t match[2])
+/* The first match in a line from `at`, its offsets counted from the line's beginning. As regexec.
+ */
+static int match_from(const regex_t *regex, const char *line, size_t at, regmatch_t match[2])
 {
-    if (regexec(regex, line + at, 2, match, at > 0 ? REG_NOTBOL : 0) != 0)
-        return false;
-    for (int i = 0; i < 2; i++)
+    const int failure = regexec(regex, line + at, 2, match, at > 0 ? REG_NOTBOL : 0);
+    for (int i = 0; i < 2 && !failure; i++)
         if (match[i].rm_so >= 0) { /* (a)|b has not always its group */
             match[i].rm_so += (regoff_t)at;
             match[i].rm_eo += (regoff_t)at;
         }
-    return true;
+    return failure;
 }
 
 static enum br_status take_group(struct search *s, const char *line, const regmatch_t match[2],
@@ -129,7 +131,11 @@ static enum br_status search_line(struct search *s, const regex_t *regex, const 
     const size_t length = strlen(line);
     regmatch_t match[2];
     enum br_status status = BR_OK;
-    for (size_t at = 0; at <= length && !status && match_from(regex, line, at, match);) {
+    int failure = 0;
+    for (size_t at = 0; at <= length && !status;) {
+        failure = match_from(regex, line, at, match);
+        if (failure)
+            break;
         const size_t used = strlen(m->lines);
         if (used < sizeof m->lines - 24)
             snprintf(m->lines + used, sizeof m->lines - used, "%s%zu", used ? ", " : "", number);
@@ -137,6 +143,8 @@ static enum br_status search_line(struct search *s, const regex_t *regex, const 
             status = take_group(s, line, match, number);
         at = (size_t)match[0].rm_eo + (match[0].rm_eo == match[0].rm_so);
     }
+    if (failure && failure != REG_NOMATCH)
+        return br_no_memory(s->err, "a regular expression");
     return status;
 }
 
@@ -146,8 +154,6 @@ static enum br_status search_regex(struct search *s)
     regex_t regex;
     struct matches m = {0};
     enum br_status status = BR_OK;
-    if (strlen(s->output) != s->length)
-        return refuse(s, "the output has a zero byte, expected text");
     if (regcomp(&regex, s->reading->what, REG_EXTENDED) != 0)
         return br_no_memory(s->err, "a regular expression");
     for (size_t number = 1; rest && !status; number++) {
@@ -226,40 +232,28 @@ struct table {
     bool broken;  /* it has a quote that does not end, or text around one */
 };
 
-/* A "" within is a quote. */
-static void read_quoted(struct table *t)
+static void read_field(struct table *t)
 {
-    char *to = t->field;
-    for (t->at++; *t->at && (*t->at != '"' || t->at[1] == '"'); t->at++) {
-        t->at += *t->at == '"';
+    const bool quoted = *t->at == '"';
+    bool open = quoted;
+    char *to = t->field = t->at;
+    for (t->at += quoted; *t->at; t->at++) {
+        if (quoted && *t->at == '"' && *++t->at != '"') { /* "" is a quote in the text */
+            open = false;
+            break;
+        }
+        if (!quoted && strchr(",\n\"", *t->at))
+            break;
         t->line += *t->at == '\n';
         *to++ = *t->at;
     }
-    t->broken = *t->at != '"';
-    t->at += *t->at == '"';
     t->at += *t->at == '\r';
-    if (!strchr(",\n", *t->at)) /* which finds the end, too */
-        t->broken = true;
-    t->row_end = *t->at != ',';
-    t->line += *t->at == '\n';
-    t->at += *t->at != '\0';
-    *to = '\0';
-}
-
-static void read_field(struct table *t)
-{
-    t->field = t->at;
-    if (*t->at == '"') {
-        read_quoted(t);
-        return;
-    }
-    t->at += strcspn(t->at, ",\n");
     const char end = *t->at;
-    *t->at = '\0';
-    t->broken = strchr(t->field, '"');
+    t->broken = open || !strchr(",\n", end); /* which finds the end of all, too */
     t->row_end = end != ',';
     t->line += end == '\n';
     t->at += end != '\0';
+    *to = '\0';
 }
 
 static bool is_heading(const char *field, const char *name)
@@ -309,8 +303,6 @@ static enum br_status search_csv(struct search *s)
     struct found f = {0};
     char buffer[SHOWN];
     enum br_status status = BR_OK;
-    if (strlen(s->output) != s->length)
-        return refuse(s, "the output has a zero byte, expected text");
     while (*t.at && !status) {
         if (*t.at != '#' && t.at[strspn(t.at, "\r")] != '\n') {
             status = read_row(s, &t, &f);
@@ -392,7 +384,11 @@ enum br_status br_reading_take(const struct br_reading *reading, const char *out
     if (!s.output)
         return br_no_memory(err, "a program's output");
     memcpy(s.output, output, length);
-    enum br_status status = search[reading->kind](&s);
+    enum br_status status = BR_OK;
+    if (reading->kind != BR_READING_JSON && memchr(output, '\0', length))
+        status = refuse(&s, "the output has a zero byte, expected text");
+    if (!status)
+        status = search[reading->kind](&s);
     if (!status)
         status = convert(&s, number);
     free(s.output);
