@@ -44,7 +44,9 @@ static void say_orders(struct br_document *d, const struct br_quantity_orders *o
     const bool joint = br_joint_describes(&of->joint);
     for (int axis = 0; axis < BR_AXES; axis++) {
         const struct br_orders_line *line = finest_line(of, (enum br_axis)axis);
-        if (joint)
+        if (joint && of->joint.kind == (axis == BR_AXIS_SPACE ? BR_JOINT_TIME : BR_JOINT_SPACE))
+            br_put_more(d, " no error in %s is seen;", br_axis_letters[axis]);
+        else if (joint)
             say_order(d, axis == BR_AXIS_SPACE ? &of->joint.p : &of->joint.q, (enum br_axis)axis,
                       "");
         else if (line)
