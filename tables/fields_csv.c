@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One line a node and time: t, x and the variables, in SI units. */
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -44,8 +45,10 @@ static enum br_status look_csv(struct br_fields_file *f, const struct br_march *
     br_field_values(march, f->work, f->work + BR_FIELD_VARIABLES * f->nodes);
     for (size_t i = 0; i < f->nodes; i++) {
         fprintf(f->out, "%.17g,%.17g", row->time, f->h * (double)i);
-        for (size_t v = 0; v < f->variables; v++)
-            fprintf(f->out, ",%.17g", f->work[v * f->nodes + i]);
+        for (size_t v = 0; v < f->variables; v++) {
+            const double value = f->work[v * f->nodes + i];
+            fprintf(f->out, isnan(value) ? "," : ",%.17g", value); /* RFC 4180 */
+        }
         fputc('\n', f->out);
     }
     return ferror(f->out) ? br_fail(err, BR_IO, "%s could not be written", f->path) : BR_OK;
