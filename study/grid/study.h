@@ -149,6 +149,9 @@ const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size
 enum br_status br_steps_of(const struct br_scene *scene, double k, size_t *steps,
                            struct br_error *err);
 
+/* Sorts meshes or numbers of steps, the least first. */
+void br_sort_counts(size_t *counts, size_t count);
+
 /* k = T/steps, s, and h = L/n, m. For 0 steps or elements, as an exact reference has, 0. */
 double br_time_step(const struct br_scene *scene, size_t steps);
 double br_mesh_size(const struct br_scene *scene, size_t n);
