@@ -10,7 +10,7 @@ enum { MOST_BOXES = 20000 };
 
 /* ---- finite everywhere ---- */
 
-/* What is left to be looked at, the last one first: halves of halves. */
+/* The boxes that are still to be judged, the last one first: halves of halves. */
 struct proof {
     const struct br_function *f;
     struct br_box whole;
@@ -119,7 +119,7 @@ static bool is_steep(const struct proof *p, struct br_box box, enum br_variable 
     return !(fabs(value[1]) <= 1000 * fmin(fabs(value[0]), fabs(value[2])));
 }
 
-/* Looks at a box that has no bound: leaves its halves, or tells what it is. */
+/* Judges a box that has no bound: leaves its halves to be judged, or returns what it is. */
 static enum br_finite divide(struct proof *p, struct br_box box)
 {
     p->where = box;

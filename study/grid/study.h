@@ -119,7 +119,7 @@ struct br_study {
     /* out */
     struct br_cell *cell; /* br_study_cells of them, by rows of equal n; owned */
     struct br_judge_report judged_by;
-    char *events;                     /* what the reference tells, lines; owned; may be NULL */
+    char *events;                     /* lines that the reference prints; owned; may be NULL */
     double reference_scale;           /* the norm of the reference itself */
     double reference_size[2];         /* the same of each field, by br_field_kind */
     double reference_error[BR_PARTS]; /* by the auditor; without one: NaN */
