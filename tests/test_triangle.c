@@ -188,49 +188,12 @@ static void test_printed_tables(void **state)
     }
 }
 
-static void check_printed_file(const char *text, const char *message)
-{
-    struct br_error err = {0};
-    char path[] = "/tmp/beamrate-printed-XXXXXX";
-    const int descriptor = mkstemp(path);
-    assert_true(descriptor >= 0);
-    FILE *file = fdopen(descriptor, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-    struct br_printed printed;
-    const enum br_status status = br_printed_read(path, &printed, &err);
-    br_printed_clear(&printed);
-    remove(path);
-    if (message)
-        REFUSED(status, BR_BAD_INPUT, message);
-    else
-        MUST(status);
-}
-
-static void test_printed_files(void **state)
-{
-    (void)state;
-    check_printed_file("n,k,error\n100,0.01,5e-3\n", NULL);
-    check_printed_file("n,k,error\r\n100,0.01,5e-3\r\n", NULL);
-    check_printed_file("k,n,error\n", ":1: found 'k,n,error'");
-    check_printed_file("n,k,error\n100,0.01\n", ":2: found '100,0.01'");
-    check_printed_file("n,k,error\n100,0.01,5e-3\n100,nan,5e-3\n", ":3:");
-    check_printed_file("n,k,error\n100,0.01,-5e-3\n", ":2:");
-    check_printed_file("n,k,error\n0,0.01,5e-3\n", ":2:");
-    check_printed_file("n,k,error\n100,0.01,5e-3 x\n", ":2:");
-    struct br_error err = {0};
-    struct br_printed printed;
-    REFUSED(br_printed_read("/dev/null/x", &printed, &err), BR_BAD_INPUT, "/dev/null/x");
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sound),          cmocka_unit_test(test_planted),
         cmocka_unit_test(test_cheapest),       cmocka_unit_test(test_nothing_printed),
-        cmocka_unit_test(test_printed_tables), cmocka_unit_test(test_printed_files),
-        cmocka_unit_test(test_unequal_levels),
+        cmocka_unit_test(test_printed_tables), cmocka_unit_test(test_unequal_levels),
     };
     return cmocka_run_group_tests(tests, make, drop);
 }
