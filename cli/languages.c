@@ -379,6 +379,9 @@ static const struct br_quoting for_page = {
     .around = "", .stead = {{'|', "\\|"}, {'<', "\\<"}, {'*', "\\*"}, {'_', "\\_"}}};
 static const struct br_quoting for_zsh_words = {.around = "", .stead = {{':', "\\:"}}};
 
+#define NOT_HEEDED "An option that the chosen method does not heed is refused."
+#define TABLE_OF_OPTIONS "| option | default | what it does |\n|---|---|---|\n"
+
 static const struct language languages[] = {
     {
         .name = "man",
@@ -396,8 +399,7 @@ static const struct language languages[] = {
         .examples = ".PP\n.nf\n",
         .example = "%E\n",
         .examples_end = ".fi\n",
-        .methods = ".SH OPTIONS OF THE METHOD\n"
-                   "An option that the chosen method does not heed is refused.\n",
+        .methods = ".SH OPTIONS OF THE METHOD\n" NOT_HEEDED "\n",
         .registry = ".SS \"\\-\\-%n: %h\"\n",
         .section = ".SH %t\n",
         .paragraph = "%B\n",
@@ -411,15 +413,13 @@ static const struct language languages[] = {
         .command = "\n## beamrate %c{ %s}\n\n%B{ %M}\n\n",
         .examples = "```sh\n",
         .example = "%e\n",
-        .examples_end = "```\n\n| option | default | what it does |\n|---|---|---|\n",
+        .examples_end = "```\n\n" TABLE_OF_OPTIONS,
         .examples_first = true,
         .option = "| {`-%l`, }`--%n{ %a}` | %d | %H{. %M} |\n",
         .method = "\nAnd the [options of the method](#options-of-the-method).\n",
         .words = "\n",
         .word = "- `%w`{: %T}\n",
-        .methods =
-            "\n## Options of the method\n\nAn option that the chosen method does not heed is "
-            "refused.\n\n| option | default | what it does |\n|---|---|---|\n",
+        .methods = "\n## Options of the method\n\n" NOT_HEEDED "\n\n" TABLE_OF_OPTIONS,
         .registry = "\n### --%n: %h\n",
     },
     {

@@ -402,13 +402,12 @@ static enum br_status divert(struct br_output *o, json_t *sets, const char *fore
                              struct br_error *err)
 {
     char name[64];
-    const mode_t mask = umask(0);
-    umask(mask);
     snprintf(name, sizeof name, "set-%s", o->run);
     const enum br_status status = br_sets_write(o->descriptor, "manifest.json", sets, err);
     if (status)
         return status;
-    if (unlinkat(o->descriptor, ".owner", 0) != 0 || fchmod(o->descriptor, 0777 & ~mask) != 0 ||
+    if (unlinkat(o->descriptor, ".owner", 0) != 0 ||
+        fchmod(o->descriptor, br_new_permissions(0777)) != 0 ||
         renameat(o->parent, o->hidden, o->parent, name) != 0)
         return fail_with_errno(name, err);
     br_fail(err, BR_IO,

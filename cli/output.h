@@ -19,6 +19,7 @@
 
 #include <stdbool.h>
 #include <stdio.h>
+#include <sys/types.h>
 
 #include "cli/manifest.h"
 
@@ -75,6 +76,10 @@ void br_output_discard(struct br_output *output);
 /* Removes or finishes what others left behind in an open folder. Fails with BR_IO, BR_BAD_INPUT or
  * BR_NO_MEMORY where it cannot be finished. */
 enum br_status br_output_sweep(int folder, struct br_error *err);
+
+/* Of these permissions, those that a new file or folder of this program gets. No other thread may
+ * make files meanwhile. */
+mode_t br_new_permissions(mode_t wanted);
 
 /* ---- one file ---- */
 

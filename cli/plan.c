@@ -14,7 +14,6 @@
 struct run {
     struct br_session session;
     struct br_study_request study;
-    struct br_named_methods methods; /* count 0: not said */
     struct br_opened_scene opened;
     struct br_plan plan;
 };
@@ -23,7 +22,6 @@ static enum br_status read_request(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
     const bool error = br_option_given(o, BR_OPT_ERROR);
-    const char *methods = br_option_text(o, BR_OPT_METHODS);
     if (br_study_request_read(o, &r->study, err))
         return err->status;
     const struct br_judge *judge = r->study.judge;
@@ -35,7 +33,7 @@ static enum br_status read_request(struct run *r, struct br_error *err)
     if (error == br_option_given(o, BR_OPT_SECONDS))
         return br_fail(err, BR_BAD_INPUT, "expected one of --error and --seconds, found %s",
                        error ? "both" : "none");
-    return methods ? br_named_methods_read("--methods", methods, &r->methods, err) : BR_OK;
+    return BR_OK;
 }
 
 static enum br_status prepare(struct run *r, struct br_error *err)
@@ -52,8 +50,8 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     p->request.threads = r->session.threads;
     p->request.repeats = (size_t)br_option_number(o, BR_OPT_REPEATS, 0);
     p->request.time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
-    if (r->methods.count)
-        p->methods = r->methods;
+    if (r->study.methods.count)
+        p->methods = r->study.methods;
     return br_session_open(&r->session, err);
 }
 

@@ -41,12 +41,6 @@ static enum br_status make_room(struct br_run_plan *plan, size_t levels, struct 
     return plan->level ? BR_OK : br_no_memory(err, "the output times");
 }
 
-static int by_level(const void *a, const void *b)
-{
-    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
-    return (x > y) - (x < y);
-}
-
 static enum br_status read_at(const char *text, const struct br_scene *scene,
                               struct br_run_plan *plan, struct br_error *err)
 {
@@ -66,7 +60,7 @@ static enum br_status read_at(const char *text, const struct br_scene *scene,
         if (!*rest)
             break;
     }
-    qsort(plan->level, plan->levels, sizeof *plan->level, by_level);
+    br_sort_counts(plan->level, plan->levels);
     for (size_t i = 1; i < plan->levels; i++)
         if (plan->level[i] == plan->level[i - 1])
             return br_fail(err, BR_BAD_INPUT, "--at: %g s is given twice",

@@ -62,12 +62,6 @@ static struct br_study *study_of(const struct run *r, size_t h, size_t m)
 
 /* ---- the grid ---- */
 
-static int ascending(const void *a, const void *b)
-{
-    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
-    return (x > y) - (x < y);
-}
-
 static enum br_status make_grid(struct run *r, size_t i, struct br_error *err)
 {
     struct work *w = &r->work[i];
@@ -86,8 +80,8 @@ static enum br_status make_grid(struct run *r, size_t i, struct br_error *err)
     };
     if (br_option_steps(o, scene, &w->steps, &study->k_count, err))
         return err->status;
-    qsort(o->whole[BR_OPT_N], study->n_count, sizeof *study->n, ascending);
-    qsort(w->steps, study->k_count, sizeof *w->steps, ascending);
+    br_sort_counts(o->whole[BR_OPT_N], study->n_count);
+    br_sort_counts(w->steps, study->k_count);
     study->steps = w->steps;
     if (!study->judge->nests)
         return BR_OK;

@@ -60,10 +60,22 @@ enum br_status br_study_request_read(const struct br_options *o, struct br_study
     *r = (struct br_study_request){.threads = (int)br_option_number(o, BR_OPT_THREADS, 0),
                                    .norms = o->count[BR_OPT_NORM]};
     const char *reference = br_option_text(o, BR_OPT_REFERENCE);
+    const char *methods = br_option_text(o, BR_OPT_METHODS);
     for (size_t i = 0; i < r->norms; i++)
         r->norm[i] = br_norms[(size_t)o->number[BR_OPT_NORM][i]];
-    const enum br_status status = read_method(o, r, err);
-    return status || !reference ? status : read_reference(reference, r, err);
+    if (read_method(o, r, err) || (reference && read_reference(reference, r, err)))
+        return err->status;
+    return methods ? br_named_methods_read("--methods", methods, &r->methods, err) : BR_OK;
+}
+
+enum br_status br_check_tolerances(const struct br_options *o,
+                                   const struct br_named_methods *methods, struct br_error *err)
+{
+    bool taken = !br_option_given(o, BR_OPT_TOLERANCES);
+    for (size_t i = 0; i < methods->count; i++)
+        taken = taken || methods->list[i].method.scheme->adaptive;
+    return taken ? BR_OK
+                 : br_fail(err, BR_BAD_INPUT, "--tolerances: no method of --methods heeds it");
 }
 
 enum br_status br_study_request_fine(const struct br_study_request *r, const struct br_scene *scene,

@@ -5,6 +5,7 @@
 
 #include "cli/option.h"
 #include "study/grid/study.h"
+#include "study/trade/named_method.h"
 
 struct br_study_request {
     const struct br_judge *judge; /* NULL: not said */
@@ -13,12 +14,17 @@ struct br_study_request {
     const struct br_norm *norm[BR_MOST_NORMS];
     size_t norms;
     struct br_method method, reference_method;
-    int threads; /* 0: all cores */
+    struct br_named_methods methods; /* of --methods; count 0: not given */
+    int threads;                     /* 0: all cores */
 };
 
 /* Fails with BR_BAD_INPUT, naming the option, what was found and what was expected. */
 enum br_status br_study_request_read(const struct br_options *options,
                                      struct br_study_request *request, struct br_error *err);
+
+/* Refuses tolerances that none of these methods takes (BR_BAD_INPUT). */
+enum br_status br_check_tolerances(const struct br_options *options,
+                                   const struct br_named_methods *methods, struct br_error *err);
 
 /* The fine reference's resolution in a scene (out). Fails with BR_BAD_INPUT. */
 enum br_status br_study_request_fine(const struct br_study_request *request,

@@ -24,8 +24,7 @@ struct item {
 struct run {
     struct br_session session;
     struct br_study_request study;
-    struct br_named_methods methods; /* count 0: not said */
-    struct item *item;               /* items, one a scene; owned */
+    struct item *item; /* items, one a scene; owned */
     size_t items;
 };
 
@@ -70,8 +69,8 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
         return err->status;
     if (br_option_steps(o, scene, &item->steps, &steps, err))
         return br_failed_in(err, scene->name);
-    if (r->methods.count)
-        item->trade.methods = r->methods;
+    if (r->study.methods.count)
+        item->trade.methods = r->study.methods;
     else
         br_named_methods_default(scene, &item->trade.methods);
     const struct br_trade_grid grid = {
@@ -206,22 +205,20 @@ static enum br_status split(const struct br_options *o, struct br_error *err)
 /* A list that no method heeds is refused. */
 static enum br_status check_heeded(const struct run *r, struct br_error *err)
 {
-    const bool k = br_option_given(r->session.options, BR_OPT_K);
-    size_t adaptive = 0;
-    for (size_t i = 0; i < r->methods.count; i++)
-        adaptive += r->methods.list[i].method.scheme->adaptive;
-    if (r->methods.count && adaptive == 0 && br_option_given(r->session.options, BR_OPT_TOLERANCES))
-        return br_fail(err, BR_BAD_INPUT, "--tolerances: no method of --methods heeds it");
-    if (r->methods.count && adaptive == r->methods.count &&
-        (k || br_option_given(r->session.options, BR_OPT_STEPS)))
+    const struct br_options *o = r->session.options;
+    const struct br_named_methods *methods = &r->study.methods;
+    const bool k = br_option_given(o, BR_OPT_K);
+    bool fixed = methods->count == 0;
+    for (size_t i = 0; i < methods->count; i++)
+        fixed = fixed || !methods->list[i].method.scheme->adaptive;
+    if (!fixed && (k || br_option_given(o, BR_OPT_STEPS)))
         return br_fail(err, BR_BAD_INPUT, "--%s: no method of --methods heeds it",
                        k ? "k" : "steps");
-    return BR_OK;
+    return methods->count ? br_check_tolerances(o, methods, err) : BR_OK;
 }
 
 static enum br_status read_request(struct run *r, struct br_error *err)
 {
-    const char *methods = br_option_text(r->session.options, BR_OPT_METHODS);
     if (br_study_request_read(r->session.options, &r->study, err))
         return err->status;
     const struct br_judge *judge = r->study.judge;
@@ -232,8 +229,6 @@ static enum br_status read_request(struct run *r, struct br_error *err)
             err, BR_BAD_INPUT,
             "--reference: found '%s', expected a judge that gives errors: exact, mms or fine:N,K",
             judge->name);
-    if (methods && br_named_methods_read("--methods", methods, &r->methods, err))
-        return err->status;
     return check_heeded(r, err);
 }
 

@@ -15,7 +15,6 @@
 struct run {
     struct br_session session;
     struct br_study_request request;
-    struct br_named_methods methods;
     struct br_opened_scene opened;
     size_t *steps;           /* step_count; owned */
     const double *tolerance; /* tolerances */
@@ -24,23 +23,18 @@ struct run {
     size_t splits;
 };
 
-/* Tolerances that no method heeds are refused. */
+/* Without --methods the first scheme marches. */
 static enum br_status read_request(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
-    const char *methods = br_option_text(o, BR_OPT_METHODS);
+    struct br_named_methods *methods = &r->request.methods;
     r->tolerance = o->number[BR_OPT_TOLERANCES];
     r->tolerances = o->count[BR_OPT_TOLERANCES];
     if (br_study_request_read(o, &r->request, err) ||
-        br_named_methods_read("--methods", methods ? methods : br_time_schemes[0]->name,
-                              &r->methods, err))
+        (methods->count == 0 &&
+         br_named_methods_read("--methods", br_time_schemes[0]->name, methods, err)))
         return err->status;
-    for (size_t i = 0; i < r->methods.count; i++)
-        if (r->methods.list[i].method.scheme->adaptive)
-            return BR_OK;
-    return r->tolerances
-               ? br_fail(err, BR_BAD_INPUT, "--tolerances: no method of --methods heeds it")
-               : BR_OK;
+    return br_check_tolerances(o, methods, err);
 }
 
 /* ---- the runs: methods, then meshes, then time steps, then tolerances ---- */
@@ -73,12 +67,13 @@ static enum br_status lay_out(struct run *r, struct br_error *err)
     const size_t meshes = o->count[BR_OPT_N] ? o->count[BR_OPT_N] : 1;
     const size_t steps = r->step_count ? r->step_count : 1;
     const size_t tolerances = r->tolerances ? r->tolerances : 1;
-    r->split = br_allocate(r->methods.count * meshes * steps * tolerances, sizeof *r->split);
+    r->split =
+        br_allocate(r->request.methods.count * meshes * steps * tolerances, sizeof *r->split);
     if (!r->split)
         return br_no_memory(err, "the parts of the errors");
-    for (size_t c = 0; c < r->methods.count; c++)
+    for (size_t c = 0; c < r->request.methods.count; c++)
         for (size_t i = 0; i < meshes; i++)
-            add_runs(r, &r->methods.list[c],
+            add_runs(r, &r->request.methods.list[c],
                      o->count[BR_OPT_N] ? o->whole[BR_OPT_N][i] : DEFAULT_N);
     return BR_OK;
 }

@@ -123,13 +123,19 @@ bool br_whole_file_is_in(const struct br_whole_file *w, const char *folder)
     return inside;
 }
 
+mode_t br_new_permissions(mode_t wanted)
+{
+    const mode_t mask = umask(0); /* POSIX has no call that only reads it */
+    umask(mask);
+    return wanted & ~mask;
+}
+
 /* The permissions of the old file, or those that a new one would have had. */
 static void set_permissions(int descriptor, const char *place)
 {
     struct stat old;
-    const mode_t mask = umask(0);
-    umask(mask);
-    (void)!fchmod(descriptor, stat(place, &old) == 0 ? old.st_mode & 07777 : 0666 & ~mask);
+    (void)!fchmod(descriptor,
+                  stat(place, &old) == 0 ? old.st_mode & 07777 : br_new_permissions(0666));
 }
 
 /* Into a hidden file of the folder, which is then renamed. */

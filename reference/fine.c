@@ -76,8 +76,8 @@ static void fine_sample(void *self, const struct br_sample_at *at, struct br_vie
     br_look(f->march[at->kind], at->kind, at->measure, view);
 }
 
-/* At the end, beside the largest displacement of all times: as cells are held to (study/fit/fit.c).
- * What the march says of itself holds in its first steps, too. */
+/* The predicted round-off at the end, relative to the largest displacement of all times: cells are
+ * judged by the same (study/fit/fit.c). br_march_round_off would also cover the first steps. */
 static double round_off(const struct fine *f)
 {
     double largest = 0;

@@ -23,14 +23,14 @@ struct br_judge_request {
     bool (*stop)(void *self);      /* true: give up soon, with BR_INTERRUPTED; may be NULL */
     void *stop_self;
     void (*preparing)(void *self,
-                      double share); /* exact only: told the share of the most work
+                      double share); /* exact only: gets the share of the most work
                                         that it may take; self: stop_self; may be NULL */
 };
 
 /* What a judge knows of itself. */
 struct br_judge_report {
     double own_error[2][BR_MEASURES]; /* by br_field_kind, largest over time; m^(3/2) and
-                                         its rates, the tip's in m; NaN: it cannot tell */
+                                         its rates, the tip's in m; NaN: not known */
     double round_off;                 /* predicted, relative to the solution */
     double seconds;                   /* of its work so far, one thread */
     bool unstable;                    /* br_march_contact_unstable, of a fine run */

@@ -79,7 +79,7 @@ static bool has_branches(const struct br_march *m, enum br_field_kind kind)
     return m->scene->friction.law != BR_FRICTIONLESS && !m->method.friction->needs_regularisation;
 }
 
-/* The first stage by the laws themselves tells the branches. */
+/* The first stage, by the laws themselves, shows which branch of each law holds. */
 static enum br_status find_branches(struct br_march *m, const struct br_stages *stages,
                                     const struct br_step *step, struct br_error *err)
 {
@@ -229,7 +229,8 @@ static enum br_status find_switch(struct search *s, double longest)
 
 /* ---- steps ---- */
 
-/* The first step after a switch tells to which branch it was; both fields may have had theirs. */
+/* The first step after a switch shows the branch that the law went to. Both fields may have
+ * switched. */
 static void tell_switches(struct br_march *m)
 {
     struct br_adaptive *a = m->adaptive;

@@ -67,7 +67,7 @@ static void mark(const double weight[BR_KNOWN], bool needed[BR_KNOWN])
         needed[i] |= weight[i] != 0;
 }
 
-/* Which states the steps of a scheme ever look at. */
+/* Which states the steps of a scheme use. */
 static void find_needed(const struct br_time_scheme *scheme, bool needed[BR_KNOWN])
 {
     for (size_t since = 0; since < 3; since++) {
@@ -138,7 +138,7 @@ void br_field_march_clear(struct br_field_march *part)
 
 /* ---- a step ---- */
 
-/* The solver's state becomes that of a slot, or the other way round. */
+/* Copies a slot's state into the solver's, or the other way round. */
 static void copy(struct br_field_march *part, size_t from, size_t into)
 {
     double weight[BR_MOST_STATES] = {0};
@@ -197,8 +197,8 @@ enum br_status br_field_march_start_stage(struct br_field_march *part,
     return BR_OK;
 }
 
-/* The largest nodal force of a load whose vector is zero: it may be so small that its products with
- * h are lost. */
+/* The largest nodal force of a load whose vector is zero: the load may be so small that its
+ * products with h are lost. */
 static long double lost_force(const struct br_field_march *part, double t)
 {
     enum { PLACES = 64 };
@@ -276,8 +276,8 @@ void br_field_march_accept(struct br_field_march *part, const struct br_stages *
     part->counts.steps++;
 }
 
-/* How much strain a strain rate leads to where it is left to itself, s: that of the lowest mode,
- * which swings or creeps to there. */
+/* The strain that a strain rate of 1/s leads to without loads, s: that of the lowest mode, which
+ * swings or creeps there. */
 static double reach_of_rate(const struct br_field *f)
 {
     const double number = br_field_lowest_mode(f);

@@ -63,7 +63,7 @@ struct br_friction_rule {
     const char *title; /* one line for a person */
     const char *citation;
     bool needs_regularisation; /* the scene must give mu > 0 */
-    bool iterates;             /* heeds br_iteration */
+    bool iterates;             /* uses br_iteration */
     double parameter_below;    /* iterations converge for parameters > 0 below this */
     /* What an iteration leaves of an error, at most, for such a parameter; NULL: none is made. */
     double (*contraction)(double parameter);

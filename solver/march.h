@@ -126,7 +126,7 @@ struct br_march_watcher {
     /* br_march_get, br_march_load and br_march_tip are of the stage. An adaptive scheme may take
      * its stages back, and begin again with index 0. */
     void (*stage)(void *self, const struct br_march_stage *stage);
-    /* The field's step that consists of the stages told last is taken; switched: its next one
+    /* The field has taken a step of the stages that `stage` got last. switched: its next step
      * starts anew. */
     void (*step)(void *self, enum br_field_kind kind, bool switched);
 };

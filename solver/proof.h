@@ -30,8 +30,8 @@ bool br_enclose_values(const struct br_function *f, struct br_box box, size_t bu
 enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,
                                  struct br_error *err);
 
-/* Places along one variable, ascending and disjoint. Each is neighbouring numbers wide or one
- * number, where more could not be told (like at a touched zero) wider. */
+/* Places along one variable, ascending and disjoint. Each is one number, or as wide as two
+ * neighbouring numbers; wider where the place is not known better, as at a touched zero. */
 struct br_breaks {
     struct br_interval *at; /* count; owned */
     size_t count, capacity;
@@ -44,7 +44,7 @@ void br_breaks_free(struct br_breaks *breaks);
  * between them f is smooth, but for roots and the like at zero. Where the other variable is one
  * point, or for guards without it, none is missed. *breaks: in/out, zeroed at first; of several
  * functions one after the other. The box's ends are no breaks. Fails with BR_BAD_INPUT where they
- * are too many (20,000) or cannot be told apart, naming where, or BR_NO_MEMORY. */
+ * are too many (20,000) or cannot be separated, naming where, or BR_NO_MEMORY. */
 enum br_status br_breaks_add(const struct br_function *f, enum br_variable along, struct br_box box,
                              struct br_breaks *breaks, struct br_error *err);
 

@@ -221,9 +221,9 @@ void br_march_accept(struct br_march *m, enum br_field_kind kind, const struct b
     come_back(&march);
 }
 
-/* Where the contact has a stiffness, its force tells it without the loss of a difference. One
- * without is no switch of the field's, and equal steps go on; but steps that end at switches end
- * there, for the kink of Coulomb's bound. */
+/* Where the contact has a stiffness, the sign of its force decides: a difference of displacements
+ * would lose digits. A contact without stiffness does not switch the field, and equal steps go on.
+ * But steps that end at switches end there, for the kink of Coulomb's bound. */
 static bool is_closed(const struct br_march *m)
 {
     const struct br_contact *contact = &m->scene->contact;

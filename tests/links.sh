@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Every link between pages leads to a file, and to a heading where it names one; every file that a
-# page names in backquotes with its folder is there; and every test is built. usage: links.sh ROOT
+# page names in backquotes with its folder is there; so is every br_name in backquotes, in a header or
+# source; and every test is built. usage: links.sh ROOT
 set -u
 root=$1
 failures=0
@@ -25,6 +26,11 @@ targets() {
 names() {
     sed '/^```/,/^```/d' "$1" | grep -o '`[^` ]*`' | tr -d '`' |
         grep -E '^(solver|reference|study|tables|plots|cli|tests|docs)/[a-z0-9_/.-]*$'
+}
+
+# Functions, types and arrays of ours in backquotes.
+symbols() {
+    sed '/^```/,/^```/d' "$1" | grep -o '`br_[a-z0-9_]*`' | tr -d '`' | sort -u
 }
 
 check_link() { # PAGE TARGET
@@ -51,6 +57,10 @@ for page in "$root"/*.md "$root"/docs/*.md "$root"/solver/*.md; do
     [ "$page" != CHANGELOG.md ] || continue # tells of files that were
     for name in $(names "$root/$page"); do
         [ -e "$root/$name" ] || complain "$page" "no such file: $name"
+    done
+    for name in $(symbols "$root/$page"); do
+        grep -rqw --include='*.[ch]' "$name" "$root/solver" "$root/reference" "$root/study" \
+            "$root/tables" "$root/plots" "$root/cli" || complain "$page" "no such name: $name"
     done
 done
 for test in "$root"/tests/test_*.c; do

@@ -98,7 +98,7 @@ long double br_test_value(enum br_field_kind kind, const double *nodal, size_t e
 double br_test_distance(enum br_field_kind kind, double length, size_t coarse_n,
                         const double *coarse, size_t fine_n, const double *fine);
 
-/* The path of a file, one a program, that now has this text: for scenes. */
+/* The path of a file, one a program, that now has this text: a scene or another input. */
 const char *br_test_scene_file(const char *text);
 
 /* Reading the scene, with its verify part or without, is refused with a message that begins with

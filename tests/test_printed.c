@@ -4,35 +4,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "reference/printed.h"
 #include "study/scene/file.h"
 #include "support.h"
 
-static char path[] = "/tmp/beamrate-printed-XXXXXX";
-
-static int make_file(void **state)
-{
-    (void)state;
-    const int file = mkstemp(path);
-    return file < 0 || close(file) != 0;
-}
-
-static int remove_file(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
-
 static enum br_status read_text(const char *text, struct br_printed *printed, struct br_error *err)
 {
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
     *err = (struct br_error){0};
-    return br_printed_read(path, printed, err);
+    return br_printed_read(br_test_scene_file(text), printed, err);
 }
 
 static void test_good(void **state)
@@ -54,7 +34,7 @@ static void test_good(void **state)
     br_printed_clear(&p);
     assert_true(!p.cell && p.count == 0);
     assert_true(isnan(br_printed_error(&p, 100, 0.01)));
-    MUST(read_text("n,k,error\n", &p, &err)); /* a heading alone */
+    MUST(read_text("n,k,error\r\n", &p, &err)); /* a heading alone */
     assert_int_equal(p.count, 0);
     br_printed_clear(&p);
 }
@@ -92,7 +72,8 @@ static void test_bad_lines(void **state)
         struct br_error err;
         struct br_printed p;
         snprintf(text, sizeof text, "n,k,error\n100,0.01,5e-3\n%s\n200,0.01,5e-3\n", lines[i]);
-        snprintf(where, sizeof where, "%s:3: found '%s', expected n,k,error", path, lines[i]);
+        snprintf(where, sizeof where, "%s:3: found '%s', expected n,k,error",
+                 br_test_scene_file(text), lines[i]);
         REFUSED(read_text(text, &p, &err), BR_BAD_INPUT, where);
         br_printed_clear(&p);
     }
@@ -101,13 +82,17 @@ static void test_bad_lines(void **state)
 static void test_bad_files(void **state)
 {
     (void)state;
-    static const char *const headings[] = {"100,0.01,5e-3\n", "n,h,error\n", "\nn,k,error\n", ""};
+    static const char *const headings[][2] = {
+        {"100,0.01,5e-3\n", ":1: found '100,0.01,5e-3'"},
+        {"n,h,error\n", ":1: found 'n,h,error'"},
+        {"k,n,error\n", ":1: found 'k,n,error'"},
+        {"\nn,k,error\n", ":1: found ''"},
+        {"", ":1: found nothing"},
+    };
     struct br_error err = {0};
     struct br_printed p;
-    char where[64];
-    snprintf(where, sizeof where, "%s:1: ", path);
     for (size_t i = 0; i < sizeof headings / sizeof *headings; i++) {
-        REFUSED(read_text(headings[i], &p, &err), BR_BAD_INPUT, where);
+        REFUSED(read_text(headings[i][0], &p, &err), BR_BAD_INPUT, headings[i][1]);
         br_printed_clear(&p);
     }
     REFUSED(br_printed_read("/no/such/file", &p, &err), BR_BAD_INPUT, "/no/such/file: No such");
@@ -169,5 +154,5 @@ int main(void)
         cmocka_unit_test(test_bad_files), cmocka_unit_test(test_long_line),
         cmocka_unit_test(test_the_paper),
     };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

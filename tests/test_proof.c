@@ -160,18 +160,12 @@ static void test_unbounded(void **state)
 /* A rod of 1 m with that load in line 8. */
 static enum br_status read_load(const char *load, struct br_scene *scene, struct br_error *err)
 {
-    char path[] = "/tmp/br_test_proof_XXXXXX.yaml";
-    const int descriptor = mkstemps(path, 5);
-    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
-    assert_non_null(file);
-    fprintf(file,
-            "title: t\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\naxial:\n"
-            "  stiffness: 1 N\n  viscosity: 1 N s\n  load: %s\n",
-            load);
-    assert_int_equal(fclose(file), 0);
-    const enum br_status status = br_scene_read(path, scene, err);
-    remove(path);
-    return status;
+    char text[1024];
+    snprintf(text, sizeof text,
+             "title: t\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\naxial:\n"
+             "  stiffness: 1 N\n  viscosity: 1 N s\n  load: %s\n",
+             load);
+    return br_scene_read(br_test_scene_file(text), scene, err);
 }
 
 /* A scene with one is refused, with the place. */

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "study/foresee/prediction.h"
 #include "study/run/run.h"
@@ -20,16 +19,8 @@
 
 static void read_text(const char *text, struct br_old_check *old)
 {
-    char path[] = "/tmp/br_check_XXXXXX";
     struct br_error err = {0};
-    const int file = mkstemp(path);
-    assert_true(file >= 0);
-    assert_int_equal(write(file, text, strlen(text)), (ssize_t)strlen(text));
-    close(file);
-    const enum br_status status = br_check_read_json(path, old, &err);
-    unlink(path);
-    if (status)
-        fail_msg("%s", err.message);
+    MUST(br_check_read_json(br_test_scene_file(text), old, &err));
 }
 
 static void is_read(const char *text)

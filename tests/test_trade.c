@@ -310,7 +310,7 @@ static void test_lists_are_tried(void **state)
     assert_int_equal(t->count, 5);
     assert_int_equal(t->trial[1].at.steps, 1000000);
     CLOSE(br_trial_method(&t->trial[4]).tolerance, 1e-7, 1e-20);
-    CLOSE(br_trade_step(t, &t->trial[0]), 0.1, 1e-15);
+    CLOSE(br_time_step(&scene, t->trial[0].at.steps), 0.1, 1e-15);
     drop(t);
     br_scene_clear(&scene);
 }

@@ -276,6 +276,39 @@ static void test_scene_in_the_way(void **state)
     assert_true(cli_file_contains("set/manifest.json", "somebody"));
 }
 
+static mode_t permissions_of(const char *name)
+{
+    char path[512];
+    struct stat info;
+    cli_path(name, path);
+    assert_int_equal(stat(path, &info), 0);
+    return info.st_mode & 07777;
+}
+
+/* What is new has the permissions that the user's mask leaves; a replaced file keeps its own. */
+static void test_permissions(void **state)
+{
+    (void)state;
+    static const char line[] = "run example1 --n 4 --k 0.1 --quiet --json set/one.json";
+    char path[512];
+    const mode_t mask = umask(027);
+    clear_set();
+    cli_expect(line, NULL, 0, "");
+    assert_int_equal(permissions_of("set/one.json"), 0640);
+    cli_path("set/one.json", path);
+    assert_int_equal(chmod(path, 0604), 0);
+    cli_expect(line, NULL, 0, "");
+    assert_int_equal(permissions_of("set/one.json"), 0604);
+    cli_write_file("set/history.csv", "mine");
+    cli_run_line(new_line, NULL, &out);
+    assert_int_equal(out.exit_code, 3);
+    const char *there = strstr(out.output, "set/set-");
+    assert_non_null(there);
+    snprintf(path, sizeof path, "%.*s", (int)strcspn(there, " \n"), there);
+    assert_int_equal(permissions_of(path), 0750);
+    umask(mask);
+}
+
 /* Sets that share no name live side by side, but for the page, which is of the last one; one of
  * other formats takes the old one's place. */
 static void test_several_sets(void **state)
@@ -326,13 +359,12 @@ static int make_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_killed),           cmocka_unit_test(test_broken_disk),
-        cmocka_unit_test(test_dead_disk),        cmocka_unit_test(test_two_at_once),
-        cmocka_unit_test(test_stopped),
-
-        cmocka_unit_test(test_many_at_once),     cmocka_unit_test(test_foreign),
-        cmocka_unit_test(test_scene_in_the_way), cmocka_unit_test(test_two_sets),
-        cmocka_unit_test(test_several_sets),
+        cmocka_unit_test(test_killed),      cmocka_unit_test(test_broken_disk),
+        cmocka_unit_test(test_dead_disk),   cmocka_unit_test(test_two_at_once),
+        cmocka_unit_test(test_stopped),     cmocka_unit_test(test_many_at_once),
+        cmocka_unit_test(test_foreign),     cmocka_unit_test(test_scene_in_the_way),
+        cmocka_unit_test(test_two_sets),    cmocka_unit_test(test_several_sets),
+        cmocka_unit_test(test_permissions),
     };
     return cmocka_run_group_tests(tests, make_folder, cli_remove_folder);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Energies of a march and what changes them, from nodal values with element matrices of its own in
- * long double, and nothing of a solver's numerics.
+/* Energies of a march and what changes them. They are computed from nodal values, in long double,
+ * with element matrices that no solver uses.
  *
- * With Y = (w, v) and <Y, Z> = v'Mv + w'Kw of the two, a step says, exactly and for each field,
+ * With Y = (w, v) and <Y, Z> = v'Mv + w'Kw of the two, each step of each field satisfies exactly
  *     E_n - E_{n-1} = W - D_viscous - D_friction - D_scheme,    with
  *     E = 1/2 <Y, Y> (+ c_H/2 (u(L) - g)_+^2, axial),
  * and the works summed as the scheme sums rates of change: of a Runge-Kutta method
@@ -46,8 +46,8 @@ double br_energy_total(const struct br_energy *energy);
 double br_energy_imbalance(const struct br_energy *start, const struct br_energy *now,
                            const struct br_work *work);
 
-/* What a scheme has added to a field in all, beyond round-off, J; 0: nothing, it took some. Single
- * steps of a sound scheme may add what others take. */
+/* The energy that a scheme has added to a field in all, beyond round-off, J; 0 where it took some.
+ * Single steps of a sound scheme may add what others take. */
 double br_energy_added(const struct br_work *work, enum br_field_kind kind);
 
 /* What was put into a field: its energy at first and the work of its loads, where that is positive,
@@ -78,7 +78,7 @@ double br_energy_limit(size_t n, double round_off);
 /* Sums the works of a march. */
 struct br_energy_meter;
 
-/* Looks at the march as it is now, at t = 0, and watches it from then on (br_march_watch); it, its
+/* Samples the march at t = 0 and watches it from then on (br_march_watch). The march, its
  * scene and the method must outlive the meter. Fails with BR_NO_MEMORY and as loads do, *meter then
  * NULL.
  */
@@ -92,7 +92,7 @@ void br_energy_meter_free(struct br_energy_meter *meter); /* accepts NULL */
  * that is not of the textbook. */
 double br_energy_meter_step(struct br_energy_meter *meter);
 
-/* When it was created, at its last step, and between. */
+/* Energies when the meter was created (start) and at its last step (now); the works between. */
 void br_energy_meter_read(const struct br_energy_meter *meter, struct br_energy *start,
                           struct br_energy *now, struct br_work *work);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Works of a march as its scheme sums rates of change, stage by stage, and what the scheme takes.
- */
+/* The works of a march, summed over stages as its scheme sums rates of change, and the energy that
+ * the scheme itself takes. */
 #include "reference/energy/energy.h"
 
 #include <float.h>

@@ -41,14 +41,14 @@ enum br_phase {
 struct br_exact_options {
     double tolerance;      /* 1e-10: of displacements, 2e-11 to 1e-3 */
     double acceptable;     /* the tolerance: up to this, 1e-3 at most, will do where max_modes are
-                              not enough for the tolerance; the report tells what was reached */
+                              not enough for the tolerance; the report has what was reached */
     double rate_tolerance; /* ten times tolerance, and at least that: of velocities and forces */
     size_t max_modes;      /* 256 per field, 18 to 1000; on several elements six times as many in
                               all */
     size_t max_steps;      /* 20000 per field */
     bool (*stop)(void *self); /* asked every step; true: give up, with BR_INTERRUPTED */
     void *stop_self;
-    /* told every step the share of the most work that is done, 0 to 1; self is stop_self */
+    /* gets, every step, the share of the most work that is done, 0 to 1; self is stop_self */
     void (*progress)(void *self, double share);
 };
 
@@ -102,8 +102,8 @@ struct br_exact_event {
     enum br_phase phase; /* that begins */
 };
 
-/* The events in order of time, *count of them; those at t = 0 tell how it
- * begins. Borrowed from exact. */
+/* The events in order of time, *count of them; those at t = 0 are the phases
+ * in which it begins. Borrowed from exact. */
 const struct br_exact_event *br_exact_events(const struct br_exact *exact, size_t *count);
 const char *br_phase_text(enum br_phase phase);
 

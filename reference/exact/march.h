@@ -6,7 +6,7 @@
 #include "reference/exact/field.h"
 #include "reference/exact/tip.h"
 
-/* How much work an exact solution may take, and who may end it and is told. */
+/* How much work an exact solution may take, and who may end it and gets its progress. */
 struct br_effort {
     double done, most; /* units of about a microsecond: counted, not measured */
     const struct br_exact_options *who;

@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-/* Degrees of what stands for the data: on an element, and over a Radau step. */
+/* Degrees of the polynomials that replace the data: on an element, and over a Radau step. */
 enum { SPACE_DEGREE = 15, TIME_DEGREE = 8, MOST_CELLS = 20000 };
 
 /* Functions of x and of t that the field depends on. */
@@ -12,10 +12,10 @@ enum { MOST = 2 * BR_LOAD_TERMS + 2 };
 
 struct subject {
     const struct br_function *f;
-    double until; /* s: it counts from 0 on */
+    double until; /* s: f is needed from 0 to this time; 0: at t = 0 alone, or f has no t */
 };
 
-/* All by br_variable where it is twofold. */
+/* Arrays of two: by br_variable. */
 struct work {
     struct br_outline *o;
     const struct br_exact_data *data;
@@ -53,7 +53,7 @@ struct br_exact_data br_exact_data_of(const struct br_scene *s, size_t degree)
     };
 }
 
-/* ---- who counts ---- */
+/* ---- the functions that matter ---- */
 
 static bool is_known(const struct br_function *f)
 {
@@ -65,7 +65,7 @@ static void list(struct work *w, enum br_variable along, const struct br_functio
     w->subject[along][w->subjects[along]++] = (struct subject){f, until};
 }
 
-/* Of what is not known nothing can be found out but where steps end. */
+/* A function without bounds has no proofs: of such a function only the ends of steps are known. */
 static void list_space(struct work *w, const struct br_function *f, double until)
 {
     if (f->uses_x && is_known(f))
@@ -99,7 +99,7 @@ static struct br_box box_of(const struct work *w, const struct subject *s)
     return (struct br_box){{0, w->all[BR_X]}, {0, s->until}};
 }
 
-/* A part of the one axis, at the beginning of the other. */
+/* The box that is `here` along one axis, and the beginning of the other axis. */
 static struct br_box line(enum br_variable along, struct br_interval here)
 {
     struct br_box box = {{0, 0}, {0, 0}};
@@ -114,10 +114,10 @@ static bool inseparable(const struct subject *s)
 
 /* ---- parts between places where functions jump ---- */
 
-/* So much apart, of a place, guards that vanish there have a sign for sure. */
+/* At this distance from a place, relative to it, guards that vanish there surely have a sign. */
 static const double apart = 8 * DBL_EPSILON;
 
-/* Part i of breaks' count + 1 of an axis, as far as functions are smooth there for sure. */
+/* Part i of an axis (breaks' count + 1 of them), as far as functions are surely smooth there. */
 static struct br_interval part(const struct work *w, enum br_variable along, size_t i)
 {
     const struct br_breaks *breaks = &w->breaks[along];
@@ -126,11 +126,11 @@ static struct br_interval part(const struct work *w, enum br_variable along, siz
                                                   : w->all[along]};
 }
 
-/* What is this narrow, of all, lies within one place, or in an end. */
+/* A gap this narrow, relative to the axis, belongs to the places on both sides, or to the end. */
 static const double narrow = 1e-13;
 
-/* Places with nothing but round-off between them are one; what happens in it is counted by
- * count_hidden. */
+/* Joins places that only round-off separates. count_hidden counts what a function may do within
+ * the joined place. */
 static void join_breaks(struct work *w, enum br_variable along)
 {
     struct br_breaks *breaks = &w->breaks[along];
@@ -163,7 +163,7 @@ static void add_parts(struct work *w, enum br_variable along, struct br_list *to
     add(w, to, 0);
     for (size_t i = 0; i < w->breaks[along].count; i++) {
         const struct br_interval at = w->breaks[along].at[i];
-        const bool wide = at.high - at.low > narrow * all; /* no more could be told */
+        const bool wide = at.high - at.low > narrow * all; /* the place is not known better */
         if (at.high < all && (wide || at.low > 0))
             add(w, to, at.high);
         if (at.low > 0 && (wide || at.high == all))
@@ -187,7 +187,7 @@ static void find_bends(struct work *w)
     join_breaks(w, BR_X);
 }
 
-/* Of functions of t alone, and of fronts that come and go. */
+/* Finds the times at which functions of t alone jump, and at which fronts come or go. */
 static void find_jumps(struct work *w)
 {
     for (size_t i = 0; i < w->subjects[BR_T]; i++)
@@ -205,7 +205,7 @@ static void find_jumps(struct work *w)
     join_breaks(w, BR_T);
 }
 
-/* Fronts that pass from one element to the next. */
+/* Finds the times at which fronts pass from one element to the next. */
 static void find_crossings(struct work *w)
 {
     for (size_t i = 0; i < w->subjects[BR_X] && w->o->fronts; i++)
@@ -239,7 +239,7 @@ static struct br_sight sight_of(const struct work *w, const struct subject *s)
     };
 }
 
-/* What a function may hide, of its integral. */
+/* Counts the share of its integral that a function may hide. */
 static void count_missed(struct work *w, const struct br_sight *sight)
 {
     if (sight->missed > 0) /* in units of most_missed */
@@ -289,7 +289,7 @@ static void find_elements(struct work *w)
     br_list_sort(&w->o->end, 0);
 }
 
-/* Those of functions of t alone, the last ones. */
+/* Adds the cells of functions of t alone, behind those of functions of both. */
 static void find_cells(struct work *w)
 {
     for (size_t i = 0; i < w->subjects[BR_T] && !w->status; i++) {
@@ -320,7 +320,7 @@ static bool fits(const struct work *w, double a, double b)
     return true;
 }
 
-/* Meshes by halving leave many elements beside a narrow one that say nothing. */
+/* Joins elements that the data do not need: meshes by halving have many beside a narrow one. */
 static void join_elements(struct work *w)
 {
     struct br_list *end = &w->o->end;
@@ -335,7 +335,7 @@ static void join_elements(struct work *w)
 
 /* ---- what hides in places that are wide ---- */
 
-/* What a function may do within places that are more than neighbouring numbers wide. */
+/* Counts what a function may do within places that are wider than two neighbouring numbers. */
 static void count_hidden(struct work *w, const struct subject *s, enum br_variable along)
 {
     const struct br_breaks *breaks = &w->breaks[along];
@@ -369,8 +369,8 @@ static void count_all_hidden(struct work *w)
 
 /* ---- layers ---- */
 
-/* How short the data's changes are that leave layers behind: jumps after t = 0 and short cells; no
- * less than what estimates leave out (compare.c). Infinite for none. */
+/* The shortest time, s, in which the data change so that a layer remains: at jumps after t = 0 and
+ * in short cells. At least what estimates leave out (compare.c). Infinite: no layer. */
 static double shortest_change(const struct work *w)
 {
     const double least = 1e-6 * w->all[BR_T], most = 1e-3 * w->all[BR_T];
@@ -381,7 +381,8 @@ static double shortest_change(const struct work *w)
     return width < most ? fmax(width, least) : INFINITY;
 }
 
-/* Elements that grow from one end of the beam as a layer there does: velocities diffuse. */
+/* Adds elements that grow from one end of the beam as a layer there grows, since velocities
+ * diffuse. */
 static void grade(struct work *w, bool tip, double layer)
 {
     const double growth = 3, length = w->all[BR_X];

@@ -21,7 +21,7 @@ struct br_pieces {
     size_t *first; /* count + 1: sum of the terms before */
 };
 
-/* Copies end and terms. After a failure, which the store tells, it is of no use. */
+/* Copies end and terms. After a failure, which the store keeps, the pieces are of no use. */
 void br_pieces_init(struct br_pieces *pieces, double length, size_t count, const double *end,
                     const size_t *terms, struct br_store *store);
 
@@ -60,7 +60,7 @@ struct br_quadrature {
     double *value;  /* count, workspace */
 };
 
-/* After a failure, which the store tells, it is of no use. */
+/* After a failure, which the store keeps, the quadrature is of no use. */
 void br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces, size_t extra,
                         struct br_store *store);
 

@@ -14,7 +14,7 @@ struct br_subinterval {
     long double *r;        /* count x count, see br_subinterval_move; 0 for l > k */
 };
 
-/* For p_0 ... p_{count - 1}. After a failure, which the store tells, it is of no use. */
+/* For p_0 ... p_{count - 1}. After a failure, which the store keeps, the interval is of no use. */
 void br_subinterval_init(struct br_subinterval *interval, size_t count, struct br_store *store);
 
 /* p_k(first + width xi) = sum over l of r[k * count + l] p_l(xi), 0 <= first and

@@ -31,7 +31,7 @@ static inline struct br_interval *br_side(struct br_box *box, enum br_variable a
 double br_sight_error(const struct br_function *f, enum br_variable along, struct br_box box,
                       size_t degree);
 
-/* The mean of |f| over a box of one or two variables, at least half of it where it can be told. */
+/* The mean of |f| over a box of one or two variables, at least half of it where it can be found. */
 double br_sight_mean(const struct br_function *f, struct br_box box);
 
 struct br_sight {

@@ -8,8 +8,8 @@
 #include "solver/status.h"
 
 struct br_store {
-    struct br_block *last; /* the others hang on it */
-    bool failed;           /* something that was asked for is not there */
+    struct br_block *last; /* each block points to the one before it */
+    bool failed;           /* there was no memory for a piece */
 };
 
 /* count zeroed things of a size in bytes, at the start of a cache line. NULL where there is no room

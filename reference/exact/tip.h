@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The laws at the tip, (10) and (12), one phase at a time. In each phase the law
- * is linear and a guard tells how far the phase is from its end. */
+ * is linear, and a guard measures how far the phase is from its end. */
 #ifndef BR_REFERENCE_EXACT_TIP_H
 #define BR_REFERENCE_EXACT_TIP_H
 

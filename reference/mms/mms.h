@@ -27,8 +27,8 @@ struct br_given {
 /* Refuses (BR_BAD_INPUT), naming the derivative, x, t, what was found and expected:
  * - a solution or derivative of which it is not proved that it is finite everywhere;
  * - u(0, t), w(0, t) or w_x(0, t) that is not zero;
- * - a jump in what is derived, whose delta the derivative would leave out: at what the guards of
- *   function.h tell, on lines that cross every stretch between them.
+ * - a jump in what is derived, since the derivative would leave out its delta. The guards of
+ *   function.h give the places; lines that cross every stretch between them are checked.
  * Fails with BR_NO_MEMORY, too. */
 enum br_status br_given_check(const struct br_given *solution, struct br_error *err);
 

@@ -27,7 +27,8 @@ static double axial_force(const struct br_tip_parts *p, double t)
            p->contact.stiffness * br_penetration(&p->contact, value_of(&p->u, t));
 }
 
-/* Where the tip begins to slip, as from there on: as step is 1 from zero on. */
+/* At the time when the tip begins to slip, the force of the slip that begins: step() is 1 from zero
+ * on, too. */
 static double friction_force(const struct br_tip_parts *p, double t)
 {
     double velocity = value_of(&p->velocity, t);
@@ -217,7 +218,7 @@ static bool bending_taylor(const void *self, enum br_variable along, struct br_b
     return true;
 }
 
-/* Guard *i of f, or NULL, *i then less by their number. */
+/* Guard *i of f. Or NULL: then *i is reduced by the number of f's guards. */
 static const struct br_function *guard_of(const struct br_function *f, size_t *i)
 {
     const struct br_function *guard = br_function_guard(f, *i);

@@ -4,7 +4,7 @@
  * A solver owns the state (displacement and velocity) of one field and takes it
  * through implicit Euler steps of equation (27) or (28). Contact and friction
  * act on the tip alone, so a step is two halves: `predict` solves with no tip
- * force and tells the tip's velocity v*; the laws then find the force r that
+ * force and gives the tip's velocity v*; the laws then find the force r that
  * resists the tip's motion; `finish` completes the step with v = v* - r z, where
  * z = (M/k + C + kK)^-1 e_tip is computed once.
  *
@@ -16,7 +16,7 @@
 #include "solver/field.h"
 #include "solver/linear/riccati/kernel.h"
 
-/* Options that solvers may heed; each says which in its `options` text. */
+/* Options of solvers. The `options` text of a solver names those that it accepts. */
 struct br_linear_options {
     const char *scaling;            /* umfpack: "none", "sum" or "max" */
     int refinement;                 /* assembled: largest number of refinement steps a solve */
@@ -108,7 +108,7 @@ struct br_linear_solver {
     const char *name;     /* as on the command line */
     const char *title;    /* one line for a person */
     const char *citation; /* where the method comes from */
-    const char *options;  /* which br_linear_options it heeds; "" for none */
+    const char *options;  /* which br_linear_options it accepts; "" for none */
     const struct br_field_solver *axial, *bending;
     const struct br_field_solver *axial_quadratic; /* for elements of degree 2; NULL: it has none */
     const struct br_factoriser *factoriser; /* of the assembled form (assembled.h), or NULL */
@@ -140,7 +140,7 @@ const struct br_linear_solver *br_linear_solver_find(const char *name);
 const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver *solver,
                                                    const struct br_field *field);
 
-/* Whether the solver heeds an option, "--scaling" say. */
+/* Whether the solver accepts an option, "--scaling" for example. */
 bool br_linear_solver_heeds(const struct br_linear_solver *solver, const char *option);
 
 /* The kernel that the solver runs with these options; NULL: it has none. */

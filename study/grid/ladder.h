@@ -2,7 +2,7 @@
 /* L2 distances between functions on nested meshes, exactly.
  *
  * On each element a function is given by its orthonormal Legendre modes, as a view of it
- * tells them (solver/modes.h).
+ * has them (solver/modes.h).
  * The reference is projected from its own meshes down a ladder of coarser ones; what each rung
  * loses is kept as a sum of squares. For a function v of rung n,
  *     |v - ref|^2 = |v - P_n ref|^2 + |ref - P_n ref|^2    (Pythagoras),

@@ -256,8 +256,8 @@ static bool models(const struct br_lockstep *l, enum br_field_kind kind)
     return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
 }
 
-/* A field that fails stops the other one only beyond that level, so that the first failure is told,
- * whichever thread was faster. */
+/* A field that fails stops the other one only beyond that level, so that the first failure is
+ * reported, whichever thread was faster. */
 static void reference_batch(struct br_lockstep *l, enum br_field_kind kind, size_t b)
 {
     struct br_lane *lane = &l->lane[kind];
@@ -379,7 +379,7 @@ static void spawn_all(struct work *work)
     }
 }
 
-/* What the reference tells, kept with the study. */
+/* Keeps the reference's lines of events with the study. */
 static enum br_status keep_events(struct br_lockstep *l, struct br_study *study,
                                   struct br_error *err)
 {

@@ -5,12 +5,12 @@
 
 #include <stdbool.h>
 
-/* How a long run tells of itself, and is told to stop. May be called from any thread. */
+/* How a long run reports its progress and is stopped. May be called from any thread. */
 struct br_observer {
     void (*progress)(void *self, double fraction); /* of the whole work, 0 to 1 */
     bool (*stop)(void *self);                      /* true: give up soon */
     void *self;
-    /* of the most work that an exact reference may take, while it is made; may be NULL */
+    /* the share of the most work that an exact reference may take, while it is made; may be NULL */
     void (*preparing)(void *self, double share);
 };
 

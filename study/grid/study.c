@@ -37,6 +37,17 @@ const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size
     return &study->cell[i * study->k_count + j];
 }
 
+static int ascending(const void *a, const void *b)
+{
+    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
+    return (x > y) - (x < y);
+}
+
+void br_sort_counts(size_t *counts, size_t count)
+{
+    qsort(counts, count, sizeof *counts, ascending);
+}
+
 double br_time_step(const struct br_scene *scene, size_t steps)
 {
     return steps ? scene->duration / (double)steps : 0;

@@ -120,7 +120,7 @@ struct br_study {
     /* out */
     struct br_cell *cell; /* br_study_cells of them, by rows of equal n; owned */
     struct br_judge_report judged_by;
-    char *events;                     /* what the reference tells, lines; owned; may be NULL */
+    char *events;                     /* lines that the reference prints; owned; may be NULL */
     double reference_scale;           /* the norm of the reference itself */
     double reference_size[2];         /* the same of each field, by br_field_kind */
     double reference_error[BR_PARTS]; /* by the auditor; without one: NaN */
@@ -149,6 +149,9 @@ const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size
  * divide it (BR_BAD_INPUT) with the nearest that do. */
 enum br_status br_steps_of(const struct br_scene *scene, double k, size_t *steps,
                            struct br_error *err);
+
+/* Sorts meshes or numbers of steps, the least first. */
+void br_sort_counts(size_t *counts, size_t count);
 
 /* k = T/steps, s, and h = L/n, m. For 0 steps or elements, as an exact reference has, 0. */
 double br_time_step(const struct br_scene *scene, size_t steps);

@@ -31,7 +31,7 @@ enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
 
 /* A study without a reference: each cell against the same scheme on the next finer mesh,
  * and with the next smaller time step (Richardson 1911; Roache 1998). The differences
- * of successive grids tell the orders as errors do, and owe nothing to any judge. */
+ * of successive grids have the orders of the errors, and need no judge. */
 
 /* The differences of one grid in one norm: studies whose cells are compared with their
  * next finer neighbours, `against`. */

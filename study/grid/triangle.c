@@ -42,8 +42,8 @@ static bool comparable(const struct br_cell *a, const struct br_cell *b)
     return a != b && b->at.n % a->at.n == 0 && b->at.steps % a->at.steps == 0;
 }
 
-/* Our own errors bound the distance, |Ea - Eb| <= D <= Ea + Eb, so they tell where to
- * look; the distance itself is then marched. */
+/* Our own errors bound the distance, |Ea - Eb| <= D <= Ea + Eb, so they show which pair to
+ * try; the distance itself is then marched. */
 static struct candidate rate(const struct br_study *s, const double *printed, size_t i, size_t j)
 {
     struct candidate c = {.a = i, .b = j, .score = 0};

@@ -301,7 +301,7 @@ static void measure_release(const struct br_paper *p, struct br_finding *f)
     const size_t last = last_at_rest(&e->record);
     f->value = e->record.row[last].time;
     f->exact = exact_release(e, &own);
-    f->error = fabs(f->value - f->exact) + own + e->record.row[1].time; /* it is told by steps */
+    f->error = fabs(f->value - f->exact) + own + e->record.row[1].time; /* known to a step */
     f->printed = 0.68;
     f->agreement = br_same(f, 0.005);
     snprintf(

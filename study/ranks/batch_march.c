@@ -69,7 +69,7 @@ static void pass_events(struct transfer *t, struct br_study *s)
     pass(t, s->events, size);
 }
 
-/* All batches of a study tell the same of it, but for times; a failure is kept. */
+/* All batches of a study report the same of it, but for times; a failure is kept. */
 static void pass_study(struct transfer *t, struct br_study *s, const size_t *of, size_t batch)
 {
     bool audited = s->auditor != NULL;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/ranks/ranks.h"
 
-/* The first of them that is set counts: mpirun in a Slurm job leaves Slurm's variables as they are,
- * which then count its daemons. SLURM_NTASKS is not asked: a batch script has it, too. */
+/* The first launcher whose variables are set counts: mpirun in a Slurm job leaves Slurm's variables
+ * as they are, which then count its daemons. SLURM_NTASKS is not read: a batch script has it, too.
+ */
 static const struct {
     const char *launcher, *size, *rank;
 } launchers[] = {

@@ -8,7 +8,7 @@
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
 
-/* A job of several processes, as the environment tells each of them. */
+/* A job of several processes, as the environment of each describes it. */
 struct br_launch {
     const char *launcher; /* its name, for messages; NULL: the process was started alone */
     int size;             /* processes; 1 where it was started alone */
@@ -38,7 +38,7 @@ enum br_status br_ranks_lockstep(struct br_study *studies, size_t count, int thr
                                  const struct br_observer *observer, struct br_error *err);
 
 /* The end of the program on this rank, with its status (in) and error (in, out). Returns what the
- * whole job has come to on rank 0, and BR_OK on the others, whose failures rank 0 tells. Does not
+ * whole job has come to on rank 0, and BR_OK on the others, whose failures rank 0 reports. Does not
  * return, but ends the job with exit code 3, where a rank is not heard from any more. */
 enum br_status br_ranks_end(enum br_status status, struct br_error *err);
 

@@ -65,7 +65,7 @@ static struct {
     double done;                        /* by this rank since the start, ns */
     size_t tickets;                     /* drawn in the calls before */
     bool waits;                         /* for rank 0's end, however long it takes */
-    bool interrupted;                   /* this rank was told to stop */
+    bool interrupted;                   /* this rank was asked to stop */
     bool fails;                         /* this rank, for that or another reason */
     bool failed;                        /* some rank has */
     bool lost;                          /* some rank is not heard from any more */

@@ -78,7 +78,7 @@ static bool is_row(const struct run *r)
     return q->stride && (r->row.step % q->stride == 0 || r->row.step == q->steps);
 }
 
-/* Whether this is a chosen level; each is told once. */
+/* Whether this is a chosen level; `look` gets each once. */
 static bool is_look(struct run *r)
 {
     const struct br_history_request *q = r->request;
@@ -122,7 +122,8 @@ static void append_last(const struct run *r, struct br_error *err)
              last->step, last->time, last->velocity[BR_AXIAL], last->velocity[BR_BENDING]);
 }
 
-/* The last good row, if it was not told: without the bending displacement, which is lost. */
+/* Gives `row` the last good row, if it has not had it: without the bending displacement, which is
+ * lost. */
 static void tell_last(const struct run *r)
 {
     const struct br_history_request *q = r->request;

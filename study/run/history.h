@@ -10,7 +10,7 @@
 struct br_history_row {
     size_t step;            /* 0 .. steps */
     double time;            /* s */
-    double displacement[2]; /* by br_field_kind, m; NAN for bending in what `step` is told */
+    double displacement[2]; /* by br_field_kind, m; NAN for bending in the rows that `step` gets */
     double velocity[2];     /* m/s */
     double contact_force;   /* c_H (u - g)_+ as the step used it, N */
     double friction_force;  /* lambda, N; NAN at step 0, where the scheme has none */
@@ -35,7 +35,7 @@ struct br_history_observer {
                            const struct br_history_row *row, struct br_error *err);
 };
 
-/* What is marched, and what is told to whom. All borrowed. */
+/* What is marched, and which observers get which rows. All borrowed. */
 struct br_history_request {
     const struct br_scene *scene;
     const struct br_method *method;
@@ -54,16 +54,16 @@ struct br_history_end {
 };
 
 /* Marches the request's scene. Fails as br_march_create and br_march_step do; a march that blows up
- * stops at that step and says when, in which field, and from what value on. Everything up to then
- * has been told. The march is handed to *march (out, owned by the caller; NULL where it could not
- * be set up) if `march` is not NULL, at its last level, for what may be asked of it. */
+ * stops at that step and says when, in which field, and from what value on. The observers have had
+ * everything up to then. The march is handed to *march (out, owned by the caller; NULL where it
+ * could not be set up) if `march` is not NULL, at its last level, for what may be asked of it. */
 enum br_status br_history_run(const struct br_history_request *request, struct br_march **march,
                               struct br_history_end *end, struct br_error *err);
 
 /* The stride that makes at most so many rows, the first and the last included. */
 size_t br_history_stride(size_t steps, size_t most_rows);
 
-/* ---- an observer that keeps what it is told ---- */
+/* ---- an observer that keeps what it gets ---- */
 
 /* Rows, and the nodal fields at the looks; clear it. */
 struct br_history_record {
@@ -202,7 +202,7 @@ void br_step_cost_end(struct br_step_cost *cost);
 /* The time since the last reading goes to a part; cost NULL: nothing. For observers. */
 void br_step_cost_lap(struct br_step_cost *cost, enum br_cost_part part);
 
-/* An observer that ends a part: put it behind the observers whose work that is. `step` tells which
+/* An observer that ends a part: put it behind the observers whose work that is. `step` says which
  * of an observer's calls are meant: that of every step, or those of rows and looks. */
 struct br_cost_mark {
     struct br_step_cost *cost;

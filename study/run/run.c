@@ -98,7 +98,7 @@ static enum br_status watch_progress(void *self, const struct br_march *march,
 
 enum { MOST_OBSERVERS = BR_MOST_OUTPUTS + 6 };
 
-/* In the order in which they are told, with marks behind each kind of work. */
+/* In the order in which they are called, with marks behind each kind of work. */
 static size_t list_observers(struct run *r, struct br_history_observer list[MOST_OBSERVERS])
 {
     const struct br_run_request *q = r->request;

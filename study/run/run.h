@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One scene, marched once, with all that can be told of it; what is modelled, what is skipped, and
- * why. */
+/* One scene, marched once, with all that can be reported of it: what is modelled, what is skipped,
+ * and why. */
 #ifndef BR_STUDY_RUN_RUN_H
 #define BR_STUDY_RUN_RUN_H
 

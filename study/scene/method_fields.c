@@ -106,7 +106,7 @@ static void set_kernel(struct br_method *m, double row)
     m->linear.kernel = br_kernels[(size_t)row];
 }
 
-/* ---- who heeds what, and what a scene models ---- */
+/* ---- who uses what, and what a scene models ---- */
 
 static bool heeds_tolerance(const struct br_method *m)
 {
@@ -405,7 +405,7 @@ enum br_status br_method_read(const char *const text[BR_METHOD_FIELDS], enum br_
     return br_method_check(m, err);
 }
 
-/* ", as --solver riccati does": the first row that heeds the field. */
+/* ", as --solver riccati does": the first row that uses the field. */
 static const char *example(const struct br_method_field *f, enum br_method_style style,
                            char text[2 * BR_METHOD_VALUE])
 {

@@ -40,8 +40,8 @@ struct br_method_field {
     double (*below)(const struct br_method *m); /* an upper end of the method's own; or NULL */
     double (*get)(const struct br_method *m);   /* a number, or a row of the words */
     void (*set)(struct br_method *m, double value);
-    enum br_method_key by;                    /* the field that chooses who heeds this one */
-    bool (*heeds)(const struct br_method *m); /* whether it is heeded; NULL: always */
+    enum br_method_key by; /* the field whose value decides whether this one is used */
+    bool (*heeds)(const struct br_method *m); /* whether the method uses it; NULL: always */
     bool (*in)(const struct br_scene *scene); /* whether the scene models it; NULL: always */
     const char *before, *after;               /* what stands around the value in a sentence */
     bool quiet;                               /* not said where it is the default */
@@ -67,7 +67,7 @@ const char *br_method_field_text(const struct br_method_field *f, const struct b
 
 bool br_method_field_heeded(const struct br_method_field *f, const struct br_method *m);
 
-/* Whether a report gives its value: it is heeded, or has no effect because it is the default. */
+/* Whether a report gives its value: the method uses it, or it is the default and has no effect. */
 bool br_method_field_reported(const struct br_method_field *f, const struct br_method *m);
 
 bool br_methods_equal(const struct br_method *a, const struct br_method *b);
@@ -83,14 +83,14 @@ enum br_status br_method_field_read(const struct br_method_field *f, const char 
 enum br_status br_method_read(const char *const text[BR_METHOD_FIELDS], enum br_method_style style,
                               struct br_method *m, struct br_error *err);
 
-/* Refuses (BR_BAD_INPUT) a given field that none of `count` methods heeds: it is not ignored. */
+/* Refuses (BR_BAD_INPUT) a given field that none of `count` methods uses: it is not ignored. */
 enum br_status br_method_check_heeded(const char *const text[BR_METHOD_FIELDS],
                                       enum br_method_style style,
                                       const struct br_method *const *method, size_t count,
                                       struct br_error *err);
 
 /* "scheme euler, solver riccati on avx2, contact lagged, friction none": what the scene does not
- * model is "none"; what is not heeded is left out. Returns text (out). */
+ * model is "none"; what the method does not use is left out. Returns text (out). */
 const char *br_method_text(const struct br_scene *scene, const struct br_method *m,
                            char text[BR_METHOD_TEXT]);
 

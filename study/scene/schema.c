@@ -255,7 +255,7 @@ static enum br_status refuse_single_values(const struct br_function *f, enum br_
     if (status == BR_NO_MEMORY)
         br_fail(err, status, "%s", failure.message);
     else
-        status = BR_OK; /* too many: each user of the function tells */
+        status = BR_OK; /* too many: each user of the function reports it */
     for (size_t i = 0; i < breaks.count && !status; i++) {
         const double places[] = {breaks.at[i].low, breaks.at[i].high};
         const double before = value_of(f, nextafter(places[0], -INFINITY));

@@ -110,7 +110,7 @@ static enum br_status check_somewhere(const struct br_method *m, struct br_error
     return refused ? br_fail(err, BR_BAD_INPUT, "%.1000s", refusal.message) : BR_OK;
 }
 
-/* What no march would heed is refused. */
+/* A word that no march would use is refused. */
 static enum br_status check(const struct br_method *m, const bool taken[KINDS],
                             struct br_error *err)
 {

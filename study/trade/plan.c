@@ -358,7 +358,8 @@ static enum br_status check_goal(const struct br_plan *p, struct br_error *err)
     return p->methods.count ? BR_OK : br_fail(err, BR_BAD_INPUT, "no method takes this scene");
 }
 
-/* After the cheap trials: whether there are any results, and whether the goal can be told. */
+/* After the cheap trials: whether there are any results, and whether the judge can decide the goal.
+ */
 static enum br_status check_probes(struct br_plan *p, struct br_error *err)
 {
     size_t good = 0;

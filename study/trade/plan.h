@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A plan: the cheapest way to an error, or the least error for so many seconds. Cheap trials of
- * every named method tell how its errors and costs go; by that the
- * cheapest resolution is proposed and tried, the models learn from it, and so on until nothing that
- * is cheaper is likely to do. Errors are relative: the norm of the error over the norm of the
- * solution, the judge's own error added. */
+ * every named method give models of its errors and costs. The models propose the cheapest
+ * resolution, it is tried, the models are fitted again, and so on until nothing that is cheaper is
+ * likely to do. Errors are relative: the norm of the error over the norm of the solution, the
+ * judge's own error added. */
 #ifndef BR_STUDY_TRADE_PLAN_H
 #define BR_STUDY_TRADE_PLAN_H
 
@@ -124,9 +124,9 @@ struct br_plan {
  * Trials point to the named methods, so a plan that is made is not to be moved. */
 void br_plan_default(struct br_plan *plan, const struct br_scene *scene);
 
-/* Makes the plan. Fails with BR_BAD_INPUT (a goal that makes no sense, or below what the judge can
- * tell), BR_NOT_FINITE (no trial came to its end), BR_NO_MEMORY, BR_INTERRUPTED. A goal that is not
- * reached is no failure: end tells. Clear the plan even then. */
+/* Makes the plan. Fails with BR_BAD_INPUT (a goal that makes no sense, or below the judge's own
+ * error), BR_NOT_FINITE (no trial came to its end), BR_NO_MEMORY, BR_INTERRUPTED. A goal that is
+ * not reached is no failure: see `end`. Clear the plan even then. */
 enum br_status br_plan_make(struct br_plan *plan, struct br_error *err);
 void br_plan_clear(struct br_plan *plan);
 

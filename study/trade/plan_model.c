@@ -194,7 +194,7 @@ static enum br_status solve(struct problem *problem, double atanh_r, struct br_e
     for (int pass = 0; pass < 2; pass++) {
         problem->smoothness = pass == 0 ? straight : smoothness;
         gsl_multifit_nlinear_init(v, &fdf, w);
-        /* One that has not come to rest is the best so far: its residuals tell what it is worth. */
+        /* A fit that did not converge is the best so far: its residuals show its quality. */
         gsl_multifit_nlinear_driver(60, 1e-8, 1e-8, 0, NULL, NULL, &info, w);
         gsl_vector_memcpy(v, gsl_multifit_nlinear_position(w));
     }

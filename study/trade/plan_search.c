@@ -305,7 +305,7 @@ static void propose_for_seconds(const struct br_plan *plan, struct table *table,
 {
     const double error = best < plan->count ? br_trial_bound(&plan->trial[best], 0) : INFINITY;
     if (best < plan->count && plan->trial[best].end == BR_TRIAL_DOUBTFUL)
-        return; /* nobody could tell what is better */
+        return; /* the judge could not say what is better */
     take_least(plan, batch, table->safe, SAFE, worth_seconds * error);
 }
 

@@ -125,7 +125,7 @@ static struct br_refinement by_steps(const struct br_split *split,
     struct br_refinement r = {.stand = {.method = split->method}};
     size_t ratio = LEAST_RATIO;
     while (ratio * split->at.steps < FINE_STEPS)
-        ratio *= 2; /* even: the same with half as many steps tells its error */
+        ratio *= 2; /* even: a march of half as many steps gives its error */
     r.stand.method.scheme = scheme;
     r.stand.steps = ratio * split->at.steps;
     snprintf(r.name, sizeof r.name, "%s, k = %.3g s", scheme->name,

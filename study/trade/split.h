@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where the error of one run comes from. A chain of marches leads from the run to the solution:
  * each takes one source of error away and keeps the rest, so that the differences of neighbours,
- * as functions of x and t, add up to the whole error. Of a source that acts differently beside
- * another one, the chain tells what goes where it is taken away in this order.
+ * as functions of x and t, add up to the whole error. Where a source acts differently beside
+ * another one, its share is what goes when the sources are taken away in this order.
  *
  * To add a source: one row in split.c, where the chain has it. */
 #ifndef BR_STUDY_TRADE_SPLIT_H
@@ -33,7 +33,7 @@ struct br_source {
      * why not, a few words. */
     const char *(*remove)(const struct br_scene *scene, const struct br_refinement *refined,
                           struct br_stand *stand);
-    bool in_time; /* its share is told by the refined march alone */
+    bool in_time; /* its share comes from the refined march alone */
 };
 
 /* The chain, in its order; NULL-terminated. */
@@ -44,8 +44,8 @@ struct br_share {
     const struct br_source *source;        /* NULL: the whole */
     const char *none;                      /* why there is no such part; NULL: there is */
     double error[BR_MOST_NORMS][BR_PARTS]; /* its norm, in the norm's unit; 0 where there is none */
-    double floor[BR_MOST_NORMS][BR_PARTS]; /* below it the part cannot be told from what else the
-                                              two marches differ by; same unit */
+    double floor[BR_MOST_NORMS][BR_PARTS]; /* below it the part cannot be separated from what else
+                                              the two marches differ by; same unit */
     double tip[2]; /* signed, at x = L and t = T, by br_field_kind, m; these add up */
 };
 

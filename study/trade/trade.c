@@ -10,13 +10,6 @@ double br_trade_target(size_t digit)
     return pow(10, -(double)(BR_TRADE_FIRST_DIGIT + digit));
 }
 
-double br_trade_step(const struct br_trade *trade, const struct br_trial *trial)
-{
-    return trial->named->method.scheme->adaptive
-               ? 0
-               : br_time_step(trade->request.scene, trial->at.steps);
-}
-
 double br_trade_digits_per_second(const struct br_trial *trial)
 {
     if (!isfinite(br_trial_bound(trial, 0)))

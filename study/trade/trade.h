@@ -50,9 +50,6 @@ bool br_trade_is_printed_method(const struct br_named_method *named);
 /* -log10 of the relative error, over the seconds; NaN: no trial that counts. */
 double br_trade_digits_per_second(const struct br_trial *trial);
 
-/* The trials' k, s; 0 for an adaptive one. */
-double br_trade_step(const struct br_trade *trade, const struct br_trial *trial);
-
 /* How many trials ended like that. */
 size_t br_trade_tally(const struct br_trade *trade, enum br_trial_end end);
 

@@ -63,11 +63,11 @@ double br_trial_bound(const struct br_trial *trial, size_t m)
 
 /* The seconds of trials: each marches alone, in this thread, with nothing else at work. */
 
-/* Element-steps between two looks at the clock, which takes some 0.3 us. */
+/* Element-steps between two readings of the clock; a reading takes some 0.3 us. */
 static const double between_looks = 1e5;
 
-/* A march is given up early where its first steps say that it will take so many times the limit;
- * what an adaptive scheme will do, they do not say. */
+/* A march is ended early where its first steps predict that it takes this many times the limit. The
+ * first steps of an adaptive scheme predict nothing. */
 static const double sure_excess = 1.5;
 static const double least_evidence = 0.05; /* s of steps that an extrapolation is made from */
 
@@ -86,8 +86,8 @@ static bool is_stopped(const struct br_trial_request *request)
     return o && o->stop && o->stop(o->self);
 }
 
-/* What the march will have taken at its end, if it goes on like this, s; less where the steps so
- * far say nothing. */
+/* The seconds that the march surely takes to its end if it goes on like this; only those so far
+ * where its steps predict nothing. */
 static double foreseen(const struct clocked *c, double spent)
 {
     const double done = (double)br_march_steps_done(c->march);
@@ -152,7 +152,7 @@ static enum br_status march_once(struct clocked *c, struct br_trial_cost *cost,
     return status;
 }
 
-/* The first march warms up, and counts where it takes so long that it is not repeated. */
+/* The first march warms up; it counts only where it takes so long that it is not repeated. */
 static enum br_status repeat(struct clocked *c, struct br_error *err)
 {
     const struct br_trial_request *r = c->request;
@@ -176,7 +176,7 @@ static enum br_status repeat(struct clocked *c, struct br_error *err)
     return status;
 }
 
-/* What a march does is a result; the rest ends the call. */
+/* A failure of the march is a result of the trial; other failures end the call. */
 static enum br_status time_one(struct br_trial *trial, const struct br_trial_request *request,
                                struct br_error *err)
 {
@@ -374,7 +374,7 @@ static void clear(struct groups *g)
     free(g->study);
 }
 
-/* Judges those that came to their end. */
+/* Judges the trials that came to their end. */
 static enum br_status judge_all(struct br_trial *trial, size_t count,
                                 const struct br_trial_request *request, struct br_error *err)
 {

@@ -19,7 +19,7 @@ struct bench_time bench_time(void (*work)(void *self), void *self, double amount
 /* The rows so far; all of the benchmark's memory. */
 struct bench {
     json_t *rows;
-    struct bench_limits *limits; /* of limits.c */
+    struct bench_limits *limits; /* of rates.c and levels.c */
 };
 
 /* Adds a row to the file; the name is what --compare matches by. */

@@ -186,7 +186,7 @@ static enum br_status no_digits(const struct system *s, struct br_error *err)
  * next one would be round-off. The residual is formed element by element from what deforms them, so
  * that it is as exact as one of more digits, and the error itself shrinks, not just the residual
  * (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., SIAM 2002, section 12.1).
- * What is not finite is left to the march, which tells it. */
+ * The march reports what is not finite. */
 static enum br_status refine(struct system *s, const double *rhs, double *x, struct br_error *err)
 {
     double last = largest(x, s->nodal);

@@ -20,7 +20,7 @@ struct br_band {
 /* How a library factorises and solves. */
 struct br_factoriser {
     const char *name;
-    bool refines; /* heeds the option `refinement` by itself, else the assembled form does */
+    bool refines; /* applies the option `refinement` by itself; else the assembled form does */
 
     /* What does not depend on A's values. Fails with BR_BAD_INPUT (an option), BR_NO_MEMORY,
      * BR_SINGULAR; free *factor even then. */

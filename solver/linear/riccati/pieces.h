@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The recursions of plain.h on pieces of the beam, exactly, and side by side in the lanes of
- * vectors. README.md in this folder derives it and tells what it costs.
+ * vectors. README.md in this folder derives it and gives its cost.
  *
  * The beam is an odd rest at the clamped end and BR_LANES equal spans, one a lane; a span is a
  * number of equal pieces. Each piece has a recursion of its own that begins with P = 0 at its right
@@ -12,9 +12,9 @@
  * Phi'C M z + (M Phi)'h, first over the pieces of a span, which again begins with C = 0 at its
  * right end, so that all lanes share one table here, too; then over the spans.
  *
- * A step is a pass over the joins (predict), which tells the tip's velocity, and one over the
- * elements (finish), which also sums z and q for the next step. What the tip gathers from
- * increments drifts; it is read off the field every few steps. */
+ * A step is a pass over the joins (predict), which gives the tip's velocity, and one over the
+ * elements (finish), which also sums z and q for the next step. The tip's value is a sum of
+ * increments, which drifts; so it is read off the field every few steps. */
 #ifndef BR_SOLVER_PIECES_H
 #define BR_SOLVER_PIECES_H
 
