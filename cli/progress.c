@@ -3,13 +3,17 @@
 
 #include <pthread.h>
 #include <stdio.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "cli/signals.h"
 #include "solver/clock.h"
 #include "study/grid/observer.h"
 
-enum { BAR = 40 };
+enum { BAR = 40, TEXT = 46 /* beside the bar, at most */ };
+
+/* Of less time a remainder cannot be told, s. */
+static const double least_elapsed = 1;
 
 static struct {
     pthread_mutex_t lock;
@@ -20,13 +24,29 @@ static struct {
     int tenths;         /* lines told so far */
 } progress = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
+/* As wide as the terminal has room for beside the text; none where that is not much. */
 static void draw_bar(void)
 {
     char bar[BAR + 1];
-    for (int i = 0; i < BAR; i++)
-        bar[i] = i < progress.fraction * BAR ? '#' : '.';
-    bar[BAR] = '\0';
-    fprintf(stderr, "\r%s [%s] %3.0f %%, ", progress.what, bar, 100 * progress.fraction);
+    struct winsize size;
+    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    const int room = known ? (int)size.ws_col - TEXT : BAR, width = room < BAR ? room : BAR;
+    int i = 0;
+    for (; i < width && width >= 5; i++)
+        bar[i] = i < progress.fraction * width ? '#' : '.';
+    bar[i] = '\0';
+    fprintf(stderr, "\r%s %s%s%s%.0f %%, ", progress.what, i ? "[" : "", bar, i ? "] " : "",
+            100 * progress.fraction);
+}
+
+/* Work is counted before it is known how long it takes: the start of all tasks at once says little.
+ */
+static void print_left(double elapsed, double fraction)
+{
+    if (elapsed >= least_elapsed && fraction > 0)
+        fprintf(stderr, "about %.0f s left", elapsed * (1 - fraction) / fraction);
+    else
+        fprintf(stderr, "begun");
 }
 
 static void show(void *self, double fraction)
@@ -35,17 +55,19 @@ static void show(void *self, double fraction)
     pthread_mutex_lock(&progress.lock);
     progress.fraction = fraction;
     const double t = br_seconds(), elapsed = t - progress.start;
-    const double left = fraction > 0 ? elapsed * (1 - fraction) / fraction : 0;
     if (progress.terminal && t - progress.last >= 0.1) {
         progress.last = t;
         draw_bar();
-        fprintf(stderr, "%.0f s left \033[K", left);
+        print_left(elapsed, fraction);
+        fprintf(stderr, " \033[K");
     }
     const int tenths = (int)(10 * fraction);
     if (!progress.terminal && tenths > progress.tenths && t - progress.last >= 1) {
         progress.last = t;
         progress.tenths = tenths;
-        fprintf(stderr, "%s: %d %%, about %.0f s left\n", progress.what, 10 * tenths, left);
+        fprintf(stderr, "%s: %d %%, ", progress.what, 10 * tenths);
+        print_left(elapsed, fraction);
+        fputc('\n', stderr);
     }
     pthread_mutex_unlock(&progress.lock);
 }
@@ -59,12 +81,12 @@ static void show_waiting(void *self, double share)
     const double t = br_seconds();
     if (t - progress.last >= (progress.terminal ? 0.1 : 1)) {
         progress.last = t;
-        if (progress.terminal)
+        if (progress.terminal) {
             draw_bar();
-        else
-            fprintf(stderr, "%s: ", progress.what);
-        fprintf(stderr, "waits for an exact reference, %.1f %% of its most work%s", 100 * share,
-                progress.terminal ? " \033[K" : "\n");
+            fprintf(stderr, "exact reference: %.1f %% \033[K", 100 * share);
+        } else
+            fprintf(stderr, "%s: waits for an exact reference, %.1f %% of its most work\n",
+                    progress.what, 100 * share);
     }
     pthread_mutex_unlock(&progress.lock);
 }

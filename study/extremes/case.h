@@ -84,9 +84,6 @@ struct br_extreme_case {
 /* Draws a case (out). */
 void br_extreme_draw(uint64_t seed, size_t index, struct br_extreme_case *drawn);
 
-/* About how much work a march of the case is: elements times linear solves. */
-double br_extreme_work(const struct br_extreme_case *one);
-
 enum { BR_EXTREME_TEXT = 8192, BR_EXTREME_COMMAND = 1024 };
 
 /* The scene file (out), with a comment of where it comes from, and the command line that marches

@@ -204,11 +204,6 @@ static double solves(const struct br_method *m)
     return m->scheme->adaptive ? 60 : br_time_scheme_stages(m->scheme);
 }
 
-double br_extreme_work(const struct br_extreme_case *c)
-{
-    return (double)c->n * (double)c->steps * solves(&c->method);
-}
-
 /* Most of the elements times linear solves of a case. */
 static const double most_work = 1e5;
 
