@@ -193,15 +193,20 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         .stopped = r->done < r->count,
         .wall_seconds = r->wall_seconds,
     };
-    return br_verdicts_write(&r->verdicts, &r->session, &findings, r->all && r->done == r->count,
-                             err);
+    enum br_status status = br_session_report(&r->session, 1, err);
+    if (!status)
+        status = br_verdicts_report(&r->verdicts, &findings, r->all && r->done == r->count,
+                                    r->session.threads, r->session.document, err);
+    return status ? status : br_verdicts_finish(&r->verdicts, &r->session, err);
 }
 
 /* What the reports need, before a long computation. */
 static enum br_status prepare_reports(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
-    const enum br_status status = br_verdicts_open(&r->verdicts, o, r->check, r->count, err);
+    enum br_status status = br_verdicts_open(&r->verdicts, o, r->check, r->count, err);
+    if (!status)
+        status = br_session_open(&r->session, err);
     if (!status)
         br_warn_of_checks(r->check, r->count);
     return status;
@@ -219,6 +224,7 @@ static void clear(struct run *r)
     free(r->item);
     free(r->check);
     br_verdicts_clear(&r->verdicts);
+    br_session_close(&r->session);
     br_scene_list_free(r->listed, r->listed ? r->most : 0);
 }
 

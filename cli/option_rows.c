@@ -113,7 +113,7 @@ static const struct br_option rows[] = {
      BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
      .more = "Needed once for each study file with a command, and again when it has changed."},
     {BR_OPT_OUT, "out", 'o', "DIR", "folder of the results (default: none are written)", NULL,
-     BR_TAKES_DIR, .commands = BR_FOR_ORDERS},
+     BR_TAKES_DIR, .commands = BR_FOR_ORDERS | BR_FOR_CHECK},
 
     /* what is marched */
     {BR_OPT_N, "n", 'n', "LIST", meshes, "100,200,400,800,1600,3200", BR_TAKES_COUNTS,
@@ -298,7 +298,7 @@ static const struct br_option rows[] = {
     {BR_OPT_FORMAT, "format", 0, "LIST", "formats to write (default: all)", NULL,
      BR_TAKES_WORD_LIST, .words = &br_format_words,
      .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES |
-                 BR_FOR_ORDERS},
+                 BR_FOR_ORDERS | BR_FOR_CHECK},
     {BR_OPT_NO_PLOTS, "no-plots", 0, NULL, "write no plots", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_ORDERS},
     {BR_OPT_THREADS, "threads", 'j', "COUNT", "threads; 0: all cores", "0", BR_TAKES_NUMBER,

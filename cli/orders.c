@@ -187,7 +187,7 @@ static enum br_status compute(struct run *r, struct br_error *err)
 
 /* ---- results ---- */
 
-static enum br_status write_orders(struct run *r, struct br_error *err)
+static enum br_status build_report(struct run *r, struct br_document *d, struct br_error *err)
 {
     const char *caption = r->check.name;
     struct br_estimate growth[BR_AXES];
@@ -195,23 +195,30 @@ static enum br_status write_orders(struct run *r, struct br_error *err)
         if (br_orders_growth(&r->study.orders, (enum br_axis)axis, &growth[axis], err))
             return err->status;
     const struct br_provenance provenance = br_provenance_of(NULL, r->session.threads);
-    if (br_session_report(&r->session, 1, err))
-        return err->status;
-    struct br_document *d = &r->session.document[0];
     br_report_orders(&r->study.orders, growth, caption, d);
     if (br_output_is_open(&r->session.output))
         br_session_draw(&r->session, d, br_orders_draw(&r->study.orders, caption),
                         "Errors over the size of elements and steps");
     br_put_provenance(d, &provenance);
-    return br_session_finish(&r->session, err);
+    return BR_OK;
 }
 
-static enum br_status write_verdicts(struct run *r, struct br_error *err)
+/* The orders, and where something is expected the verdicts behind them. */
+static enum br_status write_all(struct run *r, struct br_error *err)
 {
     const struct br_check_findings findings = {
         .checks = &r->check, .count = 1, .wall_seconds = r->wall_seconds};
-    const enum br_status status =
-        br_verdicts_write(&r->verdicts, &r->session, &findings, true, err);
+    const bool judged = r->study.request.expectations > 0;
+    enum br_status status = br_session_report(&r->session, judged ? 2 : 1, err);
+    if (!status)
+        status = build_report(r, &r->session.document[0], err);
+    if (!status && !judged)
+        return br_session_finish(&r->session, err);
+    if (!status)
+        status = br_verdicts_report(&r->verdicts, &findings, true, r->session.threads,
+                                    &r->session.document[1], err);
+    if (!status)
+        status = br_verdicts_finish(&r->verdicts, &r->session, err);
     return status ? status : br_verdicts_conclude(&r->verdicts, &r->check, 1, err);
 }
 
@@ -235,13 +242,8 @@ static enum br_status run(const struct br_options *options, struct br_error *err
     static struct run r;
     r = (struct run){.session = br_session_begin(options)};
     const bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err) ||
-                        compute(&r, err) || write_orders(&r, err);
-    const bool judged = !failed && r.study.request.expectations > 0;
-    enum br_status status = failed ? err->status : BR_OK;
-    if (judged)
-        status = write_verdicts(&r, err);
-    if (!status)
-        status = check_rows(&r, err);
+                        compute(&r, err) || write_all(&r, err) || check_rows(&r, err);
+    const enum br_status status = failed ? err->status : BR_OK;
     br_verdicts_clear(&r.verdicts);
     br_check_clear(&r.check);
     br_study_file_clear(&r.study);

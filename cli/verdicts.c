@@ -86,12 +86,13 @@ enum br_status br_verdicts_open(struct br_verdicts *v, const struct br_options *
                   : check_places(v, br_option_text(options, BR_OPT_COMPARE), checks, count, err);
 }
 
-static enum br_status print(struct br_verdicts *v, bool quiet, const struct br_document *d,
-                            struct br_error *err)
+enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *session,
+                                  struct br_error *err)
 {
     for (size_t i = 1; br_check_formats[i]; i++)
-        quiet |= v->file[i].file == stdout;
-    enum br_status status = quiet ? BR_OK : br_document_show(stdout, d, err);
+        session->quiet |= v->file[i].file == stdout;
+    const struct br_document *d = &session->document[session->documents - 1];
+    enum br_status status = br_session_finish(session, err);
     for (size_t i = 1; br_check_formats[i] && !status; i++)
         if (v->file[i].file)
             status = br_document_print(v->file[i].file, br_check_formats[i], d, NULL, err);
@@ -102,21 +103,18 @@ static enum br_status print(struct br_verdicts *v, bool quiet, const struct br_d
     return status ? status : br_whole_file_commit(&v->baseline, err);
 }
 
-enum br_status br_verdicts_write(struct br_verdicts *v, const struct br_session *session,
-                                 const struct br_check_findings *findings, bool whole,
-                                 struct br_error *err)
+enum br_status br_verdicts_report(struct br_verdicts *v, const struct br_check_findings *findings,
+                                  bool whole, int threads, struct br_document *d,
+                                  struct br_error *err)
 {
-    const struct br_provenance provenance = br_provenance_of(NULL, session->threads);
+    const struct br_provenance provenance = br_provenance_of(NULL, threads);
     struct br_check_findings all = *findings;
-    struct br_document d = {0};
     if (v->compare && br_compare(all.checks, all.count, whole, &v->old, &v->comparison, err))
         return err->status;
     all.comparison = v->compare ? &v->comparison : NULL;
     all.provenance = &provenance;
-    br_report_check(&all, &d);
-    const enum br_status status = print(v, session->quiet, &d, err);
-    br_document_clear(&d);
-    return status;
+    br_report_check(&all, d);
+    return BR_OK;
 }
 
 enum br_status br_verdicts_conclude(const struct br_verdicts *v, const struct br_check *checks,

@@ -25,11 +25,17 @@ struct br_verdicts {
 enum br_status br_verdicts_open(struct br_verdicts *verdicts, const struct br_options *options,
                                 const struct br_check *checks, size_t count, struct br_error *err);
 
-/* Writes them all. findings: without comparison and provenance. whole: all that there is was
- * checked. Fails as br_document_print and br_whole_file_commit. */
-enum br_status br_verdicts_write(struct br_verdicts *verdicts, const struct br_session *session,
-                                 const struct br_check_findings *findings, bool whole,
-                                 struct br_error *err);
+/* Builds the report of the verdicts (out, begins as zeros). findings: without comparison and
+ * provenance. whole: all that there is was checked. Fails with BR_NO_MEMORY. */
+enum br_status br_verdicts_report(struct br_verdicts *verdicts,
+                                  const struct br_check_findings *findings, bool whole, int threads,
+                                  struct br_document *report, struct br_error *err);
+
+/* Finishes the session, whose last report is that of the verdicts, and writes the files. Where one
+ * of them is standard output, no report is shown there. Fails as br_session_finish,
+ * br_document_print and br_whole_file_commit. */
+enum br_status br_verdicts_finish(struct br_verdicts *verdicts, struct br_session *session,
+                                  struct br_error *err);
 
 /* BR_VERDICT where not all passed or the comparison is serious; BR_BAD_INPUT where something could
  * not be verified. */
