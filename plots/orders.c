@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Errors, or differences of values, of any program over the size of elements or steps. */
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "plots/pictures.h"
 #include "study/orders/orders.h"
@@ -23,14 +25,50 @@ static void add_line(struct br_figure *f, const struct br_orders *o,
     br_series_sort(s);
 }
 
+/* What is drawn, with its unit where that is known and one: sizes of the source have it, one over a
+ * count has none. */
+static struct br_panel *begin_panel(struct br_figure *f, const struct br_orders *o,
+                                    enum br_axis axis)
+{
+    static const char *const labels[] = {"mesh size h", "time step k"};
+    const struct br_numbers *numbers = o->numbers;
+    const char *unit = numbers->column[axis]->is_size ? numbers->unit[axis] : NULL;
+    const char *of_all = numbers->quantity[0].unit;
+    size_t values = 0;
+    for (size_t i = 0; i < numbers->quantities; i++) {
+        const char *own = numbers->quantity[i].unit;
+        values += numbers->quantity[i].is_value;
+        of_all = of_all && own && strcmp(of_all, own) == 0 ? of_all : NULL;
+    }
+    char x[120], y[120], quoted[2][80];
+    snprintf(x, sizeof x, "%s%s%s", labels[axis], unit ? ", " : "",
+             unit ? br_quoted(quoted[0], sizeof quoted[0], &br_for_markup, unit) : "");
+    snprintf(y, sizeof y, "%s%s%s",
+             values == 0                    ? "error"
+             : values < numbers->quantities ? "error, or difference of values"
+                                            : "difference of values",
+             of_all ? ", " : "",
+             of_all ? br_quoted(quoted[1], sizeof quoted[1], &br_for_markup, of_all) : "");
+    struct br_panel *p = br_panel_add(f, x, y);
+    p->log_x = p->log_y = true;
+    return p;
+}
+
+/* As the joint fit has it, where that describes the errors: along a line the other axis bends it.
+ */
+static double order_of(const struct br_quantity_orders *of, const struct br_orders_line *line)
+{
+    if (br_joint_describes(&of->joint))
+        return line->axis == BR_AXIS_SPACE ? of->joint.p.value : of->joint.q.value;
+    return line->observed.order.value;
+}
+
 /* The lines along one axis: of all quantities the one at the finest size of the other axis. */
 static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_axis axis)
 {
-    static const char *const labels[] = {"mesh size h", "time step k"};
     double slope[3];
     size_t slopes = 0;
-    struct br_panel *p = br_panel_add(f, labels[axis], "error, or difference of values");
-    p->log_x = p->log_y = true;
+    begin_panel(f, o, axis);
     for (size_t i = 0; i < o->count; i++) {
         const struct br_orders_line *finest = NULL;
         for (size_t l = 0; l < o->of[i].lines; l++)
@@ -38,7 +76,7 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
         if (!finest)
             continue;
         add_line(f, o, &o->of[i], finest);
-        const double order = round(finest->observed.order.value);
+        const double order = round(order_of(&o->of[i], finest));
         bool known = slopes == 3 || !(order >= 1);
         for (size_t s = 0; s < slopes; s++)
             known |= slope[s] == order;
