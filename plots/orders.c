@@ -25,33 +25,37 @@ static void add_line(struct br_figure *f, const struct br_orders *o,
     br_series_sort(s);
 }
 
-/* What is drawn, with its unit where that is known and one: sizes of the source have it, one over a
- * count has none. */
-static struct br_panel *begin_panel(struct br_figure *f, const struct br_orders *o,
-                                    enum br_axis axis)
+/* Sizes of the source have its unit; one over a count has none. */
+static void name_axis(const struct br_numbers *numbers, enum br_axis axis, char label[160])
 {
-    static const char *const labels[] = {"mesh size h", "time step k"};
-    const struct br_numbers *numbers = o->numbers;
-    const char *unit = numbers->column[axis]->is_size ? numbers->unit[axis] : NULL;
-    const char *of_all = numbers->quantity[0].unit;
+    static const char *const names[] = {"mesh size h", "time step k"};
+    const struct br_resolution_column *column = numbers->column[axis];
+    const char *unit = numbers->unit[axis];
+    char quoted[80];
+    if (!column->is_size)
+        snprintf(label, 160, "%s %s%s", names[axis], column->is_volume ? "from " : "= 1/",
+                 column->name);
+    else
+        snprintf(label, 160, "%s%s%s", names[axis], unit ? ", " : "",
+                 unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
+}
+
+/* With a unit where all have the same. */
+static void name_quantities(const struct br_numbers *numbers, char label[160])
+{
+    const char *unit = numbers->quantity[0].unit;
     size_t values = 0;
     for (size_t i = 0; i < numbers->quantities; i++) {
         const char *own = numbers->quantity[i].unit;
         values += numbers->quantity[i].is_value;
-        of_all = of_all && own && strcmp(of_all, own) == 0 ? of_all : NULL;
+        unit = unit && own && strcmp(unit, own) == 0 ? unit : NULL;
     }
-    char x[120], y[120], quoted[2][80];
-    snprintf(x, sizeof x, "%s%s%s", labels[axis], unit ? ", " : "",
-             unit ? br_quoted(quoted[0], sizeof quoted[0], &br_for_markup, unit) : "");
-    snprintf(y, sizeof y, "%s%s%s",
+    char quoted[80];
+    snprintf(label, 160, "%s%s%s",
              values == 0                    ? "error"
              : values < numbers->quantities ? "error, or difference of values"
                                             : "difference of values",
-             of_all ? ", " : "",
-             of_all ? br_quoted(quoted[1], sizeof quoted[1], &br_for_markup, of_all) : "");
-    struct br_panel *p = br_panel_add(f, x, y);
-    p->log_x = p->log_y = true;
-    return p;
+             unit ? ", " : "", unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
 }
 
 /* As the joint fit has it, where that describes the errors: along a line the other axis bends it.
@@ -68,7 +72,11 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
 {
     double slope[3];
     size_t slopes = 0;
-    begin_panel(f, o, axis);
+    char x[160], y[160];
+    name_axis(o->numbers, axis, x);
+    name_quantities(o->numbers, y);
+    struct br_panel *p = br_panel_add(f, x, y);
+    p->log_x = p->log_y = true;
     for (size_t i = 0; i < o->count; i++) {
         const struct br_orders_line *finest = NULL;
         for (size_t l = 0; l < o->of[i].lines; l++)

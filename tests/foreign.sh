@@ -65,7 +65,10 @@ plant_bug
 expect 1 "FAIL, Poisson's equation, finite differences in C, space max (poisson.yaml:11): the order, 1.0" \
     beamrate check poisson.yaml
 expect 1 "PASS before, FAIL now" beamrate check poisson.yaml --compare new.json
-expect 1 "max: order in h 1.0" beamrate orders poisson.yaml
+expect 1 "max: order in h 1.0" beamrate orders poisson.yaml --out planted
+cp planted/orders.gp whole
+says "mesh size h = 1/n" "the picture"
+says "error, or difference of values" "the picture"
 # What the page says.
 page=$BEAMRATE_DATA/docs/your-own-solver.md
 sed -n '/^title: Poisson/,/^```/p' "$page" | sed '$d' >printed
@@ -73,6 +76,11 @@ grep -v '^#' poisson.yaml | diff printed - >output || complain "$page has anothe
 expect 0 "limit 24.9371129, between 24.9215676 and 24.9394632 (least squares" \
     beamrate orders drag.csv --value drag
 expect 0 "l2: order in h 1.99 [1.98, 2.01]." beamrate orders errors.csv
+printf 'h [m]\tdrag [N]\n0.4\t3\n0.2\t3.3\n0.1\t3.4\n' >units.tsv
+expect 0 "order in h not known." beamrate orders units.tsv --value drag --out units
+cp units/orders.gp whole
+says "mesh size h, m" "the picture"
+says "difference of values, N" "the picture"
 has python3 && study heat "Python" 2
 has FreeFem++ && study freefem "FreeFem++" 4
 has octave-cli && study pendulum "Octave" 1
@@ -102,6 +110,8 @@ fails() { # HOW MESSAGE
 }
 
 expect 0 "err: order in h 2.00" \
+    beamrate orders --run './bad.sh never {n}' --n 4,8,16,32,64 --read 'err=err=(.+)'
+expect 0 "5 of 5 runs were kept from before, and not run again." \
     beamrate orders --run './bad.sh never {n}' --n 4,8,16,32,64 --read 'err=err=(.+)'
 fails fails "exit code 3; it printed: singular matrix"
 fails hangs "it did not end within 1 s; it printed nothing"
