@@ -96,7 +96,7 @@ static void say_limit(struct br_document *d, const struct br_grid_limit *limit, 
         br_put_more(d, "%sno limit: %s", separator(first), br_sequence_text(limit->sequence));
 }
 
-/* Numbers of a run of before are the program's of before. */
+/* Their numbers are of the program as it was when it ran. */
 static void say_kept(struct br_document *d, const struct br_numbers *numbers)
 {
     size_t kept = 0;
