@@ -79,8 +79,11 @@ static enum br_status check_trust(const struct br_orders_request *request, const
                        request->path, command);
     if (!trusted)
         remember(sum);
-    if (!br_option_given(options, BR_OPT_QUIET))
-        fprintf(stderr, "beamrate: %s runs %s\n", request->path, command);
+    if (br_option_given(options, BR_OPT_QUIET))
+        return BR_OK;
+    char path[400];
+    fprintf(stderr, "beamrate: %s runs %s\n",
+            br_quoted(path, sizeof path, &br_for_text, request->path), command);
     return BR_OK;
 }
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Errors, or differences of values, of any program over the size of elements or steps. */
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "plots/pictures.h"
 #include "study/orders/orders.h"
@@ -21,13 +23,57 @@ static void add_line(struct br_figure *f, const struct br_orders *o,
     br_series_sort(s);
 }
 
+/* Sizes of the source have its unit; one over a count has none. */
+static void name_axis(const struct br_numbers *numbers, enum br_axis axis, char label[160])
+{
+    static const char *const names[] = {"mesh size h", "time step k"};
+    const struct br_resolution_column *column = numbers->column[axis];
+    const char *unit = numbers->unit[axis];
+    char quoted[80];
+    if (!column->is_size)
+        snprintf(label, 160, "%s %s%s", names[axis], column->is_volume ? "from " : "= 1/",
+                 column->name);
+    else
+        snprintf(label, 160, "%s%s%s", names[axis], unit ? ", " : "",
+                 unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
+}
+
+/* With a unit where all have the same. */
+static void name_quantities(const struct br_numbers *numbers, char label[160])
+{
+    const char *unit = numbers->quantity[0].unit;
+    size_t values = 0;
+    for (size_t i = 0; i < numbers->quantities; i++) {
+        const char *own = numbers->quantity[i].unit;
+        values += numbers->quantity[i].is_value;
+        unit = unit && own && strcmp(unit, own) == 0 ? unit : NULL;
+    }
+    char quoted[80];
+    snprintf(label, 160, "%s%s%s",
+             values == 0                    ? "error"
+             : values < numbers->quantities ? "error, or difference of values"
+                                            : "difference of values",
+             unit ? ", " : "", unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
+}
+
+/* As the joint fit has it, where that describes the errors: along a line the other axis bends it.
+ */
+static double order_of(const struct br_quantity_orders *of, const struct br_orders_line *line)
+{
+    if (br_joint_describes(&of->joint))
+        return line->axis == BR_AXIS_SPACE ? of->joint.p.value : of->joint.q.value;
+    return line->observed.order.value;
+}
+
 /* The lines along one axis: of all quantities the one at the finest size of the other axis. */
 static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_axis axis)
 {
-    static const char *const labels[] = {"mesh size h", "time step k"};
     double slope[3];
     size_t slopes = 0;
-    struct br_panel *p = br_panel_add(f, labels[axis], "error, or difference of values");
+    char x[160], y[160];
+    name_axis(o->numbers, axis, x);
+    name_quantities(o->numbers, y);
+    struct br_panel *p = br_panel_add(f, x, y);
     p->log_x = p->log_y = true;
     for (size_t i = 0; i < o->count; i++) {
         const struct br_orders_line *finest = NULL;
@@ -38,7 +84,7 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
         add_line(f, o, &o->of[i], finest);
         if (*finest->at)
             BR_SAY(p->title, "at %s", finest->at);
-        const double order = round(finest->observed.order.value);
+        const double order = round(order_of(&o->of[i], finest));
         bool known = slopes == 3 || !(order >= 1);
         for (size_t s = 0; s < slopes; s++)
             known |= slope[s] == order;

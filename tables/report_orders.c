@@ -19,6 +19,8 @@ static const char *const limit_methods[] = {
 
 /* ---- the answer ---- */
 
+enum { MOST_NAMED = BR_MOST_ANSWERS - 5 }; /* quantities; others are left for the tables */
+
 /* The line at the finest size of the other axis; NULL: none. */
 static const struct br_orders_line *finest_line(const struct br_quantity_orders *of,
                                                 enum br_axis axis)
@@ -29,32 +31,40 @@ static const struct br_orders_line *finest_line(const struct br_quantity_orders 
     return line;
 }
 
+/* Parts of a sentence: the first follows its colon. */
+static const char *separator(bool *first)
+{
+    const bool was = *first;
+    *first = false;
+    return was ? " " : "; ";
+}
+
 static void say_order(struct br_document *d, const struct br_estimate *order, enum br_axis axis,
-                      const char *where)
+                      const char *where, bool *first)
 {
     char text[64];
-    br_put_more(d, " order in %s %s%s%s%s;", br_axis_letters[axis],
+    br_put_more(d, "%sorder in %s %s%s%s%s", separator(first), br_axis_letters[axis],
                 isfinite(order->value) ? br_order_text(order, text, sizeof text) : "not known",
                 isfinite(order->value) && !br_order_determined(order) ? " (not determined)" : "",
                 *where ? " at " : "", where);
 }
 
-static void say_orders(struct br_document *d, const struct br_quantity_orders *of)
+static void say_orders(struct br_document *d, const struct br_quantity_orders *of, bool *first)
 {
     const bool joint = br_joint_describes(&of->joint);
     for (int axis = 0; axis < BR_AXES; axis++) {
         const struct br_orders_line *line = finest_line(of, (enum br_axis)axis);
         if (joint && of->joint.kind == (axis == BR_AXIS_SPACE ? BR_JOINT_TIME : BR_JOINT_SPACE))
-            br_put_more(d, " no error in %s is seen;", br_axis_letters[axis]);
+            br_put_more(d, "%sno error in %s is seen", separator(first), br_axis_letters[axis]);
         else if (joint)
             say_order(d, axis == BR_AXIS_SPACE ? &of->joint.p : &of->joint.q, (enum br_axis)axis,
-                      "");
+                      "", first);
         else if (line)
-            say_order(d, &line->observed.order, (enum br_axis)axis, line->at);
+            say_order(d, &line->observed.order, (enum br_axis)axis, line->at, first);
     }
     if (joint)
-        br_put_more(d, " by the joint fit of %zu rows, misfit %.2g %%;", of->joint.points,
-                    100 * of->joint.misfit);
+        br_put_more(d, "%sby the joint fit of %zu rows, misfit %.2g %%", separator(first),
+                    of->joint.points, 100 * of->joint.misfit);
 }
 
 /* How many rows are left out, the first reason and where it begins. */
@@ -71,43 +81,61 @@ static void say_left_out(struct br_document *d, const struct br_quantity_orders 
             count += p->flag != BR_FLAG_NONE;
             first = !first && p->flag ? p : first;
         }
-    if (count)
-        br_put_more(d, " %zu of %zu left out, the first at %s (%s, %.1e).", count, points,
-                    first->label, br_flag_name(first->flag), first->error);
+    if (!count)
+        return;
+    br_put_more(d, " %zu of %zu left out, the first at %s (%s", count, points, first->label,
+                br_flag_name(first->flag));
+    if (isfinite(first->error))
+        br_put_more(d, ", %.1e", first->error);
+    br_put_more(d, ").");
 }
 
-static void say_limit(struct br_document *d, const struct br_grid_limit *limit)
+static void say_limit(struct br_document *d, const struct br_grid_limit *limit, bool *first)
 {
     if (isfinite(limit->value.low))
-        br_put_more(d, " limit %.9g, between %.9g and %.9g (%s), %s;", limit->value.value,
-                    limit->value.low, limit->value.high, limit_methods[limit->method],
-                    br_sequence_text(limit->sequence));
+        br_put_more(d, "%slimit %.9g, between %.9g and %.9g (%s), %s", separator(first),
+                    limit->value.value, limit->value.low, limit->value.high,
+                    limit_methods[limit->method], br_sequence_text(limit->sequence));
     else
-        br_put_more(d, " no limit: %s;", br_sequence_text(limit->sequence));
+        br_put_more(d, "%sno limit: %s", separator(first), br_sequence_text(limit->sequence));
+}
+
+/* Their numbers are of the program as it was when it ran. */
+static void say_kept(struct br_document *d, const struct br_numbers *numbers)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < numbers->rows; i++)
+        kept += numbers->row[i].kept;
+    if (kept)
+        br_put_answer(d, "%zu of %zu runs were kept from before, and not run again.", kept,
+                      numbers->rows);
 }
 
 static void put_answers(struct br_document *d, const struct br_orders *o,
                         const struct br_estimate *growth)
 {
-    for (size_t i = 0; i < o->count && i < BR_MOST_ANSWERS - 2; i++) {
+    for (size_t i = 0; i < o->count && i < MOST_NAMED; i++) {
         const struct br_quantity_orders *of = &o->of[i];
         const struct br_orders_line *line = of->lines ? finest_line(of, of->line[0].axis) : NULL;
+        bool first = true;
         br_put_answer(d, "%s:", quantity_of(o, of)->name);
         if (!line)
-            br_put_more(d, " no order: fewer than three sizes.");
+            br_put_more(d, "%sno order: fewer than three sizes", separator(&first));
         if (line && quantity_of(o, of)->is_value)
-            say_limit(d, &line->limit);
-        say_orders(d, of);
+            say_limit(d, &line->limit, &first);
+        say_orders(d, of, &first);
+        br_put_more(d, ".");
         say_left_out(d, of);
     }
-    if (o->count > BR_MOST_ANSWERS - 2)
-        br_put_answer(d, "%zu more columns: see the tables.", o->count - (BR_MOST_ANSWERS - 2));
+    if (o->count > MOST_NAMED)
+        br_put_answer(d, "%zu more columns: see the tables.", o->count - MOST_NAMED);
     for (int axis = 0; axis < BR_AXES; axis++)
         if (isfinite(growth[axis].value))
             br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
                           br_order_text(&growth[axis], (char[64]){0}, 64));
     if (o->tied)
         br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
+    say_kept(d, o->numbers);
 }
 
 /* ---- tables ---- */

@@ -1,0 +1,164 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Real programs of others, and their studies in docs/orders/: in C, with and without a bug, Python,
+# FreeFem++ and Octave, where these are installed; a program that fails in each way; beamrate itself.
+# $BEAMRATE is the program, $BEAMRATE_DATA the project, $CC a compiler.
+set -u
+: "${BEAMRATE:?is the program}" "${BEAMRATE_DATA:?is the project}"
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+cp "$BEAMRATE_DATA"/docs/orders/* .
+mkdir bin
+ln -s "$BEAMRATE" bin/beamrate
+export PATH="$folder/bin:$PATH" XDG_STATE_HOME="$folder/state"
+failures=0
+
+complain() {
+    echo "FAILED: $1"
+    sed 's/^/    /' output
+    failures=$((failures + 1))
+}
+
+# The last command's output, whose lines are broken at blanks.
+says() { # TEXT COMMAND
+    [ -z "$1" ] || grep -qF -- "$1" whole || complain "does not say '$1': $2"
+}
+
+# Its exit code, and a text that it prints.
+expect() { # CODE TEXT COMMAND...
+    local code=$1 text=$2
+    shift 2
+    "$@" >output 2>&1
+    local found=$?
+    tr -s ' \n' ' ' <output >whole
+    [ $found -eq "$code" ] || complain "exit code $found, expected $code: $*"
+    says "$text" "$*"
+}
+
+# ---- studies of real programs ----
+
+study() { # NAME PASSES
+    expect 0 "$2 PASS, 0 FAIL, 0 INCONCLUSIVE" beamrate check "$1.yaml" --trust
+}
+
+has() { # PROGRAM
+    command -v "$1" >/dev/null && return
+    echo "skipped: $1 is not installed"
+    return 1
+}
+
+# The derivative at the end to first order: what is left out is half a cell's load.
+plant_bug() {
+    sed 's|h \* exp(1) + h \* h / 2 \* f(1)|h * exp(1)|' poisson.c >planted.c
+    ! cmp -s poisson.c planted.c || complain "poisson.c has no place for the bug"
+    ${CC:-cc} -O1 -o poisson planted.c -lm || complain "planted.c cannot be compiled"
+}
+
+${CC:-cc} -O1 -o poisson poisson.c -lm || complain "poisson.c cannot be compiled"
+expect 2 "is not trusted yet" beamrate check poisson.yaml
+study poisson 2
+expect 0 "0 serious" beamrate check poisson.yaml --compare baseline.json
+expect 0 "2 PASS" beamrate check poisson.yaml --compare new.json --update-baseline
+expect 0 "0 serious" beamrate check poisson.yaml --compare new.json
+plant_bug
+expect 1 "FAIL, Poisson's equation, finite differences in C, space max (poisson.yaml:11): the order, 1.0" \
+    beamrate check poisson.yaml
+expect 1 "PASS before, FAIL now" beamrate check poisson.yaml --compare new.json
+expect 1 "max: order in h 1.0" beamrate orders poisson.yaml --out planted
+cp planted/orders.gp whole
+says "mesh size h = 1/n" "the picture"
+says "error, or difference of values" "the picture"
+# What the page says.
+page=$BEAMRATE_DATA/docs/your-own-solver.md
+sed -n '/^title: Poisson/,/^```/p' "$page" | sed '$d' >printed
+grep -v '^#' poisson.yaml | diff printed - >output || complain "$page has another poisson.yaml"
+expect 0 "limit 24.9371129, between 24.9215676 and 24.9394632 (least squares" \
+    beamrate orders drag.csv --value drag
+expect 0 "l2: order in h 1.99 [1.98, 2.01]." beamrate orders errors.csv
+printf 'h [m]\tdrag [N]\n0.4\t3\n0.2\t3.3\n0.1\t3.4\n' >units.tsv
+expect 0 "order in h not known." beamrate orders units.tsv --value drag --out units
+cp units/orders.gp whole
+says "mesh size h, m" "the picture"
+says "difference of values, N" "the picture"
+has python3 && study heat 2
+has FreeFem++ && study freefem 4
+has octave-cli && study pendulum 1
+
+# ---- a program that fails at one resolution ----
+
+cat >bad.sh <<'END'
+#!/bin/sh
+if [ "$2" = 8 ]; then
+    case $1 in
+    fails) echo err=0.1; echo singular matrix >&2; exit 3 ;;
+    hangs) sleep 30 ;;
+    nan) echo err=nan; exit 0 ;;
+    nothing) exit 0 ;;
+    comma) echo err=1,5; exit 0 ;;
+    esac
+fi
+echo "err=$((1000000 / ($2 * $2)))e-6"
+END
+chmod +x bad.sh
+
+fails() { # HOW MESSAGE
+    local words=(orders --run "./bad.sh $1 {n}" --n 4,8,16,32,64 --read 'err=err=(.+)' --time-limit 1)
+    expect 3 "1 of 5 runs failed; the first: $2" beamrate "${words[@]}"
+    says "order in h not known. 1 of 5 left out, the first at n = 8 (failed)" "orders, bad.sh $1"
+    expect 1 "at n = 8 $2" beamrate "${words[@]}" --expect 'err: h 2 +- 0.1'
+}
+
+expect 0 "err: order in h 2.00" \
+    beamrate orders --run './bad.sh never {n}' --n 4,8,16,32,64 --read 'err=err=(.+)'
+expect 0 "5 of 5 runs were kept from before, and not run again." \
+    beamrate orders --run './bad.sh never {n}' --n 4,8,16,32,64 --read 'err=err=(.+)'
+fails fails "exit code 3; it printed: singular matrix"
+fails hangs "it did not end within 1 s; it printed nothing"
+fails nan "err: found 'nan', expected a finite number"
+fails nothing "err: 'err=(.+)' matches nothing in the output"
+fails comma "err: found '1,5', expected a finite number"
+
+# ---- beamrate as a program of others ----
+
+# A number of a row of a CSV file: by its place, or a line of a table.
+field() { # FILE LINE-PATTERN COLUMN
+    awk -F, -v pattern="$2" -v column="$3" '
+        NR == 1 { for (i = 1; i <= NF; i++) if ($i == column) at = i }
+        NR > 1 && $0 ~ pattern { print $at; exit }' "$1"
+}
+
+near() { # WHAT A B TOLERANCE
+    awk -v a="$2" -v b="$3" -v t="$4" 'BEGIN { d = a - b; exit !(a != "" && b != "" && d * d <= t * t) }' ||
+        complain "$1: $2, expected $3 to $4"
+}
+
+k=0.02,0.01,0.005,0.0025,0.00125
+run='beamrate run example2 --n 10 --k {k} --quiet --json -'
+read=/tip/displacement/axial
+expect 0 "" beamrate study example2 --n 10 --k $k --norm tip --no-plots --quiet --out study
+order=$(field study/example2-tip-slopes.csv '^axial,k' order)
+
+# Of the study's own cells, line by line.
+sed -n '1p; /^exact,axial,/p' study/example2-tip.csv >cells.csv
+expect 0 "order in k" beamrate orders cells.csv --error error --no-plots --out cells
+near "the order of the study's cells" "$(field cells/orders.csv '^error,k' order)" "$order" 1e-6
+
+# Of the tip at the end, whose exact value the study tells, and without that.
+exact=$(field study/example2-tip-tips.csv '^axial' 'reference [m]')
+cat >tip.sh <<END
+#!/bin/sh
+beamrate run example2 --n 10 --k \$1 --quiet --json tip.json
+tr -d ' ",' <tip.json | awk -F: '/^tip:/ { within = 1 }
+    within && /^axial:/ { d = \$2 - ($exact); print "error", d < 0 ? -d : d; exit }'
+END
+chmod +x tip.sh
+expect 0 "order in k" beamrate orders --run './tip.sh {k}' --k $k --read 'tip=error (.+)' \
+    --no-plots --out errors
+near "the order of the tip's errors" "$(field errors/orders.csv '^tip,k' order)" "$order" 1e-5
+expect 0 "monotone convergence" beamrate orders --run "$run" --k $k --read "tip=json:$read" \
+    --value tip --formal-order 1 --no-plots --out values
+near "the order of the tip's values" "$(field values/orders.csv '^tip,k' order)" "$order" 5e-3
+near "the limit of the tip's values" "$(field values/orders-limits.csv '^tip,k' limit)" "$exact" 1e-6
+
+[ "$failures" -eq 0 ]
