@@ -65,12 +65,15 @@ static enum br_status take_order(struct reader *r, struct br_order_expectation *
 static enum br_status take_name(struct reader *r, char name[64])
 {
     skip_blanks(r);
-    const size_t length = strcspn(r->at, ":");
-    if (length == 0 || length > 63 || r->at[length] != ':')
-        return refuse(r, "a name and ':'");
+    const char *colon = strchr(r->at, ':');
+    size_t length = colon ? (size_t)(colon - r->at) : 0;
+    while (length && strchr(" \t\n", r->at[length - 1]))
+        length--;
+    if (length == 0 || length > 63)
+        return refuse(r, "a name of at most 63 bytes and ':'");
     memcpy(name, r->at, length);
     name[length] = '\0';
-    r->at += length + 1;
+    r->at = colon + 1;
     return BR_OK;
 }
 

@@ -12,6 +12,7 @@ struct br_orders_request {
     char *path;            /* of the table or the study file, for messages */
     char *title;           /* one line; NULL: the path */
     char *table;           /* text of a table; NULL: none */
+    char *table_path;      /* of a table that a study file names; NULL: it is `path` */
     char *command;         /* that is run; NULL: none */
     char *errors, *values; /* columns of the table, or readings that are values */
     struct br_program_axis axis[BR_AXES];
