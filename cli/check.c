@@ -209,7 +209,7 @@ static enum br_status prepare_reports(struct run *r, struct br_error *err)
 
 static void clear(struct run *r)
 {
-    for (size_t i = 0; i < r->done; i++)
+    for (size_t i = 0; r->check && i < r->count; i++)
         br_check_clear(&r->check[i]);
     for (size_t i = 0; r->item && i < r->most; i++) {
         br_study_file_clear(&r->item[i].study);
