@@ -86,7 +86,7 @@ static void say_limit(struct br_document *d, const struct br_grid_limit *limit)
 
 static void put_answers(struct br_document *d, const struct br_orders *o)
 {
-    for (size_t i = 0; i < o->count && i < BR_MOST_ANSWERS - 2; i++) {
+    for (size_t i = 0; i < o->count && i < BR_MOST_ANSWERS - 3; i++) {
         const struct br_quantity_orders *of = &o->of[i];
         const struct br_orders_line *line = of->lines ? finest_line(of, of->line[0].axis) : NULL;
         br_put_answer(d, "%s:", quantity_of(o, of)->name);
@@ -97,8 +97,14 @@ static void put_answers(struct br_document *d, const struct br_orders *o)
         say_orders(d, of);
         say_left_out(d, of);
     }
-    if (o->count > BR_MOST_ANSWERS - 2)
-        br_put_answer(d, "%zu more columns: see the tables.", o->count - (BR_MOST_ANSWERS - 2));
+    if (o->count > BR_MOST_ANSWERS - 3)
+        br_put_answer(d, "%zu more columns: see the tables.", o->count - (BR_MOST_ANSWERS - 3));
+    size_t kept = 0;
+    for (size_t i = 0; i < o->numbers->rows; i++)
+        kept += o->numbers->row[i].kept;
+    if (kept)
+        br_put_answer(d, "%zu of %zu runs were kept from before, and not run again.", kept,
+                      o->numbers->rows);
     if (o->tied)
         br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
 }
