@@ -773,6 +773,32 @@ static const struct planted_bug planted_bugs[] = {
      "if (passed < all)", "if (passed > all)"},
     {"warning_without_remedy", "option", "cli/warn.c", "golden run_warned",
      "print_lines(w->remedy);", ""},
+
+    /* ---- the orders of any program's numbers ---- */
+    {"columns_of_a_table_exchanged", "column", "study/orders/table.c", "tests/test_orders",
+     "&numbers->row[i].number[index]", "&numbers->row[i].number[numbers->quantities - 1 - index]"},
+    {"unknowns_without_a_root", "column", "study/orders/numbers.c", "tests/test_orders",
+     "pow(given, -1 / dimension)", "pow(given, -1)"},
+    {"floors_are_not_left_out", "left out", "study/orders/orders.c", "tests/test_orders",
+     "if (p[i].error < beside * level)", "if (p[i].error < 0 * level)"},
+    {"lines_from_fine_to_coarse", "left out", "study/orders/orders.c", "tests/test_orders",
+     "(x->other < y->other) - (x->other > y->other)",
+     "(x->other > y->other) - (x->other < y->other)"},
+    {"rate_of_the_wrong_neighbour", "printed", "study/orders/orders.c", "golden orders",
+     "return i ? rate(&p[i - 1], &p[i]) : NAN;", "return i ? rate(&p[0], &p[i]) : NAN;"},
+    {"axis_of_an_expectation_exchanged", "expected", "study/orders/expectations.c",
+     "tests/test_orders", "e->axis = (enum br_axis)axis;", "e->axis = (enum br_axis)(1 - axis);"},
+    {"joint_orders_exchanged", "expected", "study/orders/expectations.c", "tests/test_orders",
+     "space ? &of->joint.p : &of->joint.q", "space ? &of->joint.q : &of->joint.p"},
+    {"problem_without_expectations", "expected", "study/orders/request.c", "tests/test_orders",
+     "add_text(&sum, text);", "add_text(&sum, \"\");"},
+    {"table_beside_the_program", "option", "study/orders/study_file.c", "tests/test_orders",
+     "const int folder = slash && *e->text != '/' ?",
+     "const int folder = slash && *e->text == '/' ?"},
+    {"ratio_of_the_other_pair", "printed", "tables/report_orders.c", "golden orders_values",
+     "br_number(g->fine.ratio)", "br_number(g->coarse.ratio)"},
+    {"interval_of_one_end", "printed", "tables/report_orders.c", "golden orders",
+     "br_number(c->order.high)", "br_number(c->order.low)"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

@@ -496,7 +496,7 @@ static void test_unknown_expectations(void **state)
         const char *expected, *message;
     } rows[] = {
         {"l3: h 2 +- .1", "t.csv: an order of 'l3' is expected, and there is no such column"},
-        {"l2: k 2 +- .1", "t.csv: an order of l2 in k is expected, and there are fewer than"},
+        {"l2: k 2 +- .1", "t.csv: an order of l2 in k is expected, and there are no three sizes"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct found f;
