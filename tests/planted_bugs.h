@@ -769,7 +769,7 @@ static const struct planted_bug planted_bugs[] = {
      "r->reference_n = (size_t)n;", "r->reference_n = 2 * (size_t)n;"},
     {"seed_is_dropped", "option", "cli/extremes.c", "golden extremes_map", "*seed = value;",
      "*seed = value / value;"},
-    {"verdict_without_exit_code", "option", "cli/check.c", "golden check_fails",
+    {"verdict_without_exit_code", "option", "cli/verdicts.c", "golden check_fails",
      "if (passed < all)", "if (passed > all)"},
     {"warning_without_remedy", "option", "cli/warn.c", "golden run_warned",
      "print_lines(w->remedy);", ""},
