@@ -785,7 +785,7 @@ static const struct planted_bug planted_bugs[] = {
      "(x->other < y->other) - (x->other > y->other)",
      "(x->other > y->other) - (x->other < y->other)"},
     {"rate_of_the_wrong_neighbour", "printed", "study/orders/orders.c", "golden orders",
-     "return i ? rate(&p[i - 1], &p[i]) : NAN;", "return i ? rate(&p[0], &p[i]) : NAN;"},
+     "i ? rate(&p[i - 1], &p[i]) : NAN;", "i ? rate(&p[0], &p[i]) : NAN;"},
     {"axis_of_an_expectation_exchanged", "expected", "study/orders/expectations.c",
      "tests/test_orders", "e->axis = (enum br_axis)axis;", "e->axis = (enum br_axis)(1 - axis);"},
     {"joint_orders_exchanged", "expected", "study/orders/expectations.c", "tests/test_orders",

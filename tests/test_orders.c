@@ -189,16 +189,17 @@ static double power_law(double h, double k, double p, double q)
 static const char *table_of(int meshes, int steps, double p, double q)
 {
     static char text[MOST_TEXT];
-    size_t used = (size_t)sprintf(text, "%s%s%s,l2\n", meshes ? "h" : "",
-                                  meshes && steps ? "," : "", steps ? "k" : "");
+    size_t used = (size_t)snprintf(text, sizeof text, "%s%s%s,l2\n", meshes ? "h" : "",
+                                   meshes && steps ? "," : "", steps ? "k" : "");
     for (int i = meshes ? 1 : 0; i <= meshes; i++)
         for (int j = steps ? 1 : 0; j <= steps; j++) {
             const double h = i ? pow(2, -i) : 0, k = j ? pow(2, -j) : 0;
             if (i)
-                used += (size_t)sprintf(text + used, "%.17g,", h);
+                used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,", h);
             if (j)
-                used += (size_t)sprintf(text + used, "%.17g,", k);
-            used += (size_t)sprintf(text + used, "%.17g\n", power_law(h, k, p, q));
+                used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,", k);
+            used +=
+                (size_t)snprintf(text + used, sizeof text - used, "%.17g\n", power_law(h, k, p, q));
         }
     return text;
 }
@@ -316,9 +317,10 @@ static enum br_flag flag_of(const struct found *f, size_t point)
 static const char *floor_table(int rows, double level)
 {
     static char text[4096];
-    size_t used = (size_t)sprintf(text, "h,l2\n");
+    size_t used = (size_t)snprintf(text, sizeof text, "h,l2\n");
     for (int i = 0; i < rows; i++)
-        used += (size_t)sprintf(text + used, "%.17g,%.17g\n", pow(2, -i), fmax(pow(4, -i), level));
+        used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g\n", pow(2, -i),
+                                 fmax(pow(4, -i), level));
     return text;
 }
 
@@ -363,10 +365,11 @@ static void test_values(void **state)
         for (int kind = 0; kind < 2; kind++) {
             char text[1024];
             struct found f;
-            size_t used = (size_t)sprintf(text, "h,drag\n");
+            size_t used = (size_t)snprintf(text, sizeof text, "h,drag\n");
             for (size_t i = 0; i < (kind ? 6 : 5); i++) {
                 const double h = kind ? uneven[i] : even[i];
-                used += (size_t)sprintf(text + used, "%.17g,%.17g\n", h, 5 - 2 * pow(h, p));
+                used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g\n", h,
+                                         5 - 2 * pow(h, p));
             }
             find(&f, text, "drag");
             const struct br_orders_line *line = &f.orders.of[0].line[0];
@@ -383,6 +386,23 @@ static void test_values(void **state)
             assert_true(line->limit.value.low <= 5 && line->limit.value.high >= 5);
             clear_found(&f);
         }
+}
+
+/* Differences that fall or grow faster than any order: nothing is said of them. */
+static void test_steep_values(void **state)
+{
+    (void)state;
+    struct found f;
+    find(&f,
+         "h,u\n1,0\n.5,1e300\n.25,1\n.125,2\n.0625,3\n.03125,1e300\n.015625,0\n"
+         ".0078125,1e-300\n.00390625,2e-300\n",
+         "u");
+    const struct br_orders_line *line = &f.orders.of[0].line[0];
+    CLOSE(br_orders_rate(line, 1), 0, 1e-9);
+    assert_true(isnan(br_orders_rate(line, 2)));
+    CLOSE(br_orders_rate(line, 3), 0, 1e-9);
+    assert_true(isnan(br_orders_rate(line, 4)));
+    clear_found(&f);
 }
 
 /* ---- expectations ---- */
@@ -526,11 +546,11 @@ static void test_wrong_orders_never_pass(void **state)
         const double off = tolerance + br_test_uniform(&random, 0.01, 1);
         const double wrong =
             br_test_index(&random, 2) || p - off < tolerance + 0.05 ? p + off : p - off;
-        size_t used = (size_t)sprintf(text, "n,l2\n");
+        size_t used = (size_t)snprintf(text, sizeof text, "n,l2\n");
         for (int row = 0; row < 4 + (int)br_test_index(&random, 5); row++)
-            used += (size_t)sprintf(text + used, "%d,%.17g\n", 4 << row,
-                                    5 * pow(4 << row, -p) *
-                                        (1 + noise * br_test_uniform(&random, -1, 1)));
+            used += (size_t)snprintf(text + used, sizeof text - used, "%d,%.17g\n", 4 << row,
+                                     5 * pow(4 << row, -p) *
+                                         (1 + noise * br_test_uniform(&random, -1, 1)));
         snprintf(expected, sizeof expected, "l2: h %.17g +- %.17g", wrong, tolerance);
         if (verdict_of(text, NULL, expected, NULL) == BR_PASS)
             fail_msg("order %g passes as %s", p, expected);
@@ -830,6 +850,7 @@ int main(void)
         cmocka_unit_test(test_tied),
         cmocka_unit_test(test_floors),
         cmocka_unit_test(test_values),
+        cmocka_unit_test(test_steep_values),
         cmocka_unit_test(test_grammar),
         cmocka_unit_test(test_verdicts),
         cmocka_unit_test(test_unknown_expectations),

@@ -34,24 +34,27 @@ static double growth(double a, double b, double c, double p)
     return log(expm1(p * coarse) / -expm1(-p * fine));
 }
 
+/* Orders of differences are looked for up to this one, of either sign. */
+static const double steepest = 60;
+
 /* The order that two errors show. Differences from the next finer value, where `fine` is that of
  * the value that `coarse` is compared with, are C |z^p - z_against^p|. */
 static double rate(const struct br_point *coarse, const struct br_point *fine)
 {
-    const double falls = log(coarse->error / fine->error), most = 60;
+    const double falls = log(coarse->error / fine->error);
     if (!(coarse->error > 0 && fine->error > 0))
         return NAN;
     if (coarse->z_against == 0)
         return falls / log(coarse->z / fine->z);
-    double low = -most, high = most;
+    double low = -steepest, high = steepest;
     for (int i = 0; i < 64; i++) {
         const double p = (low + high) / 2;
         *(growth(coarse->z, fine->z, fine->z_against, p) < falls ? &low : &high) = p;
     }
-    return fabs(low) < most && fabs(high) < most ? (low + high) / 2 : NAN;
+    return (low + high) / 2;
 }
 
-/* Takes a number out of sorted ones. */
+/* Takes a number that is there out of sorted ones. */
 static void take_out(double *sorted, size_t count, double number)
 {
     size_t first = 0, behind = count;
@@ -390,5 +393,7 @@ void br_orders_clear(struct br_orders *o)
 double br_orders_rate(const struct br_orders_line *line, size_t i)
 {
     const struct br_point *p = line->observed.point;
-    return i ? rate(&p[i - 1], &p[i]) : NAN;
+    const double order = i ? rate(&p[i - 1], &p[i]) : NAN;
+    const bool is_end = i && p[i].z_against > 0 && !(fabs(order) < steepest * (1 - 1e-9));
+    return is_end ? NAN : order;
 }
