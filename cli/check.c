@@ -64,6 +64,7 @@ static enum br_status read_study(struct run *r, struct item *item, const char *t
                          item->path);
     item->study.request.jobs = r->session.threads;
     item->study.request.kept = br_option_text(o, BR_OPT_KEEP);
+    item->study.request.anew = !br_option_given(o, BR_OPT_RESUME);
     r->check[r->count] = br_study_file_check(&item->study);
     r->count += !status;
     return status;
@@ -214,7 +215,7 @@ static enum br_status prepare_reports(struct run *r, struct br_error *err)
 
 static void clear(struct run *r)
 {
-    for (size_t i = 0; i < r->done; i++)
+    for (size_t i = 0; r->check && i < r->count; i++)
         br_check_clear(&r->check[i]);
     for (size_t i = 0; r->item && i < r->most; i++) {
         br_study_file_clear(&r->item[i].study);

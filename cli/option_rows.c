@@ -81,7 +81,8 @@ static const struct br_option rows[] = {
     {BR_OPT_RUN, "run", 0, "COMMAND", "runs it at each resolution; {n}, {k}, ... are replaced",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "Words are as in a shell, with quotes and backslashes, but no shell is used. Each run "
-             "has an empty folder of its own, no input and LC_ALL=C."},
+             "has an empty folder of its own, no input and LC_ALL=C: files that words name need "
+             "absolute paths."},
     {BR_OPT_READ, "read", 0, "NAME=WHAT",
      "a number of its output: a regular expression with one group, json:POINTER or csv:COLUMN",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS, .more = "May be given several times.",
@@ -107,8 +108,14 @@ static const struct br_option rows[] = {
      .more = "'h 2 +- 0.1 down to 1e-9': errors that stop falling below that are expected."},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run of the program", "600",
      BR_TAKES_NUMBER, BETWEEN(0, 1e9), .commands = BR_FOR_ORDERS},
-    {BR_OPT_KEEP, "keep", 0, "DIR", "folder of finished runs, which are not run again",
+    {BR_OPT_KEEP, "keep", 0, "DIR", "folder in which finished runs are kept, for --resume",
      "orders-kept", BR_TAKES_DIR, .commands = BR_FOR_ORDERS | BR_FOR_CHECK},
+    {BR_OPT_RESUME, "resume", 0, NULL, "take runs that are kept, instead of running them again",
+     NULL, BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
+     .more =
+         "After an interruption, or for a larger grid. A run is the same where its words, its "
+         "program and the files that its words name are. What the program reads or starts besides "
+         "is not seen: do not give it when that has changed."},
     {BR_OPT_TRUST, "trust", 0, NULL, "run the commands of the study files, and remember that", NULL,
      BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
      .more = "Needed once for each study file with a command, and again when it has changed."},

@@ -70,10 +70,20 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
         else if (list)
             status = br_orders_request_axis(q, lists[i].column, list, err);
     }
+    static const struct {
+        enum br_option_id id;
+        const char *name;
+    } of_runs[] = {{BR_OPT_TIME_LIMIT, "time-limit"},
+                   {BR_OPT_KEEP, "keep"},
+                   {BR_OPT_RESUME, "resume"},
+                   {BR_OPT_TRUST, "trust"}};
+    for (size_t i = 0; i < sizeof of_runs / sizeof *of_runs && !status; i++)
+        if (br_option_given(o, of_runs[i].id) && (!q->command || of_runs[i].id == BR_OPT_TRUST))
+            status = br_fail(err, BR_BAD_INPUT, "--%s is given without %s", of_runs[i].name,
+                             of_runs[i].id == BR_OPT_TRUST ? "a study file" : "--run");
     if (!status && br_option_given(o, BR_OPT_READ) != !!q->command)
-        status = br_fail(err, BR_BAD_INPUT,
-                         "--run and --read belong together, found one of the "
-                         "two");
+        status =
+            br_fail(err, BR_BAD_INPUT, "--run and --read belong together, found one of the two");
     if (!status)
         status = read_readings(br_option_text(o, BR_OPT_READ), q, err);
     if (!status)
@@ -149,6 +159,7 @@ static enum br_status read_request(struct run *r, struct br_error *err)
         status = br_orders_request_expect(q, "--expect", expect, 0, err);
     q->jobs = r->session.threads;
     q->kept = br_option_text(o, BR_OPT_KEEP);
+    q->anew = !br_option_given(o, BR_OPT_RESUME);
     return status;
 }
 

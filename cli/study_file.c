@@ -66,7 +66,7 @@ static enum br_status check_trust(const struct br_orders_request *request, const
                                   const struct br_options *options, struct br_error *err)
 {
     struct br_sha256 s;
-    char sum[BR_SHA256_TEXT], command[400];
+    char sum[BR_SHA256_TEXT], command[400], path[400];
     br_sha256_start(&s);
     br_sha256_add(&s, text, strlen(text));
     br_sha256_end(&s, sum);
@@ -81,7 +81,6 @@ static enum br_status check_trust(const struct br_orders_request *request, const
         remember(sum);
     if (br_option_given(options, BR_OPT_QUIET))
         return BR_OK;
-    char path[400];
     fprintf(stderr, "beamrate: %s runs %s\n",
             br_quoted(path, sizeof path, &br_for_text, request->path), command);
     return BR_OK;

@@ -144,14 +144,10 @@ static void put_answers(struct br_document *d, const struct br_orders *o,
 static const struct br_point *point_of(const struct br_quantity_orders *of, enum br_axis axis,
                                        size_t row, double *rate)
 {
-    for (size_t l = 0; l < of->lines; l++)
-        for (size_t i = 0; i < of->line[l].observed.points; i++)
-            if (of->line[l].axis == axis && of->line[l].row[i] == row) {
-                *rate = br_orders_rate(&of->line[l], i);
-                return &of->line[l].observed.point[i];
-            }
-    *rate = NAN;
-    return NULL;
+    const struct br_row_point *at = of->point[axis] ? &of->point[axis][row] : NULL;
+    const struct br_orders_line *line = at ? at->line : NULL;
+    *rate = line ? br_orders_rate(line, at->index) : (double)NAN;
+    return line ? &line->observed.point[at->index] : NULL;
 }
 
 static void put_given(struct br_document *d, const struct br_numbers *numbers, size_t row)

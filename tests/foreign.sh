@@ -112,7 +112,7 @@ fails() { # HOW MESSAGE
 expect 0 "err: order in h 2.00" \
     beamrate orders --run './bad.sh never {n}' --n 4,8,16,32,64 --read 'err=err=(.+)'
 expect 0 "5 of 5 runs were kept from before, and not run again." \
-    beamrate orders --run './bad.sh never {n}' --n 4,8,16,32,64 --read 'err=err=(.+)'
+    beamrate orders --run './bad.sh never {n}' --n 4,8,16,32,64 --read 'err=err=(.+)' --resume
 fails fails "exit code 3; it printed: singular matrix"
 fails hangs "it did not end within 1 s; it printed nothing"
 fails nan "err: found 'nan', expected a finite number"

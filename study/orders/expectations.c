@@ -65,12 +65,15 @@ static enum br_status take_order(struct reader *r, struct br_order_expectation *
 static enum br_status take_name(struct reader *r, char name[64])
 {
     skip_blanks(r);
-    const size_t length = strcspn(r->at, ":");
-    if (length == 0 || length > 63 || r->at[length] != ':')
-        return refuse(r, "a name and ':'");
+    const char *colon = strchr(r->at, ':');
+    size_t length = colon ? (size_t)(colon - r->at) : 0;
+    while (length && strchr(" \t\n", r->at[length - 1]))
+        length--;
+    if (length == 0 || length > 63)
+        return refuse(r, "a name of at most 63 bytes and ':'");
     memcpy(name, r->at, length);
     name[length] = '\0';
-    r->at += length + 1;
+    r->at = colon + 1;
     return BR_OK;
 }
 
@@ -146,9 +149,12 @@ static enum br_status observe(const struct br_quantity_orders *of,
             c->point[i].flag = BR_FLAG_STALLED;
     if (br_case_observe(c, BR_VERIFY_LEAST_POINTS, err))
         return err->status;
-    const struct br_estimate *joint = line->axis == BR_AXIS_SPACE ? &of->joint.p : &of->joint.q;
-    if (br_joint_describes(&of->joint) && br_order_determined(joint))
+    const bool space = line->axis == BR_AXIS_SPACE;
+    const struct br_estimate *joint = space ? &of->joint.p : &of->joint.q;
+    if (br_joint_describes(&of->joint) && br_order_determined(joint)) {
         c->order = *joint;
+        c->constant = fabs(space ? of->joint.c_h.value : of->joint.c_k.value);
+    }
     return BR_OK;
 }
 
@@ -164,8 +170,9 @@ static enum br_status judge(const struct br_orders *o, const struct br_order_exp
                        path, e->quantity);
     if (!line)
         return br_fail(err, BR_BAD_INPUT,
-                       "%s: an order of %s in %s is expected, and there are fewer than %d sizes",
-                       path, e->quantity, br_axis_letters[e->axis], BR_VERIFY_LEAST_POINTS);
+                       "%s: an order of %s in %s is expected, and there are no three sizes of one "
+                       "line",
+                       path, e->quantity, br_axis_letters[e->axis]);
     if (observe(of, line, e, c, err))
         return err->status;
     br_case_judge(c);

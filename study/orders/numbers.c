@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/orders/numbers.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -29,12 +30,23 @@ double br_numbers_z(const struct br_resolution_column *column, double given, dou
     return column->is_size ? given : column->is_volume ? pow(given, -1 / dimension) : 1 / given;
 }
 
+const char *br_list_next(const char *list, const char **name, size_t *length)
+{
+    *name = list + strspn(list, " ");
+    const char *end = *name + strcspn(*name, ",");
+    *length = (size_t)(end - *name);
+    while (*length && (*name)[*length - 1] == ' ')
+        --*length;
+    return *end ? end + 1 : NULL;
+}
+
 bool br_lists(const char *list, const char *name)
 {
-    const size_t length = strlen(name);
-    for (const char *at = list; at && *at; at += strcspn(at, ","), at += *at == ',') {
-        at += strspn(at, " ");
-        if (strncmp(at, name, length) == 0 && strchr(", ", at[length]))
+    const char *listed;
+    size_t length;
+    while (list) {
+        list = br_list_next(list, &listed, &length);
+        if (length && length == strlen(name) && memcmp(listed, name, length) == 0)
             return true;
     }
     return false;
@@ -74,34 +86,118 @@ static int by_resolution(const void *a, const void *b)
     return (x->line > y->line) - (x->line < y->line);
 }
 
+enum { PLACE = 400 };
+
 static enum br_status check_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
                                 const char *path, struct br_error *err)
 {
-    for (int axis = 0; axis < BR_AXES; axis++)
-        if (numbers->column[axis] && !(row->given[axis] > 0 && isfinite(row->given[axis])))
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        const struct br_resolution_column *column = numbers->column[axis];
+        if (!column)
+            continue;
+        if (!(row->given[axis] > 0 && isfinite(row->given[axis])))
             return br_fail(err, BR_BAD_INPUT, "%s:%zu: %s: found %g, expected a number above 0",
-                           path, row->line, numbers->column[axis]->name, row->given[axis]);
+                           path, row->line, column->name, row->given[axis]);
+        if (!(row->z[axis] >= DBL_MIN && isfinite(row->z[axis])))
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s:%zu: %s: found %g, expected a size within the range of numbers",
+                           path, row->line, column->name, row->given[axis]);
+    }
     return BR_OK;
 }
 
-/* How many different sizes there are along an axis. */
-static size_t sizes(const struct br_numbers *numbers, int axis)
+/* Where a row is from: "file:3", or what was run. */
+static void name_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
+                     const char *path, char text[PLACE])
 {
-    size_t count = 0;
-    for (size_t i = 0; i < numbers->rows; i++) {
-        bool seen = false;
-        for (size_t j = 0; j < i; j++)
-            seen |= numbers->row[i].z[axis] == numbers->row[j].z[axis];
-        count += !seen;
+    const int axis = numbers->column[BR_AXIS_SPACE] ? BR_AXIS_SPACE : BR_AXIS_TIME;
+    if (row->line)
+        snprintf(text, PLACE, "%.300s:%zu", path, row->line);
+    else
+        snprintf(text, PLACE, "%.300s: %s = %.6g", path, numbers->column[axis]->name,
+                 row->given[axis]);
+}
+
+static enum br_status check_numbers(const struct br_numbers *numbers,
+                                    const struct br_numbers_row *row, const char *path,
+                                    struct br_error *err)
+{
+    char place[PLACE];
+    name_row(numbers, row, path, place);
+    for (size_t i = 0; i < numbers->quantities; i++) {
+        const struct br_quantity *q = &numbers->quantity[i];
+        const double number = row->number[i];
+        if (row->failure || isnan(number))
+            continue;
+        if (!q->is_value && number < 0)
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: %.100s: found %g, expected an error of at least 0; is it a value? "
+                           "(--value %.100s)",
+                           place, q->name, number, q->name);
+        if (!(fabs(number) <= DBL_MAX / 4)) /* so that differences do not overflow */
+            return br_fail(err, BR_BAD_INPUT, "%s: %.100s: found %g, expected at most %.2g", place,
+                           q->name, number, DBL_MAX / 4);
     }
-    return count;
+    return BR_OK;
+}
+
+/* Sizes that differ by less than this share are one size, written in two ways. */
+static const double nearly = 1e-9;
+
+static int coarse_first(const void *a, const void *b)
+{
+    const double *const *x = a, *const *y = b;
+    return by_size(**x, **y);
+}
+
+/* Makes nearly equal sizes along an axis equal; *count (out): of the different ones. */
+static enum br_status unite_sizes(struct br_numbers *numbers, int axis, size_t *count,
+                                  struct br_error *err)
+{
+    double **z = br_allocate(numbers->rows + 1, sizeof *z);
+    if (!z)
+        return br_no_memory(err, "the resolutions");
+    for (size_t i = 0; i < numbers->rows; i++)
+        z[i] = &numbers->row[i].z[axis];
+    qsort(z, numbers->rows, sizeof *z, coarse_first);
+    *count = numbers->rows > 0;
+    for (size_t i = 1; i < numbers->rows; i++)
+        if (*z[i] > (1 - nearly) * *z[i - 1])
+            *z[i] = *z[i - 1];
+        else
+            ++*count;
+    free(z);
+    return BR_OK;
+}
+
+static enum br_status refuse_twice(const struct br_numbers *numbers, const char *path,
+                                   const struct br_numbers_row *a, const struct br_numbers_row *b,
+                                   struct br_error *err)
+{
+    char place[PLACE];
+    name_row(numbers, b, path, place);
+    if (!b->line)
+        return br_fail(err, BR_BAD_INPUT, "%s: is there twice, expected each once", place);
+    return br_fail(err, BR_BAD_INPUT,
+                   "%s:%zu: the resolution is that of line %zu, expected each once", path, b->line,
+                   a->line);
 }
 
 enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < numbers->rows && !status; i++)
+    size_t most = 0;
+    for (size_t i = 0; i < numbers->rows && !status; i++) {
         status = check_row(numbers, &numbers->row[i], path, err);
+        if (!status)
+            status = check_numbers(numbers, &numbers->row[i], path, err);
+    }
+    for (int axis = 0; axis < BR_AXES && !status; axis++) {
+        size_t count = 0;
+        if (numbers->column[axis])
+            status = unite_sizes(numbers, axis, &count, err);
+        most = count > most ? count : most;
+    }
     if (status)
         return status;
     qsort(numbers->row, numbers->rows, sizeof *numbers->row, by_resolution);
@@ -111,17 +207,10 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
         for (int axis = 0; axis < BR_AXES; axis++)
             equal &= !numbers->column[axis] || a->z[axis] == b->z[axis];
         if (equal)
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s:%zu: the resolution is that of line %zu, expected each once", path,
-                           b->line, a->line);
-    }
-    size_t most = 0;
-    for (int axis = 0; axis < BR_AXES; axis++) {
-        const size_t count = numbers->column[axis] ? sizes(numbers, axis) : 0;
-        most = count > most ? count : most;
+            return refuse_twice(numbers, path, a, b, err);
     }
     if (most < 3)
-        return br_fail(err, BR_BAD_INPUT, "%s: found %zu resolutions, expected at least 3", path,
-                       most);
+        return br_fail(err, BR_BAD_INPUT, "%s: found %zu resolution%s, expected at least 3", path,
+                       most, most == 1 ? "" : "s");
     return BR_OK;
 }

@@ -57,11 +57,17 @@ void br_numbers_clear(struct br_numbers *numbers); /* accepts zeros */
 /* z of what a column gives. */
 double br_numbers_z(const struct br_resolution_column *column, double given, double dimension);
 
-/* Whether a list "a,b" (NULL: an empty one) has a name. */
+/* The first name of a list "a, b" (out: not ended by a zero; without the blanks around it); returns
+ * the rest of the list, or NULL. */
+const char *br_list_next(const char *list, const char **name, size_t *length);
+
+/* Whether a list (NULL: an empty one) has a name. */
 bool br_lists(const char *list, const char *name);
 
-/* Brings the rows into their order, and refuses (BR_BAD_INPUT, beginning with `path` and the line)
- * resolutions that are not above 0 or are there twice, and fewer than three of them. */
+/* Brings the rows into their order, takes sizes that differ by round-off for one, and refuses
+ * (BR_BAD_INPUT, beginning with `path` and the line) resolutions that are not above 0 or are there
+ * twice, fewer than three of them, errors below 0, and numbers too large for their differences.
+ * Fails with BR_NO_MEMORY, too. */
 enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, struct br_error *err);
 
 #endif

@@ -25,31 +25,65 @@ static const double deep = 1e-6;
 /* What is less than this many times the level at which errors stay is off by that level. */
 static const double beside = 10;
 
-static double rate(const struct br_point *coarse, const struct br_point *fine)
+/* ln((a^p - b^p)/(b^p - c^p)) of sizes a > b > c; it grows with p. */
+static double growth(double a, double b, double c, double p)
 {
-    return log(coarse->error / fine->error) / log(coarse->z / fine->z);
+    const double coarse = log(a / b), fine = log(b / c);
+    if (fabs(p) * fmax(coarse, fine) < 1e-6)
+        return log(coarse / fine) + p * (coarse + fine) / 2;
+    return log(expm1(p * coarse) / -expm1(-p * fine));
 }
 
-/* The median of the rates up to point `last`; NaN where that is not even one. */
-static double median_rate(const struct br_point *p, size_t last, double *room)
+/* Orders of differences are looked for up to this one, of either sign. */
+static const double steepest = 60;
+
+/* The order that two errors show. Differences from the next finer value, where `fine` is that of
+ * the value that `coarse` is compared with, are C |z^p - z_against^p|. */
+static double rate(const struct br_point *coarse, const struct br_point *fine)
 {
-    for (size_t i = 1; i <= last; i++)
-        room[i - 1] = rate(&p[i - 1], &p[i]);
-    gsl_sort(room, 1, last);
-    return last ? room[last / 2] : NAN;
+    const double falls = log(coarse->error / fine->error);
+    if (!(coarse->error > 0 && fine->error > 0))
+        return NAN;
+    if (coarse->z_against == 0)
+        return falls / log(coarse->z / fine->z);
+    double low = -steepest, high = steepest;
+    for (int i = 0; i < 64; i++) {
+        const double p = (low + high) / 2;
+        *(growth(coarse->z, fine->z, fine->z_against, p) < falls ? &low : &high) = p;
+    }
+    return (low + high) / 2;
+}
+
+/* Takes a number that is there out of sorted ones. */
+static void take_out(double *sorted, size_t count, double number)
+{
+    size_t first = 0, behind = count;
+    while (first < behind) {
+        const size_t middle = (first + behind) / 2;
+        if (sorted[middle] < number)
+            first = middle + 1;
+        else
+            behind = middle;
+    }
+    memmove(&sorted[first], &sorted[first + 1], (count - first - 1) * sizeof *sorted);
 }
 
 /* The first point that is hardly smaller than the one before it, as are all finer ones; count:
- * there is none. */
-static size_t find_plateau(const struct br_point *p, size_t count, double *room)
+ * there is none. sorted: room for as many; it holds the rates of the pairs before a point. */
+static size_t find_plateau(const struct br_point *p, size_t count, double *sorted)
 {
     size_t first = count;
+    for (size_t i = 1; i + 1 < count; i++)
+        sorted[i - 1] = rate(&p[i - 1], &p[i]);
+    if (count > LEAST_POINTS)
+        gsl_sort(sorted, 1, count - 2);
     for (size_t i = count; i-- > LEAST_POINTS;) {
-        const double before = median_rate(p, i - 1, room);
+        const double before = sorted[(i - 1) / 2];
         const double share = p[i].error <= deep * p[0].error ? stagnates_deep : stagnates;
         if (!(before > stagnates && rate(&p[i - 1], &p[i]) < share * before))
             break;
         first = i;
+        take_out(sorted, i - 1, rate(&p[i - 2], &p[i - 1]));
     }
     return first;
 }
@@ -88,22 +122,22 @@ static void name_place(const struct br_numbers *numbers, size_t row, enum br_axi
     snprintf(text, 64, "%s = %.6g", numbers->column[axis]->name, numbers->row[row].given[axis]);
 }
 
-/* The rows of the line that row `first` begins: of equal size along the other axis, or, where both
- * go along, all. Returns how many there are. */
-static size_t rows_of_line(const struct br_orders *o, enum br_axis axis, size_t first, size_t *row)
-{
-    const struct br_numbers *numbers = o->numbers;
-    size_t count = 0;
-    for (size_t i = 0; i < numbers->rows; i++)
-        if (o->tied || !numbers->column[other(axis)] ||
-            z_of(numbers, i, other(axis)) == z_of(numbers, first, other(axis)))
-            row[count++] = i;
-    return count;
-}
-
 static const char *failure_of(const struct br_numbers_row *row, double number)
 {
     return row->failure ? row->failure : isnan(number) ? "has no number" : "";
+}
+
+/* A row among those of its line: by the size along the other axis, then along the line's. */
+struct place {
+    double other, along;
+    size_t row;
+};
+
+static int by_line(const void *a, const void *b)
+{
+    const struct place *x = a, *y = b;
+    const int order = (x->other < y->other) - (x->other > y->other);
+    return order ? order : (x->along < y->along) - (x->along > y->along);
 }
 
 /* An error, or what a value differs from the next finer one by. */
@@ -176,52 +210,63 @@ static enum br_status find_limit(const struct br_orders *o, size_t quantity, siz
     return status;
 }
 
+/* Of these rows, from coarse to fine. */
 static enum br_status add_line(const struct br_orders *o, struct br_quantity_orders *of,
-                               enum br_axis axis, size_t first, struct br_error *err)
+                               enum br_axis axis, const struct place *place, size_t rows,
+                               struct br_error *err)
 {
     const struct br_numbers *numbers = o->numbers;
     struct br_orders_line *line = &of->line[of->lines];
-    line->row = br_allocate(numbers->rows, sizeof *line->row);
+    line->row = br_allocate(rows, sizeof *line->row);
     if (!line->row)
         return br_no_memory(err, "the orders");
-    line->axis = axis;
-    const size_t rows = rows_of_line(o, axis, first, line->row);
-    if (rows < LEAST_POINTS) {
-        free(line->row);
-        line->row = NULL;
-        return BR_OK;
-    }
     of->lines++;
+    line->axis = axis;
+    for (size_t i = 0; i < rows; i++)
+        line->row[i] = place[i].row;
     if (numbers->column[other(axis)] && !o->tied)
-        name_place(numbers, first, other(axis), line->at);
+        name_place(numbers, line->row[0], other(axis), line->at);
     const enum br_status status = make_points(o, of->quantity, line, rows, err);
-    return status || !numbers->quantity[of->quantity].is_value
-               ? status
-               : find_limit(o, of->quantity, rows, line, err);
+    if (status)
+        return status;
+    for (size_t i = 0; i < line->observed.points; i++)
+        of->point[axis][line->row[i]] = (struct br_row_point){line, i};
+    return numbers->quantity[of->quantity].is_value ? find_limit(o, of->quantity, rows, line, err)
+                                                    : BR_OK;
 }
 
-/* Whether no row before has its size along the other axis. */
-static bool begins_line(const struct br_orders *o, enum br_axis axis, size_t row)
+/* The lines along an axis, from the coarsest size of the other one to the finest. */
+static enum br_status add_lines(const struct br_orders *o, struct br_quantity_orders *of,
+                                enum br_axis axis, struct br_error *err)
 {
     const struct br_numbers *numbers = o->numbers;
-    if (o->tied || !numbers->column[other(axis)])
-        return row == 0;
-    for (size_t i = 0; i < row; i++)
-        if (z_of(numbers, i, other(axis)) == z_of(numbers, row, other(axis)))
-            return false;
-    return true;
+    const bool alone = o->tied || !numbers->column[other(axis)];
+    struct place *place = br_allocate(numbers->rows, sizeof *place);
+    of->point[axis] = br_allocate(numbers->rows, sizeof *of->point[axis]);
+    enum br_status status = BR_OK;
+    if (!place || !of->point[axis])
+        status = br_no_memory(err, "the orders");
+    for (size_t i = 0; i < numbers->rows && !status; i++)
+        place[i] =
+            (struct place){alone ? 0 : z_of(numbers, i, other(axis)), z_of(numbers, i, axis), i};
+    if (!status)
+        qsort(place, numbers->rows, sizeof *place, by_line);
+    for (size_t first = 0, end; first < numbers->rows && !status; first = end) {
+        for (end = first + 1; end < numbers->rows && place[end].other == place[first].other;)
+            end++;
+        if (end - first >= LEAST_POINTS)
+            status = add_line(o, of, axis, &place[first], end - first, err);
+    }
+    free(place);
+    return status;
 }
 
 /* ---- both axes ---- */
 
-/* The point of a row on a line along an axis; NULL: it is on none. */
 static struct br_point *point_on(const struct br_quantity_orders *of, enum br_axis axis, size_t row)
 {
-    for (size_t l = 0; l < of->lines; l++)
-        for (size_t i = 0; i < of->line[l].observed.points; i++)
-            if (of->line[l].axis == axis && of->line[l].row[i] == row)
-                return &of->line[l].observed.point[i];
-    return NULL;
+    const struct br_row_point *at = of->point[axis] ? &of->point[axis][row] : NULL;
+    return at && at->line ? &at->line->observed.point[at->index] : NULL;
 }
 
 /* Errors that stay along one axis, but fall along the other one, are that one's, and count. */
@@ -294,10 +339,8 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
         return br_no_memory(err, "the orders");
     enum br_status status = BR_OK;
     for (int axis = 0; axis < BR_AXES; axis++)
-        for (size_t i = 0; i < numbers->rows && !status; i++)
-            if (numbers->column[axis] && begins_line(o, (enum br_axis)axis, i) &&
-                !(o->tied && axis == BR_AXIS_TIME))
-                status = add_line(o, of, (enum br_axis)axis, i, err);
+        if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME) && !status)
+            status = add_lines(o, of, (enum br_axis)axis, err);
     if (!status)
         status = leave_out(o, of, err);
     for (size_t l = 0; l < of->lines && !status; l++)
@@ -305,21 +348,15 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
     return status;
 }
 
-/* Whether no size of either axis has three rows. */
-static bool are_tied(struct br_orders *o)
+/* Whether both axes are refined from each row to the next. */
+static bool are_tied(const struct br_orders *o)
 {
     const struct br_numbers *numbers = o->numbers;
-    if (!is_grid(o))
-        return false;
-    for (size_t i = 0; i < numbers->rows; i++)
-        for (int axis = 0; axis < BR_AXES; axis++) {
-            size_t equal = 0;
-            for (size_t j = 0; j < numbers->rows; j++)
-                equal += numbers->row[i].z[axis] == numbers->row[j].z[axis];
-            if (equal >= LEAST_POINTS)
-                return false;
-        }
-    return true;
+    bool tied = is_grid(o);
+    for (size_t i = 1; i < numbers->rows; i++)
+        for (int axis = 0; axis < BR_AXES; axis++)
+            tied &= z_of(numbers, i, (enum br_axis)axis) < z_of(numbers, i - 1, (enum br_axis)axis);
+    return tied;
 }
 
 enum br_status br_orders_find(const struct br_numbers *numbers, double formal, struct br_orders *o,
@@ -346,6 +383,8 @@ void br_orders_clear(struct br_orders *o)
             free(o->of[i].line[l].observed.point);
         }
         free(o->of[i].line);
+        for (int axis = 0; axis < BR_AXES; axis++)
+            free(o->of[i].point[axis]);
     }
     free(o->of);
     *o = (struct br_orders){0};
@@ -354,5 +393,7 @@ void br_orders_clear(struct br_orders *o)
 double br_orders_rate(const struct br_orders_line *line, size_t i)
 {
     const struct br_point *p = line->observed.point;
-    return i ? rate(&p[i - 1], &p[i]) : NAN;
+    const double order = i ? rate(&p[i - 1], &p[i]) : NAN;
+    const bool is_end = i && p[i].z_against > 0 && !(fabs(order) < steepest * (1 - 1e-9));
+    return is_end ? NAN : order;
 }

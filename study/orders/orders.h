@@ -20,11 +20,19 @@ struct br_orders_line {
     struct br_gci gci;          /* of the three finest */
 };
 
+/* Where a row is on a line; line: NULL, it is on none. */
+struct br_row_point {
+    const struct br_orders_line *line;
+    size_t index; /* of the point */
+};
+
 struct br_quantity_orders {
     size_t quantity;             /* of the numbers */
-    struct br_orders_line *line; /* lines over space, then over time; owned */
+    struct br_orders_line *line; /* lines over space, then over time, each from the coarsest size of
+                                    the other axis to the finest; owned */
     size_t lines;
-    struct br_joint_fit joint; /* of an error on a grid; not converged: none */
+    struct br_row_point *point[BR_AXES]; /* by row; NULL: no lines; owned */
+    struct br_joint_fit joint;           /* of an error on a grid; not converged: none */
 };
 
 struct br_orders {
@@ -32,7 +40,7 @@ struct br_orders {
     double formal;                 /* order of values */
     struct br_quantity_orders *of; /* count; owned */
     size_t count;
-    bool tied; /* no line has three points at one size of the other axis: both go along in one */
+    bool tied; /* both axes are refined from each row to the next: they go along in one line */
 };
 
 /* Finds all orders. Rows without a number, at a floor or beyond stagnation are left out by name.
@@ -42,7 +50,8 @@ enum br_status br_orders_find(const struct br_numbers *numbers, double formal,
                               struct br_orders *orders, struct br_error *err);
 void br_orders_clear(struct br_orders *orders);
 
-/* The order that point i and the coarser one before it show; NaN: none. */
+/* The order that point i and the coarser one before it show; NaN: none. That of values is the one
+ * that their differences show, whatever the ratios of their sizes are. */
 double br_orders_rate(const struct br_orders_line *line, size_t i);
 
 /* ---- costs ---- */

@@ -574,7 +574,7 @@ static enum br_status take_cell(void *self, size_t i, struct br_error *err)
         return run_cell(j, cell, row, err);
     enum br_status status =
         br_cell_key(cell->program, cell->words, p->reading, p->readings, key, err);
-    if (status || br_cell_find(p->kept, key, p->readings, row))
+    if (status || (!p->anew && br_cell_find(p->kept, key, p->readings, row)))
         return status;
     status = run_cell(j, cell, row, err);
     if (status || row->failure)

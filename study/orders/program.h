@@ -51,6 +51,7 @@ struct br_program {
     int jobs;         /* runs at once; 0: one a core */
     double seconds;   /* limit of one run; 0: BR_PROGRAM_SECONDS */
     const char *kept; /* the folder of finished cells, made where it is missing; NULL: none */
+    bool anew;        /* cells that are kept are run, too */
     const struct br_observer *observer; /* may be NULL */
 };
 

@@ -134,14 +134,15 @@ static enum br_status search_line(struct search *s, const regex_t *regex, const 
     int failure = 0;
     for (size_t at = 0; at <= length && !status;) {
         failure = match_from(regex, line, at, match);
-        if (failure)
+        const bool empty = !failure && match[0].rm_eo == match[0].rm_so;
+        if (failure || (empty && at > 0)) /* (.*) matches nothing behind all of the line, too */
             break;
         const size_t used = strlen(m->lines);
         if (used < sizeof m->lines - 24)
             snprintf(m->lines + used, sizeof m->lines - used, "%s%zu", used ? ", " : "", number);
         if (m->count++ == 0)
             status = take_group(s, line, match, number);
-        at = (size_t)match[0].rm_eo + (match[0].rm_eo == match[0].rm_so);
+        at = (size_t)match[0].rm_eo + empty;
     }
     if (failure && failure != REG_NOMATCH)
         return br_no_memory(s->err, "a regular expression");

@@ -23,6 +23,7 @@ void br_orders_request_clear(struct br_orders_request *r)
     free(r->path);
     free(r->title);
     free(r->table);
+    free(r->table_path);
     free(r->command);
     free(r->folder);
     free(r->errors);
@@ -42,7 +43,8 @@ static bool has_table(const struct br_orders_request *r)
 static enum br_status read_table(const struct br_orders_request *r, struct br_numbers *numbers,
                                  struct br_error *err)
 {
-    const struct br_table_request q = {r->path, r->errors, r->values, r->dimension};
+    const struct br_table_request q = {r->table_path ? r->table_path : r->path, r->errors,
+                                       r->values, r->dimension};
     return br_table_read(r->table, &q, numbers, err);
 }
 
@@ -51,9 +53,42 @@ static bool has_command(const struct br_orders_request *r)
     return r->command;
 }
 
+/* Every name of a list is a reading's. */
+static enum br_status check_list(const struct br_orders_request *r, const char *option,
+                                 const char *list, struct br_error *err)
+{
+    const char *name;
+    size_t length;
+    while (list) {
+        list = br_list_next(list, &name, &length);
+        bool found = false;
+        for (size_t i = 0; i < r->readings; i++)
+            found |= strlen(r->reading[i].name) == length &&
+                     memcmp(r->reading[i].name, name, length) == 0;
+        if (!found)
+            return br_fail(err, BR_BAD_INPUT, "%s: %s: nothing of the name '%.*s' is read", r->path,
+                           option, (int)length, name);
+    }
+    return BR_OK;
+}
+
+/* A reading is an error, unless it is listed as a value. */
+static enum br_status check_readings(const struct br_orders_request *r, struct br_error *err)
+{
+    if (check_list(r, "--error", r->errors, err) || check_list(r, "--value", r->values, err))
+        return err->status;
+    for (size_t i = 0; i < r->readings; i++)
+        if (br_lists(r->errors, r->reading[i].name) && br_lists(r->values, r->reading[i].name))
+            return br_fail(err, BR_BAD_INPUT, "%s: '%s' is given as an error and as a value",
+                           r->path, r->reading[i].name);
+    return BR_OK;
+}
+
 static enum br_status run_program(const struct br_orders_request *r, struct br_numbers *numbers,
                                   struct br_error *err)
 {
+    if (check_readings(r, err))
+        return err->status;
     for (size_t i = 0; i < r->readings; i++)
         r->reading[i].is_value = br_lists(r->values, r->reading[i].name);
     const struct br_program program = {
@@ -66,6 +101,7 @@ static enum br_status run_program(const struct br_orders_request *r, struct br_n
         .jobs = r->jobs,
         .seconds = r->seconds,
         .kept = r->kept,
+        .anew = r->anew,
         .observer = r->observer,
     };
     const enum br_status status = br_program_run(&program, numbers, err);
@@ -139,6 +175,12 @@ enum br_status br_orders_request_expect(struct br_orders_request *r, const char 
     struct br_order_expectation *more = NULL;
     size_t count = 0;
     enum br_status status = br_expectations_read(where, text, &more, &count, err);
+    for (size_t i = 0; i < count && !status; i++)
+        for (size_t j = 0; j < r->expectations && !status; j++)
+            if (more[i].axis == r->expectation[j].axis &&
+                strcmp(more[i].quantity, r->expectation[j].quantity) == 0)
+                status = br_fail(err, BR_BAD_INPUT, "%s: the order of %s in %s is given twice",
+                                 where, more[i].quantity, br_axis_letters[more[i].axis]);
     struct br_order_expectation *all =
         status ? NULL : br_allocate(r->expectations + count, sizeof *all);
     if (!status && !all)

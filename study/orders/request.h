@@ -12,6 +12,7 @@ struct br_orders_request {
     char *path;            /* of the table or the study file, for messages */
     char *title;           /* one line; NULL: the path */
     char *table;           /* text of a table; NULL: none */
+    char *table_path;      /* of a table that a study file names; NULL: it is `path` */
     char *command;         /* that is run; NULL: none */
     char *folder;          /* of the study file; NULL: none */
     char *errors, *values; /* columns of the table, or readings that are values */
@@ -26,6 +27,7 @@ struct br_orders_request {
     /* borrowed, and not of a study file */
     int jobs;
     const char *kept;
+    bool anew; /* as br_program has it */
     const struct br_observer *observer;
 };
 struct br_orders_request br_orders_request_default(void);

@@ -55,10 +55,13 @@ static enum br_status take_table(const struct entry *e)
 {
     const char *slash = strrchr(e->r->path, '/');
     const int folder = slash && *e->text != '/' ? (int)(slash - e->r->path) + 1 : 0;
-    char path[4096];
     struct br_error inner = {0};
-    snprintf(path, sizeof path, "%.*s%s", folder, e->r->path, e->text);
-    return br_scene_load(path, &e->request->table, &inner)
+    char **path = &e->request->table_path;
+    if (asprintf(path, "%.*s%s", folder, e->r->path, e->text) < 0) {
+        *path = NULL;
+        return br_no_memory(e->r->err, "the study");
+    }
+    return br_scene_load(*path, &e->request->table, &inner)
                ? refuse_inner(e, br_yaml_line(e->node), &inner)
                : BR_OK;
 }
@@ -90,7 +93,11 @@ static enum br_status take_dimension(const struct entry *e)
 
 static enum br_status take_formal(const struct entry *e)
 {
-    return take_number(e, "", &e->request->formal);
+    const enum br_status status = take_number(e, "", &e->request->formal);
+    return status || (e->request->formal >= 1 && e->request->formal <= 10)
+               ? status
+               : br_scene_refuse(e->r, br_yaml_line(e->node), e->key,
+                                 "found '%s', expected an order from 1 to 10", e->text);
 }
 
 static enum br_status take_limit(const struct entry *e)
@@ -133,11 +140,18 @@ static enum br_status take_readings(const struct entry *e)
 static enum br_status take_expectation(const struct entry *e, const char *name,
                                        const yaml_node_t *value)
 {
-    char where[1200], text[1200];
     const size_t line = br_yaml_line(value);
-    snprintf(where, sizeof where, "%.1000s:%zu: verify", e->r->path, line);
-    snprintf(text, sizeof text, "%.60s: %.1000s", name, br_yaml_text(value));
-    return br_orders_request_expect(e->request, where, text, line, e->r->err);
+    char *where = NULL, *text = NULL;
+    enum br_status status = BR_NO_MEMORY;
+    if (asprintf(&where, "%s:%zu: verify", e->r->path, line) < 0)
+        where = NULL;
+    else if (asprintf(&text, "%s: %s", name, br_yaml_text(value)) < 0)
+        text = NULL;
+    else
+        status = br_orders_request_expect(e->request, where, text, line, e->r->err);
+    free(where);
+    free(text);
+    return status == BR_NO_MEMORY ? br_no_memory(e->r->err, "the study") : status;
 }
 
 static enum br_status take_expectations(const struct entry *e)
@@ -196,6 +210,20 @@ static enum br_status take_entry(const struct br_scene_reader *r, const yaml_nod
     return br_scene_refuse(r, br_yaml_line(name), text, "unknown key, expected one of: %s", known);
 }
 
+/* What is said of runs alone. */
+static enum br_status check_table(const struct br_scene_reader *r, const bool seen[KEYS])
+{
+    static const char *const of_runs[] = {"n",  "h",     "dofs", "k",
+                                          "dt", "steps", "read", "time_limit"};
+    const yaml_node_t *root = yaml_document_get_root_node(r->document);
+    for (size_t i = 0; i < KEYS; i++)
+        for (size_t j = 0; j < sizeof of_runs / sizeof *of_runs; j++)
+            if (seen[i] && strcmp(keys[i].name, of_runs[j]) == 0)
+                return br_scene_refuse(r, br_yaml_line(root), keys[i].name,
+                                       "is given beside 'table', expected beside 'run' only");
+    return BR_OK;
+}
+
 static enum br_status take_study(const struct br_scene_reader *r, void *self)
 {
     struct br_orders_request *request = self;
@@ -210,6 +238,8 @@ static enum br_status take_study(const struct br_scene_reader *r, void *self)
     if (!status && !request->command == !request->table)
         status = br_scene_refuse(r, br_yaml_line(root), "study",
                                  "expected 'run' or 'table', one of the two");
+    if (!status && request->table)
+        status = check_table(r, seen);
     if (!status && request->command && request->readings == 0)
         status = br_scene_refuse(r, br_yaml_line(root), "read",
                                  "missing, expected what is read of the output");

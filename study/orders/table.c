@@ -80,6 +80,16 @@ static bool next_line(struct cursor *c)
     }
 }
 
+/* How many bytes are left of the field that begins at `at`, with its quotes. */
+static size_t field_length(const char *at, const char *stop)
+{
+    const char *end = at;
+    if (*end == '"')
+        for (end++; *end && (*end != '"' || end[1] == '"'); end++)
+            end += *end == '"';
+    return (size_t)(end - at) + strcspn(end, stop);
+}
+
 /* Takes a field of the line; *field (out) is owned, NULL where it is empty. *more: out, whether the
  * line goes on. */
 static enum br_status take_field(struct cursor *c, char **field, bool *more, struct br_error *err)
@@ -88,7 +98,7 @@ static enum br_status take_field(struct cursor *c, char **field, bool *more, str
     const char stop[] = {c->separator, '\n', '\0'};
     c->at += strspn(c->at, c->separator == '\t' ? " " : " \t");
     const bool quoted = *c->at == '"';
-    char *text = br_allocate(strlen(c->at) + 1, 1), *to = text;
+    char *text = br_allocate(field_length(c->at, stop) + 1, 1), *to = text;
     if (!text)
         return br_no_memory(err, "the table");
     if (quoted)
@@ -115,24 +125,34 @@ static enum br_status take_field(struct cursor *c, char **field, bool *more, str
     return lost ? br_no_memory(err, "the table") : BR_OK;
 }
 
+static enum br_status add_heading(struct grid *g, char *name, size_t *room, struct br_error *err)
+{
+    if (g->columns == *room) {
+        char **more = grown(g->heading, g->columns, 2 * *room + 16, sizeof *more);
+        if (!more) {
+            free(name);
+            return br_no_memory(err, "the table");
+        }
+        g->heading = more;
+        *room = 2 * *room + 16;
+    }
+    g->heading[g->columns++] = name;
+    return BR_OK;
+}
+
 static enum br_status read_heading(struct cursor *c, struct grid *g, struct br_error *err)
 {
-    size_t most = 1;
-    for (const char *p = c->at; *p && *p != '\n'; p++)
-        most += *p == c->separator;
     const size_t line = c->line;
-    g->heading = br_allocate(most, sizeof *g->heading);
-    if (!g->heading)
-        return br_no_memory(err, "the table");
-    bool more = true;
-    while (more && g->columns < most) {
+    size_t room = 0;
+    for (bool more = true; more;) {
         char *field;
         if (take_field(c, &field, &more, err))
             return err->status;
         if (!field)
             return br_fail(err, BR_BAD_INPUT, "%s:%zu: heading %zu is empty, expected a name",
                            c->path, line, g->columns + 1);
-        g->heading[g->columns++] = field;
+        if (add_heading(g, field, &room, err))
+            return err->status;
     }
     return BR_OK;
 }
@@ -231,12 +251,14 @@ static enum br_status read_objects(const char *text, const char *path, struct gr
 
 /* ---- what the columns are ---- */
 
-/* Splits "dt [s]" or "dt (s)" in place; the unit is NULL where there is none. */
+/* Splits "dt [s]" or "dt (s)" in place, at the last bracket; the unit is NULL where there is none.
+ */
 static char *split_unit(char *heading)
 {
-    char *open = strpbrk(heading, "[(");
     const size_t length = strlen(heading);
-    if (!open || open == heading || !strchr("])", heading[length - 1]))
+    const char last = length ? heading[length - 1] : '\0';
+    char *open = last == ']' ? strrchr(heading, '[') : last == ')' ? strrchr(heading, '(') : NULL;
+    if (!open || open == heading)
         return NULL;
     heading[length - 1] = '\0';
     char *end = open;
@@ -327,14 +349,8 @@ static enum br_status take_quantity(const struct grid *g, const struct br_table_
     if (!quantity->name || (unit && !quantity->unit))
         return br_no_memory(err, "the table");
     for (size_t i = 0; i < g->rows; i++) {
-        double *number = &numbers->row[i].number[index];
-        if (number_at(g, q, i, place, number, err))
+        if (number_at(g, q, i, place, &numbers->row[i].number[index], err))
             return err->status;
-        if (!quantity->is_value && *number < 0)
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s:%zu: %s: found %g, expected an error of at least 0; is it a "
-                           "value? (--value %s)",
-                           q->path, g->line[i], quantity->name, *number, quantity->name);
     }
     return BR_OK;
 }
@@ -352,20 +368,23 @@ static enum br_status check_list(const struct grid *g, const struct br_table_req
                                  const char *option, const char *list, const char *other,
                                  struct br_error *err)
 {
-    char name[128];
-    for (const char *at = list; at && *at; at += *at == ',') {
-        const size_t length = strcspn(at, ",");
-        bool found = false;
-        snprintf(name, sizeof name, "%.*s", (int)length, at);
-        for (size_t i = 0; i < g->columns; i++)
-            found |= strcmp(g->heading[i], name) == 0;
-        if (!found)
-            return br_fail(err, BR_BAD_INPUT, "%s: %s: there is no column '%s'", q->path, option,
-                           name);
-        if (br_lists(other, name))
+    const char *name;
+    size_t length;
+    while (list) {
+        list = br_list_next(list, &name, &length);
+        const char *heading = NULL;
+        for (size_t i = 0; i < g->columns && !heading; i++)
+            if (strlen(g->heading[i]) == length && memcmp(g->heading[i], name, length) == 0)
+                heading = g->heading[i];
+        if (!heading)
+            return br_fail(err, BR_BAD_INPUT, "%s: %s: there is no column '%.*s'", q->path, option,
+                           (int)length, name);
+        if (br_resolution_column_find(heading))
+            return br_fail(err, BR_BAD_INPUT, "%s: %s: '%s' is a resolution, expected numbers",
+                           q->path, option, heading);
+        if (br_lists(other, heading))
             return br_fail(err, BR_BAD_INPUT, "%s: '%s' is given as an error and as a value",
-                           option, name);
-        at += length;
+                           option, heading);
     }
     return BR_OK;
 }
@@ -416,8 +435,11 @@ static enum br_status take_columns(struct grid *g, const struct br_table_request
 enum br_status br_table_read(const char *text, const struct br_table_request *q,
                              struct br_numbers *numbers, struct br_error *err)
 {
+    static const char byte_order_mark[] = "\xef\xbb\xbf"; /* spreadsheets begin with it */
     struct grid g = {0};
     *numbers = (struct br_numbers){0};
+    if (strncmp(text, byte_order_mark, strlen(byte_order_mark)) == 0)
+        text += strlen(byte_order_mark);
     enum br_status status = text[strspn(text, " \t\r\n")] == '{'
                                 ? read_objects(text, q->path, &g, err)
                                 : read_separated(text, q->path, &g, err);

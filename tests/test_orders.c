@@ -1,0 +1,868 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Orders of any program's numbers: tables, orders of numbers that are known exactly, expectations,
+ * study files. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "study/orders/request.h"
+#include "study/orders/table.h"
+#include "study/scene/file.h"
+#include "support.h"
+
+/* ---- tables ---- */
+
+static const struct br_table_request plain = {"t.csv", NULL, NULL, 2};
+
+static struct br_numbers read_with(const char *text, const struct br_table_request *request)
+{
+    struct br_numbers numbers;
+    struct br_error err = {0};
+    MUST(br_table_read(text, request, &numbers, &err));
+    return numbers;
+}
+
+static void refuse_with(const char *text, const struct br_table_request *request,
+                        const char *message)
+{
+    struct br_numbers numbers;
+    struct br_error err = {0};
+    REFUSED(br_table_read(text, request, &numbers, &err), BR_BAD_INPUT, message);
+    br_numbers_clear(&numbers);
+}
+
+/* That it has h = 1, 1/2, 1/4 and l2 = 3, 2, 1. */
+static void is_the_table(const char *text)
+{
+    struct br_numbers n = read_with(text, &plain);
+    assert_int_equal(n.rows, 3);
+    assert_int_equal(n.quantities, 1);
+    assert_string_equal(n.quantity[0].name, "l2");
+    assert_false(n.quantity[0].is_value);
+    for (size_t i = 0; i < 3; i++) {
+        CLOSE(n.row[i].z[BR_AXIS_SPACE], 1 / (double)(1 << i), 0);
+        CLOSE(n.row[i].number[0], 3 - (double)i, 0);
+    }
+    br_numbers_clear(&n);
+}
+
+static void test_formats(void **state)
+{
+    (void)state;
+    is_the_table("h,l2\n1,3\n.5,2\n.25,1\n");
+    is_the_table("h,l2\n.25,1\n1,3\n.5,2"); /* in any order, without an end of line */
+    is_the_table("\xef\xbb\xbfh,l2\r\n1,3\r\n.5,2\r\n.25,1\r\n");
+    is_the_table("h\tl2\n1\t3\n.5\t2\n.25\t1\n");
+    is_the_table("# errors\n\n h , l2 \n# more\n 1 , 3 \n.5,2\n  \n.25,1\n");
+    is_the_table("\"h\",\"l2\"\n\"1\",\"3\"\n\".5\",2\n.25,\"1\"\n");
+    is_the_table(
+        "{\"h\": 1, \"l2\": 3}\n\n{\"l2\": 2, \"h\": 0.5}\n{\"h\": \"0.25\", \"l2\": 1}\n");
+    is_the_table("n,l2\n1,3\n2,2\n4,1\n");
+    is_the_table("dofs,l2\n1,3\n4,2\n16,1\n");
+    is_the_table("name,h,l2\ncoarse,1,3\nfine,.5,2\nfiner,.25,1\n"); /* words are left alone */
+}
+
+static void test_names_and_units(void **state)
+{
+    (void)state;
+    struct br_numbers n = read_with(
+        "h [mm],dt (s),f(x) [N/m],\"a\n\"\"b\"\", c\"\n1,4,3,1\n.5,2,2,2\n.25,1,,4\n", &plain);
+    assert_string_equal(n.unit[BR_AXIS_SPACE], "mm");
+    assert_string_equal(n.unit[BR_AXIS_TIME], "s");
+    assert_string_equal(n.column[BR_AXIS_TIME]->name, "dt");
+    assert_int_equal(n.quantities, 2);
+    assert_string_equal(n.quantity[0].name, "f(x)");
+    assert_string_equal(n.quantity[0].unit, "N/m");
+    assert_string_equal(n.quantity[1].name, "a\n\"b\", c");
+    assert_null(n.quantity[1].unit);
+    assert_true(isnan(n.row[2].number[0])); /* an empty field */
+    assert_int_equal(n.row[0].line, 3);     /* the heading has two lines */
+    br_numbers_clear(&n);
+}
+
+static void test_resolutions(void **state)
+{
+    (void)state;
+    struct br_table_request q = plain;
+    q.dimension = 3;
+    struct br_numbers n = read_with("dofs,l2\n1000,3\n8000,2\n64000,1\n", &q);
+    CLOSE(n.row[2].z[BR_AXIS_SPACE], 0.025, 1e-15);
+    br_numbers_clear(&n);
+    n = read_with("n,h,l2\n1,.3,3\n2,.15,2\n4,.075,1\n", &plain); /* to a constant factor */
+    assert_string_equal(n.column[BR_AXIS_SPACE]->name, "n");
+    br_numbers_clear(&n);
+    refuse_with("n,h,l2\n1,1,3\n2,.4,2\n4,.25,1\n", &plain,
+                "t.csv:3: h: found 0.4, which contradicts n");
+    /* Round-off in the other axis makes no lines of its own. */
+    n = read_with("h,k,l2\n1,.3,3\n.5,.30000000000000004,2\n.25,.3,1\n", &plain);
+    CLOSE(n.row[1].z[BR_AXIS_TIME], n.row[0].z[BR_AXIS_TIME], 0);
+    br_numbers_clear(&n);
+}
+
+static void test_lists(void **state)
+{
+    (void)state;
+    const char *text = "h,l2 rate,l2,drag,cpu\n1,9,3,-7,1\n.5,9,2,-8,1\n.25,9,1,-9,1\n";
+    const struct br_table_request q = {"t.csv", "l2", " drag ", 2};
+    struct br_numbers n = read_with(text, &q);
+    assert_int_equal(n.quantities, 2);
+    assert_string_equal(n.quantity[0].name, "l2");
+    assert_true(n.quantity[1].is_value);
+    br_numbers_clear(&n);
+    /* "l2 rate" is no l2. */
+    n = read_with(text, &(struct br_table_request){"t.csv", "l2 rate , cpu", NULL, 2});
+    assert_int_equal(n.quantities, 2);
+    assert_string_equal(n.quantity[0].name, "l2 rate");
+    br_numbers_clear(&n);
+    refuse_with(text, &plain,
+                "t.csv:2: drag: found -7, expected an error of at least 0; is it a "
+                "value? (--value drag)");
+    refuse_with(text, &(struct br_table_request){"t.csv", "l3", NULL, 2},
+                "t.csv: --error: there is no column 'l3'");
+    refuse_with(text, &(struct br_table_request){"t.csv", NULL, "drag,l3", 2},
+                "t.csv: --value: there is no column 'l3'");
+    refuse_with(text, &(struct br_table_request){"t.csv", "l2", "l2", 2},
+                "'l2' is given as an error and as a value");
+    refuse_with(text, &(struct br_table_request){"t.csv", "h,l2", NULL, 2},
+                "t.csv: --error: 'h' is a resolution");
+    assert_true(br_lists("a, b ,c d", "c d"));
+    assert_false(br_lists("a, b ,c d", "c"));
+    assert_false(br_lists(NULL, "c"));
+    assert_false(br_lists(",", ""));
+}
+
+static void test_refused_tables(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *message;
+    } rows[] = {
+        {"", "t.csv:1: the table is empty"},
+        {"# nothing\n\n", "t.csv:1: the table is empty"},
+        {"a,b\n1,2\n", "found no column of a resolution, expected h, n or dofs, or k, dt or steps"},
+        {"h\n1\n.5\n.25\n", "found no column of numbers beside the resolution"},
+        {"h,name\n1,a\n.5,b\n.25,c\n", "found no column of numbers beside the resolution"},
+        {"h;l2\n1;3\n", "t.csv:1: found ';' between columns, expected ',' or tabs"},
+        {"h,,l2\n1,2,3\n", "t.csv:1: heading 2 is empty, expected a name"},
+        {"h,l2,l2\n1,3,3\n.5,2,2\n.25,1,1\n", "the column 'l2' is there twice"},
+        {"h,l2\n1,3,4\n", "t.csv:2: found more than 2 fields, as the heading has"},
+        {"h,l2\n1,3\n\n2\n", "t.csv:4: found fewer than 2 fields, as the heading has"},
+        {"h,l2\n1,\"3\n.5,2\n", "t.csv:2: a quote is open to the end"},
+        {"h,l2\n1,3\n.5,x\n.25,1\n", "t.csv:3: l2: found 'x', expected a number"},
+        {"h,l2\n1,3\n.5,nan\n.25,1\n", "t.csv:3: l2: found 'nan', expected a number"},
+        {"h,l2\n1,3\n.5,2\n.25,-INF\n", "t.csv:4: l2: found '-INF', expected a number"},
+        {"h,l2\n1,3\n.5,1e999\n.25,1\n", "t.csv:3: l2: found '1e999', expected a number"},
+        {"h,l2\n1,3\n.5,-2\n.25,1\n", "t.csv:3: l2: found -2, expected an error of at least 0"},
+        {"h,l2\n1,3\n.5,1e308\n.25,1\n", "t.csv:3: l2: found 1e+308, expected at most"},
+        {"h,l2\n1,3\n-.5,2\n.25,1\n", "t.csv:3: h: found -0.5, expected a number above 0"},
+        {"h,l2\n1,3\n0,2\n.25,1\n", "t.csv:3: h: found 0, expected a number above 0"},
+        {"h,l2\n1,3\n,2\n.25,1\n", "t.csv:3: h: found nan, expected a number above 0"},
+        {"n,l2\n1,3\n2,2\n1e-310,1\n", "t.csv:4: n: found 1e-310, expected a size within"},
+        {"h,l2\n1,3\n.5,2\n1,1\n", "t.csv:4: the resolution is that of line 2, expected each once"},
+        {"h,l2\n1,3\n.5,2\n1.00000000000001,1\n", "the resolution is that of line"},
+        {"h,l2\n1,3\n.5,2\n", "t.csv: found 2 resolutions, expected at least 3"},
+        {"h,l2\n", "t.csv: found no column of numbers"},
+        {"{\"h\": 1, \"l2\": 3}\n{\"h\": 2}\n",
+         "t.csv:2: found 1 keys, expected the first line's 2"},
+        {"{\"h\": 1, \"l2\": 3}\n{\"h\": 2, \"l3\": 3}\n", "t.csv:2: there is no key 'l2'"},
+        {"{\"h\": 1, \"l2\": 3}\n[1]\n", "t.csv:2: expected a JSON object: found another value"},
+        {"{\"h\": 1, \"l2\": NaN}\n", "t.csv:1: expected a JSON object: "},
+        {"{\"h\": 1, \"l2\": 3}\n{\"h\": .5, \"l2\n", "t.csv:2: expected a JSON object: "},
+        {"{\"h\": 1, \"l2\": 3}\n{\"h\": 0.5, \"l2\": true}\n{\"h\": 2, \"l2\": 1}",
+         "t.csv:2: l2: found '(no number)', expected a number"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        refuse_with(rows[i].text, &plain, rows[i].message);
+}
+
+/* ---- numbers that are made ---- */
+
+enum { MOST_TEXT = 1 << 16 };
+
+static double power_law(double h, double k, double p, double q)
+{
+    return (h > 0 ? 3 * pow(h, p) : 0) + (k > 0 ? 0.7 * pow(k, q) : 0);
+}
+
+/* A table of sizes 1/2, 1/4, ...; with both counts a grid. */
+static const char *table_of(int meshes, int steps, double p, double q)
+{
+    static char text[MOST_TEXT];
+    size_t used = (size_t)snprintf(text, sizeof text, "%s%s%s,l2\n", meshes ? "h" : "",
+                                   meshes && steps ? "," : "", steps ? "k" : "");
+    for (int i = meshes ? 1 : 0; i <= meshes; i++)
+        for (int j = steps ? 1 : 0; j <= steps; j++) {
+            const double h = i ? pow(2, -i) : 0, k = j ? pow(2, -j) : 0;
+            if (i)
+                used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,", h);
+            if (j)
+                used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,", k);
+            used +=
+                (size_t)snprintf(text + used, sizeof text - used, "%.17g\n", power_law(h, k, p, q));
+        }
+    return text;
+}
+
+/* To be cleared together. */
+struct found {
+    struct br_numbers numbers;
+    struct br_orders orders;
+};
+
+static void find(struct found *f, const char *text, const char *values)
+{
+    struct br_error err = {0};
+    f->numbers = read_with(text, &(struct br_table_request){"t.csv", NULL, values, 2});
+    MUST(br_orders_find(&f->numbers, 2, &f->orders, &err));
+}
+
+static void clear_found(struct found *f)
+{
+    br_orders_clear(&f->orders);
+    br_numbers_clear(&f->numbers);
+}
+
+static void test_lines(void **state)
+{
+    (void)state;
+    for (double p = 0.5; p < 6; p += 0.75) {
+        struct found f;
+        find(&f, table_of(5, 0, p, 0), NULL);
+        const struct br_quantity_orders *of = &f.orders.of[0];
+        assert_int_equal(of->lines, 1);
+        CLOSE(of->line[0].observed.order.value, p, 1e-9);
+        assert_string_equal(of->line[0].at, "");
+        assert_true(isnan(br_orders_rate(&of->line[0], 0)));
+        for (size_t i = 1; i < 5; i++)
+            CLOSE(br_orders_rate(&of->line[0], i), p, 1e-9);
+        clear_found(&f);
+        find(&f, table_of(0, 4, 0, p), NULL);
+        assert_int_equal(f.orders.of[0].line[0].axis, BR_AXIS_TIME);
+        CLOSE(f.orders.of[0].line[0].observed.order.value, p, 1e-9);
+        clear_found(&f);
+    }
+}
+
+static void test_grid(void **state)
+{
+    (void)state;
+    struct found f;
+    find(&f, table_of(6, 5, 2, 1), NULL);
+    const struct br_quantity_orders *of = &f.orders.of[0];
+    assert_false(f.orders.tied);
+    assert_true(br_joint_describes(&of->joint));
+    CLOSE(of->joint.p.value, 2, 1e-9);
+    CLOSE(of->joint.q.value, 1, 1e-9);
+    CLOSE(of->joint.c_h.value, 3, 1e-8);
+    assert_int_equal(of->joint.points, 30);
+    assert_int_equal(of->lines, 11);
+    for (size_t l = 0; l < of->lines; l++) { /* over space first; each from coarse to fine */
+        char at[64];
+        const bool space = l < 5;
+        snprintf(at, sizeof at, "%s = %.6g", space ? "k" : "h",
+                 pow(2, -(double)(space ? l : l - 5) - 1));
+        assert_string_equal(of->line[l].at, at);
+        assert_int_equal(of->line[l].axis, space ? BR_AXIS_SPACE : BR_AXIS_TIME);
+        assert_int_equal(of->line[l].observed.points, space ? 6 : 5);
+    }
+    for (size_t row = 0; row < 30; row++)
+        for (int axis = 0; axis < BR_AXES; axis++) {
+            const struct br_row_point *at = &of->point[axis][row];
+            CLOSE(at->line->observed.point[at->index].error, f.numbers.row[row].number[0], 0);
+            assert_int_equal(at->line->row[at->index], row);
+        }
+    clear_found(&f);
+}
+
+/* A line at a fine size may begin at a finer mesh than one at a coarser size. */
+static void test_lines_are_sorted(void **state)
+{
+    (void)state;
+    struct found f;
+    find(&f,
+         "h,k,l2\n1,1,9\n1,.25,9\n.5,1,4\n.5,.5,4\n.5,.25,4\n.25,1,1\n.25,.5,1\n.25,.25,1\n"
+         ".125,.5,.25\n",
+         NULL);
+    const struct br_quantity_orders *of = &f.orders.of[0];
+    assert_string_equal(of->line[0].at, "k = 1");
+    assert_string_equal(of->line[1].at, "k = 0.5");
+    assert_string_equal(of->line[2].at, "k = 0.25");
+    clear_found(&f);
+}
+
+static void test_tied(void **state)
+{
+    (void)state;
+    struct found f;
+    find(&f, "h,k,l2\n1,1,1\n.5,.25,.25\n.25,.0625,.0625\n.125,.015625,.015625\n", NULL);
+    assert_true(f.orders.tied);
+    assert_int_equal(f.orders.of[0].lines, 1);
+    assert_int_equal(f.orders.of[0].line[0].axis, BR_AXIS_SPACE);
+    CLOSE(f.orders.of[0].line[0].observed.order.value, 2, 1e-9);
+    clear_found(&f);
+    /* Neither line nor path: no order. */
+    find(&f, "h,k,l2\n1,1,1\n1,.5,.9\n.5,1,.5\n.5,.5,.4\n.25,.25,.1\n", NULL);
+    assert_false(f.orders.tied);
+    assert_int_equal(f.orders.of[0].lines, 0);
+    clear_found(&f);
+}
+
+static enum br_flag flag_of(const struct found *f, size_t point)
+{
+    return f->orders.of[0].line[0].observed.point[point].flag;
+}
+
+/* h = 1, 1/2, ... with errors h^2 that do not fall below a floor. */
+static const char *floor_table(int rows, double level)
+{
+    static char text[4096];
+    size_t used = (size_t)snprintf(text, sizeof text, "h,l2\n");
+    for (int i = 0; i < rows; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g\n", pow(2, -i),
+                                 fmax(pow(4, -i), level));
+    return text;
+}
+
+static void test_floors(void **state)
+{
+    (void)state;
+    struct found f;
+    find(&f, floor_table(12, pow(4, -7)), NULL); /* 6e-5: no round-off */
+    const struct br_case *c = &f.orders.of[0].line[0].observed;
+    for (size_t i = 0; i < 12; i++) /* below ten times the floor */
+        assert_int_equal(flag_of(&f, i), i < 6 ? BR_FLAG_NONE : BR_FLAG_STALLED);
+    assert_non_null(strstr(c->note, "left out: h = 0.015625 (stagnation, error 2.4e-04)"));
+    CLOSE(c->order.value, 2, 1e-9);
+    clear_found(&f);
+    find(&f, floor_table(16, pow(4, -12)), NULL); /* 6e-8 of the coarsest one */
+    for (size_t i = 0; i < 16; i++)
+        assert_int_equal(flag_of(&f, i), i < 11 ? BR_FLAG_NONE : BR_FLAG_ROUND_OFF);
+    CLOSE(f.orders.of[0].line[0].observed.order.value, 2, 1e-9);
+    clear_found(&f);
+    find(&f, floor_table(40, 0), NULL); /* none, however far it falls */
+    for (size_t i = 0; i < 40; i++)
+        assert_int_equal(flag_of(&f, i), BR_FLAG_NONE);
+    clear_found(&f);
+    find(&f, "h,l2\n1,1\n.5,.25\n.25,.0625\n.125,0\n", NULL);
+    assert_int_equal(flag_of(&f, 3), BR_FLAG_ROUND_OFF);
+    CLOSE(f.orders.of[0].line[0].observed.order.value, 2, 1e-9);
+    assert_true(isnan(br_orders_rate(&f.orders.of[0].line[0], 3)));
+    clear_found(&f);
+    find(&f, "h,l2\n1,1\n.5,.25\n.25,\n.125,.015625\n.0625,.00390625\n", NULL);
+    assert_int_equal(flag_of(&f, 2), BR_FLAG_FAILED);
+    assert_string_equal(f.orders.of[0].line[0].observed.point[2].failure, "has no number");
+    clear_found(&f);
+}
+
+/* ---- values ---- */
+
+static void test_values(void **state)
+{
+    (void)state;
+    static const double even[] = {1, .5, .25, .125, .0625}, uneven[] = {1, .5, .25, .125, .12, .01};
+    for (double p = 0.5; p < 4; p += 0.5)
+        for (int kind = 0; kind < 2; kind++) {
+            char text[1024];
+            struct found f;
+            size_t used = (size_t)snprintf(text, sizeof text, "h,drag\n");
+            for (size_t i = 0; i < (kind ? 6 : 5); i++) {
+                const double h = kind ? uneven[i] : even[i];
+                used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g\n", h,
+                                         5 - 2 * pow(h, p));
+            }
+            find(&f, text, "drag");
+            const struct br_orders_line *line = &f.orders.of[0].line[0];
+            assert_int_equal(line->observed.points, kind ? 5 : 4);
+            CLOSE(line->observed.point[0].error, 2 * (1 - pow(.5, p)), 1e-14);
+            CLOSE(line->observed.point[0].z_against, .5, 0);
+            CLOSE(line->observed.order.value, p, 1e-8);
+            for (size_t i = 1; i < line->observed.points; i++) {
+                assert_int_equal(line->observed.point[i].flag, BR_FLAG_NONE);
+                CLOSE(br_orders_rate(line, i), p, 1e-8);
+            }
+            CLOSE(line->gci.order, p, 1e-8);
+            CLOSE(line->gci.fine.limit, 5, 1e-9);
+            assert_true(line->limit.value.low <= 5 && line->limit.value.high >= 5);
+            clear_found(&f);
+        }
+}
+
+/* Differences that fall or grow faster than any order: nothing is said of them. */
+static void test_steep_values(void **state)
+{
+    (void)state;
+    struct found f;
+    find(&f,
+         "h,u\n1,0\n.5,1e300\n.25,1\n.125,2\n.0625,3\n.03125,1e300\n.015625,0\n"
+         ".0078125,1e-300\n.00390625,2e-300\n",
+         "u");
+    const struct br_orders_line *line = &f.orders.of[0].line[0];
+    CLOSE(br_orders_rate(line, 1), 0, 1e-9);
+    assert_true(isnan(br_orders_rate(line, 2)));
+    CLOSE(br_orders_rate(line, 3), 0, 1e-9);
+    assert_true(isnan(br_orders_rate(line, 4)));
+    clear_found(&f);
+}
+
+/* ---- expectations ---- */
+
+static void refuse_expectation(const char *text, const char *message)
+{
+    struct br_order_expectation *e;
+    size_t count;
+    struct br_error err = {0};
+    REFUSED(br_expectations_read("--expect", text, &e, &count, &err), BR_BAD_INPUT, message);
+    assert_int_equal(strncmp(err.message, "--expect: ", 10), 0);
+    free(e);
+}
+
+static void test_grammar(void **state)
+{
+    (void)state;
+    struct br_order_expectation *e;
+    size_t count;
+    struct br_error err = {0};
+    MUST(br_expectations_read("--expect",
+                              " l2 : h 2 +- 0.1, k 1\u00b1.05 down to 1e-9;\n drag x:k1+-.2 ", &e,
+                              &count, &err));
+    assert_int_equal(count, 3);
+    assert_string_equal(e[0].quantity, "l2");
+    assert_int_equal(e[0].axis, BR_AXIS_SPACE);
+    CLOSE(e[0].order, 2, 0);
+    CLOSE(e[0].tolerance, 0.1, 0);
+    CLOSE(e[0].down_to, 0, 0);
+    assert_string_equal(e[1].quantity, "l2");
+    assert_int_equal(e[1].axis, BR_AXIS_TIME);
+    CLOSE(e[1].tolerance, 0.05, 0);
+    CLOSE(e[1].down_to, 1e-9, 0);
+    assert_string_equal(e[2].quantity, "drag x");
+    assert_int_equal(e[2].axis, BR_AXIS_TIME);
+    free(e);
+    refuse_expectation("", "expected a name");
+    refuse_expectation("l2", "found 'l2', expected a name");
+    refuse_expectation(": h 2 +- .1", "expected a name");
+    refuse_expectation("l2: x 2 +- .1", "found 'x 2 +- .1', expected h or k");
+    refuse_expectation("l2: h -2 +- .1", "expected an order above 0");
+    refuse_expectation("l2: h nan +- .1", "found 'nan +- .1', expected an order above 0");
+    refuse_expectation("l2: h 2", "found '', expected '+-'");
+    refuse_expectation("l2: h 2 +- 0", "expected a tolerance above 0 and below the order");
+    refuse_expectation("l2: h 2 +- 2", "expected a tolerance above 0 and below the order");
+    refuse_expectation("l2: h 2 +- .1 down to 0", "expected an error above 0");
+    refuse_expectation("l2: h 2 +- .1 more", "found 'more', expected ',' or ';' or the end");
+    refuse_expectation("l2: h 2 +- .1,", "expected h or k");
+    refuse_expectation("l2: h 2 +- .1, h 1 +- .1", "the order of l2 in h is given twice");
+    refuse_expectation("0123456789012345678901234567890123456789012345678901234567890123: h 2 +- 1",
+                       "expected a name of at most 63 bytes");
+}
+
+/* The verdict on the last expectation of the text. */
+static enum br_verdict verdict_of(const char *table, const char *values, const char *expected,
+                                  char reason[768])
+{
+    struct found f;
+    struct br_order_expectation *e;
+    struct br_check check = {.path = "t.csv"};
+    size_t count;
+    struct br_error err = {0};
+    find(&f, table, values);
+    MUST(br_expectations_read("--expect", expected, &e, &count, &err));
+    MUST(br_orders_check(&f.orders, e, count, &check, &err));
+    assert_int_equal(check.count, count);
+    const struct br_case *c = &check.cases[count - 1];
+    const enum br_verdict verdict = c->verdict;
+    if (reason)
+        snprintf(reason, 768, "%s", c->reason);
+    br_check_clear(&check);
+    free(e);
+    clear_found(&f);
+    return verdict;
+}
+
+static void test_verdicts(void **state)
+{
+    (void)state;
+    char reason[768];
+    assert_int_equal(verdict_of(table_of(5, 0, 2, 0), NULL, "l2: h 2 +- 0.1", NULL), BR_PASS);
+    assert_int_equal(verdict_of(table_of(5, 0, 2, 0), NULL, "l2: h 3 +- 0.1", NULL), BR_FAIL);
+    assert_int_equal(verdict_of(table_of(5, 5, 2, 1), NULL, "l2: h 2 +- 0.1, k 1 +- 0.1", NULL),
+                     BR_PASS);
+    assert_int_equal(verdict_of(table_of(5, 5, 2, 1), NULL, "l2: k 2 +- 0.1", NULL), BR_FAIL);
+    assert_int_equal(verdict_of(table_of(5, 5, 2, 1), NULL, "l2: h 1 +- 0.1", NULL), BR_FAIL);
+    assert_int_equal(verdict_of("h,l2\n1,1\n.5,.25\n.25,.06\n", NULL, "l2: h 2 +- 0.1", NULL),
+                     BR_FAIL); /* too few */
+    assert_int_equal(verdict_of("h,l2\n1,1\n.5,.25\n.25,\n.125,.015\n.0625,.004\n", NULL,
+                                "l2: h 2 +- 0.1", reason),
+                     BR_FAIL);
+    assert_string_equal(reason, "at h = 0.25 has no number");
+    assert_int_equal(verdict_of(floor_table(12, pow(4, -7)), NULL, "l2: h 2 +- 0.1", reason),
+                     BR_INCONCLUSIVE);
+    assert_non_null(strstr(reason, "the errors do not fall"));
+    assert_int_equal(
+        verdict_of(floor_table(12, pow(4, -7)), NULL, "l2: h 2 +- 0.1 down to 1e-3", NULL),
+        BR_PASS);
+    assert_int_equal(
+        verdict_of(floor_table(12, pow(4, -7)), NULL, "l2: h 3 +- 0.1 down to 1e-3", NULL),
+        BR_FAIL);
+    assert_int_equal(verdict_of("h,u\n1,4\n.5,2\n.25,1.5\n.125,1.375\n.0625,1.34375\n", "u",
+                                "u: h 2 +- 0.1", NULL),
+                     BR_PASS);
+}
+
+static void test_unknown_expectations(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *expected, *message;
+    } rows[] = {
+        {"l3: h 2 +- .1", "t.csv: an order of 'l3' is expected, and there is no such column"},
+        {"l2: k 2 +- .1", "t.csv: an order of l2 in k is expected, and there are no three sizes"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct found f;
+        struct br_order_expectation *e;
+        struct br_check check = {.path = "t.csv"};
+        size_t count;
+        struct br_error err = {0};
+        find(&f, table_of(5, 0, 2, 0), NULL);
+        MUST(br_expectations_read("--expect", rows[i].expected, &e, &count, &err));
+        REFUSED(br_orders_check(&f.orders, e, count, &check, &err), BR_BAD_INPUT, rows[i].message);
+        br_check_clear(&check);
+        free(e);
+        clear_found(&f);
+    }
+}
+
+/* Errors with noise, of any order and constant; the band does not hold the order. */
+static void test_wrong_orders_never_pass(void **state)
+{
+    (void)state;
+    struct br_test_random random = {7};
+    for (int i = 0; i < 300; i++) {
+        char text[1024], expected[64];
+        const double p = br_test_uniform(&random, 0.5, 4),
+                     noise = br_test_log_uniform(&random, 1e-9, 1e-3);
+        const double tolerance = br_test_uniform(&random, 0.05, 0.3);
+        const double off = tolerance + br_test_uniform(&random, 0.01, 1);
+        const double wrong =
+            br_test_index(&random, 2) || p - off < tolerance + 0.05 ? p + off : p - off;
+        size_t used = (size_t)snprintf(text, sizeof text, "n,l2\n");
+        for (int row = 0; row < 4 + (int)br_test_index(&random, 5); row++)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%d,%.17g\n", 4 << row,
+                                     5 * pow(4 << row, -p) *
+                                         (1 + noise * br_test_uniform(&random, -1, 1)));
+        snprintf(expected, sizeof expected, "l2: h %.17g +- %.17g", wrong, tolerance);
+        if (verdict_of(text, NULL, expected, NULL) == BR_PASS)
+            fail_msg("order %g passes as %s", p, expected);
+    }
+}
+
+/* ---- study files ---- */
+
+static const char *const full = "title: a study\n"
+                                "run: sh -c 'echo l2={n}'\n"
+                                "n: 10, 20, 40\n"
+                                "k: 0.1, 0.05\n"
+                                "read:\n"
+                                "  l2: l2=(.*)\n"
+                                "  drag: json:/drag\n"
+                                "  lift: csv:lift\n"
+                                "error: l2\n"
+                                "value: drag, lift\n"
+                                "dimension: 3\n"
+                                "formal_order: 4\n"
+                                "time_limit: 60 s\n"
+                                "verify:\n"
+                                "  l2: h 2 +- 0.1, k 1 +- 0.1\n"
+                                "  drag: h 2 +- 0.2 down to 1e-9\n";
+
+static void test_study_file(void **state)
+{
+    (void)state;
+    struct br_orders_request r;
+    struct br_error err = {0};
+    MUST(br_orders_request_read("s.yaml", full, &r, &err));
+    assert_string_equal(r.title, "a study");
+    assert_string_equal(r.command, "sh -c 'echo l2={n}'");
+    assert_null(r.table);
+    assert_int_equal(r.axis[BR_AXIS_SPACE].count, 3);
+    CLOSE(r.axis[BR_AXIS_SPACE].given[2], 40, 0);
+    assert_string_equal(r.axis[BR_AXIS_TIME].column->name, "k");
+    assert_int_equal(r.readings, 3);
+    assert_int_equal(r.reading[0].kind, BR_READING_REGEX);
+    assert_int_equal(r.reading[1].kind, BR_READING_JSON);
+    assert_string_equal(r.reading[1].what, "/drag");
+    assert_int_equal(r.reading[2].kind, BR_READING_CSV);
+    assert_string_equal(r.errors, "l2");
+    assert_string_equal(r.values, "drag, lift");
+    CLOSE(r.dimension, 3, 0);
+    CLOSE(r.formal, 4, 0);
+    CLOSE(r.seconds, 60, 0);
+    assert_int_equal(r.expectations, 3);
+    assert_int_equal(r.expectation[0].line, 15);
+    assert_int_equal(r.expectation[2].line, 16);
+    assert_string_equal(r.expectation[2].quantity, "drag");
+    br_orders_request_clear(&r);
+    static const char *const lists[] = {"n", "h", "dofs", "k", "dt", "steps"};
+    for (size_t i = 0; i < 6; i++) {
+        char text[128];
+        snprintf(text, sizeof text, "run: a\n%s: 1, 2\nread: {a: b}\n", lists[i]);
+        MUST(br_orders_request_read("s.yaml", text, &r, &err));
+        const struct br_resolution_column *column = br_resolution_column_find(lists[i]);
+        assert_ptr_equal(r.axis[column->axis].column, column);
+        br_orders_request_clear(&r);
+    }
+}
+
+static void test_study_table(void **state)
+{
+    (void)state;
+    const char *path = br_test_scene_file("h,l2\n1,3\n.5,x\n.25,1\n");
+    char text[4096], message[4200];
+    struct br_orders_request r;
+    struct br_numbers numbers;
+    struct br_error err = {0};
+    snprintf(text, sizeof text, "table: %s\nerror: l2\n", path);
+    MUST(br_orders_request_read("elsewhere/s.yaml", text, &r, &err));
+    assert_string_equal(r.table_path, path);
+    snprintf(message, sizeof message, "%s:3: l2: found 'x'", path); /* the table, not the study */
+    REFUSED(br_orders_read(&r, &numbers, &err), BR_BAD_INPUT, message);
+    br_numbers_clear(&numbers);
+    br_orders_request_clear(&r);
+    snprintf(text, sizeof text, "%s", path);
+    char *const slash = strrchr(text, '/');
+    *slash = '\0';
+    char study[4096], in[4096];
+    snprintf(study, sizeof study, "table: %s\n", slash + 1); /* in the folder of the study */
+    snprintf(in, sizeof in, "%.4000s/s.yaml", text);
+    MUST(br_orders_request_read(in, study, &r, &err));
+    assert_string_equal(r.table_path, path);
+    br_orders_request_clear(&r);
+}
+
+static void test_refused_studies(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *message;
+    } rows[] = {
+        {"", "s.yaml:1: study: expected a mapping"},
+        {"- a\n", "s.yaml:1: study: expected a mapping"},
+        {"title: a\n", "s.yaml:1: study: expected 'run' or 'table', one of the two"},
+        {"run: a\ntable: /dev/null\n", "study: expected 'run' or 'table', one of the two"},
+        {"run: a\n", "s.yaml:1: read: missing, expected what is read of the output"},
+        {"run: a\nreed: {}\n",
+         "s.yaml:2: reed: unknown key, expected one of: title, run, table, n"},
+        {"run: a\nrun: b\n", "s.yaml:2: run: is given twice"},
+        {"run: [a]\n", "s.yaml:1: run: expected one text"},
+        {"run: a\nread: x\n", "s.yaml:2: read: expected names with a text each"},
+        {"run: a\nread: {a: [b]}\n", "s.yaml:2: read: expected names with a text each"},
+        {"run: a\nread:\n  a: b\n  a: c\n", "a"},
+        {"run: a\nn: 1, x\n", "s.yaml:2: n: n: found 'x', expected positive numbers"},
+        {"run: a\nn: 1, 2\nh: 1, 2\n", "s.yaml:3: h: n and h are given, expected one of the two"},
+        {"run: a\ndimension: -1\n", "s.yaml:2: dimension: found '-1', expected a number above 0"},
+        {"run: a\nformal_order: x\n", "s.yaml:2: formal_order: found 'x', expected a number above"},
+        {"run: a\nformal_order: 40\n",
+         "s.yaml:2: formal_order: found '40', expected an order from"},
+        {"run: a\ntime_limit: 60\n",
+         "s.yaml:2: time_limit: found '60', expected a number above 0 and its unit, s"},
+        {"table: /nowhere/t.csv\n", "s.yaml:1: table: /nowhere/t.csv: No such file"},
+        {"table: /dev/null\nn: 1, 2\n", "n: is given beside 'table', expected beside 'run' only"},
+        {"table: /dev/null\nread: {a: b}\n", "read: is given beside 'table'"},
+        {"table: /dev/null\ntime_limit: 1 s\n", "time_limit: is given beside 'table'"},
+        {"run: a\nverify:\n  l2: h 2 + 1\n", "s.yaml:3: verify: found '+ 1', expected '+-'"},
+        {"run: a\nverify:\n  l2: h 2 +- 1\n  'l2 ': h 2 +- 1\n",
+         "s.yaml:4: verify: the order of l2 in h is given twice"},
+        {"run: a\nverify: l2\n", "s.yaml:2: verify: expected names with a text each"},
+        {"run: a\n  n: {", "s.yaml:2"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_orders_request r;
+        struct br_error err = {0};
+        REFUSED(br_orders_request_read("s.yaml", rows[i].text, &r, &err), BR_BAD_INPUT,
+                rows[i].message);
+        assert_non_null(strstr(err.message, "s.yaml"));
+        br_orders_request_clear(&r);
+    }
+}
+
+/* A text that is cut would be another expectation. */
+static void test_long_expectation(void **state)
+{
+    (void)state;
+    char text[3000];
+    struct br_orders_request r;
+    struct br_error err = {0};
+    snprintf(text, sizeof text, "run: a\nread: {a: b}\nverify:\n  a: 'h 2 +-%*s'\n", 995, "0.15");
+    MUST(br_orders_request_read("s.yaml", text, &r, &err));
+    CLOSE(r.expectation[0].tolerance, 0.15, 0);
+    br_orders_request_clear(&r);
+}
+
+static void test_is_study_file(void **state)
+{
+    (void)state;
+    char **names, path[1200];
+    size_t count;
+    struct br_error err = {0};
+    assert_true(br_is_study_file(full));
+    assert_true(br_is_study_file("table: a\n"));
+    assert_false(br_is_study_file("  run: a\n"));
+    assert_false(br_is_study_file("runs: a\ntitle: run: x\n"));
+    assert_false(br_is_study_file(""));
+    MUST(br_scene_list(&names, &count, &err));
+    assert_true(count > 5);
+    for (size_t i = 0; i < count; i++) {
+        char *text;
+        MUST(br_scene_find(names[i], path, sizeof path, &err));
+        MUST(br_scene_load(path, &text, &err));
+        if (br_is_study_file(text))
+            fail_msg("%s is taken for a study file", path);
+        free(text);
+    }
+    br_scene_list_free(names, count);
+}
+
+static void problem_of(const char *from, const char *to, char problem[40])
+{
+    char text[2048];
+    struct br_orders_request r;
+    struct br_error err = {0};
+    const char *at = strstr(full, from);
+    assert_non_null(at);
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - full), full, to, at + strlen(from));
+    MUST(br_orders_request_read("s.yaml", text, &r, &err));
+    br_orders_problem(&r, problem);
+    br_orders_request_clear(&r);
+}
+
+static void test_problems(void **state)
+{
+    (void)state;
+    static const char *const others[][2] = {
+        {"l2={n}", "l2={k}"},
+        {"json:/drag", "json:/lift"},
+        {"  lift: csv", "  loft: csv"},
+        {"error: l2\n", ""},
+        {"value: drag, lift", "value: drag"},
+        {"h 2 +- 0.1", "h 2 +- 0.2"},
+        {"h 2 +- 0.1", "h 3 +- 0.1"},
+        {"down to 1e-9", "down to 1e-8"},
+        {"  l2: h 2 +- 0.1, k", "  l2: k"},
+    };
+    char as_it_is[40], problem[40];
+    problem_of("a study", "a study", as_it_is);
+    assert_int_equal(strlen(as_it_is), 32);
+    problem_of("a study", "another title", problem);
+    assert_string_equal(problem, as_it_is);
+    problem_of("n: 10, 20, 40", "n: 20, 40, 80", problem);
+    assert_string_equal(problem, as_it_is);
+    problem_of("60 s", "61 s", problem);
+    assert_string_equal(problem, as_it_is);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        problem_of(others[i][0], others[i][1], problem);
+        assert_string_not_equal(problem, as_it_is);
+    }
+}
+
+/* ---- what is read of a program ---- */
+
+static void refuse_run(const char *readings, const char *lists, const char *message)
+{
+    char text[1024];
+    struct br_orders_request r;
+    struct br_numbers numbers;
+    struct br_error err = {0};
+    snprintf(text, sizeof text, "run: echo a={n} b=-{n}\nn: 1, 2, 4\nread:\n  %s\n%s", readings,
+             lists);
+    MUST(br_orders_request_read("s.yaml", text, &r, &err));
+    REFUSED(br_orders_read(&r, &numbers, &err), BR_BAD_INPUT, message);
+    br_numbers_clear(&numbers);
+    br_orders_request_clear(&r);
+}
+
+static void test_readings(void **state)
+{
+    (void)state;
+    refuse_run("a: a=([^ ]*)", "value: b\n", "s.yaml: --value: nothing of the name 'b' is read");
+    refuse_run("a: a=([^ ]*)", "error: b\n", "s.yaml: --error: nothing of the name 'b' is read");
+    refuse_run("a: a=([^ ]*)", "error: a\nvalue: a\n", "'a' is given as an error and as a value");
+    refuse_run("b: b=([^ ]*)", "", "s.yaml: n = 1: b: found -1, expected an error of at least 0");
+}
+
+/* ---- without memory ---- */
+
+static enum br_status whole_table(const void *text, struct br_error *err)
+{
+    struct br_numbers numbers;
+    struct br_orders orders = {0};
+    struct br_order_expectation *e = NULL;
+    struct br_check check = {.path = "t.csv"};
+    size_t count;
+    enum br_status status =
+        br_table_read(text, &(struct br_table_request){"t.csv", "l2", "u", 2}, &numbers, err);
+    if (!status)
+        status = br_orders_find(&numbers, 2, &orders, err);
+    if (!status)
+        status = br_expectations_read("--expect", "l2: h 2 +- .1", &e, &count, err);
+    if (!status)
+        status = br_orders_check(&orders, e, count, &check, err);
+    br_check_clear(&check);
+    free(e);
+    br_orders_clear(&orders);
+    br_numbers_clear(&numbers);
+    return status;
+}
+
+static enum br_status whole_study(const void *text, struct br_error *err)
+{
+    struct br_orders_request r;
+    const enum br_status status = br_orders_request_read("s.yaml", text, &r, err);
+    br_orders_request_clear(&r);
+    return status;
+}
+
+static void test_without_memory(void **state)
+{
+    (void)state;
+    static const char *const csv = "h,k,l2,u\n1,1,2,4\n1,.5,1.5,2\n1,.25,1.2,1.5\n.5,1,1.3,1\n"
+                                   ".5,.5,.7,1\n.5,.25,.5,1\n.25,1,1.1,1\n.25,.5,.6,1\n"
+                                   ".25,.25,.3,1\n.125,1,1,1\n.125,.5,.5,1\n.125,.25,.25,1\n";
+    br_test_without_memory(whole_table, csv, 60);
+    br_test_without_memory(whole_table,
+                           "{\"h\":1,\"l2\":1,\"u\":1}\n{\"h\":0.5,\"l2\":0.25,\"u\":2}\n"
+                           "{\"h\":0.25,\"l2\":0.1,\"u\":3}\n",
+                           10);
+    br_test_without_memory(whole_study, full, 8);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_formats),
+        cmocka_unit_test(test_names_and_units),
+        cmocka_unit_test(test_resolutions),
+        cmocka_unit_test(test_lists),
+        cmocka_unit_test(test_refused_tables),
+        cmocka_unit_test(test_lines),
+        cmocka_unit_test(test_grid),
+        cmocka_unit_test(test_lines_are_sorted),
+        cmocka_unit_test(test_tied),
+        cmocka_unit_test(test_floors),
+        cmocka_unit_test(test_values),
+        cmocka_unit_test(test_steep_values),
+        cmocka_unit_test(test_grammar),
+        cmocka_unit_test(test_verdicts),
+        cmocka_unit_test(test_unknown_expectations),
+        cmocka_unit_test(test_wrong_orders_never_pass),
+        cmocka_unit_test(test_study_file),
+        cmocka_unit_test(test_study_table),
+        cmocka_unit_test(test_refused_studies),
+        cmocka_unit_test(test_long_expectation),
+        cmocka_unit_test(test_is_study_file),
+        cmocka_unit_test(test_problems),
+        cmocka_unit_test(test_readings),
+        cmocka_unit_test(test_without_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
