@@ -335,13 +335,16 @@ static void put_limits(struct br_document *d, const struct br_orders *o)
 
 /* ---- what it costs ---- */
 
+static bool is_timed(const struct br_numbers *numbers)
+{
+    bool timed = false;
+    for (size_t i = 0; i < numbers->rows; i++)
+        timed |= isfinite(numbers->row[i].seconds);
+    return timed;
+}
+
 static void put_costs(struct br_document *d, const struct br_numbers *numbers)
 {
-    bool measured = false;
-    for (size_t i = 0; i < numbers->rows; i++)
-        measured |= isfinite(numbers->row[i].seconds);
-    if (!measured)
-        return;
     br_put_table(d, "costs", "What each run costs", 0);
     for (size_t i = 0; i < numbers->rows; i++) {
         const struct br_numbers_row *row = &numbers->row[i];
@@ -392,8 +395,10 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
     put_orders(d, o);
     put_joint_fits(d, o);
     put_limits(d, o);
-    put_costs(d, o->numbers);
-    put_cheapest(d, o);
+    if (is_timed(o->numbers)) {
+        put_costs(d, o->numbers);
+        put_cheapest(d, o);
+    }
     for (size_t i = 0; i < o->count; i++)
         put_rows(d, o, &o->of[i]);
 }

@@ -145,8 +145,8 @@ static enum br_status observe(const struct br_quantity_orders *of,
         return br_no_memory(err, "the verdict");
     memcpy(c->point, line->observed.point, c->points * sizeof *c->point);
     for (size_t i = 0; i < c->points; i++)
-        if (c->point[i].flag == BR_FLAG_NONE && c->point[i].error <= e->down_to)
-            c->point[i].flag = BR_FLAG_STALLED;
+        if (e->down_to > 0 && c->point[i].flag != BR_FLAG_FAILED)
+            c->point[i].flag = c->point[i].error <= e->down_to ? BR_FLAG_STALLED : BR_FLAG_NONE;
     if (br_case_observe(c, BR_VERIFY_LEAST_POINTS, err))
         return err->status;
     const bool space = line->axis == BR_AXIS_SPACE;
