@@ -363,8 +363,7 @@ static void test_waiting(void **state)
     static struct terminal terminal;
     static struct cli_outcome out;
     static const char what[] =
-        "checking [........................................]   0 %, waits for "
-        "an exact reference, ";
+        "checking [........................................] 0 %, exact reference: ";
     char name[64];
     pthread_t reader;
     cli_write_file("slow.yaml", SLOW);

@@ -178,6 +178,7 @@ static void test_names(void **state)
     made_create(&m);
     m.scene.name = (char[]){"m\xe4"
                             "de"};
+    m.check.name = m.scene.name;
     made_run(&m, 1);
     struct br_old_check old = as_old(&m);
     REFUSED(br_compare_check(&m.check, 1, &old, &err), BR_BAD_INPUT, "none of these scenes");
