@@ -288,9 +288,12 @@ static void write_axis(FILE *out, char axis, struct br_range r, bool logarithmic
         fprintf(out, "set %ctics nomirror autofreq; set format %c '%%g'\n", axis, axis);
         return;
     }
+    /* From a power of ten on: without a start gnuplot 5.4 begins at half a decade for some ranges,
+     * and names that by the power below it. */
     const double room = axis == 'x' ? 3.6 * SMALL : 1.8 * SMALL;
-    fprintf(out, "set logscale %c; set %ctics nomirror 1e%g; set format %c '10^{%%L}'\n", axis,
-            axis, ceil(room * decades(r) / pixels), axis);
+    const double step = ceil(room * decades(r) / pixels);
+    fprintf(out, "set logscale %c; set %ctics nomirror 1e%g,1e%g; set format %c '10^{%%L}'\n", axis,
+            axis, step * floor(log10(r.low) / step), step, axis);
     if (decades(r) < 2)
         fprintf(out,
                 "set for [p=%d:%d] %ctics add (sprintf('10^{%%d}', p) 10.0**p, "

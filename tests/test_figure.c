@@ -148,6 +148,23 @@ static void test_hues(void **state)
     br_figure_clear(&f);
 }
 
+/* Powers of ten are counted from a power of ten on: without a start gnuplot 5.4 puts the ticks of
+ * 57.5 to 1737800 at 500, 5000, ... and the format names them 10^2, 10^3, ... */
+static void test_powers(void **state)
+{
+    (void)state;
+    struct br_figure f = {0};
+    struct br_panel *p = br_panel_add(&f, "x", "y");
+    p->log_x = p->log_y = true;
+    struct br_series *s = br_series_add(&f, BR_PEN_CURVE, "one");
+    br_point_add(s, 100, 1e-16, NULL);
+    br_point_add(s, 1e6, 10, NULL);
+    expect(&f, br_figure_write_script, "set xrange [57.5439937:1737800.83]");
+    expect(&f, br_figure_write_script, "set xtics nomirror 1e1,1e1;");
+    expect(&f, br_figure_write_script, "set ytics nomirror 1e-18,1e2;");
+    br_figure_clear(&f);
+}
+
 /* Slopes rise right of the points, and are those that they say. */
 static void test_slopes(void **state)
 {
@@ -442,12 +459,13 @@ static void test_letters(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_data),    cmocka_unit_test(test_colours),
-        cmocka_unit_test(test_hues),    cmocka_unit_test(test_slopes),
-        cmocka_unit_test(test_drawn),   cmocka_unit_test(test_names),
-        cmocka_unit_test(test_floors),  cmocka_unit_test(test_drifts),
-        cmocka_unit_test(test_energy),  cmocka_unit_test(test_map),
-        cmocka_unit_test(test_letters), cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(test_data),      cmocka_unit_test(test_colours),
+        cmocka_unit_test(test_hues),      cmocka_unit_test(test_slopes),
+        cmocka_unit_test(test_drawn),     cmocka_unit_test(test_names),
+        cmocka_unit_test(test_powers),    cmocka_unit_test(test_floors),
+        cmocka_unit_test(test_drifts),    cmocka_unit_test(test_energy),
+        cmocka_unit_test(test_map),       cmocka_unit_test(test_letters),
+        cmocka_unit_test(test_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
