@@ -76,9 +76,7 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
     struct br_panel *p = br_panel_add(f, x, y);
     p->log_x = p->log_y = true;
     for (size_t i = 0; i < o->count; i++) {
-        const struct br_orders_line *finest = NULL;
-        for (size_t l = 0; l < o->of[i].lines; l++)
-            finest = o->of[i].line[l].axis == axis ? &o->of[i].line[l] : finest;
+        const struct br_orders_line *finest = br_orders_finest(&o->of[i], axis);
         if (!finest)
             continue;
         add_line(f, o, &o->of[i], finest);

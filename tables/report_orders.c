@@ -21,16 +21,6 @@ static const char *const limit_methods[] = {
 
 enum { MOST_NAMED = BR_MOST_ANSWERS - 5 }; /* quantities; others are left for the tables */
 
-/* The line at the finest size of the other axis; NULL: none. */
-static const struct br_orders_line *finest_line(const struct br_quantity_orders *of,
-                                                enum br_axis axis)
-{
-    const struct br_orders_line *line = NULL;
-    for (size_t i = 0; i < of->lines; i++)
-        line = of->line[i].axis == axis ? &of->line[i] : line;
-    return line;
-}
-
 /* Parts of a sentence: the first follows its colon. */
 static const char *separator(bool *first)
 {
@@ -53,7 +43,7 @@ static void say_orders(struct br_document *d, const struct br_quantity_orders *o
 {
     const bool joint = br_joint_describes(&of->joint);
     for (int axis = 0; axis < BR_AXES; axis++) {
-        const struct br_orders_line *line = finest_line(of, (enum br_axis)axis);
+        const struct br_orders_line *line = br_orders_finest(of, (enum br_axis)axis);
         if (joint && of->joint.kind == (axis == BR_AXIS_SPACE ? BR_JOINT_TIME : BR_JOINT_SPACE))
             br_put_more(d, "%sno error in %s is seen", separator(first), br_axis_letters[axis]);
         else if (joint)
@@ -116,7 +106,8 @@ static void put_answers(struct br_document *d, const struct br_orders *o,
 {
     for (size_t i = 0; i < o->count && i < MOST_NAMED; i++) {
         const struct br_quantity_orders *of = &o->of[i];
-        const struct br_orders_line *line = of->lines ? finest_line(of, of->line[0].axis) : NULL;
+        const struct br_orders_line *line =
+            of->lines ? br_orders_finest(of, of->line[0].axis) : NULL;
         bool first = true;
         br_put_answer(d, "%s:", quantity_of(o, of)->name);
         if (!line)

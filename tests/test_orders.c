@@ -504,6 +504,9 @@ static void test_verdicts(void **state)
     assert_int_equal(
         verdict_of(floor_table(12, pow(4, -7)), NULL, "l2: h 3 +- 0.1 down to 1e-3", NULL),
         BR_FAIL);
+    static const char near_floor[] = "h,l2\n1,1\n.5,.25\n.25,.0625\n.125,.015625\n.0625,.0039\n"
+                                     ".03125,.0039\n.015625,.0039\n";
+    assert_int_equal(verdict_of(near_floor, NULL, "l2: h 2 +- 0.1 down to .004", NULL), BR_PASS);
     assert_int_equal(verdict_of("h,u\n1,4\n.5,2\n.25,1.5\n.125,1.375\n.0625,1.34375\n", "u",
                                 "u: h 2 +- 0.1", NULL),
                      BR_PASS);

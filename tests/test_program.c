@@ -492,6 +492,9 @@ static void test_kept(void **state)
     p.kept = kept;
     expect_run(&p, 3, 1);
     expect_run(&p, 0, 1);
+    p.anew = true;
+    expect_run(&p, 3, 1);
+    p.anew = false;
     assert_int_equal(entries_of(kept), 3);
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, four, 4};
     expect_run(&p, 1, 1);
@@ -706,6 +709,8 @@ static void test_readings(void **state)
         {REGEX, "e=([0-9]+),", "e=1,5\n", 1, NULL},
         {REGEX, "err-([0-9]+)", "err-3 ", 3, NULL},
         {REGEX, "^(.*)$", "3", 3, NULL},
+        {REGEX, "(.*)", "3", 3, NULL},
+        {REGEX, "([0-9]*)", "12 34", NAN, "matches 2 times, expected once; lines 1, 1"},
         {REGEX, "e=([0-9.]+)", "e=1.5e-7", NAN, "a part of a number only, on line 1: 'e=1.5e-7'"},
         {REGEX, "e=([0-9.]+)", "\ne=1.5D-7", NAN, "part of a number only, on line 2"},
         {REGEX, "e=([0-9.]+)e", "e=1.5e-7", NAN, "part of a number"},

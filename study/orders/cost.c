@@ -10,10 +10,8 @@ static const double least_seconds = 0.02;
 enum br_status br_orders_growth(const struct br_orders *o, enum br_axis axis,
                                 struct br_estimate *growth, struct br_error *err)
 {
-    const struct br_orders_line *line = NULL;
+    const struct br_orders_line *line = o->count ? br_orders_finest(&o->of[0], axis) : NULL;
     *growth = (struct br_estimate){NAN, NAN, NAN};
-    for (size_t l = 0; o->count && l < o->of[0].lines; l++)
-        line = o->of[0].line[l].axis == axis ? &o->of[0].line[l] : line;
     struct br_order_point *point = line ? br_allocate(o->numbers->rows, sizeof *point) : NULL;
     if (!line || !point)
         return line ? br_no_memory(err, "the costs") : BR_OK;

@@ -117,17 +117,6 @@ static const struct br_quantity_orders *orders_of(const struct br_orders *o, con
     return NULL;
 }
 
-/* The line along an axis at the finest size of the other one: lines come from coarse to fine. */
-static const struct br_orders_line *finest_line(const struct br_quantity_orders *of,
-                                                enum br_axis axis)
-{
-    const struct br_orders_line *finest = NULL;
-    for (size_t i = 0; i < of->lines; i++)
-        if (of->line[i].axis == axis)
-            finest = &of->line[i];
-    return finest;
-}
-
 /* What is expected of a line, with points of its own, and an order by the joint fit where that is
  * sure. */
 static enum br_status observe(const struct br_quantity_orders *of,
@@ -162,7 +151,7 @@ static enum br_status judge(const struct br_orders *o, const struct br_order_exp
                             const char *path, struct br_case *c, struct br_error *err)
 {
     const struct br_quantity_orders *of = orders_of(o, e->quantity);
-    const struct br_orders_line *line = of ? finest_line(of, e->axis) : NULL;
+    const struct br_orders_line *line = of ? br_orders_finest(of, e->axis) : NULL;
     if (!of)
         return br_fail(err, BR_BAD_INPUT,
                        "%s: an order of '%s' is expected, and there is no such "

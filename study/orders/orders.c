@@ -390,6 +390,15 @@ void br_orders_clear(struct br_orders *o)
     *o = (struct br_orders){0};
 }
 
+const struct br_orders_line *br_orders_finest(const struct br_quantity_orders *of,
+                                              enum br_axis axis)
+{
+    const struct br_orders_line *finest = NULL; /* lines come from coarse to fine */
+    for (size_t i = 0; i < of->lines; i++)
+        finest = of->line[i].axis == axis ? &of->line[i] : finest;
+    return finest;
+}
+
 double br_orders_rate(const struct br_orders_line *line, size_t i)
 {
     const struct br_point *p = line->observed.point;

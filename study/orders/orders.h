@@ -50,6 +50,10 @@ enum br_status br_orders_find(const struct br_numbers *numbers, double formal,
                               struct br_orders *orders, struct br_error *err);
 void br_orders_clear(struct br_orders *orders);
 
+/* The line along an axis at the finest size of the other one; NULL: there is none. */
+const struct br_orders_line *br_orders_finest(const struct br_quantity_orders *of,
+                                              enum br_axis axis);
+
 /* The order that point i and the coarser one before it show; NaN: none. That of values is the one
  * that their differences show, whatever the ratios of their sizes are. */
 double br_orders_rate(const struct br_orders_line *line, size_t i);

@@ -135,8 +135,12 @@ static enum br_status search_line(struct search *s, const regex_t *regex, const 
     for (size_t at = 0; at <= length && !status;) {
         failure = match_from(regex, line, at, match);
         const bool empty = !failure && match[0].rm_eo == match[0].rm_so;
-        if (failure || (empty && at > 0)) /* (.*) matches nothing behind all of the line, too */
+        if (failure)
             break;
+        if (empty && at > 0) { /* (.*) matches nothing behind all of the line, too */
+            at = (size_t)match[0].rm_eo + 1;
+            continue;
+        }
         const size_t used = strlen(m->lines);
         if (used < sizeof m->lines - 24)
             snprintf(m->lines + used, sizeof m->lines - used, "%s%zu", used ? ", " : "", number);
