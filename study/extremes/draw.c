@@ -5,9 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/extremes/random.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"
+#include "study/scene/random.h"
 
 const char *br_extreme_special_name(enum br_extreme_special special)
 {

@@ -7,11 +7,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/extremes/random.h"
 #include "study/extremes/track.h"
 #include "study/foresee/prediction.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"
+#include "study/scene/random.h"
 #include "study/scene/rescale.h"
 
 enum { MOST_STEPS = 2500 }; /* steps of the exact solution, and of adaptive schemes */

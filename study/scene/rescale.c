@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/extremes/random.h"
+#include "study/scene/random.h"
 
 /* ---- functions ---- */
 
