@@ -54,6 +54,7 @@ enum br_option_id {
     BR_OPT_JUNIT,
     BR_OPT_JSON,
     BR_OPT_TAP,
+    BR_OPT_GITHUB,
     BR_OPT_MARKDOWN,
     BR_OPT_UPDATE_BASELINE,
     BR_OPT_VALUE,

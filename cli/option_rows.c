@@ -249,6 +249,9 @@ static const struct br_option rows[] = {
      BR_TAKES_FILE, .commands = BR_FOR_CHECK | BR_FOR_ORDERS},
     {BR_OPT_TAP, "tap", 0, "FILE", "the Test Anything Protocol", NULL, BR_TAKES_FILE,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS},
+    {BR_OPT_GITHUB, "github", 0, "FILE", "annotations of what did not pass, for GitHub's pages",
+     NULL, BR_TAKES_FILE, .commands = BR_FOR_CHECK | BR_FOR_ORDERS,
+     .more = "GitHub reads them from a job's output: /dev/stderr leaves the report where it is."},
     {BR_OPT_MARKDOWN, "markdown", 0, "FILE", "a summary for the page of a CI job", NULL,
      BR_TAKES_FILE, .commands = BR_FOR_CHECK | BR_FOR_ORDERS,
      .more = "Reports are written whole or not at all; - is standard output, and then no table is "

@@ -167,9 +167,9 @@ static enum br_status read_request(struct run *r, struct br_error *err)
 static enum br_status prepare(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
-    static const enum br_option_id of_verdicts[] = {BR_OPT_COMPARE, BR_OPT_UPDATE_BASELINE,
-                                                    BR_OPT_JUNIT,   BR_OPT_JSON,
-                                                    BR_OPT_TAP,     BR_OPT_MARKDOWN};
+    static const enum br_option_id of_verdicts[] = {
+        BR_OPT_COMPARE, BR_OPT_UPDATE_BASELINE, BR_OPT_JUNIT, BR_OPT_JSON,
+        BR_OPT_TAP,     BR_OPT_MARKDOWN,        BR_OPT_GITHUB};
     r->check = br_study_file_check(&r->study);
     for (size_t i = 0; i < sizeof of_verdicts / sizeof *of_verdicts; i++)
         if (br_option_given(o, of_verdicts[i]) && r->study.request.expectations == 0)

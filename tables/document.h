@@ -305,9 +305,10 @@ struct br_document_format {
 extern const struct br_document_format br_document_text, br_document_csv, br_document_markdown,
     br_document_latex, br_document_json, br_document_html;
 
-/* Of the verdicts alone, with the numbers of their rows by their keys, for CI systems: JUnit's XML
- * (a suite a group) and the Test Anything Protocol, version 14. */
-extern const struct br_document_format br_document_junit, br_document_tap;
+/* Of the verdicts alone, for CI systems: JUnit's XML (a suite a group) and the Test Anything
+ * Protocol, version 14, with the numbers of their rows by their keys; and annotations of what did
+ * not pass (GitHub, Workflow commands for GitHub Actions). */
+extern const struct br_document_format br_document_junit, br_document_tap, br_document_github;
 
 /* NULL-terminated; those of any report. */
 extern const struct br_document_format *const br_document_formats[];

@@ -116,6 +116,6 @@ static enum br_status write(FILE *out, const struct br_document *d,
 const struct br_document_format br_document_latex = {
     .name = "latex",
     .extension = ".tex",
-    .title = "LaTeX with booktabs",
+    .title = "LaTeX with booktabs and longtable",
     .write = write,
 };

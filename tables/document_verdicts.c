@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A report's verdicts for CI systems: JUnit's XML and TAP. Both have the numbers of a verdict's row
- * by their keys, and the lines that explain it. */
+/* A report's verdicts for CI systems: JUnit's XML, TAP and GitHub's annotations. The first two have
+ * the numbers of a verdict's row by their keys, and the lines that explain it. */
 #include <math.h>
 #include <string.h>
 
@@ -203,4 +203,49 @@ const struct br_document_format br_document_tap = {
     .extension = ".tap",
     .title = "the Test Anything Protocol",
     .write = write_tap,
+};
+
+/* ---- GitHub: a line for what did not pass, which its pages show beside the file's line ---- */
+
+static void print_annotation(FILE *out, const struct br_document_verdict *v)
+{
+    static const char *const levels[] = {NULL, "error", "warning", "error", "notice"};
+    if (!levels[v->outcome])
+        return;
+    fprintf(out, "::%s ", levels[v->outcome]);
+    if (v->file) {
+        fputs("file=", out);
+        br_quote(out, &br_for_github_property, v->file);
+        fputc(',', out);
+    }
+    if (v->file && v->line)
+        fprintf(out, "line=%zu,", v->line);
+    fputs("title=", out);
+    br_quote(out, &br_for_github_property, v->group ? v->group : "beamrate");
+    fputs("::", out);
+    br_quote(out, &br_for_github, v->name);
+    fprintf(out, " %s", br_outcome_names[v->outcome]);
+    fputs(v->message ? ": " : "", out);
+    br_quote(out, &br_for_github, v->message ? v->message : "");
+    for (size_t i = 0; i < v->details; i++) {
+        fputs("%0A", out);
+        br_quote(out, &br_for_github, v->detail[i]);
+    }
+    fputc('\n', out);
+}
+
+static enum br_status write_annotations(FILE *out, const struct br_document *d,
+                                        const struct br_document_table *table, struct br_error *err)
+{
+    (void)table, (void)err;
+    for (size_t i = 0; i < d->verdicts; i++)
+        print_annotation(out, &d->verdict[i]);
+    return BR_OK;
+}
+
+const struct br_document_format br_document_github = {
+    .name = "github",
+    .extension = ".txt",
+    .title = "annotations of what did not pass, for GitHub's pages",
+    .write = write_annotations,
 };

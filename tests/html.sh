@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# report.html of real commands, with and without gnuplot, as three readers find it, where they are
-# installed: Python's parser, libxml2's, and a browser. $BEAMRATE is the program.
+# Reports of real commands, with and without gnuplot, as readers find them, where they are
+# installed: Python's parser, libxml2's, a browser, and LaTeX. $BEAMRATE is the program.
 set -eu
 : "${BEAMRATE:?is the program}" "${BEAMRATE_DATA:?is the project}"
 folder=$(mktemp -d)
@@ -54,3 +54,11 @@ for browser in chromium chromium-browser google-chrome; do
     echo "$browser read a page"
     break
 done
+# LaTeX reads the same report, with its pictures and a title that would run commands.
+if command -v pdflatex >/dev/null; then
+    printf '%s\n' '\documentclass{article}' '\usepackage{booktabs,longtable,graphicx}' \
+        '\begin{document}' '\input{hostile.tex}' '\end{document}' >two/page.tex
+    (cd two && pdflatex -interaction=nonstopmode -halt-on-error page.tex >page.out) ||
+        { cat two/page.out; exit 1; }
+    echo "LaTeX read a report"
+fi

@@ -12,12 +12,19 @@ static const struct {
     const char *name;
     const struct br_quoting *target;
 } targets[] = {
-    {"text", &br_for_text},         {"gnuplot", &br_for_gnuplot},
-    {"latex", &br_for_latex},       {"xml", &br_for_xml},
-    {"markdown", &br_for_markdown}, {"csv", &br_for_csv},
-    {"yaml", &br_for_yaml},         {"tap", &br_for_tap},
-    {"shell", &br_for_shell},       {"completion", &br_for_completion},
+    {"text", &br_for_text},
+    {"gnuplot", &br_for_gnuplot},
+    {"latex", &br_for_latex},
+    {"xml", &br_for_xml},
+    {"markdown", &br_for_markdown},
+    {"csv", &br_for_csv},
+    {"yaml", &br_for_yaml},
+    {"tap", &br_for_tap},
+    {"shell", &br_for_shell},
+    {"completion", &br_for_completion},
     {"zsh", &br_for_zsh},
+    {"github", &br_for_github},
+    {"github property", &br_for_github_property},
 };
 enum { TARGETS = sizeof targets / sizeof *targets };
 
@@ -73,6 +80,8 @@ static void test_targets(void **state)
         {&br_for_csv, "", ""},
         {&br_for_yaml, "a\"\\\x1b", "\"a\\\"\\\\\\\\x1b\""},
         {&br_for_tap, "a # SKIP", "a   SKIP"},
+        {&br_for_github, "100 %, a::b\n", "100 %25, a::b "},
+        {&br_for_github_property, "100 %, a::b", "100 %25%2C a%3A%3Ab"},
         {&br_for_shell, "a-b.yaml", "a-b.yaml"},
         {&br_for_shell, "it's $(x)", "'it'\\''s $(x)'"},
         {&br_for_shell, "", "''"},

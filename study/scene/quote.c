@@ -92,6 +92,13 @@ const struct br_quoting br_for_yaml = {
 
 const struct br_quoting br_for_tap = {.around = "", .stead = {{'#', " "}}};
 
+const struct br_quoting br_for_github = {.around = "", .stead = {{'%', "%25"}}};
+
+const struct br_quoting br_for_github_property = {
+    .around = "",
+    .stead = {{'%', "%25"}, {':', "%3A"}, {',', "%2C"}},
+};
+
 const struct br_quoting br_for_shell = {
     .around = "'",
     .bare = "",

@@ -28,15 +28,17 @@ struct br_quoting {
     } stead[20]; /* what is written for a character; ends with zeros */
 };
 
-extern const struct br_quoting br_for_text;       /* a terminal, a text file */
-extern const struct br_quoting br_for_gnuplot;    /* a string, with its quotes */
-extern const struct br_quoting br_for_markup;     /* gnuplot's enhanced text, within a string */
-extern const struct br_quoting br_for_latex;      /* running text, or a cell */
-extern const struct br_quoting br_for_markdown;   /* the same; no HTML comes through */
-extern const struct br_quoting br_for_xml;        /* text, or an attribute's value */
-extern const struct br_quoting br_for_csv;        /* a field (RFC 4180), never a formula */
-extern const struct br_quoting br_for_yaml;       /* a double-quoted scalar */
-extern const struct br_quoting br_for_tap;        /* a description, without directives */
+extern const struct br_quoting br_for_text;     /* a terminal, a text file */
+extern const struct br_quoting br_for_gnuplot;  /* a string, with its quotes */
+extern const struct br_quoting br_for_markup;   /* gnuplot's enhanced text, within a string */
+extern const struct br_quoting br_for_latex;    /* running text, or a cell */
+extern const struct br_quoting br_for_markdown; /* the same; no HTML comes through */
+extern const struct br_quoting br_for_xml;      /* text, or an attribute's value */
+extern const struct br_quoting br_for_csv;      /* a field (RFC 4180), never a formula */
+extern const struct br_quoting br_for_yaml;     /* a double-quoted scalar */
+extern const struct br_quoting br_for_tap;      /* a description, without directives */
+extern const struct br_quoting br_for_github;   /* the message of a GitHub annotation */
+extern const struct br_quoting br_for_github_property;
 extern const struct br_quoting br_for_shell;      /* a word */
 extern const struct br_quoting br_for_completion; /* a string of any shell, without backslashes */
 extern const struct br_quoting br_for_zsh;        /* the same within the brackets of _arguments */
