@@ -253,12 +253,12 @@ static void test_sound_cases(void **state)
 static void test_hard_cases(void **state)
 {
     (void)state;
-    static const struct named hard[] = {{3, 20},  {3, 101},   {1, 212},  {2, 284}, {4, 71},
-                                        {4, 145}, {11, 108},  {5, 229},  {7, 430}, {7, 813},
-                                        {6, 459}, {11, 1154}, {12, 472}, {3, 26},  {4, 175},
-                                        {5, 45},  {3, 186},   {3, 889},  {3, 1883}};
+    static const struct named hard[] = {
+        {1, 1012}, {1, 1248}, {3, 20},  {3, 101}, {1, 212}, {2, 284}, {4, 71},
+        {4, 145},  {11, 108}, {5, 229}, {7, 430}, {7, 813}, {6, 459}, {11, 1154},
+        {12, 472}, {3, 26},   {4, 175}, {5, 45},  {3, 186}, {3, 889}, {3, 1883}};
     const struct br_extreme_judging judging = {0};
-    const size_t count = br_test_long() ? sizeof hard / sizeof *hard : 14;
+    const size_t count = br_test_long() ? sizeof hard / sizeof *hard : 16;
     for (size_t i = 0; i < count; i++) {
         const struct br_extreme_verdict verdict = judge(hard[i], &judging);
         if (verdict.which == BR_EXTREME_WRONG)

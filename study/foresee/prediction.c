@@ -380,6 +380,18 @@ static bool switches_unseen(const struct br_probe_set *s)
             (scene->bending.modelled && swings_within(scene, BR_BENDING, k)));
 }
 
+/* What a peak of the load between two steps of the finest march may have left, relative to the
+ * solution: friction keeps the most that was reached, and steps over a peak miss the square of
+ * these, over T, of it. */
+static double unseen_peak(const struct br_probe_set *s)
+{
+    static const double curved = 10; /* a peak: how much more than the load's mean curvature */
+    const struct br_planned_march *o = s->planned;
+    const double share = finest_step(s) / o->scene->duration;
+    const bool kept = br_follows_at_once(o->scene, br_time_step(o->scene, o->steps));
+    return kept ? curved * share * share : 0;
+}
+
 static void judge(struct br_prediction *p, const struct br_probe_set *s)
 {
     for (int i = BR_PROBE_TIME; i < BR_PROBES; i++)
@@ -393,7 +405,9 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
         if (!is_modelled(s->planned->scene, kind))
             continue;
         p->size[kind] = size.most;
-        const struct br_predicted e = p->field[kind] = relative(whole_error(s, kind), size);
+        struct br_predicted e = relative(whole_error(s, kind), size);
+        e.high += unseen_peak(s);
+        p->field[kind] = e;
         p->bounded = p->bounded && isfinite(e.high);
         useful = useful && (e.high <= fmax(all, near * e.error) || e.high <= widest * e.low);
         if (e.high <= p->whole.high)

@@ -25,7 +25,8 @@ enum {
     MANY_N = 1000,
     TOLERANCE_LEVELS = 24,
     LEAST_CHOSEN = 40,
-    FIRST_STEPS = 4
+    FIRST_STEPS = 4,
+    FIRST_REFINED = 1024
 };
 
 /* A reference is sure enough where its check differs from it by so much of the run's error, or of
@@ -337,21 +338,25 @@ static void set_iteration(struct br_probe *p, const struct br_probe *time,
 }
 
 /* The run's first steps against steps by a tolerance, which find what dies away within a step; if
- * `equal`, and more of them, against smaller equal ones. */
+ * `equal`, and more of them, against smaller equal ones. Where the beam follows its load at once,
+ * few against far smaller ones: what slips at t = 0 may stick soon after. */
 static void set_start(struct br_probe *p, const struct br_planned_march *o, bool equal)
 {
+    const bool at_once = follows_at_once(o);
     const struct br_method best = best_method(o);
     struct br_method fine = equal ? best : tight_method(o->method, tighter);
     p->scene = *o->scene;
     p->n[0] = least(o->n, TIME_N);
     const double most = start_share * budget(o) / solve(o, (double)p->n[0]);
-    const double many = equal ? most / (stages(o->method) + 3 * stages(&best)) + 1 : FIRST_STEPS;
+    const double many =
+        equal && !at_once ? most / (stages(o->method) + 3 * stages(&best)) + 1 : FIRST_STEPS;
+    const size_t finer = at_once ? FIRST_REFINED : equal ? 3 : 1;
     fine.most_steps = most_steps(o, (double)p->n[0]);
     p->steps[0] = least(o->steps, (size_t)many);
     p->scene.duration *= (double)p->steps[0] / (double)o->steps;
     p->measured = true;
     p->ratio = 3;
-    set_study(p, o->method, &fine, (struct br_resolution){p->n[0], (equal ? 3 : 1) * p->steps[0]});
+    set_study(p, o->method, &fine, (struct br_resolution){p->n[0], finer * p->steps[0]});
 }
 
 /* ---- space ---- */
@@ -477,11 +482,21 @@ static bool refine(const struct br_planned_march *o, const struct br_probe *last
     return false;
 }
 
+/* How much finer the first reference is. Where friction keeps what peaks of the load have left, two
+ * references that both step over one agree: so it has as many steps as there is room for. */
+static struct finer first_refinement(const struct br_planned_march *o)
+{
+    struct finer by = {refinement(o->n), 4};
+    while (follows_at_once(o) && is_affordable(o, (struct finer){by.elements, 4 * by.steps}))
+        by.steps *= 4;
+    return by;
+}
+
 /* By ever finer references until one is sure, or there is no room for more. */
 static enum br_status march_whole(struct br_probe_set *set, struct br_error *err)
 {
     struct br_probe *whole = &set->probe[BR_PROBE_WHOLE];
-    struct finer by = {refinement(set->planned->n), 4};
+    struct finer by = first_refinement(set->planned);
     enum br_status status = BR_OK;
     bool more = is_affordable(set->planned, by);
     while (more && !status) {
@@ -512,12 +527,13 @@ static enum br_status march_itself(struct br_probe_set *set, struct br_error *er
 static enum br_status march_start(struct br_probe_set *set, struct br_error *err)
 {
     struct br_probe *start = &set->probe[BR_PROBE_START];
+    const bool at_once = follows_at_once(set->planned);
     enum br_status status = BR_OK;
-    if (!follows_at_once(set->planned)) {
+    if (!at_once) {
         set_start(start, set->planned, false);
         status = try_probe(set, BR_PROBE_START, err);
     }
-    if (status || start->held || set->probe[BR_PROBE_WHOLE].held)
+    if (status || start->held || (set->probe[BR_PROBE_WHOLE].held && !at_once))
         return status;
     set_start(start, set->planned, true);
     return march(set, BR_PROBE_START, BR_PROBE_START, err);
