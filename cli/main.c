@@ -92,7 +92,7 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     if (argc < 2)
         return br_fail(err, BR_BAD_INPUT, "no command is given; 'beamrate help' lists them");
     if (strcmp(word, "--version") == 0) {
-        printf("beamrate %s (%s)\n", br_version(), br_commit());
+        printf("beamrate %s (%s)\n%s\n", br_version(), br_commit(), br_libraries());
         return BR_OK;
     }
     const struct br_command *command = help ? &br_command_help : find_command(word);

@@ -22,6 +22,11 @@ const char *br_commit(void)
     return BR_COMMIT;
 }
 
+const char *br_libraries(void)
+{
+    return BR_LIBRARIES;
+}
+
 const char *br_command_line(void)
 {
     return command_line ? command_line : "";

@@ -7,6 +7,7 @@
 
 const char *br_version(void);
 const char *br_commit(void);
+const char *br_libraries(void); /* it was built with, and their versions: "GSL 2.7.1, ..." */
 
 /* Fails with BR_NO_MEMORY. */
 enum br_status br_remember_command_line(int argc, const char **argv, struct br_error *err);

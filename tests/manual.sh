@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # docs/options.md and docs/beamrate.1 are what the program writes of itself; roff takes the page, where
-# it is installed. $BEAMRATE is the program, $BEAMRATE_DATA the project.
+# it is installed. The files that name the version name the same. $BEAMRATE is the program, $BEAMRATE_DATA the project.
 set -u
 
 failures=0
@@ -22,4 +22,14 @@ if command -v groff >/dev/null; then
     errors=$(groff -man -Tutf8 -ww "$BEAMRATE_DATA/docs/beamrate.1" 2>&1 >/dev/null)
     [ -z "$errors" ] || { echo "$errors"; failures=$((failures + 1)); }
 fi
+# The version stands in the top meson.build; these repeat it, since others read them.
+version=$("$BEAMRATE" --version | sed -n '1s/beamrate \([^ ]*\) .*/\1/p')
+check() { # FILE LINE
+    grep -qx "$2" "$BEAMRATE_DATA/$1" && return
+    echo "$1: no line '$2', expected the version of meson.build"
+    failures=$((failures + 1))
+}
+check CITATION.cff "version: $version"
+check debian/changelog "beamrate ($version-1) .*"
+check CHANGELOG.md "## $version - .*"
 [ "$failures" -eq 0 ]
