@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "cli/documents.h"
+#include "cli/progress.h"
 #include "cli/signals.h"
 #include "plots/pictures.h"
 #include "plots/render.h"
@@ -28,7 +29,7 @@ static enum br_status split(struct br_pictures *p, char *folder, size_t size, st
 {
     const char *file = p->request.animate;
     const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file;
-    if (p->format->frames) {
+    if (p->format->frames && !p->format->film) {
         snprintf(folder, size, "%s", file);
         snprintf(p->stem, sizeof p->stem, "frame");
         return BR_OK;
@@ -62,8 +63,14 @@ static enum br_status choose_format(struct br_pictures *p, struct br_error *err)
                    file, known);
 }
 
-static enum br_status check_terminal(struct br_pictures *p, struct br_error *err)
+static enum br_status check_programs(struct br_pictures *p, struct br_error *err)
 {
+    if (p->format->film && !br_film_can_be_made())
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "--animate: found '%s', which needs ffmpeg, and it is not installed; .gif and "
+            ".webp do not need it",
+            p->request.animate);
     const int name = (int)strcspn(p->format->terminal, " ");
     FILE *question = tmpfile();
     if (question)
@@ -89,7 +96,7 @@ static enum br_status open_movie(struct br_pictures *p, struct br_error *err)
     if (!status)
         status = split(p, folder, sizeof folder, err);
     if (!status)
-        status = check_terminal(p, err);
+        status = check_programs(p, err);
     p->output.stem = p->stem;
     if (!status && br_output_open(&p->output, folder, &inner))
         status = br_fail(err, inner.status, "--animate %s", inner.message + strlen("--out: "));
@@ -139,14 +146,21 @@ static enum br_status render_movie(struct br_pictures *p, const struct br_movie 
 {
     struct br_gnuplot g;
     enum br_status status = br_gnuplot_start(&g, p->output.staging, script, NULL, &p->missing, err);
-    if (!status)
-        status = br_gnuplot_end(&g, err);
+    if (status)
+        return status;
+    g.observer = br_progress_start("drawing", p->request.quiet);
+    g.pictures = p->record.looks;
+    status = br_gnuplot_end(&g, err);
+    br_progress_end();
     for (size_t i = 0; i < (p->format->frames ? p->record.looks : 1) && !status; i++) {
         char name[512], path[2048];
         br_movie_file(movie, i, name, sizeof name);
         snprintf(path, sizeof path, "%s/%s", p->output.staging, name);
         status = br_picture_check(path, err);
     }
+    bool no_ffmpeg = false;
+    if (!status && p->format->film)
+        status = br_film_make(p->output.staging, p->stem, &no_ffmpeg, err);
     return status;
 }
 

@@ -10,7 +10,7 @@
 
 struct br_pictures_request {
     const char *animate; /* a file; NULL: not wanted */
-    bool plot;
+    bool plot, quiet;
     const struct br_scene *scene;
     size_t n, steps; /* of the march */
 };

@@ -65,6 +65,7 @@ static enum br_status open_files(struct run *r, struct br_error *err)
     r->provenance = br_provenance_of(&r->opened, 1);
     const struct br_pictures_request pictures = {
         .animate = r->animate,
+        .quiet = r->session.quiet,
         .plot = br_option_given(r->session.options, BR_OPT_PLOT),
         .scene = &r->opened.scene,
         .n = r->plan.n,

@@ -8,9 +8,10 @@
 #include "study/scene/quote.h"
 
 const struct br_movie_format br_movie_formats[] = {
-    {".gif", "gif animate delay 8 loop 0", "animated GIF", false},
-    {".webp", "webp animate delay 80 loop 0", "animated WebP", false},
-    {"/", "pngcairo", "a folder of PNG frames", true},
+    {".gif", "gif animate delay 8 loop 0", "animated GIF", false, false},
+    {".webp", "webp animate delay 80 loop 0", "animated WebP", false, false},
+    {".mp4", "pngcairo", "MP4, by ffmpeg", true, true},
+    {"/", "pngcairo", "a folder of PNG frames", true, false},
     {0},
 };
 
@@ -90,10 +91,13 @@ static const char scales[] =
     "axial_scale = scale(larger(most_u, gap), 0.2*length)\n"
     "bending_scale = scale(most_w, 0.3*length)\n"
     "contact_scale = most_contact > 0 ? 0.25*length/most_contact : 0 # m per N\n"
-    "friction_scale = most_friction > 0 ? 0.2*length/most_friction : 0\n";
+    "friction_scale = most_friction > 0 ? 0.2*length/most_friction : 0\n"
+    "x_bar = down(0.25*length); u_bar = down(0.2*length/axial_scale); "
+    "w_bar = down(0.2*length/bending_scale)\n";
 
 static const char stage[] =
-    "set label 2 sprintf('u drawn %g times as large, w %g times', axial_scale, bending_scale) "
+    "drawn(name, most, scale) = most > 0 ? sprintf('%s drawn %g times as large. ', name, scale) : ''\n"
+    "set label 2 drawn('u', most_u, axial_scale).drawn('w', most_w, bending_scale) "
     "at screen 0.03,0.885 left\n"
     "set xrange [-0.05*length:1.5*length]; set yrange [-0.62*length:0.62*length]\n"
     "set lmargin at screen 0.03; set rmargin at screen 0.82\n"
@@ -112,6 +116,21 @@ static const char stage[] =
     "    set label 3 'obstacle' at edge + 0.02*length,-0.46*length left\n"
     "}\n";
 
+/* How long the beam is, and how far its displacements go, each by its own scale. */
+static const char bars[] =
+    "set arrow 11 from 0,-0.55*length to x_bar,-0.55*length heads back size 0.01*length,90\n"
+    "set label 11 sprintf('x: %g m', x_bar) at 0,-0.5*length left font ',11'\n"
+    "if (most_u > 0) {\n"
+    "    set arrow 12 from 0.4*length,-0.55*length to 0.4*length + axial_scale*u_bar,-0.55*length "
+    "heads back size 0.01*length,90\n"
+    "    set label 12 sprintf('u: %g m', u_bar) at 0.4*length,-0.5*length left font ',11'\n"
+    "}\n"
+    "if (most_w > 0) {\n"
+    "    set arrow 13 from 0.75*length,-0.57*length to 0.75*length,-0.57*length + "
+    "bending_scale*w_bar heads back size 0.01*length,90\n"
+    "    set label 13 sprintf('w: %g m', w_bar) at 0.77*length,-0.5*length left font ',11'\n"
+    "}\n";
+
 /* Arrows from the tip: the contact pushes left, friction against the slip, lambda up being -. The
  * bound stands to both sides, as far as the picture reaches. */
 static const char forces[] =
@@ -119,11 +138,13 @@ static const char forces[] =
     "    set label 4 sprintf('t = %.4f s', time[i]) at screen 0.97,0.95 right font ',17'\n"
     "    if (touches) {\n"
     "        set label 5 sprintf('contact force %.4g N', contact[i]) at screen 0.03,0.045 left\n"
-    "        unset arrow 1\n"
+    "        unset arrow 1; unset label 8\n"
     "    }\n"
     "    if (touches && contact[i] > 0) {\n"
     "        set arrow 1 from tx + contact_scale*contact[i],ty to tx,ty lw 4 "
     "lc rgb '#009e73' front\n"
+    "        set label 8 'contact' at tx + contact_scale*contact[i] + 0.015*length,ty left "
+    "font ',11' front\n"
     "    }\n"
     "    if (rubs) {\n"
     "        state = touches && contact[i] <= 0 ? 'open' : speed[i] == 0 || "
@@ -132,11 +153,16 @@ static const char forces[] =
     "state) at screen 0.32,0.045 left\n"
     "        set arrow 2 from tx,ty to tx,ty - friction_scale*friction[i] lw 4 "
     "lc rgb '#000000' front\n"
+    "        unset label 9; f = friction_scale*friction[i]\n"
+    "        if (abs(f) > 0.05*length) {\n"
+    "            set label 9 'friction' at tx - 0.04*length,ty - f right font ',11' front\n"
+    "        }\n"
     "        b = friction_scale*bound[i]; d = 0.03*length\n"
-    "        unset arrow 3; unset arrow 4\n"
+    "        unset arrow 3; unset arrow 4; unset label 10\n"
     "        if (b < 0.5*length) {\n"
     "            set arrow 3 from tx - d,ty + b to tx + d,ty + b nohead lw 3 lc rgb '#444444' front\n"
     "            set arrow 4 from tx - d,ty - b to tx + d,ty - b nohead lw 3 lc rgb '#444444' front\n"
+    "            set label 10 'bound' at tx + d + 0.01*length,ty + b left font ',11' front\n"
     "        }\n"
     "    }\n"
     "    plot data index i using ($1 + axial_scale*$2):(bending_scale*$3):2 with lines lw 8 "
@@ -157,11 +183,11 @@ void br_movie_write_script(FILE *out, const struct br_movie *m)
             m->record->looks, s->length, s->contact.modelled ? s->contact.gap : 0,
             s->contact.modelled, s->friction.law != BR_FRICTIONLESS, scales, m->format->terminal);
     br_quote(out, &br_for_gnuplot, s->title);
-    fprintf(out, " noenhanced at screen 0.03,0.95 left font ',17'\n%s", stage);
+    fprintf(out, " noenhanced at screen 0.03,0.95 left font ',17'\n%s%s", stage, bars);
     if (!m->format->frames)
         fprintf(out, "set output stem.'%s'\n", m->format->extension);
     fputs("do for [i=1:frames] {\n", out);
     if (m->format->frames)
         fputs("    set output stem.sprintf('-%04d.png', i)\n", out);
-    fprintf(out, "%s}\nunset output\n", forces);
+    fprintf(out, "%s    print '.'\n}\nunset output\n", forces);
 }

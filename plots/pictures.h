@@ -115,7 +115,8 @@ struct br_movie_format {
     const char *extension; /* of the file; "/": a folder of frames */
     const char *terminal;  /* gnuplot's, with its options */
     const char *title;     /* one line for a person */
-    bool frames;           /* one file each */
+    bool frames;           /* one file each, ... */
+    bool film;             /* ... of which ffmpeg makes one */
 };
 extern const struct br_movie_format br_movie_formats[]; /* ends with zeros */
 

@@ -2,6 +2,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
@@ -36,11 +37,10 @@ static int start_group(pid_t *child, const posix_spawn_file_actions_t *actions, 
     return failure;
 }
 
-/* Starts gnuplot without a shell; what it says goes to g->said. Returns an errno. */
-static int start(struct br_gnuplot *g, FILE *commands)
+/* Starts a program without a shell; it reads `commands` (NULL: nothing), and what it says goes to
+ * g->said. Returns an errno. */
+static int spawn(struct br_gnuplot *g, char *const words[], FILE *commands)
 {
-    char gnuplot[] = "gnuplot", defaults[] = "--default-settings";
-    char *const words[] = {gnuplot, defaults, commands ? NULL : g->script, NULL};
     posix_spawn_file_actions_t actions;
     int failure = posix_spawn_file_actions_init(&actions);
     if (failure)
@@ -72,14 +72,12 @@ static const char *reason(char *text)
     return why ? why : "it does not say why";
 }
 
-/* How whole pictures end, but for white space. A WebP says its length at the start instead. */
+/* How whole pictures end, but for white space. A WebP and an MP4 say their lengths instead. */
 static const struct {
     const char *extension, *ending;
-} endings[] = {{".svg", "</svg>"},
-               {".png", "IEND\xae\x42\x60\x82"},
-               {".pdf", "%%EOF"},
-               {".gif", ";"},
-               {".webp", ""}};
+} endings[] = {{".svg", "</svg>"}, {".png", "IEND\xae\x42\x60\x82"},
+               {".pdf", "%%EOF"},  {".gif", ";"},
+               {".mp4", ""},       {".webp", ""}};
 
 static bool ends_with(const char *path, const char *ending)
 {
@@ -104,7 +102,7 @@ enum br_status br_picture_check(const char *path, struct br_error *err)
     for (size_t i = 0; i < sizeof endings / sizeof *endings && dot; i++)
         if (strcmp(dot, endings[i].extension) == 0 && ends_with(path, endings[i].ending))
             return BR_OK;
-    return br_fail(err, BR_IO, "gnuplot wrote no complete %.900s; the disk may be full", path);
+    return br_fail(err, BR_IO, "no complete %.900s was written; the disk may be full", path);
 }
 
 static double now(void)
@@ -122,38 +120,60 @@ static double time_limit(void)
     return seconds > 0 ? seconds : 60;
 }
 
-enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const char *script,
-                                FILE *commands, bool *missing, struct br_error *err)
+/* Starts a program in g->folder. */
+static enum br_status start(struct br_gnuplot *g, char *const words[], FILE *commands,
+                            bool *missing, struct br_error *err)
 {
     struct stat there;
     *missing = false;
-    const int folder_length = snprintf(g->folder, sizeof g->folder, "%s", folder);
-    const int script_length = snprintf(g->script, sizeof g->script, "%s", script ? script : "");
-    if ((size_t)folder_length >= sizeof g->folder || (size_t)script_length >= sizeof g->script)
-        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
-    if (stat(g->folder, &there) != 0) /* else a missing folder looks like a missing gnuplot */
+    g->program = words[0];
+    if (stat(g->folder, &there) != 0) /* else a missing folder looks like a missing program */
         return br_fail(err, BR_IO, "%s: %s", g->folder, strerror(errno));
     g->said = tmpfile();
     if (!g->said)
-        return br_fail(err, BR_IO, "no file for what gnuplot says: %s", strerror(errno));
-    const int failure = start(g, commands);
+        return br_fail(err, BR_IO, "no file for what %s says: %s", g->program, strerror(errno));
+    const int failure = spawn(g, words, commands);
     g->started = now();
     if (!failure)
         return BR_OK;
     fclose(g->said);
     *missing = failure == ENOENT || failure == ENOTDIR; /* PATH may name what is no folder */
-    return br_fail(err, BR_IO, "gnuplot cannot be run: %s",
+    return br_fail(err, BR_IO, "%s cannot be run: %s", g->program,
                    *missing ? "it is not installed" : strerror(failure));
+}
+
+enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const char *script,
+                                FILE *commands, bool *missing, struct br_error *err)
+{
+    static char gnuplot[] = "gnuplot", defaults[] = "--default-settings";
+    *g = (struct br_gnuplot){.program = gnuplot};
+    char *const words[] = {gnuplot, defaults, commands ? NULL : g->script, NULL};
+    const int folder_length = snprintf(g->folder, sizeof g->folder, "%s", folder);
+    const int script_length = snprintf(g->script, sizeof g->script, "%s", script ? script : "");
+    *missing = false;
+    if ((size_t)folder_length >= sizeof g->folder || (size_t)script_length >= sizeof g->script)
+        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
+    return start(g, words, commands, missing, err);
+}
+
+/* A dot and a line end a picture. */
+static void tell(const struct br_gnuplot *g)
+{
+    struct stat said;
+    if (g->observer && fstat(fileno(g->said), &said) == 0)
+        g->observer->progress(g->observer->self,
+                              fmin(1, (double)said.st_size / 2 / (double)g->pictures));
 }
 
 static enum br_status check_time(const struct br_gnuplot *g, struct br_error *err)
 {
     if (stops && stops())
         return br_fail(err, BR_INTERRUPTED, "interrupted");
+    tell(g);
     if (now() - g->started < time_limit())
         return BR_OK;
-    return br_fail(err, BR_IO, "gnuplot did not end on %s within %g s (BEAMRATE_GNUPLOT_SECONDS)",
-                   g->script, time_limit());
+    return br_fail(err, BR_IO, "%s did not end on %s within %g s (BEAMRATE_GNUPLOT_SECONDS)",
+                   g->program, g->script, time_limit());
 }
 
 /* Waits for the end, and leaves g->said open, at its beginning. */
@@ -174,13 +194,49 @@ static enum br_status wait_for(struct br_gnuplot *g, struct br_error *err)
     if (status || (WIFEXITED(ending) && WEXITSTATUS(ending) == 0))
         return status;
     text[fread(text, 1, sizeof text - 1, g->said)] = '\0';
-    return br_fail(err, BR_IO, "gnuplot failed on %s: %s", g->script, reason(text));
+    return br_fail(err, BR_IO, "%s failed on %s: %s", g->program, g->script, reason(text));
 }
 
 enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err)
 {
     const enum br_status status = wait_for(g, err);
     fclose(g->said);
+    return status;
+}
+
+bool br_film_can_be_made(void)
+{
+    static char ffmpeg[] = "ffmpeg", version[] = "-version";
+    char *const words[] = {ffmpeg, version, NULL};
+    struct br_gnuplot g = {.folder = "."};
+    struct br_error why;
+    bool missing;
+    return !start(&g, words, NULL, &missing, &why) && !br_gnuplot_end(&g, &why);
+}
+
+/* As many frames a second as a GIF has. Players want colours at half resolution, and the length of
+ * a file at its start. */
+enum br_status br_film_make(const char *folder, const char *stem, bool *missing,
+                            struct br_error *err)
+{
+    struct br_gnuplot g = {0};
+    char frames[BR_SCRIPT_NAME + 16], film[BR_SCRIPT_NAME + 16], frame[4096 + BR_SCRIPT_NAME + 32];
+    snprintf(g.folder, sizeof g.folder, "%s", folder);
+    snprintf(g.script, sizeof g.script, "%s", stem);
+    snprintf(frames, sizeof frames, "file:%.*s-%%04d.png", BR_SCRIPT_NAME, stem);
+    snprintf(film, sizeof film, "file:%.*s.mp4", BR_SCRIPT_NAME, stem);
+    static char option[][16] = {"ffmpeg", "-loglevel", "error",   "-framerate", "12.5",
+                                "-i",     "-pix_fmt",  "yuv420p", "-movflags",  "+faststart"};
+    char *const words[] = {option[0], option[1], option[2], option[3], option[4], option[5], frames,
+                           option[6], option[7], option[8], option[9], film,      NULL};
+    enum br_status status = start(&g, words, NULL, missing, err);
+    if (!status)
+        status = br_gnuplot_end(&g, err);
+    for (int i = 1; !status; i++) {
+        snprintf(frame, sizeof frame, "%s/%s-%04d.png", folder, stem, i);
+        if (unlink(frame) != 0)
+            break;
+    }
     return status;
 }
 

@@ -17,7 +17,7 @@ static bool has_gnuplot(void)
 /* Draws a script again; whether gnuplot had nothing to say, but how many frames a GIF has. */
 static bool is_silent(const char *folder, const char *script)
 {
-    char command[1024], path[512], said[256] = "";
+    char command[1024], path[512], said[1024] = "";
     cli_path(folder, path);
     snprintf(command, sizeof command, "cd '%s' && '%s' --default-settings '%s' 2>&1", path,
              getenv("GNUPLOT"), script);
@@ -54,6 +54,8 @@ static void test_without_gnuplot(void **state)
     cli_expect("figures --quiet --out bare", &nowhere, 0, "gnuplot is not installed");
     assert_true(cli_is_there("bare/figure10.gp") && cli_is_there("bare/claims.md"));
     assert_false(cli_is_there("bare/figure10.png"));
+    cli_expect("run example2 --animate x.mp4", &nowhere, 2,
+               "needs ffmpeg, and it is not installed");
     cli_expect("run example2 --n 10 --k 0.1 --quiet --animate bare.gif", &nowhere, 0,
                "gnuplot is not installed: the animation is written as a script");
     assert_true(cli_is_there("bare.gp") && cli_is_there("bare.dat"));
@@ -73,8 +75,8 @@ static void test_bad_options(void **state)
     cli_expect("figures --threads x", NULL, 2, "--threads: found 'x'");
     cli_expect("figures --out ''", NULL, 2, "expected a folder's name");
     cli_expect("figures --help", NULL, 0, "Usage: beamrate figures [");
-    cli_expect("run example2 --animate x.mp4", NULL, 2,
-               "--animate: found 'x.mp4', expected a name that ends with: .gif");
+    cli_expect("run example2 --animate x.avi", NULL, 2,
+               "--animate: found 'x.avi', expected a name that ends with: .gif");
     cli_expect("run example2 --animate no%d.gif", NULL, 2, "expected a file's name");
     cli_expect("run example2 --n 20001 --animate x.gif", NULL, 2,
                "n is 20001, expected at most 20000");
@@ -127,6 +129,11 @@ static void test_animation(void **state)
     cli_expect("run example1 --n 10 --k 0.25 --quiet --animate frames/", NULL, 0, "");
     assert_int_equal(cli_count_files("frames"), 5 + 2);
     assert_true(cli_is_there("frames/frame-0005.png"));
+    if (system("ffmpeg -version >/dev/null 2>&1") == 0) {
+        cli_expect("run example1 --n 10 --k 0.25 --quiet --animate film/f.mp4", NULL, 0, "");
+        assert_int_equal(cli_count_files("film"), 4); /* without its frames */
+        assert_true(cli_is_there("film/f.mp4"));
+    }
     /* whole or not at all */
     cli_expect("run example2 --n 10 --k 0.02 --quiet --animate full.gif",
                &(struct cli_circumstances){.file_size = 40000}, 3, "");
