@@ -160,7 +160,7 @@ enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const 
 static void tell(const struct br_gnuplot *g)
 {
     struct stat said;
-    if (g->observer && fstat(fileno(g->said), &said) == 0)
+    if (g->observer && g->observer->progress && fstat(fileno(g->said), &said) == 0)
         g->observer->progress(g->observer->self,
                               fmin(1, (double)said.st_size / 2 / (double)g->pictures));
 }
