@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes a site of README.md and docs/ with MkDocs: site/index.html in a folder of the build.
+
+usage: build.py PROJECT PROGRAM FOLDER [SCENE...]
+
+The pages and what they link to keep their places, so that their links hold; a link that does not is
+an error. The gallery shows a frame of the animation of each bundled scene, or of the SCENEs.
+"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+LINK = re.compile(r"\]\(([^)#:]+)(#[^)]*)?\)")
+SETTINGS = """site_name: beamrate
+docs_dir: source
+site_dir: site
+use_directory_urls: false
+theme: {name: readthedocs, highlightjs: false}
+plugins: [search]
+markdown_extensions: [tables, fenced_code, toc]
+nav:
+"""
+
+
+def list_folder(folder):
+    """A page for a folder that a page links to."""
+    files = sorted(file.name for file in folder.iterdir() if file.name != "index.md")
+    lines = [f"# {folder.name}", ""] + [f"- [{name}]({name})" for name in files]
+    (folder / "index.md").write_text("\n".join(lines) + "\n")
+
+
+def copy_page(project, source, page):
+    """Copies a page and the files and folders that it links to."""
+    text = (project / page).read_text()
+    for match in LINK.finditer(text):
+        target = pathlib.Path(os.path.normpath(page.parent / match[1]))
+        if (project / target).is_dir():
+            shutil.copytree(project / target, source / target, dirs_exist_ok=True)
+            list_folder(source / target)
+        elif target.suffix != ".md":
+            (source / target.parent).mkdir(parents=True, exist_ok=True)
+            shutil.copy(project / target, source / target)
+
+    def name_page(match):
+        is_folder = (project / page.parent / match[1]).is_dir()
+        return f"]({match[1].rstrip('/')}/index.md)" if is_folder else match[0]
+
+    # MkDocs takes words after the language of a block for its options.
+    text = re.sub(r"^```(\w+) .*$", r"```\1", LINK.sub(name_page, text), flags=re.M)
+    (source / page).parent.mkdir(parents=True, exist_ok=True)
+    (source / page).write_text(text)
+
+
+def draw(program, scene, folder):
+    """A frame of a scene's animation, from the middle; None where there is no gnuplot."""
+    frames = folder / f"{scene}-frames"
+    command = [program, "run", scene, "--quiet", "--animate", f"{frames}/"]
+    subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
+    pictures = sorted(frames.glob("*.png"))
+    picture = pictures[len(pictures) * 3 // 5] if pictures else None
+    if picture:
+        picture.rename(folder / f"{scene}.png")
+    shutil.rmtree(frames)
+    return picture and f"{scene}.png"
+
+
+def make_gallery(program, scenes, folder):
+    """A page with each scene's frame and what its file says of it."""
+    folder.mkdir()
+    page = ["# Gallery", "", "A moment of each bundled scene, as `beamrate run SCENE --animate` draws it."]
+    for scene in scenes:
+        text = subprocess.run([program, "scenes", scene], check=True, capture_output=True, text=True)
+        title = re.search(r"^title: *(.*)$", text.stdout, re.M)
+        remark = re.match(r"(#.*\n)*", text.stdout)[0]
+        page += ["", f"## {title[1] if title else scene}", "", f"`beamrate run {scene}`", ""]
+        page += [line.lstrip("# ") for line in remark.splitlines()]
+        picture = draw(program, scene, folder)
+        page += ["", f"![{scene}]({picture})"] if picture else []
+    (folder / "index.md").write_text("\n".join(page) + "\n")
+
+
+def main():
+    project, program, folder = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
+    listed = subprocess.run([program, "scenes"], check=True, capture_output=True, text=True)
+    scenes = sys.argv[4:] or [line.split()[0] for line in listed.stdout.splitlines() if line.strip()]
+    source = folder / "source"
+    shutil.rmtree(source, ignore_errors=True)
+    first = [pathlib.Path("README.md"), pathlib.Path("docs/tutorial.md")]
+    pages = first + sorted(
+        page for page in (p.relative_to(project) for p in project.glob("docs/*.md"))
+        if page not in first) + [pathlib.Path("solver/README.md"), pathlib.Path("CHANGELOG.md")]
+    for page in pages:
+        copy_page(project, source, page)
+    make_gallery(program, scenes, source / "gallery")
+    pages.insert(2, pathlib.Path("gallery/index.md"))
+    entries = "".join(f"  - {page}\n" for page in pages)
+    (folder / "mkdocs.yml").write_text(SETTINGS + entries)
+    subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--clean"], cwd=folder, check=True)
+    print(folder / "site" / "index.html")
+
+
+main()
