@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* HDF5: x (nodes), t (times) and each variable (times, nodes) with `unit` and `meaning` as
- * attributes; the scene's text, version, n, k and, where it is so, `stopped` at the root. */
+/* HDF5: x (nodes), t (times) and each variable (times, nodes), with `units` and `long_name` as
+ * attributes, as CF names them; x and t are the dimension scales of the variables. The scene's
+ * text, version, n, k and, where it is so, `stopped` at the root. Beside it fields.xdmf, by which
+ * ParaView and VisIt read the file. */
 #include <errno.h>
 #include <hdf5.h>
+#include <hdf5_hl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,10 +15,11 @@
 
 struct br_fields_file {
     char path[2048];
-    hid_t file, t, variable[BR_FIELD_VARIABLES]; /* H5I_INVALID_HID: not open */
+    hid_t file, x, t, variable[BR_FIELD_VARIABLES]; /* H5I_INVALID_HID: not open */
     hsize_t nodes, looks;
     size_t variables;
     double *work; /* values, then workspace */
+    double *time; /* of the looks, s */
 };
 
 /* ---- memory ---- */
@@ -160,18 +164,17 @@ static bool append(const struct br_fields_file *f, hid_t set, hsize_t nodes, con
     return good;
 }
 
-static bool write_x(const struct br_fields_file *f, double h)
+static bool write_x(struct br_fields_file *f, double h)
 {
     for (hsize_t i = 0; i < f->nodes; i++)
         f->work[i] = h * (double)i;
     const hid_t space = H5Screate_simple(1, &f->nodes, NULL);
-    const hid_t set =
-        H5Dcreate2(f->file, "x", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    f->x = H5Dcreate2(f->file, "x", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     const bool good =
-        set >= 0 && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, f->work) >= 0 &&
-        text_attribute(set, "unit", "m") && text_attribute(set, "meaning", "nodes");
-    if (set >= 0)
-        H5Dclose(set);
+        f->x >= 0 &&
+        H5Dwrite(f->x, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, f->work) >= 0 &&
+        text_attribute(f->x, "units", "m") && text_attribute(f->x, "long_name", "nodes") &&
+        H5DSset_scale(f->x, "x") >= 0;
     H5Sclose(space);
     return good;
 }
@@ -179,13 +182,15 @@ static bool write_x(const struct br_fields_file *f, double h)
 static bool create_sets(struct br_fields_file *f)
 {
     f->t = create_set(f->file, "t", 0);
-    bool good = f->t >= 0 && text_attribute(f->t, "unit", "s") &&
-                text_attribute(f->t, "meaning", "output times");
+    bool good = f->t >= 0 && text_attribute(f->t, "units", "s") &&
+                text_attribute(f->t, "long_name", "output times") && H5DSset_scale(f->t, "t") >= 0;
     for (size_t v = 0; v < f->variables && good; v++) {
         const struct br_field_variable *variable = &br_field_variables[v];
         f->variable[v] = create_set(f->file, variable->name, f->nodes);
-        good = f->variable[v] >= 0 && text_attribute(f->variable[v], "unit", variable->unit) &&
-               text_attribute(f->variable[v], "meaning", variable->meaning);
+        good = f->variable[v] >= 0 && text_attribute(f->variable[v], "units", variable->unit) &&
+               text_attribute(f->variable[v], "long_name", variable->meaning) &&
+               H5DSattach_scale(f->variable[v], f->t, 0) >= 0 &&
+               H5DSattach_scale(f->variable[v], f->x, 1) >= 0;
     }
     return good;
 }
@@ -230,13 +235,14 @@ static enum br_status open_hdf5(struct br_fields_file **out, const struct br_fie
     if (!f)
         return br_no_memory(err, "the fields' file");
     snprintf(f->path, sizeof f->path, "%s", q->path);
-    f->file = f->t = H5I_INVALID_HID;
+    f->file = f->x = f->t = H5I_INVALID_HID;
     for (int v = 0; v < BR_FIELD_VARIABLES; v++)
         f->variable[v] = H5I_INVALID_HID;
     f->nodes = q->n + 1;
     f->variables = br_field_variable_count(q->axial_degree);
     f->work = br_allocate((size_t)(BR_FIELD_VARIABLES + 4) * f->nodes, sizeof *f->work);
-    if (!f->work)
+    f->time = br_allocate(q->looks, sizeof *f->time);
+    if (!f->work || !f->time)
         return br_no_memory(err, "the fields' file");
     struct guard guard;
     guard_begin(&guard);
@@ -250,7 +256,7 @@ static enum br_status append_all(struct br_fields_file *f, double time, struct b
     for (size_t v = 0; v < f->variables; v++)
         if (!append(f, f->variable[v], f->nodes, f->work + v * f->nodes))
             return fail(f, br_field_variables[v].name, err);
-    f->looks++;
+    f->time[f->looks++] = time;
     return BR_OK;
 }
 
@@ -276,11 +282,16 @@ static enum br_status close_hdf5(struct br_fields_file *f, const char *stopped,
     for (int v = 0; v < BR_FIELD_VARIABLES; v++)
         if (f->variable[v] >= 0)
             good = H5Dclose(f->variable[v]) >= 0 && good;
+    if (f->x >= 0)
+        good = H5Dclose(f->x) >= 0 && good;
     if (f->t >= 0)
         good = H5Dclose(f->t) >= 0 && good;
     if (f->file >= 0)
         good = H5Fclose(f->file) >= 0 && good;
-    const enum br_status status = guard_end(&guard, good ? BR_OK : fail(f, "the file whole", err));
+    enum br_status status = guard_end(&guard, good ? BR_OK : fail(f, "the file whole", err));
+    if (!status && f->looks > 0)
+        status = br_fields_write_xdmf(f->path, f->time, f->looks, f->nodes, f->variables, err);
+    free(f->time);
     free(f->work);
     free(f);
     return status;

@@ -8,6 +8,7 @@
 #include <unistd.h>
 #ifdef BR_HAVE_HDF5
 #include <hdf5.h>
+#include <hdf5_hl.h>
 #endif
 
 #include "study/run/run.h"
@@ -249,6 +250,19 @@ static void read_set(hid_t file, const char *name, hssize_t size, double *values
     H5Dclose(set);
 }
 
+/* Whose axes are t and x, as xarray reads them. */
+static void check_axes(hid_t file, const char *name)
+{
+    const char *const axes[] = {"t", "x"};
+    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
+    for (unsigned i = 0; i < 2; i++) {
+        const hid_t axis = H5Dopen2(file, axes[i], H5P_DEFAULT);
+        assert_true(H5DSis_attached(set, axis, i) > 0);
+        H5Dclose(axis);
+    }
+    H5Dclose(set);
+}
+
 static void fields_are_in_hdf5(void **state)
 {
     const struct watched *w = *state;
@@ -266,6 +280,7 @@ static void fields_are_in_hdf5(void **state)
     for (size_t v = 0; v < br_field_variable_count(1); v++) {
         const char *name = br_field_variables[v].name;
         read_set(file, name, LOOKS * (ELEMENTS + 1), &values[0][0]);
+        check_axes(file, name);
         for (size_t look = 0; look < LOOKS; look++)
             for (size_t node = 0; node <= ELEMENTS; node++)
                 is("fields.h5", name, values[look][node], field_value(w, look, node, name));
