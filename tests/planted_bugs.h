@@ -681,7 +681,7 @@ static const struct planted_bug planted_bugs[] = {
      "return parse_expression(r, key, node, text, out);"},
     {"section_bends_across_its_width", "index", "study/scene/value.c", "tests/test_two_ways",
      "area * b * b / 12", "area * a * a / 12"},
-    {"damping_ratio_is_half", "coefficient", "study/scene/engineering.c", "tests/test_two_ways",
+    {"damping_ratio_is_half", "coefficient", "study/scene/engineering.c", "tests/test_scene",
      "2 * of[0]->value / omega", "of[0]->value / omega"},
     {"number_that_is_given_twice", "lost", "study/scene/engineering.c", "tests/test_scene",
      "return refuse_two(r, row, source[0]);", "return BR_OK;"},

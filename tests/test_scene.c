@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "study/extremes/beam_mode.h"
 #include "study/scene/expression.h"
 #include "study/scene/file.h"
 #include "study/scene/schema.h"
@@ -470,6 +471,27 @@ static void test_good_initial_data(void **state)
     br_scene_clear(&s);
 }
 
+/* tau omega/2 of the lowest mode that finite elements have. */
+static void test_damping_ratio(void **state)
+{
+    (void)state;
+    const double most[] = {[BR_AXIAL] = 5e-5, [BR_BENDING] = 1e-7}; /* of eight elements */
+    struct br_error err = {0};
+    struct br_scene s;
+    MUST(read_text("title: T\nlength: 30 cm\nduration: 1 s\nyoung: 70 GPa\n"
+                   "mass_density: 2.7 g/cm^3\nsection: tube 20 mm x 1 mm\n"
+                   "axial: {damping_ratio: 2 %}\nbending: {damping_ratio: 0.02}\n",
+                   &s, &err));
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_beam_mode mode;
+        MUST(br_beam_mode_find(&mode, &s, (enum br_field_kind)kind, &err));
+        const double tau = kind == BR_AXIAL ? s.axial.viscosity / s.axial.stiffness
+                                            : s.bending.viscosity / s.bending.stiffness;
+        CLOSE(tau * mode.omega / 2, 0.02, most[kind]);
+    }
+    br_scene_clear(&s);
+}
+
 /* A clone lives on without its source, and is another instance. */
 static void test_clone(void **state)
 {
@@ -521,11 +543,12 @@ static void test_check(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refusals), cmocka_unit_test(test_files),
-        cmocka_unit_test(test_bent),     cmocka_unit_test(test_mangled),
-        cmocka_unit_test(test_no_file),  cmocka_unit_test(test_bundled),
-        cmocka_unit_test(test_loads),    cmocka_unit_test(test_good_initial_data),
-        cmocka_unit_test(test_clone),    cmocka_unit_test(test_check),
+        cmocka_unit_test(test_refusals),      cmocka_unit_test(test_files),
+        cmocka_unit_test(test_bent),          cmocka_unit_test(test_mangled),
+        cmocka_unit_test(test_no_file),       cmocka_unit_test(test_bundled),
+        cmocka_unit_test(test_loads),         cmocka_unit_test(test_good_initial_data),
+        cmocka_unit_test(test_clone),         cmocka_unit_test(test_check),
+        cmocka_unit_test(test_damping_ratio),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
