@@ -77,6 +77,14 @@ struct br_friction {
     double regularisation; /* mu of (29), m/s; 0: none given */
 };
 
+/* A number that a scene does not give, but what makes it: for reports. The texts are static. */
+struct br_derived {
+    const char *what, *from; /* as "axial.stiffness" and "young area" */
+    const char *unit;
+    double value;
+};
+enum { BR_MOST_DERIVED = 12 };
+
 struct br_scene {
     char *name;      /* owned; one word */
     char *title;     /* owned; one line for a person */
@@ -88,6 +96,7 @@ struct br_scene {
     struct br_bending bending;
     struct br_contact contact;
     struct br_friction friction;
+    struct br_derived derived[BR_MOST_DERIVED]; /* up to the first without `what` */
 };
 
 /* Refuses (BR_BAD_INPUT) numbers that are not finite or have a sign that makes

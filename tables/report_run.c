@@ -191,6 +191,22 @@ static void put_march(struct br_document *d, const struct br_run_findings *f)
     br_hide_fact(d, br_truth(r->contact_unstable), NULL, "contact_beyond_stability_limit");
 }
 
+/* What the scene does not give, but what makes it. */
+static void put_derived(struct br_document *d, const struct br_scene *scene)
+{
+    if (!scene->derived->what)
+        return;
+    br_put_section(d, "Derived from what the scene gives");
+    for (const struct br_derived *n = scene->derived; n->what; n++) {
+        char key[KEY], heading[KEY];
+        const char *dot = strchr(n->what, '.');
+        snprintf(key, sizeof key, "derived.%s", n->what);
+        snprintf(heading, sizeof heading, "%.*s%s%s = %s", dot ? (int)(dot - n->what) : 0, n->what,
+                 dot ? " " : "", dot ? dot + 1 : n->what, n->from);
+        BR_FACT(d, br_number(n->value), .key = key, .heading = heading, .unit = n->unit);
+    }
+}
+
 /* "0.0014, between 0.00046 and 0.0042" */
 static void put_predicted(struct br_document *d, bool known, const char *key, const char *label,
                           const struct br_predicted *e)
@@ -595,6 +611,7 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
     br_document_begin(d, "summary", "beamrate run", 2, f->report->scene->title);
     put_answers(d, f);
     put_march(d, f);
+    put_derived(d, f->report->scene);
     put_warnings(d, f->warnings);
     put_prediction(d, f);
     put_tip(d, f);

@@ -15,6 +15,12 @@
 #define NOT_ZERO "(?=[+\\d.]*[1-9])"
 enum { MOST_PATTERN = 512 };
 
+/* Any unit, in a format, as units.c has it: of which dimension it is, is left to the program. */
+#define WORD "[A-Za-z%%\u00b5\u03bc]+(\\^?[1-9]|\\^-[1-9])?"
+#define WORDS WORD "( *[ *] *" WORD ")*"
+#define UNIT "(1|" WORDS ")( */ *(" WORD "|\\(" WORDS "\\)))?"
+#define LENGTH NOT_ZERO NUMBER " +[A-Za-z\u00b5\u03bc]+"
+
 /* A unit as a regular expression. */
 static const char *escape(const char *unit, char text[64])
 {
@@ -42,27 +48,37 @@ __attribute__((format(printf, 2, 3))) static json_t *matching(const char *descri
 }
 
 /* An expression in which no word is `without`, before "[unit]"; NULL: any. */
-static json_t *expression(const char *unit, const char *without)
+static json_t *expression(const char *without)
 {
-    char escaped[64], ahead[32] = "";
+    char ahead[32] = "";
     if (without)
         snprintf(ahead, sizeof ahead, "(?![^\\[]*\\b%s\\b)", without);
-    return matching(NULL, "^%s\\s*[^\\s\\[].*\\[%s\\]$", ahead, escape(unit, escaped));
+    return matching(NULL, "^%s\\s*[^\\s\\[].*\\[" UNIT "\\]$", ahead);
 }
 
+/* Where a number without unit is one, an editor has it as a number. */
 static json_t *number(const struct br_scene_key *key)
 {
-    char unit[64];
-    return matching(NULL, "^ *%s" NUMBER " +%s$", key->kind == BR_KEY_POSITIVE ? NOT_ZERO : "",
-                    escape(key->unit, unit));
+    const bool bare = key->need == BR_OR_RATIO || strcmp(key->unit, "1") == 0;
+    json_t *o =
+        matching(NULL, bare ? "^ *%s" NUMBER "( +" UNIT ")?$" : "^ *%s" NUMBER " +" UNIT "$",
+                 key->kind == BR_KEY_POSITIVE ? NOT_ZERO : "");
+    if (bare)
+        json_object_update_new(
+            o, json_pack("{s:[s, s], s:i}", "type", "number", "string", "minimum", 0));
+    return o;
+}
+
+static json_t *shape(void)
+{
+    return matching(NULL, "^(circle +" LENGTH "|(rectangle|tube) +" LENGTH " x +" LENGTH ")$");
 }
 
 static json_t *load(void)
 {
-    return json_pack("{s:[o, {s:s, s:b, s:[s, s], s:{s:o, s:o}}]}", "anyOf",
-                     expression("N/m", NULL), "type", "object", "additionalProperties", 0,
-                     "required", "shape", "history", "properties", "shape", expression("1", "t"),
-                     "history", expression("N/m", "x"));
+    return json_pack("{s:[o, {s:s, s:b, s:[s, s], s:{s:o, s:o}}]}", "anyOf", expression(NULL),
+                     "type", "object", "additionalProperties", 0, "required", "shape", "history",
+                     "properties", "shape", expression("t"), "history", expression("x"));
 }
 
 static json_t *law(void)
@@ -167,13 +183,15 @@ static json_t *value(const struct br_scene_key *key)
     case BR_KEY_LOAD:
         return load();
     case BR_KEY_INITIAL:
-        return expression(key->unit, "t");
+        return expression("t");
     case BR_KEY_HISTORY:
-        return expression(key->unit, "x");
+        return expression("x");
     case BR_KEY_SOLUTION:
-        return expression(key->unit, NULL);
+        return expression(NULL);
     case BR_KEY_LAW:
         return law();
+    case BR_KEY_SHAPE:
+        return shape();
     case BR_KEY_VERIFY:
         break;
     }
@@ -208,18 +226,33 @@ static json_t *rule_of_law(const char *name, enum br_friction_law chosen)
                      refused);
 }
 
+/* br_scene_derive and br_scene_check: what stands instead of a number, and what means nothing
+ * without another. */
+static void add_top_rules(json_t *object)
+{
+    json_t *density = json_pack("{s:[{s:[s]}, {s:[s]}]}", "anyOf", "required", "density",
+                                "required", "mass_density");
+    json_t *stiffness = json_pack("{s:[{s:[s]}, {s:{s:{s:[s]}, s:{s:[s]}}}]}", "anyOf", "required",
+                                  "young", "properties", "axial", "required", "stiffness",
+                                  "bending", "required", "stiffness");
+    json_object_set_new(object, "allOf", json_pack("[o, o]", density, stiffness));
+    json_object_set_new(
+        object, "anyOf",
+        json_pack("[{s:[s]}, {s:[s]}]", "required", "axial", "required", "bending"));
+    json_object_set_new(object, "dependencies",
+                        json_pack("{s:[s], s:[s]}", "contact", "axial", "friction", "bending"));
+}
+
 static void add_rules(json_t *object, const char *name)
 {
-    if (*name && strcmp(name, "friction") != 0)
+    if (!*name)
+        add_top_rules(object);
+    if (strcmp(name, "axial") == 0 || strcmp(name, "bending") == 0)
+        json_object_set_new(object, "anyOf",
+                            json_pack("[{s:[s]}, {s:[s]}, {s:[s]}]", "required", "viscosity",
+                                      "required", "relaxation_time", "required", "damping_ratio"));
+    if (strcmp(name, "friction") != 0)
         return;
-    if (!*name) { /* br_scene_check: what means nothing without another */
-        json_object_set_new(
-            object, "anyOf",
-            json_pack("[{s:[s]}, {s:[s]}]", "required", "axial", "required", "bending"));
-        json_object_set_new(object, "dependencies",
-                            json_pack("{s:[s], s:[s]}", "contact", "axial", "friction", "bending"));
-        return;
-    }
     json_t *rules = json_array();
     for (int i = 0; i < BR_FRICTION_LAWS; i++)
         if (br_friction_law_names[i])
@@ -235,7 +268,7 @@ static json_t *section(const char *name)
         if (strcmp(k->section, name) != 0)
             continue;
         json_object_set_new(properties, k->name, describe(k));
-        if (k->required && !k->law)
+        if (k->need == BR_REQUIRED && !k->law)
             json_array_append_new(required, json_string(k->name));
     }
     json_t *object = json_pack("{s:s, s:b, s:o, s:o}", "type", "object", "additionalProperties", 0,

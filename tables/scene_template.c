@@ -14,6 +14,12 @@ static int write_entry(FILE *out, const struct br_scene_key *key, bool live)
                    *key->example ? " " : "", key->example);
 }
 
+/* Or what makes it; the template gives the number itself. */
+static bool must_be_given(const struct br_scene_key *key)
+{
+    return key->need != BR_OPTIONAL && key->need != BR_MAKES;
+}
+
 /* What holds where the key is left out; "": it must be given. */
 static void write_default(FILE *out, const struct br_scene_key *key)
 {
@@ -21,13 +27,13 @@ static void write_default(FILE *out, const struct br_scene_key *key)
         key->kind == BR_KEY_LOAD || key->kind == BR_KEY_INITIAL || key->kind == BR_KEY_HISTORY;
     if (key->law)
         fprintf(out, ", with law: %s", br_friction_law_names[key->law]);
-    if (key->required)
+    if (must_be_given(key))
         return;
     if (key->kind == BR_KEY_SECTION)
         fprintf(out, "; default: not modelled");
     else if (expression)
         fprintf(out, "; default: 0 [%s]", key->unit);
-    else if (*key->unit && key->kind != BR_KEY_SOLUTION)
+    else if (*key->unit && key->kind != BR_KEY_SOLUTION && key->need != BR_MAKES)
         fprintf(out, "; default: 0 %s", key->unit);
     else
         fprintf(out, "; default: none");
@@ -45,8 +51,8 @@ static const char *constraint(enum br_key_kind kind)
 static void write_key(FILE *out, const struct br_scene_key *key)
 {
     const bool other_law = key->law && key->law != BR_COULOMB; /* that of the example */
-    const bool live =
-        (key->required && !other_law) || key->kind == BR_KEY_SECTION || key->kind == BR_KEY_LOAD;
+    const bool live = (must_be_given(key) && !other_law) || key->kind == BR_KEY_SECTION ||
+                      key->kind == BR_KEY_LOAD;
     const int width = write_entry(out, key, live);
     fprintf(out, "%*s# %s%s", width < COLUMN ? COLUMN - width : 1, "", key->help,
             constraint(key->kind));

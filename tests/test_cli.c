@@ -41,8 +41,8 @@ static void test_bad_scene(void **state)
     (void)state;
     cli_write_file("bad.yaml", "title: x\nlength: 1 m\nduration: 1 s\ndensity: 1 kg\n");
     cli_expect("study bad.yaml", NULL, 2,
-               "bad.yaml:4: density: found '1 kg', expected a number and its "
-               "unit, kg/m");
+               "bad.yaml:4: density: found '1 kg', which is a mass, expected a mass "
+               "per length, as kg/m");
     cli_write_file("bad.yaml", "title: x\nlength: 1 m\ncolour: red\n");
     cli_expect("study bad.yaml", NULL, 2, "bad.yaml:3: colour: unknown key");
     char path[512];

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "study/extremes/beam_mode.h"
 #include "study/scene/expression.h"
 #include "study/scene/file.h"
 #include "study/scene/schema.h"
@@ -61,10 +62,11 @@ static const struct {
 } refusals[] = {
     /* keys */
     {4, "weight: 1e-4 kg/m", 4, "weight",
-     "unknown key, expected one of: title, remark, length, duration, density, axial, bending, contact, friction"},
+     "unknown key, expected one of: title, remark, length, duration, density, mass_density, young, area, inertia, section, axial, bending, contact, friction"},
     {7, "  damping: 1 N s", 7, "damping",
-     "unknown key in axial, expected one of: stiffness, viscosity, load, tip_force, solution, displacement, velocity"},
-    {14, "  stiffness: 0 m", 14, "stiffness", "expected a number and its unit, N/m"},
+     "unknown key in axial, expected one of: stiffness, viscosity, relaxation_time, damping_ratio, load, tip_force, solution, displacement, velocity"},
+    {14, "  stiffness: 0 m", 14, "stiffness",
+     "found '0 m', which is a length, expected a force per length, as N/m"},
     {3, "length: 1 s", 3, "length", "given twice"},
     {13, "axial:", 13, "axial", "given twice"},
     {19, "  coefficient: 1 N/m", 19, "coefficient", "given twice"},
@@ -72,11 +74,13 @@ static const struct {
     {2, NULL, 1, "length", "missing, expected the beam's length L, in m"},
     {3, NULL, 1, "duration", "missing"},
     {4, NULL, 1, "density", "missing"},
-    {6, NULL, 6, "stiffness", "missing in axial, expected a1, in N"},
-    {11, NULL, 10, "viscosity", "missing in bending, expected c2, in N m^2 s"},
+    {6, NULL, 5, "stiffness", "missing in axial, expected a1, in N, or young * area to make it"},
+    {11, NULL, 9, "viscosity",
+     "missing in bending, expected c2, in N m^2 s, or relaxation_time * stiffness to make it"},
     {14, NULL, 14, "gap", "missing in contact, expected g, in m"},
     {17, NULL, 17, "law", "missing in friction, expected tresca or coulomb"},
-    {18, NULL, 17, "coefficient", "missing in friction, expected c_V of Coulomb's law, in N/m"},
+    {18, NULL, 17, "coefficient",
+     "missing in friction, expected c_V of Coulomb's law, or without unit c_V/c_H, in N/m"},
     {17, "  law: tresca", 17, "bound", "missing in friction, expected c_V of Tresca's law, in N"},
     {19, "  bound: 3000 N", 17, "bound", "does not belong to this friction law"},
     {17, "  law: dry", 17, "law", "found 'dry', expected tresca or coulomb"},
@@ -86,8 +90,27 @@ static const struct {
     {1, "title: {a: b}", 1, "title", "found a list or a mapping"},
     /* numbers and their units */
     {2, "length: 1", 2, "length", "found '1', expected a number and its unit, m"},
-    {2, "length: 1 mm", 2, "length", "found '1 mm', expected a number and its unit, m"},
-    {2, "length: 1 m m", 2, "length", "found '1 m m', expected a number and its unit, m"},
+    {2, "length: 1 mn", 2, "length",
+     "found '1 mn', expected a number and its unit, m; any unit of a length does that is made of m "
+     "s g N Pa J bar t min h % in inch ft lb lbf kip psi ksi, with prefixes from n to T"},
+    {2, "length: 1 m m", 2, "length", "found '1 m m', which is an area, expected a length, as m"},
+    {2, "length: 1 1 m", 2, "length", "found '1 1 m', expected a number and its unit, m"},
+    {2, "length: 1 2 m", 2, "length", "found '1 2 m', expected a number and its unit, m"},
+    {2, "length: 1 kkm", 2, "length", "found '1 kkm', expected a number and its unit, m"},
+    {2, "length: 1 m^", 2, "length", "found '1 m^', expected a number and its unit, m"},
+    {2, "length: 1 m^12", 2, "length", "found '1 m^12', expected a number and its unit, m"},
+    {2, "length: 1 m*", 2, "length", "found '1 m*', expected a number and its unit, m"},
+    {2, "length: 1 /m", 2, "length", "found '1 /m', expected a number and its unit, m"},
+    {2, "length: 1 (m)", 2, "length", "found '1 (m)', expected a number and its unit, m"},
+    {2, "length: 0x10 mm'", 2, "length", "found '0x10 mm'', expected a number and its unit"},
+    {2, "length: 1e308 Tm", 2, "length", "found '1e308 Tm', expected a finite number"},
+    {2, "length: 1e-323 nm", 2, "length", "found 1e-323 nm, expected a value > 0 m"},
+    {3, "duration: 1 J/N s", 3, "duration", "found '1 J/N s', expected a number and its unit, s"},
+    {3, "duration: 1 s/m/m", 3, "duration", "expected a number and its unit, s"},
+    {3, "duration: 1 s/(m", 3, "duration", "expected a number and its unit, s"},
+    {3, "duration: 1 s^2/kg", 3, "duration", "which is m^0 s^2 kg^-1, expected a time, as s"},
+    {4, "density: 1 g/cm^3", 4, "density",
+     "found '1 g/cm^3', which is a mass per volume, expected a mass per length, as kg/m"},
     {2, "length: 1m", 2, "length", "found '1m', expected a finite number in m"},
     {2, "length: long m", 2, "length", "found 'long m', expected a finite number in m"},
     {2, "length:", 2, "length", "found '', expected a finite number in m"},
@@ -102,7 +125,8 @@ static const struct {
     {4, "density: -1e-4 kg/m", 4, "density", "expected a value >= 0 kg/m"},
     {6, "  stiffness: -1 N", 6, "stiffness", "expected a value >= 0 N"},
     {7, "  viscosity: -1 N s", 7, "viscosity", "expected a value >= 0 N s"},
-    {10, "  stiffness: 1000 N", 10, "stiffness", "expected a number and its unit, N m^2"},
+    {10, "  stiffness: 1000 N", 10, "stiffness",
+     "found '1000 N', which is a force, expected a force times an area, as N m^2"},
     {14, "  gap: -0.1 m", 14, "gap", "expected a value >= 0 m"},
     {15, "  stiffness: -1 N/m", 15, "stiffness", "expected a value >= 0 N/m"},
     {18, "  coefficient: -1 N/m", 18, "coefficient", "expected a value >= 0 N/m"},
@@ -111,7 +135,12 @@ static const struct {
     {8, "  load: 400*(exp(t) - 1)", 8, "load",
      "expected an expression and its unit, like 'x*t [N/m]'"},
     {8, "  load: 400*(exp(t) - 1) [N]", 8, "load",
-     "expected an expression and its unit, like 'x*t [N/m]'"},
+     "which is a force, expected a force per length, as N/m"},
+    {8, "  load: 400*t [N/m", 8, "load", "expected an expression and its unit, like 'x*t [N/m]'"},
+    {8, "  load: 400*t []", 8, "load", "expected an expression and its unit, like 'x*t [N/m]'"},
+    {8, "  load: 400*t [newton]", 8, "load",
+     "found '400*t [newton]', expected a number and its unit, N/m; any unit of a force per length"},
+    {8, "  load: 1) + (2 [kN/m]", 8, "load", "'1) + (2' is no expression in x and t"},
     {8, "  load: 400*(exp(t) - [N/m]", 8, "load", "'400*(exp(t) -' is no expression in x and t"},
     {8, "  load: x=1 [N/m]", 8, "load", "it assigns; a comparison is =="},
     {8, "  load: x, t [N/m]", 8, "load", "it is more than one, separated by commas"},
@@ -128,7 +157,8 @@ static const struct {
      "expected an expression without t"},
     {8, "  load: {shape: \"x [1]\", history: \"x [N/m]\"}", 8, "load",
      "expected an expression without x"},
-    {8, "  load: {shape: \"x [N/m]\", history: \"t [1]\"}", 8, "load", "like 'x*t [1]'"},
+    {8, "  load: {shape: \"x [N/m]\", history: \"t [1]\"}", 8, "load",
+     "which is a force per length, expected a number without unit, as 1"},
     {8, "  load: {form: \"x [1]\", history: \"t [N/m]\"}", 8, "load", "found 'form', expected"},
     {8, "  load: {shape: \"x [1]\", shape: \"x [1]\"}", 8, "load", "'shape' is given twice"},
     {8, "  load: {shape: [1], history: \"t [N/m]\"}", 8, "load", "expected 'shape"},
@@ -136,7 +166,41 @@ static const struct {
      "found 'x*t [m]', expected an expression without t"},
     {8, "  tip_force: x*t [N]", 8, "tip_force",
      "found 'x*t [N]', expected an expression without x"},
-    {12, "  tip_moment: t [N]", 12, "tip_moment", "expected an expression and its unit"},
+    {12, "  tip_moment: t [N]", 12, "tip_moment",
+     "which is a force, expected a force times a length, as N m"},
+    /* what makes others */
+    {18, "  coefficient: 0.3 N", 18, "coefficient",
+     "which is a force, expected a force per length, as N/m, or a number without unit"},
+    {18, "  coefficient: 5e6", 18, "coefficient",
+     "found 5e+06 without unit, expected at most 10: was N/m forgotten?"},
+    {18, "  coefficient: -0.3", 18, "coefficient", "expected a value >= 0"},
+    {7, "  damping_ratio: 2", 7, "damping_ratio",
+     "found 2 without unit, expected at most 1: was % forgotten?"},
+    {7, "  viscosity: 1 N s\n  damping_ratio: 0.02", 7, "viscosity",
+     "is given beside damping_ratio (line 8), which makes viscosity, too, expected one of the two"},
+    {11, "  relaxation_time: 1 ms\n  damping_ratio: 0.02", 11, "relaxation_time",
+     "is given beside damping_ratio (line 12), which makes relaxation_time, too"},
+    {1, "title: T\nyoung: 210 GPa\nsection: circle 1 cm", 8, "stiffness",
+     "is given beside young (line 2), which makes stiffness, too, expected one of the two"},
+    {1, "title: T\nyoung: 210 GPa\ninertia: 1 cm^4", 12, "stiffness", "beside young (line 2)"},
+    {1, "title: T\nmass_density: 1 kg/m^3\narea: 1 cm^2", 6, "density",
+     "is given beside mass_density (line 2), which makes density, too"},
+    {1, "title: T\narea: 1 cm^2\nsection: circle 1 cm", 2, "area",
+     "is given beside section (line 3), which makes area, too"},
+    {1, "title: T\narea: 1 cm^2", 2, "area", "makes nothing here, expected what it goes with"},
+    {1, "title: T\nyoung: 210 GPa", 2, "young", "makes nothing here, expected what it goes with"},
+    {1, "title: T\nsection: circle 1 cm", 2, "section", "makes nothing here, expected what"},
+    {1, "title: T\nyoung: 210 kN", 2, "young",
+     "which is a force, expected a force per area, as Pa"},
+    {1, "title: T\nsection: circle 1 cm x 1 cm", 2, "section",
+     "found 'circle 1 cm x 1 cm', expected rectangle WIDTH x HEIGHT, circle DIAMETER or tube"},
+    {1, "title: T\nsection: rectangle 1 cm", 2, "section", "found 'rectangle 1 cm', expected"},
+    {1, "title: T\nsection: square 1 cm", 2, "section", "found 'square 1 cm', expected"},
+    {1, "title: T\nsection: rectangle 1 cm x 0 cm", 2, "section",
+     "found 'rectangle 1 cm x 0 cm', expected lengths above 0"},
+    {1, "title: T\nsection: rectangle 20 x 5 mm", 2, "section", "expected a number and its unit"},
+    {1, "title: T\nsection: circle 1 kg", 2, "section", "which is a mass, expected a length"},
+    {1, "title: T\nsection: tube 10 mm x 5 mm", 2, "section", "the wall of a tube below"},
     /* initial data */
     {8, "  displacement: 1 + x [m]", 8, "displacement",
      "initial axial displacement is 1 at x = 0, expected 0 where the beam is clamped"},
@@ -210,6 +274,8 @@ static const struct {
     {TOP, "neither axial nor bending is modelled"},
     {TOP BENDING "friction: {law: coulomb, coefficient: 1 N/m}\n",
      "Coulomb friction takes its bound from the contact, which is not modelled"},
+    {TOP AXIAL BENDING "friction: {law: coulomb, coefficient: 0.3}\n",
+     "Coulomb friction takes its bound from the contact, which is not modelled"},
     {TOP AXIAL CONTACT "friction: {law: tresca, bound: 1 N}\n",
      "friction needs the bending part, which is not modelled"},
     {TOP BENDING CONTACT, "contact needs the axial part, which is not modelled"},
@@ -218,6 +284,17 @@ static const struct {
     {TOP "bending: {stiffness: 0 N m^2, viscosity: 0 N m^2 s}\n",
      "bending: stiffness plus viscosity is 0"},
     {TOP "axial: {stiffness: 1e308 N, viscosity: 1e308 N s}\n", "stiffness plus viscosity is inf"},
+    {"title: t\nlength: 1 m\nduration: 1 s\n" AXIAL,
+     ":1: density: missing, expected mass per length rho, in kg/m, or mass_density * area to make it"},
+    {"title: t\nlength: 1 m\nduration: 1 s\ndensity: 0 kg/m\n"
+     "axial: {stiffness: 1 N, damping_ratio: 0.1}\n",
+     ":5: damping_ratio: makes no number of relaxation_time, expected a stiffness and a density"},
+    {TOP "bending: {stiffness: 0 N m^2, damping_ratio: 0.1}\n",
+     ":5: damping_ratio: makes no number of relaxation_time"},
+    {TOP "young: 1e290 GPa\narea: 1e10 m^2\naxial: {viscosity: 1 N s}\n",
+     ":5: young: makes no number of stiffness"},
+    {TOP "young: 1e-200 GPa\narea: 1e-150 m^2\naxial: {viscosity: 1 N s}\n",
+     ":5: young: makes no number of stiffness"},
 };
 
 static void test_files(void **state)
@@ -394,6 +471,27 @@ static void test_good_initial_data(void **state)
     br_scene_clear(&s);
 }
 
+/* tau omega/2 of the lowest mode that finite elements have. */
+static void test_damping_ratio(void **state)
+{
+    (void)state;
+    const double most[] = {[BR_AXIAL] = 5e-5, [BR_BENDING] = 1e-7}; /* of eight elements */
+    struct br_error err = {0};
+    struct br_scene s;
+    MUST(read_text("title: T\nlength: 30 cm\nduration: 1 s\nyoung: 70 GPa\n"
+                   "mass_density: 2.7 g/cm^3\nsection: tube 20 mm x 1 mm\n"
+                   "axial: {damping_ratio: 2 %}\nbending: {damping_ratio: 0.02}\n",
+                   &s, &err));
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_beam_mode mode;
+        MUST(br_beam_mode_find(&mode, &s, (enum br_field_kind)kind, &err));
+        const double tau = kind == BR_AXIAL ? s.axial.viscosity / s.axial.stiffness
+                                            : s.bending.viscosity / s.bending.stiffness;
+        CLOSE(tau * mode.omega / 2, 0.02, most[kind]);
+    }
+    br_scene_clear(&s);
+}
+
 /* A clone lives on without its source, and is another instance. */
 static void test_clone(void **state)
 {
@@ -445,11 +543,12 @@ static void test_check(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refusals), cmocka_unit_test(test_files),
-        cmocka_unit_test(test_bent),     cmocka_unit_test(test_mangled),
-        cmocka_unit_test(test_no_file),  cmocka_unit_test(test_bundled),
-        cmocka_unit_test(test_loads),    cmocka_unit_test(test_good_initial_data),
-        cmocka_unit_test(test_clone),    cmocka_unit_test(test_check),
+        cmocka_unit_test(test_refusals),      cmocka_unit_test(test_files),
+        cmocka_unit_test(test_bent),          cmocka_unit_test(test_mangled),
+        cmocka_unit_test(test_no_file),       cmocka_unit_test(test_bundled),
+        cmocka_unit_test(test_loads),         cmocka_unit_test(test_good_initial_data),
+        cmocka_unit_test(test_clone),         cmocka_unit_test(test_check),
+        cmocka_unit_test(test_damping_ratio),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

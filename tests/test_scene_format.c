@@ -51,7 +51,7 @@ static void check_key(json_t *schema, const struct br_scene_key *k)
     if (!property)
         fail_msg("the schema has no %s %s", k->section, k->name);
     assert_true(json_is_false(json_object_get(section, "additionalProperties")));
-    assert_int_equal(is_required(section, k->name), k->required && !k->law);
+    assert_int_equal(is_required(section, k->name), k->need == BR_REQUIRED && !k->law);
     const char *text = json_string_value(json_object_get(property, "description"));
     assert_non_null(text);
     assert_non_null(strstr(text, k->help));
@@ -125,8 +125,11 @@ static bool explains(const char *text, const struct br_scene_key *k)
         const size_t length = strcspn(at, "\n");
         char line[512];
         snprintf(line, sizeof line, "%.*s", (int)length, at);
-        if (strstr(line, k->help) && strstr(line, k->unit) &&
-            (k->required || k->kind == BR_KEY_VERIFY || strstr(line, "default: ")))
+        const bool has_unit = strcmp(k->unit, "1") == 0 || strstr(line, k->unit);
+        const bool has_default = strstr(line, "default: ");
+        if (strstr(line, k->help) && has_unit &&
+            (k->kind == BR_KEY_VERIFY ||
+             has_default == (k->need == BR_OPTIONAL || k->need == BR_MAKES)))
             return true;
     }
     return false;

@@ -2,11 +2,15 @@
 /* The exact reference agrees with itself: contact and Coulomb scenes that are written in two ways
  * have the same tip, within the errors that are stated for both. The ways differ in what the
  * reference does: a load as a product or as a function of x and t, a place where nothing breaks,
- * other units, a load in pieces, a gap that is closed by a load or by the initial data. */
+ * other units, a load in pieces, a gap that is closed by a load or by the initial data.
+ *
+ * A scene's file in engineers' numbers is, to the last bit of each number, the file in a1, c1, a2,
+ * c2, rho and c_V, m, s and kg. */
 #include <math.h>
 #include <stdio.h>
 
 #include "reference/exact/exact.h"
+#include "study/scene/file.h"
 #include "study/scene/rescale.h"
 #include "support.h"
 
@@ -241,8 +245,112 @@ static void test_pairs(void **state)
     assert_true(2 * closed >= pairs);
 }
 
+/* ---- files ---- */
+
+/* Numbers of 20 digits are from 40 digits of mpmath. */
+#define TOP "title: T\nduration: 1 s\n"
+#define TIP "contact: {gap: 0.0001 m, stiffness: 123.7e3 N/m}\n"
+#define LAW "friction: {law: coulomb, coefficient: "
+#define BAR TOP "length: 0.3 m\ndensity: 0.785 kg/m\naxial: {stiffness: 21e6 N, viscosity: "
+#define BEAM TOP "length: 0.3 m\ndensity: 0.785 kg/m\nbending: {stiffness: 43.75 N m^2, viscosity: "
+#define STEEL "young: 210 GPa\nmass_density: 7.85 g/cm^3\n"
+#define PARTS "axial: {viscosity: 1 N s}\nbending: {viscosity: 1 N m^2 s}\n"
+static const struct {
+    const char *title, *one, *other;
+} files[] = {
+    {"lengths and times",
+     TOP "length: 12 in\ndensity: 1 kg/m\naxial: {stiffness: 1 N, viscosity: 1 N s}\n",
+     "title: T\nduration: 1000 ms\nlength: 304.8 mm\ndensity: 10 g/cm\n"
+     "axial: {stiffness: 1e-6 MN, viscosity: 1000 N ms}\n"},
+    {"loads and initial data",
+     BAR
+     "31 N s, load: '(0.7 + x)*sin(t) [kN/m]', displacement: '0.1*x [mm]', tip_force: '2*t [lbf]'}\n",
+     BAR "31 N s, load: '(700 + 1e3*x)*sin(t) [N/m]', displacement: '1e-4*x [m]', "
+         "tip_force: '8.896443230521*t [N]'}\n"},
+    {"shape and history", BAR "31 N s, load: {shape: 'x [%]', history: 't [MN/mm]'}}\n",
+     BAR "31 N s, load: {shape: '0.01*x [1]', history: '1e9*t [N/m]'}}\n"},
+    {"a rectangle", TOP "length: 0.3 m\n" STEEL "section: rectangle 20 mm x 5 mm\n" PARTS,
+     TOP "length: 0.3 m\ndensity: 0.785 kg/m\naxial: {stiffness: 21e6 N, viscosity: 1 N s}\n"
+         "bending: {stiffness: 43.75 N m^2, viscosity: 1 N m^2 s}\n"},
+    {"a circle", TOP "length: 0.3 m\n" STEEL "section: circle 10 mm\n" PARTS,
+     TOP "length: 0.3 m\n" STEEL "area: 0.78539816339744830962 cm^2\n"
+         "inertia: 490.87385212340519351 mm^4\n" PARTS},
+    {"a tube", TOP "length: 0.3 m\n" STEEL "section: tube 2 cm x 2 mm\n" PARTS,
+     PARTS TOP "length: 0.3 m\n" STEEL "area: 113.09733552923255659 mm^2\n"
+               "inertia: 0.46369907566985348200 cm^4\n"},
+    {"a tube with hardly a hole, and a bar",
+     TOP "length: 0.3 m\n" STEEL "section: tube 20 mm x 9.99999999 mm\n" PARTS,
+     TOP "length: 0.3 m\n" STEEL "section: circle 20 mm\n" PARTS},
+    {"a relaxation time", BAR "31.5 N s}\n",
+     TOP "length: 0.3 m\ndensity: 0.785 kg/m\n"
+         "axial: {stiffness: 21 MN, relaxation_time: 1.5 us}\n"},
+    {"a damping ratio of the rod", BAR "31.017432426139149751 N s}\n",
+     TOP "length: 0.3 m\ndensity: 0.785 kg/m\naxial: {stiffness: 21e6 N, damping_ratio: 2 %}\n"},
+    {"a damping ratio of the beam", BEAM "0.0060003364873086782014 N m^2 s}\n",
+     TOP "length: 0.3 m\ndensity: 0.785 kg/m\n"
+         "bending: {stiffness: 43.75 N m^2, damping_ratio: 0.02}\n"},
+    {"a coefficient without unit",
+     TOP "length: 0.3 m\n" STEEL "section: circle 1 cm\n" PARTS TIP LAW "0.3}\n",
+     LAW "37.11 N/mm}\n" TOP "length: 0.3 m\n" STEEL "section: circle 1 cm\n" PARTS TIP},
+};
+
+/* One last bit: the numbers are the same, or neighbours. */
+static bool are_neighbours(double a, double b)
+{
+    return a == b || nextafter(a, b) == b;
+}
+
+static void compare_numbers(const char *title, const struct br_scene *a, const struct br_scene *b)
+{
+    const double numbers[][2] = {
+        {a->length, b->length},
+        {a->duration, b->duration},
+        {a->density, b->density},
+        {a->axial.stiffness, b->axial.stiffness},
+        {a->axial.viscosity, b->axial.viscosity},
+        {a->bending.stiffness, b->bending.stiffness},
+        {a->bending.viscosity, b->bending.viscosity},
+        {a->contact.gap, b->contact.gap},
+        {a->contact.stiffness, b->contact.stiffness},
+        {a->friction.coefficient, b->friction.coefficient},
+    };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (!are_neighbours(numbers[i][0], numbers[i][1]))
+            fail_msg("%s: number %zu is %.17g and %.17g", title, i, numbers[i][0], numbers[i][1]);
+}
+
+/* Each rounds in its own order. */
+static void compare_functions(const char *title, struct br_scene *a, struct br_scene *b)
+{
+    const struct br_function *f, *g;
+    for (size_t i = 0; (f = br_scene_function(a, i)) && (g = br_scene_function(b, i)); i++)
+        for (int point = 0; point < 5; point++) {
+            const double x = 0.07 * point, t = 0.21 * point;
+            double one, other;
+            br_function_evaluate(f, 1, &x, t, &one);
+            br_function_evaluate(g, 1, &x, t, &other);
+            if (!(fabs(one - other) <= 5e-16 * fabs(one)))
+                fail_msg("%s: function %zu is %.17g and %.17g", title, i, one, other);
+        }
+}
+
+static void test_files(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        struct br_error err = {0};
+        struct br_scene a, b;
+        MUST(br_scene_read_text("one.yaml", files[i].one, &a, &err));
+        MUST(br_scene_read_text("other.yaml", files[i].other, &b, &err));
+        compare_numbers(files[i].title, &a, &b);
+        compare_functions(files[i].title, &a, &b);
+        br_scene_clear(&a);
+        br_scene_clear(&b);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pairs)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pairs), cmocka_unit_test(test_files)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

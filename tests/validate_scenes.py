@@ -21,6 +21,9 @@ LEFT_TO_THE_PROGRAM = [
     "given twice", "is no expression in x and t", "it assigns", "more than one, separated",
     "1/0", "sqrt(-1)", "1e999", "stiffness plus viscosity", "at x = 0", "its derivative",
     "the derivative of", "expected a finite number everywhere", "Coulomb friction takes its bound from",
+    # units, and what makes others
+    "which is ", "any unit of", "makes nothing here", "makes no number", "is given beside",
+    "forgotten?", "1e308 Tm", "1e-323 nm", "the wall of a tube",
     # of verify: numbers that belong together
     "errors, expected at least", "does not divide", "time levels of", "expected meshes and one",
     "expected one mesh and", "expected as many meshes", "both lists from coarse",

@@ -10,6 +10,7 @@
 #include <yaml.h>
 
 #include "reference/mms/mms.h"
+#include "study/scene/engineering.h"
 #include "study/scene/expression.h"
 #include "study/scene/quote.h"
 #include "study/scene/schema.h"
@@ -164,11 +165,15 @@ static void list_keys(const char *section, char *text, size_t size)
         }
 }
 
-enum { MOST_KEYS = 64 };
-
-/* Reads one mapping; seen: in/out, the lines of the table's rows that have been given; 0: not. */
+/* Reads one mapping. */
 static enum br_status read_section(const struct br_scene_reader *r, const char *section,
-                                   const yaml_node_t *node, size_t seen[MOST_KEYS]);
+                                   const yaml_node_t *node);
+
+/* The line on which a key is given; 0: it is not. */
+static size_t line_of(const struct br_scene_reader *r, const struct br_scene_key *key)
+{
+    return r->given->row[key - br_scene_keys].line;
+}
 
 static bool *part_flag(struct br_scene *scene, const char *section)
 {
@@ -182,8 +187,7 @@ static bool *part_flag(struct br_scene *scene, const char *section)
 }
 
 static enum br_status read_entry(const struct br_scene_reader *r, const char *section,
-                                 const yaml_node_t *name, const yaml_node_t *value,
-                                 size_t seen[MOST_KEYS])
+                                 const yaml_node_t *name, const yaml_node_t *value)
 {
     if (name->type != YAML_SCALAR_NODE)
         return br_scene_refuse(r, br_yaml_line(name), *section ? section : "scene",
@@ -192,11 +196,11 @@ static enum br_status read_entry(const struct br_scene_reader *r, const char *se
         if (strcmp(k->section, section) != 0 || strcmp(k->name, br_yaml_text(name)) != 0)
             continue;
         const size_t row = (size_t)(k - br_scene_keys);
-        if (seen[row])
+        if (line_of(r, k))
             return br_scene_refuse(r, br_yaml_line(name), k->name, "given twice");
-        seen[row] = br_yaml_line(name);
+        r->given->row[row] = (struct br_scene_number){.line = br_yaml_line(name), .origin = row};
         if (k->kind == BR_KEY_SECTION)
-            return read_section(r, k->name, value, seen);
+            return read_section(r, k->name, value);
         if (k->kind == BR_KEY_VERIFY)
             return BR_OK; /* when the scene is whole */
         return br_scene_read_value(r, k, value);
@@ -209,10 +213,11 @@ static enum br_status read_entry(const struct br_scene_reader *r, const char *se
 }
 
 static enum br_status check_required(const struct br_scene_reader *r, const char *section,
-                                     size_t line, const size_t seen[MOST_KEYS])
+                                     size_t line)
 {
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
-        if (strcmp(k->section, section) != 0 || seen[k - br_scene_keys] || !k->required)
+        const bool needed = k->need == BR_REQUIRED || k->need == BR_OR_RATIO;
+        if (strcmp(k->section, section) != 0 || line_of(r, k) || !needed)
             continue;
         if (k->law != BR_FRICTIONLESS && k->law != r->scene->friction.law)
             continue;
@@ -221,15 +226,15 @@ static enum br_status check_required(const struct br_scene_reader *r, const char
                                k->unit);
     }
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
-        if (seen[k - br_scene_keys] && strcmp(k->section, section) == 0 &&
-            k->law != BR_FRICTIONLESS && k->law != r->scene->friction.law)
+        if (line_of(r, k) && strcmp(k->section, section) == 0 && k->law != BR_FRICTIONLESS &&
+            k->law != r->scene->friction.law)
             return br_scene_refuse(r, line, k->name, "does not belong to this friction law: %s",
                                    k->help);
     return BR_OK;
 }
 
 static enum br_status read_section(const struct br_scene_reader *r, const char *section,
-                                   const yaml_node_t *node, size_t seen[MOST_KEYS])
+                                   const yaml_node_t *node)
 {
     if (node->type != YAML_MAPPING_NODE)
         return br_scene_refuse(r, br_yaml_line(node), *section ? section : "scene",
@@ -241,32 +246,31 @@ static enum br_status read_section(const struct br_scene_reader *r, const char *
          p++) {
         const enum br_status status =
             read_entry(r, section, yaml_document_get_node(r->document, p->key),
-                       yaml_document_get_node(r->document, p->value), seen);
+                       yaml_document_get_node(r->document, p->value));
         if (status)
             return status;
     }
-    return check_required(r, section, br_yaml_line(node), seen);
+    return check_required(r, section, br_yaml_line(node));
 }
 
 /* The line on which the section's solution is given. */
-static size_t solution_line(enum br_field_kind kind, const size_t seen[MOST_KEYS])
+static size_t solution_line(const struct br_scene_reader *r, enum br_field_kind kind)
 {
-    size_t row = 0;
+    const struct br_scene_key *k = br_scene_keys;
     const char *section = kind == BR_AXIAL ? "axial" : "bending";
-    while (strcmp(br_scene_keys[row].section, section) != 0 ||
-           br_scene_keys[row].kind != BR_KEY_SOLUTION)
-        row++;
-    return seen[row];
+    while (strcmp(k->section, section) != 0 || k->kind != BR_KEY_SOLUTION)
+        k++;
+    return line_of(r, k);
 }
 
 /* What a solution determines (reference/mms). */
-static enum br_status apply_solutions(const struct br_scene_reader *r, const size_t seen[MOST_KEYS])
+static enum br_status apply_solutions(const struct br_scene_reader *r)
 {
     struct br_error inner = {0};
     enum br_field_kind culprit = BR_AXIAL;
     enum br_status status = br_manufactured_apply(r->scene, &culprit, &inner);
     if (status == BR_BAD_INPUT)
-        return br_scene_refuse(r, solution_line(culprit, seen), "solution", "%s", inner.message);
+        return br_scene_refuse(r, solution_line(r, culprit), "solution", "%s", inner.message);
     struct br_load *const load[] = {&r->scene->axial.load, &r->scene->bending.load};
     const bool derived[] = {r->scene->axial.solution, r->scene->bending.solution};
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
@@ -322,20 +326,19 @@ static enum br_status check_texts(const struct br_scene_reader *r)
 }
 
 /* Every function that is given is finite, and the initial ones respect the clamp. */
-static enum br_status check_functions(const struct br_scene_reader *r, size_t line,
-                                      const size_t seen[MOST_KEYS])
+static enum br_status check_functions(const struct br_scene_reader *r, size_t line)
 {
     struct br_error inner = {0};
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
-        if (seen[k - br_scene_keys] && br_scene_scan(r->scene, k, &inner))
-            return br_scene_refuse(r, seen[k - br_scene_keys], k->name, "%s", inner.message);
+        if (line_of(r, k) && br_scene_scan(r->scene, k, &inner))
+            return br_scene_refuse(r, line_of(r, k), k->name, "%s", inner.message);
     size_t culprit = 0;
     if (!br_scene_check_initial(r->scene, &culprit, &inner))
         return BR_OK;
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
         if ((k->kind == BR_KEY_INITIAL || k->kind == BR_KEY_HISTORY) && k->offset == culprit &&
-            seen[k - br_scene_keys])
-            return br_scene_refuse(r, seen[k - br_scene_keys], k->name, "%s", inner.message);
+            line_of(r, k))
+            return br_scene_refuse(r, line_of(r, k), k->name, "%s", inner.message);
     return br_scene_refuse(r, line, "scene", "%s", inner.message); /* from a solution */
 }
 
@@ -344,17 +347,18 @@ static enum br_status read_document(const struct br_scene_reader *r, struct br_v
     const yaml_node_t *root = yaml_document_get_root_node(r->document);
     if (!root)
         return br_scene_refuse(r, 1, "scene", "the file is empty");
-    size_t seen[MOST_KEYS] = {0};
-    enum br_status status = read_section(r, "", root, seen);
+    enum br_status status = read_section(r, "", root);
     if (!status)
         status = set_name(r);
+    if (!status)
+        status = br_scene_derive(r);
     struct br_error inner = {0};
     if (!status && br_scene_check(r->scene, &inner))
         status = br_scene_refuse(r, br_yaml_line(root), "scene", "%s", inner.message);
     if (!status)
-        status = apply_solutions(r, seen);
+        status = apply_solutions(r);
     if (!status)
-        status = check_functions(r, br_yaml_line(root), seen);
+        status = check_functions(r, br_yaml_line(root));
     if (!status && verify)
         status = read_verify(r, verify);
     return status;
@@ -433,7 +437,7 @@ enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *ta
     if (!yaml_parser_initialize(&parser))
         return br_no_memory(err, "the YAML parser");
     yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
-    struct br_scene_reader r = {path, &document, NULL, err};
+    struct br_scene_reader r = {path, &document, NULL, err, NULL};
     if (!yaml_parser_load(&parser, &document))
         status = not_yaml(&r, &parser);
     else {
@@ -457,8 +461,10 @@ struct target {
 static enum br_status take_scene(const struct br_scene_reader *reader, void *self)
 {
     const struct target *to = self;
+    struct br_scene_given given = {0};
     struct br_scene_reader r = *reader;
     r.scene = to->scene;
+    r.given = &given;
     return read_document(&r, to->verify);
 }
 

@@ -272,6 +272,7 @@ static enum br_status apply(const struct br_scene *scene, struct change *c, stru
     out->remark = NULL;
     out->axial.solution = out->bending.solution = NULL;
     out->axial.given = out->bending.given = (struct br_function){0};
+    memset(out->derived, 0, sizeof out->derived);
     copy_functions(out, c);
     change_numbers(c, out);
     change_functions(c, out);

@@ -11,8 +11,8 @@ struct br_units_change {
 };
 
 /* *out (to be cleared, even after a failure) is the scene in the new units; manufactured solutions
- * are forgotten, what was derived from them stays. Fails with BR_NO_MEMORY, and with BR_BAD_INPUT
- * where a number overflows, or a positive one underflows. */
+ * and the list of derived numbers are forgotten, what was derived stays. Fails with BR_NO_MEMORY,
+ * and with BR_BAD_INPUT where a number overflows, or a positive one underflows. */
 enum br_status br_rescale(const struct br_scene *scene, const struct br_units_change *units,
                           struct br_scene *out, struct br_error *err);
 

@@ -16,19 +16,42 @@ enum br_key_kind {
     BR_KEY_HISTORY,      /* "expression in t [unit]" */
     BR_KEY_SOLUTION,     /* "expression in x and t [unit]", kept as text */
     BR_KEY_LAW,          /* tresca or coulomb */
+    BR_KEY_SHAPE,        /* "rectangle 20 mm x 5 mm": a cross-section */
     BR_KEY_VERIFY,       /* read by verify_file.c, and only where somebody asks for it */
+};
+
+/* Whether a key must be given where its section is. */
+enum br_need {
+    BR_OPTIONAL,
+    BR_REQUIRED,
+    BR_OR_DERIVED, /* it, or what makes it (engineering.h) */
+    BR_OR_RATIO,   /* it, or a number without unit that makes it */
+    BR_MAKES,      /* optional: makes another one, and is in no struct br_scene */
 };
 
 struct br_scene_key {
     const char *section; /* "" at the top */
     const char *name;
     enum br_key_kind kind;
-    bool required;            /* where its section is given */
+    enum br_need need;
     enum br_friction_law law; /* the law it belongs to; BR_FRICTIONLESS: any */
-    const char *unit;         /* "" for none */
+    const char *unit;         /* "" for none; one of those of its dimension */
     size_t offset;            /* into struct br_scene */
     const char *help;         /* what is expected */
     const char *example;      /* a value, for templates; the required ones make a scene together */
+};
+
+enum { BR_MOST_SCENE_KEYS = 64 };
+
+/* What a file gives, row by row of br_scene_keys. */
+struct br_scene_given {
+    struct br_scene_number {
+        size_t line;               /* 0: not given; of what makes it, where it is derived */
+        size_t origin;             /* the row that was given */
+        bool ratio;                /* of BR_OR_RATIO: the number without unit */
+        bool used;                 /* it has made another one */
+        long double value, second; /* in m, s and kg; of a section: area and inertia */
+    } row[BR_MOST_SCENE_KEYS];
 };
 
 /* The names of the friction laws, by enum br_friction_law; NULL where none is written. */
@@ -45,8 +68,6 @@ enum br_status br_scene_check_initial(const struct br_scene *scene, size_t *culp
                                       struct br_error *err);
 
 /* ---- functions that are numbers everywhere ---- */
-
-/* Whether an expression of a scene is a number everywhere. */
 
 /* Whether the function of a key (an initial one, a history or a load) is proved to be finite
  * everywhere in [0, L] and [0, T] (solver/proof.h). Fails with BR_BAD_INPUT, naming value, x and t,

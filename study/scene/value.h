@@ -13,6 +13,7 @@ struct br_scene_reader {
     yaml_document_t *document;
     struct br_scene *scene; /* NULL: of another kind of file */
     struct br_error *err;
+    struct br_scene_given *given; /* beside the scene */
 };
 
 /* Takes what it wants from a document, whose root may be NULL: an empty file. */

@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/scene/engineering.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- formulas: long double throughout, rounded once ---- */
+
+/* The two that a recipe names, the density and the length. */
+enum { SOURCES = 4 };
+typedef const struct br_scene_number *sources[SOURCES];
+
+static long double area_of_section(sources of)
+{
+    return of[0]->value;
+}
+
+static long double inertia_of_section(sources of)
+{
+    return of[0]->second;
+}
+
+static long double product(sources of)
+{
+    return of[0]->value * of[1]->value;
+}
+
+/* A mode of (3) or (4) with stiffness a and viscosity tau a is q'' + tau omega^2 q' + omega^2 q,
+ * so its damping ratio is tau omega/2 (Clough and Penzien, Dynamics of Structures, damping in
+ * proportion to stiffness). of: damping ratio, stiffness, density, length. */
+static long double relaxation_time(sources of, long double root, int power)
+{
+    const long double wave = powl(root / of[3]->value, power);
+    const long double omega = wave * sqrtl(of[1]->value / of[2]->value);
+    return isfinite(omega) && omega > 0 ? 2 * of[0]->value / omega : NAN;
+}
+
+/* Lowest modes, clamped at one end and free at the other: cos(root) = 0 of the rod, cos(root)
+ * cosh(root) = -1 of the beam (Blevins, Formulas for Natural Frequency and Mode Shape, ch. 8). */
+static long double axial_time(sources of)
+{
+    return relaxation_time(of, 1.570796326794896619231L, 1);
+}
+
+static long double bending_time(sources of)
+{
+    return relaxation_time(of, 1.875104068711961166445L, 2);
+}
+
+/* In an order in which each finds what it is made of, the number that is given instead first. Keys
+ * are "section.name". most: of the first; 0: any. More is a unit or a % forgotten. */
+static const struct recipe {
+    const char *what, *first, *second, *words;
+    long double (*formula)(sources of);
+    double most;
+} recipes[] = {
+    {"area", "section", "section", "that of the section", area_of_section, 0},
+    {"inertia", "section", "section", "that of the section", inertia_of_section, 0},
+    {"density", "mass_density", "area", "mass_density * area", product, 0},
+    {"axial.stiffness", "young", "area", "young * area", product, 0},
+    {"bending.stiffness", "young", "inertia", "young * inertia", product, 0},
+    {"axial.relaxation_time", "axial.damping_ratio", "axial.stiffness", "2 damping_ratio/omega_1",
+     axial_time, 1},
+    {"bending.relaxation_time", "bending.damping_ratio", "bending.stiffness",
+     "2 damping_ratio/omega_1", bending_time, 1},
+    {"axial.viscosity", "axial.relaxation_time", "axial.stiffness", "relaxation_time * stiffness",
+     product, 0},
+    {"bending.viscosity", "bending.relaxation_time", "bending.stiffness",
+     "relaxation_time * stiffness", product, 0},
+    {"friction.coefficient", "friction.coefficient", "contact.stiffness",
+     "coefficient * contact stiffness", product, 10},
+};
+enum { RECIPES = sizeof recipes / sizeof *recipes };
+_Static_assert((int)RECIPES < (int)BR_MOST_DERIVED, "struct br_scene has no room");
+
+/* ---- rows ---- */
+
+/* The row of "axial.stiffness", or of "density". */
+static size_t row_of(const char *path)
+{
+    const char *dot = strchr(path, '.');
+    const size_t length = dot ? (size_t)(dot - path) : 0;
+    size_t row = 0;
+    while (strlen(br_scene_keys[row].section) != length ||
+           strncmp(br_scene_keys[row].section, path, length) != 0 ||
+           strcmp(br_scene_keys[row].name, dot ? dot + 1 : path) != 0)
+        row++;
+    return row;
+}
+
+static bool section_is_given(const struct br_scene_given *g, const struct br_scene_key *key)
+{
+    return !*key->section || g->row[row_of(key->section)].line;
+}
+
+/* ---- making ---- */
+
+static enum br_status refuse_two(const struct br_scene_reader *r, size_t row, size_t source)
+{
+    const struct br_scene_number *given = &r->given->row[row], *other = &r->given->row[source];
+    return br_scene_refuse(
+        r, given->line, br_scene_keys[given->origin].name,
+        "is given beside %s (line %zu), which makes %s, too, expected one of the "
+        "two",
+        br_scene_keys[other->origin].name, other->line, br_scene_keys[row].name);
+}
+
+/* What is made into the scene needs its sources, and what these were made of. */
+static void use(struct br_scene_given *g, size_t row)
+{
+    g->row[row].used = true;
+    g->row[g->row[row].origin].used = true;
+}
+
+static enum br_status make(const struct br_scene_reader *r, const struct recipe *p, size_t row,
+                           const size_t source[2])
+{
+    const struct br_scene_key *key = &br_scene_keys[row];
+    struct br_scene_number *number = r->given->row;
+    const struct br_scene_number first = number[source[0]];
+    const char *name = br_scene_keys[source[0]].name;
+    if (p->most > 0 && !(first.value <= p->most))
+        return br_scene_refuse(r, first.line, name,
+                               "found %Lg without unit, expected at most %g: was %s forgotten?",
+                               first.value, p->most, p->most > 1 ? key->unit : "%");
+    const long double value =
+        p->formula((sources){&number[source[0]], &number[source[1]], &number[row_of("density")],
+                             &number[row_of("length")]});
+    if (!isfinite((double)value) || (value != 0 && (double)value == 0))
+        return br_scene_refuse(r, first.line, name,
+                               "makes no number of %s, expected a stiffness and a density above 0 "
+                               "for a damping, and no overflow",
+                               key->name);
+    number[row] =
+        (struct br_scene_number){first.line, first.origin, source[0] == row, false, value, 0};
+    if (key->need == BR_MAKES)
+        return BR_OK;
+    *(double *)((char *)r->scene + key->offset) = (double)value;
+    use(r->given, source[0]);
+    use(r->given, source[1]);
+    return BR_OK;
+}
+
+/* Where all that a recipe needs is there. */
+static enum br_status try(const struct br_scene_reader *r, const struct recipe *p)
+{
+    const struct br_scene_number *number = r->given->row;
+    const size_t row = row_of(p->what), source[] = {row_of(p->first), row_of(p->second)};
+    const bool itself = source[0] == row;
+    if (!number[source[0]].line || !number[source[1]].line || (itself && !number[row].ratio) ||
+        !section_is_given(r->given, &br_scene_keys[row]))
+        return BR_OK;
+    if (number[row].line && !itself)
+        return refuse_two(r, row, source[0]);
+    return make(r, p, row, source);
+}
+
+/* ---- what is left ---- */
+
+static enum br_status refuse_missing(const struct br_scene_reader *r, size_t row)
+{
+    const struct br_scene_key *key = &br_scene_keys[row];
+    char made[200] = "";
+    for (const struct recipe *p = recipes; p < recipes + RECIPES; p++)
+        if (row_of(p->what) == row)
+            snprintf(made, sizeof made, "%s", p->words);
+    const size_t line = *key->section ? r->given->row[row_of(key->section)].line
+                                      : br_yaml_line(yaml_document_get_root_node(r->document));
+    return br_scene_refuse(r, line, key->name, "missing%s%s, expected %s, in %s, or %s to make it",
+                           *key->section ? " in " : "", key->section, key->help, key->unit, made);
+}
+
+static enum br_status check_row(const struct br_scene_reader *r, size_t row)
+{
+    const struct br_scene_key *key = &br_scene_keys[row];
+    const struct br_scene_number *n = &r->given->row[row];
+    if (key->need == BR_OR_DERIVED && !n->line && section_is_given(r->given, key))
+        return refuse_missing(r, row);
+    if (key->need == BR_MAKES && n->line && n->origin == row && !n->used)
+        return br_scene_refuse(r, n->line, key->name,
+                               "makes nothing here, expected what it goes with: %s", key->help);
+    return BR_OK;
+}
+
+enum br_status br_scene_derive(const struct br_scene_reader *r)
+{
+    struct br_derived *derived = r->scene->derived;
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < RECIPES && !status; i++)
+        status = try(r, &recipes[i]);
+    for (size_t row = 0; br_scene_keys[row].name && !status; row++)
+        status = check_row(r, row);
+    for (const struct recipe *p = recipes; p < recipes + RECIPES && !status; p++) {
+        const size_t row = row_of(p->what);
+        const struct br_scene_key *key = &br_scene_keys[row];
+        const struct br_scene_number *n = &r->given->row[row];
+        const bool made = n->line && (n->origin != row || n->ratio);
+        if (made && (n->used || key->need != BR_MAKES))
+            *derived++ = (struct br_derived){p->what, p->words, key->unit, (double)n->value};
+    }
+    return status;
+}
