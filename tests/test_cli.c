@@ -136,7 +136,7 @@ static void test_failures(void **state)
     cli_expect("study example1 --out file " SMALL, NULL, 2, "--out: cannot");
     /* a cell that blows up is marked, and told after all has been written */
     cli_write_file("stiff.yaml", "title: stiff\nlength: 1 m\nduration: 1000 s\ndensity: 1 kg/m\n"
-                                 "axial:\n  stiffness: 1 N\n  viscosity: 0 N s\n  load: 1 [N/m]\n"
+                                 "axial:\n  stiffness: 1 N\n  viscosity: 0.1 N s\n  load: 1 [N/m]\n"
                                  "contact:\n  gap: 0.1 m\n  stiffness: 1000 N/m\n");
     cli_expect("study stiff.yaml --n 4 --k 1.25 --reference fine:4,0.01 --out s --quiet --no-plots",
                NULL, 3, "1 cells failed; the first is n = 4: the march blew up at t = ");

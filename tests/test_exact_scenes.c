@@ -3,6 +3,7 @@
  * and honest, its events are those that the scene is about, and other units or a mirror
  * change nothing but the numbers' scale and sign. */
 #include <math.h>
+#include <string.h>
 
 #include "reference/exact/exact.h"
 #include "study/scene/rescale.h"
@@ -10,7 +11,7 @@
 
 static const char *const scenes[] = {"example1", "example2", "example3",  "example4", "impact",
                                      "reversal", "chatter",  "vibration", "release"};
-enum { SCENES = sizeof scenes / sizeof *scenes, TIMES = 97 };
+enum { SCENES = sizeof scenes / sizeof *scenes, MORE = 5, TIMES = 97 };
 
 struct solved {
     struct br_exact *exact;
@@ -31,6 +32,37 @@ static void release(struct solved *s)
 {
     br_exact_state_free(s->state);
     br_exact_free(s->exact);
+}
+
+/* A bundled scene and its solution to 1e-10, which all tests share. */
+struct bundled {
+    const char *name;
+    struct br_scene scene;
+    struct solved tight;
+};
+static struct bundled bundled[SCENES + MORE];
+
+static struct bundled *find(const char *name)
+{
+    struct bundled *b = bundled;
+    while (b->name && strcmp(b->name, name) != 0)
+        b++;
+    assert_true(b < bundled + SCENES + MORE);
+    if (!b->name)
+        *b = (struct bundled){.name = name, .scene = br_test_bundled(name)};
+    if (!b->tight.exact)
+        b->tight = solve(&b->scene, 1e-10);
+    return b;
+}
+
+static int release_all(void **state)
+{
+    (void)state;
+    for (struct bundled *b = bundled; b < bundled + SCENES + MORE && b->name; b++) {
+        release(&b->tight);
+        br_scene_clear(&b->scene);
+    }
+    return 0;
 }
 
 static bool is_modelled(const struct br_scene *scene, enum br_exact_field field)
@@ -60,23 +92,22 @@ static void test_estimates(void **state)
 {
     (void)state;
     for (size_t i = 0; i < SCENES; i++) {
-        struct br_scene scene = br_test_bundled(scenes[i]);
-        struct solved tight = solve(&scene, 1e-10), loose = solve(&scene, 1e-6);
+        const struct bundled *b = find(scenes[i]);
+        const struct solved *tight = &b->tight;
+        struct solved loose = solve(&b->scene, 1e-6);
         for (int f = 0; f < BR_EXACT_FIELDS; f++) {
             const enum br_exact_field field = (enum br_exact_field)f;
-            if (!is_modelled(&scene, field))
+            if (!is_modelled(&b->scene, field))
                 continue;
-            const struct br_exact_report r = br_exact_report(tight.exact, field);
+            const struct br_exact_report r = br_exact_report(tight->exact, field);
             const struct br_exact_report l = br_exact_report(loose.exact, field);
             AT_MOST(r.error.displacement, 1e-10 * r.largest.displacement);
             AT_MOST(r.error.velocity, 1e-9 * r.largest.velocity);
             AT_MOST(r.error.force, 1e-9 * r.largest.force);
-            AT_MOST(tip_distance(&tight, &loose, scene.duration, field),
+            AT_MOST(tip_distance(tight, &loose, b->scene.duration, field),
                     l.error.displacement + r.error.displacement + 1e-15);
         }
-        release(&tight);
         release(&loose);
-        br_scene_clear(&scene);
     }
 }
 
@@ -106,15 +137,12 @@ static void test_events(void **state)
         {"close_bound", 0, 0, 2, 0, 1},
     };
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
-        struct br_scene scene = br_test_bundled(expected[i].scene);
-        struct solved s = solve(&scene, 1e-10);
-        assert_int_equal(count_phase(s.exact, BR_CLOSED), expected[i].closes);
-        assert_int_equal(count_phase(s.exact, BR_OPEN), expected[i].opens);
-        assert_int_equal(count_phase(s.exact, BR_STICK), expected[i].sticks);
-        assert_int_equal(count_phase(s.exact, BR_SLIP_UP), expected[i].up);
-        assert_int_equal(count_phase(s.exact, BR_SLIP_DOWN), expected[i].down);
-        release(&s);
-        br_scene_clear(&scene);
+        const struct br_exact *exact = find(expected[i].scene)->tight.exact;
+        assert_int_equal(count_phase(exact, BR_CLOSED), expected[i].closes);
+        assert_int_equal(count_phase(exact, BR_OPEN), expected[i].opens);
+        assert_int_equal(count_phase(exact, BR_STICK), expected[i].sticks);
+        assert_int_equal(count_phase(exact, BR_SLIP_UP), expected[i].up);
+        assert_int_equal(count_phase(exact, BR_SLIP_DOWN), expected[i].down);
     }
 }
 
@@ -211,26 +239,25 @@ static void compare_events(const struct br_exact *a, const struct br_exact *b, d
     }
 }
 
-static void compare(const char *name, const struct br_scene *scene, const struct br_scene *other,
+static void compare(const struct bundled *old, const struct br_scene *other,
                     const struct br_units_change *u, double sign, double allowed)
 {
-    struct solved a = solve(scene, 1e-10), b = solve(other, 1e-10);
-    const double worst = deviation(&a, &b, scene->duration, u, sign);
+    struct solved b = solve(other, 1e-10);
+    const double worst = deviation(&old->tight, &b, old->scene.duration, u, sign);
     if (!(worst <= allowed))
-        fail_msg("%s in other units, or mirrored, is off by %g", name, worst);
-    compare_events(a.exact, b.exact, u->second, sign);
-    release(&a);
+        fail_msg("%s in other units, or mirrored, is off by %g", old->name, worst);
+    compare_events(old->tight.exact, b.exact, u->second, sign);
     release(&b);
 }
 
 static void check_units(const char *name, const struct br_units_change *u)
 {
     struct br_error err = {0};
-    struct br_scene scene = br_test_bundled(name), other;
-    MUST(br_rescale(&scene, u, &other, &err));
-    compare(name, &scene, &other, u, 1, 1e-8);
+    struct br_scene other;
+    const struct bundled *b = find(name);
+    MUST(br_rescale(&b->scene, u, &other, &err));
+    compare(b, &other, u, 1, 1e-8);
     br_scene_clear(&other);
-    br_scene_clear(&scene);
 }
 
 static void test_units(void **state)
@@ -247,10 +274,9 @@ static void test_mirror(void **state)
 {
     (void)state;
     for (size_t i = 0; i < SCENES; i++) {
-        struct br_scene scene = br_test_bundled(scenes[i]);
-        const struct br_scene other = mirrored(&scene);
-        compare(scenes[i], &scene, &other, &(struct br_units_change){1, 1, 1}, -1, 1e-11);
-        br_scene_clear(&scene);
+        const struct bundled *b = find(scenes[i]);
+        const struct br_scene other = mirrored(&b->scene);
+        compare(b, &other, &(struct br_units_change){1, 1, 1}, -1, 1e-11);
     }
 }
 
@@ -262,5 +288,5 @@ int main(void)
         cmocka_unit_test(test_units),
         cmocka_unit_test(test_mirror),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, release_all);
 }

@@ -185,15 +185,16 @@ static const struct {
     const char *with, *without[2], *words;
 } shorter[] = {
     {"beamrate tables", {" --n ", " -n "}, " --n 5,10 --k 0.1,0.05 --reference fine:20,0.05"},
+    {" --split --methods", {" --help", " -h "}, " --help"},
     {" --split", {" --n ", " -n "}, " --n 10"},
     {"beamrate trade", {" --n ", " -n "}, " --n 10 --k 0.1,0.05 --methods euler,bdf2 --repeats 1"},
     {"beamrate plan",
      {" --methods", " --help"},
      " --methods euler+implicit,adaptive+p2 --repeats 1"},
-    {"beamrate extremes", {" --cases 10 ", " --help"}, " --help"},
+    {"beamrate extremes", {" --help", " -h "}, " --help"},
     {"beamrate figures", {" --help", " -h "}, " --help"},
     {" 1e-4 --check", {" --help", " -h "}, " --help"},
-    {" --animate example", {" --n ", " -n "}, " --n 10 --k 0.03"},
+    {" --animate example", {" --n ", " -n "}, " --n 4 --k 0.2"},
     {"beamrate tables", {" --no-plots", " --help"}, " --no-plots"},
     {"beamrate study", {" --no-plots", " --help"}, " --no-plots"},
     {"beamrate trade", {" --no-plots", " --help"}, " --no-plots"},

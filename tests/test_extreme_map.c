@@ -273,16 +273,15 @@ static void test_boast(void **state)
     (void)state;
     const struct br_extreme_judging honest = {.quick = true}, boast = {.quick = true, .boast = 1e4};
     int known = 0, wrong = 0;
-    for (size_t i = 0; i < 16; i++) {
+    for (size_t i = 1; i < 16 && (known < 4 || br_test_long()); i++) {
         const struct named one = {1, i};
-        const struct br_extreme_verdict truth = judge(one, &honest), lie = judge(one, &boast);
+        const struct br_extreme_verdict truth = judge(one, &honest);
         assert_true(truth.which != BR_EXTREME_WRONG);
         if (truth.which == BR_EXTREME_RIGHT && truth.known && truth.error > truth.stated / 1e3) {
             known++;
-            wrong += lie.which == BR_EXTREME_WRONG;
-        }
-        if (!truth.known)
-            assert_int_equal(lie.which, truth.which);
+            wrong += judge(one, &boast).which == BR_EXTREME_WRONG;
+        } else if (!truth.known)
+            assert_int_equal(judge(one, &boast).which, truth.which);
     }
     assert_true(known >= 3);
     AT_MOST(0.5 * known, wrong);

@@ -64,7 +64,7 @@ static void test_space(void **state)
 static void test_time_implicit(void **state)
 {
     (void)state;
-    static const size_t n = 6400, steps[] = {250, 2000};
+    static const size_t n = 3200, steps[] = {250, 2000};
     if (br_test_quick())
         skip();
     for (size_t i = br_test_long() ? 0 : 1; i < sizeof scenes / sizeof *scenes;

@@ -100,7 +100,7 @@ static void test_joint_orders(void **state)
 static void test_against_exact(void **state)
 {
     (void)state;
-    static const size_t n[] = {4, 8}, steps = 100000;
+    static const size_t n[] = {4, 8}, steps = 25000;
     if (br_test_quick())
         skip();
     struct br_error err = {0};

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "study/foresee/prediction.h"
+#include "study/paper/claims.h"
 #include "study/run/run.h"
 #include "study/trade/plan.h"
 #include "study/trade/split.h"
@@ -348,13 +349,38 @@ static void answer_comes_first(void **state)
     *last = kept;
 }
 
+/* ---- claims ---- */
+
+static void claims_are_printed(void **state)
+{
+    (void)state;
+    struct br_document d = {0};
+    struct br_finding finding[BR_MOST_CLAIMS] = {
+        {.value = 0.75, .exact = 0.5, .error = 0.25, .printed = 0.625, .agreement = BR_DIFFERS},
+        {.agreement = BR_UNDECIDED},
+    };
+    size_t claims = 0;
+    while (br_claims[claims].name)
+        claims++;
+    br_report_claims(finding, 1000, 500, &d);
+    json_t *root = read_back(&d);
+    char expected[100];
+    snprintf(expected, sizeof expected, "The paper's claims: %zu agree, 1 differ, 1 undecided.",
+             claims - 2);
+    answers(root, expected);
+    NUMBERS(root, "tables.claims.0",
+            ((struct expected[]){
+                {"value", 0.75}, {"exact", 0.5}, {"error", 0.25}, {"printed", 0.625}}));
+    TEXTS(root, "tables.claims.0", "claim", br_claims[0].name, "agreement", "differ");
+    json_decref(root);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_of_version_1_is_read),
-        cmocka_unit_test(small_numbers_are_printed),
-        cmocka_unit_test(certificate_is_printed),
-        cmocka_unit_test(answer_comes_first),
+        cmocka_unit_test(check_of_version_1_is_read), cmocka_unit_test(small_numbers_are_printed),
+        cmocka_unit_test(certificate_is_printed),     cmocka_unit_test(answer_comes_first),
+        cmocka_unit_test(claims_are_printed),
     };
     return cmocka_run_group_tests_name("report_values", tests, march, end);
 }

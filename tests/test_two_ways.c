@@ -213,7 +213,7 @@ static struct br_scene second_way(const struct br_scene *plain, const struct dra
 static void test_pairs(void **state)
 {
     (void)state;
-    const size_t pairs = br_test_long() ? 300 : 30;
+    const size_t pairs = br_test_long() ? 300 : 3 * WAYS;
     size_t refused = 0, closed = 0;
     for (size_t i = 0; i < pairs; i++) {
         struct br_test_random random = {1000 + i};

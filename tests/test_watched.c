@@ -219,7 +219,7 @@ static void test_bundled_scenes(void **state)
 static void test_switches(void **state)
 {
     (void)state;
-    for (size_t n = 10; n <= 100; n += 6) {
+    for (size_t n = 10; n <= 100; n += br_test_long() ? 6 : 18) {
         pass_scene("example3", NULL, 1, n, 100);
         pass_scene("mms_reversal", NULL, 1, n, 100);
     }
