@@ -131,7 +131,6 @@ static enum br_status sample_levels(const struct br_judge_request *request,
                                     const struct br_judge *judge, void *self,
                                     enum br_field_kind kind, struct br_error *err)
 {
-    const struct br_elements elements = {kind, request->axial_degree};
     double *values = br_allocate(BR_MOST_MODES * request->mesh[0], sizeof *values);
     enum br_status status = values ? BR_OK : br_no_memory(err, "the trials");
     for (size_t level = 1; level <= request->levels && !status; level++) {
@@ -139,8 +138,7 @@ static enum br_status sample_levels(const struct br_judge_request *request,
         for (int measure = 0; measure < BR_TIP && !status; measure++) {
             const struct br_sample_at at = {kind, (enum br_measure)measure, 0};
             struct br_view view = {.values = values};
-            if (request->measured[kind][measure] &&
-                br_measure_size(elements, at.measure, request->mesh[0]) > 0)
+            if (request->measured[kind][measure])
                 judge->sample(self, &at, &view);
         }
     }
