@@ -25,9 +25,10 @@ static bool is_late(void *self)
     return br_thread_seconds() > *end;
 }
 
-/* Marches until that has taken long enough. A march that fails takes nothing more. */
-static void march_a_little(const struct br_scene *scene, const struct br_trial *t, int mesh,
-                           struct pace *pace)
+/* Marches until that has taken long enough. A march that fails takes nothing more; only
+ * BR_NO_MEMORY fails the call. */
+static enum br_status march_a_little(const struct br_scene *scene, const struct br_trial *t,
+                                     int mesh, struct pace *pace, struct br_error *err)
 {
     const struct br_method method = br_trial_method(t);
     const size_t levels = method.scheme->adaptive ? t->at.steps : LEVELS;
@@ -48,19 +49,22 @@ static void march_a_little(const struct br_scene *scene, const struct br_trial *
         pace->level[mesh] =
             (br_thread_seconds() - begin) / fmax(0.5, (double)br_march_steps_done(march));
     br_march_free(march);
+    return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
 }
 
 /* Trials of one method, and of one tolerance, have the same. */
-static void find_pace(const struct br_scene *scene, const struct br_trial *trial, size_t i,
-                      struct pace *pace)
+static enum br_status find_pace(const struct br_scene *scene, const struct br_trial *trial,
+                                size_t i, struct pace *pace, struct br_error *err)
 {
+    enum br_status status = BR_OK;
     for (size_t j = 0; j < i; j++)
         if (trial[j].named == trial[i].named && trial[j].tolerance == trial[i].tolerance) {
             pace[i] = pace[j];
-            return;
+            return BR_OK;
         }
-    for (int mesh = 0; mesh < 2; mesh++)
-        march_a_little(scene, &trial[i], mesh, &pace[i]);
+    for (int mesh = 0; mesh < 2 && !status; mesh++)
+        status = march_a_little(scene, &trial[i], mesh, &pace[i], err);
+    return status;
 }
 
 /* Linear in n, and growing. */
@@ -240,9 +244,9 @@ enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
     enum br_status status =
         pace ? look_at_judge(r, &judging, err) : br_no_memory(err, "the trials");
     for (size_t i = 0; i < count && !status; i++) {
-        if (r->observer && r->observer->stop && r->observer->stop(r->observer->self))
-            status = br_fail(err, BR_INTERRUPTED, "interrupted");
-        find_pace(r->scene, trial, i, pace);
+        const struct br_observer *o = r->observer;
+        status = o && o->stop && o->stop(o->self) ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                                                  : find_pace(r->scene, trial, i, pace, err);
         trial[i].foreseen = marches(r, &trial[i], march_seconds(&trial[i], &pace[i])) +
                             judged(trial, i, &judging) / br_threads(r->threads);
         outlook->seconds += trial[i].foreseen;
