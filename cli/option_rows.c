@@ -194,6 +194,12 @@ static const struct br_option rows[] = {
      .more = "The norm of the error over the norm of the solution."},
     {BR_OPT_SECONDS, "seconds", 0, "S", "or seconds of a march, set-up included, at most", NULL,
      BR_TAKES_NUMBER, BETWEEN(0, INFINITY), .commands = BR_FOR_PLAN},
+    {BR_OPT_SECONDS, "seconds", 0, "S",
+     "what the trials of a scene may take, about; the dearest are left out", "30", BR_TAKES_NUMBER,
+     BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
+     .more =
+         "Where -n, -k, --steps or --tolerances say what is tried, nothing is left out unless it "
+         "is given."},
     {BR_OPT_REPEATS, "repeats", 0, "COUNT", repeats, "3", BR_TAKES_NUMBER, WHOLE(1, 1000),
      .commands = BR_FOR_TRADE | BR_FOR_PLAN, .more = "Marches of more than 0.1 s are made once."},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", limit, "10", BR_TAKES_NUMBER,

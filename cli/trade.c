@@ -43,6 +43,13 @@ static struct br_method fine_method(void)
     return finest.method;
 }
 
+/* Whether the user says what is tried. */
+static bool is_listed(const struct br_options *o)
+{
+    return br_option_given(o, BR_OPT_N) || br_option_given(o, BR_OPT_K) ||
+           br_option_given(o, BR_OPT_STEPS) || br_option_given(o, BR_OPT_TOLERANCES);
+}
+
 static enum br_status set_request(const struct run *r, struct item *item, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
@@ -53,6 +60,8 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     q->threads = r->session.threads;
     q->repeats = (size_t)br_option_number(o, BR_OPT_REPEATS, 0);
     q->time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
+    if (!is_listed(o) || br_option_given(o, BR_OPT_SECONDS))
+        q->seconds = br_option_number(o, BR_OPT_SECONDS, 0);
     item->trade.norm[0] = r->study.norm[0];
     if (!q->judge || !q->judge->nests)
         return BR_OK;
@@ -124,19 +133,41 @@ static enum br_status prepare(struct run *r, struct br_error *err)
 
 /* ---- computing ---- */
 
+/* Less is not worth a word, s. */
+static const double worth_telling = 3;
+
+static void tell_outlook(const char *name, const struct br_trial_outlook *o)
+{
+    if (o->seconds < worth_telling && o->left == 0)
+        return;
+    fprintf(stderr, "%s: %zu trials take about %.0f s", name, o->held, o->seconds);
+    if (o->left)
+        fprintf(stderr, "; left out, the dearest first: %zu, --seconds %.0f has all", o->left,
+                br_trade_seconds_of_all(o));
+    fputc('\n', stderr);
+}
+
+static enum br_status hold_one(struct run *r, struct item *item, struct br_error *err)
+{
+    struct br_trade *trade = &item->trade;
+    const char *name = item->opened.scene.name;
+    trade->request.observer = br_progress_start(name, r->session.quiet);
+    enum br_status status = br_trade_foresee(trade, err);
+    if (!status && !r->session.quiet)
+        tell_outlook(name, &trade->outlook);
+    if (!status)
+        status = br_trade_hold(trade, err);
+    br_progress_end();
+    return status ? br_failed_in(err, name) : br_progress_result(status, err);
+}
+
 static enum br_status hold(struct run *r, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (size_t i = 0; i < r->items; i++)
         br_warn_of_trade(&r->item[i].trade);
-    for (size_t i = 0; i < r->items && !status; i++) {
-        const char *name = r->item[i].opened.scene.name;
-        struct br_trade *trade = &r->item[i].trade;
-        trade->request.observer = br_progress_start(name, r->session.quiet);
-        status = br_trade_hold(trade, err);
-        br_progress_end();
-        status = status ? br_failed_in(err, name) : br_progress_result(status, err);
-    }
+    for (size_t i = 0; i < r->items && !status; i++)
+        status = hold_one(r, &r->item[i], err);
     return status;
 }
 
@@ -179,7 +210,9 @@ static enum br_status check(const struct run *r, struct br_error *err)
 {
     for (size_t i = 0; i < r->items; i++) {
         const struct br_trade *t = &r->item[i].trade;
-        if (br_trade_tally(t, BR_TRIAL_FAILED) + br_trade_tally(t, BR_TRIAL_OVER) == t->count)
+        if (br_trade_tally(t, BR_TRIAL_FAILED) + br_trade_tally(t, BR_TRIAL_OVER) +
+                br_trade_tally(t, BR_TRIAL_LEFT) ==
+            t->count)
             return br_fail(err, BR_NOT_FINITE, "%s: no trial came to its end; the first: %.900s",
                            r->item[i].opened.scene.name, t->trial[0].failure.message);
     }
@@ -193,6 +226,7 @@ static enum br_status split(const struct br_options *o, struct br_error *err)
 {
     const char *other = br_option_given(o, BR_OPT_REPEATS)      ? "repeats"
                         : br_option_given(o, BR_OPT_TIME_LIMIT) ? "time-limit"
+                        : br_option_given(o, BR_OPT_SECONDS)    ? "seconds"
                         : br_option_given(o, BR_OPT_REFERENCE)  ? "reference"
                                                                 : NULL;
     if (other)

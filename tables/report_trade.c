@@ -102,6 +102,12 @@ static void answer_ends(struct br_document *d, const struct br_trade *t)
         between = ", ";
     }
     br_put_more(d, ".");
+    if (t->outlook.left)
+        br_put_answer(d,
+                      "Left out for time, the dearest first: %zu of %zu trials, about %.0f s; "
+                      "--seconds %.0f has all.",
+                      t->outlook.left, t->count, t->outlook.left_seconds,
+                      br_trade_seconds_of_all(&t->outlook));
 }
 
 /* ---- tables ---- */

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/clock.h"
 #include "study/grid/sweep.h"
 #include "study/trade/trade.h"
 #include "support.h"
@@ -315,6 +316,75 @@ static void test_lists_are_tried(void **state)
     br_scene_clear(&scene);
 }
 
+/* ---- what they take ---- */
+
+/* Three methods on two meshes; most marches are repeated. */
+static struct br_trade *small_trade(const struct br_scene *scene)
+{
+    static const size_t n[] = {40, 160}, steps[] = {10, 100, 1000};
+    static const double tolerance[] = {1e-2, 1e-4};
+    struct br_trade *t = laid_out(scene, "euler+implicit,bdf2+plain,adaptive",
+                                  &(struct br_trade_grid){.n = n,
+                                                          .steps = steps,
+                                                          .tolerance = tolerance,
+                                                          .n_count = 2,
+                                                          .step_count = 3,
+                                                          .tolerances = 2});
+    t->norm[0] = br_norms[0];
+    t->request.threads = 1;
+    return t;
+}
+
+/* Foreseen and measured seconds of the processor agree to a factor of two. */
+static void test_outlook(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_trade *t = small_trade(&scene);
+    double start = br_thread_seconds();
+    MUST(br_trade_foresee(t, &err));
+    assert_int_equal(t->outlook.held, t->count);
+    assert_int_equal(t->outlook.left, 0);
+    const double foreseen = t->outlook.seconds - (br_thread_seconds() - start);
+    start = br_thread_seconds();
+    MUST(br_trade_hold(t, &err));
+    const double taken = br_thread_seconds() - start;
+    if (!(foreseen >= taken / 2 && foreseen <= 2 * taken))
+        fail_msg("foreseen: %g s, taken: %g s", foreseen, taken);
+    drop(t);
+    br_scene_clear(&scene);
+}
+
+/* The dearest are left out, and have no result. */
+static void test_left_out(void **state)
+{
+    (void)state;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_trade *t = small_trade(&scene);
+    double held = 0, dearest = 0;
+    t->request.seconds = 0.2;
+    MUST(br_trade_foresee(t, &err));
+    assert_true(t->outlook.left > 0 && t->outlook.held > 1);
+    assert_int_equal(t->outlook.left + t->outlook.held, t->count);
+    for (size_t i = 0; i < t->count; i++)
+        if (t->trial[i].end != BR_TRIAL_LEFT) {
+            held += t->trial[i].foreseen;
+            dearest = fmax(dearest, t->trial[i].foreseen);
+        }
+    assert_true(held <= t->request.seconds);
+    MUST(br_trade_hold(t, &err));
+    assert_int_equal(br_trade_tally(t, BR_TRIAL_LEFT), t->outlook.left);
+    for (size_t i = 0; i < t->count; i++) {
+        const bool left = t->trial[i].end == BR_TRIAL_LEFT;
+        assert_true(!left || t->trial[i].foreseen >= dearest);
+        assert_true(isnan(br_trial_bound(&t->trial[i], 0)) == left);
+    }
+    drop(t);
+    br_scene_clear(&scene);
+}
+
 int main(void)
 {
     for (int i = 0; i < 2; i++)
@@ -332,6 +402,8 @@ int main(void)
         cmocka_unit_test(test_stops),
         cmocka_unit_test(test_printed),
         cmocka_unit_test(test_lists_are_tried),
+        cmocka_unit_test(test_outlook),
+        cmocka_unit_test(test_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -78,6 +78,19 @@ static void test_over_the_limit(void **state)
                NULL, 3, "over the time limit of 1e-12 s");
 }
 
+/* What is left out for time is said before and after; lists that are given are tried whole. */
+static void test_left_out(void **state)
+{
+    (void)state;
+    cli_expect("trade example2 --methods bdf2 --n 8 --k 0.1,0.01 --seconds 1e-6 --out b --no-plots",
+               NULL, 0, "left out, the dearest first: 1, --seconds 1 has all");
+    assert_true(cli_file_contains("b/example2.txt", "Trials: 1 done, 1 left out."));
+    assert_true(cli_file_contains("b/example2.txt",
+                                  "Left out for time, the dearest first: 1 of 2 trials, about "));
+    assert_true(cli_file_contains("b/example2.csv", ",left out,false,false,"));
+    assert_false(cli_file_contains("b/example2.txt", "did not come to their end"));
+}
+
 /* The paper's method beyond its limit is marked, and never the cheapest. */
 static void test_unstable(void **state)
 {
@@ -120,8 +133,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_loads),          cmocka_unit_test(test_rules),
-        cmocka_unit_test(test_over_the_limit), cmocka_unit_test(test_unstable),
-        cmocka_unit_test(test_zero_solution),  cmocka_unit_test(test_interrupt),
+        cmocka_unit_test(test_over_the_limit), cmocka_unit_test(test_left_out),
+        cmocka_unit_test(test_unstable),       cmocka_unit_test(test_zero_solution),
+        cmocka_unit_test(test_interrupt),
     };
     return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
 }

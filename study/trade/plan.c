@@ -282,25 +282,6 @@ double br_plan_spent(const struct br_plan *p)
 
 /* ---- rounds ---- */
 
-/* Holds on to what the judge knows, so that it is found out once and not in every round. */
-static enum br_status keep_judge(const struct br_plan *p, const struct br_judge *judge, void **self,
-                                 struct br_error *err)
-{
-    *self = NULL;
-    if (!judge || !judge->create || judge->nests)
-        return BR_OK;
-    const struct br_observer *o = p->request.observer;
-    return judge->create(self,
-                         &(struct br_judge_request){
-                             .scene = p->request.scene,
-                             .levels = 1,
-                             .lead = 1,
-                             .stop = o ? o->stop : NULL,
-                             .stop_self = o ? o->self : NULL,
-                         },
-                         err);
-}
-
 static enum br_status hold_new(struct br_plan *p, size_t from, struct br_error *err)
 {
     return p->count > from ? br_trials_hold(&p->trial[from], p->count - from, &p->request, err)
@@ -386,8 +367,6 @@ static enum br_status check_probes(struct br_plan *p, struct br_error *err)
 enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
 {
     const double start = br_seconds();
-    const struct br_judge *judge =
-        p->request.judge ? p->request.judge : br_judge_best(p->request.scene);
     void *kept = NULL;
     bool tried = true;
     p->request.norm = p->norm;
@@ -397,7 +376,7 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
     if (!status)
         status = make_room(p, err);
     if (!status)
-        status = keep_judge(p, judge, &kept, err);
+        status = br_trials_keep_judge(&p->request, &kept, err);
     if (!status)
         status = hold_probes(p, err);
     if (!status)
@@ -410,8 +389,7 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
         p->first = p->count;
     if (!status)
         choose(p);
-    if (kept)
-        judge->free(kept);
+    br_trials_forget_judge(&p->request, kept);
     p->wall_seconds = br_seconds() - start;
     return status;
 }

@@ -17,6 +17,11 @@ double br_trade_digits_per_second(const struct br_trial *trial)
     return -log10(br_trial_relative(trial, 0, BR_PART_TOTAL)) / br_trial_seconds(trial);
 }
 
+double br_trade_seconds_of_all(const struct br_trial_outlook *o)
+{
+    return ceil(1.3 * (o->seconds + o->left_seconds));
+}
+
 size_t br_trade_tally(const struct br_trade *trade, enum br_trial_end end)
 {
     size_t count = 0;
@@ -82,24 +87,41 @@ static void choose(struct br_trade *t)
     }
 }
 
+/* The judge's work is done by then, and counts: of a busy machine as of an idle one. */
+enum br_status br_trade_foresee(struct br_trade *t, struct br_error *err)
+{
+    const double start = br_seconds(), begin = br_thread_seconds(), seconds = t->request.seconds;
+    t->request.norm = t->norm;
+    t->request.norms = 1;
+    enum br_status status = br_trials_keep_judge(&t->request, &t->judge, err);
+    if (seconds > 0)
+        t->request.seconds = fmax(seconds - (br_thread_seconds() - begin), seconds / 10);
+    if (!status)
+        status = br_trials_foresee(t->trial, t->count, &t->request, &t->outlook, err);
+    t->request.seconds = seconds;
+    t->wall_seconds = br_seconds() - start;
+    t->outlook.seconds += br_thread_seconds() - begin;
+    return status;
+}
+
 enum br_status br_trade_hold(struct br_trade *t, struct br_error *err)
 {
     const double start = br_seconds();
-    t->request.norm = t->norm;
-    t->request.norms = 1;
     const enum br_status status = br_trials_hold(t->trial, t->count, &t->request, err);
     if (!status)
         choose(t);
-    t->wall_seconds = br_seconds() - start;
+    t->wall_seconds += br_seconds() - start;
     return status;
 }
 
 void br_trade_clear(struct br_trade *t)
 {
+    br_trials_forget_judge(&t->request, t->judge);
     free(t->trial);
     free(t->front);
     t->trial = NULL;
     t->front = NULL;
+    t->judge = NULL;
     t->count = 0;
 }
 

@@ -30,6 +30,8 @@ struct br_trade {
     size_t best[BR_TRADE_DIGITS]; /* the cheapest trial to each target; `count`: none */
     /* Likewise of each named method. */
     size_t best_of[BR_MOST_NAMED_METHODS][BR_TRADE_DIGITS];
+    struct br_trial_outlook outlook;
+    void *judge;         /* kept from the outlook on; owned */
     double wall_seconds; /* of all of it */
 };
 
@@ -39,8 +41,11 @@ struct br_trade {
 enum br_status br_trade_lay_out(struct br_trade *trade, const struct br_trade_grid *grid,
                                 struct br_error *err);
 
-/* Holds the trials and chooses; `request` is set, but for norm and norms. Fails as br_trials_hold
- * does. */
+/* Foresees what the trials take; `request` is set, but for norm and norms. Fails as
+ * br_trials_foresee does. */
+enum br_status br_trade_foresee(struct br_trade *trade, struct br_error *err);
+
+/* Holds the trials and chooses. Fails as br_trials_hold does. */
 enum br_status br_trade_hold(struct br_trade *trade, struct br_error *err);
 void br_trade_clear(struct br_trade *trade);
 
@@ -49,6 +54,9 @@ bool br_trade_is_printed_method(const struct br_named_method *named);
 
 /* -log10 of the relative error, over the seconds; NaN: no trial that counts. */
 double br_trade_digits_per_second(const struct br_trial *trial);
+
+/* What --seconds would have to be for all trials, with some to spare. */
+double br_trade_seconds_of_all(const struct br_trial_outlook *outlook);
 
 /* How many trials ended like that. */
 size_t br_trade_tally(const struct br_trade *trade, enum br_trial_end end);

@@ -192,6 +192,8 @@ static enum br_status time_one(struct br_trial *trial, const struct br_trial_req
 /* What a trial costs, about, for the observer. */
 static double work_of(const struct br_trial *trial)
 {
+    if (trial->foreseen > 0)
+        return trial->foreseen;
     return (double)trial->at.n * (double)trial->at.steps *
                br_time_scheme_stages(trial->named->method.scheme) +
            1e5;
@@ -199,7 +201,7 @@ static double work_of(const struct br_trial *trial)
 
 static void begin(struct br_trial *t, const struct br_trial_request *request)
 {
-    t->end = BR_TRIAL_DONE;
+    t->end = t->end == BR_TRIAL_LEFT ? BR_TRIAL_LEFT : BR_TRIAL_DONE;
     t->cost = (struct br_trial_cost){.set_up = NAN, .march = NAN};
     t->failure = (struct br_error){0};
     for (size_t m = 0; m < request->norms; m++) {
@@ -216,10 +218,14 @@ static enum br_status time_all(struct br_trial *trial, size_t count,
 {
     const struct br_observer *o = request->observer;
     double whole = 0, done = 0;
-    for (size_t i = 0; i < count; i++)
-        begin(&trial[i], request), whole += work_of(&trial[i]);
+    for (size_t i = 0; i < count; i++) {
+        begin(&trial[i], request);
+        whole += trial[i].end == BR_TRIAL_LEFT ? 0 : work_of(&trial[i]);
+    }
     enum br_status status = BR_OK;
     for (size_t i = 0; i < count && !status; i++) {
+        if (trial[i].end == BR_TRIAL_LEFT)
+            continue;
         status = is_stopped(request) ? br_fail(err, BR_INTERRUPTED, "interrupted")
                                      : time_one(&trial[i], request, err);
         done += work_of(&trial[i]);

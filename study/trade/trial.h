@@ -17,7 +17,8 @@
     X(BR_TRIAL_DOUBTFUL, "doubtful") /* the judge's own error is not far below */ \
     X(BR_TRIAL_UNSTABLE, "unstable") /* lagged contact beyond its limit */        \
     X(BR_TRIAL_OVER, "over limit")   /* takes longer than the time limit */       \
-    X(BR_TRIAL_FAILED, "failed")
+    X(BR_TRIAL_FAILED, "failed")                                                  \
+    X(BR_TRIAL_LEFT, "left out") /* for time: br_trials_foresee */
 
 enum br_trial_end {
 #define X(name, word) name,
@@ -40,6 +41,7 @@ struct br_trial {
     struct br_resolution at; /* of an adaptive named method, at.steps are the levels looked at */
     double tolerance;        /* of an adaptive named method; otherwise 0 */
     bool printed;            /* the paper's method at a resolution of its printed tables */
+    double foreseen;         /* by br_trials_foresee, s; 0: nobody has looked */
     /* out */
     enum br_trial_end end;
     struct br_trial_cost cost;
@@ -60,12 +62,33 @@ struct br_trial_request {
     size_t repeats;                     /* timed marches of a trial, at least 1 */
     double repeat_seconds;              /* no more repeats once they have taken so long, s */
     double time_limit;                  /* of one march with its set-up, s; 0: none */
+    double seconds;                     /* of all trials, about; 0: however long they take */
     int threads;                        /* of the errors; 0: all cores */
     const struct br_observer *observer; /* NULL: nobody */
 };
 
 /* What is asked for where nobody says otherwise: l2, 3 repeats within 0.1 s, 10 s a march. */
 struct br_trial_request br_trial_request_default(const struct br_scene *scene);
+
+/* What trials take together: marches, repeats and the judge, s of an idle machine, about. */
+struct br_trial_outlook {
+    double seconds;      /* of those that are held */
+    double left_seconds; /* of those that are left out */
+    size_t held, left;
+};
+
+/* Foresees what trials take, from a few steps of each method; where that is more than
+ * request->seconds the dearest end as BR_TRIAL_LEFT, and br_trials_hold leaves them as they are.
+ * Fails with BR_NO_MEMORY, BR_INTERRUPTED, or as the judge does. */
+enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
+                                 const struct br_trial_request *request,
+                                 struct br_trial_outlook *outlook, struct br_error *err);
+
+/* Holds on to what the judge knows, so that it is found out once and not in every call: *self
+ * (out), NULL where it need not be. Fails as the judge does; forget it even then. */
+enum br_status br_trials_keep_judge(const struct br_trial_request *request, void **self,
+                                    struct br_error *err);
+void br_trials_forget_judge(const struct br_trial_request *request, void *self); /* accepts NULL */
 
 /* Holds trials: the seconds of all, one after the other, then the errors of those that came to
  * their end, all at once. A march that fails is a result, and one over the limit is ended as soon

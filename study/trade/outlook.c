@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What trials will take. Each method marches a few steps on two meshes, the judge looks at a few
+ * time levels on one; costs elsewhere are linear in elements and in time levels. */
+#include <math.h>
+
+#include "solver/clock.h"
+#include "study/foresee/resources.h"
+#include "study/grid/each.h"
+#include "study/trade/trial.h"
+
+/* ---- a method ---- */
+
+static const size_t probe_mesh[2] = {25, 400};
+enum { LEVELS = 100 };                    /* of the duration, for steps that do not choose */
+static const double longest_probe = 0.02; /* s of steps */
+
+/* What a march takes on the two meshes: s, and s a time level. */
+struct pace {
+    double set_up[2], level[2];
+};
+
+static bool is_late(void *self)
+{
+    const double *end = self;
+    return br_thread_seconds() > *end;
+}
+
+/* Marches until that has taken long enough. A march that fails takes nothing more; only
+ * BR_NO_MEMORY fails the call. */
+static enum br_status march_a_little(const struct br_scene *scene, const struct br_trial *t,
+                                     int mesh, struct pace *pace, struct br_error *err)
+{
+    const struct br_method method = br_trial_method(t);
+    const size_t levels = method.scheme->adaptive ? t->at.steps : LEVELS;
+    struct br_march *march = NULL;
+    struct br_error failure = {0};
+    const double start = br_thread_seconds();
+    enum br_status status =
+        br_march_create(&march, scene, probe_mesh[mesh], levels, &method, &failure);
+    const double begin = br_thread_seconds();
+    double end = begin + longest_probe;
+    if (march)
+        br_march_stop_when(march, is_late, &end);
+    for (size_t i = 0; i < levels && !status && !is_late(&end); i++)
+        status = br_march_step(march, &failure);
+    pace->set_up[mesh] = begin - start;
+    pace->level[mesh] = 0;
+    if (!status || status == BR_INTERRUPTED) /* the level that it is in counts by half */
+        pace->level[mesh] =
+            (br_thread_seconds() - begin) / fmax(0.5, (double)br_march_steps_done(march));
+    br_march_free(march);
+    return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
+}
+
+/* Trials of one method, and of one tolerance, have the same. */
+static enum br_status find_pace(const struct br_scene *scene, const struct br_trial *trial,
+                                size_t i, struct pace *pace, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t j = 0; j < i; j++)
+        if (trial[j].named == trial[i].named && trial[j].tolerance == trial[i].tolerance) {
+            pace[i] = pace[j];
+            return BR_OK;
+        }
+    for (int mesh = 0; mesh < 2 && !status; mesh++)
+        status = march_a_little(scene, &trial[i], mesh, &pace[i], err);
+    return status;
+}
+
+/* Linear in n, and growing. */
+static double at_mesh(const double on[2], size_t n)
+{
+    const double slope = (on[1] - on[0]) / (double)(probe_mesh[1] - probe_mesh[0]);
+    return fmax(0, on[0] + fmax(0, slope) * ((double)n - (double)probe_mesh[0]));
+}
+
+/* s of one march. */
+static double march_seconds(const struct br_trial *t, const struct pace *pace)
+{
+    return at_mesh(pace->set_up, t->at.n) + (double)t->at.steps * at_mesh(pace->level, t->at.n);
+}
+
+/* ---- the judge ---- */
+
+/* What it takes: s for each mesh, and s for a time level and an element. */
+struct judging {
+    double mesh, level;
+};
+
+static const struct br_judge *judge_of(const struct br_trial_request *r)
+{
+    return r->judge ? r->judge : br_judge_best(r->scene);
+}
+
+static void set_measured(const struct br_trial_request *r, struct br_judge_request *request)
+{
+    for (int measure = 0; measure < BR_TIP; measure++)
+        for (size_t m = 0; m < r->norms; m++)
+            if (br_norm_needs(r->norm[m], (enum br_measure)measure)) {
+                request->measured[BR_AXIAL][measure] = r->scene->axial.modelled;
+                request->measured[BR_BENDING][measure] = r->scene->bending.modelled;
+            }
+}
+
+static enum br_status create_judge(const struct br_trial_request *r,
+                                   struct br_judge_request *request, void **self,
+                                   struct br_error *err)
+{
+    const struct br_observer *o = r->observer;
+    request->scene = r->scene;
+    request->lead = request->levels;
+    request->stop = o ? o->stop : NULL;
+    request->stop_self = o ? o->self : NULL;
+    request->preparing = o ? o->preparing : NULL;
+    return judge_of(r)->create(self, request, err);
+}
+
+enum br_status br_trials_keep_judge(const struct br_trial_request *r, void **self,
+                                    struct br_error *err)
+{
+    *self = NULL;
+    if (!judge_of(r)->create || judge_of(r)->nests)
+        return BR_OK;
+    return create_judge(r, &(struct br_judge_request){.levels = 1}, self, err);
+}
+
+void br_trials_forget_judge(const struct br_trial_request *r, void *self)
+{
+    if (self)
+        judge_of(r)->free(self);
+}
+
+/* A judge looks at a few levels of one field. */
+static enum br_status sample_levels(const struct br_judge_request *request,
+                                    const struct br_judge *judge, void *self,
+                                    enum br_field_kind kind, struct br_error *err)
+{
+    double *values = br_allocate(BR_MOST_MODES * request->mesh[0], sizeof *values);
+    enum br_status status = values ? BR_OK : br_no_memory(err, "the trials");
+    for (size_t level = 1; level <= request->levels && !status; level++) {
+        status = judge->advance(self, kind, level, err);
+        for (int measure = 0; measure < BR_TIP && !status; measure++) {
+            const struct br_sample_at at = {kind, (enum br_measure)measure, 0};
+            struct br_view view = {.values = values};
+            if (request->measured[kind][measure])
+                judge->sample(self, &at, &view);
+        }
+    }
+    free(values);
+    return status;
+}
+
+/* A fine run marches anew for each mesh. */
+static enum br_status look_at_judge(const struct br_trial_request *r, struct judging *judging,
+                                    struct br_error *err)
+{
+    static const size_t mesh = 100;
+    struct br_judge_request request = {
+        .axial_degree = 1, .levels = 10, .mesh_count = 1, .mesh = &mesh};
+    const struct br_judge *judge = judge_of(r);
+    const struct br_planned_march fine = {.scene = r->scene,
+                                          .method = &r->reference_method,
+                                          .n = r->reference.n,
+                                          .steps = r->reference.steps};
+    *judging = (struct judging){0, 0};
+    if (judge->nests)
+        judging->mesh = br_march_seconds(&fine);
+    if (!judge->create || judge->nests)
+        return BR_OK;
+    void *self = NULL;
+    set_measured(r, &request);
+    double start = br_thread_seconds();
+    enum br_status status = create_judge(r, &request, &self, err);
+    judging->mesh = br_thread_seconds() - start;
+    start = br_thread_seconds();
+    if (!status && r->scene->axial.modelled)
+        status = sample_levels(&request, judge, self, BR_AXIAL, err);
+    if (!status && r->scene->bending.modelled)
+        status = sample_levels(&request, judge, self, BR_BENDING, err);
+    judging->level = (br_thread_seconds() - start) / (double)(request.levels * mesh);
+    judge->free(self);
+    return status;
+}
+
+/* ---- a trial ---- */
+
+/* An early end of a march that is over the limit, s. */
+static const double soon = 0.1;
+
+/* Of the marches for its seconds, and of the one for its error. */
+static double marches(const struct br_trial_request *r, const struct br_trial *t, double march)
+{
+    const bool adaptive = t->named->method.scheme->adaptive;
+    if (r->time_limit > 0 && march > r->time_limit)
+        return adaptive || march < 2 * r->time_limit ? r->time_limit : fmin(soon, r->time_limit);
+    const double repeats =
+        march > r->repeat_seconds
+            ? 0
+            : fmin((double)r->repeats, 1 + floor(r->repeat_seconds / fmax(march, 1e-9)));
+    return march * (1 + repeats) + march / br_threads(r->threads);
+}
+
+/* The judge looks at a mesh once, and at its time levels that several trials have. */
+static double judged(const struct br_trial *trial, size_t i, const struct judging *judging)
+{
+    bool mesh = true, levels = true;
+    for (size_t j = 0; j < i; j++)
+        if (trial[j].at.n == trial[i].at.n &&
+            trial[j].named->method.axial_degree == trial[i].named->method.axial_degree) {
+            mesh = false;
+            levels = levels && trial[j].at.steps != trial[i].at.steps;
+        }
+    return mesh * judging->mesh +
+           levels * judging->level * (double)trial[i].at.n * (double)trial[i].at.steps;
+}
+
+/* ---- all of them ---- */
+
+/* Leaves out the dearest until the others take no longer than allowed; one is always held. */
+static void leave_out(struct br_trial *trial, size_t count, double allowed,
+                      struct br_trial_outlook *outlook)
+{
+    while (outlook->held > 1 && outlook->seconds > allowed) {
+        struct br_trial *dearest = NULL;
+        for (size_t i = 0; i < count; i++)
+            if (trial[i].end != BR_TRIAL_LEFT &&
+                (!dearest || trial[i].foreseen > dearest->foreseen))
+                dearest = &trial[i];
+        dearest->end = BR_TRIAL_LEFT;
+        outlook->seconds -= dearest->foreseen;
+        outlook->left_seconds += dearest->foreseen;
+        outlook->held--;
+        outlook->left++;
+    }
+}
+
+enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
+                                 const struct br_trial_request *r, struct br_trial_outlook *outlook,
+                                 struct br_error *err)
+{
+    *outlook = (struct br_trial_outlook){.held = count};
+    struct judging judging;
+    struct pace *pace = br_allocate(count, sizeof *pace);
+    enum br_status status =
+        pace ? look_at_judge(r, &judging, err) : br_no_memory(err, "the trials");
+    for (size_t i = 0; i < count && !status; i++) {
+        const struct br_observer *o = r->observer;
+        status = o && o->stop && o->stop(o->self) ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                                                  : find_pace(r->scene, trial, i, pace, err);
+        trial[i].foreseen = marches(r, &trial[i], march_seconds(&trial[i], &pace[i])) +
+                            judged(trial, i, &judging) / br_threads(r->threads);
+        outlook->seconds += trial[i].foreseen;
+    }
+    free(pace);
+    if (!status && r->seconds > 0)
+        leave_out(trial, count, r->seconds, outlook);
+    return status;
+}
