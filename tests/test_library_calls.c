@@ -353,7 +353,8 @@ static void studies_are_refused(void **state)
     beamrate_scene_free(scene);
 }
 
-/* What an observer sees, and the locale and the handler of GSL that it finds. */
+/* What an observer sees, and the locale and the handler of GSL that it finds; it makes a call of
+ * its own within the one that it observes. */
 struct seen {
     int calls, most;
     double last;
@@ -367,6 +368,7 @@ static int see(void *self, double share)
     seen->calls++;
     seen->last = share;
     seen->locale = uselocale((locale_t)0);
+    beamrate_scene_free(opened("release"));
     seen->handler = gsl_set_error_handler_off();
     return seen->calls >= seen->most;
 }
@@ -540,10 +542,12 @@ static void wrong_numbers_are_refused(void **state)
     assert_null(orders);
     h[2] = 1;
     WORKS(beamrate_orders_find(&orders, &numbers, &failure));
-    const struct beamrate_expectation wrong[] = {
-        {BEAMRATE_SPACE, 2, 3, 0}, {BEAMRATE_SPACE, NAN, 0.1, 0}, {BEAMRATE_SPACE, 2, 0.1, NAN}};
+    const struct beamrate_expectation wrong[] = {{BEAMRATE_SPACE, 2, 3, 0},
+                                                 {BEAMRATE_SPACE, NAN, 0.1, 0},
+                                                 {BEAMRATE_SPACE, INFINITY, 0.1, 0},
+                                                 {BEAMRATE_SPACE, 2, 0.1, NAN}};
     struct beamrate_check *check;
-    for (size_t i = 0; i < 3; i++)
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         ENDS(beamrate_orders_check(&check, orders, &wrong[i], 1, &failure), BEAMRATE_BAD_INPUT,
              "expectation 0: found order");
     beamrate_orders_free(orders);
