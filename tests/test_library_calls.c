@@ -555,25 +555,46 @@ static void wrong_numbers_are_refused(void **state)
 
 /* ---- threads and memory ---- */
 
-/* What a thread does: a march whose scheme searches for switches with GSL. */
+/* What a thread does: a march, whose scheme may search for switches with GSL, a study of the same
+ * scene, and a scene of its own that is refused. */
 struct job {
     const struct beamrate_scene *scene;
     const char *const *method;
     size_t n;
     struct beamrate_tip tip;
+    struct beamrate_fit fit;
+    struct beamrate_estimate expected;
+    struct beamrate_error refusal;
     enum beamrate_status status;
 };
 
-static void *march_job(void *self)
+static void *march_and_study(void *self)
 {
     struct job *job = self;
     struct beamrate_march *march;
+    struct beamrate_study *study;
+    struct beamrate_scene *wrong;
+    struct beamrate_forecast forecast;
+    const struct beamrate_study_request request = {
+        .n = meshes, .n_count = 2, .steps = times, .steps_count = 3, .threads = 1};
+    char text[1000];
     job->status = beamrate_march_create(&march, job->scene, job->n, 50, job->method, NULL);
     for (int i = 0; i < 50 && !job->status; i++)
         job->status = beamrate_march_step(march, 1, NULL);
     if (!job->status)
         beamrate_march_tip(march, &job->tip);
     beamrate_march_free(march);
+    if (!job->status)
+        job->status = beamrate_study_run(&study, job->scene, &request, NULL);
+    if (!job->status)
+        job->status = beamrate_foresee(job->scene, 8, 16, NULL, &forecast, NULL);
+    if (!job->status) {
+        job->expected = forecast.error[BEAMRATE_BENDING];
+        beamrate_study_fit(study, BEAMRATE_TOTAL, &job->fit);
+        beamrate_study_free(study);
+    }
+    snprintf(text, sizeof text, verified, "1 +- 0.1\n    l3: 1 +- 0.1");
+    beamrate_scene_parse(&wrong, "wrong", text, &job->refusal);
     return NULL;
 }
 
@@ -582,18 +603,18 @@ static void threads_do_not_disturb_each_other(void **state)
     (void)state;
     static const char *const adaptive[] = {"scheme", "adaptive", NULL};
     struct beamrate_scene *one = opened("example2"), *other = opened("release");
-    struct job alone[4] = {{one, adaptive, 8, {0}, 0},
-                           {other, NULL, 9, {0}, 0},
-                           {other, adaptive, 10, {0}, 0},
-                           {one, NULL, 11, {0}, 0}};
+    struct job alone[4] = {{.scene = one, .method = adaptive, .n = 8},
+                           {.scene = one, .method = adaptive, .n = 9},
+                           {.scene = other, .method = adaptive, .n = 10},
+                           {.scene = one, .n = 11}};
     struct job together[4];
     pthread_t thread[4];
     gsl_error_handler_t *const handler = gsl_set_error_handler(fatal);
     memcpy(together, alone, sizeof together);
     for (int i = 0; i < 4; i++)
-        march_job(&alone[i]);
+        march_and_study(&alone[i]);
     for (int i = 0; i < 4; i++)
-        assert_int_equal(pthread_create(&thread[i], NULL, march_job, &together[i]), 0);
+        assert_int_equal(pthread_create(&thread[i], NULL, march_and_study, &together[i]), 0);
     for (int i = 0; i < 4; i++)
         assert_int_equal(pthread_join(thread[i], NULL), 0);
     assert_true(gsl_set_error_handler(handler) == fatal);
@@ -601,6 +622,10 @@ static void threads_do_not_disturb_each_other(void **state)
         assert_int_equal(together[i].status, BEAMRATE_OK);
         assert_true(alone[i].tip.displacement[1] != 0);
         assert_memory_equal(&alone[i].tip, &together[i].tip, sizeof alone[i].tip);
+        assert_memory_equal(&alone[i].expected, &together[i].expected, sizeof alone[i].expected);
+        assert_memory_equal(&alone[i].fit, &together[i].fit, sizeof alone[i].fit);
+        assert_non_null(strstr(together[i].refusal.message, "wrong:14: l3: unknown key in verify"));
+        assert_string_equal(alone[i].refusal.message, together[i].refusal.message);
     }
     beamrate_scene_free(one);
     beamrate_scene_free(other);

@@ -11,11 +11,12 @@
  * with a message for a person: what was found and what was expected. A handle that a failed
  * function was to make is NULL. The library prints nothing and does not end the process.
  *
- * Threads: different handles may be used by different threads at the same time. A handle that is
- * const in a call may be in several calls at once, so that one scene serves many marches. The
- * library has no state of its own; two things are the process's. While one of its functions runs,
- * the error handler of GSL is off; it is put back with the end of the last one. And a function that
- * takes `threads` starts OpenMP's. Results depend neither on threads nor on the locale.
+ * Threads: different handles may be used by different threads at the same time, and one scene by
+ * several calls at the same time, so that it serves many marches. Of another handle there is one
+ * call at a time. The library keeps nothing between calls but handles; two things are the
+ * process's. While one of its functions runs, the error handler of GSL is off; it is put back with
+ * the end of the last one. And a function that takes `threads` starts OpenMP's. Results depend
+ * neither on threads nor on the locale.
  *
  * ABI: libbeamrate.so has the major version in its name. Within a major version functions are
  * added, but none is removed, and no struct or number below is changed. */
@@ -314,8 +315,9 @@ struct beamrate_case {
 
 /* Checks a scene against its `verify` part, or, where it has none, against the orders of the
  * paper's scheme, on `threads` threads (0: all cores). observer: NULL: nobody. *check (out): owned
- * by the caller; it needs the scene. Fails with BEAMRATE_BAD_INPUT where the scene cannot be
- * verified, BEAMRATE_NO_MEMORY or BEAMRATE_INTERRUPTED; a march that fails is a verdict. */
+ * by the caller; it does not need the scene any more. Fails with BEAMRATE_BAD_INPUT where the scene
+ * cannot be verified, BEAMRATE_NO_MEMORY or BEAMRATE_INTERRUPTED; a march that fails is a verdict.
+ */
 enum beamrate_status beamrate_check_run(struct beamrate_check **check,
                                         const struct beamrate_scene *scene, int threads,
                                         const struct beamrate_observer *observer,
@@ -375,7 +377,7 @@ struct beamrate_expectation {
 };
 
 /* A verdict on each of `count` expectations, by the joint fit where it describes the errors, else
- * by the line. *check (out): owned by the caller; it needs the orders. Fails with
+ * by the line. *check (out): owned by the caller; it does not need the orders any more. Fails with
  * BEAMRATE_BAD_INPUT where there is no such line or an expectation makes no sense, or
  * BEAMRATE_NO_MEMORY. */
 enum beamrate_status beamrate_orders_check(struct beamrate_check **check,

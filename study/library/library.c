@@ -13,6 +13,30 @@ const char *beamrate_version(void)
     return BEAMRATE_VERSION;
 }
 
+/* ---- a scene for one call ---- */
+
+enum br_status br_library_scene(const struct beamrate_scene *scene, struct br_scene *own,
+                                struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    struct br_function *f;
+    *own = scene->scene;
+    for (size_t i = 0; (f = br_scene_function(own, i)); i++) {
+        const struct br_function theirs = *f;
+        *f = (struct br_function){0};
+        if (!status)
+            status = br_function_clone(&theirs, f, err);
+    }
+    return status;
+}
+
+void br_library_scene_release(struct br_scene *own)
+{
+    struct br_function *f;
+    for (size_t i = 0; (f = br_scene_function(own, i)); i++)
+        br_function_free(f);
+}
+
 /* ---- around a call ---- */
 
 /* GSL has one error handler for all threads, and the usual one ends the process. So the first call

@@ -18,6 +18,14 @@ struct beamrate_scene {
     struct br_verify verify;
 };
 
+/* A copy of a scene for one call: a function's instance is for one thread at a time
+ * (solver/function.h), and what predicts, proves or solves exactly evaluates the scene's own. *own
+ * (out) has functions of its own and borrows the texts. Fails with BR_NO_MEMORY; release it even
+ * then. */
+enum br_status br_library_scene(const struct beamrate_scene *scene, struct br_scene *own,
+                                struct br_error *err);
+void br_library_scene_release(struct br_scene *own);
+
 /* ---- around a call ---- */
 
 /* From the beginning of a call to its end GSL returns its errors, and numbers are read and written

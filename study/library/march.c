@@ -91,21 +91,19 @@ void beamrate_scene_info(const struct beamrate_scene *scene, struct beamrate_sce
 /* ---- before a march ---- */
 
 /* Reads the method of a march and refuses what makes no sense. *planned (out) points to *method. */
-static enum br_status plan_march(const struct beamrate_scene *scene, size_t n, size_t steps,
+static enum br_status plan_march(const struct br_scene *scene, size_t n, size_t steps,
                                  const char *const *list, struct br_method *method,
                                  struct br_planned_march *planned, struct br_error *err)
 {
-    *planned =
-        (struct br_planned_march){.scene = &scene->scene, .method = method, .n = n, .steps = steps};
+    *planned = (struct br_planned_march){.scene = scene, .method = method, .n = n, .steps = steps};
     if (n < 1 || steps < 1)
         return br_fail(err, BR_BAD_INPUT,
                        "found n = %zu and %zu steps, expected at least 1 of each", n, steps);
     enum br_status status = br_library_method(list, method, err);
     if (!status)
-        status = br_method_check_scene(method, &scene->scene, err);
+        status = br_method_check_scene(method, scene, err);
     return status ? status
-                  : br_damping_check(method, &scene->scene, n,
-                                     scene->scene.duration / (double)steps, err);
+                  : br_damping_check(method, scene, n, scene->duration / (double)steps, err);
 }
 
 static void copy_warnings(const struct br_warnings *warnings, struct beamrate_forecast *f)
@@ -137,12 +135,15 @@ enum beamrate_status beamrate_foresee(const struct beamrate_scene *scene, size_t
 {
     struct br_visit visit;
     br_visit_begin(&visit);
+    struct br_scene own;
     struct br_method method;
     struct br_planned_march planned;
     struct br_warnings warnings = {0};
     struct br_prediction prediction = {0};
     memset(forecast, 0, sizeof *forecast);
-    enum br_status status = plan_march(scene, n, steps, list, &method, &planned, &visit.err);
+    enum br_status status = br_library_scene(scene, &own, &visit.err);
+    if (!status)
+        status = plan_march(&own, n, steps, list, &method, &planned, &visit.err);
     planned.prediction = &prediction;
     if (!status)
         status = br_look_ahead(&planned, &warnings, &visit.err);
@@ -150,6 +151,7 @@ enum beamrate_status beamrate_foresee(const struct beamrate_scene *scene, size_t
         copy_prediction(&prediction, forecast);
         copy_warnings(&warnings, forecast);
     }
+    br_library_scene_release(&own);
     return br_visit_end(&visit, status, err);
 }
 
@@ -167,7 +169,7 @@ static enum br_status create_march(struct beamrate_march *m, const struct beamra
     struct br_method method;
     struct br_planned_march planned;
     struct br_warnings warnings = {0};
-    enum br_status status = plan_march(scene, m->n, m->steps, list, &method, &planned, err);
+    enum br_status status = plan_march(&scene->scene, m->n, m->steps, list, &method, &planned, err);
     if (!status)
         status = br_look_ahead_cheaply(&planned, &warnings, err); /* for what it refuses */
     return status ? status

@@ -72,11 +72,11 @@ static enum br_status choose_reference(const struct beamrate_study_request *q, s
     return BR_OK;
 }
 
-static enum br_status prepare_study(struct beamrate_study *s, const struct beamrate_scene *scene,
+static enum br_status prepare_study(struct beamrate_study *s, const struct br_scene *scene,
                                     const struct beamrate_study_request *q, struct br_error *err)
 {
     struct br_study *study = &s->study;
-    *study = (struct br_study){.scene = &scene->scene,
+    *study = (struct br_study){.scene = scene,
                                .norm = q->norm ? br_norm_find(q->norm) : br_norms[0],
                                .n_count = q->n_count,
                                .k_count = q->steps_count};
@@ -111,7 +111,7 @@ static struct beamrate_reference describe_reference(const struct br_study *s)
     return r;
 }
 
-static enum br_status run_study(struct beamrate_study *s, const struct beamrate_scene *scene,
+static enum br_status run_study(struct beamrate_study *s, const struct br_scene *scene,
                                 const struct beamrate_study_request *q, struct br_error *err)
 {
     enum br_status status = prepare_study(s, scene, q, err);
@@ -135,9 +135,13 @@ enum beamrate_status beamrate_study_run(struct beamrate_study **study,
 {
     struct br_visit visit;
     br_visit_begin(&visit);
+    struct br_scene own;
     struct beamrate_study *s = br_allocate(1, sizeof *s);
-    const enum br_status status =
-        s ? run_study(s, scene, request, &visit.err) : br_no_memory(&visit.err, "the study");
+    enum br_status status = br_library_scene(scene, &own, &visit.err);
+    if (!status)
+        status =
+            s ? run_study(s, &own, request, &visit.err) : br_no_memory(&visit.err, "the study");
+    br_library_scene_release(&own);
     if (status) {
         beamrate_study_free(s);
         s = NULL;
@@ -222,15 +226,17 @@ enum beamrate_status beamrate_check_run(struct beamrate_check **check,
 {
     struct br_visit visit;
     br_visit_begin(&visit);
+    struct br_scene own;
     struct beamrate_check *c = br_allocate(1, sizeof *c);
-    enum br_status status = c ? BR_OK : br_no_memory(&visit.err, "the check");
+    enum br_status status = br_library_scene(scene, &own, &visit.err);
+    if (!status && !c)
+        status = br_no_memory(&visit.err, "the check");
     if (!status) {
-        c->check = (struct br_check){.path = scene->path,
-                                     .name = scene->scene.name,
-                                     .scene = &scene->scene,
-                                     .verify = &scene->verify};
+        c->check = (struct br_check){
+            .path = scene->path, .name = own.name, .scene = &own, .verify = &scene->verify};
         status = check_scene(&c->check, threads, observer, &visit.err);
     }
+    br_library_scene_release(&own);
     if (status) {
         beamrate_check_free(c);
         c = NULL;
