@@ -368,7 +368,8 @@ static int see(void *self, double share)
     seen->calls++;
     seen->last = share;
     seen->locale = uselocale((locale_t)0);
-    beamrate_scene_free(opened("release"));
+    if (seen->calls == 1)
+        beamrate_scene_free(opened("release"));
     seen->handler = gsl_set_error_handler_off();
     return seen->calls >= seen->most;
 }
@@ -661,11 +662,13 @@ static enum br_status use_all(const void *data, struct br_error *err)
                    e->message);
 }
 
+/* A manufactured solution, whose judge allocates little. */
 static void memory_may_end_at_any_place(void **state)
 {
     (void)state;
-    char text[1000];
-    snprintf(text, sizeof text, verified, "1 +- 0.1");
+    static const char text[] = "title: a rod\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
+                               "axial:\n  stiffness: 10 N\n  viscosity: 1 N s\n"
+                               "  solution: x^2*t [m]\n";
     br_test_without_memory(use_all, text, 60);
 }
 
