@@ -64,8 +64,8 @@ struct beamrate_estimate {
 };
 
 /* How a long call reports its progress and is stopped. `progress` gets the share of the whole work,
- * 0 to 1, from any thread, from one at a time; another value than 0 ends the call soon, with
- * BEAMRATE_INTERRUPTED. */
+ * 0 to 1, from any thread, from one at a time, perhaps in the locale C; another value than 0 ends
+ * the call soon, with BEAMRATE_INTERRUPTED. It may call the library. */
 struct beamrate_observer {
     int (*progress)(void *self, double share);
     void *self;
