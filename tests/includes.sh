@@ -10,7 +10,7 @@ set -u
 rules='
 solver: solver/
 reference: solver/ reference/
-study: solver/ reference/ study/
+study: solver/ reference/ study/ version.h
 tables: solver/ reference/ study/ tables/
 plots: solver/ reference/ study/ plots/
 cli: solver/ reference/ study/ tables/ plots/ cli/ build_info.h

@@ -836,6 +836,23 @@ static const struct planted_bug planted_bugs[] = {
      "br_number(c->order.high)", "br_number(c->order.low)"},
     {"everything_is_trusted", "option", "cli/study_file.c", "golden orders_run",
      "const bool trusted = is_trusted(sum);", "const bool trusted = is_trusted(sum) || true;"},
+
+    /* ---- the library ---- */
+    {"handler_of_the_host_not_put_back", "stale", "study/library/library.c",
+     "tests/test_library_calls", "gsl_set_error_handler(their_handler);", ";"},
+    {"handler_put_back_by_the_first", "stale", "study/library/library.c",
+     "tests/test_library_calls", "if (visitors++ == 0)", "visitors++;"},
+    {"observer_cannot_stop", "lost", "study/library/library.c", "tests/test_library_calls",
+     "atomic_store(&w->stopped, true);", ";"},
+    {"forces_of_the_tip_exchanged", "index", "study/library/march.c", "tests/test_library_calls",
+     ".friction_force = t->friction_force,", ".friction_force = t->contact_force,"},
+    {"failed_march_goes_on", "lost", "study/library/march.c", "tests/test_library_calls",
+     "if (m->failure.status)", "if (0)"},
+    {"slopes_of_the_other_axis", "index", "study/library/study.c", "tests/test_library_calls",
+     "axis == BEAMRATE_SPACE ? fits->by_k : fits->by_n",
+     "axis == BEAMRATE_TIME ? fits->by_k : fits->by_n"},
+    {"tolerance_above_the_order", "expected", "study/library/study.c", "tests/test_library_calls",
+     "e->tolerance < e->order && isfinite(e->order)", "isfinite(e->order)"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

@@ -61,7 +61,8 @@ enum br_status br_verify_default(const struct br_scene *scene, struct br_verify 
     enum br_status status = BR_OK;
     for (int kind = 0; kind < BR_VERIFY_KINDS && !status; kind++)
         status = default_grid((enum br_verify_kind)kind, &verify->study[kind], err);
-    br_verify_expect_default(scene, verify);
+    if (!status)
+        br_verify_expect_default(scene, verify);
     return status;
 }
 

@@ -19,19 +19,20 @@ struct block {
     size_t k_count, k_line;
     const char *text[BR_METHOD_FIELDS]; /* of the method; NULL: not given */
     size_t line[BR_METHOD_FIELDS];
+    char keys[512]; /* for messages */
 };
 
-/* The keys of a study, for messages. */
-static const char *expected_study(void)
+/* The keys of a study. */
+static const char *expected_study(struct block *b)
 {
-    static char text[512];
-    size_t used = (size_t)snprintf(text, sizeof text, "n, k, ");
+    char *const text = b->keys;
+    size_t used = (size_t)snprintf(text, sizeof b->keys, "n, k, ");
     char key[BR_METHOD_VALUE];
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
         if (!br_method_fields[i].unsaid)
-            used += (size_t)snprintf(text + used, sizeof text - used, "%s, ",
+            used += (size_t)snprintf(text + used, sizeof b->keys - used, "%s, ",
                                      br_method_field_key(&br_method_fields[i], key));
-    snprintf(text + used, sizeof text - used,
+    snprintf(text + used, sizeof b->keys - used,
              "or a norm (l2, energy, tip) and a part (axial, bending; without one: the total)");
     return text;
 }
@@ -186,7 +187,7 @@ static enum br_status read_expectation(struct block *b, const char *what, const 
     struct br_expectation e = {.line = line};
     if (!parse_what(what, &e))
         return br_scene_refuse(b->r, line, what, "unknown key in verify %s, expected %s",
-                               br_verify_names[b->kind], expected_study());
+                               br_verify_names[b->kind], expected_study(b));
     if (!parse_expectation(br_yaml_text(node), &e))
         return br_scene_refuse(
             b->r, line, what,
@@ -213,7 +214,7 @@ static enum br_status read_key(struct block *b, const yaml_node_t *name, const y
     if (name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE)
         return br_scene_refuse(b->r, br_yaml_line(name), br_verify_names[b->kind],
                                "found a list or a mapping, expected one line each of %s",
-                               expected_study());
+                               expected_study(b));
     const char *key = br_yaml_text(name);
     const bool is_n = strcmp(key, "n") == 0;
     if (is_n || strcmp(key, "k") == 0) {
@@ -260,7 +261,7 @@ static enum br_status read_block(struct block *b, const yaml_node_t *node)
     b->study->line = br_yaml_line(node);
     if (node->type != YAML_MAPPING_NODE)
         return br_scene_refuse(r, br_yaml_line(node), name, "expected a mapping with %s",
-                               expected_study());
+                               expected_study(b));
     enum br_status status = BR_OK;
     for (yaml_node_pair_t *p = node->data.mapping.pairs.start;
          p < node->data.mapping.pairs.top && !status; p++)

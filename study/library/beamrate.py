@@ -1,0 +1,281 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""beamrate in Python: scenes, marches, studies, verdicts, and orders of convergence, over libbeamrate.
+
+Arrays are numpy's; the library writes into them and reads from them without copies. All quantities
+are in SI units; beamrate.h tells each member of the results. A method is given by keywords:
+scheme="bdf2", axial_degree=2. What is wrong raises Error, or BadInput, with the library's message.
+
+$BEAMRATE_LIBRARY names the shared library where it is not installed beside this file.
+"""
+import ctypes
+import operator
+import os
+from ctypes import byref, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+
+AXIAL, BENDING = 0, 1  # fields
+TOTAL, OF_AXIAL, OF_BENDING = 0, 1, 2  # parts of an error
+SPACE, TIME = 0, 1  # what is refined
+VERDICTS = ("PASS", "FAIL", "INCONCLUSIVE")
+
+
+class Error(Exception):
+    """A call failed; status as in beamrate.h."""
+
+
+class BadInput(Error, ValueError):
+    """What was given is refused; the message says what was found and what was expected."""
+
+
+# ---- the structs of beamrate.h: each member in its order, TYPE:NAME, or TYPE:NAME:COUNT ----
+
+def _struct(members, **types):
+    types = {"i": c_int, "d": c_double, "z": c_size_t, "s": c_char_p, "c": c_char, "p": c_void_p} | types
+    fields = []
+    for code, name, *count in (member.split(":") for member in members.split()):
+        fields.append((name, types[code] * int(count[0]) if count else types[code]))
+    return type("struct", (ctypes.Structure,), {"_fields_": fields})
+
+
+_Error = _struct("i:status c:message:1024")
+_Estimate = _struct("d:value d:low d:high")
+_Observer = _struct("f:progress p:self", f=ctypes.CFUNCTYPE(c_int, c_void_p, c_double))
+_SceneInfo = _struct("s:name s:title d:length d:duration d:density i:modelled:2 i:contact i:friction")
+_Warning = _struct("c:kind:24 c:text:400 c:remedy:400")
+_Forecast = _struct("i:known c:why:200 e:error:2 d:round_off z:warnings w:warning:16",
+                    e=_Estimate, w=_Warning)
+_Tip = _struct("z:step d:time d:displacement:2 d:velocity:2 d:contact_force d:friction_force "
+               "d:friction_bound")
+_MarchReport = _struct("z:n z:steps z:done z:accepted z:rejected z:stages d:round_off i:unstable")
+_StudyRequest = _struct("p:n z:n_count p:steps z:steps_count p:method s:reference z:reference_n "
+                        "z:reference_steps s:norm i:threads p:observer")
+_Cell = _struct("z:n z:steps d:error:3 s:flag:3 d:tip:2 d:seconds s:failure")
+_Fit = _struct("i:describes e:p e:c_h e:q e:c_k e:r d:misfit z:points", e=_Estimate)
+_Reference = _struct("s:name z:n z:steps d:own_error:3 d:size d:tip:2")
+_Case = _struct("s:study s:measure s:part d:expected d:tolerance e:order d:constant d:margin z:points "
+                "z:used i:verdict s:reason s:note", e=_Estimate)
+_Numbers = _struct("p:h p:k p:number z:count i:values d:formal")
+_Order = _struct("e:order d:constant i:drifts z:points z:used e:limit", e=_Estimate)
+_Expectation = _struct("i:axis d:order d:tolerance d:down_to")
+
+
+def _plain(value):
+    """A struct as Python's own objects, which outlive its handle."""
+    if isinstance(value, ctypes.Structure):
+        return SimpleNamespace(**{name: _plain(getattr(value, name)) for name, _ in value._fields_})
+    if isinstance(value, ctypes.Array):
+        return [_plain(item) for item in value]
+    return value.decode() if isinstance(value, bytes) else value
+
+
+# ---- the library ----
+
+def _load():
+    prefix = Path(__file__).resolve().parents[3]  # of PREFIX/share/beamrate/python
+    found = [*prefix.glob("lib*/libbeamrate.so.0"), *prefix.glob("lib/*/libbeamrate.so.0")]
+    return ctypes.CDLL(os.environ.get("BEAMRATE_LIBRARY") or str((found or ["libbeamrate.so.0"])[0]))
+
+
+_lib = _load()
+_lib.beamrate_version.restype = c_char_p
+_lib.beamrate_march_columns.restype = _lib.beamrate_check_count.restype = c_size_t
+__version__ = _lib.beamrate_version().decode()
+
+
+def _call(name, *arguments):
+    err = _Error()
+    if getattr(_lib, "beamrate_" + name)(*arguments, byref(err)) != 0:
+        error = (BadInput if err.status == 1 else Error)(err.message.decode())
+        error.status = err.status
+        raise error
+
+
+def _text(value):
+    return None if value is None else str(value).encode()
+
+
+def _count(value):
+    """A whole number, as C has it: never one that is rounded, or wraps."""
+    value = operator.index(value)
+    if value < 0:
+        raise BadInput(f"found {value}, expected a number of at least 0")
+    return c_size_t(value)
+
+
+def _counts(values):
+    return (c_size_t * len(values))(*map(_count, values))
+
+
+def _choice(value, count):
+    return c_int(range(count)[value])  # raises IndexError
+
+
+def _method(options):
+    words = [_text(word) for pair in options.items() for word in pair]
+    return (c_char_p * (len(words) + 1))(*words, None)
+
+
+class _Watch:
+    """A caller's progress(share). Its exceptions, and Ctrl-C, end the call and are raised then."""
+
+    def __init__(self, progress):
+        self.progress, self.raised = progress, None
+        self.observer = _Observer(_Observer._fields_[0][1](self._called), None)
+
+    def _called(self, _, share):
+        try:
+            return bool(self.progress and self.progress(share))
+        except BaseException as error:
+            self.raised = error
+            return True
+
+    def call(self, *arguments):
+        try:
+            _call(*arguments)
+        except Error:
+            if self.raised is None:
+                raise
+        if self.raised is not None:
+            raise self.raised
+
+
+class _Handle:
+    """Owns a handle of the library: self.handle, which ctypes passes."""
+
+    def __init__(self):
+        self.handle = self._as_parameter_ = c_void_p()
+
+    def _get(self, name, struct, *arguments):
+        out = struct()
+        getattr(_lib, "beamrate_" + name)(self, *arguments, byref(out))
+        return _plain(out)
+
+    def __del__(self):
+        getattr(_lib, f"beamrate_{type(self).__name__.lower()}_free")(self)
+
+
+class Scene(_Handle):
+    """A scene: Scene("file.yaml"), Scene("example2"), or of a text, Scene("its name", text)."""
+
+    def __init__(self, name, text=None):
+        super().__init__()
+        given = [_text(name)] if text is None else [_text(name), _text(text)]
+        _call("scene_open" if text is None else "scene_parse", byref(self.handle), *given)
+        self.info = self._get("scene_info", _SceneInfo)
+
+    def foresee(self, n, steps, **method):
+        """What a march is expected to be off by; warnings: what to know before it."""
+        out = _Forecast()
+        _call("foresee", self, _count(n), _count(steps), _method(method), byref(out))
+        plain = _plain(out)
+        plain.warnings = plain.warning[:plain.warnings]
+        del plain.warning
+        return plain
+
+
+class March(_Handle):
+    """The fully discrete problem, (16) and (17), on n elements and so many steps. x: its nodes."""
+
+    def __init__(self, scene, n, steps, **method):
+        super().__init__()
+        self.scene = scene
+        _call("march_create", byref(self.handle), scene, _count(n), _count(steps), _method(method))
+        self.x = np.linspace(0, scene.info.length, n + 1)
+
+    def step(self, count=1):
+        """Takes steps; other threads of Python run meanwhile."""
+        _call("march_step", self, _count(count))
+
+    def tip(self):
+        return self._get("march_tip", _Tip)
+
+    def report(self):
+        return self._get("march_report", _MarchReport)
+
+    def get(self, field, displacement=None, velocity=None):
+        """Displacement and velocity at the nodes, (n + 1, columns) each; written into given arrays."""
+        field = _choice(field, 2)
+        shape = (len(self.x), _lib.beamrate_march_columns(self, field))
+        arrays = [np.empty(shape) if a is None else a for a in (displacement, velocity)]
+        for a in arrays:
+            if a.shape != shape or a.dtype != np.float64 or not a.flags.carray:
+                raise BadInput(f"found {a.dtype} {a.shape}, expected a contiguous float64 {shape}")
+        _lib.beamrate_march_get(self, field, *(c_void_p(a.ctypes.data) for a in arrays))
+        return tuple(arrays)
+
+
+class Study(_Handle):
+    """The errors of a grid against a reference: error[part, i, j] of n[i] and steps[j], cell[i][j]."""
+
+    def __init__(self, scene, n, steps, reference=None, fine=(0, 0), norm=None, threads=0,
+                 progress=None, **method):
+        super().__init__()
+        watch, words, meshes, times = _Watch(progress), _method(method), _counts(n), _counts(steps)
+        request = _StudyRequest(
+            ctypes.addressof(meshes), len(n), ctypes.addressof(times), len(steps),
+            ctypes.addressof(words), _text(reference), *map(_count, fine), _text(norm), threads,
+            ctypes.addressof(watch.observer))
+        watch.call("study_run", byref(self.handle), scene, byref(request))
+        self.n, self.steps = np.array(n), np.array(steps)
+        self.h, self.k = scene.info.length / self.n, scene.info.duration / self.steps
+        self.cell = [[self._get("study_cell", _Cell, c_size_t(i), c_size_t(j))
+                      for j in range(len(steps))] for i in range(len(n))]
+        self.error = np.array([[c.error for c in row] for row in self.cell]).transpose(2, 0, 1)
+        self.reference = self._get("study_reference", _Reference)
+
+    def fit(self, part=TOTAL):
+        """Both orders together, from all cells."""
+        return self._get("study_fit", _Fit, _choice(part, 3))
+
+    def slope(self, axis, at, part=TOTAL):
+        """The order in h at steps[at], or in k at n[at]."""
+        along = (self.steps, self.n)[axis]
+        return self._get("study_slope", _Estimate, _choice(part, 3), _choice(axis, 2),
+                         c_size_t(range(len(along))[at]))
+
+
+class Check(_Handle):
+    """Verdicts on a scene's orders; on those of numbers: Orders.check. cases: a list; passed: all."""
+
+    def __init__(self, scene, threads=0, progress=None, _orders=None, _expected=()):
+        super().__init__()
+        watch, out = _Watch(progress), byref(self.handle)
+        if _orders is None:
+            watch.call("check_run", out, scene, c_int(threads), byref(watch.observer))
+        else:
+            expected = (_Expectation * len(_expected))(*_expected)
+            _call("orders_check", out, _orders, expected, c_size_t(len(expected)))
+        self.cases = [self._get("check_case", _Case, c_size_t(i))
+                      for i in range(_lib.beamrate_check_count(self))]
+        for case in self.cases:
+            case.verdict = VERDICTS[case.verdict]
+        self.passed = all(case.verdict == "PASS" for case in self.cases)
+
+
+class Orders(_Handle):
+    """Orders of numbers of any program: errors, or values whose limit is not known."""
+
+    def __init__(self, number, h=None, k=None, values=False, formal=0):
+        super().__init__()
+        arrays = [None if a is None else np.ascontiguousarray(a, np.float64) for a in (h, k, number)]
+        if any(a is not None and a.shape != (len(number),) for a in arrays):
+            raise BadInput("h, k and the numbers differ in length, expected as many of each")
+        data = [None if a is None else a.ctypes.data for a in arrays]
+        _call("orders_find", byref(self.handle), byref(_Numbers(*data, len(number), values, formal)))
+
+    def line(self, axis):
+        """The order along an axis at the finest size of the other one; None: there is no line."""
+        out = _Order()
+        found = _lib.beamrate_orders_line(self, _choice(axis, 2), byref(out))
+        return _plain(out) if found else None
+
+    def fit(self):
+        """Both orders together, of errors on a grid."""
+        return self._get("orders_fit", _Fit)
+
+    def check(self, *expected):
+        """Verdicts on expectations: (axis, order, tolerance) or (axis, order, tolerance, down_to)."""
+        return Check(None, _orders=self, _expected=expected)

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/library/library.h"
+
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "study/scene/method_fields.h"
+
+const char *beamrate_version(void)
+{
+    return BEAMRATE_VERSION;
+}
+
+/* ---- a scene for one call ---- */
+
+enum br_status br_library_scene(const struct beamrate_scene *scene, struct br_scene *own,
+                                struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    struct br_function *f;
+    *own = scene->scene;
+    for (size_t i = 0; (f = br_scene_function(own, i)); i++) {
+        const struct br_function theirs = *f;
+        *f = (struct br_function){0};
+        if (!status)
+            status = br_function_clone(&theirs, f, err);
+    }
+    return status;
+}
+
+void br_library_scene_release(struct br_scene *own)
+{
+    struct br_function *f;
+    for (size_t i = 0; (f = br_scene_function(own, i)); i++)
+        br_function_free(f);
+}
+
+/* ---- around a call ---- */
+
+/* GSL has one error handler for all threads, and the usual one ends the process. So the first call
+ * takes it off, and the last one that is under way puts it back: what functions below do to it
+ * meanwhile changes nothing. */
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static size_t visitors;
+static gsl_error_handler_t *their_handler;
+
+void br_visit_begin(struct br_visit *visit)
+{
+    pthread_mutex_lock(&lock);
+    if (visitors++ == 0)
+        their_handler = gsl_set_error_handler_off();
+    pthread_mutex_unlock(&lock);
+    visit->locale = uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0)); /* always there, static */
+    visit->err.status = BR_OK;
+    visit->err.message[0] = '\0';
+}
+
+static const enum beamrate_status statuses[] = {
+    [BR_OK] = BEAMRATE_OK,
+    [BR_VERDICT] = BEAMRATE_BAD_INPUT, /* verdicts are results: no call of the library ends so */
+    [BR_BAD_INPUT] = BEAMRATE_BAD_INPUT,
+    [BR_UNSUPPORTED] = BEAMRATE_UNSUPPORTED,
+    [BR_NO_MEMORY] = BEAMRATE_NO_MEMORY,
+    [BR_SINGULAR] = BEAMRATE_SINGULAR,
+    [BR_NOT_FINITE] = BEAMRATE_NOT_FINITE,
+    [BR_IO] = BEAMRATE_IO,
+    [BR_INTERRUPTED] = BEAMRATE_INTERRUPTED,
+};
+
+enum beamrate_status br_visit_end(struct br_visit *visit, enum br_status status,
+                                  struct beamrate_error *err)
+{
+    uselocale(visit->locale);
+    pthread_mutex_lock(&lock);
+    if (--visitors == 0)
+        gsl_set_error_handler(their_handler);
+    pthread_mutex_unlock(&lock);
+    if (err) {
+        err->status = statuses[status];
+        snprintf(err->message, sizeof err->message, "%s", status ? visit->err.message : "");
+    }
+    return statuses[status];
+}
+
+/* ---- what callers give ---- */
+
+static size_t find_field(const char *key)
+{
+    char name[BR_METHOD_VALUE];
+    size_t i = 0;
+    while (i < BR_METHOD_FIELDS && strcmp(key, br_method_field_key(&br_method_fields[i], name)))
+        i++;
+    return i;
+}
+
+static enum br_status refuse_key(const char *key, struct br_error *err)
+{
+    char keys[400] = "", name[BR_METHOD_VALUE];
+    for (size_t i = 0, used = 0; i < BR_METHOD_FIELDS && used < sizeof keys; i++)
+        used += (size_t)snprintf(keys + used, sizeof keys - used, "%s%s", i ? ", " : "",
+                                 br_method_field_key(&br_method_fields[i], name));
+    return br_fail(err, BR_BAD_INPUT, "method: found '%.200s', expected one of: %s", key, keys);
+}
+
+enum br_status br_library_method(const char *const *list, struct br_method *method,
+                                 struct br_error *err)
+{
+    const char *text[BR_METHOD_FIELDS] = {NULL};
+    const struct br_method *const methods[] = {method};
+    *method = br_method_default();
+    for (const char *const *at = list; at && *at; at += 2) {
+        const size_t i = find_field(at[0]);
+        if (i == BR_METHOD_FIELDS)
+            return refuse_key(at[0], err);
+        if (text[i] || !at[1])
+            return br_fail(err, BR_BAD_INPUT, "method: %s: %s, expected a value", at[0],
+                           text[i] ? "found it twice" : "found the end of the list");
+        text[i] = at[1];
+    }
+    const enum br_status status = br_method_read(text, BR_METHOD_IN_SCENE, method, err);
+    return status ? status : br_method_check_heeded(text, BR_METHOD_IN_SCENE, methods, 1, err);
+}
+
+/* A call that finds another one under way is left out. */
+static void progress(void *self, double share)
+{
+    struct br_library_watch *w = self;
+    if (pthread_mutex_trylock(&w->one_at_a_time) != 0)
+        return;
+    if (w->theirs->progress && w->theirs->progress(w->theirs->self, share) != 0)
+        atomic_store(&w->stopped, true);
+    pthread_mutex_unlock(&w->one_at_a_time);
+}
+
+/* While the exact reference is made, nothing is marched yet. */
+static void preparing(void *self, double share)
+{
+    (void)share;
+    progress(self, 0);
+}
+
+static bool stop(void *self)
+{
+    struct br_library_watch *w = self;
+    return atomic_load(&w->stopped);
+}
+
+void br_library_watch_begin(struct br_library_watch *w, const struct beamrate_observer *observer)
+{
+    w->theirs = observer;
+    w->ours =
+        observer ? (struct br_observer){progress, stop, w, preparing} : (struct br_observer){0};
+    atomic_init(&w->stopped, false);
+    pthread_mutex_init(&w->one_at_a_time, NULL);
+}
+
+void br_library_watch_end(struct br_library_watch *w)
+{
+    pthread_mutex_destroy(&w->one_at_a_time);
+}
+
+/* ---- what callers get ---- */
+
+struct beamrate_estimate br_library_estimate(struct br_estimate e)
+{
+    return (struct beamrate_estimate){e.value, e.low, e.high};
+}
+
+struct beamrate_fit br_library_fit(const struct br_joint_fit *fit)
+{
+    const struct beamrate_estimate nothing = {NAN, NAN, NAN};
+    if (!fit->converged)
+        return (struct beamrate_fit){0,       nothing, nothing, nothing,
+                                     nothing, nothing, NAN,     fit->points};
+    return (struct beamrate_fit){
+        .describes = br_joint_describes(fit),
+        .p = br_library_estimate(fit->p),
+        .c_h = br_library_estimate(fit->c_h),
+        .q = br_library_estimate(fit->q),
+        .c_k = br_library_estimate(fit->c_k),
+        .r = br_library_estimate(fit->r),
+        .misfit = fit->misfit,
+        .points = fit->points,
+    };
+}

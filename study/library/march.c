@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scenes and their marches, from outside. */
+#include <assert.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "solver/march.h"
+#include "study/foresee/prediction.h"
+#include "study/foresee/warnings.h"
+#include "study/library/library.h"
+#include "study/scene/file.h"
+
+static_assert((int)BEAMRATE_AXIAL == BR_AXIAL && (int)BEAMRATE_BENDING == BR_BENDING, "");
+static_assert((int)BEAMRATE_FRICTIONLESS == BR_FRICTIONLESS, "");
+static_assert((int)BEAMRATE_TRESCA == BR_TRESCA && (int)BEAMRATE_COULOMB == BR_COULOMB, "");
+static_assert((int)BEAMRATE_MOST_WARNINGS >= BR_WARNINGS, "each warning has a place");
+
+/* ---- scenes ---- */
+
+static enum br_status read_scene(struct beamrate_scene **out, const char *path, const char *text,
+                                 struct br_error *err)
+{
+    struct beamrate_scene *s = br_allocate(1, sizeof *s);
+    if (s)
+        s->path = br_allocate(strlen(path) + 1, 1);
+    enum br_status status = s && s->path ? BR_OK : br_no_memory(err, "the scene");
+    if (!status) {
+        strcpy(s->path, path);
+        status = br_scene_read_verify_text(s->path, text, &s->scene, &s->verify, err);
+    }
+    if (status)
+        beamrate_scene_free(s);
+    else
+        *out = s;
+    return status;
+}
+
+enum beamrate_status beamrate_scene_parse(struct beamrate_scene **scene, const char *name,
+                                          const char *text, struct beamrate_error *err)
+{
+    struct br_visit visit;
+    br_visit_begin(&visit);
+    *scene = NULL;
+    return br_visit_end(&visit, read_scene(scene, name, text, &visit.err), err);
+}
+
+/* "-" is a file like any other: a library leaves standard input alone. */
+enum beamrate_status beamrate_scene_open(struct beamrate_scene **scene, const char *name,
+                                         struct beamrate_error *err)
+{
+    struct br_visit visit;
+    br_visit_begin(&visit);
+    char path[1024], *text = NULL;
+    *scene = NULL;
+    enum br_status status =
+        br_scene_find(strcmp(name, "-") ? name : "./-", path, sizeof path, &visit.err);
+    if (!status)
+        status = br_scene_load(path, &text, &visit.err);
+    if (!status)
+        status = read_scene(scene, path, text, &visit.err);
+    free(text);
+    return br_visit_end(&visit, status, err);
+}
+
+void beamrate_scene_free(struct beamrate_scene *scene)
+{
+    if (!scene)
+        return;
+    br_verify_clear(&scene->verify);
+    br_scene_clear(&scene->scene);
+    free(scene->path);
+    free(scene);
+}
+
+void beamrate_scene_info(const struct beamrate_scene *scene, struct beamrate_scene_info *info)
+{
+    const struct br_scene *s = &scene->scene;
+    *info = (struct beamrate_scene_info){
+        .name = s->name,
+        .title = s->title,
+        .length = s->length,
+        .duration = s->duration,
+        .density = s->density,
+        .modelled = {s->axial.modelled, s->bending.modelled},
+        .contact = s->contact.modelled,
+        .friction = (enum beamrate_friction)s->friction.law,
+    };
+}
+
+/* ---- before a march ---- */
+
+/* Reads the method of a march and refuses what makes no sense. *planned (out) points to *method. */
+static enum br_status plan_march(const struct br_scene *scene, size_t n, size_t steps,
+                                 const char *const *list, struct br_method *method,
+                                 struct br_planned_march *planned, struct br_error *err)
+{
+    *planned = (struct br_planned_march){.scene = scene, .method = method, .n = n, .steps = steps};
+    if (n < 1 || steps < 1)
+        return br_fail(err, BR_BAD_INPUT,
+                       "found n = %zu and %zu steps, expected at least 1 of each", n, steps);
+    enum br_status status = br_library_method(list, method, err);
+    if (!status)
+        status = br_method_check_scene(method, scene, err);
+    return status ? status
+                  : br_damping_check(method, scene, n, scene->duration / (double)steps, err);
+}
+
+static void copy_warnings(const struct br_warnings *warnings, struct beamrate_forecast *f)
+{
+    f->warnings = warnings->count;
+    for (size_t i = 0; i < warnings->count; i++) {
+        const struct br_warning *w = &warnings->list[i];
+        snprintf(f->warning[i].kind, sizeof f->warning[i].kind, "%s", br_warning_word(w->kind));
+        snprintf(f->warning[i].text, sizeof f->warning[i].text, "%s", w->text);
+        snprintf(f->warning[i].remedy, sizeof f->warning[i].remedy, "%s", w->remedy);
+    }
+}
+
+static void copy_prediction(const struct br_prediction *p, struct beamrate_forecast *f)
+{
+    f->known = p->known;
+    snprintf(f->why, sizeof f->why, "%s", p->known ? "" : p->why);
+    f->round_off = p->round_off;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_predicted *e = &p->field[kind];
+        f->error[kind] = p->known ? (struct beamrate_estimate){e->error, e->low, e->high}
+                                  : (struct beamrate_estimate){NAN, NAN, NAN};
+    }
+}
+
+enum beamrate_status beamrate_foresee(const struct beamrate_scene *scene, size_t n, size_t steps,
+                                      const char *const *list, struct beamrate_forecast *forecast,
+                                      struct beamrate_error *err)
+{
+    struct br_visit visit;
+    br_visit_begin(&visit);
+    struct br_scene own;
+    struct br_method method;
+    struct br_planned_march planned;
+    struct br_warnings warnings = {0};
+    struct br_prediction prediction = {0};
+    memset(forecast, 0, sizeof *forecast);
+    enum br_status status = br_library_scene(scene, &own, &visit.err);
+    if (!status)
+        status = plan_march(&own, n, steps, list, &method, &planned, &visit.err);
+    planned.prediction = &prediction;
+    if (!status)
+        status = br_look_ahead(&planned, &warnings, &visit.err);
+    if (!status) {
+        copy_prediction(&prediction, forecast);
+        copy_warnings(&warnings, forecast);
+    }
+    br_library_scene_release(&own);
+    return br_visit_end(&visit, status, err);
+}
+
+/* ---- marches ---- */
+
+struct beamrate_march {
+    struct br_march *march;
+    size_t n, steps;
+    struct br_error failure; /* of a step: the state is lost */
+};
+
+static enum br_status create_march(struct beamrate_march *m, const struct beamrate_scene *scene,
+                                   const char *const *list, struct br_error *err)
+{
+    struct br_method method;
+    struct br_planned_march planned;
+    struct br_warnings warnings = {0};
+    enum br_status status = plan_march(&scene->scene, m->n, m->steps, list, &method, &planned, err);
+    if (!status)
+        status = br_look_ahead_cheaply(&planned, &warnings, err); /* for what it refuses */
+    return status ? status
+                  : br_march_create(&m->march, &scene->scene, m->n, m->steps, &method, err);
+}
+
+enum beamrate_status beamrate_march_create(struct beamrate_march **march,
+                                           const struct beamrate_scene *scene, size_t n,
+                                           size_t steps, const char *const *method,
+                                           struct beamrate_error *err)
+{
+    struct br_visit visit;
+    br_visit_begin(&visit);
+    struct beamrate_march *m = br_allocate(1, sizeof *m);
+    enum br_status status = m ? BR_OK : br_no_memory(&visit.err, "a march");
+    if (!status) {
+        m->n = n;
+        m->steps = steps;
+        status = create_march(m, scene, method, &visit.err);
+    }
+    if (status) {
+        beamrate_march_free(m);
+        m = NULL;
+    }
+    *march = m;
+    return br_visit_end(&visit, status, err);
+}
+
+void beamrate_march_free(struct beamrate_march *march)
+{
+    if (!march)
+        return;
+    br_march_free(march->march);
+    free(march);
+}
+
+static enum br_status take_steps(struct beamrate_march *m, size_t count, struct br_error *err)
+{
+    const size_t left = m->steps - br_march_steps_done(m->march);
+    if (m->failure.status)
+        return br_fail(err, m->failure.status, "%s", m->failure.message);
+    if (count > left)
+        return br_fail(err, BR_BAD_INPUT, "found %zu steps, expected at most the %zu that are left",
+                       count, left);
+    for (size_t i = 0; i < count && !m->failure.status; i++)
+        if (br_march_step(m->march, &m->failure))
+            br_fail(err, m->failure.status, "%s", m->failure.message);
+    return m->failure.status;
+}
+
+enum beamrate_status beamrate_march_step(struct beamrate_march *march, size_t count,
+                                         struct beamrate_error *err)
+{
+    struct br_visit visit;
+    br_visit_begin(&visit);
+    return br_visit_end(&visit, take_steps(march, count, &visit.err), err);
+}
+
+void beamrate_march_tip(const struct beamrate_march *march, struct beamrate_tip *tip)
+{
+    const struct br_tip *t = br_march_tip(march->march);
+    *tip = (struct beamrate_tip){
+        .step = br_march_steps_done(march->march),
+        .time = br_march_time(march->march),
+        .contact_force = t->contact_force,
+        .friction_force = t->friction_force,
+        .friction_bound = t->friction_bound,
+    };
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        tip->displacement[kind] = br_march_tip_displacement(march->march, (enum br_field_kind)kind);
+        tip->velocity[kind] = t->velocity[kind];
+    }
+}
+
+size_t beamrate_march_columns(const struct beamrate_march *march, enum beamrate_field field)
+{
+    return br_field_unknowns(br_march_field(march->march, (enum br_field_kind)field));
+}
+
+void beamrate_march_get(const struct beamrate_march *march, enum beamrate_field field,
+                        double *displacement, double *velocity)
+{
+    br_march_get(march->march, (enum br_field_kind)field, displacement, velocity);
+}
+
+void beamrate_march_report(const struct beamrate_march *march, struct beamrate_march_report *report)
+{
+    const struct br_counts counts = br_march_counts(march->march);
+    *report = (struct beamrate_march_report){
+        .n = march->n,
+        .steps = march->steps,
+        .done = br_march_steps_done(march->march),
+        .accepted = counts.steps,
+        .rejected = counts.rejected,
+        .stages = counts.stages,
+        .round_off = br_march_round_off(march->march),
+        .unstable = br_march_contact_unstable(march->march),
+    };
+}

@@ -1,0 +1,438 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Studies, verdicts and orders of numbers, from outside. */
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+#include "study/foresee/resources.h"
+#include "study/grid/sweep.h"
+#include "study/library/library.h"
+#include "study/orders/orders.h"
+#include "study/verify/check.h"
+
+static_assert((int)BEAMRATE_TOTAL == BR_PART_TOTAL && (int)BEAMRATE_OF_AXIAL == BR_PART_AXIAL &&
+                  (int)BEAMRATE_OF_BENDING == BR_PART_BENDING,
+              "");
+static_assert((int)BEAMRATE_SPACE == BR_AXIS_SPACE && (int)BEAMRATE_TIME == BR_AXIS_TIME, "");
+static_assert((int)BEAMRATE_PASS == BR_PASS && (int)BEAMRATE_FAIL == BR_FAIL &&
+                  (int)BEAMRATE_INCONCLUSIVE == BR_INCONCLUSIVE,
+              "");
+
+static enum br_status check_threads(int threads, struct br_error *err)
+{
+    return threads >= 0
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT, "threads: found %d, expected at least 0", threads);
+}
+
+/* ---- studies ---- */
+
+struct beamrate_study {
+    struct br_study study;
+    struct br_fits fits[BR_PARTS];
+    size_t *n, *steps; /* owned */
+    struct beamrate_reference reference;
+};
+
+/* A copy of a list; *to (out) is owned by the caller, even after a failure. */
+static enum br_status copy_list(const char *name, const size_t *list, size_t count, size_t **to,
+                                struct br_error *err)
+{
+    *to = NULL;
+    if (count < 1 || list[0] < 1)
+        return br_fail(err, BR_BAD_INPUT, "%s: found %s, expected numbers of at least 1", name,
+                       count < 1 ? "an empty list" : "0");
+    for (size_t i = 1; i < count; i++)
+        if (!(list[i] > list[i - 1]))
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: found %zu behind %zu, expected ascending numbers", name, list[i],
+                           list[i - 1]);
+    *to = br_allocate(count, sizeof **to);
+    if (!*to)
+        return br_no_memory(err, "the grid");
+    memcpy(*to, list, count * sizeof **to);
+    return BR_OK;
+}
+
+static enum br_status choose_reference(const struct beamrate_study_request *q, struct br_study *s,
+                                       struct br_error *err)
+{
+    s->judge = q->reference ? br_judge_find(q->reference) : br_judge_best(s->scene);
+    if (!s->judge || !s->judge->create)
+        return br_fail(err, BR_BAD_INPUT, "reference: found '%.200s', expected exact, mms or fine",
+                       q->reference);
+    const bool given = q->reference_n || q->reference_steps;
+    if (s->judge->nests != given)
+        return br_fail(err, BR_BAD_INPUT,
+                       "reference: found %zu elements and %zu steps, expected %s", q->reference_n,
+                       q->reference_steps,
+                       given ? "none: they are for a fine run" : "those of the fine run");
+    s->reference = (struct br_resolution){q->reference_n, q->reference_steps};
+    s->auditor = s->judge->nests ? br_judge_best(s->scene) : NULL;
+    return BR_OK;
+}
+
+static enum br_status prepare_study(struct beamrate_study *s, const struct br_scene *scene,
+                                    const struct beamrate_study_request *q, struct br_error *err)
+{
+    struct br_study *study = &s->study;
+    *study = (struct br_study){.scene = scene,
+                               .norm = q->norm ? br_norm_find(q->norm) : br_norms[0],
+                               .n_count = q->n_count,
+                               .k_count = q->steps_count};
+    if (!study->norm)
+        return br_fail(err, BR_BAD_INPUT, "norm: found '%.200s', expected l2, energy or tip",
+                       q->norm);
+    if (check_threads(q->threads, err) || br_library_method(q->method, &study->method, err) ||
+        copy_list("n", q->n, q->n_count, &s->n, err) ||
+        copy_list("steps", q->steps, q->steps_count, &s->steps, err) ||
+        choose_reference(q, study, err))
+        return err->status;
+    study->reference_method = study->method;
+    study->n = s->n;
+    study->steps = s->steps;
+    return br_fit_together(study, 1, br_memory_available(), err);
+}
+
+static struct beamrate_reference describe_reference(const struct br_study *s)
+{
+    struct beamrate_reference r = {
+        .name = s->judge->name,
+        .n = s->reference.n,
+        .steps = s->reference.steps,
+        .size = s->reference_scale,
+        .tip = {s->reference_tip[BR_AXIAL], s->reference_tip[BR_BENDING]},
+    };
+    for (int part = 0; part < BR_PARTS; part++)
+        r.own_error[part] = s->judge->nests
+                                ? s->reference_error[part]
+                                : br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error,
+                                                      (enum br_part)part);
+    return r;
+}
+
+static enum br_status run_study(struct beamrate_study *s, const struct br_scene *scene,
+                                const struct beamrate_study_request *q, struct br_error *err)
+{
+    enum br_status status = prepare_study(s, scene, q, err);
+    if (status)
+        return status;
+    struct br_library_watch watch;
+    br_library_watch_begin(&watch, q->observer);
+    status = br_study_run(&s->study, 1, q->threads, &watch.ours, err);
+    br_library_watch_end(&watch);
+    for (int part = 0; part < BR_PARTS && !status; part++)
+        status = br_fit(&s->study, (enum br_part)part, &s->fits[part], err);
+    if (!status)
+        s->reference = describe_reference(&s->study);
+    return status;
+}
+
+enum beamrate_status beamrate_study_run(struct beamrate_study **study,
+                                        const struct beamrate_scene *scene,
+                                        const struct beamrate_study_request *request,
+                                        struct beamrate_error *err)
+{
+    struct br_visit visit;
+    br_visit_begin(&visit);
+    struct br_scene own;
+    struct beamrate_study *s = br_allocate(1, sizeof *s);
+    enum br_status status = br_library_scene(scene, &own, &visit.err);
+    if (!status)
+        status =
+            s ? run_study(s, &own, request, &visit.err) : br_no_memory(&visit.err, "the study");
+    br_library_scene_release(&own);
+    if (status) {
+        beamrate_study_free(s);
+        s = NULL;
+    }
+    *study = s;
+    return br_visit_end(&visit, status, err);
+}
+
+void beamrate_study_free(struct beamrate_study *study)
+{
+    if (!study)
+        return;
+    for (int part = 0; part < BR_PARTS; part++)
+        br_fits_clear(&study->fits[part]);
+    br_study_clear(&study->study);
+    free(study->n);
+    free(study->steps);
+    free(study);
+}
+
+void beamrate_study_cell(const struct beamrate_study *study, size_t i, size_t j,
+                         struct beamrate_cell *cell)
+{
+    const struct br_cell *c = br_study_cell(&study->study, i, j);
+    *cell = (struct beamrate_cell){
+        .n = c->at.n,
+        .steps = c->at.steps,
+        .tip = {c->tip[BR_AXIAL], c->tip[BR_BENDING]},
+        .seconds = c->seconds,
+        .failure = c->failure.status ? c->failure.message : "",
+    };
+    for (int part = 0; part < BR_PARTS; part++) {
+        cell->error[part] = c->error[part];
+        cell->flag[part] = br_flag_name(c->flag[part]);
+    }
+}
+
+void beamrate_study_slope(const struct beamrate_study *study, enum beamrate_part part,
+                          enum beamrate_axis axis, size_t at, struct beamrate_estimate *order)
+{
+    const struct br_fits *fits = &study->fits[part];
+    const struct br_slope *slope = axis == BEAMRATE_SPACE ? fits->by_k : fits->by_n;
+    *order = br_library_estimate(slope[at].order);
+}
+
+void beamrate_study_fit(const struct beamrate_study *study, enum beamrate_part part,
+                        struct beamrate_fit *fit)
+{
+    *fit = br_library_fit(&study->fits[part].joint);
+}
+
+void beamrate_study_reference(const struct beamrate_study *study,
+                              struct beamrate_reference *reference)
+{
+    *reference = study->reference;
+}
+
+/* ---- verdicts ---- */
+
+struct beamrate_check {
+    struct br_check check;
+};
+
+static enum br_status check_scene(struct br_check *check, int threads,
+                                  const struct beamrate_observer *observer, struct br_error *err)
+{
+    if (check_threads(threads, err))
+        return err->status;
+    struct br_library_watch watch;
+    br_library_watch_begin(&watch, observer);
+    const enum br_status status = br_check_run(check, 1, threads, &watch.ours, err);
+    br_library_watch_end(&watch);
+    const struct br_error *failure = &check->failure;
+    return status || !failure->status ? status
+                                      : br_fail(err, failure->status, "%s", failure->message);
+}
+
+enum beamrate_status beamrate_check_run(struct beamrate_check **check,
+                                        const struct beamrate_scene *scene, int threads,
+                                        const struct beamrate_observer *observer,
+                                        struct beamrate_error *err)
+{
+    struct br_visit visit;
+    br_visit_begin(&visit);
+    struct br_scene own;
+    struct beamrate_check *c = br_allocate(1, sizeof *c);
+    enum br_status status = br_library_scene(scene, &own, &visit.err);
+    if (!status && !c)
+        status = br_no_memory(&visit.err, "the check");
+    if (!status) {
+        c->check = (struct br_check){
+            .path = scene->path, .name = own.name, .scene = &own, .verify = &scene->verify};
+        status = check_scene(&c->check, threads, observer, &visit.err);
+    }
+    br_library_scene_release(&own);
+    if (status) {
+        beamrate_check_free(c);
+        c = NULL;
+    }
+    *check = c;
+    return br_visit_end(&visit, status, err);
+}
+
+void beamrate_check_free(struct beamrate_check *check)
+{
+    if (!check)
+        return;
+    br_check_clear(&check->check);
+    free(check);
+}
+
+size_t beamrate_check_count(const struct beamrate_check *check)
+{
+    return check->check.count;
+}
+
+void beamrate_check_case(const struct beamrate_check *check, size_t i, struct beamrate_case *c)
+{
+    const struct br_case *from = &check->check.cases[i];
+    *c = (struct beamrate_case){
+        .study = br_verify_names[from->kind],
+        .measure = from->measure,
+        .part = from->part,
+        .expected = from->expected.order,
+        .tolerance = from->expected.tolerance,
+        .order = br_library_estimate(from->order),
+        .constant = from->constant,
+        .margin = from->margin,
+        .points = from->points,
+        .used = from->used,
+        .verdict = (enum beamrate_verdict)from->verdict,
+        .reason = from->reason,
+        .note = from->note,
+    };
+}
+
+/* ---- orders of any numbers ---- */
+
+static const char name_of_numbers[] = "numbers"; /* in messages, where files have their path */
+
+struct beamrate_orders {
+    struct br_numbers numbers;
+    struct br_orders orders;
+};
+
+static enum br_status fill_row(struct br_numbers_row *row, const struct beamrate_numbers *from,
+                               size_t i, struct br_error *err)
+{
+    row->given[BR_AXIS_SPACE] = row->z[BR_AXIS_SPACE] = from->h ? from->h[i] : NAN;
+    row->given[BR_AXIS_TIME] = row->z[BR_AXIS_TIME] = from->k ? from->k[i] : NAN;
+    row->line = i + 1;
+    row->seconds = row->bytes = NAN;
+    row->number = br_allocate(1, sizeof *row->number);
+    if (!row->number)
+        return br_no_memory(err, "the numbers");
+    *row->number = from->number[i];
+    return BR_OK;
+}
+
+static enum br_status copy_numbers(const struct beamrate_numbers *from, struct br_numbers *to,
+                                   struct br_error *err)
+{
+    if (!from->h && !from->k)
+        return br_fail(err, BR_BAD_INPUT, "%s: found neither h nor k, expected at least one",
+                       name_of_numbers);
+    to->column[BR_AXIS_SPACE] = from->h ? br_resolution_column_find("h") : NULL;
+    to->column[BR_AXIS_TIME] = from->k ? br_resolution_column_find("k") : NULL;
+    to->quantity = br_allocate(1, sizeof *to->quantity);
+    to->row = br_allocate(from->count, sizeof *to->row);
+    if (!to->quantity || !to->row)
+        return br_no_memory(err, "the numbers");
+    to->quantities = 1;
+    to->quantity->is_value = from->values;
+    to->quantity->name = br_allocate(sizeof "value", 1);
+    if (!to->quantity->name)
+        return br_no_memory(err, "the numbers");
+    strcpy(to->quantity->name, from->values ? "value" : "error");
+    enum br_status status = BR_OK;
+    for (; to->rows < from->count && !status; to->rows++)
+        status = fill_row(&to->row[to->rows], from, to->rows, err);
+    return status ? status : br_numbers_check(to, name_of_numbers, err);
+}
+
+enum beamrate_status beamrate_orders_find(struct beamrate_orders **orders,
+                                          const struct beamrate_numbers *numbers,
+                                          struct beamrate_error *err)
+{
+    struct br_visit visit;
+    br_visit_begin(&visit);
+    struct beamrate_orders *o = br_allocate(1, sizeof *o);
+    enum br_status status = o ? BR_OK : br_no_memory(&visit.err, "the orders");
+    if (!status)
+        status = copy_numbers(numbers, &o->numbers, &visit.err);
+    if (!status)
+        status = br_orders_find(&o->numbers, numbers->formal != 0 ? numbers->formal : 2, &o->orders,
+                                &visit.err);
+    if (status) {
+        beamrate_orders_free(o);
+        o = NULL;
+    }
+    *orders = o;
+    return br_visit_end(&visit, status, err);
+}
+
+void beamrate_orders_free(struct beamrate_orders *orders)
+{
+    if (!orders)
+        return;
+    br_orders_clear(&orders->orders);
+    br_numbers_clear(&orders->numbers);
+    free(orders);
+}
+
+int beamrate_orders_line(const struct beamrate_orders *orders, enum beamrate_axis axis,
+                         struct beamrate_order *order)
+{
+    const struct beamrate_estimate nothing = {NAN, NAN, NAN};
+    const struct br_orders_line *line = br_orders_finest(&orders->orders.of[0], (enum br_axis)axis);
+    *order = (struct beamrate_order){.order = nothing, .constant = NAN, .limit = nothing};
+    if (!line)
+        return 0;
+    order->order = br_library_estimate(line->observed.order);
+    order->constant = line->observed.constant;
+    order->drifts = line->observed.drifts;
+    order->points = line->observed.points;
+    order->used = line->observed.used;
+    if (orders->numbers.quantity->is_value)
+        order->limit = br_library_estimate(line->limit.value);
+    return 1;
+}
+
+void beamrate_orders_fit(const struct beamrate_orders *orders, struct beamrate_fit *fit)
+{
+    *fit = br_library_fit(&orders->orders.of[0].joint);
+}
+
+static enum br_status copy_expectations(const struct beamrate_expectation *from, size_t count,
+                                        struct br_order_expectation **to, struct br_error *err)
+{
+    *to = br_allocate(count, sizeof **to);
+    if (!*to)
+        return br_no_memory(err, "the expectations");
+    for (size_t i = 0; i < count; i++) {
+        const struct beamrate_expectation *e = &from[i];
+        if (!(e->order > 0 && e->tolerance > 0 && e->tolerance < e->order && isfinite(e->order) &&
+              e->down_to >= 0))
+            return br_fail(err, BR_BAD_INPUT,
+                           "expectation %zu: found order %g +- %g down to %g, expected an order "
+                           "above 0, a tolerance above 0 and below it, and an error of at least 0",
+                           i, e->order, e->tolerance, e->down_to);
+        (*to)[i] = (struct br_order_expectation){.axis = (enum br_axis)e->axis,
+                                                 .order = e->order,
+                                                 .tolerance = e->tolerance,
+                                                 .down_to = e->down_to};
+    }
+    return BR_OK;
+}
+
+static enum br_status check_orders(struct br_check *check, const struct beamrate_orders *orders,
+                                   const struct beamrate_expectation *from, size_t count,
+                                   struct br_error *err)
+{
+    const struct br_quantity *quantity = orders->numbers.quantity;
+    struct br_order_expectation *e;
+    enum br_status status = copy_expectations(from, count, &e, err);
+    for (size_t i = 0; i < count && !status; i++)
+        strcpy(e[i].quantity, quantity->name);
+    check->path = name_of_numbers;
+    if (!status)
+        status = br_orders_check(&orders->orders, e, count, check, err);
+    for (size_t i = 0; i < check->count && !status; i++)
+        check->cases[i].measure = quantity->is_value ? "value" : "error"; /* outlives the orders */
+    free(e);
+    return status;
+}
+
+enum beamrate_status beamrate_orders_check(struct beamrate_check **check,
+                                           const struct beamrate_orders *orders,
+                                           const struct beamrate_expectation *expectation,
+                                           size_t count, struct beamrate_error *err)
+{
+    struct br_visit visit;
+    br_visit_begin(&visit);
+    struct beamrate_check *c = br_allocate(1, sizeof *c);
+    const enum br_status status =
+        c ? check_orders(&c->check, orders, expectation, count, &visit.err)
+          : br_no_memory(&visit.err, "the verdicts");
+    if (status) {
+        beamrate_check_free(c);
+        c = NULL;
+    }
+    *check = c;
+    return br_visit_end(&visit, status, err);
+}

@@ -1,0 +1,188 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The library as others find it: installed below a folder, found by pkg-config, used outside of the
+# tree; its numbers are the program's, digit by digit. usage: library.sh BUILD SOURCE
+# $BEAMRATE is the program, $CC a compiler, $PYTHON one with numpy (python3).
+# shellcheck disable=SC2016,SC2046,SC2086 # lists of words, and what eval expands
+set -u
+build=$1 source=$2
+: "${BEAMRATE:?is the program}"
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+number=0 failures=0
+
+# WHAT COMMAND...: a case, which passes if the command does.
+check() {
+    local what=$1
+    shift
+    number=$((number + 1))
+    if "$@" >log 2>&1; then
+        echo "ok $number - $what"
+    else
+        echo "not ok $number - $what"
+        sed 's/^/# /' log
+        failures=$((failures + 1))
+    fi
+}
+
+skip() { # WHAT WHY
+    number=$((number + 1))
+    echo "ok $number - $1 # SKIP $2"
+}
+
+# ---- what is installed ----
+
+check "meson install" meson install -C "$build" --no-rebuild --destdir "$folder/root" \
+    --tags runtime,devel,python-runtime
+module=$(dirname "$(find "$folder/root" -name beamrate.pc)")
+prefix=$folder/root$(sed -n 's/^prefix=//p' "$module/beamrate.pc")
+export PKG_CONFIG_PATH=$module
+package() { pkg-config --define-variable=prefix="$prefix" "$@" beamrate; }
+libraries=$(package --variable=libdir)
+header=$prefix/include/beamrate/beamrate.h
+export LD_LIBRARY_PATH=$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+
+# Every function of the header leaves the shared library, and nothing else does.
+symbols() {
+    grep -oE '\bbeamrate_[a-z_]+\(' "$header" | tr -d '(' | sort -u >documented
+    nm -D --defined-only "$libraries/libbeamrate.so" | awk '$2 != "A" { print $3 }' |
+        sed 's/@.*//' | sort >exported
+    [ "$(wc -l <documented)" -gt 20 ] && diff documented exported
+}
+check "what is exported is what is documented" symbols
+
+# One version in all places, and its first number in the name that programs ask for.
+versions() {
+    local version=${1%% *}
+    echo "program $version, pkg-config $(package --modversion)"
+    [ "$(package --modversion)" = "$version" ] &&
+        grep -q "define BEAMRATE_VERSION \"$version\"" "$prefix/include/beamrate/version.h" &&
+        [ -e "$libraries/libbeamrate.so.$version" ] &&
+        readelf -d "$libraries/libbeamrate.so" | grep -F "[libbeamrate.so.${version%%.*}]"
+}
+said=$("$BEAMRATE" --version)
+check "one version" versions "${said#beamrate }"
+
+# ---- in C ----
+
+headers() {
+    echo '#include <beamrate/beamrate.h>' >alone.c
+    cp alone.c alone.cc
+    ${CC:-cc} -std=c99 -pedantic -Wall -Wextra -Werror $(package --cflags) -c alone.c || return
+    ! command -v c++ >/dev/null ||
+        c++ -pedantic -Wall -Wextra -Werror $(package --cflags) -c alone.cc
+}
+check "the header stands alone, in C99 and in C++" headers
+
+check "the example builds outside of the tree" ${CC:-cc} -Wall -Wextra -Werror \
+    "$source/docs/library/example.c" $(package --cflags --libs) -o example
+check "the example builds with the static library" ${CC:-cc} "$source/docs/library/example.c" \
+    $(package --cflags) "$libraries/libbeamrate.a" \
+    $(package --static --libs | sed 's/-lbeamrate//') -o static
+
+# The same numbers as a program says them: as NAME VALUES.
+program_numbers() {
+    "$BEAMRATE" run example2 -n 20 --steps 40 --fields axial,bending --quiet --json run.json &&
+        "$BEAMRATE" study example2 -n 10,20,40 --steps 20,40,80 --no-plots --quiet --out study ||
+        return
+    sed -En '/"displacement"/,/\}/s/^ *"(axial|bending)": ([^,]*),?$/tip.\1 \2/p
+        s/^  "((contact|friction)_force)": ([^,]*),?$/\1 \3/p' run.json
+    awk -F, '$2 == "total" { print "error", $3, $5, $7 }' study/example2.csv
+    awk -F, '$1 == "total" { print "q", $9, $10, $11 }' study/example2-fits.csv
+}
+# The same digits: numbers that are equal as they are read.
+normalized() { awk '{ for (i = 2; i <= NF; i++) $i = sprintf("%.17g", $i); print }' "$1"; }
+same_numbers() { # FILE
+    grep -E '^(tip|contact|friction|error|q)' "$1" >ours
+    normalized ours >a && normalized program >b && [ "$(wc -l <b)" -eq 14 ] && diff a b
+}
+check "the program's numbers" eval 'program_numbers >program'
+check "the example runs" eval './example example2 >shared.txt'
+check "its numbers are the program's" same_numbers shared.txt
+check "the static one prints the same" eval './static example2 | cmp - shared.txt'
+
+# A refusal names file, line and key; nothing is printed but by the example itself.
+refusal() {
+    printf 'length: 1 m\nduration: -1 s\n' >wrong.yaml
+    ! ./example wrong.yaml >out 2>err && cat err &&
+        grep -q '^example: wrong.yaml:2: duration: found -1 s, expected' err &&
+        [ "$(wc -l <err)" -eq 1 ] && [ "$(wc -l <out)" -eq 1 ]
+}
+check "a wrong scene is refused by file, line and key" refusal
+
+# ---- in Python ----
+
+# Sizes of all structs that both have, and where their members are.
+layouts() {
+    cat >layout.py <<'END'
+import ctypes, re, sys
+import beamrate
+names = re.findall(r"^struct (beamrate_\w+) \{", open(sys.argv[1]).read(), re.M)
+print("#include <beamrate/beamrate.h>\n#include <stdio.h>\nint main(void)\n{")
+count = 0
+for name in names:
+    struct = getattr(beamrate, "_" + "".join(w.capitalize() for w in name.split("_")[1:]))
+    members = [(m, getattr(struct, m).offset, getattr(struct, m).size) for m, _ in struct._fields_]
+    print(f'    if (sizeof(struct {name}) != {ctypes.sizeof(struct)}) return puts("{name}"), 1;')
+    for m, offset, size in members:
+        count += 1
+        print(f'    if (offsetof(struct {name}, {m}) != {offset} || '
+              f'sizeof((struct {name} *)0)->{m} != {size}) return puts("{name}.{m}"), 1;')
+print("}")
+assert count > 80, count
+END
+        "$python" layout.py "$header" >layout.c && ${CC:-cc} $(package --cflags) layout.c -o layout &&
+        ./layout
+}
+refused_in_python() {
+    cat >refused.py <<'END'
+import numpy as np
+import beamrate as br
+
+def refused(text, call):
+    try:
+        call()
+    except (br.BadInput, IndexError, TypeError) as error:
+        assert text in str(error), (text, str(error))
+    else:
+        raise AssertionError(f"not refused: {text}")
+
+scene = br.Scene("example2")
+march = br.March(scene, 4, 8)
+refused("wrong:2: duration: found", lambda: br.Scene("wrong", "length: 1 m\nduration: -1 s\n"))
+refused("at most the 8 that are left", lambda: march.step(9))
+refused("at least 0", lambda: march.step(-1))
+refused("integer", lambda: br.Study(scene, [4.5], [8]))
+refused("contiguous", lambda: march.get(br.BENDING, np.empty((5, 4))[:, ::2]))
+refused("range", lambda: march.get(2))
+refused("differ in length", lambda: br.Orders([1, 2, 3], h=[1, 2]))
+refused("numbers:2", lambda: br.Orders([3, -2, 1], h=[3, 2, 1]))
+study = br.Study(scene, [2, 4, 8], [8], reference="exact", norm="tip", axial_degree=2)
+refused("range", lambda: study.slope(br.SPACE, 1))
+cell = study.cell[2][0]
+del study
+assert cell.flag == ["", "", ""] or all(isinstance(f, str) for f in cell.flag)
+try:
+    br.Study(scene, [2, 4, 8], [8, 16], progress=lambda share: 1 / 0)
+except ZeroDivisionError:
+    pass
+else:
+    raise AssertionError("an exception of progress is lost")
+END
+    "$python" refused.py
+}
+export PYTHONPATH=$prefix/share/beamrate/python${PYTHONPATH:+:$PYTHONPATH}
+python=${PYTHON:-python3}
+if "$python" -c 'import numpy' 2>/dev/null; then
+    check "Python's structs are the header's" layouts
+    check "the example in Python runs" eval '"$python" "$source/docs/library/example.py" >py.txt'
+    check "its numbers are the program's" same_numbers py.txt
+    check "Python refuses, too" refused_in_python
+else
+    for what in "Python's structs are the header's" "the example in Python" "Python refuses, too"; do
+        skip "$what" "no $python with numpy"
+    done
+fi
+echo "1..$number"
+[ "$failures" -eq 0 ]
