@@ -29,6 +29,29 @@ const char *br_order_text(const struct br_estimate *order, char *buffer, size_t 
     return buffer;
 }
 
+const char *br_uncertain_text(double value, double half, char *buffer, size_t size)
+{
+    if (!(half > 0 && isfinite(half) && isfinite(value))) {
+        snprintf(buffer, size, "%.6g", value);
+        return buffer;
+    }
+    const int last = (int)floor(log10(half)) - 1; /* the width has two digits */
+    const double unit = pow(10, last), rounded = unit * round(value / unit);
+    const int first = rounded != 0 ? (int)floor(log10(fabs(rounded))) : last;
+    char width[24];
+    if (last >= -5 && last < 6)
+        snprintf(width, sizeof width, "%.*f", last < 0 ? -last : 0, half);
+    else
+        snprintf(width, sizeof width, "%.1e", half);
+    if (rounded == 0)
+        snprintf(buffer, size, "0 +- %s", width);
+    else if (first >= -4 && first < 7)
+        snprintf(buffer, size, "%.*f +- %s", last < 0 ? -last : 0, rounded, width);
+    else
+        snprintf(buffer, size, "%.*e +- %s", first - last, rounded, width);
+    return buffer;
+}
+
 bool br_joint_describes(const struct br_joint_fit *fit)
 {
     return fit->converged && fit->misfit <= 0.02;
