@@ -663,7 +663,7 @@ static const struct planted_bug planted_bugs[] = {
     {"contact_that_lags_keeps_the_order", "order", "study/fit/seen_orders.c",
      "tests/test_seen_orders", "return lags ? 1 : s->method", "return s->method"},
     {"digits_of_the_width_are_not_cut", "printed", "study/fit/fit.c", "tests/test_seen_orders",
-     "unit * round(value / unit)", "value"},
+     "rounded = unit * round(value / unit);", "rounded = value;"},
     {"difference_against_itself", "index", "study/grid/differences.c", "tests/test_differences",
      ".reference = {grid->n[i + over_h], grid->steps[j + !over_h]},",
      ".reference = {grid->n[i + over_h], grid->steps[j]},"},

@@ -205,9 +205,15 @@ static void test_uncertain(void **state)
         double value, half;
         const char *text;
     } rows[] = {
-        {-0.22163, 0.0138, "-0.222 +- 0.014"},     {0.17169233, 6.7e-9, "0.1716923300 +- 6.7e-09"},
-        {-3.6e-16, 5.2e-15, "-4e-16 +- 5.2e-15"},  {-1e-3, 0.5, "0 +- 0.50"},
-        {1234567, 1200, "1234600 +- 1200"},        {-0.2216, NAN, "-0.2216"},
+        {-0.22163, 0.0138, "-0.222 +- 0.014"},
+        {0.17169233, 6.7e-9, "0.1716923300 +- 6.7e-09"},
+        {-0.0, NAN, "0"},
+        {1.00922190775, 6e-12, "1.009221908 +- 6.0e-12"},
+        {3274, 1448, "3300 +- 1400"},
+        {-3.6e-16, 5.2e-15, "-4e-16 +- 5.2e-15"},
+        {-1e-3, 0.5, "0 +- 0.50"},
+        {1234567, 1200, "1234600 +- 1200"},
+        {-0.2216, NAN, "-0.2216"},
         {1.5e-9, 2.5e-11, "1.500e-09 +- 2.5e-11"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -215,6 +221,11 @@ static void test_uncertain(void **state)
         assert_string_equal(br_uncertain_text(rows[i].value, rows[i].half, text, sizeof text),
                             rows[i].text);
     }
+    char text[64];
+    assert_string_equal(br_digits_text(-453.048, 2, text, sizeof text), "-450");
+    assert_string_equal(br_digits_text(-0.163812, 2, text, sizeof text), "-0.16");
+    assert_string_equal(br_digits_text(1.90822e-7, 3, text, sizeof text), "1.91e-07");
+    assert_string_equal(br_digits_text(-0.0, 3, text, sizeof text), "0");
 }
 
 int main(void)
