@@ -176,7 +176,9 @@ static enum br_status prepare(struct run *r, struct br_error *err)
             return br_fail(err, BR_BAD_INPUT,
                            "nothing is expected, so there are no verdicts to be written or "
                            "compared: give --expect, or 'verify:' in a study file");
-    const enum br_status status = br_verdicts_open(&r->verdicts, o, &r->check, 1, err);
+    enum br_status status = br_verdicts_open(&r->verdicts, o, &r->check, 1, err);
+    if (!status)
+        status = br_verdicts_spare(&r->verdicts, r->study.request.table_path, err);
     return status ? status : br_session_open(&r->session, err);
 }
 
