@@ -33,9 +33,10 @@ static void say_order(struct br_document *d, const struct br_estimate *order, en
                       const char *where, bool *first)
 {
     char text[64];
+    const bool none = !isfinite(order->value) || order->value <= 0 || order->low <= 0;
     br_put_more(d, "%sorder in %s %s%s%s%s", separator(first), br_axis_letters[axis],
-                isfinite(order->value) ? br_order_text(order, text, sizeof text) : "not known",
-                isfinite(order->value) && !br_order_determined(order) ? " (not determined)" : "",
+                none ? "not seen" : br_order_text(order, text, sizeof text),
+                !none && !br_order_determined(order) ? " (not determined)" : "",
                 *where ? " at " : "", where);
 }
 

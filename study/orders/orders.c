@@ -303,7 +303,9 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
                                                     .k = z_of(numbers, i, BR_AXIS_TIME),
                                                     .error = error};
     }
-    const enum br_status status = br_joint_fit_solve(seen, count, &of->joint, err);
+    const bool same =
+        count > 0 && count == of->joint.points; /* rows are left out, never taken back */
+    const enum br_status status = same ? BR_OK : br_joint_fit_solve(seen, count, &of->joint, err);
     free(seen);
     return status;
 }
