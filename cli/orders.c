@@ -9,6 +9,7 @@
 #include "cli/verdicts.h"
 #include "plots/pictures.h"
 #include "solver/clock.h"
+#include "study/orders/table.h"
 #include "study/scene/file.h"
 
 struct run {
@@ -110,7 +111,7 @@ static enum br_status read_table(const char *path, const struct br_options *o,
     const bool standard = strcmp(path, "-") == 0;
     enum br_status status = copy_text(standard ? "standard input" : path, &q->path, err);
     if (!status)
-        status = br_scene_load(standard ? "/dev/stdin" : path, &q->table, err);
+        status = br_table_load(standard ? "/dev/stdin" : path, &q->table, err);
     return status ? status : read_options(o, q, err);
 }
 
