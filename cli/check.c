@@ -74,6 +74,12 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
 {
     struct item *item = &r->item[i];
     char *text = NULL;
+    const char *dot = strrchr(name, '.');
+    if (dot && (strcmp(dot, ".csv") == 0 || strcmp(dot, ".tsv") == 0 || strcmp(dot, ".jsonl") == 0))
+        return br_fail(err, BR_BAD_INPUT,
+                       "found the table %s, expected a scene or a study file (.yaml) that names "
+                       "it; orders of a table: beamrate orders %s",
+                       name, name);
     if (br_scene_find(name, item->path, sizeof item->path, err) ||
         br_scene_load(item->path, &text, err))
         return err->status;
@@ -206,6 +212,8 @@ static enum br_status prepare_reports(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
     enum br_status status = br_verdicts_open(&r->verdicts, o, r->check, r->count, err);
+    for (size_t i = 0; i < r->most && !status; i++)
+        status = br_verdicts_spare(&r->verdicts, r->item[i].study.request.table_path, err);
     if (!status)
         status = br_session_open(&r->session, err);
     if (!status)

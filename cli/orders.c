@@ -9,6 +9,7 @@
 #include "cli/verdicts.h"
 #include "plots/pictures.h"
 #include "solver/clock.h"
+#include "study/orders/table.h"
 #include "study/scene/file.h"
 
 struct run {
@@ -110,7 +111,7 @@ static enum br_status read_table(const char *path, const struct br_options *o,
     const bool standard = strcmp(path, "-") == 0;
     enum br_status status = copy_text(standard ? "standard input" : path, &q->path, err);
     if (!status)
-        status = br_scene_load(standard ? "/dev/stdin" : path, &q->table, err);
+        status = br_table_load(standard ? "/dev/stdin" : path, &q->table, err);
     return status ? status : read_options(o, q, err);
 }
 
@@ -176,7 +177,9 @@ static enum br_status prepare(struct run *r, struct br_error *err)
             return br_fail(err, BR_BAD_INPUT,
                            "nothing is expected, so there are no verdicts to be written or "
                            "compared: give --expect, or 'verify:' in a study file");
-    const enum br_status status = br_verdicts_open(&r->verdicts, o, &r->check, 1, err);
+    enum br_status status = br_verdicts_open(&r->verdicts, o, &r->check, 1, err);
+    if (!status)
+        status = br_verdicts_spare(&r->verdicts, r->study.request.table_path, err);
     return status ? status : br_session_open(&r->session, err);
 }
 

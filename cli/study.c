@@ -28,11 +28,15 @@ struct job {
     const char *caption; /* NULL: the scene's title */
 };
 
+enum { MESHES = 4 }; /* an order needs three differences */
+
 /* A job on its way. */
 struct work {
     struct br_opened_scene opened;
-    size_t *steps;       /* of the grid, ascending; owned */
-    struct br_tips tips; /* only without a reference */
+    size_t *steps;             /* of the grid, ascending; owned */
+    struct br_tips tips;       /* only without a reference */
+    size_t mesh[MESHES];       /* for differences, where those of the grid do not do */
+    struct br_error no_meshes; /* why there are no differences */
 };
 
 /* A report with its name and caption. */
@@ -51,7 +55,9 @@ struct run {
                           without a reference over h, then over k */
     struct work *work; /* jobs */
     struct page *page; /* pages, those of a job together */
-    struct br_study *study; /* heads * norms, in the first norm first, which br_study_run takes */
+    struct br_study *study;  /* heads * norms, in the first norm first, which br_study_run takes */
+    struct br_study *meshes; /* jobs * norms, those of a job together: each mesh against the next at
+                                one time step; without a reference not used */
 };
 
 /* Study h of the heads in norm m. */
@@ -156,6 +162,10 @@ static enum br_status start_report(struct run *r, const struct job *job, size_t 
         .study = study_of(r, variant * r->jobs + i, m),
         .exact = !r->differences && r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
         .tips = r->differences ? &r->work[i].tips : NULL,
+        .meshes = !r->differences ? &r->meshes[i * r->request.norms + m]
+                  : variant == 0  ? study_of(r, i, m)
+                                  : NULL,
+        .rates = br_option_given(r->session.options, BR_OPT_RATES),
     };
     const bool printed = job->printed && norm->printed && !r->differences;
     return printed ? read_printed(job->printed, &page->report, err) : BR_OK;
@@ -198,7 +208,8 @@ static enum br_status prepare(struct run *r, const struct job *job, bool with_ex
     r->work = br_allocate(r->jobs, sizeof *r->work);
     r->page = br_allocate(2 * r->jobs * q->norms, sizeof *r->page);
     r->study = br_allocate(r->heads * q->norms, sizeof *r->study);
-    if (!r->work || !r->page || !r->study)
+    r->meshes = br_allocate(r->jobs * q->norms, sizeof *r->meshes);
+    if (!r->work || !r->page || !r->study || !r->meshes)
         return br_no_memory(err, "the studies");
     for (size_t i = 0; i < r->jobs && !status; i++)
         status = prepare_job(r, &job[i], i, err);
@@ -211,6 +222,8 @@ static void clear(struct run *r)
         br_report_clear(&r->page[i].report);
     for (size_t i = 0; r->study && i < r->heads * r->request.norms; i++)
         br_study_clear(&r->study[i]);
+    for (size_t i = 0; r->meshes && i < r->jobs * r->request.norms; i++)
+        br_study_clear(&r->meshes[i]);
     for (size_t i = 0; r->work && i < r->jobs; i++) {
         br_opened_scene_clear(&r->work[i].opened);
         br_tips_clear(&r->work[i].tips);
@@ -219,6 +232,7 @@ static void clear(struct run *r)
     free(r->page);
     free(r->work);
     free(r->study);
+    free(r->meshes);
     br_session_close(&r->session);
 }
 
@@ -251,6 +265,65 @@ static enum br_status run_differences(struct run *r, size_t job, const struct br
     return status;
 }
 
+/* The meshes of the grid, if they are enough and each nests in the next, or else some up to about
+ * the finest; at the coarsest time step that all of them can march. */
+static struct br_study grid_of_meshes(const struct br_study *s, size_t mesh[MESHES])
+{
+    struct br_study grid = {.scene = s->scene, .method = s->method, .judge = &br_judge_none};
+    bool nest = s->n_count >= MESHES, sound = false;
+    for (size_t i = 0; i + 1 < s->n_count; i++)
+        nest = nest && s->n[i + 1] > s->n[i] && s->n[i + 1] % s->n[i] == 0;
+    const size_t finest = s->n[s->n_count - 1], first = finest >> (MESHES - 1);
+    for (size_t i = 0; i < MESHES; i++)
+        mesh[i] = (first ? first : 1) << i;
+    grid.n = nest ? s->n : mesh;
+    grid.n_count = nest ? s->n_count : MESHES;
+    grid.k_count = 1;
+    for (size_t j = 0; j < s->k_count && !sound; j++) {
+        grid.steps = &s->steps[j];
+        sound = true;
+        for (size_t i = 0; i < s->n_count; i++)
+            sound &= !br_study_cell(s, i, j)->unstable && !br_study_cell(s, i, j)->failure.status;
+    }
+    return grid;
+}
+
+/* They show the order in h, which the error in k hides in most grids. A study goes on without. */
+static enum br_status run_meshes(struct run *r, size_t job, const struct br_observer *observer,
+                                 struct br_error *err)
+{
+    const size_t norms = r->request.norms;
+    struct work *w = &r->work[job];
+    struct br_study grid[BR_MOST_NORMS];
+    struct br_differences out[BR_MOST_NORMS] = {0};
+    for (size_t m = 0; m < norms; m++) {
+        grid[m] = grid_of_meshes(study_of(r, job, 0), w->mesh);
+        grid[m].norm = r->request.norm[m];
+        grid[m].next_norm = m + 1 < norms ? &grid[m + 1] : NULL;
+    }
+    const enum br_status status =
+        br_differences_run(grid, out, NULL, r->session.threads, observer, &w->no_meshes);
+    if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
+        return br_fail(err, status, "%s", w->no_meshes.message);
+    for (size_t m = 0; m < norms && !status; m++) {
+        r->meshes[job * norms + m] = out[m].over_h;
+        br_flag_beside(&r->meshes[job * norms + m]);
+    }
+    return BR_OK;
+}
+
+static enum br_status finish_page(const struct run *r, struct page *page, double wall,
+                                  struct br_error *err)
+{
+    struct br_report *report = &page->report;
+    report->wall_seconds = wall;
+    if (page->work->no_meshes.status) {
+        report->meshes = NULL;
+        report->no_meshes = page->work->no_meshes.message;
+    }
+    return br_report_finish(report, r->session.threads, err);
+}
+
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
@@ -258,14 +331,13 @@ static enum br_status compute(struct run *r, struct br_error *err)
     enum br_status status = BR_OK;
     if (!r->differences)
         status = br_study_run(r->study, r->heads, r->session.threads, observer, err);
-    for (size_t i = 0; i < r->jobs && r->differences && !status; i++)
-        status = run_differences(r, i, observer, err);
+    for (size_t i = 0; i < r->jobs && !status; i++)
+        status =
+            r->differences ? run_differences(r, i, observer, err) : run_meshes(r, i, observer, err);
     br_progress_end();
     const double wall = br_seconds() - start;
-    for (size_t i = 0; i < r->pages && !status; i++) {
-        r->page[i].report.wall_seconds = wall;
-        status = br_report_finish(&r->page[i].report, r->session.threads, err);
-    }
+    for (size_t i = 0; i < r->pages && !status; i++)
+        status = finish_page(r, &r->page[i], wall, err);
     return br_progress_result(status, err);
 }
 

@@ -29,6 +29,16 @@ static enum br_status open_files(struct br_verdicts *v, const struct br_options 
     return status;
 }
 
+enum br_status br_verdicts_spare(const struct br_verdicts *v, const char *path,
+                                 struct br_error *err)
+{
+    for (size_t i = 1; path && br_check_formats[i]; i++)
+        if (br_whole_file_replaces(&v->file[i], path))
+            return br_fail(err, BR_BAD_INPUT, "--%s would replace %s, which is read",
+                           br_check_formats[i]->name, path);
+    return BR_OK;
+}
+
 /* No report may end where another one does, or in the place of what is read. */
 static enum br_status check_places(const struct br_verdicts *v, const char *baseline,
                                    const struct br_check *checks, size_t count,
@@ -41,15 +51,15 @@ static enum br_status check_places(const struct br_verdicts *v, const char *base
             if (br_whole_file_same(f, &v->file[j]))
                 return br_fail(err, BR_BAD_INPUT, "--%s and --%s both write %s",
                                br_check_formats[j]->name, name, f->path);
-        for (size_t s = 0; s < count; s++)
-            if (br_whole_file_replaces(f, checks[s].path))
-                return br_fail(err, BR_BAD_INPUT, "--%s would replace the scene %s", name, f->path);
         if (baseline &&
             (br_whole_file_replaces(f, baseline) || br_whole_file_same(f, &v->baseline)))
             return br_fail(err, BR_BAD_INPUT, "--%s would replace what it is compared with, %s",
                            name, f->path);
     }
-    return BR_OK;
+    enum br_status status = BR_OK;
+    for (size_t s = 0; s < count && !status; s++)
+        status = br_verdicts_spare(v, checks[s].path, err);
+    return status;
 }
 
 /* A baseline that is to be written need not be there yet, nor be of the same problem. */

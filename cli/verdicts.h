@@ -25,6 +25,10 @@ struct br_verdicts {
 enum br_status br_verdicts_open(struct br_verdicts *verdicts, const struct br_options *options,
                                 const struct br_check *checks, size_t count, struct br_error *err);
 
+/* Refuses (BR_BAD_INPUT) to write any of them in the place of this file; NULL: none. */
+enum br_status br_verdicts_spare(const struct br_verdicts *verdicts, const char *path,
+                                 struct br_error *err);
+
 /* Builds the report of the verdicts (out, begins as zeros). findings: without comparison and
  * provenance. whole: all that there is was checked. Fails with BR_NO_MEMORY. */
 enum br_status br_verdicts_report(struct br_verdicts *verdicts,

@@ -24,6 +24,15 @@ static const char *name_of(const struct br_case *c, char name[NAME])
     return name;
 }
 
+/* What is checked, for people: scenes, or where there are other programs' numbers, sources. */
+static const char *source_of(const struct br_check_findings *f)
+{
+    for (size_t i = 0; i < f->count; i++)
+        if (!f->checks[i].scene)
+            return "source";
+    return "scene";
+}
+
 /* ---- the answer ---- */
 
 static void answer_tally(struct br_document *d, const struct br_check_findings *f)
@@ -35,13 +44,14 @@ static void answer_tally(struct br_document *d, const struct br_check_findings *
         orders += f->checks[i].count;
     for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
         of[v] = br_check_tally(f->checks, f->count, (enum br_verdict)v);
-    br_put_answer(d, "%zu order%s in %zu scene%s: %zu PASS, %zu FAIL, %zu INCONCLUSIVE", orders,
-                  orders == 1 ? "" : "s", f->count, f->count == 1 ? "" : "s", of[BR_PASS],
-                  of[BR_FAIL], of[BR_INCONCLUSIVE]);
+    br_put_answer(d, "%zu order%s in %zu %s%s: %zu PASS, %zu FAIL, %zu INCONCLUSIVE", orders,
+                  orders == 1 ? "" : "s", f->count, source_of(f), f->count == 1 ? "" : "s",
+                  of[BR_PASS], of[BR_FAIL], of[BR_INCONCLUSIVE]);
     if (refused)
         br_put_more(d, ", %zu cannot be verified", refused);
-    br_put_more(d, "%s; %.1f s", f->stopped ? "; stopped at the first scene that failed" : "",
-                f->wall_seconds);
+    if (f->stopped)
+        br_put_more(d, "; stopped at the first %s that failed", source_of(f));
+    br_put_more(d, "; %.1f s", f->wall_seconds);
 }
 
 /* The first of what does not pass. */
@@ -99,6 +109,10 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
                       });
     for (size_t i = 0; i < c->points; i++) {
         const struct br_point *p = &c->point[i];
+        if (!isfinite(p->error)) {
+            br_put_verdict_detail(d, "%s: %s", p->label, *p->failure ? p->failure : "no number");
+            continue;
+        }
         snprintf(against, sizeof against, "n = %zu, k = T/%zu", p->against.n, p->against.steps);
         snprintf(at, sizeof at, "n = %zu, k = T/%zu", p->at.n, p->at.steps);
         br_put_verdict_detail(d, "%s against %s: error %.4e, constant %.4e%s%s",
@@ -149,8 +163,8 @@ static void put_order(struct br_document *d, const struct br_check *check, const
 
 static void put_orders(struct br_document *d, const struct br_check_findings *f)
 {
-    static const struct br_column columns[] = {
-        {.key = "scene"},
+    const struct br_column columns[] = {
+        {.key = "scene", .heading = source_of(f)},
         {.key = "study"},
         {.key = "norm"},
         {.key = "part"},

@@ -2,18 +2,18 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/fit/fit.h"
 #include "study/paper/claims.h"
 #include "tables/reports.h"
 
-/* "0.7999 +- 2e-3 s" */
+/* "0.7990 +- 0.0020 s" */
 static void show_value(struct br_document *d, double value, double error, const char *unit)
 {
-    char bar[32] = "";
+    char text[64];
     const char *named = strcmp(unit, "1") == 0 ? "" : unit;
-    if (isfinite(error))
-        snprintf(bar, sizeof bar, " +- %.2g", error);
     if (isfinite(value))
-        br_put_shown(d, "%.6g%s%s%s", value, bar, *named ? " " : "", named);
+        br_put_shown(d, "%s%s%s", br_uncertain_text(value, error, text, sizeof text),
+                     *named ? " " : "", named);
 }
 
 static void put_claim(struct br_document *d, const struct br_claim *c, const struct br_finding *f)

@@ -33,9 +33,10 @@ static void say_order(struct br_document *d, const struct br_estimate *order, en
                       const char *where, bool *first)
 {
     char text[64];
+    const bool none = !isfinite(order->value) || order->value <= 0 || order->low <= 0;
     br_put_more(d, "%sorder in %s %s%s%s%s", separator(first), br_axis_letters[axis],
-                isfinite(order->value) ? br_order_text(order, text, sizeof text) : "not known",
-                isfinite(order->value) && !br_order_determined(order) ? " (not determined)" : "",
+                none ? "not seen" : br_order_text(order, text, sizeof text),
+                !none && !br_order_determined(order) ? " (not determined)" : "",
                 *where ? " at " : "", where);
 }
 
@@ -156,7 +157,8 @@ static void put_row(struct br_document *d, const struct br_orders *o,
                                                                                   "rate in k"};
     const struct br_numbers *numbers = o->numbers;
     const struct br_quantity *q = quantity_of(o, of);
-    const char *left_out = "";
+    const bool failed = numbers->row[row].failure || isnan(numbers->row[row].number[of->quantity]);
+    const char *left_out = failed ? br_flag_name(BR_FLAG_FAILED) : "";
     br_put_row(d);
     BR_PUT(d, br_text(q->name), .key = "quantity");
     put_given(d, numbers, row);
@@ -169,7 +171,7 @@ static void put_row(struct br_document *d, const struct br_orders *o,
         if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME))
             BR_PUT(d, br_number(rate), .key = rates[axis], .heading = headings[axis],
                    .format = "%.2f");
-        if (p && p->flag)
+        if (p && p->flag && p->flag != BR_FLAG_FAILED) /* the next finer one may have failed */
             left_out = br_flag_name(p->flag);
     }
     BR_PUT(d, br_text(left_out), .key = "left_out", .heading = "left out");

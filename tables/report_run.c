@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/fit/fit.h"
 #include "study/foresee/prediction.h"
 #include "study/run/run.h"
 #include "study/scene/method_fields.h"
@@ -51,23 +52,32 @@ static double tip_error(const struct br_run_findings *f, int kind)
     return f->prediction->known ? error : NAN;
 }
 
-/* "-0.2216 +- 0.014": the value to the error's second digit. */
+/* "-0.222 +- 0.014" */
 static const char *with_error(double value, double error, char text[VALUE])
 {
-    if (isinf(error)) {
-        snprintf(text, VALUE, "%.1g (perhaps no digit is right)", value);
-        return text;
-    }
-    if (!(error > 0) || value == 0) {
-        snprintf(text, VALUE, error > 0 ? "%.6g +- %.2g" : "%.6g", value, error);
-        return text;
-    }
-    const int first = (int)floor(log10(fabs(value))), last = (int)floor(log10(error)) - 1;
-    if (first < -4 || first > 6 || last > 0 || last < -15)
-        snprintf(text, VALUE, "%.*e +- %.1e", first > last ? first - last : 0, value, error);
-    else
-        snprintf(text, VALUE, "%.*f +- %.*f", -last, value, -last, error);
+    if (!isinf(error))
+        return br_uncertain_text(value, error, text, VALUE);
+    snprintf(text, VALUE, "%.1g (perhaps no digit is right)", value);
     return text;
+}
+
+/* A number of the march with as many digits as its predicted error allows, three where that is not
+ * known; error: its own, if that is known better than the march's. */
+static void put_number(struct br_document *d, const struct br_run_findings *f,
+                       const struct br_column *what, struct br_value value, double error)
+{
+    const struct br_prediction *p = f->prediction;
+    const double digits = p->known ? 1 - floor(log10(p->whole.error)) : 3;
+    char text[VALUE];
+    br_put_fact(d, what, value);
+    if (value.kind != BR_NUMBER || !isfinite(value.number))
+        return;
+    if (error > 0 || value.number == 0)
+        br_put_shown(d, "%s", with_error(value.number, error, text));
+    else
+        br_put_shown(
+            d, "%s",
+            br_digits_text(value.number, (int)fmax(2, fmin(digits, 6)), text, sizeof text));
 }
 
 static void answer_tip(struct br_document *d, const struct br_run_findings *f)
@@ -262,33 +272,44 @@ static void put_warnings(struct br_document *d, const struct br_warnings *w)
 
 /* ---- the tip ---- */
 
-static void put_extreme(struct br_document *d, bool known, const char *key, const char *label,
-                        const struct br_extreme *e)
+static void put_extreme(struct br_document *d, const struct br_run_findings *f, bool known,
+                        const char *key, const char *label, const struct br_extreme *e)
 {
     char value[KEY], time[KEY];
-    const struct br_fact facts[] = {{value, label, "N", br_if(known, br_number(e->value))},
-                                    {time, "  at t", "s", br_if(known, br_number(e->time))}};
     snprintf(value, sizeof value, "events.%s.value", key);
     snprintf(time, sizeof time, "events.%s.t", key);
-    BR_FACTS(d, facts);
+    put_number(d, f, &(struct br_column){.key = value, .heading = label, .unit = "N"},
+               br_if(known, br_number(e->value)), NAN);
+    BR_FACT(d, br_if(known, br_number(e->time)), .key = time, .heading = "  at t", .unit = "s");
 }
 
-static void put_friction(struct br_document *d, const struct br_run_report *r)
+/* The bound of Coulomb's law is as wrong as the penetration; that of Tresca's is given. */
+static void put_friction(struct br_document *d, const struct br_run_findings *f)
 {
+    const struct br_run_report *r = f->report;
+    const struct br_friction *law = &r->marched.friction;
     const struct br_history_row *row = &r->end.last;
     const double force = row->friction_force, bound = row->friction_bound;
     const bool friction = has_friction(r);
+    const bool coulomb = law->law == BR_COULOMB && bound > 0;
+    const double error = coulomb ? law->coefficient * tip_error(f, BR_AXIAL) : NAN;
     const struct br_value regime = br_text(br_tip_regime_word(r->watch.regime));
     const struct br_fact facts[] = {
-        {"tip.friction_force", "friction force", "N", br_if(friction, br_number(force))},
-        {"tip.friction_bound", "  its bound", "N", br_if(friction, br_number(bound))},
         {"tip.friction_share", "  of the bound", "%",
          br_if(friction, br_number(100 * fabs(force) / bound))},
         {"tip.regime", "friction", NULL, br_if(friction && r->watch.steps, regime)},
     };
+    put_number(
+        d, f,
+        &(struct br_column){.key = "tip.friction_force", .heading = "friction force", .unit = "N"},
+        br_if(friction, br_number(force)), fabs(force) == bound ? error : NAN);
+    put_number(
+        d, f,
+        &(struct br_column){.key = "tip.friction_bound", .heading = "  its bound", .unit = "N"},
+        br_if(friction, br_number(bound)), error);
     BR_FACTS(d, facts);
     br_put_mark(d, r->watch.regime == BR_TIP_SLIP ? direction(r->watch.direction) : "");
-    put_extreme(d, friction, "largest_friction_force", "largest friction force",
+    put_extreme(d, f, friction, "largest_friction_force", "largest friction force",
                 &r->watch.friction_force);
 }
 
@@ -303,6 +324,17 @@ static void put_displacement(struct br_document *d, const struct br_run_findings
     br_put_shown(d, "%s", with_error(value, tip_error(f, kind), text));
 }
 
+static void put_velocity(struct br_document *d, const struct br_run_findings *f, int kind)
+{
+    const double velocity = f->report->end.last.velocity[kind];
+    const bool axial = kind == BR_AXIAL;
+    put_number(d, f,
+               &(struct br_column){.key = axial ? "tip.velocity.axial" : "tip.velocity.bending",
+                                   .heading = axial ? "velocity, axial" : "velocity, bending",
+                                   .unit = "m/s"},
+               br_if(is_marched(f->report, kind), br_number(velocity)), NAN);
+}
+
 static void put_tip(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
@@ -315,15 +347,19 @@ static void put_tip(struct br_document *d, const struct br_run_findings *f)
     put_displacement(d, f, BR_AXIAL);
     put_displacement(d, f, BR_BENDING);
     put_two(d, r, error, NULL, "m", "tip.predicted_error");
-    put_two(d, r, row->velocity, "velocity", "m/s", "tip.velocity");
-    BR_FACT(d, br_if(contact, br_number(row->contact_force)), .key = "tip.contact_force",
-            .heading = "contact force", .unit = "N");
+    put_velocity(d, f, BR_AXIAL);
+    put_velocity(d, f, BR_BENDING);
+    put_number(
+        d, f,
+        &(struct br_column){.key = "tip.contact_force", .heading = "contact force", .unit = "N"},
+        br_if(contact, br_number(row->contact_force)),
+        row->contact_force > 0 ? r->marched.contact.stiffness * error[BR_AXIAL] : NAN);
     BR_FACT(d, br_if(contact, br_truth(r->watch.closed)), .key = "tip.closed",
             .heading = "contact");
     br_put_shown(d, "%s", r->watch.closed ? "closed" : "open");
-    put_extreme(d, contact, "largest_contact_force", "largest contact force",
+    put_extreme(d, f, contact, "largest_contact_force", "largest contact force",
                 &r->watch.contact_force);
-    put_friction(d, r);
+    put_friction(d, f);
 }
 
 /* ---- events ---- */

@@ -29,36 +29,28 @@ static double relative_of(const struct br_study *s, const struct br_cell *c, enu
 
 /* ---- the answer ---- */
 
-/* Says "1.99 [1.94, 2.04]", or why there is none. */
-static void say_order(struct br_document *d, const struct br_estimate *order, bool fitted)
+static const char *const directions[BR_DIRECTIONS] = {"h", "k"};
+
+/* "2.000 [2.000, 2.001]"; "-" where no order is claimed. */
+static const char *seen_text(const struct br_seen_order *seen, char text[64])
 {
-    char buffer[64];
-    const char *value = br_order_text(order, buffer, sizeof buffer);
-    if (!fitted)
-        br_put_more(d, "no error is seen");
-    else
-        br_put_more(d, br_order_determined(order) ? "%s" : "not determined (%s)", value);
+    return br_order_text(&seen->order, text, 64);
 }
 
 static void answer_orders(struct br_document *d, const struct br_report *r)
 {
-    const struct br_joint_fit *fit = &r->fits[BR_PART_TOTAL].joint;
-    if (!fit->converged) {
-        br_put_answer(d, "No joint fit: %zu usable cells tell no order.", fit->points);
-    } else if (!br_joint_describes(fit)) {
-        br_put_answer(d,
-                      "The joint model does not describe these errors (misfit %.0f %%, %zu cells): "
-                      "no orders are claimed.",
-                      100 * fit->misfit, fit->points);
-    } else {
-        br_put_answer(d, "Order in h: ");
-        say_order(d, &fit->p, fit->kind != BR_JOINT_TIME);
-        br_put_more(d, ", in k: ");
-        say_order(d, &fit->q, fit->kind != BR_JOINT_SPACE);
-        br_put_more(d, "; 95 %% intervals, misfit %.2g %% in %zu cells.", 100 * fit->misfit,
-                    fit->points);
+    char text[64];
+    for (int i = 0; i < BR_DIRECTIONS; i++) {
+        const struct br_seen_order *seen = &r->seen[BR_PART_TOTAL][i];
+        if (!seen->asked)
+            continue;
+        br_put_answer(d, "Order in %s: ", directions[i]);
+        if (isfinite(seen->order.value))
+            br_put_more(d, "%s, theory %g, %s: %s.", seen_text(seen, text), seen->theory,
+                        seen->remark, seen->by);
+        else
+            br_put_more(d, "%s. Theory: %g.", seen->remark, seen->theory);
     }
-    br_put_answer(d, "Theory: %s", r->study->norm->theory);
 }
 
 static void answer_error(struct br_document *d, const struct br_study *s)
@@ -205,16 +197,63 @@ static bool is_modelled(const struct br_report *r, enum br_field_kind kind)
 
 static void answer_tips(struct br_document *d, const struct br_report *r)
 {
+    char text[64];
     const struct br_study *s = br_report_fitted(r);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (is_modelled(r, kind) && is_outside(r, kind))
             br_put_answer(d,
-                          "The cells alone (Richardson) give %s(L, T) = %.10g +- %.1e m, and the "
+                          "The cells alone (Richardson) give %s(L, T) = %s m, and the "
                           "%s reference's %.10g is OUTSIDE that: the cells are too coarse to see "
                           "all of the solution, or one of the two is wrong.",
-                          kind == BR_AXIAL ? "u" : "w", r->tip[kind].value,
-                          (r->tip[kind].high - r->tip[kind].low) / 2, s->judge->name,
-                          s->reference_tip[kind]);
+                          kind == BR_AXIAL ? "u" : "w",
+                          br_uncertain_text(r->tip[kind].value,
+                                            (r->tip[kind].high - r->tip[kind].low) / 2, text,
+                                            sizeof text),
+                          s->judge->name, s->reference_tip[kind]);
+}
+
+/* What the answers say, and the same of each part. */
+static void put_seen(struct br_document *d, const struct br_report *r, enum br_part part, int i)
+{
+    const struct br_seen_order *seen = &r->seen[part][i];
+    char text[64];
+    if (!seen->asked)
+        return;
+    br_put_row(d);
+    BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
+    BR_PUT(d, br_text(i == BR_OVER_H ? "order in h" : "order in k"), .heading = "what");
+    BR_PUT(d, br_text(seen_text(seen, text)), .heading = "seen [95 %]");
+    BR_PUT(d, br_number(seen->theory), .heading = "theory", .format = "%g");
+    BR_PUT(d, br_text(seen->remark), .heading = "it is", .flags = BR_WRAP);
+    BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "by", .flags = BR_WRAP);
+}
+
+static void put_finest(struct br_document *d, const struct br_study *s)
+{
+    const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
+    const double error = c->error[BR_PART_TOTAL], relative = relative_of(s, c, BR_PART_TOTAL);
+    br_put_row(d);
+    BR_PUT(d, br_text(br_part_names[BR_PART_TOTAL]), .heading = "part");
+    BR_PUT(d, br_text(s->judge == &br_judge_none ? "difference" : "error"), .heading = "what");
+    BR_PUT(d, br_number(error), .heading = "seen [95 %]");
+    if (isfinite(error))
+        br_put_shown(d, "%.3e %s", error, s->norm->unit);
+    BR_PUT(d, br_number(relative), .heading = "it is");
+    if (isfinite(relative))
+        br_put_shown(d, "%.1e of the solution", relative);
+    BR_PUT(d, br_count(c->at.n), .heading = "by");
+    br_put_shown(d, "finest cell, n = %zu, k = %g s", c->at.n, step_of(s, c));
+}
+
+static void put_orders(struct br_document *d, const struct br_report *r)
+{
+    br_put_table(d, "seen", "Orders, and the error of the finest cell", BR_FOR_PEOPLE);
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
+        for (int i = 0; is_shown(r, part) && i < BR_DIRECTIONS; i++)
+            put_seen(d, r, part, i);
+        if (part == BR_PART_TOTAL)
+            put_finest(d, br_report_fitted(r));
+    }
 }
 
 static void put_answers(struct br_document *d, const struct br_report *r)
@@ -245,6 +284,12 @@ struct grid {
     unsigned flags;
 };
 
+/* A slope that is not above zero is no order. */
+static const char *slope_text(const struct br_estimate *slope, char text[64])
+{
+    return slope->value <= 0 || slope->low <= 0 ? "no order" : br_order_text(slope, text, 64);
+}
+
 static void put_grid_row(struct br_document *d, const struct br_report *r, const struct grid *g,
                          size_t i)
 {
@@ -264,22 +309,24 @@ static void put_grid_row(struct br_document *d, const struct br_report *r, const
     }
     if (!g->fits)
         return;
-    const char *slope = br_order_text(&g->fits->by_n[i].order, buffer, sizeof buffer);
-    BR_PUT(d, br_text(slope), .key = "slope", .heading = "slope in k [95 %]");
-    br_put_shown(d, "%s", slope);
+    BR_PUT(d, br_text(slope_text(&g->fits->by_n[i].order, buffer)), .key = "slope",
+           .heading = "slope in k [95 %]");
 }
 
 static void put_slopes_in_h(struct br_document *d, const struct grid *g)
 {
+    char text[64];
     br_put_row(d);
     br_put_rule(d);
     br_put(d, "n", br_nothing());
     br_put_shown(d, "slope in h");
     for (size_t j = 0; j < g->study->k_count; j++) {
-        const double slope = g->fits->by_k[j].order.value;
-        br_put(d, NULL, br_number(slope));
-        if (isfinite(slope))
-            br_put_shown(d, "%.2f", slope);
+        const struct br_estimate *slope = &g->fits->by_k[j].order;
+        br_put(d, NULL, br_number(slope->value));
+        if (slope->value <= 0 || slope->low <= 0)
+            br_put_shown(d, "%s", slope_text(slope, text));
+        else if (isfinite(slope->value))
+            br_put_shown(d, "%.2f", slope->value);
     }
 }
 
@@ -308,7 +355,7 @@ static void put_error_grid(struct br_document *d, const struct br_report *r,
         .key = fitted ? br_part_names[part] : s->judge->name,
         .study = s,
         .part = part,
-        .fits = fitted ? &r->fits[part] : NULL,
+        .fits = fitted && r->rates ? &r->fits[part] : NULL,
         .format = "%.3e",
         .flags = part == BR_PART_TOTAL && fitted ? 0 : BR_FILES_ONLY,
     };
@@ -413,25 +460,30 @@ static void put_estimate(struct br_document *d, const struct br_column *column,
     br_hide(d, high, column->unit, br_number(e->high));
 }
 
-/* claimed: whether people may see it. */
+/* shown: to people. */
 static void put_order(struct br_document *d, const char *key, const char *heading,
-                      const struct br_estimate *e, bool claimed)
+                      const struct br_estimate *e, const char *shown)
 {
-    char buffer[64];
-    put_estimate(d, &(struct br_column){.key = key, .heading = heading}, e,
-                 claimed ? br_order_text(e, buffer, sizeof buffer) : "not claimed");
+    put_estimate(d, &(struct br_column){.key = key, .heading = heading}, e, shown);
+}
+
+/* claims: whether the fit describes the errors. */
+static const char *fitted_text(const struct br_estimate *e, bool claims, char text[64])
+{
+    return claims && br_order_determined(e) ? br_order_text(e, text, 64) : "not claimed";
 }
 
 /* n, or k; over: what the slope is over. */
 static void put_slope(struct br_document *d, enum br_part part, const char *over, struct br_value n,
                       struct br_value k, const struct br_slope *slope)
 {
+    char text[64];
     br_put_row(d);
     BR_PUT(d, br_text(br_part_names[part]), .key = "part");
     BR_PUT(d, br_text(over), .key = "over");
     BR_PUT(d, n, .key = "n");
     BR_PUT(d, k, .key = "k", .unit = "s");
-    put_order(d, "order", "slope [95 %]", &slope->order, true);
+    put_order(d, "order", "slope [95 %]", &slope->order, slope_text(&slope->order, text));
     BR_PUT(d, br_count(slope->points), .key = "points", .heading = "cells");
 }
 
@@ -439,7 +491,7 @@ static void put_slopes(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = r->study;
     br_put_table(d, "slopes", "Slopes of the grids' rows (over k) and columns (over h)",
-                 BR_FILES_ONLY);
+                 r->rates ? BR_LONG : BR_FILES_ONLY);
     for (enum br_part part = 0; part < BR_PARTS; part++) {
         for (size_t i = 0; is_shown(r, part) && i < s->n_count; i++)
             put_slope(d, part, "k", br_count(s->n[i]), br_nothing(), &r->fits[part].by_n[i]);
@@ -457,7 +509,7 @@ static void put_fit(struct br_document *d, const struct br_report *r, enum br_pa
                                   both = {.key = "r", .heading = "r [95 %]"};
     const struct br_joint_fit *j = &r->fits[part].joint;
     const bool claims = br_joint_describes(j);
-    char text[64];
+    char text[64], order[64];
     snprintf(text, sizeof text, "%.3f [%.3f, %.3f]", j->r.value, j->r.low, j->r.high);
     br_put_row(d);
     BR_PUT(d, br_text(br_part_names[part]), .key = "part");
@@ -465,9 +517,9 @@ static void put_fit(struct br_document *d, const struct br_report *r, enum br_pa
            .flags = BR_FILES_ONLY);
     if (!j->converged)
         br_put_shown(d, "none");
-    put_order(d, "p", "p [95 %]", &j->p, claims);
+    put_order(d, "p", "p [95 %]", &j->p, fitted_text(&j->p, claims, order));
     put_estimate(d, &c_h, &j->c_h, claims ? NULL : "-");
-    put_order(d, "q", "q [95 %]", &j->q, claims);
+    put_order(d, "q", "q [95 %]", &j->q, fitted_text(&j->q, claims, order));
     put_estimate(d, &c_k, &j->c_k, claims ? NULL : "-");
     put_estimate(d, &both, &j->r, claims ? text : "-");
     BR_PUT(d, br_number(j->misfit), .key = "misfit", .format = "%.2g");
@@ -484,8 +536,11 @@ static void put_fit(struct br_document *d, const struct br_report *r, enum br_pa
 
 static void put_fits(struct br_document *d, const struct br_report *r)
 {
+    bool told = r->rates;
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        told |= is_shown(r, part) && br_joint_describes(&r->fits[part].joint) && !r->printed;
     br_put_table(d, "fits", "Joint fit of the signed errors C_h h^p and C_k k^q",
-                 r->printed ? BR_FILES_ONLY : 0);
+                 told ? 0 : BR_FILES_ONLY);
     for (enum br_part part = 0; part < BR_PARTS; part++)
         if (is_shown(r, part))
             put_fit(d, r, part);
@@ -502,7 +557,7 @@ static void put_tips(struct br_document *d, const struct br_report *r)
         const struct br_estimate *e = &r->tip[kind];
         const bool compared = judged && isfinite(e->high - e->low);
         char shown[64];
-        snprintf(shown, sizeof shown, "%.10g +- %.1e", e->value, (e->high - e->low) / 2);
+        br_uncertain_text(e->value, (e->high - e->low) / 2, shown, sizeof shown);
         if (!is_modelled(r, kind))
             continue;
         br_put_row(d);
@@ -597,6 +652,7 @@ static void put_notes(struct br_document *d, const struct br_report *r)
     char method[BR_METHOD_TEXT];
     br_put_section(d, "What was measured");
     br_put_note(d, "%s", s->norm->title);
+    br_put_note(d, "Theory: %s", s->norm->theory);
     br_put_note(d, "Cells: %s.", br_method_text(s->scene, &s->method, method));
     put_judge(d, "Reference,", br_report_fitted(r));
     if (r->exact)
@@ -639,6 +695,28 @@ static void put_reference(struct br_document *d, const char *key, const struct b
     br_hide_fact(d, br_number(s->judged_by.seconds), "s", "%s.seconds", key);
 }
 
+static void put_order_facts(struct br_document *d, const struct br_report *r, enum br_part part,
+                            int i)
+{
+    const struct br_seen_order *seen = &r->seen[part][i];
+    const char *name = br_part_names[part], *in = directions[i];
+    br_hide_fact(d, br_number(seen->order.value), NULL, "orders.%s.%s.order", name, in);
+    br_hide_fact(d, br_number(seen->order.low), NULL, "orders.%s.%s.low", name, in);
+    br_hide_fact(d, br_number(seen->order.high), NULL, "orders.%s.%s.high", name, in);
+    br_hide_fact(d, br_number(seen->theory), NULL, "orders.%s.%s.theory", name, in);
+    br_hide_fact(d, br_text(seen->by), NULL, "orders.%s.%s.by", name, in);
+    br_hide_fact(d, br_text(seen->remark), NULL, "orders.%s.%s.remark", name, in);
+}
+
+static void put_finest_facts(struct br_document *d, const struct br_study *s)
+{
+    const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
+    br_hide_fact(d, br_count(c->at.n), NULL, "finest.n");
+    br_hide_fact(d, br_number(step_of(s, c)), "s", "finest.k");
+    br_hide_fact(d, br_number(c->error[BR_PART_TOTAL]), s->norm->unit, "finest.error");
+    br_hide_fact(d, br_number(relative_of(s, c, BR_PART_TOTAL)), NULL, "finest.relative");
+}
+
 static void put_facts(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = r->study;
@@ -653,6 +731,11 @@ static void put_facts(struct br_document *d, const struct br_report *r)
     put_reference(d, "reference", s);
     if (r->exact)
         put_reference(d, "exact_reference", r->exact);
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        for (int i = 0; i < BR_DIRECTIONS; i++)
+            if (r->seen[part][i].asked)
+                put_order_facts(d, r, part, i);
+    put_finest_facts(d, br_report_fitted(r));
     br_hide_fact(d, br_text(br_report_fitted(r)->judge->name), NULL, "fitted");
     br_hide_fact(d, br_number(r->wall_seconds), "s", "wall_seconds");
 }
@@ -661,6 +744,7 @@ void br_report_study(const struct br_report *r, struct br_document *d)
 {
     br_document_begin(d, r->name, "beamrate study", 2, r->caption);
     put_answers(d, r);
+    put_orders(d, r);
     put_grids(d, r);
     put_fits(d, r);
     put_tips(d, r);

@@ -24,8 +24,51 @@ const char *br_order_text(const struct br_estimate *order, char *buffer, size_t 
     }
     const double half = (order->high - order->low) / 2;
     const int decimals = half < 0.0005 ? 4 : half < 0.005 ? 3 : 2;
-    snprintf(buffer, size, "%.*f [%.*f, %.*f]", decimals, order->value, decimals, order->low,
-             decimals, order->high);
+    const double unit = pow(10, -decimals); /* what rounds to zero has no sign */
+    snprintf(buffer, size, "%.*f [%.*f, %.*f]", decimals, unit * round(order->value / unit) + 0.0,
+             decimals, unit * round(order->low / unit) + 0.0, decimals,
+             unit * round(order->high / unit) + 0.0);
+    return buffer;
+}
+
+/* The place of the first digit; that of 0: far to the right. */
+static int first_place(double value)
+{
+    return value != 0 ? (int)floor(log10(fabs(value))) : -400;
+}
+
+/* Rounds to a multiple of 10^last. */
+static int print_rounded(double value, int last, char *buffer, size_t size)
+{
+    const double unit = pow(10, last), rounded = unit * round(value / unit);
+    const int first = first_place(rounded);
+    if (rounded == 0)
+        return snprintf(buffer, size, "0");
+    if (first >= -4 && first < 7)
+        return snprintf(buffer, size, "%.*f", last < 0 ? -last : 0, rounded);
+    return snprintf(buffer, size, "%.*e", first > last ? first - last : 0, rounded);
+}
+
+const char *br_digits_text(double value, int digits, char *buffer, size_t size)
+{
+    if (isfinite(value) && value != 0)
+        print_rounded(value, first_place(value) - digits + 1, buffer, size);
+    else
+        snprintf(buffer, size, "%g", value + 0.0); /* no minus zero */
+    return buffer;
+}
+
+const char *br_uncertain_text(double value, double half, char *buffer, size_t size)
+{
+    enum { MOST = 10 };
+    if (!(half > 0 && isfinite(half) && isfinite(value))) {
+        snprintf(buffer, size, "%.6g", value + 0.0);
+        return buffer;
+    }
+    const int last = first_place(half) - 1, least = first_place(value) - MOST + 1;
+    int used = print_rounded(value, last > least ? last : least, buffer, size);
+    used += snprintf(buffer + used, size - (size_t)used, " +- ");
+    print_rounded(half, last, buffer + used, size - (size_t)used);
     return buffer;
 }
 

@@ -18,6 +18,12 @@ bool br_order_determined(const struct br_estimate *order);
  * there is none. buffer: at least 64 characters. */
 const char *br_order_text(const struct br_estimate *order, char *buffer, size_t size);
 
+/* "-0.2216 +- 0.0014": a value with the digits that half the width of its interval allows, at most
+ * ten, "0" where there are none; without a width six digits. And a value with so many digits.
+ * buffer: at least 64 characters. */
+const char *br_uncertain_text(double value, double half, char *buffer, size_t size);
+const char *br_digits_text(double value, int digits, char *buffer, size_t size);
+
 /* Slope of log(error) against log(h) or log(k): what a reader would draw. It means
  * an order only where one of the two errors dominates. */
 struct br_slope {

@@ -439,43 +439,90 @@ static struct problem problem_of(const struct br_observation *observation, size_
     };
 }
 
+/* A kind of model, fitted. */
+struct candidate {
+    struct attempt attempt;
+    double criterion; /* infinite: it is none */
+    bool widened;
+};
+
+/* With the intervals of the jackknife, which is the dear part. */
+static struct br_joint_fit widened(struct problem *problem, enum br_joint_kind kind,
+                                   struct candidate *c, struct br_observation *workspace)
+{
+    struct br_joint_fit fit;
+    problem->kind = kind;
+    if (kind != BR_JOINT_TIME && !c->widened)
+        widen_by_jackknife(problem, &c->attempt, true, workspace);
+    if (kind != BR_JOINT_SPACE && !c->widened)
+        widen_by_jackknife(problem, &c->attempt, false, workspace);
+    c->widened = true;
+    describe(problem, &c->attempt, &fit);
+    return fit;
+}
+
+/* The kind that is not done whose criterion is the least, of equal ones the first; BR_JOINT_SPACE +
+ * 1: there is no more. */
+static int next_best(const struct candidate *candidate, const bool *done)
+{
+    int best = BR_JOINT_SPACE + 1;
+    for (int kind = BR_JOINT_BOTH; kind <= BR_JOINT_SPACE; kind++)
+        if (!done[kind] && isfinite(candidate[kind].criterion) &&
+            (best > BR_JOINT_SPACE || candidate[kind].criterion < candidate[best].criterion))
+            best = kind;
+    return best;
+}
+
+/* The best kind whose orders can be told. Intervals only grow in the jackknife: what cannot be told
+ * without it need not be widened. */
+static void choose_kind(struct problem *problem, struct candidate *candidate,
+                        struct br_observation *workspace, struct br_joint_fit *fit)
+{
+    bool done[BR_JOINT_SPACE + 1] = {false};
+    for (int kind; (kind = next_best(candidate, done)) <= BR_JOINT_SPACE; done[kind] = true) {
+        struct br_joint_fit one;
+        problem->kind = (enum br_joint_kind)kind;
+        describe(problem, &candidate[kind].attempt, &one);
+        if (is_told(&one))
+            one = widened(problem, problem->kind, &candidate[kind], workspace);
+        if (!is_told(&one))
+            continue;
+        *fit = one;
+        return;
+    }
+}
+
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
                                   struct br_joint_fit *fit, struct br_error *err)
 {
+    struct candidate candidate[BR_JOINT_SPACE + 1];
     *fit = nothing_fitted(count);
     struct br_observation *own = br_allocate(2 * count, sizeof *own);
     if (!own)
         return br_no_memory(err, "the fits");
-    struct br_observation *workspace = own + count;
     struct problem problem = problem_of(observation, count, own);
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
-    struct br_joint_fit both = {0};
-    double best = INFINITY;
     for (int kind = BR_JOINT_BOTH; kind <= BR_JOINT_SPACE; kind++) {
+        struct candidate *c = &candidate[kind];
+        *c = (struct candidate){.attempt = {.sum = INFINITY}, .criterion = INFINITY};
         problem.kind = (enum br_joint_kind)kind;
-        if (!enough(&problem))
-            continue;
-        struct attempt a = best_attempt(&problem);
-        const double criterion = br_akaike(a.sum, count, kinds[kind].count);
-        if (!isfinite(a.sum) || !(criterion < best))
-            continue;
-        if (kind != BR_JOINT_TIME)
-            widen_by_jackknife(&problem, &a, true, workspace);
-        if (kind != BR_JOINT_SPACE)
-            widen_by_jackknife(&problem, &a, false, workspace);
-        struct br_joint_fit candidate;
-        describe(&problem, &a, &candidate);
-        if (kind == BR_JOINT_BOTH)
-            both = candidate;
-        if (!is_told(&candidate))
-            continue;
-        *fit = candidate;
-        best = criterion;
+        if (enough(&problem))
+            c->attempt = best_attempt(&problem);
+        if (isfinite(c->attempt.sum))
+            c->criterion = br_akaike(c->attempt.sum, count, kinds[kind].count);
     }
+    choose_kind(&problem, candidate, own + count, fit);
     /* Two errors, of which one cannot be told, where nothing simpler will do. */
-    if (!br_joint_describes(fit) && br_joint_describes(&both) &&
-        (br_order_determined(&both.p) || br_order_determined(&both.q)))
-        *fit = both;
+    if (!br_joint_describes(fit) && isfinite(candidate[BR_JOINT_BOTH].criterion)) {
+        struct br_joint_fit both;
+        problem.kind = BR_JOINT_BOTH;
+        describe(&problem, &candidate[BR_JOINT_BOTH].attempt, &both);
+        if (br_joint_describes(&both))
+            both = widened(&problem, BR_JOINT_BOTH, &candidate[BR_JOINT_BOTH], own + count);
+        if (br_joint_describes(&both) &&
+            (br_order_determined(&both.p) || br_order_determined(&both.q)))
+            *fit = both;
+    }
     gsl_set_error_handler(handler);
     free(own);
     return BR_OK;

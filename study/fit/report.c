@@ -24,6 +24,8 @@ enum br_status br_report_finish(struct br_report *r, int threads, struct br_erro
     for (int part = 0; part < BR_PARTS && !status; part++)
         status = br_fit(br_report_fitted(r), (enum br_part)part, &r->fits[part], err);
     if (!status)
+        status = br_report_see_orders(r, err);
+    if (!status)
         status = extrapolate_tips(r, err);
     if (!status && r->exact)
         br_flag_beside(r->study);

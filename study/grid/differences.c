@@ -39,9 +39,9 @@ static void set_pair(const struct pairs *p, bool over_h, size_t i, size_t j)
         };
 }
 
-static enum br_status check_grid(const struct br_study *grid, struct br_error *err)
+static enum br_status check_grid(const struct br_study *grid, bool over_k, struct br_error *err)
 {
-    if (grid->n_count < 2 || grid->k_count < 2)
+    if (grid->n_count < 2 || grid->k_count < (over_k ? 2 : 1))
         return br_fail(
             err, BR_BAD_INPUT,
             "found %zu meshes and %zu time steps, expected at least two of each: without "
@@ -138,19 +138,19 @@ enum br_status br_differences_run(const struct br_study *grid, struct br_differe
                                   const struct br_observer *observer, struct br_error *err)
 {
     struct pairs p = {.grid = grid};
-    enum br_status status = check_grid(grid, err);
+    enum br_status status = check_grid(grid, tips != NULL, err);
     if (!status)
         status = create_pairs(&p, err);
     if (!status)
         status = br_study_run(p.study, p.count, threads, observer, err);
     for (size_t m = 0; m < p.norms && !status; m++) {
         status = gather(&p, true, m, &out[m].over_h, err);
-        if (!status)
+        if (!status && tips)
             status = gather(&p, false, m, &out[m].over_k, err);
     }
-    if (!status)
+    if (!status && tips)
         status = br_tips_create(tips, grid, err);
-    if (!status)
+    if (!status && tips)
         collect_tips(&p, tips);
     for (size_t i = 0; p.study && i < p.count * p.norms; i++)
         br_study_clear(&p.study[i]);

@@ -42,8 +42,9 @@ struct br_differences {
 
 /* Marches a grid (the first of a chain of norms; scene, norm, method, and lists n and steps,
  * ascending) and measures its differences into out[0 .. norms); `tips` gets the tips of
- * all its cells. Fails with BR_BAD_INPUT where there are less than two meshes or two time
- * steps, or one does not nest in the next, or as br_study_run does. */
+ * all its cells; NULL: the grid may have one time step, and there is no over_k. Fails with
+ * BR_BAD_INPUT where there are less than two meshes or two time steps, or one does not nest in the
+ * next, or as br_study_run does. */
 enum br_status br_differences_run(const struct br_study *grid, struct br_differences *out,
                                   struct br_tips *tips, int threads,
                                   const struct br_observer *observer, struct br_error *err);

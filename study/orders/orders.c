@@ -148,13 +148,16 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
     const struct br_numbers_row *row = &numbers->row[line->row[i]];
     struct br_point p = {.z = row->z[line->axis], .error = row->number[quantity]};
     const char *failure = failure_of(row, p.error);
+    size_t named = line->row[i];
     if (numbers->quantity[quantity].is_value) {
         const struct br_numbers_row *finer = &numbers->row[line->row[i + 1]];
-        failure = *failure ? failure : failure_of(finer, finer->number[quantity]);
+        const char *of_finer = failure_of(finer, finer->number[quantity]);
+        named = !*failure && *of_finer ? line->row[i + 1] : named;
+        failure = *failure ? failure : of_finer;
         p.z_against = finer->z[line->axis];
         p.error = fabs(finer->number[quantity] - p.error);
     }
-    name_place(numbers, line->row[i], line->axis, p.label);
+    name_place(numbers, named, line->axis, p.label);
     snprintf(p.failure, sizeof p.failure, "%.255s", failure);
     p.flag = *failure       ? BR_FLAG_FAILED
              : p.error > 0  ? BR_FLAG_NONE
@@ -175,7 +178,6 @@ static enum br_status make_points(const struct br_orders *o, size_t quantity,
         .part = "",
         .unit = q->unit ? q->unit : "",
         .points = rows - q->is_value,
-        .drifts = true,
     };
     c->point = br_allocate(c->points + 1, sizeof *c->point);
     if (!c->point)
@@ -301,7 +303,9 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
                                                     .k = z_of(numbers, i, BR_AXIS_TIME),
                                                     .error = error};
     }
-    const enum br_status status = br_joint_fit_solve(seen, count, &of->joint, err);
+    const bool same =
+        count > 0 && count == of->joint.points; /* rows are left out, never taken back */
+    const enum br_status status = same ? BR_OK : br_joint_fit_solve(seen, count, &of->joint, err);
     free(seen);
     return status;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "study/orders/request.h"
+#include "study/orders/table.h"
 #include "study/scene/file.h"
 #include "study/scene/value.h"
 #include "study/scene/words.h"
@@ -61,7 +62,7 @@ static enum br_status take_table(const struct entry *e)
         *path = NULL;
         return br_no_memory(e->r->err, "the study");
     }
-    return br_scene_load(*path, &e->request->table, &inner)
+    return br_table_load(*path, &e->request->table, &inner)
                ? refuse_inner(e, br_yaml_line(e->node), &inner)
                : BR_OK;
 }

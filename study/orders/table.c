@@ -2,6 +2,7 @@
 #include "study/orders/table.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -432,6 +433,32 @@ static enum br_status take_columns(struct grid *g, const struct br_table_request
     return status ? status : check_list(g, q, "--value", q->values, NULL, err);
 }
 
+enum br_status br_table_load(const char *path, char **text, struct br_error *err)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno));
+    enum br_status status = BR_OK;
+    *text = br_allocate(BR_LONGEST_TABLE + 2, 1); /* what is not read takes no memory */
+    const size_t length = *text ? fread(*text, 1, BR_LONGEST_TABLE + 1, file) : 0;
+    if (!*text)
+        status = br_no_memory(err, "the table");
+    else if (ferror(file))
+        status =
+            br_fail(err, errno == EISDIR ? BR_BAD_INPUT : BR_IO, "%s: %s", path, strerror(errno));
+    else if (length > BR_LONGEST_TABLE)
+        status = br_fail(err, BR_BAD_INPUT, "%s: found more than %d bytes, expected a table", path,
+                         BR_LONGEST_TABLE);
+    else if (strlen(*text) < length)
+        status = br_fail(err, BR_BAD_INPUT, "%s: found a zero byte, expected text", path);
+    fclose(file);
+    if (!status)
+        return BR_OK;
+    free(*text);
+    *text = NULL;
+    return status;
+}
+
 enum br_status br_table_read(const char *text, const struct br_table_request *q,
                              struct br_numbers *numbers, struct br_error *err)
 {
@@ -443,6 +470,9 @@ enum br_status br_table_read(const char *text, const struct br_table_request *q,
     enum br_status status = text[strspn(text, " \t\r\n")] == '{'
                                 ? read_objects(text, q->path, &g, err)
                                 : read_separated(text, q->path, &g, err);
+    if (!status && g.rows > BR_MOST_TABLE_ROWS)
+        status = br_fail(err, BR_BAD_INPUT, "%s: found %zu rows, expected at most %d", q->path,
+                         g.rows, BR_MOST_TABLE_ROWS);
     if (!status)
         status = take_columns(&g, q, numbers, err);
     clear_grid(&g);

@@ -154,7 +154,6 @@ static void measure_order(const struct br_paper_table *t, struct br_finding *f)
     f->value = log2(error / half);
     f->error = (own[BR_DISPLACEMENT] + t->study.judged_by.own_error[1][BR_DISPLACEMENT]) *
                (1 / error + 1 / half) / M_LN2;
-    f->printed = log2(t->printed[0] / t->printed[1]);
     f->agreement = br_above(f->value, f->error, 0.5);
     snprintf(
         f->note, sizeof f->note,

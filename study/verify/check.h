@@ -38,7 +38,6 @@ struct br_case {
     size_t points, used;
     struct br_estimate order;
     double constant; /* the largest of the used points'; NaN: none */
-    bool drifts;     /* errors may be far from their asymptotic range (br_order_fit_drifting) */
     double down_to;  /* errors stop falling there, as is expected; 0: nowhere */
     double margin;   /* from the interval to the nearer end of the band; < 0: outside */
     enum br_verdict verdict;

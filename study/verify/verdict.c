@@ -89,8 +89,7 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
         if (p->used)
             used[count++] = (struct br_order_point){p->z, p->z_against, p->error};
     }
-    const enum br_status status = c->drifts ? br_order_fit_drifting(used, count, &c->order, err)
-                                            : br_order_fit(used, count, &c->order, err);
+    const enum br_status status = br_order_fit_drifting(used, count, &c->order, err);
     free(used);
     return status;
 }

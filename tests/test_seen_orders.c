@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which orders a report claims, of errors that are made up. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "study/fit/report.h"
+#include "support.h"
+
+enum { ROWS = 4, COLUMNS = 4, CELLS = ROWS * COLUMNS };
+static const size_t n[ROWS] = {25, 50, 100, 200}, steps[COLUMNS] = {100, 200, 400, 800};
+
+/* A study of errors a h^p + b k^q of a rod, and the differences of its meshes. */
+struct made {
+    struct br_scene scene;
+    struct br_cell cell[CELLS], difference[ROWS - 1];
+    struct br_study study, meshes;
+    struct br_report report;
+};
+
+static void make(struct made *m, double a, double p, double b, double q)
+{
+    *m = (struct made){.scene = br_test_bare()};
+    m->scene.bending.modelled = false;
+    for (size_t i = 0; i < CELLS; i++) {
+        m->cell[i].at = (struct br_resolution){n[i / COLUMNS], steps[i % COLUMNS]};
+        const double h = 1 / (double)m->cell[i].at.n, k = 1 / (double)m->cell[i].at.steps;
+        for (int part = 0; part < BR_PARTS; part++)
+            m->cell[i].error[part] = a * pow(h, p) + b * pow(k, q);
+    }
+    for (size_t i = 0; i < ROWS - 1; i++) {
+        m->difference[i].at = (struct br_resolution){n[i], steps[0]};
+        m->difference[i].against = (struct br_resolution){n[i + 1], steps[0]};
+        for (int part = 0; part < BR_PARTS; part++)
+            m->difference[i].error[part] =
+                a * (pow(1 / (double)n[i], p) - pow(1 / (double)n[i + 1], p));
+    }
+    m->study = br_test_study(&m->scene, &br_judge_exact, ROWS, n, COLUMNS, steps);
+    m->study.cell = m->cell;
+    m->study.judged_by.own_error[BR_AXIAL][BR_DISPLACEMENT] = DBL_MIN;
+    m->meshes = br_test_study(&m->scene, &br_judge_none, ROWS - 1, n, 1, steps);
+    m->meshes.cell = m->difference;
+    m->report = (struct br_report){.study = &m->study, .meshes = &m->meshes};
+}
+
+static void see(struct made *m)
+{
+    struct br_error err = {0};
+    for (int part = 0; part < BR_PARTS; part++) {
+        br_fits_clear(&m->report.fits[part]);
+        MUST(br_fit(&m->study, (enum br_part)part, &m->report.fits[part], &err));
+    }
+    MUST(br_report_see_orders(&m->report, &err));
+    br_report_clear(&m->report);
+}
+
+static void expect(const struct br_seen_order *seen, double order, const char *remark)
+{
+    if (isfinite(order))
+        CLOSE(seen->order.value, order, 0.02);
+    else
+        assert_true(isnan(seen->order.value));
+    if (!strstr(seen->remark, remark))
+        fail_msg("found '%s', expected '%s'", seen->remark, remark);
+}
+
+/* An error in k a million times larger hides the order in h from the grid, not from differences. */
+static void test_hidden_in_h(void **state)
+{
+    (void)state;
+    struct made m;
+    make(&m, 1e-3, 2, 10, 1);
+    see(&m);
+    const struct br_seen_order *seen = m.report.seen[BR_PART_TOTAL];
+    expect(&seen[BR_OVER_H], 2, "as in theory");
+    assert_non_null(strstr(seen[BR_OVER_H].by, "each mesh against the next at k = 0.01 s"));
+    expect(&seen[BR_OVER_K], 1, "as in theory");
+    assert_false(m.report.seen[BR_PART_BENDING][BR_OVER_H].asked);
+    m.report.meshes = NULL;
+    m.report.no_meshes = "the march failed";
+    see(&m);
+    expect(&seen[BR_OVER_H], 2, "as in theory"); /* these have no other errors */
+    assert_non_null(strstr(seen[BR_OVER_H].by, "joint fit of 16 cells"));
+    for (size_t i = 0; i < CELLS; i++)
+        m.cell[i].error[0] *= 1 + 0.001 * (double)(i % 3);
+    see(&m);
+    expect(&seen[BR_OVER_H], NAN, "not seen: the march failed");
+}
+
+/* No order in k where space is in the way, and none of the joint fit. */
+static void test_hidden_in_k(void **state)
+{
+    (void)state;
+    struct made m;
+    make(&m, 10, 2, 1e-6, 1);
+    for (size_t i = 0; i < CELLS; i++)
+        m.cell[i].error[0] *= 1 + 0.1 * (double)(i % 3); /* no fit describes that */
+    see(&m);
+    expect(&m.report.seen[BR_PART_TOTAL][BR_OVER_H], 2, "as in theory");
+    expect(&m.report.seen[BR_PART_TOTAL][BR_OVER_K], NAN,
+           "hidden by the error in h, about 2.5e-04");
+}
+
+/* What stands in the errors of the finest mesh, in k. */
+static void expect_of(const double error[COLUMNS], double order, const char *remark)
+{
+    struct made m;
+    make(&m, 1e-12, 2, 1, 1);
+    for (size_t i = 0; i < CELLS; i++)
+        m.cell[i].error[BR_PART_TOTAL] = error[i % COLUMNS] * (i / COLUMNS == 1 ? 1.1 : 1);
+    see(&m);
+    expect(&m.report.seen[BR_PART_TOTAL][BR_OVER_K], order, remark);
+}
+
+static void test_remarks(void **state)
+{
+    (void)state;
+    expect_of((const double[]){1, 2, 3, 2.5}, NAN, "the errors do not fall, 1.0e+00, 2.0e+00");
+    expect_of((const double[]){8, 7, 6, 5.2}, NAN,
+              "not seen: the errors fall by orders of 0.19, 0.22, 0.21 from size to size");
+    expect_of((const double[]){8, 6, 3.6, 2}, 0.67,
+              "not settled, but comes closer: 0.42, 0.74, 0.85 from size to size");
+    expect_of((const double[]){8, 4.9, 3, 1.83}, 0.71, "below theory: 0.71, 0.71, 0.71");
+    expect_of((const double[]){8, 2, 0.5, 0.125}, 2, "above theory: 2.00, 2.00, 2.00");
+    expect_of((const double[]){8, 4.1124, 2.114, 1.0867}, 0.96, "as in theory");
+    expect_of((const double[]){8, 4, NAN, NAN}, NAN,
+              "not seen: 2 errors, an order needs 3; 2 left");
+}
+
+/* Of all that marches can come to, nothing is claimed that is not above zero. */
+static void test_no_order_of_zero(void **state)
+{
+    (void)state;
+    struct br_test_random random = {7};
+    for (int trial = 0; trial < 300; trial++) {
+        struct made m;
+        make(&m, br_test_log_uniform(&random, 1e-8, 1), br_test_uniform(&random, -1, 3),
+             br_test_log_uniform(&random, 1e-8, 1), br_test_uniform(&random, -1, 2));
+        for (size_t i = 0; i < CELLS; i++)
+            m.cell[i].error[0] *= br_test_uniform(&random, 0.9, 1.1);
+        see(&m);
+        for (int i = 0; i < BR_DIRECTIONS; i++) {
+            const struct br_seen_order *seen = &m.report.seen[BR_PART_TOTAL][i];
+            assert_true(isnan(seen->order.value) || seen->order.low > 0);
+            assert_true(*seen->remark);
+        }
+    }
+}
+
+static void expect_theory(const struct made *m, enum br_part part, double in_h, double in_k)
+{
+    struct br_report r = m->report;
+    struct br_error err = {0};
+    MUST(br_report_see_orders(&r, &err));
+    assert_true(r.seen[part][BR_OVER_H].theory == in_h);
+    assert_true(r.seen[part][BR_OVER_K].theory == in_k);
+}
+
+static void test_theory(void **state)
+{
+    (void)state;
+    struct made m;
+    make(&m, 1, 2, 1, 1);
+    expect_theory(&m, BR_PART_TOTAL, 2, 1);
+    m.study.method.axial_degree = 2;
+    m.study.method.scheme = br_time_scheme_find("bdf2");
+    expect_theory(&m, BR_PART_TOTAL, 3, 2);
+    m.scene.contact.modelled = true; /* of the level before */
+    expect_theory(&m, BR_PART_TOTAL, 3, 1);
+    m.scene.bending.modelled = true;
+    expect_theory(&m, BR_PART_BENDING, 4, 1);
+    m.study.norm = &br_norm_energy;
+    expect_theory(&m, BR_PART_TOTAL, 2, 1);
+    expect_theory(&m, BR_PART_BENDING, 2, 1);
+    m.study.norm = &br_norm_tip;
+    expect_theory(&m, BR_PART_AXIAL, 4, 1);
+    m.study.method.scheme = br_time_scheme_find("adaptive");
+    struct br_error err = {0};
+    MUST(br_report_see_orders(&m.report, &err));
+    assert_false(m.report.seen[BR_PART_TOTAL][BR_OVER_K].asked); /* it has steps of its own */
+}
+
+/* Coulomb's friction gives the order of the axial part to the bending part, Tresca's does not. */
+static void test_bending_by_friction(void **state)
+{
+    (void)state;
+    struct made m;
+    make(&m, 1, 2, 1, 1);
+    m.scene.bending.modelled = true;
+    m.scene.friction.law = BR_COULOMB;
+    see(&m);
+    const struct br_seen_order *seen = &m.report.seen[BR_PART_BENDING][BR_OVER_H];
+    expect(seen, 2, "below theory: 2.00, 2.00 from size to size, as the axial part");
+    m.scene.friction.law = BR_TRESCA;
+    see(&m);
+    assert_null(strstr(seen->remark, "axial"));
+}
+
+/* Digits stand as far as the width allows, and nothing is minus zero. */
+static void test_uncertain(void **state)
+{
+    (void)state;
+    static const struct {
+        double value, half;
+        const char *text;
+    } rows[] = {
+        {-0.22163, 0.0138, "-0.222 +- 0.014"},
+        {0.17169233, 6.7e-9, "0.1716923300 +- 6.7e-09"},
+        {-0.0, NAN, "0"},
+        {1.00922190775, 6e-12, "1.009221908 +- 6.0e-12"},
+        {3274, 1448, "3300 +- 1400"},
+        {-3.6e-16, 5.2e-15, "-4e-16 +- 5.2e-15"},
+        {-1e-3, 0.5, "0 +- 0.50"},
+        {1234567, 1200, "1234600 +- 1200"},
+        {-0.2216, NAN, "-0.2216"},
+        {1.5e-9, 2.5e-11, "1.500e-09 +- 2.5e-11"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[64];
+        assert_string_equal(br_uncertain_text(rows[i].value, rows[i].half, text, sizeof text),
+                            rows[i].text);
+    }
+    char text[64];
+    assert_string_equal(br_digits_text(-453.048, 2, text, sizeof text), "-450");
+    assert_string_equal(br_digits_text(-0.163812, 2, text, sizeof text), "-0.16");
+    assert_string_equal(br_digits_text(1.90822e-7, 3, text, sizeof text), "1.91e-07");
+    assert_string_equal(br_digits_text(-0.0, 3, text, sizeof text), "0");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_hidden_in_h), cmocka_unit_test(test_hidden_in_k),
+        cmocka_unit_test(test_remarks),     cmocka_unit_test(test_no_order_of_zero),
+        cmocka_unit_test(test_theory),      cmocka_unit_test(test_bending_by_friction),
+        cmocka_unit_test(test_uncertain),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
