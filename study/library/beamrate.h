@@ -347,7 +347,6 @@ struct beamrate_numbers {
 struct beamrate_order {
     struct beamrate_estimate order;
     double constant;     /* C of e = C h^order, or k^order; of values: of their differences */
-    int drifts;          /* 1: the errors may be far from their asymptotic range */
     size_t points, used; /* there are, and that are not at a floor */
     struct beamrate_estimate limit; /* of values: the least-squares limit (Eca and Hoekstra 2014),
                                        or the grid convergence index of three (Celik et al. 2008) */

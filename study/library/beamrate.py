@@ -58,7 +58,7 @@ _Reference = _struct("s:name z:n z:steps d:own_error:3 d:size d:tip:2")
 _Case = _struct("s:study s:measure s:part d:expected d:tolerance e:order d:constant d:margin z:points "
                 "z:used i:verdict s:reason s:note", e=_Estimate)
 _Numbers = _struct("p:h p:k p:number z:count i:values d:formal")
-_Order = _struct("e:order d:constant i:drifts z:points z:used e:limit", e=_Estimate)
+_Order = _struct("e:order d:constant z:points z:used e:limit", e=_Estimate)
 _Expectation = _struct("i:axis d:order d:tolerance d:down_to")
 
 

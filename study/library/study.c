@@ -365,7 +365,6 @@ int beamrate_orders_line(const struct beamrate_orders *orders, enum beamrate_axi
         return 0;
     order->order = br_library_estimate(line->observed.order);
     order->constant = line->observed.constant;
-    order->drifts = line->observed.drifts;
     order->points = line->observed.points;
     order->used = line->observed.used;
     if (orders->numbers.quantity->is_value)
