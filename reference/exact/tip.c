@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "reference/exact/legendre.h"
+#include "reference/exact/combine.h"
 
 enum { S = BR_STAGES };
 
@@ -224,7 +224,8 @@ static enum br_status make_room(struct br_history *track, struct br_error *err)
 }
 
 enum br_status br_history_append(struct br_history *track, const struct br_tip_step *tip,
-                                 const double *q, const double *v, struct br_error *err)
+                                 const double *q, size_t width, const double *v,
+                                 struct br_error *err)
 {
     const enum br_status status = make_room(track, err);
     if (status)
@@ -232,7 +233,8 @@ enum br_status br_history_append(struct br_history *track, const struct br_tip_s
     const size_t n = track->steps++, m = track->modes;
     track->tip[n] = *tip;
     memcpy(&track->displacement[n * m], q, m * sizeof *q);
-    memcpy(&track->velocity[n * m * S], v, m * S * sizeof *v);
+    for (size_t k = 0; k < S; k++)
+        memcpy(&track->velocity[(n * S + k) * m], &v[k * width], m * sizeof *v);
     return BR_OK;
 }
 
@@ -307,9 +309,12 @@ struct br_tip_state br_history_at(const struct br_history *track, double t, doub
     const struct br_tip_step *tip = &track->tip[n];
     const struct moment at = moment_at(fraction(tip, t));
     const double *start = &track->displacement[n * m], *series = &track->velocity[n * m * S];
+    br_combine *combine = br_combiner_best()->combine;
+    if (q)
+        combine(1, S, at.integral, m, series, q);
     for (size_t i = 0; q && i < m; i++)
-        q[i] = start[i] + tip->length * br_radau_sum(&series[i * S], at.integral);
-    for (size_t i = 0; v && i < m; i++)
-        v[i] = br_radau_sum(&series[i * S], at.value);
+        q[i] = start[i] + tip->length * q[i];
+    if (v)
+        combine(1, S, at.value, m, series, v);
     return tip_at(tip, &at);
 }

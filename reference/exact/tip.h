@@ -32,7 +32,7 @@ struct br_history {
     size_t steps, step_room;
     struct br_tip_step *tip; /* steps */
     double *displacement;    /* steps x modes: at each step's start, m */
-    double *velocity;        /* steps x modes x BR_STAGES: series, m/s */
+    double *velocity;        /* steps x BR_STAGES x modes: series, m/s */
     size_t entries, entry_room;
     struct br_entry *entry; /* phases in order of time, the first at t = 0 */
 };
@@ -49,9 +49,11 @@ enum br_status br_history_create(struct br_history **out, size_t modes, double g
                                  struct br_error *err);
 void br_history_free(struct br_history *track);
 
-/* Appends a step: tip, q (modes) and v (modes x BR_STAGES) are copied. */
+/* Appends a step: tip, q (modes) and the first `modes` of each row of v (BR_STAGES x width) are
+ * copied. */
 enum br_status br_history_append(struct br_history *track, const struct br_tip_step *tip,
-                                 const double *q, const double *v, struct br_error *err);
+                                 const double *q, size_t width, const double *v,
+                                 struct br_error *err);
 
 /* Appends the entry into a phase; at the time of the last one its phase is replaced. */
 enum br_status br_history_enter(struct br_history *track, const struct br_entry *entry,
