@@ -567,6 +567,8 @@ static const struct planted_bug planted_bugs[] = {
      "s->tip_displacement += 0.5 * s->tip.length * s->tip.velocity[0];"},
     {"pivot_without_the_one_before", "lost", "reference/exact/combine.c", "tests/test_restriction",
      "q -= square * all_q[i - s->width];", ""},
+    {"sum_without_its_end", "lost", "reference/exact/combine.c", "tests/test_restriction",
+     "sum[i - whole] += a[i] * b[i];", ""},
     {"response_of_one_sign", "sign", "reference/exact/step.c", "tests/test_exact_events",
      "(k + j) % 2 ? -s->tip_response[k][j] : s->tip_response[k][j]", "s->tip_response[k][j]"},
     {"depth_by_a_chord", "bound", "reference/discrete.c", "tests/test_discrete",

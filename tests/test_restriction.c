@@ -241,6 +241,27 @@ static void test_combiners(void **unused)
     }
 }
 
+/* Sums of any length. */
+static void test_sums(void **unused)
+{
+    (void)unused;
+    struct br_test_random random = {7};
+    double a[40] = {0}, b[40] = {0};
+    for (size_t count = 0; count <= 40; count++) {
+        long double products = 0, squares = 0, weighted = 0;
+        for (size_t i = 0; i < count; i++) {
+            a[i] = br_test_uniform(&random, -1, 1);
+            b[i] = br_test_uniform(&random, -1, 1);
+            products += (long double)a[i] * b[i];
+            squares += (long double)b[i] * b[i];
+            weighted += (long double)a[i] * b[i] * a[i] * b[i];
+        }
+        CLOSE(br_sum_products(count, a, b), (double)products, 1e-14);
+        CLOSE(br_norm(count, NULL, b), (double)sqrtl(squares), 1e-14);
+        CLOSE(br_norm(count, a, b), (double)sqrtl(weighted), 1e-14);
+    }
+}
+
 /* ---- the stages' equations ---- */
 
 enum { S = BR_STAGES, MODES = 3 * BR_STAGE_LANES };
@@ -341,7 +362,7 @@ int main(void)
         cmocka_unit_test(test_definition), cmocka_unit_test(test_primes),
         cmocka_unit_test(test_lengths),    cmocka_unit_test(test_nothing_left),
         cmocka_unit_test(test_not_finite), cmocka_unit_test(test_combiners),
-        cmocka_unit_test(test_stages),
+        cmocka_unit_test(test_sums),       cmocka_unit_test(test_stages),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,8 @@
  * instruction set with vectors of its own size. Nothing is contracted. */
 #include "reference/exact/combine.h"
 
+#include <math.h>
+
 enum { S = BR_STAGES };
 
 /* Vectors, and rows, at once. */
@@ -25,6 +27,42 @@ INLINE void combine_columns(const struct sum *s, size_t first)
             sum += s->factor[k] * s->table[k * s->width + j];
         s->out[j] = sum;
     }
+}
+
+/* In LANES sums, so that their order is the same on every machine, and none waits for the one
+ * before. */
+enum { LANES = 8 };
+
+double br_sum_products(size_t count, const double *a, const double *b)
+{
+    const size_t whole = count / LANES * LANES;
+    double sum[LANES] = {0}, all = 0;
+    for (size_t i = 0; i < whole; i += LANES)
+        for (size_t l = 0; l < LANES; l++)
+            sum[l] += a[i + l] * b[i + l];
+    for (size_t i = whole; i < count; i++)
+        sum[i - whole] += a[i] * b[i];
+    for (size_t l = 0; l < LANES; l++)
+        all += sum[l];
+    return all;
+}
+
+double br_norm(size_t count, const double *weight, const double *x)
+{
+    const size_t whole = count / LANES * LANES;
+    double sum[LANES] = {0}, all = 0;
+    if (!weight)
+        return sqrt(br_sum_products(count, x, x));
+    for (size_t i = 0; i < whole; i += LANES)
+        for (size_t l = 0; l < LANES; l++) {
+            const double part = weight[i + l] * x[i + l];
+            sum[l] += part * part;
+        }
+    for (size_t i = whole; i < count; i++)
+        sum[i - whole] += weight[i] * x[i] * (weight[i] * x[i]);
+    for (size_t l = 0; l < LANES; l++)
+        all += sum[l];
+    return sqrt(all);
 }
 
 void br_stage_set(struct br_stage_system *s, const struct br_radau *radau)

@@ -41,6 +41,11 @@ void br_stage_set(struct br_stage_system *system, const struct br_radau *radau);
 /* Sets the pivots. */
 void br_stage_factor(struct br_stage_system *system);
 
+/* Sum of a[i] b[i], and root of the sum of squares of weight[i] x[i] (weight NULL: of x[i]), i <
+ * count. The same bits on every machine. */
+double br_sum_products(size_t count, const double *a, const double *b);
+double br_norm(size_t count, const double *weight, const double *x);
+
 struct br_combiner {
     const char *name; /* the instruction set */
     bool (*available)(void);

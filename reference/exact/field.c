@@ -308,21 +308,18 @@ enum br_status br_oscillators_load(const struct br_oscillators *f, const double 
 double br_oscillators_work(const struct br_oscillators *f)
 {
     const double points = (double)f->modes.quadrature.count, m = (double)f->modes.count;
-    double work = m;
+    const double elements = (double)f->modes.pieces.count;
+    double work = 4 + 0.15 * m;
     for (size_t term = 0; term < BR_LOAD_TERMS; term++) {
         const struct br_product *p = &f->data.load->term[term];
         if (p->space.uses_t && !br_product_is_zero(p))
-            work += 9 * (0.05 * points + 2e-4 * m * (m + points)) + (f->fronts ? 100 : 0);
+            work += S * (0.05 * points + 1.5e-4 * points * m / elements + 7e-5 * m * m) +
+                    (f->fronts ? 100 : 0);
     }
     return work;
 }
 
 double br_oscillators_norm(const struct br_oscillators *f, const double *q)
 {
-    double sum = 0;
-    for (size_t i = 0; i < f->modes.count; i++) {
-        const double part = f->modes.size[i] * q[i];
-        sum += part * part;
-    }
-    return sqrt(f->length * sum);
+    return sqrt(f->length) * br_norm(f->modes.count, f->modes.size, q);
 }

@@ -8,7 +8,7 @@
 
 /* How much work an exact solution may take, and who may end it and gets its progress. */
 struct br_effort {
-    double done, most; /* units of about a microsecond: counted, not measured */
+    double done, most; /* units of about 1.4 microseconds of a core: counted, not measured */
     const struct br_exact_options *who;
 };
 
@@ -41,7 +41,8 @@ struct br_stepper {
 
     double length;                 /* s, of the step that the responses are for */
     struct br_stage_system system; /* of this length, over stiffness h */
-    double *gain; /* width: mean velocity in a step over a constant force, m/(N s) */
+    double *gain;      /* width: mean velocity in a step over a constant force, m/(N s) */
+    double tip_length; /* s, of the step that this is for: only phases that need it have it */
     double tip_response[BR_STAGES][BR_STAGES]; /* velocity over force, m/(N s) */
     double *load;                              /* BR_STAGES x width, at the stages, N */
     double *rest;          /* the same size: series of what the state leaves of it, N */

@@ -35,18 +35,10 @@ enum br_status br_stepper_init(struct br_stepper *s, double gap, struct br_store
     return status;
 }
 
-/* Sum over the modes of factor[i] x[i]; in LANES sums, so that their order is the same on every
- * machine. */
-static double sum_modes(const struct br_stepper *s, const double *factor, const double *x)
+/* Sum of the modes' tip values. */
+static double tip_sum(const struct br_stepper *s, const double *x)
 {
-    enum { LANES = BR_STAGE_LANES };
-    double sum[LANES] = {0}, all = 0;
-    for (size_t i = 0; i < s->system.width; i += LANES)
-        for (size_t l = 0; l < LANES; l++)
-            sum[l] += factor[i + l] * x[i + l];
-    for (size_t l = 0; l < LANES; l++)
-        all += sum[l];
-    return all;
+    return br_sum_products(s->system.width, s->field->modes.tip, x);
 }
 
 /* ---- responses ---- */
@@ -70,9 +62,18 @@ static void respond_to(struct br_stepper *s, size_t j)
         x[j * width + i] = tip[i] * scale(s);
     br_combiner_best()->solve(&s->system, j, x);
     for (size_t k = j; k < S; k++) {
-        s->tip_response[k][j] = sum_modes(s, tip, &x[k * width]);
+        s->tip_response[k][j] = tip_sum(s, &x[k * width]);
         s->tip_response[j][k] = (k + j) % 2 ? -s->tip_response[k][j] : s->tip_response[k][j];
     }
+}
+
+static void respond_tip(struct br_stepper *s)
+{
+    const bool needed = s->phase == BR_CLOSED || s->phase == BR_STICK;
+    for (size_t j = 0; j < S && needed && s->tip_length != s->length; j++)
+        respond_to(s, j);
+    if (needed)
+        s->tip_length = s->length;
 }
 
 static void respond(struct br_stepper *s, double h)
@@ -87,8 +88,6 @@ static void respond(struct br_stepper *s, double h)
     for (size_t i = 0; i < width; i++)
         s->system.a[i] = f->mass[i] / h * scale(s);
     br_stage_factor(&s->system);
-    for (size_t j = 0; j < S; j++)
-        respond_to(s, j);
     memset(s->series, 0, S * width * sizeof *s->series);
     for (size_t i = 0; i < width; i++)
         s->series[i] = scale(s);
@@ -120,7 +119,7 @@ static void set_rest(struct br_stepper *s)
  * what the modes add up to, lest their rounding errors add up over the steps. */
 static double tip_start(const struct br_stepper *s)
 {
-    return s->phase == BR_STICK ? sum_modes(s, s->field->modes.tip, s->v) : s->tip_velocity;
+    return s->phase == BR_STICK ? tip_sum(s, s->v) : s->tip_velocity;
 }
 
 /* series = v + response (rest - tip force); the tip's velocity follows. */
@@ -135,25 +134,26 @@ static void move(struct br_stepper *s)
     }
     br_combiner_best()->solve(&s->system, 0, s->series);
     for (size_t k = 0; k < S; k++)
-        s->tip.velocity[k] = sum_modes(s, tip, &s->series[k * width]);
+        s->tip.velocity[k] = tip_sum(s, &s->series[k * width]);
     s->tip.velocity[0] += tip_start(s);
     for (size_t i = 0; i < width; i++)
         s->series[i] += s->v[i];
 }
 
 /* The velocity that the largest of the stages' loads alone give in the step, in L2. */
-static double impulse(const struct br_stepper *s)
+static double impulse(struct br_stepper *s)
 {
     const size_t width = s->system.width;
-    double sum = 0;
-    for (size_t i = 0; i < s->field->modes.count; i++) {
-        double most = 0;
-        for (size_t j = 0; j < S; j++)
-            most = fmax(most, fabs(s->load[j * width + i]));
-        const double part = s->field->modes.size[i] * s->gain[i] * most;
-        sum += part * part;
-    }
-    return sqrt(s->field->length * sum);
+    double *most = s->series;
+    memset(most, 0, width * sizeof *most);
+    for (size_t j = 0; j < S; j++)
+        for (size_t i = 0; i < width; i++) {
+            const double size = fabs(s->load[j * width + i]);
+            most[i] = size > most[i] ? size : most[i];
+        }
+    for (size_t i = 0; i < width; i++)
+        most[i] *= s->gain[i];
+    return br_oscillators_norm(s->field, most);
 }
 
 enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *err)
@@ -161,6 +161,7 @@ enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *e
     double size, t[S];
     s->work += br_oscillators_work(s->field);
     respond(s, h);
+    respond_tip(s);
     for (size_t j = 0; j < S; j++)
         t[j] = fmin(fmax(s->time + s->radau.node[j] * h, s->from), s->to);
     enum br_status status = br_oscillators_load(s->field, t, s->load, &size, err);
@@ -201,7 +202,7 @@ void br_stepper_settle(struct br_stepper *s)
         return;
     /* Taken out of the modes in the shape of a static load at the tip: as an
      * impulse, the rounding error would make the tip slip again. */
-    const double rest = sum_modes(s, modes->tip, s->v) / sum_modes(s, modes->tip, modes->tip);
+    const double rest = tip_sum(s, s->v) / tip_sum(s, modes->tip);
     cblas_daxpy((int)modes->count, -rest, modes->tip, 1, s->v, 1);
     s->tip_velocity = 0;
 }
