@@ -214,18 +214,19 @@ static void test_not_finite(void **unused)
 
 static void test_combiners(void **unused)
 {
+    enum { ROWS = 7, COUNT = 9, MOST = 111 };
     (void)unused;
     struct br_test_random random = {3};
-    double factor[9], table[9 * 111], sum[111], expected[111];
-    for (size_t i = 0; i < 9; i++)
+    double factor[ROWS * COUNT], table[COUNT * MOST], sum[ROWS * MOST], expected[ROWS * MOST];
+    for (size_t i = 0; i < ROWS * COUNT; i++)
         factor[i] = br_test_uniform(&random, -1, 1);
-    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+    for (size_t i = 0; i < COUNT * MOST; i++)
         table[i] = br_test_uniform(&random, -1, 1);
-    for (size_t width = 1; width <= 111; width++) {
-        for (size_t j = 0; j < width; j++) {
+    for (size_t width = 1; width <= MOST; width++) {
+        for (size_t j = 0; j < ROWS * width; j++) {
             double value = 0;
-            for (size_t k = 0; k < 9; k++) {
-                const double product = factor[k] * table[k * width + j];
+            for (size_t k = 0; k < COUNT; k++) {
+                const double product = factor[j / width * COUNT + k] * table[k * width + j % width];
                 value += product;
             }
             expected[j] = value;
@@ -234,8 +235,123 @@ static void test_combiners(void **unused)
             if (!br_combiners[i].available())
                 continue;
             memset(sum, 0, sizeof sum);
-            br_combiners[i].combine(9, factor, width, table, sum);
-            assert_memory_equal(sum, expected, width * sizeof *sum);
+            br_combiners[i].combine(ROWS, COUNT, factor, width, table, sum);
+            assert_memory_equal(sum, expected, ROWS * width * sizeof *sum);
+        }
+    }
+}
+
+/* Sums of any length. */
+static void test_sums(void **unused)
+{
+    (void)unused;
+    struct br_test_random random = {7};
+    double a[40] = {0}, b[40] = {0};
+    for (size_t count = 0; count <= 40; count++) {
+        long double products = 0, squares = 0, weighted = 0;
+        for (size_t i = 0; i < count; i++) {
+            a[i] = br_test_uniform(&random, -1, 1);
+            b[i] = br_test_uniform(&random, -1, 1);
+            products += (long double)a[i] * b[i];
+            squares += (long double)b[i] * b[i];
+            weighted += (long double)a[i] * b[i] * a[i] * b[i];
+        }
+        CLOSE(br_sum_products(count, a, b), (double)products, 1e-14);
+        CLOSE(br_norm(count, NULL, b), (double)sqrtl(squares), 1e-14);
+        CLOSE(br_norm(count, a, b), (double)sqrtl(weighted), 1e-14);
+    }
+}
+
+/* ---- the stages' equations ---- */
+
+enum { S = BR_STAGES, MODES = 3 * BR_STAGE_LANES };
+
+/* y = X x, where (a + b X + X^2) x = r, by Gauss's elimination with the largest pivots. */
+static void solve_stages(const struct br_radau *radau, double a, double b, const double r[S],
+                         long double y[S])
+{
+    long double m[S][S + 1], x[S];
+    for (size_t k = 0; k < S; k++) {
+        for (size_t l = 0; l < S; l++) {
+            m[k][l] = (k == l ? (long double)a : 0) + (long double)b * radau->integral[k][l];
+            for (size_t i = 0; i < S; i++)
+                m[k][l] += (long double)radau->integral[k][i] * radau->integral[i][l];
+        }
+        m[k][S] = r[k];
+    }
+    for (size_t k = 0; k < S; k++) {
+        size_t largest = k;
+        for (size_t l = k; l < S; l++)
+            largest = fabsl(m[l][k]) > fabsl(m[largest][k]) ? l : largest;
+        for (size_t l = 0; l <= S; l++) {
+            const long double swap = m[k][l];
+            m[k][l] = m[largest][l];
+            m[largest][l] = swap;
+        }
+        for (size_t l = k + 1; l < S; l++) {
+            const long double share = m[l][k] / m[k][k];
+            for (size_t i = k; i <= S; i++)
+                m[l][i] -= share * m[k][i];
+        }
+    }
+    for (size_t k = S; k-- > 0;) {
+        x[k] = m[k][S];
+        for (size_t l = k + 1; l < S; l++)
+            x[k] -= m[k][l] * x[l];
+        x[k] /= m[k][k];
+    }
+    for (size_t k = 0; k < S; k++) {
+        y[k] = 0;
+        for (size_t l = 0; l < S; l++)
+            y[k] += radau->integral[k][l] * x[l];
+    }
+}
+
+static void check_stages(const struct br_radau *radau, const struct br_stage_system *system,
+                         size_t first, const double *r, const double *y)
+{
+    for (size_t i = 0; i < MODES; i++) {
+        double column[S];
+        long double expected[S], size = 0;
+        for (size_t k = 0; k < S; k++)
+            column[k] = k < first ? 0 : r[k * MODES + i];
+        solve_stages(radau, system->a[i], system->b, column, expected);
+        for (size_t k = 0; k < S; k++)
+            size = fmaxl(size, fabsl(expected[k]));
+        for (size_t k = first; k < S; k++)
+            AT_MOST((double)(fabsl(y[k * MODES + i] - expected[k]) / size), 1e-14);
+    }
+}
+
+/* From free waves to those that resist all motion, damped or not; modes of all frequencies at once:
+ * each instruction set gives the same bits. */
+static void test_stages(void **unused)
+{
+    (void)unused;
+    struct br_error err = {0};
+    struct br_test_random random = {5};
+    struct br_radau radau;
+    double a[MODES], pivot[2 * S * MODES], r[S * MODES], y[S * MODES], portable[S * MODES];
+    struct br_stage_system system = {.width = MODES, .a = a, .pivot = pivot};
+    MUST(br_radau_init(&radau, &err));
+    br_stage_set(&system, &radau);
+    for (size_t round = 0; round < 100; round++) {
+        const size_t first = round % S;
+        system.b = round % 3 ? br_test_log_uniform(&random, 1e-8, 1e8) : 0;
+        for (size_t i = 0; i < MODES; i++)
+            a[i] = br_test_log_uniform(&random, 1e-12, 1e12);
+        for (size_t i = 0; i < S * MODES; i++)
+            r[i] = br_test_uniform(&random, -1, 1);
+        br_stage_factor(&system);
+        memcpy(portable, r, sizeof r);
+        br_combiners[br_combiner_count - 1].solve(&system, first, portable);
+        check_stages(&radau, &system, first, r, portable);
+        for (size_t i = 0; i < br_combiner_count; i++) {
+            if (!br_combiners[i].available())
+                continue;
+            memcpy(y, r, sizeof r);
+            br_combiners[i].solve(&system, first, y);
+            assert_memory_equal(y, portable, sizeof y);
         }
     }
 }
@@ -246,6 +362,7 @@ int main(void)
         cmocka_unit_test(test_definition), cmocka_unit_test(test_primes),
         cmocka_unit_test(test_lengths),    cmocka_unit_test(test_nothing_left),
         cmocka_unit_test(test_not_finite), cmocka_unit_test(test_combiners),
+        cmocka_unit_test(test_sums),       cmocka_unit_test(test_stages),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 #include "reference/exact/solution.h"
 
@@ -11,16 +13,50 @@ static const double safety = 2;
  * compared for this part of T. */
 static const double layer = 1e-6;
 
-/* One field of two solutions, with room for their values at one time. */
+/* Times of a step at which solutions are compared: where it begins, where velocities are at their
+ * worst, and some of its nodes, where displacements are. */
+static const double inside[] = {0, 0.0913, 0.3719, 0.5452, 0.8556};
+enum { INSTANTS = sizeof inside / sizeof *inside };
+
+/* One field of two solutions, the finer one first, with room for their values at one time.
+ *
+ * The elements are the same, and the finer solution has at least as many polynomials on each: the
+ * other one's modes are sums of its modes. Both are compared in these. */
 struct pair {
     const struct br_outline *outline;
     const struct br_oscillators *field[2];
     const struct br_law *law[2];
     const struct br_history *track[2];
-    double *q[2], *v[2]; /* modes */
-    double *series[2];   /* Legendre coefficients */
+    double *bridge;         /* modes of the other one x those of the finer one */
+    struct br_history step; /* one step of the other one, in the finer one's modes */
+    double *values;         /* its values */
+    size_t translated;      /* its number */
+    double *q[2], *v[2];    /* modes of the finer one */
     struct br_store store;
 };
+
+/* bridge = U_1' U_0, the energy's products of the modes: the derivatives' coefficients on each
+ * element, of which the finer ones begin with the others. */
+static enum br_status build_bridge(struct pair *p, struct br_error *err)
+{
+    const struct br_modes *fine = &p->field[0]->modes, *coarse = &p->field[1]->modes;
+    const size_t m = fine->count;
+    double *row = br_allocate(coarse->count * m + m * m, sizeof *row);
+    if (!row)
+        return br_no_memory(err, "the comparison of two solutions");
+    double *turned = row + coarse->count * m;
+    for (size_t i = 0; i < m; i++)
+        for (size_t k = 0; k < m; k++)
+            turned[k * m + i] = fine->curve[i * m + k];
+    for (size_t i = 0; i < coarse->count; i++)
+        for (size_t e = 0; e < fine->pieces.count; e++)
+            memcpy(&row[i * m + br_pieces_at(&fine->pieces, e, 0)],
+                   &coarse->curve[i * coarse->count + br_pieces_at(&coarse->pieces, e, 0)],
+                   coarse->pieces.terms[e] * sizeof *row);
+    br_combiner_best()->combine(coarse->count, m, row, m, turned, p->bridge);
+    free(row);
+    return BR_OK;
+}
 
 static enum br_status pair_init(struct pair *p, const struct br_exact_solution *a,
                                 const struct br_exact_solution *b, size_t which,
@@ -31,52 +67,30 @@ static enum br_status pair_init(struct pair *p, const struct br_exact_solution *
         p->field[i] = solution[i]->field[which];
         p->law[i] = &solution[i]->law[which];
         p->track[i] = solution[i]->track[which];
-        const size_t m = p->field[i]->modes.count;
-        p->q[i] = br_store_take(&p->store, m, sizeof(double));
-        p->v[i] = br_store_take(&p->store, m, sizeof(double));
-        p->series[i] =
-            br_store_take(&p->store, br_modes_length(&p->field[i]->modes, 0), sizeof(double));
+        p->q[i] = br_store_take(&p->store, a->field[which]->modes.count, sizeof(double));
+        p->v[i] = br_store_take(&p->store, a->field[which]->modes.count, sizeof(double));
     }
-    return p->store.failed ? br_no_memory(err, "the comparison of two solutions") : BR_OK;
+    const size_t m = p->field[0]->modes.count;
+    p->step = (struct br_history){.modes = m, .steps = 1, .block = &p->values};
+    p->values = br_store_take(&p->store, BR_HISTORY_ROWS * m, sizeof(double));
+    p->translated = SIZE_MAX;
+    p->bridge = br_store_take(&p->store, p->field[1]->modes.count * m, sizeof(double));
+    return p->store.failed ? br_no_memory(err, "the comparison of two solutions")
+                           : build_bridge(p, err);
 }
 
-/* Element e's coefficients of solution i, derived `order` times; *terms of them. */
-static const double *series_on(const struct pair *p, size_t i, size_t order, size_t e,
-                               size_t *terms)
+/* The other solution's values at t, in the finer one's modes. */
+static struct br_tip_state other_at(struct pair *p, double t)
 {
-    const struct br_modes *modes = &p->field[i]->modes;
-    *terms = modes->pieces.terms[e] + modes->degree - order;
-    return p->series[i] + br_pieces_at(&modes->pieces, e, modes->degree - order);
-}
-
-/* Root mean square over the beam of the difference of two fields on the same elements, derived
- * `order` times in x / L. */
-static double distance(struct pair *p, double *const q[2], size_t order)
-{
-    for (size_t i = 0; i < 2; i++)
-        br_modes_expand(&p->field[i]->modes, order, q[i], p->series[i]);
-    double sum = 0;
-    for (size_t e = 0; e < p->field[0]->modes.pieces.count; e++) {
-        size_t length[2];
-        const double *const c[2] = {series_on(p, 0, order, e, &length[0]),
-                                    series_on(p, 1, order, e, &length[1])};
-        for (size_t k = 0; k < length[0] || k < length[1]; k++) {
-            const double a = k < length[0] ? c[0][k] : 0, b = k < length[1] ? c[1][k] : 0;
-            sum += (a - b) * (a - b);
-        }
+    const struct br_history *track = p->track[1];
+    const size_t n = br_history_find(track, t);
+    if (n != p->translated) {
+        br_combiner_best()->combine(BR_HISTORY_ROWS, track->modes, br_history_values(track, n),
+                                    p->step.modes, p->bridge, p->values);
+        p->step.tip = &track->tip[n];
+        p->translated = n;
     }
-    return sqrt(sum);
-}
-
-/* Root mean square of the first field's velocity, derived in x / L. */
-static double strain_norm(struct pair *p, size_t order)
-{
-    br_modes_expand(&p->field[0]->modes, order, p->v[0], p->series[0]);
-    const size_t length = br_modes_length(&p->field[0]->modes, order);
-    double sum = 0;
-    for (size_t k = 0; k < length; k++)
-        sum += p->series[0][k] * p->series[0][k];
-    return sqrt(sum);
+    return br_history_at(&p->step, t, p->q[1], p->v[1]);
 }
 
 /* *most becomes the larger one; NaN counts as infinite. */
@@ -94,29 +108,40 @@ static bool in_layer(const struct br_history *track, double t, double width)
     return false;
 }
 
-static void compare_at(struct pair *p, double t, bool smooth, struct br_exact_report *report)
+/* Whether velocities and forces are compared at t. */
+static bool is_smooth(const struct pair *p, double t, double duration)
 {
-    struct br_tip_state tip[2];
-    for (size_t i = 0; i < 2; i++) {
-        tip[i] = br_history_at(p->track[i], t, p->q[i], p->v[i]);
+    return t == duration || (!in_layer(p->track[0], t, layer * duration) &&
+                             !in_layer(p->track[1], t, layer * duration) &&
+                             !br_outline_is_sharp(p->outline, t, layer * duration));
+}
+
+static void compare_at(struct pair *p, double t, double duration, struct br_exact_report *report)
+{
+    struct br_tip_state tip[2] = {br_history_at(p->track[0], t, p->q[0], p->v[0]), other_at(p, t)};
+    for (size_t i = 0; i < 2; i++)
         tip[i].force = br_law_force_at(p->law[i], t, &tip[i]);
-    }
-    const double length = p->field[0]->length, norm = 1 / sqrt(length);
-    const size_t degree = p->field[0]->modes.degree;
+    const struct br_oscillators *field = p->field[0];
+    const size_t m = field->modes.count, degree = field->modes.degree;
+    const double length = field->length, norm = 1 / sqrt(length);
     const double strain = pow(length, -(double)degree);
     struct br_exact_size *largest = &report->largest, *error = &report->error;
-    grow(&largest->displacement, norm * br_oscillators_norm(p->field[0], p->q[0], 1));
+    grow(&largest->displacement, norm * br_oscillators_norm(field, p->q[0]));
     grow(&largest->displacement, fabs(tip[0].displacement + p->track[0]->gap));
-    grow(&largest->velocity, norm * br_oscillators_norm(p->field[0], p->v[0], 1));
+    grow(&largest->velocity, norm * br_oscillators_norm(field, p->v[0]));
     grow(&largest->velocity, fabs(tip[0].velocity));
     grow(&largest->force, fabs(tip[0].force));
-    grow(&largest->strain_rate, strain_norm(p, degree) * strain);
-    grow(&error->displacement, safety * distance(p, p->q, 0));
+    grow(&largest->strain_rate, br_norm(m, NULL, p->v[0]) * strain);
+    for (size_t i = 0; i < m; i++) {
+        p->q[1][i] -= p->q[0][i];
+        p->v[1][i] -= p->v[0][i];
+    }
+    grow(&error->displacement, safety * norm * br_oscillators_norm(field, p->q[1]));
     grow(&error->displacement, safety * fabs(tip[0].displacement - tip[1].displacement));
-    if (!smooth)
+    if (!is_smooth(p, t, duration))
         return;
-    grow(&error->velocity, safety * distance(p, p->v, 0));
-    grow(&error->strain_rate, safety * distance(p, p->v, degree) * strain);
+    grow(&error->velocity, safety * norm * br_oscillators_norm(field, p->v[1]));
+    grow(&error->strain_rate, safety * br_norm(m, NULL, p->v[1]) * strain);
     grow(&error->velocity, safety * fabs(tip[0].velocity - tip[1].velocity));
     grow(&error->force, safety * fabs(tip[0].force - tip[1].force));
 }
@@ -131,45 +156,58 @@ static bool same_phases(const struct br_history *a, const struct br_history *b)
     return true;
 }
 
-/* Compares where a step begins, where velocities are at their worst, and at some of its nodes,
- * where displacements are. */
-static void compare_step(struct pair *p, const struct br_tip_step *tip, double duration,
-                         struct br_exact_report *report)
+/* A place in a history: instant `instant` of a step. */
+struct cursor {
+    size_t step, instant;
+};
+
+/* Infinite behind the last one. */
+static double cursor_time(const struct br_history *track, const struct cursor *at)
 {
-    static const double inside[] = {0, 0.0913, 0.3719, 0.5452, 0.8556};
-    for (size_t j = 0; j < sizeof inside / sizeof *inside; j++) {
-        const double t = tip->start + inside[j] * tip->length;
-        const bool smooth = !in_layer(p->track[0], t, layer * duration) &&
-                            !in_layer(p->track[1], t, layer * duration) &&
-                            !br_outline_is_sharp(p->outline, t, layer * duration);
-        compare_at(p, t, smooth, report);
+    if (at->step == track->steps)
+        return INFINITY;
+    const struct br_tip_step *tip = &track->tip[at->step];
+    return tip->start + inside[at->instant] * tip->length;
+}
+
+static void cursor_advance(struct cursor *at)
+{
+    if (++at->instant == INSTANTS) {
+        at->instant = 0;
+        at->step++;
     }
 }
 
-/* Work of a step's comparison: sums over all modes, as long as these are. */
+/* Work of the comparisons in a step; a translated step serves those in two. */
 static double step_work(const struct pair *p)
 {
     const double a = (double)p->field[0]->modes.count, b = (double)p->field[1]->modes.count;
-    return 3e-3 * (a * a + b * b);
+    return 3e-4 * a * b + 0.035 * a;
 }
 
-/* Compares at each step of either solution. What is begun is ended, though no work be left for it;
- * but not where somebody stops it. */
+/* Compares at each step of either solution, in order of time. What is begun is ended, though no
+ * work be left for it; but not where somebody stops it. */
 static enum br_status compare_field(struct pair *p, double duration, struct br_effort *effort,
                                     struct br_exact_report *report, struct br_error *err)
 {
     struct br_error spent;
+    struct cursor at[2] = {{0, 0}, {0, 0}};
     if (!same_phases(p->track[0], p->track[1])) {
         report->error = (struct br_exact_size){INFINITY, INFINITY, INFINITY, INFINITY};
         return BR_OK;
     }
-    for (size_t i = 0; i < 2; i++)
-        for (size_t n = 0; n < p->track[i]->steps; n++) {
-            compare_step(p, &p->track[i]->tip[n], duration, report);
-            if (br_effort_spend(effort, step_work(p), &spent) == BR_INTERRUPTED)
-                return br_fail(err, BR_INTERRUPTED, "%s", spent.message);
-        }
-    compare_at(p, duration, true, report);
+    for (;;) {
+        const double t[2] = {cursor_time(p->track[0], &at[0]), cursor_time(p->track[1], &at[1])};
+        const size_t first = t[1] < t[0];
+        if (isinf(t[first]))
+            break;
+        compare_at(p, t[first], duration, report);
+        cursor_advance(&at[first]);
+        if (at[first].instant == 0 &&
+            br_effort_spend(effort, step_work(p), &spent) == BR_INTERRUPTED)
+            return br_fail(err, BR_INTERRUPTED, "%s", spent.message);
+    }
+    compare_at(p, duration, duration, report);
     return BR_OK;
 }
 

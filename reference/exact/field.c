@@ -5,6 +5,9 @@
 #include <float.h>
 #include <lapacke.h>
 #include <math.h>
+#include <string.h>
+
+enum { S = BR_STAGES };
 
 size_t br_modes_length(const struct br_modes *modes, size_t order)
 {
@@ -47,40 +50,41 @@ static enum br_status decompose(struct br_modes *modes, struct br_error *err)
 }
 
 /* The tip's value is the integral over [0, 1] of the first derivative, and its slope that of the
- * second one. */
+ * second one. Loads are tested with these integrals, not with s Y: in a short element at the clamp
+ * the modes are small, and Y has the round-off of its largest entries there. */
 static enum br_status integrate(struct br_modes *modes, struct br_error *err)
 {
     const size_t m = modes->count, rows = br_modes_length(modes, 0);
-    double *q = br_allocate(m, sizeof *q);
-    for (size_t i = 0; q && i < m; i++) {
-        double *c = &modes->function[i * rows];
-        q[i] = 1;
-        br_modes_expand(modes, modes->degree, q, c);
+    double *c = br_allocate(rows, sizeof *c);
+    for (size_t i = 0; c && i < m; i++) {
+        memcpy(c, &modes->curve[i * m], m * sizeof *c);
         if (modes->degree > 1) {
             modes->slope[i] = br_pieces_integral(&modes->pieces, 0, c);
             br_pieces_integrate(&modes->pieces, 0, c);
         }
         modes->tip[i] = br_pieces_integral(&modes->pieces, modes->degree - 1, c);
         br_pieces_integrate(&modes->pieces, modes->degree - 1, c);
-        q[i] = 0;
+        for (size_t k = 0; k < rows; k++)
+            modes->function[k * modes->width + i] = c[k];
     }
-    free(q);
-    return q ? BR_OK : br_no_memory(err, "the modes");
+    free(c);
+    return c ? BR_OK : br_no_memory(err, "the modes");
 }
 
 enum br_status br_modes_init(struct br_modes *modes, size_t degree, struct br_store *store,
                              struct br_error *err)
 {
     const size_t m = modes->count = br_pieces_at(&modes->pieces, modes->pieces.count, 0);
+    const size_t lanes = BR_STAGE_LANES, width = (m + lanes - 1) / lanes * lanes;
+    modes->width = width;
     modes->degree = degree;
     const size_t rows = br_modes_length(modes, 0);
-    modes->size = br_store_take(store, m, sizeof *modes->size);
+    modes->size = br_store_take(store, width, sizeof *modes->size);
     modes->shape = br_store_take(store, m * rows, sizeof *modes->shape);
-    modes->function = br_store_take(store, m * rows, sizeof *modes->function);
+    modes->function = br_store_take(store, rows * width, sizeof *modes->function);
     modes->curve = br_store_take(store, m * m, sizeof *modes->curve);
-    modes->tip = br_store_take(store, m, sizeof *modes->tip);
-    modes->slope = br_store_take(store, m, sizeof *modes->slope);
-    modes->series = br_store_take(store, rows, sizeof *modes->series);
+    modes->tip = br_store_take(store, width, sizeof *modes->tip);
+    modes->slope = br_store_take(store, width, sizeof *modes->slope);
     br_quadrature_init(&modes->quadrature, &modes->pieces, degree, store);
     if (store->failed)
         return br_no_memory(err, "the modes");
@@ -90,40 +94,26 @@ enum br_status br_modes_init(struct br_modes *modes, size_t degree, struct br_st
 
 void br_modes_expand(const struct br_modes *modes, size_t order, const double *q, double *c)
 {
-    br_combine_best()(modes->count, q, modes->count, modes->curve, c); /* c = U q */
+    br_combiner_best()->combine(1, modes->count, q, modes->count, modes->curve, c); /* c = U q */
     for (size_t d = 0; d < modes->degree - order; d++)
         br_pieces_integrate(&modes->pieces, d, c);
-}
-
-/* out = A' c, A one of the matrices of all functions, c the Legendre coefficients of f. */
-static enum br_status test_with(const struct br_modes *modes, const double *a,
-                                const struct br_function *f, double t, struct br_places fronts,
-                                double *out, struct br_error *err)
-{
-    const int rows = (int)br_modes_length(modes, 0);
-    const enum br_status status =
-        br_quadrature_project(&modes->quadrature, f, t, fronts, modes->series, err);
-    cblas_dgemv(CblasColMajor, CblasTrans, rows, (int)modes->count, 1, a, rows, modes->series, 1, 0,
-                out, 1);
-    return status;
-}
-
-/* With the integrals, not with s Y: in a short element at the clamp the modes are small, and Y has
- * the round-off of its largest entries there. */
-enum br_status br_modes_load(const struct br_modes *modes, const struct br_function *f, double t,
-                             struct br_places fronts, double *out, struct br_error *err)
-{
-    return test_with(modes, modes->function, f, t, fronts, out, err);
 }
 
 /* A mode that is smaller than round-off carries no velocity. */
 enum br_status br_modes_project(const struct br_modes *modes, const struct br_function *f,
                                 double *q, struct br_error *err)
 {
+    const int rows = (int)br_modes_length(modes, 0);
+    double *c = br_allocate((size_t)rows, sizeof *c);
+    if (!c)
+        return br_no_memory(err, "a projection");
     const enum br_status status =
-        test_with(modes, modes->shape, f, 0, (struct br_places){0}, q, err);
+        br_quadrature_project(&modes->quadrature, f, 0, (struct br_places){0}, c, err);
+    cblas_dgemv(CblasColMajor, CblasTrans, rows, (int)modes->count, 1, modes->shape, rows, c, 1, 0,
+                q, 1); /* q = Y' c */
     for (size_t i = 0; i < modes->count; i++)
         q[i] = modes->size[i] > DBL_EPSILON * modes->size[0] ? q[i] / modes->size[i] : 0;
+    free(c);
     return status;
 }
 
@@ -157,17 +147,26 @@ static enum br_status set_initial(struct br_oscillators *f, struct br_error *err
     return status;
 }
 
+/* out (rows x width) = the modes' integrals of functions whose coefficients are the rows of c. */
+static void test(const struct br_oscillators *f, size_t rows, const double *c, double *out)
+{
+    const struct br_modes *m = &f->modes;
+    m->quadrature.combine(rows, br_modes_length(m, 0), c, m->width, m->function, out);
+}
+
 static enum br_status set_space(struct br_oscillators *f, struct br_error *err)
 {
-    const size_t m = f->modes.count;
+    const size_t width = f->modes.width;
     enum br_status status = BR_OK;
     for (size_t term = 0; term < BR_LOAD_TERMS && !status; term++) {
         const struct br_product *p = &f->data.load->term[term];
-        double *space = f->load_space + term * m;
+        double *space = f->load_space + term * width;
         if (p->space.uses_t || br_product_is_zero(p))
             continue;
-        status = br_modes_load(&f->modes, &p->space, 0, (struct br_places){0}, space, err);
-        for (size_t i = 0; i < m; i++)
+        status = br_quadrature_project(&f->modes.quadrature, &p->space, 0, (struct br_places){0},
+                                       f->load_series, err);
+        test(f, 1, f->load_series, space);
+        for (size_t i = 0; i < width; i++)
             space[i] *= f->length;
     }
     return status;
@@ -188,9 +187,12 @@ static enum br_status create_modes(struct br_oscillators *f, const struct br_out
 
 static enum br_status allocate(struct br_oscillators *f, struct br_error *err)
 {
-    const size_t m = f->modes.count;
-    f->mass = br_store_take(f->store, m, sizeof *f->mass);
-    f->load_space = br_store_take(f->store, m * (BR_LOAD_TERMS + 1), sizeof *f->load_space);
+    const size_t m = f->modes.count, width = f->modes.width;
+    f->mass = br_store_take(f->store, width, sizeof *f->mass);
+    f->load_space = br_store_take(f->store, width * BR_LOAD_TERMS, sizeof *f->load_space);
+    f->load_series =
+        br_store_take(f->store, BR_STAGES * br_modes_length(&f->modes, 0), sizeof *f->load_series);
+    f->load_sum = br_store_take(f->store, BR_STAGES * width, sizeof *f->load_sum);
     f->displacement = br_store_take(f->store, m, sizeof *f->displacement);
     f->velocity = br_store_take(f->store, m, sizeof *f->velocity);
     return f->store->failed ? br_no_memory(err, "the modes") : BR_OK;
@@ -213,8 +215,10 @@ enum br_status br_oscillators_create(struct br_oscillators **out, const struct b
     enum br_status status = create_modes(f, outline, modes, err);
     if (!status)
         status = allocate(f, err);
-    for (size_t i = 0; !status && i < f->modes.count; i++)
-        f->mass[i] = scene->density * f->length * f->modes.size[i] * f->modes.size[i];
+    for (size_t i = 0; !status && i < f->modes.width; i++)
+        f->mass[i] = i < f->modes.count
+                         ? scene->density * f->length * f->modes.size[i] * f->modes.size[i]
+                         : 1;
     if (!status)
         status = set_space(f, err);
     return status ? status : set_initial(f, err);
@@ -231,9 +235,9 @@ static void add_tip(const struct br_oscillators *f, double t, double *out)
         out[i] += force * f->modes.tip[i] + moment / f->length * f->modes.slope[i];
 }
 
-/* A load that no product gives, at one time: cut where it jumps there. */
+/* c (out): coefficients of a load that no product gives, at one time: cut where it jumps there. */
 static enum br_status load_at(const struct br_oscillators *f, const struct br_function *space,
-                              double t, double *out, struct br_error *err)
+                              double t, double *c, struct br_error *err)
 {
     struct br_breaks breaks = {0};
     enum br_status status = BR_OK;
@@ -245,59 +249,77 @@ static enum br_status load_at(const struct br_oscillators *f, const struct br_fu
     for (size_t i = 0; i < breaks.count && x; i++)
         x[i] = breaks.at[i].high;
     if (!status)
-        status = br_modes_load(&f->modes, space, t, (struct br_places){breaks.count, x}, out, err);
+        status = br_quadrature_project(&f->modes.quadrature, space, t,
+                                       (struct br_places){breaks.count, x}, c, err);
     free(x);
     br_breaks_free(&breaks);
     return status;
 }
 
-enum br_status br_oscillators_load(const struct br_oscillators *f, double t, double *out,
+/* Adds a load that no product gives at all stages, times `factor`; the square of its size, too. */
+static enum br_status add_moving(const struct br_oscillators *f, const struct br_function *space,
+                                 const double t[S], const double factor[S], double *out,
+                                 double size[S], struct br_error *err)
+{
+    const size_t rows = br_modes_length(&f->modes, 0);
+    enum br_status status = BR_OK;
+    for (size_t j = 0; j < S && !status; j++) {
+        double *c = &f->load_series[j * rows];
+        status = load_at(f, space, t[j], c, err);
+        cblas_dscal((int)rows, factor[j] * f->length, c, 1);
+        size[j] += cblas_dnrm2((int)rows, c, 1);
+    }
+    test(f, S, f->load_series, f->load_sum);
+    for (size_t i = 0; i < S * f->modes.width; i++)
+        out[i] += f->load_sum[i];
+    return status;
+}
+
+enum br_status br_oscillators_load(const struct br_oscillators *f, const double t[S], double *out,
                                    double *size, struct br_error *err)
 {
-    const size_t m = f->modes.count;
-    *size = 0;
-    for (size_t i = 0; i < m; i++)
-        out[i] = 0;
+    const size_t width = f->modes.width;
+    double factor[S], sizes[S] = {0};
+    memset(out, 0, S * width * sizeof *out);
     for (size_t term = 0; term < BR_LOAD_TERMS; term++) {
         const struct br_product *p = &f->data.load->term[term];
-        double factor, *space = f->load_space + term * m;
+        const double *space = f->load_space + term * width;
+        enum br_status status = BR_OK;
         if (br_product_is_zero(p))
             continue;
-        br_function_evaluate(&p->time, 1, &f->length, t, &factor);
-        if (p->space.uses_t) {
-            space = f->load_space + BR_LOAD_TERMS * m;
-            const enum br_status status = load_at(f, &p->space, t, space, err);
-            if (status)
-                return status;
-            factor *= f->length;
-            *size +=
-                fabs(factor) * cblas_dnrm2((int)br_modes_length(&f->modes, 0), f->modes.series, 1);
-        }
-        for (size_t i = 0; i < m; i++)
-            out[i] += factor * space[i];
+        for (size_t j = 0; j < S; j++)
+            br_function_evaluate(&p->time, 1, &f->length, t[j], &factor[j]);
+        if (p->space.uses_t)
+            status = add_moving(f, &p->space, t, factor, out, sizes, err);
+        if (status)
+            return status;
+        for (size_t j = 0; j < S && !p->space.uses_t; j++)
+            for (size_t i = 0; i < width; i++)
+                out[j * width + i] += factor[j] * space[i];
     }
-    add_tip(f, t, out);
+    *size = 0;
+    for (size_t j = 0; j < S; j++) {
+        add_tip(f, t[j], out + j * width);
+        *size = fmax(*size, sizes[j]);
+    }
     return BR_OK;
 }
 
 double br_oscillators_work(const struct br_oscillators *f)
 {
     const double points = (double)f->modes.quadrature.count, m = (double)f->modes.count;
-    double work = m;
+    const double elements = (double)f->modes.pieces.count;
+    double work = 4 + 0.15 * m;
     for (size_t term = 0; term < BR_LOAD_TERMS; term++) {
         const struct br_product *p = &f->data.load->term[term];
         if (p->space.uses_t && !br_product_is_zero(p))
-            work += 9 * (0.05 * points + 2e-4 * m * (m + points)) + (f->fronts ? 100 : 0);
+            work += S * (0.05 * points + 1.5e-4 * points * m / elements + 7e-5 * m * m) +
+                    (f->fronts ? 100 : 0);
     }
     return work;
 }
 
-double br_oscillators_norm(const struct br_oscillators *f, const double *q, size_t stride)
+double br_oscillators_norm(const struct br_oscillators *f, const double *q)
 {
-    double sum = 0;
-    for (size_t i = 0; i < f->modes.count; i++) {
-        const double part = f->modes.size[i] * q[i * stride];
-        sum += part * part;
-    }
-    return sqrt(f->length * sum);
+    return sqrt(f->length) * br_norm(f->modes.count, f->modes.size, q);
 }

@@ -20,16 +20,17 @@
 struct br_modes {
     struct br_pieces pieces;
     size_t count;     /* m, the pieces' terms */
+    size_t width;     /* m, and zeros up to a multiple of BR_STAGE_LANES */
     size_t degree;    /* 1: axial, 2: bending */
-    double *size;     /* s, m: L2 norm of each mode */
+    double *size;     /* s, width: L2 norm of each mode */
     double *shape;    /* Y, br_modes_length(0) x m, by columns */
-    double *function; /* B U = Y s, the same size: each mode, as integrated from the clamp */
+    double *function; /* B U = Y s, br_modes_length(0) x width, by rows: modes integrated from the
+                         clamp */
     double *curve;    /* U, m x m, by columns */
-    double *tip;      /* m: value of each mode at the free end */
-    double *slope;    /* m: derivative of each there; degree 2 only, else zeros */
+    double *tip;      /* width: value of each mode at the free end */
+    double *slope;    /* width: derivative of each there; degree 2 only, else zeros */
 
     struct br_quadrature quadrature; /* of functions that are tested with shapes */
-    double *series;                  /* br_modes_length(0): coefficients of the last one */
 };
 
 /* modes: in, with its pieces, all else zero. Fails with BR_NO_MEMORY or BR_SINGULAR. */
@@ -43,11 +44,6 @@ size_t br_modes_length(const struct br_modes *modes, size_t order);
 /* c (out, br_modes_length) = Legendre coefficients of the order-th derivative of
  * sum_i q_i mode_i in x / L, order <= degree. */
 void br_modes_expand(const struct br_modes *modes, size_t order, const double *q, double *c);
-
-/* out[i] = integral of f(x, t) mode_i(x) over x / L in [0, 1]; fronts as in pieces.h. For one
- * thread at a time. Fails with BR_NO_MEMORY. */
-enum br_status br_modes_load(const struct br_modes *modes, const struct br_function *f, double t,
-                             struct br_places fronts, double *out, struct br_error *err);
 
 /* q (out) = L2 projection of f(x, 0) on the modes. */
 enum br_status br_modes_project(const struct br_modes *modes, const struct br_function *f,
@@ -63,12 +59,14 @@ enum br_status br_modes_project_energy(const struct br_modes *modes, const struc
 struct br_oscillators {
     struct br_modes modes;
     double length;             /* L, m */
-    double *mass;              /* modes, kg */
+    double *mass;              /* width, kg; behind the modes 1 */
     double damping, stiffness; /* N s/m, N/m */
     struct br_exact_data data; /* borrowed */
     bool fronts;               /* places where the load jumps move */
-    double *load_space;        /* BR_LOAD_TERMS * modes: of the terms whose space part is constant
-                                  in time; and workspace for one that is not */
+    double *load_space;        /* BR_LOAD_TERMS x width: of the terms whose space part is constant
+                                  in time */
+    double *load_series;       /* BR_STAGES x br_modes_length(0), workspace for one that is not */
+    double *load_sum;          /* BR_STAGES x width, likewise */
     double *displacement;      /* modes: at t = 0, m */
     double *velocity;          /* modes: at t = 0, m/s */
     double tip_displacement, tip_velocity; /* at t = 0, m, m/s */
@@ -82,16 +80,16 @@ enum br_status br_oscillators_create(struct br_oscillators **out, const struct b
                                      const struct br_outline *outline, size_t modes,
                                      struct br_store *store, struct br_error *err);
 
-/* out[i] = load_i(t), N. *size: out, of loads that no product gives, N: what a mode of size 1 gets
- * of them may be wrong by round-off of that. Fails with BR_NO_MEMORY, or BR_BAD_INPUT: too many
- * fronts. */
-enum br_status br_oscillators_load(const struct br_oscillators *field, double t, double *out,
-                                   double *size, struct br_error *err);
+/* out (BR_STAGES x width): load_i(t) at each t, N. *size: out, of loads that no product gives, N:
+ * what a mode of size 1 gets of them may be wrong by round-off of that at any t. Fails with
+ * BR_NO_MEMORY, or BR_BAD_INPUT: too many fronts. */
+enum br_status br_oscillators_load(const struct br_oscillators *field, const double t[BR_STAGES],
+                                   double *out, double *size, struct br_error *err);
 
 /* What a step costs in the units of br_effort: its modes, and loads that no product gives. */
 double br_oscillators_work(const struct br_oscillators *field);
 
-/* L2 norm over the beam of sum_i q_i mode_i, with q at every `stride`-th place. */
-double br_oscillators_norm(const struct br_oscillators *field, const double *q, size_t stride);
+/* L2 norm over the beam of sum_i q_i mode_i. */
+double br_oscillators_norm(const struct br_oscillators *field, const double *q);
 
 #endif

@@ -57,8 +57,8 @@ static struct scale trial_scale(const struct march *m)
     const struct br_oscillators *f = s->field;
     const struct br_tip_state end = br_tip_at(&s->tip, 1);
     struct scale scale = m->scale;
-    scale.displacement = larger(scale.displacement, br_oscillators_norm(f, s->q, 1));
-    scale.velocity = larger(scale.velocity, br_oscillators_norm(f, s->series, S)); /* its mean */
+    scale.displacement = larger(scale.displacement, br_oscillators_norm(f, s->q));
+    scale.velocity = larger(scale.velocity, br_oscillators_norm(f, s->series)); /* its mean */
     scale.tip_displacement = larger(scale.tip_displacement, fabs(end.displacement));
     scale.tip_velocity = larger(scale.tip_velocity, fabs(end.velocity));
     scale.force = larger(scale.force, fabs(end.force));
@@ -83,8 +83,9 @@ static double force_noise(const struct march *m, const struct scale *scale)
 static double step_error(const struct march *m, const struct scale *scale)
 {
     const struct br_stepper *s = m->s;
-    const double last = br_oscillators_norm(s->field, s->series + S - 1, S);
-    const double before = br_oscillators_norm(s->field, s->series + S - 2, S);
+    const size_t width = s->system.width;
+    const double last = br_oscillators_norm(s->field, s->series + (S - 1) * width);
+    const double before = br_oscillators_norm(s->field, s->series + (S - 2) * width);
     const double velocity = larger(last, before / 8);
     const double force = larger(fabs(s->tip.force[S - 1]), fabs(s->tip.force[S - 2]) / 8);
     const double noise = 10 * (DBL_EPSILON * s->free_size + s->load_noise) / m->options->tolerance;
@@ -183,14 +184,14 @@ static void accept(struct march *m, double time)
 {
     const struct br_stepper *s = m->s;
     if (!m->status)
-        m->status = br_history_append(m->track, &s->tip, s->q, s->series, m->err);
+        m->status = br_history_append(m->track, &s->tip, s->q, s->system.width, s->series, m->err);
     m->scale = trial_scale(m);
     m->track->free_velocity =
         larger(m->track->free_velocity, s->free_size / sqrt(s->field->length));
     m->track->impulse += s->impulse;
     m->track->blurred += gsl_pow_2(s->blur * s->impulse);
     br_stepper_accept(m->s, time);
-    m->scale.displacement = larger(m->scale.displacement, br_oscillators_norm(s->field, s->q, 1));
+    m->scale.displacement = larger(m->scale.displacement, br_oscillators_norm(s->field, s->q));
     m->fresh = false;
     m->at_once = 0;
 }

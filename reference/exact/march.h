@@ -8,7 +8,7 @@
 
 /* How much work an exact solution may take, and who may end it and gets its progress. */
 struct br_effort {
-    double done, most; /* units of about a microsecond: counted, not measured */
+    double done, most; /* units of about 1.4 microseconds of a core: counted, not measured */
     const struct br_exact_options *who;
 };
 
@@ -33,16 +33,19 @@ struct br_stepper {
     double tip_displacement, tip_velocity; /* less the gap, m, m/s */
 
     struct br_tip_step tip; /* the last trial step */
-    double *series;         /* modes x BR_STAGES: its velocity, m/s */
+    double *series;         /* BR_STAGES x width of the modes: its velocity, m/s */
     double free_size;       /* m^(3/2)/s: mean velocity in L2 as if the tip were free: where a tip
                                force cancels it, its round-off is what remains */
 
     double work; /* of the trial steps, see br_effort; whoever reads it sets it to zero */
 
-    double length;    /* s, of the step that the responses are for */
-    double *response; /* modes x BR_STAGES x BR_STAGES: velocity over force, m/(N s) */
-    double tip_response[BR_STAGES][BR_STAGES];
-    double *load;          /* BR_STAGES x modes, workspace, N */
+    double length;                 /* s, of the step that the responses are for */
+    struct br_stage_system system; /* of this length, over stiffness h */
+    double *gain;      /* width: mean velocity in a step over a constant force, m/(N s) */
+    double tip_length; /* s, of the step that this is for: only phases that need it have it */
+    double tip_response[BR_STAGES][BR_STAGES]; /* velocity over force, m/(N s) */
+    double *load;                              /* BR_STAGES x width, at the stages, N */
+    double *rest;          /* the same size: series of what the state leaves of it, N */
     double load_noise;     /* m^(3/2)/s: what a load's round-off may do to the velocity, in L2 */
     double impulse;        /* m^(3/2)/s: velocity that the loads alone give in the step, in L2 */
     double noise_response; /* the same of a load of 1 N of every shape */

@@ -100,7 +100,8 @@ static void fill_rule(struct br_quadrature *q, size_t e, size_t start, struct br
 void br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces, size_t extra,
                         struct br_store *store)
 {
-    *q = (struct br_quadrature){.pieces = pieces, .extra = extra, .combine = br_combine_best()};
+    *q = (struct br_quadrature){
+        .pieces = pieces, .extra = extra, .combine = br_combiner_best()->combine};
     q->points = br_store_take(store, pieces->count, sizeof *q->points);
     q->table = br_store_take(store, pieces->count, sizeof *q->table);
     for (size_t e = 0; !store->failed && e < pieces->count; e++)
@@ -206,7 +207,7 @@ enum br_status br_quadrature_project(const struct br_quadrature *q, const struct
         const double root = sqrt(br_pieces_width(p, e));
         for (size_t i = 0; i < q->points[e]; i++)
             value[i] *= q->weight[start + i];
-        q->combine(q->points[e], value, terms, q->table[e], out);
+        q->combine(1, q->points[e], value, terms, q->table[e], out);
         for (size_t k = 0; k < terms; k++)
             out[k] *= root;
     }

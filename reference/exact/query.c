@@ -253,7 +253,7 @@ static enum br_status projection_init(struct br_exact_projection *p,
                                       const struct br_exact_mesh *mesh, struct br_error *err)
 {
     const size_t longest = br_modes_length(&field->modes, 0);
-    p->combine = br_combine_best();
+    p->combine = br_combiner_best()->combine;
     p->modes = field->modes.count;
     p->length = br_modes_length(&field->modes, p->part.order);
     p->expand = br_store_take(&p->store, p->modes * p->length, sizeof *p->expand);
@@ -302,7 +302,7 @@ void br_exact_projection_free(struct br_exact_projection *p)
 void br_exact_projection_apply(struct br_exact_projection *p, const struct br_exact_state *state,
                                double *c, double *rest)
 {
-    p->combine(p->modes, state->mode[p->part.field][p->part.velocity], p->length, p->expand,
+    p->combine(1, p->modes, state->mode[p->part.field][p->part.velocity], p->length, p->expand,
                p->series);
     br_piecewise_apply(p->piecewise, p->series, c, rest);
 }

@@ -321,7 +321,7 @@ enum br_status br_restriction_create(struct br_restriction **out,
     if (!r)
         return br_no_memory(err, "a projection");
     r->shape = *shape;
-    r->combine = br_combine_best();
+    r->combine = br_combiner_best()->combine;
     r->group = choose_group(shape);
     r->groups = (shape->elements + r->group - 1) / r->group;
     struct making with = {0};
@@ -371,13 +371,13 @@ void br_restriction_apply(struct br_restriction *r, const double *series, double
 {
     const size_t length = r->shape.length, kept = r->shape.degree + 1;
     const size_t count = significant_series(r, series);
-    r->combine(count, series, r->groups * r->terms, r->coarse, r->fine ? r->local : c);
+    r->combine(1, count, series, r->groups * r->terms, r->coarse, r->fine ? r->local : c);
     if (r->fine) {
         const size_t terms = significant_terms(r);
         for (size_t g = 0; g < r->groups; g++)
-            r->combine(terms, r->local + g * r->terms, r->group * kept, r->fine,
+            r->combine(1, terms, r->local + g * r->terms, r->group * kept, r->fine,
                        c + first_element(r, g) * kept);
     }
-    r->combine(length, series, length, r->rest, r->left);
+    r->combine(1, length, series, length, r->rest, r->left);
     *rest = sum_of_squares(length, r->left);
 }

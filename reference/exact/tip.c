@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "reference/exact/legendre.h"
+#include "reference/exact/combine.h"
 
 enum { S = BR_STAGES };
 
@@ -188,8 +188,8 @@ void br_history_free(struct br_history *track)
     if (!track)
         return;
     free(track->tip);
-    free(track->displacement);
-    free(track->velocity);
+    free(track->block);
+    br_store_clear(&track->store);
     free(track->entry);
     free(track);
 }
@@ -208,31 +208,42 @@ static enum br_status move(void *array, size_t used, size_t room, size_t size, s
     return BR_OK;
 }
 
+/* Room for one more step. What steps hold stays where it is: it may be much. */
 static enum br_status make_room(struct br_history *track, struct br_error *err)
 {
-    const size_t n = track->steps, m = track->modes, room = 2 * n + 64;
-    if (n < track->step_room)
-        return BR_OK;
-    enum br_status status = move(&track->tip, n, room, sizeof *track->tip, err);
-    if (!status)
-        status = move(&track->displacement, n, room, m * sizeof(double), err);
-    if (!status)
-        status = move(&track->velocity, n, room, m * S * sizeof(double), err);
-    if (!status)
-        track->step_room = room;
-    return status;
+    const size_t n = track->steps, b = track->blocks;
+    const size_t length = BR_HISTORY_BLOCK * BR_HISTORY_ROWS * track->modes;
+    enum br_status status = BR_OK;
+    if (n == track->step_room) {
+        status = move(&track->tip, n, 2 * n + 64, sizeof *track->tip, err);
+        track->step_room = status ? n : 2 * n + 64;
+    }
+    if (status || n < b * BR_HISTORY_BLOCK)
+        return status;
+    if (b == track->block_room) {
+        status = move(&track->block, b, 2 * b + 16, sizeof *track->block, err);
+        track->block_room = status ? b : 2 * b + 16;
+    }
+    if (status)
+        return status;
+    track->block[b] = br_store_take(&track->store, length, sizeof **track->block);
+    track->blocks += track->block[b] != NULL;
+    return track->block[b] ? BR_OK : br_no_memory(err, "the exact solution's steps");
 }
 
 enum br_status br_history_append(struct br_history *track, const struct br_tip_step *tip,
-                                 const double *q, const double *v, struct br_error *err)
+                                 const double *q, size_t width, const double *v,
+                                 struct br_error *err)
 {
     const enum br_status status = make_room(track, err);
     if (status)
         return status;
     const size_t n = track->steps++, m = track->modes;
     track->tip[n] = *tip;
-    memcpy(&track->displacement[n * m], q, m * sizeof *q);
-    memcpy(&track->velocity[n * m * S], v, m * S * sizeof *v);
+    double *values = br_history_values(track, n);
+    for (size_t k = 0; k < S; k++)
+        memcpy(&values[k * m], &v[k * width], m * sizeof *v);
+    memcpy(&values[S * m], q, m * sizeof *q);
     return BR_OK;
 }
 
@@ -306,10 +317,15 @@ struct br_tip_state br_history_at(const struct br_history *track, double t, doub
     const size_t n = br_history_find(track, t), m = track->modes;
     const struct br_tip_step *tip = &track->tip[n];
     const struct moment at = moment_at(fraction(tip, t));
-    const double *start = &track->displacement[n * m], *series = &track->velocity[n * m * S];
-    for (size_t i = 0; q && i < m; i++)
-        q[i] = start[i] + tip->length * br_radau_sum(&series[i * S], at.integral);
-    for (size_t i = 0; v && i < m; i++)
-        v[i] = br_radau_sum(&series[i * S], at.value);
+    const double *values = br_history_values(track, n);
+    br_combine *combine = br_combiner_best()->combine;
+    double factor[BR_HISTORY_ROWS];
+    for (size_t k = 0; k < S; k++)
+        factor[k] = tip->length * at.integral[k];
+    factor[S] = 1;
+    if (q)
+        combine(1, BR_HISTORY_ROWS, factor, m, values, q);
+    if (v)
+        combine(1, S, at.value, m, values, v);
     return tip_at(tip, &at);
 }

@@ -6,6 +6,7 @@
 
 #include "reference/exact/exact.h"
 #include "reference/exact/legendre.h"
+#include "reference/exact/store.h"
 
 /* The tip along one step; series in p_k((t - start) / length). */
 struct br_tip_step {
@@ -22,6 +23,8 @@ struct br_entry {
     enum br_phase phase;
 };
 
+enum { BR_HISTORY_ROWS = BR_STAGES + 1, BR_HISTORY_BLOCK = 32 };
+
 struct br_history {
     size_t modes;
     double gap;           /* m */
@@ -31,8 +34,10 @@ struct br_history {
     double blurred;       /* sum of squares of what the rounding of t may do to it */
     size_t steps, step_room;
     struct br_tip_step *tip; /* steps */
-    double *displacement;    /* steps x modes: at each step's start, m */
-    double *velocity;        /* steps x modes x BR_STAGES: series, m/s */
+    double **block;          /* of BR_HISTORY_BLOCK steps each: BR_HISTORY_ROWS x modes a step, see
+                                br_history_values */
+    size_t blocks, block_room;
+    struct br_store store; /* of the blocks */
     size_t entries, entry_room;
     struct br_entry *entry; /* phases in order of time, the first at t = 0 */
 };
@@ -49,13 +54,23 @@ enum br_status br_history_create(struct br_history **out, size_t modes, double g
                                  struct br_error *err);
 void br_history_free(struct br_history *track);
 
-/* Appends a step: tip, q (modes) and v (modes x BR_STAGES) are copied. */
+/* Appends a step: tip, q (modes) and the first `modes` of each row of v (BR_STAGES x width) are
+ * copied. */
 enum br_status br_history_append(struct br_history *track, const struct br_tip_step *tip,
-                                 const double *q, const double *v, struct br_error *err);
+                                 const double *q, size_t width, const double *v,
+                                 struct br_error *err);
 
 /* Appends the entry into a phase; at the time of the last one its phase is replaced. */
 enum br_status br_history_enter(struct br_history *track, const struct br_entry *entry,
                                 struct br_error *err);
+
+/* Step n's values, BR_HISTORY_ROWS x modes: series of the velocity, m/s, and the displacement at
+ * its start, m. */
+static inline double *br_history_values(const struct br_history *track, size_t n)
+{
+    return track->block[n / BR_HISTORY_BLOCK] +
+           n % BR_HISTORY_BLOCK * BR_HISTORY_ROWS * track->modes;
+}
 
 /* The step that holds t; where two steps meet the later one. */
 size_t br_history_find(const struct br_history *track, double t);
