@@ -225,9 +225,11 @@ static void see_load(struct br_field_march *part, double t)
             most = fabs(drive->vector[i]) > most ? fabs(drive->vector[i]) : most;
         part->load_size = most > 0 ? most : lost_force(part, t);
     }
-    const long double load = part->load_size * fabs(drive->factor);
-    const double tip = fmax(fabs(drive->tip[0]), fabs(drive->tip[1]));
-    part->moved_by = fmaxl(part->moved_by, fmaxl(load, tip));
+    const long double force[] = {part->load_size * fabs(drive->factor), fabs(drive->tip[0]),
+                                 fabs(drive->tip[1])};
+    for (int i = 0; i < 3; i++) /* fmaxl would be a call in every step */
+        if (force[i] > part->moved_by)
+            part->moved_by = force[i];
 }
 
 enum br_status br_field_march_predict(struct br_field_march *part, double t, double *velocity,
