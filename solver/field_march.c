@@ -93,6 +93,30 @@ int br_time_scheme_kept(const struct br_time_scheme *scheme)
     return kept;
 }
 
+static double passes(const double weight[BR_KNOWN])
+{
+    const double a_state = 0.2; /* as measured */
+    double sum = 1;
+    for (int i = 0; i < BR_KNOWN; i++)
+        sum += weight[i] != 0 ? a_state : 0;
+    return sum;
+}
+
+double br_time_scheme_sums(const struct br_time_scheme *scheme)
+{
+    struct br_stages s;
+    bool needed[BR_KNOWN] = {false};
+    double sum = 0;
+    find_needed(scheme, needed);
+    scheme->stages(2, &s);
+    for (int i = 0; i < s.count; i++)
+        if (i > 0 || !starts_now(&s.stage[i]))
+            sum += passes(s.stage[i].weight);
+    if (needed[BR_RATE]) /* which the end of the step makes */
+        sum += passes(s.stage[s.count - 1].weight);
+    return sum / s.count;
+}
+
 static enum br_status make_room(struct br_field_march *part, const struct br_time_scheme *scheme,
                                 struct br_error *err)
 {
@@ -113,9 +137,9 @@ enum br_status br_field_march_create(struct br_field_march *part, const struct b
     part->field = *field;
     if (!part->modelled)
         return BR_OK;
-    part->solver = br_linear_solver_for(method->solver, field);
-    enum br_status status =
-        part->solver->create(method->solver, field, &method->linear, &part->state, err);
+    const struct br_linear_solver *row = br_method_solver(method, field);
+    part->solver = br_linear_solver_for(row, field);
+    enum br_status status = part->solver->create(row, field, &method->linear, &part->state, err);
     const struct br_forces forces = br_forces_of_scene(s, field->kind);
     if (!status)
         status = br_step_load_init(&part->load, &forces, field, err);

@@ -35,6 +35,31 @@ static struct cut choose_cut(size_t n)
     return best;
 }
 
+/* ns, of an AMD EPYC with AVX-512 at about 3 GHz: of a step, of an element of all spans, of the odd
+ * rest and of its elements; and what a pass over the states adds to each. */
+struct cost {
+    double step, loop, rest, odd;
+};
+
+/* A beam that is all odd rest has nothing to join. */
+static double price(const struct cost *of, const struct cut *cut)
+{
+    const double joins = cut->pieces ? of->step : 0, rest = cut->odd ? of->rest : 0;
+    return joins + of->loop * (double)(cut->pieces * cut->length) + rest +
+           of->odd * (double)cut->odd;
+}
+
+double br_pieces_cost(const struct br_field *field, double sums)
+{
+    static const struct cost axial = {260, 6.5, 55, 2.75}, axial_sum = {70, 1.6, 8, 3.1};
+    static const struct cost bending = {450, 22, 115, 10.9}, bending_sum = {55, 7, 14, 6.5};
+    static const double march = 140; /* of a step that has an odd rest alone */
+    const struct cut cut = choose_cut(field->n);
+    const bool rod = field->kind == BR_AXIAL;
+    return (cut.pieces ? 0 : march) + price(rod ? &axial : &bending, &cut) +
+           sums * price(rod ? &axial_sum : &bending_sum, &cut);
+}
+
 static double *take(double *arena, size_t *used, size_t doubles)
 {
     double *p = arena ? arena + *used : NULL;
