@@ -238,15 +238,27 @@ static long double lost_force(const struct br_field_march *part, double t)
     return (long double)most * part->field.h;
 }
 
+/* The largest of some magnitudes; NaN is none. In lanes, which the compiler finds. */
+static double largest_of(const double *value, size_t size)
+{
+    enum { LANES = 8 };
+    double most[LANES] = {0};
+    for (size_t i = 0; i < size / LANES * LANES; i += LANES)
+        for (size_t l = 0; l < LANES; l++)
+            most[l] = fabs(value[i + l]) > most[l] ? fabs(value[i + l]) : most[l];
+    for (size_t i = size / LANES * LANES; i < size; i++)
+        most[0] = fabs(value[i]) > most[0] ? fabs(value[i]) : most[0];
+    for (size_t l = 1; l < LANES; l++)
+        most[0] = most[l] > most[0] ? most[l] : most[0];
+    return most[0];
+}
+
 /* What the largest force is, for br_march_check_range. */
 static void see_load(struct br_field_march *part, double t)
 {
     const struct br_drive *drive = &part->load.drive;
     if (drive->vector && drive->changed) {
-        double most = 0;
-        const size_t size = br_field_size(&part->field);
-        for (size_t i = 0; i < size; i++)
-            most = fabs(drive->vector[i]) > most ? fabs(drive->vector[i]) : most;
+        const double most = largest_of(drive->vector, br_field_size(&part->field));
         part->load_size = most > 0 ? most : lost_force(part, t);
     }
     const long double force[] = {part->load_size * fabs(drive->factor), fabs(drive->tip[0]),

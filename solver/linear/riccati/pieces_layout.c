@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/instruction_set.h"
 #include "solver/linear/riccati/pieces.h"
 
 enum {
@@ -261,14 +262,15 @@ static bool is_uniform(const struct br_pieces *s, const double *vector)
 }
 
 /* The load at the left node of each element, over R. */
+BR_SWEEP
 static void spread(const struct br_pieces *s, struct br_strand *t, const double *vector)
 {
-    const size_t d = (size_t)s->d, length = br_span_length(t);
-    for (size_t e = 0; e < length; e++)
-        for (size_t c = 0; c < d; c++)
-            for (size_t lane = 0; lane < t->strip.lanes; lane++)
-                t->strip.load[(e * d + c) * BR_LANES + lane] =
-                    vector[(t->first + lane * length + e) * d + c] / s->r;
+    const size_t entries = (size_t)s->d * br_span_length(t);
+    const double *from = vector + t->first * (size_t)s->d, r = s->r;
+    double *restrict to = t->strip.load;
+    for (size_t lane = 0; lane < t->strip.lanes; lane++, from += entries)
+        for (size_t i = 0; i < entries; i++)
+            to[i * BR_LANES + lane] = from[i] / r;
 }
 
 /* A place for loads that differ from node to node. */
