@@ -9,6 +9,10 @@
 
 enum { MOST_POINTS = BR_MOST_STATES, MOST_CELLS = 256, MOST_HALVINGS = 4 };
 
+/* Elements of a cell, or a share of all: equal cells share their vectors, which then stay in the
+ * caches and take little memory. */
+enum { MOST_ELEMENTS = 512, LEAST_CELLS = 128 };
+
 /* Points of a cell that are tried, and how many cells' points may be evaluated for an element. */
 static const struct {
     size_t points;
@@ -77,7 +81,9 @@ static bool add_cells(struct br_load_fit *fit, const struct br_function *f, size
     const struct br_interval x = {h * (double)begin, h * (double)end};
     if (fit->cells >= most)
         return false;
-    if (is_good(fit, f, x, (struct br_interval){0, fit->duration}, MOST_HALVINGS)) {
+    const bool short_enough =
+        end - begin <= MOST_ELEMENTS || end - begin <= fit->field.n / LEAST_CELLS;
+    if (short_enough && is_good(fit, f, x, (struct br_interval){0, fit->duration}, MOST_HALVINGS)) {
         fit->first[fit->cells++] = begin;
         fit->first[fit->cells] = end;
         return true;
@@ -180,7 +186,11 @@ static size_t equal_cell(const struct br_load_fit *fit, size_t cell)
 static enum br_status fill(struct br_load_fit *fit, struct br_error *err)
 {
     const size_t points = fit->points * fit->cells;
-    const size_t rows = br_field_unknowns(&fit->field) * (fit->field.n + fit->cells);
+    size_t rows = 0;
+    for (size_t cell = 0; cell < fit->cells; cell++) {
+        const struct br_field field = cell_field(fit, cell);
+        rows += equal_cell(fit, cell) == cell ? br_field_size(&field) : 0;
+    }
     fit->x = br_allocate(2 * points, sizeof *fit->x);
     fit->columns = br_allocate_aligned(fit->points * rows, sizeof *fit->columns);
     if (!fit->x || !fit->columns)

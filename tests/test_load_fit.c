@@ -63,7 +63,7 @@ static void test_smooth(void **state)
         "sin(x*t)",       "100*tanh(x + t)",        "exp(-((x - t)/0.5)^2)", "1/(1 + x*t)",
         "sin(7*x - 5*t)", "1e-200*sqrt(4 + x + t)", "-1e200*cos(3*x*t)",
     };
-    static const size_t n[] = {1000, 1023, 1777};
+    static const size_t n[] = {1000, 1023, 3777};
     struct br_error err = {0};
     for (size_t i = 0; i < sizeof smooth / sizeof *smooth; i++)
         for (size_t j = 0; j < 9; j++) {
