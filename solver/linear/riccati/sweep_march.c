@@ -51,8 +51,7 @@ INLINE void strain(int d, double alpha, const vec *w, const vec *v, vec *g)
 
 /* Costates p to the left, s into the scratch; minus_f: the load that is the same everywhere. */
 INLINE void piece_left(int d, int vectors, bool loaded, const struct br_strip *s,
-                       const struct piece *at, const vec *minus_f, double factor,
-                       vec p[VECTORS][2])
+                       const struct piece *at, const vec *minus_f, double factor, vec p[VECTORS][2])
 {
     const size_t entry = (size_t)d * BR_LANES;
     for (size_t e = s->length; e-- > 0;)
