@@ -83,9 +83,9 @@ static double round_off(const struct fine *f)
     double largest = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (br_march_models(f->march[kind], (enum br_field_kind)kind))
-            largest = fmax(largest, f->method.solver->round_off(
-                                        br_march_field(f->march[kind], (enum br_field_kind)kind),
-                                        &f->method.linear));
+            largest = fmax(
+                largest, br_method_round_off(
+                             &f->method, br_march_field(f->march[kind], (enum br_field_kind)kind)));
     return largest;
 }
 

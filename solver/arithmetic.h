@@ -9,19 +9,22 @@
 
 /* The mode belongs to a thread; threads of OpenMP do not hand it on. */
 
-/* Sets a mode, as fesetround takes it; FE_TONEAREST leaves what the thread has. Returns what was
- * set, for br_rounding_restore. */
+enum { BR_ROUNDING_KEPT = -1 }; /* no mode has this value (C17, 7.6) */
+
+/* Sets a mode, as fesetround takes it; FE_TONEAREST leaves what the thread has, and costs nothing.
+ * Returns what was set, or BR_ROUNDING_KEPT, for br_rounding_restore. */
 static inline int br_rounding_set(int mode)
 {
+    if (mode == FE_TONEAREST)
+        return BR_ROUNDING_KEPT;
     const int before = fegetround();
-    if (mode != FE_TONEAREST)
-        fesetround(mode);
+    fesetround(mode);
     return before;
 }
 
 static inline void br_rounding_restore(int before)
 {
-    if (fegetround() != before)
+    if (before != BR_ROUNDING_KEPT)
         fesetround(before);
 }
 

@@ -93,6 +93,30 @@ int br_time_scheme_kept(const struct br_time_scheme *scheme)
     return kept;
 }
 
+static double passes(const double weight[BR_KNOWN])
+{
+    const double a_state = 0.2; /* as measured */
+    double sum = 1;
+    for (int i = 0; i < BR_KNOWN; i++)
+        sum += weight[i] != 0 ? a_state : 0;
+    return sum;
+}
+
+double br_time_scheme_sums(const struct br_time_scheme *scheme)
+{
+    struct br_stages s;
+    bool needed[BR_KNOWN] = {false};
+    double sum = 0;
+    find_needed(scheme, needed);
+    scheme->stages(2, &s);
+    for (int i = 0; i < s.count; i++)
+        if (i > 0 || !starts_now(&s.stage[i]))
+            sum += passes(s.stage[i].weight);
+    if (needed[BR_RATE]) /* which the end of the step makes */
+        sum += passes(s.stage[s.count - 1].weight);
+    return sum / s.count;
+}
+
 static enum br_status make_room(struct br_field_march *part, const struct br_time_scheme *scheme,
                                 struct br_error *err)
 {
@@ -113,9 +137,9 @@ enum br_status br_field_march_create(struct br_field_march *part, const struct b
     part->field = *field;
     if (!part->modelled)
         return BR_OK;
-    part->solver = br_linear_solver_for(method->solver, field);
-    enum br_status status =
-        part->solver->create(method->solver, field, &method->linear, &part->state, err);
+    const struct br_linear_solver *row = br_method_solver(method, field);
+    part->solver = br_linear_solver_for(row, field);
+    enum br_status status = part->solver->create(row, field, &method->linear, &part->state, err);
     const struct br_forces forces = br_forces_of_scene(s, field->kind);
     if (!status)
         status = br_step_load_init(&part->load, &forces, field, err);
@@ -214,20 +238,34 @@ static long double lost_force(const struct br_field_march *part, double t)
     return (long double)most * part->field.h;
 }
 
+/* The largest of some magnitudes; NaN is none. In lanes, which the compiler finds. */
+static double largest_of(const double *value, size_t size)
+{
+    enum { LANES = 8 };
+    double most[LANES] = {0};
+    for (size_t i = 0; i < size / LANES * LANES; i += LANES)
+        for (size_t l = 0; l < LANES; l++)
+            most[l] = fabs(value[i + l]) > most[l] ? fabs(value[i + l]) : most[l];
+    for (size_t i = size / LANES * LANES; i < size; i++)
+        most[0] = fabs(value[i]) > most[0] ? fabs(value[i]) : most[0];
+    for (size_t l = 1; l < LANES; l++)
+        most[0] = most[l] > most[0] ? most[l] : most[0];
+    return most[0];
+}
+
 /* What the largest force is, for br_march_check_range. */
 static void see_load(struct br_field_march *part, double t)
 {
     const struct br_drive *drive = &part->load.drive;
     if (drive->vector && drive->changed) {
-        double most = 0;
-        const size_t size = br_field_size(&part->field);
-        for (size_t i = 0; i < size; i++)
-            most = fabs(drive->vector[i]) > most ? fabs(drive->vector[i]) : most;
+        const double most = largest_of(drive->vector, br_field_size(&part->field));
         part->load_size = most > 0 ? most : lost_force(part, t);
     }
-    const long double load = part->load_size * fabs(drive->factor);
-    const double tip = fmax(fabs(drive->tip[0]), fabs(drive->tip[1]));
-    part->moved_by = fmaxl(part->moved_by, fmaxl(load, tip));
+    const long double force[] = {part->load_size * fabs(drive->factor), fabs(drive->tip[0]),
+                                 fabs(drive->tip[1])};
+    for (int i = 0; i < 3; i++) /* fmaxl would be a call in every step */
+        if (force[i] > part->moved_by)
+            part->moved_by = force[i];
 }
 
 enum br_status br_field_march_predict(struct br_field_march *part, double t, double *velocity,

@@ -6,8 +6,9 @@
 struct br_forces br_forces_of_scene(const struct br_scene *s, enum br_field_kind kind)
 {
     if (kind == BR_AXIAL)
-        return (struct br_forces){&s->axial.load, &s->axial.tip_force, NULL};
-    return (struct br_forces){&s->bending.load, &s->bending.tip_force, &s->bending.tip_moment};
+        return (struct br_forces){&s->axial.load, &s->axial.tip_force, NULL, s->duration};
+    return (struct br_forces){&s->bending.load, &s->bending.tip_force, &s->bending.tip_moment,
+                              s->duration};
 }
 
 static enum br_status clone_functions(struct br_step_load *load, const struct br_forces *forces,
@@ -35,6 +36,8 @@ enum br_status br_step_load_init(struct br_step_load *load, const struct br_forc
             status = br_no_memory(err, "a load vector");
         else if (!space->uses_t)
             status = br_assemble_load(field, space, 0, load->vector[i], err);
+        else if (space->uses_x)
+            status = br_load_fit_create(field, space, forces->duration, &load->fit[i], err);
     }
     if (load->terms > 1 && !status) {
         load->sum = br_allocate(br_field_size(field), sizeof *load->sum);
@@ -50,8 +53,10 @@ void br_step_load_clear(struct br_step_load *load)
     br_load_clear(&load->functions);
     br_function_free(&load->tip_force);
     br_function_free(&load->tip_moment);
-    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
         free(load->vector[i]);
+        br_load_fit_free(load->fit[i]);
+    }
     free(load->sum);
     *load = (struct br_step_load){0};
 }
@@ -103,7 +108,10 @@ static enum br_status update(struct br_step_load *load, const struct br_field *f
         status = evaluate(&term->time, "load's time factor", t, &load->factor[i], err);
         other |= load->factor[i] != before;
         if (!status && term->space.uses_t) {
-            status = br_assemble_load(field, &term->space, t, load->vector[i], err);
+            const bool fits = load->fit[i] &&
+                              br_load_fit_assemble(load->fit[i], &term->space, t, load->vector[i]);
+            if (!fits)
+                status = br_assemble_load(field, &term->space, t, load->vector[i], err);
             drive->changed = other = true;
         }
     }

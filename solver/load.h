@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The load vector F_n of one field as a march steps through it. What a scene leaves
  * out costs nothing: terms F(x) G(t) are assembled once and summed every step, where there is more
- * than one; one of f(x, t) is assembled every step. */
+ * than one; one of f(x, t) is a sum of such in cells (load_fit.h), or is assembled every step. */
 #ifndef BR_SOLVER_LOAD_H
 #define BR_SOLVER_LOAD_H
 
 #include "solver/linear/linear_solver.h"
+#include "solver/load_fit.h"
 
 /* The forces on one field: per length and at the tip. Borrowed. */
 struct br_forces {
     const struct br_load *load;           /* N/m */
     const struct br_function *tip_force;  /* of t, N */
     const struct br_function *tip_moment; /* of t, N m; NULL for axial */
+    double duration;                      /* s: for t in [0, duration] */
 };
 
 /* Those of a scene. */
@@ -22,6 +24,7 @@ struct br_step_load {
     struct br_load functions;                 /* clones, without terms that are zero */
     size_t terms;                             /* private from here on: of them */
     double *vector[BR_LOAD_TERMS];            /* of each term */
+    struct br_load_fit *fit[BR_LOAD_TERMS];   /* of f(x, t), where it has one */
     double factor[BR_LOAD_TERMS];             /* of each, at the last update */
     double *sum;                              /* of more than one */
     struct br_function tip_force, tip_moment; /* clones */

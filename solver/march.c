@@ -302,7 +302,7 @@ static double part_round_off(const struct br_march *m, const struct br_field_mar
 {
     if (part->solver->round_off)
         return part->solver->round_off(part->state, m->steps);
-    return m->method.solver->round_off(&part->field, &m->method.linear);
+    return br_method_round_off(&m->method, &part->field);
 }
 
 /* What equal steps gather is a random walk: a tip that sticks was seen to creep by up to 35 times

@@ -21,6 +21,38 @@ struct br_method br_method_default(void)
     };
 }
 
+/* ---- the linear solver ---- */
+
+const struct br_linear_solver *br_method_solver(const struct br_method *m,
+                                                const struct br_field *field)
+{
+    return br_linear_solver_taken(m->solver, field, br_time_scheme_sums(m->scheme));
+}
+
+double br_method_round_off(const struct br_method *m, const struct br_field *field)
+{
+    return br_method_solver(m, field)->round_off(field, &m->linear);
+}
+
+double br_method_residual(const struct br_method *m, const struct br_field *field)
+{
+    const struct br_linear_solver *solver = br_method_solver(m, field);
+    return solver->residual ? solver->residual(field, &m->linear) : 0;
+}
+
+double br_method_cost(const struct br_method *m, const struct br_scene *scene, size_t n)
+{
+    const double sums = br_time_scheme_sums(m->scheme);
+    double cost = 0;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_field field = br_field_of_scene(scene, (enum br_field_kind)kind, n, 1);
+        field.degree = m->axial_degree;
+        if (kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled)
+            cost += br_method_solver(m, &field)->cost(&field, sums);
+    }
+    return cost * br_time_scheme_stages(m->scheme);
+}
+
 const struct br_contact_rule *br_contact_rule_of(const struct br_time_scheme *scheme)
 {
     const struct br_contact_rule *const *rule = br_contact_rules;
@@ -86,7 +118,8 @@ static enum br_status check_elements(const struct br_method *m, struct br_error 
 {
     if (m->axial_degree == 1)
         return BR_OK;
-    return m->solver->axial_quadratic ? BR_OK : refuse_degree(m->solver, err);
+    const struct br_field field = {.kind = BR_AXIAL, .n = 1, .h = 1, .degree = m->axial_degree};
+    return br_linear_solver_for(m->solver, &field) ? BR_OK : refuse_degree(m->solver, err);
 }
 
 static enum br_status check_friction(const struct br_method *m, const struct br_scene *scene,

@@ -26,6 +26,18 @@ struct br_method {
 /* The defaults: the first row of each registry, elements of degree 1. */
 struct br_method br_method_default(void);
 
+/* The linear solver of a field: the method's row, or the one that this stands for. */
+const struct br_linear_solver *br_method_solver(const struct br_method *method,
+                                                const struct br_field *field);
+
+/* The round_off of that solver, and its residual, 0 where it leaves none. */
+double br_method_round_off(const struct br_method *method, const struct br_field *field);
+double br_method_residual(const struct br_method *method, const struct br_field *field);
+
+/* What the linear solves of a step of all fields that the scene models cost on n elements, about,
+ * ns; those of steps by a tolerance are not known. */
+double br_method_cost(const struct br_method *method, const struct br_scene *scene, size_t n);
+
 /* The contact rule of a time scheme where none is chosen: the paper's where the scheme may lag,
  * else the first that takes its force at the new time level. */
 const struct br_contact_rule *br_contact_rule_of(const struct br_time_scheme *scheme);

@@ -61,6 +61,10 @@ const struct br_time_scheme *br_time_scheme_find(const char *name);
 /* States that its steps look back to, beside the solver's own. */
 int br_time_scheme_kept(const struct br_time_scheme *scheme);
 
+/* Passes over the states that a stage takes beside its solve, on average: a sum of states is one,
+ * and each state in it is a fifth of another. 0 where each step starts where the last one ended. */
+double br_time_scheme_sums(const struct br_time_scheme *scheme);
+
 /* Linear solves a step, where it is not the first. */
 int br_time_scheme_stages(const struct br_time_scheme *scheme);
 

@@ -156,19 +156,23 @@ struct outside {
 static struct outside step_outside(void)
 {
     const struct outside march = {br_traps_lift(), fegetround()};
-    fesetround(FE_TONEAREST);
+    if (march.rounding != FE_TONEAREST)
+        fesetround(FE_TONEAREST);
     return march;
 }
 
 static void come_back(const struct outside *march)
 {
-    br_rounding_restore(march->rounding);
+    if (march->rounding != FE_TONEAREST)
+        fesetround(march->rounding);
     br_traps_restore(march->traps);
 }
 
 static void tell(const struct br_march *m, enum br_field_kind kind, const struct br_stages *stages,
                  const struct br_step *step, int i)
 {
+    if (m->watchers == 0)
+        return;
     const struct br_march_stage told = {
         .kind = kind,
         .index = i,
@@ -215,6 +219,8 @@ void br_march_accept(struct br_march *m, enum br_field_kind kind, const struct b
                      bool switched)
 {
     br_field_march_accept(&m->part[kind], stages, switched);
+    if (m->watchers == 0)
+        return;
     const struct outside march = step_outside();
     for (size_t w = 0; w < m->watchers; w++)
         m->watcher[w].step(m->watcher[w].self, kind, switched);

@@ -286,9 +286,11 @@ static void put_scenes(struct br_document *d, const struct br_check_findings *f)
     }
     for (size_t i = 0; i < f->count; i++)
         for (int kind = 0; kind < BR_VERIFY_KINDS && f->checks[i].verify; kind++) {
+            const struct br_verify_study *s = &f->checks[i].verify->study[kind];
             snprintf(key, sizeof key, "methods.%zu.%s", i, br_verify_names[kind]);
-            if (f->checks[i].verify->study[kind].count)
-                br_put_method_facts(d, key, &f->checks[i].verify->study[kind].method);
+            if (s->count)
+                br_put_method_facts(d, key, &s->method,
+                                    &(struct br_meshes){f->checks[i].scene, s->n, s->count});
         }
     for (size_t i = 0; i < f->count; i++)
         if (f->checks[i].verify && f->checks[i].verify->by_default)

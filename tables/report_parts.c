@@ -4,8 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "study/scene/method_fields.h"
-
 /* text (out): where it is a text. */
 static struct br_value value_of(const struct br_method_field *f, const struct br_method *m,
                                 char text[BR_METHOD_VALUE])
@@ -19,9 +17,11 @@ static struct br_value value_of(const struct br_method_field *f, const struct br
 }
 
 /* Fields of a group are members of one object, null where they are not heeded. */
-void br_put_method_facts(struct br_document *d, const char *key, const struct br_method *m)
+void br_put_method_facts(struct br_document *d, const char *key, const struct br_method *m,
+                         const struct br_meshes *on)
 {
     const char *group = NULL;
+    char taken[BR_METHOD_TEXT];
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const struct br_method_field *f = &br_method_fields[i];
         char text[BR_METHOD_VALUE], name[BR_METHOD_VALUE];
@@ -34,6 +34,7 @@ void br_put_method_facts(struct br_document *d, const char *key, const struct br
             br_hide_fact(d, br_nothing(), NULL, "%s.%s", key, f->group);
         group = f->group;
     }
+    br_hide_fact(d, br_text(br_method_taken(on, m, taken)), NULL, "%s.solver_taken", key);
 }
 
 void br_put_method_cells(struct br_document *d, const struct br_method *m)
@@ -56,6 +57,10 @@ void br_put_trial(struct br_document *d, const struct br_scene *scene, const str
     const bool adaptive = t->named->method.scheme->adaptive;
     BR_PUT(d, br_text(t->named->name), .key = "method");
     BR_PUT(d, br_count(t->at.n), .key = "n");
+    char taken[BR_METHOD_TEXT];
+    br_hide(d, "solver_taken", NULL,
+            br_text(br_method_taken(&(struct br_meshes){scene, &t->at.n, 1}, &t->named->method,
+                                    taken)));
     br_hide(d, "steps_or_levels", NULL, br_count(t->at.steps));
     br_hide(d, "tolerance", NULL, br_if(adaptive, br_number(t->tolerance)));
     BR_PUT(d, br_number(step_of(scene, t)), .key = "k", .unit = "s");

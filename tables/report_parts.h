@@ -3,12 +3,15 @@
 #ifndef BR_TABLES_REPORT_PARTS_H
 #define BR_TABLES_REPORT_PARTS_H
 
+#include "study/scene/method_fields.h"
 #include "study/trade/trial.h"
 #include "tables/reports.h"
 
 /* All that a method is (br_method_fields), for programs: as facts, each a member of the object
- * `key`, and as cells of a row. What the method does not heed is nothing. */
-void br_put_method_facts(struct br_document *d, const char *key, const struct br_method *method);
+ * `key`, and as cells of a row. What the method does not heed is nothing. Facts have what the
+ * linear solver was on the meshes, too. */
+void br_put_method_facts(struct br_document *d, const char *key, const struct br_method *method,
+                         const struct br_meshes *on);
 void br_put_method_cells(struct br_document *d, const struct br_method *method);
 
 /* Cells: method, n, steps_or_levels, k and tolerance; people see a tolerance in the place of k. */

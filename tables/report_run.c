@@ -194,9 +194,10 @@ static void put_march(struct br_document *d, const struct br_run_findings *f)
     };
     br_put_section(d, "The march");
     BR_FACTS(d, facts);
-    BR_FACT(d, br_text(br_method_text(&r->marched, &r->method, method)), .key = "words",
+    const struct br_meshes on = {&r->marched, &r->n, 1};
+    BR_FACT(d, br_text(br_method_text(&on, &r->method, method)), .key = "words",
             .heading = "method", .flags = BR_FOR_PEOPLE);
-    br_put_method_facts(d, "method", &r->method);
+    br_put_method_facts(d, "method", &r->method, &on);
     br_hide_fact(d, br_failure_text(&r->failure), NULL, "stopped");
     br_hide_fact(d, br_truth(r->contact_unstable), NULL, "contact_beyond_stability_limit");
 }

@@ -12,7 +12,7 @@ static const char *describe(const struct br_split *s, char text[TEXT])
 {
     char method[BR_METHOD_TEXT];
     snprintf(text, TEXT, "n = %zu, k = %.10g s: %s", s->at.n, br_time_step(s->scene, s->at.steps),
-             br_method_text(s->scene, &s->method, method));
+             br_method_text(&(struct br_meshes){s->scene, &s->at.n, 1}, &s->method, method));
     return text;
 }
 
@@ -131,12 +131,16 @@ static void put_line(struct br_document *d, const struct br_split *s, size_t nor
 
 static void put_run(struct br_document *d, const struct br_split *s, size_t run)
 {
+    char taken[BR_METHOD_TEXT];
     br_put_row(d);
     br_hide(d, "run", NULL, br_count(run));
     br_hide(d, "n", NULL, br_count(s->at.n));
     br_hide(d, "steps", NULL, br_count(s->at.steps));
     br_hide(d, "k", "s", br_number(br_time_step(s->scene, s->at.steps)));
     br_put_method_cells(d, &s->method);
+    br_hide(
+        d, "solver_taken", NULL,
+        br_text(br_method_taken(&(struct br_meshes){s->scene, &s->at.n, 1}, &s->method, taken)));
 }
 
 /* For people: a table a run and norm, with the parts that there are. */

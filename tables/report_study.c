@@ -632,7 +632,8 @@ static void put_judge(struct br_document *d, const char *label, const struct br_
     if (s->judge->nests)
         br_put_note(d, "%s %s: %s: N = %zu, K = %g s; %s.", label, s->judge->name, s->judge->title,
                     s->reference.n, br_reference_step(s),
-                    br_method_text(s->scene, &s->reference_method, method));
+                    br_method_text(&(struct br_meshes){s->scene, &s->reference.n, 1},
+                                   &s->reference_method, method));
     else
         br_put_note(d, "%s %s: %s.", label, s->judge->name, s->judge->title);
 }
@@ -653,7 +654,9 @@ static void put_notes(struct br_document *d, const struct br_report *r)
     br_put_section(d, "What was measured");
     br_put_note(d, "%s", s->norm->title);
     br_put_note(d, "Theory: %s", s->norm->theory);
-    br_put_note(d, "Cells: %s.", br_method_text(s->scene, &s->method, method));
+    br_put_note(
+        d, "Cells: %s.",
+        br_method_text(&(struct br_meshes){s->scene, s->n, s->n_count}, &s->method, method));
     put_judge(d, "Reference,", br_report_fitted(r));
     if (r->exact)
         put_beside(d, s);
@@ -683,7 +686,8 @@ static void put_reference(struct br_document *d, const char *key, const struct b
         br_hide_fact(d, br_count(s->reference.steps), NULL, "%s.at.steps", key);
         br_hide_fact(d, br_number(br_reference_step(s)), "s", "%s.at.k", key);
         snprintf(method, sizeof method, "%s.method", key);
-        br_put_method_facts(d, method, &s->reference_method);
+        br_put_method_facts(d, method, &s->reference_method,
+                            &(struct br_meshes){s->scene, &s->reference.n, 1});
     }
     for (enum br_part part = 0; part < BR_PARTS; part++)
         br_hide_fact(
@@ -727,7 +731,7 @@ static void put_facts(struct br_document *d, const struct br_report *r)
         {"norm.title", NULL, NULL, br_text(s->norm->title)},
     };
     BR_FACTS(d, facts);
-    br_put_method_facts(d, "method", &s->method);
+    br_put_method_facts(d, "method", &s->method, &(struct br_meshes){s->scene, s->n, s->n_count});
     put_reference(d, "reference", s);
     if (r->exact)
         put_reference(d, "exact_reference", r->exact);

@@ -146,7 +146,7 @@ static void test_cutting(void **state)
     struct br_error err = {0};
     const size_t n[] = {100, 200, 400, 800}, steps[] = {5000, 6000, 8000, 10000};
     struct br_study s[] = {prepared(&scene, &br_judge_exact, (struct br_resolution){0, 120000}),
-                           prepared(&scene, &br_judge_fine, (struct br_resolution){12000, 120000})};
+                           prepared(&scene, &br_judge_fine, (struct br_resolution){24000, 120000})};
     for (int i = 0; i < 2; i++) {
         s[i].n = n;
         s[i].steps = steps;

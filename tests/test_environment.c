@@ -142,7 +142,7 @@ static const double one_sided_factors = 64;
 
 static double one_sided_by(const struct br_method *method)
 {
-    const bool flexible = method->solver == &br_riccati || method->solver == &br_plain;
+    const bool flexible = !method->solver->factoriser;
     return flexible ? one_sided : one_sided_factors;
 }
 
@@ -312,7 +312,7 @@ static void compare_units(const struct br_scene *s, const struct br_method *meth
         return;
     const struct result a = run(s, n, 30, method), b = run(&other, n, 30, method);
     /* The other scene's numbers are rounded, too: what that does to an assembled matrix. */
-    const bool flexible = method->solver == &br_riccati || method->solver == &br_plain;
+    const bool flexible = !method->solver->factoriser;
     const double numbers = flexible ? 1e-12 : 1e-8;
     const double limit = exact                      ? 0
                          : method->scheme->adaptive ? 100 * method->tolerance

@@ -215,7 +215,7 @@ static struct br_method any_method(struct br_test_random *r)
     while (br_kernels[kernels])
         kernels++;
     const struct br_kernel *kernel = br_kernels[br_test_index(r, kernels)];
-    if (m.solver == &br_riccati && kernel->available())
+    if (br_linear_solver_heeds(m.solver, "--kernel") && kernel->available())
         m.linear.kernel = kernel;
     if (br_linear_solver_heeds(m.solver, "--refinement"))
         m.linear.refinement = (int)br_test_index(r, 4);
@@ -227,7 +227,7 @@ static struct br_method any_method(struct br_test_random *r)
 static size_t any_mesh(struct br_test_random *r, const struct br_method *m)
 {
     static const size_t meshes[] = {1, 2, 5, 17, 21, 33, 40};
-    const bool flexible = m->solver == &br_riccati || m->solver == &br_plain;
+    const bool flexible = !m->solver->factoriser;
     if (flexible && br_test_index(r, 2))
         return (size_t)br_test_log_uniform(r, 1, br_test_index(r, 8) ? 200 : MOST_N);
     return meshes[br_test_index(r, 7)];

@@ -160,6 +160,12 @@ static void test_step_lengths(void **state)
     }
 }
 
+static double round_off_of(const struct br_linear_solver *solver, const struct problem *p)
+{
+    const struct br_linear_solver *taken = br_linear_solver_taken(solver, &p->field, 0);
+    return taken->round_off(&p->field, &br_linear_defaults);
+}
+
 static bool is_assembled(const struct br_linear_solver *solver)
 {
     return solver == &br_umfpack || solver == &br_cholmod || solver == &br_banded;
@@ -174,8 +180,7 @@ static void same_to_round_off(const struct br_linear_solver *solver, const void 
     functions(solver, p)->get(b, w[1], NULL);
     for (size_t i = 0; i < size; i++)
         difference[i] = w[0][i] - w[1][i];
-    AT_MOST(largest(difference, size),
-            solver->round_off(&p->field, &br_linear_defaults) * largest(w[1], size));
+    AT_MOST(largest(difference, size), round_off_of(solver, p) * largest(w[1], size));
 }
 
 /* Kept, spoiled and restored: a march goes on with the same bits where nodal values are the state,
@@ -222,7 +227,7 @@ static void check_combining(const struct br_linear_solver *solver, const struct 
     f->get(self, w[3], v[3]);
     const size_t size = br_field_size(&p->field);
     const double tolerance =
-        100 * solver->round_off(&p->field, &br_linear_defaults) *
+        100 * round_off_of(solver, p) *
         fmax(largest(w[0], size), fmax(largest(w[1], size), largest(w[2], size)));
     for (size_t i = 0; i < size; i++) {
         CLOSE(w[3][i], 3 * w[0][i] + 0.25 * w[1][i] - 0.5 * w[2][i], tolerance);
@@ -520,6 +525,74 @@ static void test_heeded(void **state)
     assert_null(br_linear_solver_kernel(&br_plain, &method.linear));
 }
 
+/* ---- the choice ---- */
+
+/* The linear solver that is taken for n elements. */
+static const struct br_linear_solver *taken(enum br_field_kind kind, size_t n, int degree,
+                                            const struct br_time_scheme *scheme)
+{
+    const struct br_scene scene = br_test_bare();
+    struct br_method method = br_method_default();
+    struct br_field field = br_field_of_scene(&scene, kind, n, 1e-3);
+    field.degree = degree;
+    method.scheme = scheme;
+    assert_ptr_equal(method.solver, &br_auto);
+    return br_method_solver(&method, &field);
+}
+
+static void check_least(enum br_field_kind kind, size_t n, int degree,
+                        const struct br_time_scheme *scheme)
+{
+    const double sums = br_time_scheme_sums(scheme);
+    const struct br_field field = {.kind = kind, .n = n, .h = 1, .degree = degree};
+    const struct br_linear_solver *best = taken(kind, n, degree, scheme);
+    assert_non_null(br_linear_solver_for(best, &field));
+    for
+        EACH_SOLVER(s)
+        {
+            if ((*s)->cost && br_linear_solver_for(*s, &field))
+                AT_MOST(best->cost(&field, sums), (*s)->cost(&field, sums));
+        }
+}
+
+/* What costs least is taken: on coarse meshes plain, on those of the paper's tables riccati. */
+static void test_taken(void **state)
+{
+    (void)state;
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
+        for (size_t n = 1; n < 3000; n += 1 + n / 7) {
+            check_least(BR_AXIAL, n, 1, *s);
+            check_least(BR_AXIAL, n, 2, *s);
+            check_least(BR_BENDING, n, 1, *s);
+        }
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        for (size_t n = 1; n <= 32; n++)
+            assert_ptr_equal(taken((enum br_field_kind)kind, n, 1, br_time_schemes[0]), &br_plain);
+        for (size_t n = 100; n <= 102400; n *= 2)
+            assert_ptr_equal(taken((enum br_field_kind)kind, n, 1, br_time_schemes[0]),
+                             &br_riccati);
+    }
+    assert_true(br_time_scheme_sums(br_time_schemes[0]) == 0);
+    assert_true(br_time_scheme_sums(br_time_scheme_find("bdf2")) == 1.4);
+}
+
+/* It is the solver that is taken, to the last bit. */
+static void test_same_as_taken(void **state)
+{
+    (void)state;
+    struct br_scene scene = br_test_bundled("example2");
+    const size_t n[] = {8, 100};
+    for (int i = 0; i < 2; i++) {
+        const struct br_method chosen = br_method_default(),
+                               named = br_test_method(i ? "riccati" : "plain", NULL, NULL);
+        const struct br_test_end a = br_test_run(&scene, n[i], 20, &chosen),
+                                 b = br_test_run(&scene, n[i], 20, &named);
+        assert_memory_equal(&a, &b, sizeof a);
+        assert_true(a.u_tip != 0 && a.w_tip != 0);
+    }
+    br_scene_clear(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -536,6 +609,8 @@ int main(void)
         cmocka_unit_test(test_find),
         cmocka_unit_test(test_unavailable),
         cmocka_unit_test(test_heeded),
+        cmocka_unit_test(test_taken),
+        cmocka_unit_test(test_same_as_taken),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -338,7 +338,7 @@ static void test_warnings(void **state)
     one = br_warnings_find(&w, BR_WARN_ROUND_OFF);
     assert_non_null(one);
     assert_non_null(strstr(one->text, "--solver banded at n = 6400"));
-    assert_non_null(strstr(one->remedy, "--solver riccati"));
+    assert_non_null(strstr(one->remedy, "--solver auto"));
     assert_null(br_warnings_find(&w, BR_WARN_INACCURATE));
     br_scene_clear(&s);
 }

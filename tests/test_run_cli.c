@@ -164,7 +164,7 @@ static void test_warnings(void **state)
     cli_run_line("run example2 --n 3200 --k 0.001 --solver banded", &apart, &out);
     assert_int_equal(out.exit_code, 0);
     assert_true(cli_file_contains("errors.txt", "round-off of --solver banded at n = 3200"));
-    assert_true(cli_file_contains("errors.txt", "\n    --solver riccati  # "));
+    assert_true(cli_file_contains("errors.txt", "\n    --solver auto  # "));
     cli_run_line("run example2", &apart, &out);
     assert_int_equal(out.exit_code, 0);
     assert_false(cli_file_contains("errors.txt", "warning"));

@@ -149,7 +149,7 @@ static void test_none(void **state)
     (void)state;
     struct br_scene scene = br_test_bundled("example2");
     struct br_split split = split_of(&scene, 10, 20, br_test_method(NULL, "implicit", NULL));
-    check_none(&split, "round-off", "riccati");
+    check_none(&split, "round-off", "auto");
     check_none(&split, "iteration", "directly");
     check_none(&split, "mu", "not smoothed");
     check_none(&split, "lag", "implicit");

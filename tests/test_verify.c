@@ -197,7 +197,7 @@ static void test_refusals(void **state)
         {"verify:\n  time:\n" TIMES "    refinement: -1\n",
          ":18: refinement: found '-1', expected a whole number from 0 to 100"},
         {"verify:\n  time:\n" TIMES "    refinement: 2\n    l2: 1 +- .1\n",
-         "refinement: solver riccati does not heed it, as solver: umfpack does"},
+         "refinement: solver auto does not heed it, as solver: umfpack does"},
         {"verify:\n  time:\n" TIMES "    solver: banded\n    scaling: sum\n    l2: 1 +- .1\n",
          "scaling: solver banded does not heed it"},
         {"verify:\n  time:\n" TIMES "    scheme: adaptive\n    tolerance: a\n",

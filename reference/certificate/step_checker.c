@@ -143,10 +143,7 @@ static struct br_certificate excess_of(const struct br_step_checker *w, enum br_
     struct br_certificate then = w->limits;
     struct br_certificate now =
         br_certificate_limits(method->scheme, w->seen.n, br_march_round_off(w->march));
-    const double own =
-        method->solver->residual
-            ? method->solver->residual(br_march_field(w->march, kind), &method->linear)
-            : 0;
+    const double own = br_method_residual(method, br_march_field(w->march, kind));
     now.axial_residual += own;
     now.bending_residual += own;
     double *excess = br_certificate_entries(&now), *first = br_certificate_entries(&then);
@@ -162,8 +159,7 @@ static double inertia_round_off(const struct br_step_checker *w, enum br_field_k
     const struct br_field *field = br_march_field(w->march, kind);
     struct br_field massless = *field;
     massless.density = 0;
-    return method->solver->round_off(field, &method->linear) -
-           method->solver->round_off(&massless, &method->linear);
+    return br_method_round_off(method, field) - br_method_round_off(method, &massless);
 }
 
 static struct br_certificate certify(struct br_step_checker *w, const struct br_march_stage *told,

@@ -99,7 +99,7 @@ static real residual_power(const struct br_field *f, const struct br_watched_fie
 static real excess_of(const struct br_energy_meter *m, const struct br_field *f)
 {
     const struct br_method *method = m->method;
-    const double own = method->solver->residual ? method->solver->residual(f, &method->linear) : 0;
+    const double own = br_method_residual(method, f);
     const double now = br_energy_limit(f->n, br_march_round_off(m->march)) + own;
     return fmax(1, now / m->limit);
 }

@@ -1,13 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/linear/linear_solver.h"
 
+#include <math.h>
 #include <string.h>
 
 const struct br_linear_options br_linear_defaults = {
     .scaling = "none", .refinement = 0, .kernel = NULL};
 
 const struct br_linear_solver *const br_linear_solvers[] = {
-    &br_riccati, &br_plain, &br_umfpack, &br_cholmod, &br_banded, NULL,
+    &br_auto, &br_riccati, &br_plain, &br_umfpack, &br_cholmod, &br_banded, NULL,
+};
+
+const struct br_linear_solver br_auto = {
+    .name = "auto",
+    .title = "the fastest of the others for the mesh, the elements and the time scheme",
+    .citation = "costs as measured, see their rows",
+    .options = "--kernel",
 };
 
 const struct br_linear_solver *br_linear_solver_find(const char *name)
@@ -18,12 +26,44 @@ const struct br_linear_solver *br_linear_solver_find(const char *name)
     return NULL;
 }
 
-const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver *solver,
-                                                   const struct br_field *field)
+double br_by_element_of(const struct br_by_element *values, const struct br_field *field)
+{
+    if (field->kind == BR_BENDING)
+        return values->bending;
+    return br_field_is_quadratic(field) ? values->quadratic : values->axial;
+}
+
+static const struct br_field_solver *own_solver(const struct br_linear_solver *solver,
+                                                const struct br_field *field)
 {
     if (field->kind == BR_BENDING)
         return solver->bending;
     return br_field_is_quadratic(field) ? solver->axial_quadratic : solver->axial;
+}
+
+const struct br_linear_solver *br_linear_solver_taken(const struct br_linear_solver *solver,
+                                                      const struct br_field *field, double sums)
+{
+    if (solver->cost)
+        return solver;
+    const struct br_linear_solver *best = NULL;
+    double least = INFINITY;
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
+        const double cost =
+            (*s)->cost && own_solver(*s, field) ? (*s)->cost(field, sums) : INFINITY;
+        if (cost < least) {
+            least = cost;
+            best = *s;
+        }
+    }
+    return best;
+}
+
+const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver *solver,
+                                                   const struct br_field *field)
+{
+    const struct br_linear_solver *taken = br_linear_solver_taken(solver, field, 0);
+    return taken ? own_solver(taken, field) : NULL;
 }
 
 bool br_linear_solver_heeds(const struct br_linear_solver *solver, const char *option)

@@ -103,6 +103,8 @@ struct br_by_element {
     double axial, bending, quadratic; /* the last: axial, of degree 2; 0: there is none */
 };
 
+double br_by_element_of(const struct br_by_element *values, const struct br_field *field);
+
 /* A row of the registry. */
 struct br_linear_solver {
     const char *name;     /* as on the command line */
@@ -125,10 +127,16 @@ struct br_linear_solver {
     /* Bytes an element at most, as measured: with one state, while it is set up and after; and of
      * each state more that a scheme keeps. tests/test_resources.c compares. */
     struct br_by_element bytes, state_bytes;
-    double nanoseconds; /* of a solve an element, both fields, about, on a core of 2 GHz */
+
+    /* What a step of one stage takes a field, ns, with all that the march does beside it, as
+     * measured; sums: passes over the states that the scheme adds to a stage
+     * (br_time_scheme_sums). NULL: the row is no solver but a choice: it stands for the one of the
+     * others that costs least. */
+    double (*cost)(const struct br_field *field, double sums);
 };
 
-extern const struct br_linear_solver br_riccati, br_plain, br_umfpack, br_cholmod, br_banded;
+extern const struct br_linear_solver br_auto, br_riccati, br_plain, br_umfpack, br_cholmod,
+    br_banded;
 
 /* The registry, in the order of help texts; NULL-terminated. The first is the default. */
 extern const struct br_linear_solver *const br_linear_solvers[];
@@ -136,7 +144,14 @@ extern const struct br_linear_solver *const br_linear_solvers[];
 /* The solver of that name, or NULL. */
 const struct br_linear_solver *br_linear_solver_find(const char *name);
 
-/* Its solver for a field; NULL: it has none for elements of that degree. */
+/* The row itself; of a choice the one of those that have a solver for the field which costs least,
+ * the first of equal ones: it depends on the field's kind, n and degree and on `sums` alone, not on
+ * the machine. NULL: none has. */
+const struct br_linear_solver *br_linear_solver_taken(const struct br_linear_solver *solver,
+                                                      const struct br_field *field, double sums);
+
+/* Its solver for a field, of a choice that for a scheme without sums; NULL: it has none for
+ * elements of that degree. */
 const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver *solver,
                                                    const struct br_field *field);
 

@@ -32,6 +32,8 @@ __attribute__((format(printf, 2, 3))) static void add_solver(struct br_floors *f
 static void add_solvers(struct br_floors *f)
 {
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
+        if (!(*s)->cost) /* a choice of the others */
+            continue;
         add_solver(f, "%s", (*s)->name);
         if (br_linear_solver_heeds(*s, "--scaling"))
             add_solver(f, "%s+scaled", (*s)->name);

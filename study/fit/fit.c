@@ -187,10 +187,11 @@ static double round_off(const struct br_study *s, const struct br_cell *c, enum 
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const bool modelled =
             kind == BR_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled;
-        const struct br_field field =
+        struct br_field field =
             br_field_of_scene(s->scene, (enum br_field_kind)kind, c->at.n, step_of(s, c));
+        field.degree = method->axial_degree;
         if (modelled && in_part(part, (enum br_field_kind)kind))
-            relative = fmax(relative, method->solver->round_off(&field, &method->linear));
+            relative = fmax(relative, br_method_round_off(method, &field));
     }
     return relative * s->reference_scale;
 }

@@ -459,10 +459,9 @@ double br_predict_round_off(const struct br_planned_march *o)
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         struct br_field field = br_field_of_scene(o->scene, (enum br_field_kind)kind, o->n,
                                                   br_time_step(o->scene, o->steps));
-        if (kind == BR_AXIAL)
-            field.degree = o->method->axial_degree;
+        field.degree = o->method->axial_degree;
         if (is_modelled(o->scene, kind))
-            largest = fmax(largest, o->method->solver->round_off(&field, &o->method->linear));
+            largest = fmax(largest, br_method_round_off(o->method, &field));
     }
     return largest;
 }

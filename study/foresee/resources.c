@@ -9,22 +9,20 @@
 /* Nodal arrays of a march beside its solvers, bytes an element. */
 static const double nodal_arrays = 80;
 
-/* s a solve, however few the elements. */
-static const double solve_overhead = 1e-6;
-
 static const double day = 86400, most_days = 36525; /* a century */
 
 double br_march_bytes(const struct br_planned_march *o)
 {
-    const struct br_linear_solver *l = o->method->solver;
-    const bool quadratic = o->method->axial_degree == 2;
     const double states = br_time_scheme_kept(o->method->scheme);
     double element = nodal_arrays;
-    if (o->scene->axial.modelled)
-        element += (quadratic ? l->bytes.quadratic : l->bytes.axial) +
-                   states * (quadratic ? l->state_bytes.quadratic : l->state_bytes.axial);
-    if (o->scene->bending.modelled)
-        element += l->bytes.bending + states * l->state_bytes.bending;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_field field = br_field_of_scene(o->scene, (enum br_field_kind)kind, o->n, 1);
+        field.degree = o->method->axial_degree;
+        const struct br_linear_solver *l = br_method_solver(o->method, &field);
+        if (kind == BR_AXIAL ? o->scene->axial.modelled : o->scene->bending.modelled)
+            element += br_by_element_of(&l->bytes, &field) +
+                       states * br_by_element_of(&l->state_bytes, &field);
+    }
     return element * (double)o->n;
 }
 
@@ -32,8 +30,7 @@ double br_march_seconds(const struct br_planned_march *o)
 {
     if (o->method->scheme->adaptive)
         return 0;
-    const double solves = (double)o->steps * br_time_scheme_stages(o->method->scheme);
-    return solves * (solve_overhead + 1e-9 * o->method->solver->nanoseconds * (double)o->n);
+    return 1e-9 * (double)o->steps * br_method_cost(o->method, o->scene, o->n);
 }
 
 /* The number behind a word in a file, in so many bytes; INFINITY: it is not there. */

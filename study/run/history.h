@@ -192,9 +192,11 @@ struct br_step_cost {
 
 const char *br_cost_part_text(enum br_cost_part part);
 
-/* Begins: method (in/out) gets a solver that measures, for marches that are created and made in
- * this thread until br_step_cost_end. cost: out; it must outlive the march. */
-void br_step_cost_begin(struct br_step_cost *cost, struct br_method *method);
+/* Begins: method (in/out) gets a solver that measures, for marches of a scene on n elements that
+ * are created and made in this thread until br_step_cost_end. cost: out; it must outlive the march.
+ */
+void br_step_cost_begin(struct br_step_cost *cost, const struct br_scene *scene, size_t n,
+                        struct br_method *method);
 
 /* Ends, and takes off what reading the clock took. */
 void br_step_cost_end(struct br_step_cost *cost);

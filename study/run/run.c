@@ -177,7 +177,7 @@ static enum br_status march(struct run *r, struct br_error *err)
     struct br_history_observer observers[MOST_OBSERVERS];
     struct br_method method = p->method;
     if (q->explain)
-        br_step_cost_begin(&p->cost, &method);
+        br_step_cost_begin(&p->cost, &p->marched, q->n, &method);
     const struct br_history_request history = {
         .scene = &p->marched,
         .method = &method,

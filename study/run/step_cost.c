@@ -74,6 +74,8 @@ static double finish_bending(void *self, double force)
 static const struct br_field_solver *measuring(struct br_step_cost *cost, enum br_field_kind kind)
 {
     struct br_field_solver *own = &cost->measuring[kind];
+    if (!inner[kind])
+        return NULL;
     *own = *inner[kind];
     own->predict = kind == BR_AXIAL ? predict_axial : predict_bending;
     own->finish = kind == BR_AXIAL ? finish_axial : finish_bending;
@@ -93,16 +95,19 @@ static double measure_lap(void)
     return least / 200;
 }
 
-void br_step_cost_begin(struct br_step_cost *cost, struct br_method *method)
+/* Of solvers that stand for others, each field has its own. */
+void br_step_cost_begin(struct br_step_cost *cost, const struct br_scene *scene, size_t n,
+                        struct br_method *method)
 {
-    const struct br_linear_solver *solver = method->solver;
-    *cost = (struct br_step_cost){.lap_seconds = measure_lap(), .wrapped = *solver};
-    const bool quadratic = method->axial_degree == 2 && solver->axial_quadratic;
-    inner[BR_AXIAL] = quadratic ? solver->axial_quadratic : solver->axial;
-    inner[BR_BENDING] = solver->bending;
-    cost->wrapped.axial = measuring(cost, BR_AXIAL);
+    *cost = (struct br_step_cost){.lap_seconds = measure_lap()};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_field field = br_field_of_scene(scene, (enum br_field_kind)kind, n, 1);
+        field.degree = method->axial_degree;
+        cost->wrapped = *br_method_solver(method, &field);
+        inner[kind] = br_linear_solver_for(&cost->wrapped, &field);
+    }
+    cost->wrapped.axial = cost->wrapped.axial_quadratic = measuring(cost, BR_AXIAL);
     cost->wrapped.bending = measuring(cost, BR_BENDING);
-    cost->wrapped.axial_quadratic = solver->axial_quadratic ? cost->wrapped.axial : NULL;
     current = cost;
     method->solver = &cost->wrapped;
 }

@@ -472,19 +472,75 @@ static bool is_default(const struct br_method_field *f, const struct br_method *
                                                     : f->get(m) == f->get(&standard);
 }
 
-const char *br_method_text(const struct br_scene *scene, const struct br_method *m,
+/* The solver of a mesh: "plain", "plain and riccati". Returns word (out). */
+static const char *taken_at(const struct br_meshes *on, const struct br_method *m, size_t n,
+                            char word[2 * BR_METHOD_VALUE])
+{
+    const bool modelled[] = {on->scene->axial.modelled, on->scene->bending.modelled};
+    const char *name[2] = {NULL, NULL};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_field field = br_field_of_scene(on->scene, (enum br_field_kind)kind, n, 1);
+        field.degree = m->axial_degree;
+        if (modelled[kind])
+            name[kind] = br_method_solver(m, &field)->name;
+    }
+    const bool two = name[0] && name[1] && strcmp(name[0], name[1]) != 0;
+    snprintf(word, 2 * BR_METHOD_VALUE, "%s%s%s",
+             name[0]   ? name[0]
+             : name[1] ? name[1]
+                       : "none",
+             two ? " and " : "", two ? name[1] : "");
+    return word;
+}
+
+const char *br_method_taken(const struct br_meshes *on, const struct br_method *m,
+                            char text[BR_METHOD_TEXT])
+{
+    char word[2 * BR_METHOD_VALUE], before[2 * BR_METHOD_VALUE] = "";
+    bool differ = false;
+    snprintf(text, BR_METHOD_TEXT, "%s", on->count ? taken_at(on, m, on->n[0], word) : "none");
+    for (size_t i = 1; i < on->count; i++)
+        differ |= strcmp(taken_at(on, m, on->n[i], word), text) != 0;
+    if (!differ)
+        return text;
+    text[0] = '\0';
+    for (size_t i = 0; i < on->count; i++) {
+        if (strcmp(taken_at(on, m, on->n[i], word), before) != 0)
+            append(text, "%s%s at n = %zu", i ? "; " : "", word, on->n[i]);
+        else
+            append(text, ", %zu", on->n[i]);
+        strcpy(before, word);
+    }
+    return text;
+}
+
+/* The method with the solver that all meshes take, where they take one: what it uses is then
+ * known. */
+static struct br_method with_taken(const struct br_method *m, const char *taken)
+{
+    const struct br_linear_solver *solver = br_linear_solver_find(taken);
+    struct br_method out = *m;
+    out.solver = solver ? solver : m->solver;
+    return out;
+}
+
+const char *br_method_text(const struct br_meshes *on, const struct br_method *m,
                            char text[BR_METHOD_TEXT])
 {
-    char value[BR_METHOD_VALUE];
+    char value[BR_METHOD_VALUE], taken[BR_METHOD_TEXT];
+    const struct br_scene *scene = on->scene;
+    const struct br_method used = with_taken(m, br_method_taken(on, m, taken));
     text[0] = '\0';
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const struct br_method_field *f = &br_method_fields[i];
         const bool modelled = !f->in || f->in(scene);
-        if (!br_method_field_heeded(f, m) || (f->quiet && (!modelled || is_default(f, m))) ||
+        if (!br_method_field_heeded(f, &used) || (f->quiet && (!modelled || is_default(f, m))) ||
             (f->heeds && !modelled))
             continue;
         append(text, "%s%s%s", f->before, modelled ? br_method_field_text(f, m, value) : "none",
                f->after ? f->after : "");
+        if (i == BR_METHOD_SOLVER && strcmp(value, taken) != 0)
+            append(text, ": %s", taken);
     }
     return text;
 }

@@ -89,9 +89,22 @@ enum br_status br_method_check_heeded(const char *const text[BR_METHOD_FIELDS],
                                       const struct br_method *const *method, size_t count,
                                       struct br_error *err);
 
-/* "scheme euler, solver riccati on avx2, contact lagged, friction none": what the scene does not
- * model is "none"; what the method does not use is left out. Returns text (out). */
-const char *br_method_text(const struct br_scene *scene, const struct br_method *m,
+/* What a method is used on: a scene, and meshes of so many elements. Borrowed. */
+struct br_meshes {
+    const struct br_scene *scene;
+    const size_t *n;
+    size_t count;
+};
+
+/* The linear solver that marches the meshes: "plain"; of both fields "plain and riccati", axial and
+ * bending, where these differ; "plain at n = 8, 16; riccati at n = 100" where meshes do. Returns
+ * text (out). */
+const char *br_method_taken(const struct br_meshes *on, const struct br_method *m,
+                            char text[BR_METHOD_TEXT]);
+
+/* "scheme euler, solver auto: riccati on avx2, contact lagged, friction none": what the scene does
+ * not model is "none"; what the method does not use is left out. Returns text (out). */
+const char *br_method_text(const struct br_meshes *on, const struct br_method *m,
                            char text[BR_METHOD_TEXT]);
 
 /* " --scheme bdf2 --tolerance 1e-06": the options of what is not the default and does something in

@@ -21,6 +21,8 @@ static const char *round_off(const struct br_scene *scene, const struct br_refin
     (void)scene, (void)refined;
     if (stand->method.solver == &br_riccati)
         return "riccati, the solver with the least of it: within the floor";
+    if (stand->method.solver == &br_auto)
+        return "auto, which takes a solver with the least of it: within the floor";
     stand->method.solver = &br_riccati;
     return NULL;
 }
@@ -427,13 +429,13 @@ static void set_whole(struct br_split *split, const struct chain *c)
     }
     split->predicted_round_off = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_field field =
+        struct br_field field =
             br_field_of_scene(split->scene, (enum br_field_kind)kind, split->at.n,
                               br_time_step(split->scene, split->at.steps));
+        field.degree = split->method.axial_degree;
         if (kind == BR_AXIAL ? split->scene->axial.modelled : split->scene->bending.modelled)
             split->predicted_round_off =
-                fmax(split->predicted_round_off,
-                     split->method.solver->round_off(&field, &split->method.linear));
+                fmax(split->predicted_round_off, br_method_round_off(&split->method, &field));
     }
     set_share(split, c, c->whole, &split->whole);
 }

@@ -48,7 +48,7 @@ extern const char *const bench_field_names[BENCH_FIELDS];
 /* Examples 2 and 3, and Example 2 without bending and friction; to be cleared. */
 struct br_scene bench_scene(enum bench_fields fields);
 
-/* The row of the registry that has kernels, by its best one. */
+/* The solver of the registry that has kernels, by its best one. */
 struct br_method bench_fast_method(void);
 
 /* One march to be timed. */

@@ -50,4 +50,8 @@ double br_refining_library_round_off(const struct br_field *field,
 double br_refining_library_residual(const struct br_field *field,
                                     const struct br_linear_options *options);
 
+/* A row's cost by what an element costs without refinement, ns. */
+double br_assembled_cost(const struct br_by_element *element, const struct br_field *field,
+                         double sums);
+
 #endif

@@ -241,32 +241,41 @@ static size_t pick(const struct br_pieces *s, size_t count, const double *weight
     return picked;
 }
 
+/* br_add_states of the odd rest, whose other lanes stay 0. */
+static void add_one_lane(double *to, size_t size, size_t count, double *const *from,
+                         const double *weight)
+{
+    for (size_t i = 0; i < size; i += BR_LANES) {
+        double sum = 0;
+        for (size_t j = 0; j < count; j++)
+            sum += weight[j] * from[j][i];
+        to[i] = sum;
+    }
+}
+
 static void pieces_combine(void *self, size_t into, size_t count, const double *weight)
 {
     struct br_pieces *s = self;
     double *of[BR_MOST_STATES], by[BR_MOST_STATES], *to = s->states.of[into];
-    const size_t picked = pick(s, count, weight, of, by), tip = all_strands(s);
+    const size_t picked = pick(s, count, weight, of, by);
+    const bool blends = into == 0 && picked > 0;
     put_tip(s);
-    if (into != 0 || picked == 0) {
-        br_add_states(to, s->states.size, picked, of, by);
-        s->stale_ends |= into == 0;
-    } else {
-        const double *from[BR_MOST_STATES];
-        size_t at = 0;
-        for (int i = 0; i < s->strands; i++) {
-            for (size_t j = 0; j < picked; j++)
-                from[j] = of[j] + at;
-            s->kernel->blend(&s->strand[i].strip, picked, from, by);
-            at += strand_size(s, &s->strand[i]);
-        }
-        double *tips[BR_MOST_STATES];
+    for (int i = 0; i < s->strands; i++) {
+        const struct br_strip *strip = &s->strand[i].strip;
+        const size_t size = strand_size(s, &s->strand[i]);
+        if (blends)
+            s->kernel->blend(strip, picked, (const double *const *)of, by);
+        else
+            (strip->lanes == 1 ? add_one_lane : br_add_states)(to, size, picked, of, by);
+        to += size;
         for (size_t j = 0; j < picked; j++)
-            tips[j] = of[j] + tip;
-        br_add_states(to + tip, TIP, picked, tips, by);
-        s->stale_ends = false;
+            of[j] += size;
     }
-    if (into == 0)
+    br_add_states(to, TIP, picked, of, by);
+    if (into == 0) {
+        s->stale_ends = !blends;
         take_tip(s);
+    }
 }
 
 /* The same of numbers whose squares are no doubles. */

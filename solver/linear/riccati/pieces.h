@@ -63,6 +63,9 @@ static inline size_t br_span_length(const struct br_strand *t)
     return t->strip.pieces * t->strip.length;
 }
 
+/* The cost of a solve, see linear_solver.h. */
+double br_pieces_cost(const struct br_field *field, double sums);
+
 /* Cuts the beam and allocates all arrays. Fails with BR_NO_MEMORY. */
 enum br_status br_pieces_lay_out(struct br_pieces *s, struct br_error *err);
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/instruction_set.h"
 #include "solver/linear/riccati/pieces.h"
 
 enum {
@@ -33,6 +34,31 @@ static struct cut choose_cut(size_t n)
             best = cut;
     }
     return best;
+}
+
+/* ns, of an AMD EPYC with AVX-512 at about 3 GHz: of a step, of an element of all spans, of the odd
+ * rest and of its elements; and what a pass over the states adds to each. */
+struct cost {
+    double step, loop, rest, odd;
+};
+
+/* A beam that is all odd rest has nothing to join. */
+static double price(const struct cost *of, const struct cut *cut)
+{
+    const double joins = cut->pieces ? of->step : 0, rest = cut->odd ? of->rest : 0;
+    return joins + of->loop * (double)(cut->pieces * cut->length) + rest +
+           of->odd * (double)cut->odd;
+}
+
+double br_pieces_cost(const struct br_field *field, double sums)
+{
+    static const struct cost axial = {260, 6.5, 55, 2.75}, axial_sum = {70, 1.6, 8, 3.1};
+    static const struct cost bending = {450, 22, 115, 10.9}, bending_sum = {55, 7, 14, 6.5};
+    static const double march = 140; /* of a step that has an odd rest alone */
+    const struct cut cut = choose_cut(field->n);
+    const bool rod = field->kind == BR_AXIAL;
+    return (cut.pieces ? 0 : march) + price(rod ? &axial : &bending, &cut) +
+           sums * price(rod ? &axial_sum : &bending_sum, &cut);
 }
 
 static double *take(double *arena, size_t *used, size_t doubles)
@@ -236,14 +262,15 @@ static bool is_uniform(const struct br_pieces *s, const double *vector)
 }
 
 /* The load at the left node of each element, over R. */
+BR_SWEEP
 static void spread(const struct br_pieces *s, struct br_strand *t, const double *vector)
 {
-    const size_t d = (size_t)s->d, length = br_span_length(t);
-    for (size_t e = 0; e < length; e++)
-        for (size_t c = 0; c < d; c++)
-            for (size_t lane = 0; lane < t->strip.lanes; lane++)
-                t->strip.load[(e * d + c) * BR_LANES + lane] =
-                    vector[(t->first + lane * length + e) * d + c] / s->r;
+    const size_t entries = (size_t)s->d * br_span_length(t);
+    const double *from = vector + t->first * (size_t)s->d, r = s->r;
+    double *restrict to = t->strip.load;
+    for (size_t lane = 0; lane < t->strip.lanes; lane++, from += entries)
+        for (size_t i = 0; i < entries; i++)
+            to[i * BR_LANES + lane] = from[i] / r;
 }
 
 /* A place for loads that differ from node to node. */

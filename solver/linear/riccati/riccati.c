@@ -30,6 +30,11 @@ static double riccati_round_off(const struct br_field *field,
     return DBL_EPSILON * (8 * ((double)field->n + 1024) + joined * excess);
 }
 
+static double riccati_cost(const struct br_field *field, double sums)
+{
+    return br_field_is_quadratic(field) ? br_plain.cost(field, sums) : br_pieces_cost(field, sums);
+}
+
 const struct br_linear_solver br_riccati = {
     .name = "riccati",
     .title = "flexibility form: Riccati recursions on pieces of the beam, side by side in vectors",
@@ -42,7 +47,7 @@ const struct br_linear_solver br_riccati = {
     .round_off = riccati_round_off,
     .bytes = {40, 62, 140},
     .state_bytes = {28, 44, 32},
-    .nanoseconds = 3,
+    .cost = riccati_cost,
 };
 
 /* ---- kernels ---- */

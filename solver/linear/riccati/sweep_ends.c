@@ -162,7 +162,7 @@ INLINE void expand_of(int d, const struct br_strip *s, bool rate, size_t lane, c
 
 void SWEEP(gather)(const struct br_strip *s, double factor, double *q, double *z)
 {
-    for (size_t lane = 0; lane < BR_LANES; lane += GO)
+    for (size_t lane = 0; lane < s->lanes; lane += GO)
         if (s->d == 1)
             gather_of(1, s, factor, lane, q, z);
         else
@@ -189,7 +189,7 @@ void SWEEP(join_right)(const struct br_strip *s, const double *z, double *y, dou
 
 void SWEEP(carry)(const struct br_strip *s, bool rate, double *across)
 {
-    for (size_t lane = 0; lane < BR_LANES; lane += GO)
+    for (size_t lane = 0; lane < s->lanes; lane += GO)
         if (s->d == 1)
             carry_of(1, s, rate, lane, across);
         else

@@ -50,13 +50,13 @@ INLINE void strain(int d, double alpha, const vec *w, const vec *v, vec *g)
 /* ---- a piece ---- */
 
 /* Costates p to the left, s into the scratch; minus_f: the load that is the same everywhere. */
-INLINE void piece_left(int d, bool loaded, const struct br_strip *s, const struct piece *at,
-                       const vec *minus_f, double factor, vec p[VECTORS][2])
+INLINE void piece_left(int d, int vectors, bool loaded, const struct br_strip *s,
+                       const struct piece *at, const vec *minus_f, double factor, vec p[VECTORS][2])
 {
     const size_t entry = (size_t)d * BR_LANES;
     for (size_t e = s->length; e-- > 0;)
 #pragma GCC unroll 2
-        for (int v = 0; v < VECTORS; v++) {
+        for (int v = 0; v < vectors; v++) {
             const double *state = at->state + e * 2 * entry + v * WIDTH;
             vec w[2], rate[2], g[2], sum[2], f[2];
             load_all(d, state, w);
@@ -81,18 +81,19 @@ struct along {
 
 /* Increments y to the right, the new state, and what it adds to z and q. The lines of the piece
  * that comes next are asked for meanwhile. */
-INLINE void piece_right(int d, const struct br_strip *s, const struct piece *at, struct along *go)
+INLINE void piece_right(int d, int vectors, const struct br_strip *s, const struct piece *at,
+                        struct along *go)
 {
     const size_t entry = (size_t)d * BR_LANES;
     vec z[VECTORS][2], q[VECTORS][2];
-    for (int v = 0; v < VECTORS; v++)
+    for (int v = 0; v < vectors; v++)
         for (int i = 0; i < d; i++)
             z[v][i] = q[v][i] = (vec){0};
     const double *next = at->state + s->length * 4 * entry; /* its right end is wanted first */
     for (size_t e = 0; e < s->length; e++) {
         next -= 2 * entry;
 #pragma GCC unroll 2
-        for (int v = 0; v < VECTORS; v++) {
+        for (int v = 0; v < vectors; v++) {
             const double *gain = s->gain + e * (size_t)(3 * d * d);
             const double *weight = s->weight + e * (size_t)(2 * d * d);
             double *state = at->state + e * 2 * entry + v * WIDTH;
@@ -114,7 +115,7 @@ INLINE void piece_right(int d, const struct br_strip *s, const struct piece *at,
             add(d, weight + d * d, g, q[v]);
         }
     }
-    for (int v = 0; v < VECTORS; v++) {
+    for (int v = 0; v < vectors; v++) {
         store_all(d, z[v], at->end + BR_END_Z * entry + v * WIDTH);
         store_all(d, q[v], at->end + BR_END_Q * entry + v * WIDTH);
     }
@@ -153,7 +154,7 @@ INLINE void start(int d, size_t lane, const double *left, struct along *go)
     go->displacement = (vec){0};
 }
 
-INLINE void advance_of(int d, bool loaded, const struct br_strip *strip,
+INLINE void advance_of(int d, int vectors, bool loaded, const struct br_strip *strip,
                        const struct br_strip_drive *drive, const struct br_strip_ends *ends)
 {
     const struct br_strip s = *strip; /* nothing aliases it */
@@ -161,10 +162,10 @@ INLINE void advance_of(int d, bool loaded, const struct br_strip *strip,
     vec minus_f[2];
     for (int i = 0; i < d; i++)
         minus_f[i] = -factor * drive->uniform[i] - (vec){0};
-    for (size_t lane = 0; lane < BR_LANES; lane += GO) {
+    for (size_t lane = 0; lane < s.lanes; lane += GO) {
         struct along go[VECTORS];
         vec y[VECTORS][2], right[VECTORS][2];
-        for (int v = 0; v < VECTORS; v++) {
+        for (int v = 0; v < vectors; v++) {
             start(d, lane + (size_t)(v * WIDTH), ends->left, &go[v]);
             load_all(d, ends->right + lane + v * WIDTH, right[v]);
             for (int i = 0; i < d; i++)
@@ -175,15 +176,15 @@ INLINE void advance_of(int d, bool loaded, const struct br_strip *strip,
             vec p[VECTORS][2];
             for (int i = 0; i < BR_ENDS * d; i++)
                 __builtin_prefetch(at.end + (BR_ENDS * d + i) * BR_LANES);
-            for (int v = 0; v < VECTORS; v++) {
+            for (int v = 0; v < vectors; v++) {
                 for (int i = 0; i < d; i++)
                     go[v].y[i] = y[v][i]; /* as the joins have it */
                 cross(d, join_of(d, &s, j), at.end + v * WIDTH, right[v], y[v], p[v]);
             }
-            piece_left(d, loaded, &s, &at, minus_f, factor, p);
-            piece_right(d, &s, &at, go);
+            piece_left(d, vectors, loaded, &s, &at, minus_f, factor, p);
+            piece_right(d, vectors, &s, &at, go);
         }
-        for (int v = 0; v < VECTORS; v++) {
+        for (int v = 0; v < vectors; v++) {
             store_all(d, go[v].velocity, ends->velocity + lane + v * WIDTH);
             if (d == 1)
                 store(go[v].displacement, ends->displacement + lane + v * WIDTH);
@@ -228,7 +229,7 @@ INLINE void blend_of(int d, const struct br_strip *strip, size_t count, const do
 {
     const struct br_strip s = *strip; /* nothing aliases it */
     for (size_t j = 0; j < s.pieces; j++)
-        for (size_t lane = 0; lane < BR_LANES; lane += WIDTH) {
+        for (size_t lane = 0; lane < s.lanes; lane += WIDTH) {
             const struct piece at = piece_at(d, &s, j, lane);
             blend_piece(d, &s, &at, count, from, weight);
         }
@@ -238,7 +239,7 @@ INLINE void square_of(int d, const struct br_strip *s, const double *state, doub
 {
     const size_t entry = (size_t)d * BR_LANES, length = s->pieces * s->length;
     _Alignas(64) double sum[2][BR_LANES] = {{0}};
-    for (size_t lane = 0; lane < BR_LANES; lane += WIDTH) {
+    for (size_t lane = 0; lane < s->lanes; lane += WIDTH) {
         vec of[2] = {{0}};
         for (size_t e = 0; e < length; e++)
             for (int part = 0; part < 2; part++)
@@ -282,23 +283,33 @@ INLINE void charge_of(int d, const struct br_strip *s, const double *uniform, si
 
 /* ---- the kernel: d becomes a constant ---- */
 
+/* The odd rest, one lane, has no use for a second vector. */
+INLINE void advance_lanes(int d, bool loaded, const struct br_strip *s,
+                          const struct br_strip_drive *drive, const struct br_strip_ends *ends)
+{
+    if (s->lanes == 1)
+        advance_of(d, 1, loaded, s, drive, ends);
+    else
+        advance_of(d, VECTORS, loaded, s, drive, ends);
+}
+
 static void advance(const struct br_strip *s, const struct br_strip_drive *drive,
                     const struct br_strip_ends *ends)
 {
     if (s->d == 1 && !s->load)
-        advance_of(1, false, s, drive, ends);
+        advance_lanes(1, false, s, drive, ends);
     else if (s->d == 1)
-        advance_of(1, true, s, drive, ends);
+        advance_lanes(1, true, s, drive, ends);
     else if (!s->load)
-        advance_of(2, false, s, drive, ends);
+        advance_lanes(2, false, s, drive, ends);
     else
-        advance_of(2, true, s, drive, ends);
+        advance_lanes(2, true, s, drive, ends);
 }
 
 static void charge(const struct br_strip *s, const double uniform[2])
 {
     for (size_t j = 0; j < s->pieces; j++)
-        for (size_t lane = 0; lane < BR_LANES; lane += WIDTH)
+        for (size_t lane = 0; lane < s->lanes; lane += WIDTH)
             if (s->d == 1)
                 charge_of(1, s, uniform, j, lane);
             else

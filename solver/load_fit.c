@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/load_fit.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "solver/linear/states.h"
+
+enum { MOST_POINTS = BR_MOST_STATES, MOST_CELLS = 256, MOST_HALVINGS = 4 };
+
+/* Elements of a cell, or a share of all: equal cells share their vectors, which then stay in the
+ * caches and take little memory. */
+enum { MOST_ELEMENTS = 512, LEAST_CELLS = 128 };
+
+/* Points of a cell that are tried, and how many cells' points may be evaluated for an element. */
+static const struct {
+    size_t points;
+    double evaluations;
+} kinds[] = {{8, 0.125}, {12, 0.25}, {MOST_POINTS, 1}};
+
+/* Of the error that is proved, relative to the largest value that is seen; and of a step's, which
+ * may be smaller. */
+static const double proved = 0x1p-66, wanted = 0x1p-54;
+
+/* Proofs that a march may spend, of an element and step: a quarter of what they may save. */
+static const double proofs_a_step = 4e-4;
+
+struct br_load_fit {
+    struct br_field field;
+    double duration, error; /* s; N/m, at most */
+    size_t points, cells;   /* of a cell */
+    size_t proofs;          /* that are left */
+    size_t first[MOST_CELLS + 1];
+    double *column[MOST_CELLS]; /* the load vectors of each cell's polynomials; those of equal cells
+                                   are the same */
+    double *x, *value;          /* points of all cells */
+    double *columns;            /* all of them */
+};
+
+void br_load_fit_free(struct br_load_fit *fit)
+{
+    if (!fit)
+        return;
+    free(fit->x);
+    free(fit->columns);
+    free(fit);
+}
+
+/* In [0, 1]. */
+static double chebyshev_point(size_t points, size_t j)
+{
+    const double angle = (2 * (double)j + 1) / (double)(2 * points) * 3.14159265358979323846;
+    return (1 - cos(angle)) / 2;
+}
+
+/* ---- cells ---- */
+
+/* Whether the error is proved to be small on [x0, x1]; times are halved where it is not. */
+static bool is_good(struct br_load_fit *fit, const struct br_function *f, struct br_interval x,
+                    struct br_interval t, int halvings)
+{
+    struct br_interval c[MOST_POINTS + 1];
+    const size_t m = fit->points;
+    if (fit->proofs == 0)
+        return false;
+    fit->proofs--;
+    if (br_function_taylor(f, BR_X, (struct br_box){x, t}, m, c) &&
+        fmax(-c[m].low, c[m].high) * 2 * pow((x.high - x.low) / 4, (double)m) <= fit->error)
+        return true;
+    const double middle = t.low + (t.high - t.low) / 2;
+    return halvings > 0 && is_good(fit, f, x, (struct br_interval){t.low, middle}, halvings - 1) &&
+           is_good(fit, f, x, (struct br_interval){middle, t.high}, halvings - 1);
+}
+
+/* Adds the cells of elements [begin, end); false: they are too many. */
+static bool add_cells(struct br_load_fit *fit, const struct br_function *f, size_t begin,
+                      size_t end, size_t most)
+{
+    const double h = fit->field.h;
+    const struct br_interval x = {h * (double)begin, h * (double)end};
+    if (fit->cells >= most)
+        return false;
+    const bool short_enough =
+        end - begin <= MOST_ELEMENTS || end - begin <= fit->field.n / LEAST_CELLS;
+    if (short_enough && is_good(fit, f, x, (struct br_interval){0, fit->duration}, MOST_HALVINGS)) {
+        fit->first[fit->cells++] = begin;
+        fit->first[fit->cells] = end;
+        return true;
+    }
+    const size_t middle = begin + (end - begin) / 2;
+    return middle > begin && fit->proofs > 0 && add_cells(fit, f, begin, middle, most) &&
+           add_cells(fit, f, middle, end, most);
+}
+
+/* The largest of some values. A larger one elsewhere asks for less than is proved. */
+static double peak_of(const struct br_field *field, const struct br_function *f, double duration)
+{
+    enum { PLACES = 64, TIMES = 8 };
+    double x[PLACES], value[PLACES], most = 0;
+    for (int i = 0; i < PLACES; i++)
+        x[i] = (i + 0.5) / PLACES * (double)field->n * field->h;
+    for (int j = 1; j <= TIMES; j++) {
+        br_function_evaluate(f, PLACES, x, duration * j / TIMES, value);
+        for (int i = 0; i < PLACES; i++)
+            most = fabs(value[i]) > most ? fabs(value[i]) : most;
+    }
+    return most;
+}
+
+static bool find_cells(struct br_load_fit *fit, const struct br_function *f)
+{
+    const double n = (double)fit->field.n;
+    fit->error = proved * peak_of(&fit->field, f, fit->duration);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && isnormal(fit->error); i++) {
+        const double most = floor(n * kinds[i].evaluations / (double)kinds[i].points);
+        fit->points = kinds[i].points;
+        fit->cells = 0;
+        if (add_cells(fit, f, 0, fit->field.n, most < MOST_CELLS ? (size_t)most : MOST_CELLS))
+            return true;
+    }
+    return false;
+}
+
+/* ---- load vectors ---- */
+
+/* A Lagrange polynomial on a cell, from its left end on. */
+struct polynomial {
+    double width; /* m */
+    size_t points, which;
+};
+
+/* By products: at most 16 factors. */
+static void evaluate_polynomial(void *self, size_t count, const double *x, double t, double *value)
+{
+    (void)t;
+    const struct polynomial *p = self;
+    const double own = chebyshev_point(p->points, p->which);
+    for (size_t i = 0; i < count; i++)
+        value[i] = 1;
+    for (size_t j = 0; j < p->points; j++) {
+        const double point = chebyshev_point(p->points, j);
+        for (size_t i = 0; i < count && j != p->which; i++)
+            value[i] *= (x[i] / p->width - point) / (own - point);
+    }
+}
+
+static const struct br_function_ops polynomial_ops = {.evaluate = evaluate_polynomial};
+
+static struct br_field cell_field(const struct br_load_fit *fit, size_t cell)
+{
+    struct br_field field = fit->field;
+    field.n = fit->first[cell + 1] - fit->first[cell];
+    return field;
+}
+
+static enum br_status fill_cell(const struct br_field *field, size_t points, double *column,
+                                struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t j = 0; j < points && !status; j++) {
+        struct polynomial p = {field->h * (double)field->n, points, j};
+        const struct br_function f = {.ops = &polynomial_ops, .self = &p, .uses_x = true};
+        status = br_assemble_load(field, &f, 0, column + j * br_field_size(field), err);
+    }
+    return status;
+}
+
+static void place_points(struct br_load_fit *fit, size_t cell)
+{
+    const double left = fit->field.h * (double)fit->first[cell];
+    const double width = fit->field.h * (double)(fit->first[cell + 1] - fit->first[cell]);
+    for (size_t j = 0; j < fit->points; j++)
+        fit->x[cell * fit->points + j] = left + width * chebyshev_point(fit->points, j);
+}
+
+/* The first cell of as many elements. */
+static size_t equal_cell(const struct br_load_fit *fit, size_t cell)
+{
+    size_t i = 0;
+    while (cell_field(fit, i).n != cell_field(fit, cell).n)
+        i++;
+    return i;
+}
+
+static enum br_status fill(struct br_load_fit *fit, struct br_error *err)
+{
+    const size_t points = fit->points * fit->cells;
+    size_t rows = 0;
+    for (size_t cell = 0; cell < fit->cells; cell++) {
+        const struct br_field field = cell_field(fit, cell);
+        rows += equal_cell(fit, cell) == cell ? br_field_size(&field) : 0;
+    }
+    fit->x = br_allocate(2 * points, sizeof *fit->x);
+    fit->columns = br_allocate_aligned(fit->points * rows, sizeof *fit->columns);
+    if (!fit->x || !fit->columns)
+        return br_no_memory(err, "a load's fit");
+    fit->value = fit->x + points;
+    enum br_status status = BR_OK;
+    double *next = fit->columns;
+    for (size_t cell = 0; cell < fit->cells && !status; cell++) {
+        const struct br_field field = cell_field(fit, cell);
+        const size_t equal = equal_cell(fit, cell);
+        place_points(fit, cell);
+        fit->column[cell] = equal < cell ? fit->column[equal] : next;
+        if (equal < cell)
+            continue;
+        status = fill_cell(&field, fit->points, next, err);
+        next += fit->points * br_field_size(&field);
+    }
+    return status;
+}
+
+enum br_status br_load_fit_create(const struct br_field *field, const struct br_function *f,
+                                  double duration, struct br_load_fit **out, struct br_error *err)
+{
+    *out = NULL;
+    struct br_load_fit *fit = br_allocate(1, sizeof *fit);
+    if (!fit)
+        return br_no_memory(err, "a load's fit");
+    fit->field = *field;
+    fit->duration = duration;
+    fit->proofs = (size_t)fmin(1e5, proofs_a_step * (double)field->n * duration / field->k);
+    const bool found = find_cells(fit, f);
+    const enum br_status status = found ? fill(fit, err) : BR_OK;
+    if (!found || status)
+        br_load_fit_free(fit);
+    else
+        *out = fit;
+    return status;
+}
+
+/* ---- a step ---- */
+
+/* Whether what is proved is round-off of the largest value. */
+static bool is_round_off(const struct br_load_fit *fit)
+{
+    double most = 0;
+    for (size_t i = 0; i < fit->points * fit->cells; i++) {
+        if (!isfinite(fit->value[i]))
+            return false;
+        most = fabs(fit->value[i]) > most ? fabs(fit->value[i]) : most;
+    }
+    return fit->error <= wanted * most;
+}
+
+bool br_load_fit_assemble(struct br_load_fit *fit, const struct br_function *f, double t,
+                          double *vector)
+{
+    if (!(t >= 0 && t <= fit->duration))
+        return false;
+    br_function_evaluate(f, fit->points * fit->cells, fit->x, t, fit->value);
+    if (!is_round_off(fit))
+        return false;
+    const size_t unknowns = br_field_unknowns(&fit->field);
+    double common[2] = {0}; /* the cells before have it at their last node */
+    for (size_t cell = 0; cell < fit->cells; cell++) {
+        const struct br_field field = cell_field(fit, cell);
+        const size_t rows = br_field_size(&field);
+        double *from[MOST_POINTS], *to = vector + fit->first[cell] * unknowns;
+        for (size_t j = 0; j < fit->points; j++)
+            from[j] = fit->column[cell] + j * rows;
+        br_add_states(to, rows, fit->points, from, fit->value + cell * fit->points);
+        for (size_t a = 0; a < unknowns; a++) {
+            to[a] += common[a];
+            common[a] = to[rows - unknowns + a];
+        }
+    }
+    return true;
+}
