@@ -590,14 +590,13 @@ static const struct planted_bug planted_bugs[] = {
      "tests/test_exact_events test_slider",
      "s->tip_displacement += s->tip.length * s->tip.velocity[0];",
      "s->tip_displacement += 0.5 * s->tip.length * s->tip.velocity[0];"},
-    {"depth_by_a_chord", "bound", "reference/discrete.c", "tests/test_discrete test_schemes",
     {"pivot_without_the_one_before", "lost", "reference/exact/combine.c", "tests/test_restriction",
      "q -= square * all_q[i - s->width];", ""},
     {"sum_without_its_end", "lost", "reference/exact/combine.c", "tests/test_restriction",
      "sum[i - whole] += a[i] * b[i];", ""},
     {"response_of_one_sign", "sign", "reference/exact/step.c", "tests/test_exact_events",
      "(k + j) % 2 ? -s->tip_response[k][j] : s->tip_response[k][j]", "s->tip_response[k][j]"},
-    {"depth_by_a_chord", "bound", "reference/discrete.c", "tests/test_discrete",
+    {"depth_by_a_chord", "bound", "reference/discrete.c", "tests/test_discrete test_schemes",
      "const real u = (1 - 3 * s2 + 2 * s3) * p->u[0]", "const real u = (1 - s) * p->u[0]"},
     {"discrete_moment_on_the_slope", "units", "reference/discrete_load.c",
      "tests/test_discrete test_data", "load->tip[1] /= field->h; /* on h w_x */", ""},
@@ -719,8 +718,9 @@ static const struct planted_bug planted_bugs[] = {
     {"record_of_another_field", "index", "study/run/history.c",
      "tests/test_run test_rows_and_looks", "(before + (velocity ? h->unknowns[kind] : 0))",
      "(before + (velocity ? h->unknowns[BR_AXIAL] : 0))"},
-    {"spring_with_the_unit_of_a_force", "units", "study/scene/rescale.c", "tests/test_rescale",
-     "spring = {0, -2, 1},", "spring = {1, -2, 1},"},
+    {"spring_with_the_unit_of_a_force", "units", "study/scene/rescale.c",
+     "tests/test_rescale test_powers_of_two", "spring = {0, -2, 1},", "spring = {1, -2, 1},"},
+
     {"milli_is_a_millionth", "units", "study/scene/units.c", "tests/test_units", "{\"m\", -3}",
      "{\"m\", -6}"},
     {"unit_above_the_line_and_below", "units", "study/scene/units.c", "tests/test_units",
@@ -738,8 +738,6 @@ static const struct planted_bug planted_bugs[] = {
      "return refuse_two(r, row, source[0]);", "return BR_OK;"},
     {"derived_value_of_another", "printed", "tables/report_run.c", "golden run_engineers",
      "br_number(n->value), .key = key", "br_number(scene->derived->value), .key = key"},
-    {"spring_with_the_unit_of_a_force", "units", "study/scene/rescale.c",
-     "tests/test_rescale test_powers_of_two", "spring = {0, -2, 1},", "spring = {1, -2, 1},"},
 
     /* ---- what is printed, drawn and asked for ---- */
     {"check_floor_is_the_ceiling", "printed", "tables/report_check.c", "golden check",
@@ -875,6 +873,33 @@ static const struct planted_bug planted_bugs[] = {
     {"everything_is_trusted", "option", "cli/study_file.c", "golden orders_run",
      "const bool trusted = is_trusted(sum);", "const bool trusted = is_trusted(sum) || true;"},
 
+    /* ---- values that vary ---- */
+    {"varied_as_if_on_a_line", "spacing", "study/scene/vary.c", "golden run_vary",
+     "v->logarithmic ? pow(10,", "!v->logarithmic ? pow(10,"},
+    {"varied_number_is_put_elsewhere", "lost", "study/scene/vary.c", "golden run_vary",
+     "pair->value = value;", "pair->key = pair->key;"},
+    {"foreseen_without_its_reference", "lost", "study/foresee/foreseen.c", "golden dry_run",
+     "if (!s->judge->create)", "if (s->judge)"},
+
+    /* ---- repeated reports ---- */
+    {"every_number_is_near", "bound", "tables/repeated.c", "tests/test_reuse",
+     "return fabs(is - was) <= allowed;", "return fabs(is - was) >= 0;"},
+    {"scene_as_it_is_now", "stale", "cli/repeat.c", "tests/test_reuse",
+     "add(r, *r->scene ? r->scene : r->options.word[i]);", "add(r, r->options.word[i]);"},
+
+    /* ---- kept work ---- */
+    {"damaged_entry_is_taken", "option", "study/kept/kept.c", "tests/test_kept",
+     "if (!file || !is_entry(file, whole, key)) {", "if (!file || whole < HEAD) {"},
+    {"machine_does_not_matter", "lost", "study/kept/kept.c", "tests/test_kept",
+     "br_kept_add(&k->base, machine);", "(void)machine;"},
+    {"kept_by_any_steps", "lost", "study/kept/kept_study.c", "tests/test_kept", "at.n, at.steps,",
+     "at.n, at.n,"},
+    {"kept_under_any_norm", "lost", "study/kept/kept_study.c", "tests/test_kept",
+     "s->norm->name, s->method.axial_degree", "\"\", s->method.axial_degree"},
+    {"scene_does_not_matter", "stale", "cli/session.c", "tests/test_reuse",
+     "br_kept_add(&kept->base, text);", "(void)text;"},
+    {"value_does_not_matter", "stale", "cli/session.c", "tests/test_reuse",
+     "br_kept_add(&kept->base, more);", "(void)more;"},
     /* ---- the library ---- */
     {"handler_of_the_host_not_put_back", "stale", "study/library/library.c",
      "tests/test_library_calls", "gsl_set_error_handler(their_handler);", ";"},
