@@ -27,6 +27,8 @@ enum {
 
 enum br_option_id {
     BR_OPT_N,
+    BR_OPT_VARY,
+    BR_OPT_DRY_RUN,
     BR_OPT_K,
     BR_OPT_STEPS,
     BR_OPT_REFERENCE,

@@ -294,6 +294,15 @@ static const struct br_option rows[] = {
     {BR_OPT_MARKDOWN, "markdown", 0, NULL, "print docs/options.md", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_HELP},
 
+    /* what varies */
+    {BR_OPT_VARY, "vary", 0, "KEY=VALUES",
+     "a number of the scene that varies: contact.stiffness=1e2..1e6 log 9", NULL, BR_TAKES_TEXT,
+     .commands = BR_FOR_STUDY | BR_FOR_RUN,
+     .more = "KEY is a key of the scene whose value is a number, with its section: length, "
+             "axial.viscosity. VALUES are LOW..HIGH log COUNT, LOW..HIGH lin COUNT, or a list "
+             "separated by commas, in the key's unit, 1000 at most. Each value is read as if it "
+             "stood in the scene. Out come a table and a picture over the values."},
+
     /* for all */
     {BR_OPT_OUT, "out", 'o', "DIR", folder, "results", BR_TAKES_DIR,
      .commands = BR_FOR_TABLES | BR_FOR_STUDY},

@@ -1,14 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/session.h"
 
+#include <string.h>
+
 #include "cli/provenance.h"
+#include "plots/pictures.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
+#include "tables/reports.h"
 
 enum br_status br_opened_scene_read(struct br_opened_scene *s, const char *name,
                                     struct br_error *err)
 {
     return br_scene_open(name, s->path, sizeof s->path, &s->text, &s->scene, err);
+}
+
+enum br_status br_opened_scene_vary(struct br_opened_scene *s, const struct br_opened_scene *base,
+                                    const struct br_varied *varied, size_t i, struct br_error *err)
+{
+    *s = (struct br_opened_scene){.text = strdup(base->text)};
+    strcpy(s->path, base->path);
+    return s->text ? br_varied_scene(varied, i, s->path, s->text, &s->scene, err)
+                   : br_no_memory(err, "the scene");
 }
 
 void br_opened_scene_clear(struct br_opened_scene *s)
@@ -104,6 +117,25 @@ enum br_status br_session_finish(struct br_session *s, struct br_error *err)
     const enum br_status status =
         s->quiet ? BR_OK : br_documents_show(s->document, s->documents, err);
     return !status && br_output_is_open(&s->output) ? write_all(s, err) : status;
+}
+
+enum br_status br_session_variation(struct br_session *s, const struct br_variation *found,
+                                    const struct br_opened_scene *base, struct br_error *err)
+{
+    const struct br_provenance provenance = br_provenance_of(base, s->threads);
+    size_t first;
+    if (br_session_report(s, 1, err))
+        return err->status;
+    br_report_variation(found, s->document);
+    br_session_draw(s, s->document, br_variation_draw(found), NULL);
+    br_put_provenance(s->document, &provenance);
+    if (br_session_finish(s, err))
+        return err->status;
+    const size_t failures = br_variation_failures(found, &first);
+    return failures ? br_fail(err, BR_NOT_FINITE, "%zu of %zu values failed; the first, %g %s: %s",
+                              failures, found->varied->count, found->varied->value[first],
+                              found->varied->key->unit, found->failure[first].message)
+                    : BR_OK;
 }
 
 void br_session_close(struct br_session *s)

@@ -22,10 +22,13 @@
 
 /* One study: a scene, and the printed table to hold it against, if any. */
 struct job {
-    const char *name;    /* of the result files; NULL: the scene's */
-    const char *scene;   /* a file, or a bundled scene */
-    const char *printed; /* a data file below the data folder, or NULL */
-    const char *caption; /* NULL: the scene's title */
+    const char *name;                   /* of the result files; NULL: the scene's */
+    const char *scene;                  /* a file, or a bundled scene */
+    const char *printed;                /* a data file below the data folder, or NULL */
+    const char *caption;                /* NULL: the scene's title */
+    const struct br_opened_scene *base; /* of --vary, instead of `scene`: with that value */
+    const struct br_varied *varied;
+    size_t value;
 };
 
 /* A job on its way. */
@@ -45,6 +48,7 @@ struct page {
 struct run {
     struct br_session session;
     struct br_study_request request;
+    const char *what; /* for the progress */
     bool differences; /* --reference none: cells against the next finer ones */
     size_t jobs, pages;
     size_t heads;      /* jobs, or twice that: each job, then each against the exact solution, or
@@ -164,7 +168,10 @@ static enum br_status start_report(struct run *r, const struct job *job, size_t 
 static enum br_status prepare_job(struct run *r, const struct job *job, size_t i,
                                   struct br_error *err)
 {
-    enum br_status status = br_opened_scene_read(&r->work[i].opened, job->scene, err);
+    struct br_opened_scene *opened = &r->work[i].opened;
+    enum br_status status =
+        job->varied ? br_opened_scene_vary(opened, job->base, job->varied, job->value, err)
+                    : br_opened_scene_read(opened, job->scene, err);
     if (!status)
         status = make_grid(r, i, err);
     if (!status)
@@ -254,7 +261,7 @@ static enum br_status run_differences(struct run *r, size_t job, const struct br
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
-    const struct br_observer *observer = br_progress_start("marching", r->session.quiet);
+    const struct br_observer *observer = br_progress_start(r->what, r->session.quiet);
     enum br_status status = BR_OK;
     if (!r->differences)
         status = br_study_run(r->study, r->heads, r->session.threads, observer, err);
@@ -314,7 +321,7 @@ static enum br_status check_cells(const struct run *r, struct br_error *err)
 static enum br_status run_jobs(const struct br_options *options, const struct job *job, size_t jobs,
                                bool with_exact, struct br_error *err)
 {
-    struct run r = {.session = br_session_begin(options), .jobs = jobs};
+    struct run r = {.session = br_session_begin(options), .jobs = jobs, .what = "marching"};
     const bool writes = r.session.writes;
     const bool failed = prepare(&r, job, with_exact, err) || check_memory(&r, err) ||
                         br_session_open(&r.session, err) ||
@@ -324,8 +331,152 @@ static enum br_status run_jobs(const struct br_options *options, const struct jo
     return failed ? err->status : BR_OK;
 }
 
+/* ---- a parameter that varies ---- */
+
+enum { ERROR, RELATIVE, OWN, P, P_LOW, P_HIGH, Q, Q_LOW, Q_HIGH, MISFIT, POINTS, SWEPT };
+
+struct varied_study {
+    struct br_session session;
+    struct br_opened_scene base;
+    struct br_varied varied;
+    struct run *point; /* of each value; owned */
+    size_t points;
+    struct br_variation found;
+    struct br_variation_column column[SWEPT];
+    char axis[160];
+};
+
+static void name_columns(struct varied_study *w, const struct br_norm *norm)
+{
+    snprintf(w->axis, sizeof w->axis, "%s of the finest cell (%s)", norm->symbol,
+             norm->unit_markup);
+    const struct br_variation_column columns[SWEPT] = {
+        [ERROR] = {"error", "error of the finest cell", norm->unit, "%.3e", .axis = w->axis,
+                   .logarithmic = true},
+        [RELATIVE] = {"relative", "relative", .format = "%.2e"},
+        [OWN] = {"reference_error", .unit = norm->unit, .for_programs = true},
+        [P] = {"p", "order in h", .format = "%.3f", .axis = "order"},
+        [P_LOW] = {"p_low", .for_programs = true},
+        [P_HIGH] = {"p_high", .for_programs = true},
+        [Q] = {"q", "order in k", .format = "%.3f", .axis = "order"},
+        [Q_LOW] = {"q_low", .for_programs = true},
+        [Q_HIGH] = {"q_high", .for_programs = true},
+        [MISFIT] = {"misfit", "misfit", .format = "%.2g"},
+        [POINTS] = {"points", "cells that count", .format = "%.0f"},
+    };
+    memcpy(w->column, columns, sizeof columns);
+}
+
+/* An order is claimed as a study's report claims it. */
+static void take_order(double *value, const struct br_joint_fit *fit, const struct br_estimate *e)
+{
+    if (!br_joint_describes(fit) || !br_order_determined(e))
+        return;
+    value[0] = e->value;
+    value[1] = e->low;
+    value[2] = e->high;
+}
+
+static void take_point(const struct run *r, double *value, const char **remark)
+{
+    const struct br_report *report = &r->page[0].report;
+    const struct br_study *s = report->study;
+    const struct br_joint_fit *fit = &report->fits[BR_PART_TOTAL].joint;
+    const struct br_cell *finest = &s->cell[br_study_cells(s) - 1];
+    value[ERROR] = finest->error[BR_PART_TOTAL];
+    value[RELATIVE] = value[ERROR] / s->reference_scale;
+    value[OWN] = report->fits[BR_PART_TOTAL].reference_error;
+    take_order(&value[P], fit, &fit->p);
+    take_order(&value[Q], fit, &fit->q);
+    value[MISFIT] = fit->misfit;
+    value[POINTS] = (double)fit->points;
+    if (finest->flag[BR_PART_TOTAL])
+        *remark = br_flag_name(finest->flag[BR_PART_TOTAL]);
+}
+
+/* All grids, so that what is refused is refused before anything marches. */
+static enum br_status prepare_points(struct varied_study *w, struct br_error *err)
+{
+    const struct br_options *o = w->session.options;
+    char text[BR_VARIED_TEXT];
+    if (br_opened_scene_read(&w->base, o->word[0], err) ||
+        br_varied_read(br_option_text(o, BR_OPT_VARY), &w->varied, err))
+        return err->status;
+    if (!(w->point = br_allocate(w->varied.count, sizeof *w->point)))
+        return br_no_memory(err, "the studies");
+    while (w->points < w->varied.count) {
+        const size_t i = w->points++;
+        struct run *r = &w->point[i];
+        const struct job job = {.base = &w->base, .varied = &w->varied, .value = i};
+        *r = (struct run){.session = w->session, .jobs = 1, .what = "marching"};
+        if (prepare(r, &job, false, err) || check_memory(r, err))
+            return br_failed_in(err, br_varied_text(&w->varied, i, text));
+        if (r->request.norms > 1)
+            return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one with --vary",
+                           r->request.norms);
+        if (r->differences)
+            return br_fail(err, BR_BAD_INPUT,
+                           "--reference: found 'none', expected a judge that gives errors: exact, "
+                           "mms or fine:N,K");
+    }
+    name_columns(w, w->point[0].request.norm[0]);
+    w->found = (struct br_variation){.varied = &w->varied,
+                                     .format = "beamrate study variation",
+                                     .column = w->column,
+                                     .columns = SWEPT};
+    return br_variation_create(&w->found, &w->base.scene, err);
+}
+
+/* A value whose study fails is a result. */
+static enum br_status run_point(struct varied_study *w, size_t i, struct br_error *err)
+{
+    struct run *r = &w->point[i];
+    struct br_error *failure = &w->found.failure[i];
+    struct br_study named = *r->study;
+    struct br_scene scene = *named.scene;
+    char text[BR_VARIED_TEXT], what[64];
+    named.scene = &scene;
+    scene.name = (char *)br_varied_text(&w->varied, i, text);
+    snprintf(what, sizeof what, "marching (value %zu of %zu)", i + 1, w->points);
+    r->what = what;
+    if (w->session.writes && br_warn_of_studies(&named, 1, failure))
+        return failure->status == BR_BAD_INPUT
+                   ? BR_OK
+                   : br_fail(err, failure->status, "%s", failure->message);
+    enum br_status status = compute(r, failure);
+    if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
+        return br_fail(err, status, "%s", failure->message);
+    if (!status) {
+        take_point(r, &w->found.value[i * SWEPT], &w->found.remark[i]);
+        check_cells(r, failure);
+    }
+    return BR_OK;
+}
+
+static enum br_status run_varied(const struct br_options *options, struct br_error *err)
+{
+    struct varied_study w = {.session = br_session_begin(options)};
+    bool failed = prepare_points(&w, err) || br_session_open(&w.session, err);
+    for (size_t i = 0; i < w.points && !failed; i++)
+        failed = run_point(&w, i, err);
+    if (!failed && w.session.writes)
+        failed = br_session_variation(&w.session, &w.found, &w.base, err);
+    for (size_t i = 0; i < w.points; i++) {
+        w.point[i].session = (struct br_session){0};
+        clear(&w.point[i]);
+    }
+    free(w.point);
+    br_variation_clear(&w.found);
+    br_varied_clear(&w.varied);
+    br_opened_scene_clear(&w.base);
+    br_session_close(&w.session);
+    return failed ? err->status : BR_OK;
+}
+
 static enum br_status run_study(const struct br_options *options, struct br_error *err)
 {
+    if (br_option_given(options, BR_OPT_VARY))
+        return run_varied(options, err);
     const struct job job = {.scene = options->word[0]};
     return run_jobs(options, &job, 1, false, err);
 }
@@ -333,8 +484,14 @@ static enum br_status run_study(const struct br_options *options, struct br_erro
 static enum br_status run_tables(const struct br_options *options, struct br_error *err)
 {
     static const struct job printed[] = {
-        {"table1", "example1", "reference/printed/table1.csv", "Table 1: Example 1, stick"},
-        {"table2", "example2", "reference/printed/table2.csv", "Table 2: Example 2, slip"},
+        {.name = "table1",
+         .scene = "example1",
+         .printed = "reference/printed/table1.csv",
+         .caption = "Table 1: Example 1, stick"},
+        {.name = "table2",
+         .scene = "example2",
+         .printed = "reference/printed/table2.csv",
+         .caption = "Table 2: Example 2, slip"},
     };
     return run_jobs(options, printed, sizeof printed / sizeof *printed, true, err);
 }
@@ -352,6 +509,7 @@ const struct br_command br_command_study = {
         "fitted with 95 % intervals.",
     .example = {"beamrate study example4 -n 50,100,200 -k 0.03,0.015 --reference fine:800,1e-3",
                 "beamrate study example2 --norm l2,energy,tip",
+                "beamrate study example2 --vary 'contact.stiffness=1e2..1e4 log 5'",
                 "beamrate study release --reference none"},
     .least_words = 1,
     .most_words = 1,

@@ -25,6 +25,7 @@ struct br_report;
 struct br_run_report;
 struct br_split;
 struct br_stability;
+struct br_variation;
 struct br_trade;
 struct br_warnings;
 
@@ -32,6 +33,9 @@ struct br_warnings;
 
 /* Of a study, which has been finished (br_report_finish). */
 void br_report_study(const struct br_report *report, struct br_document *d);
+
+/* Of what a study, or a run, has found at each value of a number that is varied. */
+void br_report_variation(const struct br_variation *variation, struct br_document *d);
 
 /* What the paper claims beside what is found. finding: in the order of br_claims; h = L/n,
  * k = 1 s / per_second. */

@@ -801,6 +801,12 @@ static const struct planted_bug planted_bugs[] = {
      "br_number(c->order.high)", "br_number(c->order.low)"},
     {"everything_is_trusted", "option", "cli/study_file.c", "golden orders_run",
      "const bool trusted = is_trusted(sum);", "const bool trusted = is_trusted(sum) || true;"},
+
+    /* ---- values that vary ---- */
+    {"varied_as_if_on_a_line", "spacing", "study/scene/vary.c", "golden run_vary",
+     "v->logarithmic ? pow(10,", "!v->logarithmic ? pow(10,"},
+    {"varied_number_is_put_elsewhere", "lost", "study/scene/vary.c", "golden run_vary",
+     "pair->value = value;", "pair->key = pair->key;"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };
