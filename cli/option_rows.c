@@ -294,7 +294,11 @@ static const struct br_option rows[] = {
     {BR_OPT_MARKDOWN, "markdown", 0, NULL, "print docs/options.md", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_HELP},
 
-    /* what varies */
+    /* what varies, and what is foreseen */
+    {BR_OPT_DRY_RUN, "dry-run", 0, NULL,
+     "say what would be run, how long it takes and how much memory; run nothing", NULL,
+     BR_TAKES_FLAG, .commands = MARCHES | BR_FOR_TRADE | BR_FOR_PLAN,
+     .more = "Times are estimates for a core of 2 GHz."},
     {BR_OPT_VARY, "vary", 0, "KEY=VALUES",
      "a number of the scene that varies: contact.stiffness=1e2..1e6 log 9", NULL, BR_TAKES_TEXT,
      .commands = BR_FOR_STUDY | BR_FOR_RUN,

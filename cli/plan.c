@@ -52,7 +52,20 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     p->request.time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
     if (r->study.methods.count)
         p->methods = r->study.methods;
-    return br_session_open(&r->session, err);
+    return BR_OK;
+}
+
+static enum br_status foresee(struct run *r, struct br_error *err)
+{
+    struct br_foreseen work = {
+        .alone = true,
+        .then = "come trials that the models of these propose, which nobody can foresee"};
+    struct br_trial_request request = r->plan.request;
+    request.repeats = 1; /* as cheap trials have it */
+    const enum br_status status = br_plan_lay_out(&r->plan, err);
+    for (size_t i = 0; i < r->plan.count && !status; i++)
+        br_foreseen_add_trial(&work, &r->plan.trial[i], &request);
+    return status ? status : br_session_foresee(&r->session, &work, err);
 }
 
 static enum br_status compute(struct run *r, struct br_error *err)
@@ -87,8 +100,11 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 {
     static struct run r; /* large: models of all methods */
     r = (struct run){.session = br_session_begin(options)};
-    const bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err) ||
-                        compute(&r, err) || write_all(&r, err);
+    bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err);
+    if (!failed)
+        failed = br_option_given(options, BR_OPT_DRY_RUN)
+                     ? foresee(&r, err)
+                     : br_session_open(&r.session, err) || compute(&r, err) || write_all(&r, err);
     br_session_close(&r.session);
     br_plan_clear(&r.plan);
     br_opened_scene_clear(&r.opened);

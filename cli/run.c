@@ -180,6 +180,34 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
     return BR_OK;
 }
 
+/* ---- what would be run ---- */
+
+static enum br_status foresee(const struct br_session *session,
+                              const struct br_opened_scene *opened, size_t count,
+                              struct br_error *err)
+{
+    struct br_foreseen work = {.alone = true};
+    struct br_scene *marched = br_allocate(count, sizeof *marched);
+    enum br_status status = marched ? BR_OK : br_no_memory(err, "the scenes");
+    for (size_t i = 0; i < count && !status; i++) {
+        struct br_run_plan plan = {0};
+        status = br_run_plan_make(session->options, &opened[i].scene, &plan, err);
+        if (!status)
+            status = br_model_select(&opened[i].scene, plan.wanted, &marched[i], err);
+        if (!status)
+            br_foreseen_add_march(&work, &(struct br_planned_march){.scene = &marched[i],
+                                                                    .method = &plan.method,
+                                                                    .n = plan.n,
+                                                                    .steps = plan.steps});
+        br_run_plan_clear(&plan);
+    }
+    if (!status)
+        status = br_session_foresee(session, &work, err);
+    br_foreseen_clear(&work);
+    free(marched);
+    return status;
+}
+
 /* ---- a parameter that varies ---- */
 
 enum {
@@ -319,11 +347,16 @@ static enum br_status march_point(struct varied_run *w, size_t i, struct br_erro
 static enum br_status run_varied(const struct br_options *options, struct br_error *err)
 {
     struct varied_run w = {.session = br_session_begin(options)};
-    bool failed = prepare_values(&w, err) || br_session_open(&w.session, err);
-    for (size_t i = 0; i < w.points && !failed; i++)
-        failed = march_point(&w, i, err);
-    if (!failed)
-        failed = br_session_variation(&w.session, &w.found, &w.base, err);
+    bool failed = prepare_values(&w, err);
+    if (!failed && br_option_given(options, BR_OPT_DRY_RUN)) {
+        failed = foresee(&w.session, w.point, w.points, err);
+    } else if (!failed) {
+        failed = br_session_open(&w.session, err);
+        for (size_t i = 0; i < w.points && !failed; i++)
+            failed = march_point(&w, i, err);
+        if (!failed)
+            failed = br_session_variation(&w.session, &w.found, &w.base, err);
+    }
     for (size_t i = 0; i < w.points; i++)
         br_opened_scene_clear(&w.point[i]);
     free(w.point);
@@ -347,7 +380,10 @@ static enum br_status run(const struct br_options *options, struct br_error *err
                      .json = br_option_text(options, BR_OPT_JSON),
                      .animate = br_option_text(options, BR_OPT_ANIMATE)};
     const bool failed =
-        prepare(&r, err) || march(&r, err) || write_all(&r, start, err) || conclude(&r, err);
+        br_option_given(options, BR_OPT_DRY_RUN)
+            ? br_opened_scene_read(&r.opened, options->word[0], err) ||
+                  foresee(&r.session, &r.opened, 1, err)
+            : prepare(&r, err) || march(&r, err) || write_all(&r, start, err) || conclude(&r, err);
     br_run_files_discard(&r.files);
     br_pictures_discard(&r.pictures);
     br_whole_file_discard(&r.summary);

@@ -5,6 +5,7 @@
 
 #include "cli/provenance.h"
 #include "plots/pictures.h"
+#include "study/grid/each.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 #include "tables/reports.h"
@@ -110,6 +111,18 @@ static enum br_status write_all(struct br_session *s, struct br_error *err)
     if (!s->quiet)
         br_output_announce(&s->output);
     return BR_OK;
+}
+
+enum br_status br_session_foresee(const struct br_session *s, struct br_foreseen *work,
+                                  struct br_error *err)
+{
+    struct br_document d = {0};
+    br_report_foreseen(work, br_command_line(), br_threads(s->threads), &d);
+    const enum br_status status =
+        work->lost ? br_no_memory(err, "what would be run") : br_document_show(stdout, &d, err);
+    br_document_clear(&d);
+    br_foreseen_clear(work);
+    return status;
 }
 
 enum br_status br_session_finish(struct br_session *s, struct br_error *err)

@@ -6,6 +6,7 @@
 #define BR_CLI_SESSION_H
 
 #include "cli/documents.h"
+#include "study/foresee/foreseen.h"
 #include "study/scene/vary.h"
 
 /* A scene as a command opens it. Begins as zeros; not to be moved. */
@@ -65,6 +66,10 @@ enum br_status br_session_report(struct br_session *session, size_t documents,
  * own. */
 void br_session_draw(struct br_session *session, struct br_document *report,
                      struct br_figure figure, const char *title);
+
+/* Shows what would be marched (--dry-run), and releases it. Fails as br_document_show. */
+enum br_status br_session_foresee(const struct br_session *session, struct br_foreseen *work,
+                                  struct br_error *err);
 
 /* Shows the reports on the terminal, draws the pictures, writes all and puts it in place. Fails as
  * br_picture_files_draw, br_documents_write and br_output_commit; what is shown was shown then. */

@@ -300,6 +300,13 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     return br_session_finish(&r->session, err);
 }
 
+static void foresee(const struct run *r, struct br_foreseen *work)
+{
+    for (size_t h = 0; h < (r->differences ? r->jobs : r->heads); h++)
+        br_foreseen_add_study(work, study_of(r, h, 0));
+    work->together = true;
+}
+
 /* A failed cell fails the run, after everything has been written. */
 static enum br_status check_cells(const struct run *r, struct br_error *err)
 {
@@ -323,10 +330,16 @@ static enum br_status run_jobs(const struct br_options *options, const struct jo
 {
     struct run r = {.session = br_session_begin(options), .jobs = jobs, .what = "marching"};
     const bool writes = r.session.writes;
-    const bool failed = prepare(&r, job, with_exact, err) || check_memory(&r, err) ||
-                        br_session_open(&r.session, err) ||
-                        (writes && br_warn_of_studies(r.study, jobs, err)) || compute(&r, err) ||
-                        (writes && write_all(&r, err)) || check_cells(&r, err);
+    struct br_foreseen work = {0};
+    bool failed = prepare(&r, job, with_exact, err);
+    if (!failed && br_option_given(options, BR_OPT_DRY_RUN)) {
+        foresee(&r, &work);
+        failed = br_session_foresee(&r.session, &work, err);
+    } else if (!failed) {
+        failed = check_memory(&r, err) || br_session_open(&r.session, err) ||
+                 (writes && br_warn_of_studies(r.study, jobs, err)) || compute(&r, err) ||
+                 (writes && write_all(&r, err)) || check_cells(&r, err);
+    }
     clear(&r);
     return failed ? err->status : BR_OK;
 }
@@ -453,14 +466,32 @@ static enum br_status run_point(struct varied_study *w, size_t i, struct br_erro
     return BR_OK;
 }
 
+static enum br_status run_points(struct varied_study *w, struct br_error *err)
+{
+    enum br_status status = br_session_open(&w->session, err);
+    for (size_t i = 0; i < w->points && !status; i++)
+        status = run_point(w, i, err);
+    return status || !w->session.writes
+               ? status
+               : br_session_variation(&w->session, &w->found, &w->base, err);
+}
+
+static enum br_status foresee_points(const struct varied_study *w, struct br_error *err)
+{
+    struct br_foreseen work = {0};
+    for (size_t i = 0; i < w->points; i++)
+        foresee(&w->point[i], &work);
+    work.together = false;
+    return br_session_foresee(&w->session, &work, err);
+}
+
 static enum br_status run_varied(const struct br_options *options, struct br_error *err)
 {
     struct varied_study w = {.session = br_session_begin(options)};
-    bool failed = prepare_points(&w, err) || br_session_open(&w.session, err);
-    for (size_t i = 0; i < w.points && !failed; i++)
-        failed = run_point(&w, i, err);
-    if (!failed && w.session.writes)
-        failed = br_session_variation(&w.session, &w.found, &w.base, err);
+    bool failed = prepare_points(&w, err);
+    if (!failed)
+        failed = br_option_given(options, BR_OPT_DRY_RUN) ? foresee_points(&w, err)
+                                                          : run_points(&w, err);
     for (size_t i = 0; i < w.points; i++) {
         w.point[i].session = (struct br_session){0};
         clear(&w.point[i]);

@@ -140,6 +140,15 @@ static enum br_status hold(struct run *r, struct br_error *err)
     return status;
 }
 
+static enum br_status foresee(const struct run *r, struct br_error *err)
+{
+    struct br_foreseen work = {.alone = true};
+    for (size_t i = 0; i < r->items; i++)
+        for (size_t t = 0; t < r->item[i].trade.count; t++)
+            br_foreseen_add_trial(&work, &r->item[i].trade.trial[t], &r->item[i].trade.request);
+    return br_session_foresee(&r->session, &work, err);
+}
+
 /* ---- results ---- */
 
 static void draw(struct run *r, size_t i)
@@ -194,6 +203,7 @@ static enum br_status split(const struct br_options *o, struct br_error *err)
     const char *other = br_option_given(o, BR_OPT_REPEATS)      ? "repeats"
                         : br_option_given(o, BR_OPT_TIME_LIMIT) ? "time-limit"
                         : br_option_given(o, BR_OPT_REFERENCE)  ? "reference"
+                        : br_option_given(o, BR_OPT_DRY_RUN)    ? "dry-run"
                                                                 : NULL;
     if (other)
         return br_fail(err, BR_BAD_INPUT, "--%s: --split does not heed it", other);
@@ -237,9 +247,12 @@ static enum br_status run(const struct br_options *options, struct br_error *err
     if (br_option_given(options, BR_OPT_SPLIT))
         return split(options, err);
     struct run r = {.session = br_session_begin(options)};
-    const bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err) ||
-                        br_session_open(&r.session, err) || hold(&r, err) || write_all(&r, err) ||
-                        check(&r, err);
+    bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err);
+    if (!failed)
+        failed = br_option_given(options, BR_OPT_DRY_RUN)
+                     ? foresee(&r, err)
+                     : br_session_open(&r.session, err) || hold(&r, err) || write_all(&r, err) ||
+                           check(&r, err);
     br_session_close(&r.session);
     for (size_t i = 0; i < r.items; i++) {
         br_trade_clear(&r.item[i].trade);

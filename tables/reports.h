@@ -16,6 +16,7 @@ struct br_extreme_counts;
 struct br_extreme_map;
 struct br_finding;
 struct br_floors;
+struct br_foreseen;
 struct br_history_row;
 struct br_old_check;
 struct br_orders;
@@ -64,6 +65,12 @@ void br_history_csv_row(FILE *out, const struct br_history_row *row);
 
 /* The last line of a march that did not reach T: a comment, "# stopped: ...". */
 void br_history_csv_stopped(FILE *out, const char *message);
+
+/* ---- dry runs ---- */
+
+/* What a command would march, on so many threads. */
+void br_report_foreseen(const struct br_foreseen *work, const char *command, int threads,
+                    struct br_document *d);
 
 /* ---- orders ---- */
 

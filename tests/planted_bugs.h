@@ -807,6 +807,8 @@ static const struct planted_bug planted_bugs[] = {
      "v->logarithmic ? pow(10,", "!v->logarithmic ? pow(10,"},
     {"varied_number_is_put_elsewhere", "lost", "study/scene/vary.c", "golden run_vary",
      "pair->value = value;", "pair->key = pair->key;"},
+    {"foreseen_without_its_reference", "lost", "study/foresee/foreseen.c", "golden dry_run",
+     "if (!s->judge->create)", "if (s->judge)"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

@@ -28,9 +28,7 @@ double br_march_bytes(const struct br_planned_march *o)
     return element * (double)o->n;
 }
 
-/* Seconds that a march takes, about, in one thread; those of steps by a tolerance are not known:
- * 0. */
-static double march_seconds(const struct br_planned_march *o)
+double br_march_seconds(const struct br_planned_march *o)
 {
     if (o->method->scheme->adaptive)
         return 0;
@@ -130,7 +128,7 @@ enum br_status br_fit_together(const struct br_study *studies, size_t count, dou
 static enum br_status check_time(const struct br_planned_march *o, struct br_warnings *w,
                                  struct br_error *err)
 {
-    const double days = march_seconds(o) / day;
+    const double days = br_march_seconds(o) / day;
     if (days > most_days)
         return br_fail(err, BR_BAD_INPUT,
                        "n = %zu and %zu steps take about %.2g years, expected at most a hundred: "

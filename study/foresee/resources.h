@@ -9,6 +9,10 @@
 /* Bytes that a march needs at most, from what elements were measured to take. */
 double br_march_bytes(const struct br_planned_march *planned);
 
+/* Seconds that a march takes, about, in one thread; those of steps by a tolerance are not known:
+ * 0. */
+double br_march_seconds(const struct br_planned_march *planned);
+
 /* Bytes that may still be had: the least of what the machine has (MemAvailable of /proc/meminfo),
  * of the limit of the address space (RLIMIT_AS) and of the control group; INFINITY: not known. */
 double br_memory_available(void);
