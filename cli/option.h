@@ -23,6 +23,7 @@ enum {
     BR_FOR_COMPLETIONS = 512,
     BR_FOR_HELP = 1024,
     BR_FOR_ORDERS = 2048,
+    BR_FOR_REPEAT = 4096,
 };
 
 enum br_option_id {

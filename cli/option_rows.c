@@ -327,8 +327,8 @@ static const struct br_option rows[] = {
                  BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
      .more = "The results have the same bits on any number."},
     {BR_OPT_QUIET, "quiet", 'q', NULL, quiet, NULL, BR_TAKES_FLAG,
-     .commands =
-         MARCHES | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS},
+     .commands = MARCHES | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES | BR_FOR_FIGURES |
+                 BR_FOR_ORDERS | BR_FOR_REPEAT},
     {BR_OPT_HELP, "help", 'h', NULL, "this help", NULL, BR_TAKES_FLAG, .commands = ~0u},
 };
 enum { ROWS = sizeof rows / sizeof *rows };

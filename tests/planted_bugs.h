@@ -809,6 +809,12 @@ static const struct planted_bug planted_bugs[] = {
      "pair->value = value;", "pair->key = pair->key;"},
     {"foreseen_without_its_reference", "lost", "study/foresee/foreseen.c", "golden dry_run",
      "if (!s->judge->create)", "if (s->judge)"},
+
+    /* ---- repeated reports ---- */
+    {"every_number_is_near", "bound", "tables/repeated.c", "tests/test_reuse",
+     "return fabs(is - was) <= allowed;", "return fabs(is - was) >= 0;"},
+    {"scene_as_it_is_now", "stale", "cli/repeat.c", "tests/test_reuse",
+     "add(r, *r->scene ? r->scene : r->options.word[i]);", "add(r, r->options.word[i]);"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };
