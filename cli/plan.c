@@ -16,6 +16,7 @@ struct run {
     struct br_study_request study;
     struct br_opened_scene opened;
     struct br_plan plan;
+    struct br_kept kept;
 };
 
 static enum br_status read_request(struct run *r, struct br_error *err)
@@ -71,9 +72,13 @@ static enum br_status foresee(struct run *r, struct br_error *err)
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const char *name = r->opened.scene.name;
+    if (br_session_keep(&r->session, r->opened.text, "", &r->kept, err))
+        return err->status;
+    r->plan.request.kept = *r->kept.folder ? &r->kept : NULL;
     r->plan.request.observer = br_progress_start(name, r->session.quiet);
     const enum br_status status = br_plan_make(&r->plan, err);
     br_progress_end();
+    br_session_tell_kept(&r->session, &r->kept);
     if (!status)
         return br_progress_result(status, err);
     br_failed_in(err, name);

@@ -66,6 +66,38 @@ enum br_status br_session_open(struct br_session *s, struct br_error *err)
     return s->writes && folder ? br_output_open(&s->output, folder, err) : BR_OK;
 }
 
+enum br_status br_session_keep(const struct br_session *s, const char *text, const char *more,
+                               struct br_kept *kept, struct br_error *err)
+{
+    const bool resume = br_option_given(s->options, BR_OPT_RESUME);
+    struct br_provenance here;
+    *kept = (struct br_kept){0};
+    if (!br_output_is_open(&s->output) || br_ranks_size() > 1)
+        return resume ? br_fail(err, BR_BAD_INPUT, "--resume: expected %s",
+                                br_ranks_size() > 1 ? "one rank: several keep nothing"
+                                                    : "--out, the folder of what is kept")
+                      : BR_OK;
+    br_provenance_fill(&here, 0);
+    if (br_kept_open(kept, s->output.folder, resume, here.machine, err))
+        return err->status;
+    br_kept_add(&kept->base, text);
+    br_kept_add(&kept->base, more);
+    return BR_OK;
+}
+
+void br_session_tell_kept(const struct br_session *s, const struct br_kept *k)
+{
+    const size_t taken = atomic_load(&k->taken), bad = atomic_load(&k->bad);
+    if (taken && !s->quiet)
+        fprintf(stderr, "beamrate: %zu finished cells and trials were taken from %s\n", taken,
+                k->folder);
+    if (bad)
+        fprintf(stderr,
+                "beamrate: warning: %zu entries in %s are damaged or not what their names "
+                "say: they were not taken\n",
+                bad, k->folder);
+}
+
 enum br_status br_session_report(struct br_session *s, size_t documents, struct br_error *err)
 {
     s->document = br_allocate(documents, sizeof *s->document);

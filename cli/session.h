@@ -7,6 +7,7 @@
 
 #include "cli/documents.h"
 #include "study/foresee/foreseen.h"
+#include "study/kept/kept.h"
 #include "study/scene/vary.h"
 
 /* A scene as a command opens it. Begins as zeros; not to be moved. */
@@ -56,6 +57,15 @@ enum br_status br_session_alone(struct br_error *err);
 /* Makes the folder of --out, so call it before a long computation. Fails as br_output_open. Close
  * the session even then. */
 enum br_status br_session_open(struct br_session *session, struct br_error *err);
+
+/* Where a scene's finished work is kept, in the folder of --out, which is open: out; with --resume
+ * what is there is taken. text: of the scene; more: what else its work follows from, or "". Without
+ * a folder, or on several ranks, nothing is kept, and --resume is refused (BR_BAD_INPUT); BR_IO. */
+enum br_status br_session_keep(const struct br_session *session, const char *text, const char *more,
+                               struct br_kept *kept, struct br_error *err);
+
+/* Says how much was taken, and warns of what was not what it should be. */
+void br_session_tell_kept(const struct br_session *session, const struct br_kept *kept);
 
 /* Makes room for reports. Fails with BR_NO_MEMORY. */
 enum br_status br_session_report(struct br_session *session, size_t documents,

@@ -36,6 +36,7 @@ struct work {
     struct br_opened_scene opened;
     size_t *steps;       /* of the grid, ascending; owned */
     struct br_tips tips; /* only without a reference */
+    struct br_kept kept;
 };
 
 /* A report with its name and caption. */
@@ -231,6 +232,22 @@ static void clear(struct run *r)
 
 /* ---- computing ---- */
 
+/* Finished cells are kept with their scene; the differences of neighbours are not. */
+static enum br_status keep(struct run *r, const char *more, struct br_error *err)
+{
+    if (r->differences)
+        return br_option_given(r->session.options, BR_OPT_RESUME)
+                   ? br_fail(err, BR_BAD_INPUT, "--resume: --reference none does not heed it")
+                   : BR_OK;
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < r->jobs && !status; i++)
+        status = br_session_keep(&r->session, r->work[i].opened.text, more, &r->work[i].kept, err);
+    for (size_t h = 0; h < r->heads && !status; h++)
+        for (struct br_study *s = study_of(r, h, 0); s && *r->work->kept.folder; s = s->next_norm)
+            s->kept = &r->work[h % r->jobs].kept;
+    return status;
+}
+
 /* Of what marches at once: without a reference one job after the other. */
 static enum br_status check_memory(const struct run *r, struct br_error *err)
 {
@@ -268,6 +285,8 @@ static enum br_status compute(struct run *r, struct br_error *err)
     for (size_t i = 0; i < r->jobs && r->differences && !status; i++)
         status = run_differences(r, i, observer, err);
     br_progress_end();
+    for (size_t i = 0; i < r->jobs; i++)
+        br_session_tell_kept(&r->session, &r->work[i].kept);
     const double wall = br_seconds() - start;
     for (size_t i = 0; i < r->pages && !status; i++) {
         r->page[i].report.wall_seconds = wall;
@@ -336,7 +355,7 @@ static enum br_status run_jobs(const struct br_options *options, const struct jo
         foresee(&r, &work);
         failed = br_session_foresee(&r.session, &work, err);
     } else if (!failed) {
-        failed = check_memory(&r, err) || br_session_open(&r.session, err) ||
+        failed = check_memory(&r, err) || br_session_open(&r.session, err) || keep(&r, "", err) ||
                  (writes && br_warn_of_studies(r.study, jobs, err)) || compute(&r, err) ||
                  (writes && write_all(&r, err)) || check_cells(&r, err);
     }
@@ -456,8 +475,12 @@ static enum br_status run_point(struct varied_study *w, size_t i, struct br_erro
         return failure->status == BR_BAD_INPUT
                    ? BR_OK
                    : br_fail(err, failure->status, "%s", failure->message);
-    enum br_status status = compute(r, failure);
-    if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
+    r->session.output = w->session.output; /* open by now */
+    enum br_status status = keep(r, text, err);
+    if (status)
+        return status;
+    status = compute(r, failure);
+    if (status == BR_NO_MEMORY || status == BR_INTERRUPTED || status == BR_IO)
         return br_fail(err, status, "%s", failure->message);
     if (!status) {
         take_point(r, &w->found.value[i * SWEPT], &w->found.remark[i]);

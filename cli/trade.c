@@ -19,6 +19,7 @@ struct item {
     struct br_printed printed; /* the paper's table of it; empty: none */
     size_t *steps;             /* as --k has them; owned */
     struct br_trade trade;
+    struct br_kept kept;
 };
 
 struct run {
@@ -127,6 +128,11 @@ static enum br_status prepare(struct run *r, struct br_error *err)
 static enum br_status hold(struct run *r, struct br_error *err)
 {
     enum br_status status = BR_OK;
+    for (size_t i = 0; i < r->items && !status; i++) {
+        struct item *item = &r->item[i];
+        status = br_session_keep(&r->session, item->opened.text, "", &item->kept, err);
+        item->trade.request.kept = *item->kept.folder ? &item->kept : NULL;
+    }
     for (size_t i = 0; i < r->items; i++)
         br_warn_of_trade(&r->item[i].trade);
     for (size_t i = 0; i < r->items && !status; i++) {
@@ -135,6 +141,7 @@ static enum br_status hold(struct run *r, struct br_error *err)
         trade->request.observer = br_progress_start(name, r->session.quiet);
         status = br_trade_hold(trade, err);
         br_progress_end();
+        br_session_tell_kept(&r->session, &r->item[i].kept);
         status = status ? br_failed_in(err, name) : br_progress_result(status, err);
     }
     return status;
@@ -204,6 +211,7 @@ static enum br_status split(const struct br_options *o, struct br_error *err)
                         : br_option_given(o, BR_OPT_TIME_LIMIT) ? "time-limit"
                         : br_option_given(o, BR_OPT_REFERENCE)  ? "reference"
                         : br_option_given(o, BR_OPT_DRY_RUN)    ? "dry-run"
+                        : br_option_given(o, BR_OPT_RESUME)     ? "resume"
                                                                 : NULL;
     if (other)
         return br_fail(err, BR_BAD_INPUT, "--%s: --split does not heed it", other);

@@ -815,6 +815,20 @@ static const struct planted_bug planted_bugs[] = {
      "return fabs(is - was) <= allowed;", "return fabs(is - was) >= 0;"},
     {"scene_as_it_is_now", "stale", "cli/repeat.c", "tests/test_reuse",
      "add(r, *r->scene ? r->scene : r->options.word[i]);", "add(r, r->options.word[i]);"},
+
+    /* ---- kept work ---- */
+    {"damaged_entry_is_taken", "option", "study/kept/kept.c", "tests/test_kept",
+     "if (!file || !is_entry(file, whole, key)) {", "if (!file || whole < HEAD) {"},
+    {"machine_does_not_matter", "lost", "study/kept/kept.c", "tests/test_kept",
+     "br_kept_add(&k->base, machine);", "(void)machine;"},
+    {"kept_by_any_steps", "lost", "study/kept/kept_study.c", "tests/test_kept",
+     "at.n, at.steps,", "at.n, at.n,"},
+    {"kept_under_any_norm", "lost", "study/kept/kept_study.c", "tests/test_kept",
+     "s->norm->name, s->method.axial_degree", "\"\", s->method.axial_degree"},
+    {"scene_does_not_matter", "stale", "cli/session.c", "tests/test_reuse",
+     "br_kept_add(&kept->base, text);", "(void)text;"},
+    {"value_does_not_matter", "stale", "cli/session.c", "tests/test_reuse",
+     "br_kept_add(&kept->base, more);", "(void)more;"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

@@ -62,6 +62,7 @@ struct br_trial_request {
     double time_limit;                  /* of one march with its set-up, s; 0: none */
     int threads;                        /* of the errors; 0: all cores */
     const struct br_observer *observer; /* NULL: nobody */
+    struct br_kept *kept;               /* where trials are kept; NULL: nowhere */
 };
 
 /* What is asked for where nobody says otherwise: l2, 3 repeats within 0.1 s, 10 s a march. */
