@@ -88,8 +88,13 @@ enum br_status br_session_keep(const struct br_session *s, const char *text, con
 void br_session_tell_kept(const struct br_session *s, const struct br_kept *k)
 {
     const size_t taken = atomic_load(&k->taken), bad = atomic_load(&k->bad);
+    const size_t lost = atomic_load(&k->lost);
     if (taken && !s->quiet)
         fprintf(stderr, "beamrate: %zu finished cells and trials were taken from %s\n", taken,
+                k->folder);
+    if (lost)
+        fprintf(stderr,
+                "beamrate: warning: %zu finished cells and trials could not be kept in %s\n", lost,
                 k->folder);
     if (bad)
         fprintf(stderr,

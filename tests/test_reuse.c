@@ -154,19 +154,19 @@ static void test_stopped_and_resumed(void **state)
     char whole[4000];
     size_t kept = 0;
     cli_expect(VARIED "one", NULL, 0, "");
-    const size_t all = cli_count_files("one/kept");
+    const size_t all = cli_count_files("one/.kept");
     snprintf(whole, sizeof whole, "%s", cli_read("one/example2-contact-stiffness.csv"));
     for (; c.interrupt_after < 60000 && kept == 0; c.interrupt_after *= 2) {
         cli_run_line(VARIED "two", &c, &out);
-        kept = cli_is_there("two/kept") ? cli_count_files("two/kept") : 0;
+        kept = cli_is_there("two/.kept") ? cli_count_files("two/.kept") : 0;
     }
     if (!(kept > 0 && kept < all) || out.exit_code == 0)
         fail_msg("%zu of %zu entries were kept: %s", kept, all, out.output);
     assert_false(cli_is_there("two/example2-contact-stiffness.csv"));
     cli_expect(VARIED "two --resume", NULL, 0,
-               "finished cells and trials were taken from two/kept");
+               "finished cells and trials were taken from two/.kept");
     assert_string_equal(whole, cli_read("two/example2-contact-stiffness.csv"));
-    assert_int_equal(cli_count_files("two/kept"), all);
+    assert_int_equal(cli_count_files("two/.kept"), all);
 }
 
 /* The clock of a trial is as it was, so the whole table is. */

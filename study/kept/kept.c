@@ -40,7 +40,7 @@ enum br_status br_kept_open(struct br_kept *k, const char *folder, bool take, co
     if (!read)
         return br_fail(err, BR_IO, "the program cannot be read, so that no work can be kept: %s",
                        strerror(errno));
-    snprintf(k->folder, sizeof k->folder, "%.1000s/kept", folder);
+    snprintf(k->folder, sizeof k->folder, "%.1000s/.kept", folder);
     k->take = take;
     k->slice = usual_slice;
     k->most_reference = usual_reference;
@@ -163,20 +163,17 @@ static bool write_file(const char *path, const char *head, const void *bytes, si
     return (fclose(file) == 0) & written;
 }
 
-enum br_status br_kept_write(struct br_kept *k, const char *key, const void *bytes, size_t size,
-                             struct br_error *err)
+void br_kept_write(struct br_kept *k, const char *key, const void *bytes, size_t size)
 {
     char head[HEAD + 1], unfinished[1300], finished[1300];
     if (!k || !*k->folder)
-        return BR_OK;
+        return;
     write_head(head, key, bytes, size);
     snprintf(finished, sizeof finished, "%s/%s", k->folder, key);
     snprintf(unfinished, sizeof unfinished, "%s/.%s.%ld", k->folder, key, (long)getpid());
     mkdir(k->folder, 0777); /* only where there is something to keep */
     if (write_file(unfinished, head, bytes, size) && rename(unfinished, finished) == 0)
-        return BR_OK;
-    const int reason = errno;
+        return;
     unlink(unfinished);
-    return br_fail(err, BR_IO, "%s: finished work could not be kept: %s", k->folder,
-                   strerror(reason));
+    atomic_fetch_add(&k->lost, 1);
 }

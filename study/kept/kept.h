@@ -22,10 +22,11 @@ struct br_kept {
     double most_reference; /* the part of it that may be the reference, marched again in each */
     struct br_sha256 base; /* executable, machine and scene */
     atomic_size_t taken;   /* cells and trials */
-    atomic_size_t bad;     /* entries that were not what they should be */
+    atomic_size_t bad;     /* entries that were not what they should be, */
+    atomic_size_t lost;    /* or could not be written */
 };
 
-/* Entries will be in DIR/kept, which the first one makes; machine: what this one is. Fails with
+/* Entries will be in DIR/.kept, which the first one makes; machine: what this one is. Fails with
  * BR_IO. */
 enum br_status br_kept_open(struct br_kept *kept, const char *folder, bool take,
                             const char *machine, struct br_error *err);
@@ -43,9 +44,9 @@ bool br_kept_read(struct br_kept *kept, const char *key, void **bytes, size_t *s
 /* The same into so many bytes; another size is no entry of this kind. */
 bool br_kept_read_into(struct br_kept *kept, const char *key, void *bytes, size_t size);
 
-/* Writes an entry. Fails with BR_IO. kept: NULL, does nothing. */
-enum br_status br_kept_write(struct br_kept *kept, const char *key, const void *bytes, size_t size,
-                             struct br_error *err);
+/* Writes an entry. Where that fails (a full disk), the work goes on, and it is counted. kept: NULL,
+ * does nothing. */
+void br_kept_write(struct br_kept *kept, const char *key, const void *bytes, size_t size);
 
 /* ---- a method in words ---- */
 
@@ -59,7 +60,7 @@ const char *br_kept_method(const struct br_method *method, char text[BR_KEPT_MET
  * again, and the others are kept as soon as their slice is done. Each bit is that of the whole
  * study in one go, if the kept cells are of studies with the same lists of n and k; else they are
  * off by the round-off of the reference, whose meshes and time levels these lists determine. Fails
- * besides with BR_IO. */
+ * besides with BR_IO, where an entry goes meanwhile. */
 enum br_status br_kept_lockstep(struct br_study *studies, size_t count, int threads,
                                 const struct br_observer *observer, struct br_error *err);
 

@@ -122,7 +122,7 @@ static bool has_study(struct br_study *s)
 
 /* ---- writing ---- */
 
-static enum br_status write_cell(struct br_study *s, size_t cell, struct br_error *err)
+static void write_cell(struct br_study *s, size_t cell)
 {
     char key[BR_SHA256_TEXT];
     const struct br_cell *c = &s->cell[cell];
@@ -131,7 +131,7 @@ static enum br_status write_cell(struct br_study *s, size_t cell, struct br_erro
     memcpy(k.worst_time, c->worst_time, sizeof k.worst_time);
     memcpy(k.tip, c->tip, sizeof k.tip);
     key_of_cell(s, cell, key);
-    return br_kept_write(s->kept, key, &k, sizeof k, err);
+    br_kept_write(s->kept, key, &k, sizeof k);
 }
 
 /* The auditor as it was asked for: its key must not depend on what became of it. */
@@ -153,10 +153,9 @@ static enum br_status write_study(struct br_study *s, const struct br_judge *aud
         return br_no_memory(err, "what is kept");
     memcpy(bytes, &k, sizeof k);
     strcpy(bytes + sizeof k, events);
-    const enum br_status status =
-        br_kept_write(s->kept, key, bytes, sizeof k + strlen(events), err);
+    br_kept_write(s->kept, key, bytes, sizeof k + strlen(events));
     free(bytes);
-    return status;
+    return BR_OK;
 }
 
 /* ---- slices ---- */
@@ -241,17 +240,15 @@ static void prepare_share(void *self, double share)
 }
 
 /* The cells of a slice that went well, in all norms. */
-static enum br_status keep_cells(const struct work *w, size_t slice, struct br_error *err)
+static void keep_cells(const struct work *w, size_t slice)
 {
-    enum br_status status = BR_OK;
     const size_t *of = w->slices.of;
     for (size_t s = 0; s < w->count; of += br_study_cells(&w->studies[s++]))
         for (struct br_study *norm = &w->studies[s]; norm; norm = norm->next_norm)
-            for (size_t c = 0; c < br_study_cells(norm) && !status; c++)
+            for (size_t c = 0; c < br_study_cells(norm); c++)
                 if (of[c] == slice && !norm->cell[c].failure.status &&
                     isfinite(norm->cell[c].error[BR_PART_TOTAL]))
-                    status = write_cell(norm, c, err);
-    return status;
+                    write_cell(norm, c);
 }
 
 static enum br_status march(struct work *w, int threads, struct br_error *err)
@@ -272,7 +269,7 @@ static enum br_status march(struct work *w, int threads, struct br_error *err)
         status = br_batch_march(w->studies, w->count, &w->slices, i, threads, o ? &share : NULL,
                                 w->results, err);
         if (!status)
-            status = keep_cells(w, i, err);
+            keep_cells(w, i);
     }
     const bool lost = fclose(w->results) != 0;
     return lost && !status ? br_no_memory(err, "what is kept") : status;

@@ -215,15 +215,14 @@ static bool take_kept(struct br_trial *t, const struct br_trial_request *r)
     return true;
 }
 
-static enum br_status keep_trial(const struct br_trial *t, const struct br_trial_request *r,
-                                 struct br_error *err)
+static void keep_trial(const struct br_trial *t, const struct br_trial_request *r)
 {
     struct kept_trial k = {.cost = t->cost, .failure = t->failure, .end = (uint64_t)t->end};
     char key[BR_SHA256_TEXT];
     if (!r->kept || t->end == BR_TRIAL_FAILED)
-        return BR_OK;
+        return;
     key_of(t, r, key);
-    return br_kept_write(r->kept, key, &k, sizeof k, err);
+    br_kept_write(r->kept, key, &k, sizeof k);
 }
 
 /* A failure of the march is a result of the trial; other failures end the call. */
@@ -238,7 +237,8 @@ static enum br_status time_one(struct br_trial *trial, const struct br_trial_req
         return status;
     if (status && trial->end != BR_TRIAL_OVER)
         trial->end = BR_TRIAL_FAILED;
-    return keep_trial(trial, request, err);
+    keep_trial(trial, request);
+    return BR_OK;
 }
 
 /* What a trial costs, about, for the observer. */
