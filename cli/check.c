@@ -132,6 +132,26 @@ static enum br_status check_heeded(const struct run *r, struct br_error *err)
     return status;
 }
 
+/* ---- what would be run ---- */
+
+static enum br_status foresee(const struct run *r, struct br_error *err)
+{
+    struct br_foreseen work = {.together = !r->fail_fast};
+    for (size_t i = 0; i < r->count; i++)
+        for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+            const struct br_check *c = &r->check[i];
+            const size_t cells = c->verify ? c->verify->study[kind].count : 0;
+            const size_t heads = kind == BR_VERIFY_JOINT && cells ? 1 : cells ? cells - 1 : 0;
+            if (!c->verify)
+                work.then = "come the runs of other programs, which study files name";
+            for (size_t h = 0; h < heads; h++) {
+                const struct br_study study = br_check_study(c, (enum br_verify_kind)kind, h);
+                br_foreseen_add_study(&work, &study);
+            }
+        }
+    return br_session_foresee(&r->session, &work, err);
+}
+
 /* ---- computing ---- */
 
 static int by_work(const void *a, const void *b)
@@ -250,10 +270,13 @@ static enum br_status run(const struct br_options *options, struct br_error *err
             r.all ? "--all and scenes are given, expected one of the two"
                   : "no scene is given, expected files, names of bundled scenes, or --all");
     const bool writes = r.session.writes;
-    const bool failed =
-        read_scenes(&r, err) || check_heeded(&r, err) || (writes && prepare_reports(&r, err)) ||
-        compute(&r, err) ||
-        (writes && (write_all(&r, err) || br_verdicts_conclude(&r.verdicts, r.check, r.done, err)));
+    bool failed = read_scenes(&r, err) || check_heeded(&r, err);
+    if (!failed && br_option_given(options, BR_OPT_DRY_RUN))
+        failed = foresee(&r, err);
+    else if (!failed)
+        failed = (writes && prepare_reports(&r, err)) || compute(&r, err) ||
+                 (writes &&
+                  (write_all(&r, err) || br_verdicts_conclude(&r.verdicts, r.check, r.done, err)));
     clear(&r);
     return failed ? err->status : BR_OK;
 }

@@ -23,10 +23,13 @@ enum {
     BR_FOR_COMPLETIONS = 512,
     BR_FOR_HELP = 1024,
     BR_FOR_ORDERS = 2048,
+    BR_FOR_REPEAT = 4096,
 };
 
 enum br_option_id {
     BR_OPT_N,
+    BR_OPT_VARY,
+    BR_OPT_DRY_RUN,
     BR_OPT_K,
     BR_OPT_STEPS,
     BR_OPT_REFERENCE,

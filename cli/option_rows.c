@@ -308,6 +308,26 @@ static const struct br_option rows[] = {
     {BR_OPT_MARKDOWN, "markdown", 0, NULL, "print docs/options.md", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_HELP},
 
+    /* what is kept */
+    {BR_OPT_RESUME, "resume", 0, NULL, "take finished work that is kept in the folder of --out",
+     NULL, BR_TAKES_FLAG, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN,
+     .more = "After an interruption, or for a larger grid: finished cells and trials are kept in "
+             "DIR/.kept, and only the others are marched. What another version of the program or "
+             "another machine has kept is not taken."},
+
+    /* what varies, and what is foreseen */
+    {BR_OPT_DRY_RUN, "dry-run", 0, NULL,
+     "say what would be run, how long it takes and how much memory; run nothing", NULL,
+     BR_TAKES_FLAG, .commands = MARCHES | BR_FOR_TRADE | BR_FOR_PLAN,
+     .more = "Times are estimates for a core of 2 GHz."},
+    {BR_OPT_VARY, "vary", 0, "KEY=VALUES",
+     "a number of the scene that varies: contact.stiffness=1e2..1e6 log 9", NULL, BR_TAKES_TEXT,
+     .commands = BR_FOR_STUDY | BR_FOR_RUN,
+     .more = "KEY is a key of the scene whose value is a number, with its section: length, "
+             "axial.viscosity. VALUES are LOW..HIGH log COUNT, LOW..HIGH lin COUNT, or a list "
+             "separated by commas, in the key's unit, 1000 at most. Each value is read as if it "
+             "stood in the scene. Out come a table and a picture over the values."},
+
     /* for all */
     {BR_OPT_OUT, "out", 'o', "DIR", folder, "results", BR_TAKES_DIR,
      .commands = BR_FOR_TABLES | BR_FOR_STUDY},
@@ -328,8 +348,8 @@ static const struct br_option rows[] = {
                  BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
      .more = "The results have the same bits on any number."},
     {BR_OPT_QUIET, "quiet", 'q', NULL, quiet, NULL, BR_TAKES_FLAG,
-     .commands =
-         MARCHES | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS},
+     .commands = MARCHES | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES | BR_FOR_FIGURES |
+                 BR_FOR_ORDERS | BR_FOR_REPEAT},
     {BR_OPT_HELP, "help", 'h', NULL, "this help", NULL, BR_TAKES_FLAG, .commands = ~0u},
 };
 enum { ROWS = sizeof rows / sizeof *rows };

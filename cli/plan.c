@@ -16,6 +16,7 @@ struct run {
     struct br_study_request study;
     struct br_opened_scene opened;
     struct br_plan plan;
+    struct br_kept kept;
 };
 
 static enum br_status read_request(struct run *r, struct br_error *err)
@@ -52,15 +53,32 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     p->request.time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
     if (r->study.methods.count)
         p->methods = r->study.methods;
-    return br_session_open(&r->session, err);
+    return BR_OK;
+}
+
+static enum br_status foresee(struct run *r, struct br_error *err)
+{
+    struct br_foreseen work = {
+        .alone = true,
+        .then = "come trials that the models of these propose, which nobody can foresee"};
+    struct br_trial_request request = r->plan.request;
+    request.repeats = 1; /* as cheap trials have it */
+    const enum br_status status = br_plan_lay_out(&r->plan, err);
+    for (size_t i = 0; i < r->plan.count && !status; i++)
+        br_foreseen_add_trial(&work, &r->plan.trial[i], &request);
+    return status ? status : br_session_foresee(&r->session, &work, err);
 }
 
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const char *name = r->opened.scene.name;
+    if (br_session_keep(&r->session, r->opened.text, "", &r->kept, err))
+        return err->status;
+    r->plan.request.kept = *r->kept.folder ? &r->kept : NULL;
     r->plan.request.observer = br_progress_start(name, r->session.quiet);
     const enum br_status status = br_plan_make(&r->plan, err);
     br_progress_end();
+    br_session_tell_kept(&r->session, &r->kept);
     if (!status)
         return br_progress_result(status, err);
     br_failed_in(err, name);
@@ -87,8 +105,11 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 {
     static struct run r; /* large: models of all methods */
     r = (struct run){.session = br_session_begin(options)};
-    const bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err) ||
-                        compute(&r, err) || write_all(&r, err);
+    bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err);
+    if (!failed)
+        failed = br_option_given(options, BR_OPT_DRY_RUN)
+                     ? foresee(&r, err)
+                     : br_session_open(&r.session, err) || compute(&r, err) || write_all(&r, err);
     br_session_close(&r.session);
     br_plan_clear(&r.plan);
     br_opened_scene_clear(&r.opened);

@@ -6,6 +6,9 @@
 #define BR_CLI_SESSION_H
 
 #include "cli/documents.h"
+#include "study/foresee/foreseen.h"
+#include "study/kept/kept.h"
+#include "study/scene/vary.h"
 
 /* A scene as a command opens it. Begins as zeros; not to be moved. */
 struct br_opened_scene {
@@ -17,6 +20,10 @@ struct br_opened_scene {
 /* Fails as br_scene_open; clear it even then. */
 enum br_status br_opened_scene_read(struct br_opened_scene *scene, const char *name,
                                     struct br_error *err);
+/* The same scene with value i of what is varied. Fails as br_varied_scene; clear it even then. */
+enum br_status br_opened_scene_vary(struct br_opened_scene *scene,
+                                    const struct br_opened_scene *base,
+                                    const struct br_varied *varied, size_t i, struct br_error *err);
 void br_opened_scene_clear(struct br_opened_scene *scene);
 
 /* Static strings, and the scene's; NULL: of no one scene. */
@@ -51,6 +58,15 @@ enum br_status br_session_alone(struct br_error *err);
  * the session even then. */
 enum br_status br_session_open(struct br_session *session, struct br_error *err);
 
+/* Where a scene's finished work is kept, in the folder of --out, which is open: out; with --resume
+ * what is there is taken. text: of the scene; more: what else its work follows from, or "". Without
+ * a folder, or on several ranks, nothing is kept, and --resume is refused (BR_BAD_INPUT); BR_IO. */
+enum br_status br_session_keep(const struct br_session *session, const char *text, const char *more,
+                               struct br_kept *kept, struct br_error *err);
+
+/* Says how much was taken, and warns of what was not what it should be. */
+void br_session_tell_kept(const struct br_session *session, const struct br_kept *kept);
+
 /* Makes room for reports. Fails with BR_NO_MEMORY. */
 enum br_status br_session_report(struct br_session *session, size_t documents,
                                  struct br_error *err);
@@ -61,9 +77,18 @@ enum br_status br_session_report(struct br_session *session, size_t documents,
 void br_session_draw(struct br_session *session, struct br_document *report,
                      struct br_figure figure, const char *title);
 
+/* Shows what would be marched (--dry-run), and releases it. Fails as br_document_show. */
+enum br_status br_session_foresee(const struct br_session *session, struct br_foreseen *work,
+                                  struct br_error *err);
+
 /* Shows the reports on the terminal, draws the pictures, writes all and puts it in place. Fails as
  * br_picture_files_draw, br_documents_write and br_output_commit; what is shown was shown then. */
 enum br_status br_session_finish(struct br_session *session, struct br_error *err);
+
+/* The whole report of what varies, with its picture, and that of the session's end: fails as
+ * br_session_finish, and with BR_NOT_FINITE where values have failed, when all is written. */
+enum br_status br_session_variation(struct br_session *session, const struct br_variation *found,
+                                    const struct br_opened_scene *base, struct br_error *err);
 
 /* Removes what has not been put in place, and releases the rest. */
 void br_session_close(struct br_session *session);

@@ -22,10 +22,13 @@
 
 /* One study: a scene, and the printed table to hold it against, if any. */
 struct job {
-    const char *name;    /* of the result files; NULL: the scene's */
-    const char *scene;   /* a file, or a bundled scene */
-    const char *printed; /* a data file below the data folder, or NULL */
-    const char *caption; /* NULL: the scene's title */
+    const char *name;                   /* of the result files; NULL: the scene's */
+    const char *scene;                  /* a file, or a bundled scene */
+    const char *printed;                /* a data file below the data folder, or NULL */
+    const char *caption;                /* NULL: the scene's title */
+    const struct br_opened_scene *base; /* of --vary, instead of `scene`: with that value */
+    const struct br_varied *varied;
+    size_t value;
 };
 
 enum { MESHES = 4 }; /* an order needs three differences */
@@ -37,6 +40,7 @@ struct work {
     struct br_tips tips;       /* only without a reference */
     size_t mesh[MESHES];       /* for differences, where those of the grid do not do */
     struct br_error no_meshes; /* why there are no differences */
+    struct br_kept kept;
 };
 
 /* A report with its name and caption. */
@@ -49,6 +53,7 @@ struct page {
 struct run {
     struct br_session session;
     struct br_study_request request;
+    const char *what; /* for the progress */
     bool differences; /* --reference none: cells against the next finer ones */
     size_t jobs, pages;
     size_t heads;      /* jobs, or twice that: each job, then each against the exact solution, or
@@ -174,7 +179,10 @@ static enum br_status start_report(struct run *r, const struct job *job, size_t 
 static enum br_status prepare_job(struct run *r, const struct job *job, size_t i,
                                   struct br_error *err)
 {
-    enum br_status status = br_opened_scene_read(&r->work[i].opened, job->scene, err);
+    struct br_opened_scene *opened = &r->work[i].opened;
+    enum br_status status =
+        job->varied ? br_opened_scene_vary(opened, job->base, job->varied, job->value, err)
+                    : br_opened_scene_read(opened, job->scene, err);
     if (!status)
         status = make_grid(r, i, err);
     if (!status)
@@ -238,6 +246,22 @@ static void clear(struct run *r)
 
 /* ---- computing ---- */
 
+/* Finished cells are kept with their scene; the differences of neighbours are not. */
+static enum br_status keep(struct run *r, const char *more, struct br_error *err)
+{
+    if (r->differences)
+        return br_option_given(r->session.options, BR_OPT_RESUME)
+                   ? br_fail(err, BR_BAD_INPUT, "--resume: --reference none does not heed it")
+                   : BR_OK;
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < r->jobs && !status; i++)
+        status = br_session_keep(&r->session, r->work[i].opened.text, more, &r->work[i].kept, err);
+    for (size_t h = 0; h < r->heads && !status; h++)
+        for (struct br_study *s = study_of(r, h, 0); s && *r->work->kept.folder; s = s->next_norm)
+            s->kept = &r->work[h % r->jobs].kept;
+    return status;
+}
+
 /* Of what marches at once: without a reference one job after the other. */
 static enum br_status check_memory(const struct run *r, struct br_error *err)
 {
@@ -294,7 +318,7 @@ static enum br_status run_meshes(struct run *r, size_t job, const struct br_obse
 {
     const size_t norms = r->request.norms;
     struct work *w = &r->work[job];
-    struct br_study grid[BR_MOST_NORMS];
+    struct br_study grid[BR_MOST_NORMS] = {0};
     struct br_differences out[BR_MOST_NORMS] = {0};
     for (size_t m = 0; m < norms; m++) {
         grid[m] = grid_of_meshes(study_of(r, job, 0), w->mesh);
@@ -327,7 +351,7 @@ static enum br_status finish_page(const struct run *r, struct page *page, double
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
-    const struct br_observer *observer = br_progress_start("marching", r->session.quiet);
+    const struct br_observer *observer = br_progress_start(r->what, r->session.quiet);
     enum br_status status = BR_OK;
     if (!r->differences)
         status = br_study_run(r->study, r->heads, r->session.threads, observer, err);
@@ -335,6 +359,8 @@ static enum br_status compute(struct run *r, struct br_error *err)
         status =
             r->differences ? run_differences(r, i, observer, err) : run_meshes(r, i, observer, err);
     br_progress_end();
+    for (size_t i = 0; i < r->jobs; i++)
+        br_session_tell_kept(&r->session, &r->work[i].kept);
     const double wall = br_seconds() - start;
     for (size_t i = 0; i < r->pages && !status; i++)
         status = finish_page(r, &r->page[i], wall, err);
@@ -365,6 +391,13 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     return br_session_finish(&r->session, err);
 }
 
+static void foresee(const struct run *r, struct br_foreseen *work)
+{
+    for (size_t h = 0; h < (r->differences ? r->jobs : r->heads); h++)
+        br_foreseen_add_study(work, study_of(r, h, 0));
+    work->together = true;
+}
+
 /* A failed cell fails the run, after everything has been written. */
 static enum br_status check_cells(const struct run *r, struct br_error *err)
 {
@@ -386,18 +419,190 @@ static enum br_status check_cells(const struct run *r, struct br_error *err)
 static enum br_status run_jobs(const struct br_options *options, const struct job *job, size_t jobs,
                                bool with_exact, struct br_error *err)
 {
-    struct run r = {.session = br_session_begin(options), .jobs = jobs};
+    struct run r = {.session = br_session_begin(options), .jobs = jobs, .what = "marching"};
     const bool writes = r.session.writes;
-    const bool failed = prepare(&r, job, with_exact, err) || check_memory(&r, err) ||
-                        br_session_open(&r.session, err) ||
-                        (writes && br_warn_of_studies(r.study, jobs, err)) || compute(&r, err) ||
-                        (writes && write_all(&r, err)) || check_cells(&r, err);
+    struct br_foreseen work = {0};
+    bool failed = prepare(&r, job, with_exact, err);
+    if (!failed && br_option_given(options, BR_OPT_DRY_RUN)) {
+        foresee(&r, &work);
+        failed = br_session_foresee(&r.session, &work, err);
+    } else if (!failed) {
+        failed = check_memory(&r, err) || br_session_open(&r.session, err) || keep(&r, "", err) ||
+                 (writes && br_warn_of_studies(r.study, jobs, err)) || compute(&r, err) ||
+                 (writes && write_all(&r, err)) || check_cells(&r, err);
+    }
     clear(&r);
+    return failed ? err->status : BR_OK;
+}
+
+/* ---- a parameter that varies ---- */
+
+enum { ERROR, RELATIVE, OWN, P, P_LOW, P_HIGH, Q, Q_LOW, Q_HIGH, MISFIT, POINTS, SWEPT };
+
+struct varied_study {
+    struct br_session session;
+    struct br_opened_scene base;
+    struct br_varied varied;
+    struct run *point; /* of each value; owned */
+    size_t points;
+    struct br_variation found;
+    struct br_variation_column column[SWEPT];
+    char axis[160];
+};
+
+static void name_columns(struct varied_study *w, const struct br_norm *norm)
+{
+    snprintf(w->axis, sizeof w->axis, "%s of the finest cell (%s)", norm->symbol,
+             norm->unit_markup);
+    const struct br_variation_column columns[SWEPT] = {
+        [ERROR] = {"error", "error of the finest cell", norm->unit, "%.3e", .axis = w->axis,
+                   .logarithmic = true},
+        [RELATIVE] = {"relative", "relative", .format = "%.2e"},
+        [OWN] = {"reference_error", .unit = norm->unit, .for_programs = true},
+        [P] = {"p", "order in h", .format = "%.3f", .axis = "order"},
+        [P_LOW] = {"p_low", .for_programs = true},
+        [P_HIGH] = {"p_high", .for_programs = true},
+        [Q] = {"q", "order in k", .format = "%.3f", .axis = "order"},
+        [Q_LOW] = {"q_low", .for_programs = true},
+        [Q_HIGH] = {"q_high", .for_programs = true},
+        [MISFIT] = {"misfit", "misfit", .format = "%.2g"},
+        [POINTS] = {"points", "cells that count", .format = "%.0f"},
+    };
+    memcpy(w->column, columns, sizeof columns);
+}
+
+/* An order is claimed as a study's report claims it. */
+static void take_order(double *value, const struct br_joint_fit *fit, const struct br_estimate *e)
+{
+    if (!br_joint_describes(fit) || !br_order_determined(e))
+        return;
+    value[0] = e->value;
+    value[1] = e->low;
+    value[2] = e->high;
+}
+
+static void take_point(const struct run *r, double *value, const char **remark)
+{
+    const struct br_report *report = &r->page[0].report;
+    const struct br_study *s = report->study;
+    const struct br_joint_fit *fit = &report->fits[BR_PART_TOTAL].joint;
+    const struct br_cell *finest = &s->cell[br_study_cells(s) - 1];
+    value[ERROR] = finest->error[BR_PART_TOTAL];
+    value[RELATIVE] = value[ERROR] / s->reference_scale;
+    value[OWN] = report->fits[BR_PART_TOTAL].reference_error;
+    take_order(&value[P], fit, &fit->p);
+    take_order(&value[Q], fit, &fit->q);
+    value[MISFIT] = fit->misfit;
+    value[POINTS] = (double)fit->points;
+    if (finest->flag[BR_PART_TOTAL])
+        *remark = br_flag_name(finest->flag[BR_PART_TOTAL]);
+}
+
+/* All grids, so that what is refused is refused before anything marches. */
+static enum br_status prepare_points(struct varied_study *w, struct br_error *err)
+{
+    const struct br_options *o = w->session.options;
+    char text[BR_VARIED_TEXT];
+    if (br_opened_scene_read(&w->base, o->word[0], err) ||
+        br_varied_read(br_option_text(o, BR_OPT_VARY), &w->varied, err))
+        return err->status;
+    if (!(w->point = br_allocate(w->varied.count, sizeof *w->point)))
+        return br_no_memory(err, "the studies");
+    while (w->points < w->varied.count) {
+        const size_t i = w->points++;
+        struct run *r = &w->point[i];
+        const struct job job = {.base = &w->base, .varied = &w->varied, .value = i};
+        *r = (struct run){.session = w->session, .jobs = 1, .what = "marching"};
+        if (prepare(r, &job, false, err) || check_memory(r, err))
+            return br_failed_in(err, br_varied_text(&w->varied, i, text));
+        if (r->request.norms > 1)
+            return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one with --vary",
+                           r->request.norms);
+        if (r->differences)
+            return br_fail(err, BR_BAD_INPUT,
+                           "--reference: found 'none', expected a judge that gives errors: exact, "
+                           "mms or fine:N,K");
+    }
+    name_columns(w, w->point[0].request.norm[0]);
+    w->found = (struct br_variation){.varied = &w->varied,
+                                     .format = "beamrate study variation",
+                                     .column = w->column,
+                                     .columns = SWEPT};
+    return br_variation_create(&w->found, &w->base.scene, err);
+}
+
+/* A value whose study fails is a result. */
+static enum br_status run_point(struct varied_study *w, size_t i, struct br_error *err)
+{
+    struct run *r = &w->point[i];
+    struct br_error *failure = &w->found.failure[i];
+    struct br_study named = *r->study;
+    struct br_scene scene = *named.scene;
+    char text[BR_VARIED_TEXT], what[64];
+    named.scene = &scene;
+    scene.name = (char *)br_varied_text(&w->varied, i, text);
+    snprintf(what, sizeof what, "marching (value %zu of %zu)", i + 1, w->points);
+    r->what = what;
+    if (w->session.writes && br_warn_of_studies(&named, 1, failure))
+        return failure->status == BR_BAD_INPUT
+                   ? BR_OK
+                   : br_fail(err, failure->status, "%s", failure->message);
+    r->session.output = w->session.output; /* open by now */
+    enum br_status status = keep(r, text, err);
+    if (status)
+        return status;
+    status = compute(r, failure);
+    if (status == BR_NO_MEMORY || status == BR_INTERRUPTED || status == BR_IO)
+        return br_fail(err, status, "%s", failure->message);
+    if (!status) {
+        take_point(r, &w->found.value[i * SWEPT], &w->found.remark[i]);
+        check_cells(r, failure);
+    }
+    return BR_OK;
+}
+
+static enum br_status run_points(struct varied_study *w, struct br_error *err)
+{
+    enum br_status status = br_session_open(&w->session, err);
+    for (size_t i = 0; i < w->points && !status; i++)
+        status = run_point(w, i, err);
+    return status || !w->session.writes
+               ? status
+               : br_session_variation(&w->session, &w->found, &w->base, err);
+}
+
+static enum br_status foresee_points(const struct varied_study *w, struct br_error *err)
+{
+    struct br_foreseen work = {0};
+    for (size_t i = 0; i < w->points; i++)
+        foresee(&w->point[i], &work);
+    work.together = false;
+    return br_session_foresee(&w->session, &work, err);
+}
+
+static enum br_status run_varied(const struct br_options *options, struct br_error *err)
+{
+    struct varied_study w = {.session = br_session_begin(options)};
+    bool failed = prepare_points(&w, err);
+    if (!failed)
+        failed = br_option_given(options, BR_OPT_DRY_RUN) ? foresee_points(&w, err)
+                                                          : run_points(&w, err);
+    for (size_t i = 0; i < w.points; i++) {
+        w.point[i].session = (struct br_session){0};
+        clear(&w.point[i]);
+    }
+    free(w.point);
+    br_variation_clear(&w.found);
+    br_varied_clear(&w.varied);
+    br_opened_scene_clear(&w.base);
+    br_session_close(&w.session);
     return failed ? err->status : BR_OK;
 }
 
 static enum br_status run_study(const struct br_options *options, struct br_error *err)
 {
+    if (br_option_given(options, BR_OPT_VARY))
+        return run_varied(options, err);
     const struct job job = {.scene = options->word[0]};
     return run_jobs(options, &job, 1, false, err);
 }
@@ -405,8 +610,14 @@ static enum br_status run_study(const struct br_options *options, struct br_erro
 static enum br_status run_tables(const struct br_options *options, struct br_error *err)
 {
     static const struct job printed[] = {
-        {"table1", "example1", "reference/printed/table1.csv", "Table 1: Example 1, stick"},
-        {"table2", "example2", "reference/printed/table2.csv", "Table 2: Example 2, slip"},
+        {.name = "table1",
+         .scene = "example1",
+         .printed = "reference/printed/table1.csv",
+         .caption = "Table 1: Example 1, stick"},
+        {.name = "table2",
+         .scene = "example2",
+         .printed = "reference/printed/table2.csv",
+         .caption = "Table 2: Example 2, slip"},
     };
     return run_jobs(options, printed, sizeof printed / sizeof *printed, true, err);
 }
@@ -424,6 +635,7 @@ const struct br_command br_command_study = {
         "fitted with 95 % intervals.",
     .example = {"beamrate study example4 -n 50,100,200 -k 0.03,0.015 --reference fine:800,1e-3",
                 "beamrate study example2 --norm l2,energy,tip",
+                "beamrate study example2 --vary 'contact.stiffness=1e2..1e4 log 5'",
                 "beamrate study release --reference none"},
     .least_words = 1,
     .most_words = 1,

@@ -19,6 +19,7 @@ struct item {
     struct br_printed printed; /* the paper's table of it; empty: none */
     size_t *steps;             /* as --k has them; owned */
     struct br_trade trade;
+    struct br_kept kept;
 };
 
 struct run {
@@ -158,17 +159,32 @@ static enum br_status hold_one(struct run *r, struct item *item, struct br_error
     if (!status)
         status = br_trade_hold(trade, err);
     br_progress_end();
+    br_session_tell_kept(&r->session, &item->kept);
     return status ? br_failed_in(err, name) : br_progress_result(status, err);
 }
 
 static enum br_status hold(struct run *r, struct br_error *err)
 {
     enum br_status status = BR_OK;
+    for (size_t i = 0; i < r->items && !status; i++) {
+        struct item *item = &r->item[i];
+        status = br_session_keep(&r->session, item->opened.text, "", &item->kept, err);
+        item->trade.request.kept = *item->kept.folder ? &item->kept : NULL;
+    }
     for (size_t i = 0; i < r->items; i++)
         br_warn_of_trade(&r->item[i].trade);
     for (size_t i = 0; i < r->items && !status; i++)
         status = hold_one(r, &r->item[i], err);
     return status;
+}
+
+static enum br_status foresee(const struct run *r, struct br_error *err)
+{
+    struct br_foreseen work = {.alone = true};
+    for (size_t i = 0; i < r->items; i++)
+        for (size_t t = 0; t < r->item[i].trade.count; t++)
+            br_foreseen_add_trial(&work, &r->item[i].trade.trial[t], &r->item[i].trade.request);
+    return br_session_foresee(&r->session, &work, err);
 }
 
 /* ---- results ---- */
@@ -228,6 +244,8 @@ static enum br_status split(const struct br_options *o, struct br_error *err)
                         : br_option_given(o, BR_OPT_TIME_LIMIT) ? "time-limit"
                         : br_option_given(o, BR_OPT_SECONDS)    ? "seconds"
                         : br_option_given(o, BR_OPT_REFERENCE)  ? "reference"
+                        : br_option_given(o, BR_OPT_DRY_RUN)    ? "dry-run"
+                        : br_option_given(o, BR_OPT_RESUME)     ? "resume"
                                                                 : NULL;
     if (other)
         return br_fail(err, BR_BAD_INPUT, "--%s: --split does not heed it", other);
@@ -271,9 +289,12 @@ static enum br_status run(const struct br_options *options, struct br_error *err
     if (br_option_given(options, BR_OPT_SPLIT))
         return split(options, err);
     struct run r = {.session = br_session_begin(options)};
-    const bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err) ||
-                        br_session_open(&r.session, err) || hold(&r, err) || write_all(&r, err) ||
-                        check(&r, err);
+    bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err);
+    if (!failed)
+        failed = br_option_given(options, BR_OPT_DRY_RUN)
+                     ? foresee(&r, err)
+                     : br_session_open(&r.session, err) || hold(&r, err) || write_all(&r, err) ||
+                           check(&r, err);
     br_session_close(&r.session);
     for (size_t i = 0; i < r.items; i++) {
         br_trade_clear(&r.item[i].trade);

@@ -19,6 +19,7 @@ struct br_report;
 struct br_scene;
 struct br_split;
 struct br_stability;
+struct br_variation;
 struct br_trade;
 struct br_trial;
 
@@ -67,6 +68,11 @@ struct br_figure br_split_draw(const struct br_split *split, size_t count);
 /* A panel over the size of elements, and of steps; the line of each quantity at the finest size of
  * the other. */
 struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption);
+
+/* ---- variation.c: over a scene's number that is varied ---- */
+
+/* A panel for each axis of its columns. */
+struct br_figure br_variation_draw(const struct br_variation *variation);
 
 /* ---- extremes.c ---- */
 

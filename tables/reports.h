@@ -16,6 +16,7 @@ struct br_extreme_counts;
 struct br_extreme_map;
 struct br_finding;
 struct br_floors;
+struct br_foreseen;
 struct br_history_row;
 struct br_old_check;
 struct br_orders;
@@ -25,6 +26,7 @@ struct br_report;
 struct br_run_report;
 struct br_split;
 struct br_stability;
+struct br_variation;
 struct br_trade;
 struct br_warnings;
 
@@ -32,6 +34,9 @@ struct br_warnings;
 
 /* Of a study, which has been finished (br_report_finish). */
 void br_report_study(const struct br_report *report, struct br_document *d);
+
+/* Of what a study, or a run, has found at each value of a number that is varied. */
+void br_report_variation(const struct br_variation *variation, struct br_document *d);
 
 /* What the paper claims beside what is found. finding: in the order of br_claims; h = L/n,
  * k = 1 s / per_second. */
@@ -60,6 +65,12 @@ void br_history_csv_row(FILE *out, const struct br_history_row *row);
 
 /* The last line of a march that did not reach T: a comment, "# stopped: ...". */
 void br_history_csv_stopped(FILE *out, const char *message);
+
+/* ---- dry runs ---- */
+
+/* What a command would march, on so many threads. */
+void br_report_foreseen(const struct br_foreseen *work, const char *command, int threads,
+                    struct br_document *d);
 
 /* ---- orders ---- */
 

@@ -65,6 +65,8 @@ double br_norm_of_constant(const struct br_norm *norm, const struct br_scene *sc
 
 /* ---- a study ---- */
 
+struct br_kept;
+
 /* A convergence study: a grid of cells (n, k) against one reference, with the error in
  * one norm over all the time levels of each cell. */
 
@@ -117,6 +119,8 @@ struct br_study {
     const size_t *steps;        /* k_count, borrowed */
     struct br_study *next_norm; /* the same study in another norm, all else being equal: measured
                                    on the same marches; NULL: none. Borrowed */
+    struct br_kept *kept;       /* where finished cells are kept (study/kept/kept.h); NULL: nowhere.
+                                   All studies of a call, or none of them. Borrowed */
     /* out */
     struct br_cell *cell; /* br_study_cells of them, by rows of equal n; owned */
     struct br_judge_report judged_by;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/grid/sweep.h"
 
+#include "study/kept/kept.h"
 #include "study/ranks/ranks.h"
 
 /* The largest divisor of `of` that is <= a, and the smallest that is >= a. */
@@ -115,7 +116,8 @@ enum br_status br_study_run_each(struct br_study *studies, size_t count, int thr
         if (prepare(&studies[i], &studies[i].failure) == BR_NO_MEMORY)
             status = br_fail(err, BR_NO_MEMORY, "%s", studies[i].failure.message);
     if (!status)
-        status = br_ranks_lockstep(studies, count, threads, observer, err);
+        status = count && studies->kept ? br_kept_lockstep(studies, count, threads, observer, err)
+                                        : br_ranks_lockstep(studies, count, threads, observer, err);
     for (size_t i = 0; i < count && status; i++)
         for (struct br_study *s = &studies[i]; s; s = s->next_norm)
             br_study_clear(s);

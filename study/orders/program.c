@@ -321,18 +321,22 @@ static int remove_one(const char *path, const struct stat *info, int type, struc
     return 0;
 }
 
-/* What has just been killed may still be there for a moment, and write. */
-static void remove_folder(struct run *r)
+void br_remove_folder(const char *folder)
 {
     static const struct timespec moment = {.tv_nsec = 10000000};
+    for (int tries = 0; tries < 20 && *folder && access(folder, F_OK) == 0; tries++) {
+        if (tries > 0)
+            nanosleep(&moment, NULL);
+        nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
+    }
+}
+
+static void remove_folder(struct run *r)
+{
     for (int i = 0; i < 2; i++)
         if (r->printed[i] >= 0)
             close(r->printed[i]);
-    for (int tries = 0; tries < 20 && *r->folder && access(r->folder, F_OK) == 0; tries++) {
-        if (tries > 0)
-            nanosleep(&moment, NULL);
-        nftw(r->folder, remove_one, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
-    }
+    br_remove_folder(r->folder);
 }
 
 /* The group is its own, and so are its signals: those that beamrate ignores would stay ignored.

@@ -95,6 +95,10 @@ enum br_status br_cell_key(const char *program, char *const *words,
  * cell that can be read. */
 bool br_cell_find(const char *folder, const char *key, size_t readings, struct br_numbers_row *row);
 
+/* Removes a folder with all that is in it; "": none. What has just been killed may still be there
+ * for a moment, and write, so it is tried for a while. */
+void br_remove_folder(const char *folder);
+
 /* Keeps a row, whole or not at all. */
 enum br_status br_cell_keep(const char *folder, const char *key, char *const *words,
                             size_t readings, const struct br_numbers_row *row,

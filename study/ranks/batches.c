@@ -15,7 +15,7 @@ static const double create_ns = 3.3e7;    /* a solution of the continuous proble
 
 /* The reference is sampled wherever some cell has a time level: as often as the cell of most steps
  * has some, about. */
-static double reference_cost(const struct br_study *s)
+double br_reference_cost(const struct br_study *s)
 {
     size_t levels = 0, n = 0;
     for (size_t j = 0; j < s->k_count; j++)
@@ -114,7 +114,7 @@ struct cutting {
 static bool cut_once_more(struct cutting *c, size_t s)
 {
     struct cut *cut = &c->cut[s];
-    const double reference = reference_cost(&c->studies[s]);
+    const double reference = br_reference_cost(&c->studies[s]);
     const double cells = br_slice_cells(&c->studies[s], cut->slices + 1, c->of);
     const double all_cells = cut->cost - reference; /* of the dearest slice so far */
     const bool idle = c->slices < c->ranks;
@@ -133,7 +133,7 @@ static void cut_all(struct cutting *c)
     for (size_t s = 0; s < c->count; s++) {
         if (c->studies[s].failure.status)
             continue;
-        c->cut[s] = (struct cut){1, reference_cost(&c->studies[s])};
+        c->cut[s] = (struct cut){1, br_reference_cost(&c->studies[s])};
         for (size_t i = 0; i < br_study_cells(&c->studies[s]); i++)
             c->cut[s].cost += br_cell_cost(&c->studies[s], i);
         c->total += c->cut[s].cost;

@@ -39,8 +39,9 @@ enum br_status br_batches_read(struct br_study *studies, size_t count,
                                const struct br_batches *batches, char *bytes, size_t size,
                                struct br_error *err);
 
-/* What a cell of a study costs, about, ns of one thread. */
+/* What a cell of a study costs, and its reference, about, ns of one thread. */
 double br_cell_cost(const struct br_study *study, size_t cell);
+double br_reference_cost(const struct br_study *study);
 
 /* Which slice each cell belongs to (out, br_study_cells), so that all cost about the same. Returns
  * the largest cost of a slice's cells, ns. Fails by -1: out of memory. */

@@ -458,6 +458,11 @@ struct target {
     struct br_verify *verify;
 };
 
+enum br_status br_scene_document(const struct br_scene_reader *r)
+{
+    return read_document(r, NULL);
+}
+
 static enum br_status take_scene(const struct br_scene_reader *reader, void *self)
 {
     const struct target *to = self;

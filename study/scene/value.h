@@ -24,6 +24,10 @@ typedef enum br_status br_yaml_take(const struct br_scene_reader *r, void *self)
 enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *take, void *self,
                             struct br_error *err);
 
+/* Reads the scene of a document, whose root is there, into the reader's scene (file.c). Fails as
+ * br_scene_read does. */
+enum br_status br_scene_document(const struct br_scene_reader *r);
+
 /* Refuses with "path:line: key: ..."; returns BR_BAD_INPUT. */
 __attribute__((format(printf, 4, 5))) enum br_status br_scene_refuse(
     const struct br_scene_reader *r, size_t line, const char *key, const char *format, ...);

@@ -104,6 +104,14 @@ static enum br_status make_room(struct br_plan *p, struct br_error *err)
     return p->trial && p->forecast ? BR_OK : br_no_memory(err, "the trials");
 }
 
+enum br_status br_plan_lay_out(struct br_plan *p, struct br_error *err)
+{
+    const enum br_status status = make_room(p, err);
+    if (!status)
+        add_probes(p);
+    return status;
+}
+
 /* ---- models ---- */
 
 /* The models of a plan's named methods, from their trials. */

@@ -124,6 +124,10 @@ struct br_plan {
  * Trials point to the named methods, so a plan that is made is not to be moved. */
 void br_plan_default(struct br_plan *plan, const struct br_scene *scene);
 
+/* Lays out the cheap trials that every plan begins with, and holds none. Fails with BR_NO_MEMORY.
+ */
+enum br_status br_plan_lay_out(struct br_plan *plan, struct br_error *err);
+
 /* Makes the plan. Fails with BR_BAD_INPUT (a goal that makes no sense, or below the judge's own
  * error), BR_NOT_FINITE (no trial came to its end), BR_NO_MEMORY, BR_INTERRUPTED. A goal that is
  * not reached is no failure: see `end`. Clear the plan even then. */

@@ -2,6 +2,8 @@
 #include "study/trade/trial.h"
 
 #include <math.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "solver/clock.h"
@@ -9,6 +11,7 @@
 #include "study/foresee/resources.h"
 #include "study/grid/observer.h"
 #include "study/grid/sweep.h"
+#include "study/kept/kept.h"
 
 const char *br_trial_end_name(enum br_trial_end end)
 {
@@ -176,16 +179,65 @@ static enum br_status repeat(struct clocked *c, struct br_error *err)
     return status;
 }
 
+/* ---- kept ---- */
+
+/* What is kept of a trial's clock: it came to its end, or was over the limit. */
+struct kept_trial {
+    struct br_trial_cost cost;
+    struct br_error failure;
+    uint64_t end;
+};
+
+static void key_of(const struct br_trial *t, const struct br_trial_request *r,
+                   char key[BR_SHA256_TEXT])
+{
+    const struct br_method method = br_trial_method(t);
+    char text[BR_KEPT_METHOD], work[BR_KEPT_METHOD + 200];
+    snprintf(work, sizeof work, "trial, n %zu, steps %zu, repeats %zu in %a s, limit %a s, %s",
+             t->at.n, t->at.steps, r->repeats, r->repeat_seconds, r->time_limit,
+             br_kept_method(&method, text));
+    br_kept_key(&r->kept->base, work, key);
+}
+
+static bool take_kept(struct br_trial *t, const struct br_trial_request *r)
+{
+    struct kept_trial k;
+    char key[BR_SHA256_TEXT];
+    if (!r->kept)
+        return false;
+    key_of(t, r, key);
+    if (!br_kept_read_into(r->kept, key, &k, sizeof k))
+        return false;
+    t->cost = k.cost;
+    t->failure = k.failure;
+    t->end = (enum br_trial_end)k.end;
+    atomic_fetch_add(&r->kept->taken, 1);
+    return true;
+}
+
+static void keep_trial(const struct br_trial *t, const struct br_trial_request *r)
+{
+    struct kept_trial k = {.cost = t->cost, .failure = t->failure, .end = (uint64_t)t->end};
+    char key[BR_SHA256_TEXT];
+    if (!r->kept || t->end == BR_TRIAL_FAILED)
+        return;
+    key_of(t, r, key);
+    br_kept_write(r->kept, key, &k, sizeof k);
+}
+
 /* A failure of the march is a result of the trial; other failures end the call. */
 static enum br_status time_one(struct br_trial *trial, const struct br_trial_request *request,
                                struct br_error *err)
 {
     struct clocked c = {.trial = trial, .request = request};
+    if (take_kept(trial, request))
+        return BR_OK;
     const enum br_status status = repeat(&c, err);
     if (status == BR_INTERRUPTED)
         return status;
     if (status && trial->end != BR_TRIAL_OVER)
         trial->end = BR_TRIAL_FAILED;
+    keep_trial(trial, request);
     return BR_OK;
 }
 
@@ -308,6 +360,7 @@ static void fill_studies(const struct groups *g, const struct br_judge *judge)
                 .k_count = g->first[i + 1] - first,
                 .n = &g->member[first]->at.n,
                 .steps = &g->steps[first],
+                .kept = r->kept,
                 .next_norm = m + 1 < r->norms ? study_of(g, i, m + 1) : NULL,
             };
             s->reference_method.axial_degree = s->method.axial_degree;

@@ -65,6 +65,7 @@ struct br_trial_request {
     double seconds;                     /* of all trials, about; 0: however long they take */
     int threads;                        /* of the errors; 0: all cores */
     const struct br_observer *observer; /* NULL: nobody */
+    struct br_kept *kept;               /* where trials are kept; NULL: nowhere */
 };
 
 /* What is asked for where nobody says otherwise: l2, 3 repeats within 0.1 s, 10 s a march. */

@@ -75,6 +75,12 @@ static struct br_study study_at(const struct section *s, size_t h)
     };
 }
 
+struct br_study br_check_study(const struct br_check *check, enum br_verify_kind kind, size_t h)
+{
+    const struct section s = {.check = check, .kind = kind};
+    return study_at(&s, h);
+}
+
 /* Where the chain of a section's head goes on in norm m > 0. */
 static struct br_study *next_in_chain(const struct plan *plan, const struct section *s, size_t h,
                                       size_t m)

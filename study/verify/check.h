@@ -83,6 +83,10 @@ enum br_status br_check_run(struct br_check *checks, size_t count, int threads,
                             const struct br_observer *observer, struct br_error *err);
 void br_check_clear(struct br_check *check);
 
+/* The study that is marched for pair h of neighbours, or for the joint path (h = 0), but for its
+ * norm. */
+struct br_study br_check_study(const struct br_check *check, enum br_verify_kind kind, size_t h);
+
 /* What a check will cost: element-steps of all its marches, a field. */
 double br_check_work(const struct br_check *check);
 

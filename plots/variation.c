@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What was found over a scene's number that was varied. */
+#include <math.h>
+#include <string.h>
+
+#include "plots/pictures.h"
+#include "study/scene/vary.h"
+
+static void add_series(struct br_figure *f, const struct br_variation *variation, size_t column)
+{
+    const struct br_variation_column *c = &variation->column[column];
+    struct br_series *s = br_series_add(f, BR_PEN_CURVE, "%s", c->heading);
+    for (size_t i = 0; i < variation->varied->count; i++)
+        br_point_add(s, variation->varied->value[i], br_variation_value(variation, i, column),
+                     variation->remark[i]);
+    br_series_sort(s);
+}
+
+/* Columns of one axis, from the first one on, into one panel. */
+static void add_panel(struct br_figure *f, const struct br_variation *variation, size_t first)
+{
+    const struct br_varied *v = variation->varied;
+    char label[120];
+    BR_SAY(label, "%s (%s)", v->name, v->key->unit);
+    for (char *under = label; (under = strchr(under, '_'));)
+        *under = ' '; /* no subscript */
+    struct br_panel *p = br_panel_add(f, label, variation->column[first].axis);
+    p->log_x = v->logarithmic;
+    p->log_y = variation->column[first].logarithmic;
+    for (size_t c = first; c < variation->columns; c++)
+        if (variation->column[c].axis &&
+            strcmp(variation->column[c].axis, variation->column[first].axis) == 0)
+            add_series(f, variation, c);
+}
+
+static bool has_number(const struct br_variation *variation, size_t column)
+{
+    bool has = false;
+    for (size_t i = 0; i < variation->varied->count; i++)
+        has |= isfinite(br_variation_value(variation, i, column));
+    return has;
+}
+
+struct br_figure br_variation_draw(const struct br_variation *variation)
+{
+    struct br_figure figure = {0}, *f = &figure;
+    BR_SAY(f->stem, "%s", variation->name);
+    BR_SAY(f->title, "%s", variation->caption);
+    BR_SAY(f->about, "what was found over %s", variation->varied->name);
+    BR_SAY(f->hollow, "see the table's remarks");
+    for (size_t c = 0; c < variation->columns; c++) {
+        bool first = variation->column[c].axis && has_number(variation, c);
+        for (size_t b = 0; b < c && first; b++)
+            first = !variation->column[b].axis || !has_number(variation, b) ||
+                    strcmp(variation->column[b].axis, variation->column[c].axis) != 0;
+        if (first && f->panels < BR_FIGURE_PANELS)
+            add_panel(f, variation, c);
+    }
+    return figure;
+}

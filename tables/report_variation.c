@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+
+#include "study/scene/vary.h"
+#include "tables/report_parts.h"
+
+/* "error: 1e-3 (at 100 N/m) to 2e-2 (at 1e4 N/m)." */
+static void answer_range(struct br_document *d, const struct br_variation *s, size_t column)
+{
+    const struct br_variation_column *what = &s->column[column];
+    const struct br_varied *v = s->varied;
+    size_t least = 0, most = 0, known = 0;
+    for (size_t i = 0; i < v->count; i++) {
+        const double x = br_variation_value(s, i, column);
+        if (!isfinite(x))
+            continue;
+        least = !known || x < br_variation_value(s, least, column) ? i : least;
+        most = !known || x > br_variation_value(s, most, column) ? i : most;
+        known++;
+    }
+    br_put_answer(d, "%s over %s: ", what->heading, v->name);
+    if (known)
+        br_put_more(d, "from %.4g (at %g %s) to %.4g (at %g %s)%s%s.",
+                    br_variation_value(s, least, column), v->value[least], v->key->unit,
+                    br_variation_value(s, most, column), v->value[most], v->key->unit,
+                    what->unit ? " " : "", what->unit ? what->unit : "");
+    else
+        br_put_more(d, "no value has one.");
+}
+
+static void put_row(struct br_document *d, const struct br_variation *s, size_t i)
+{
+    const struct br_varied *v = s->varied;
+    br_put_row(d);
+    BR_PUT(d, br_number(v->value[i]), .key = "value", .heading = v->name, .unit = v->key->unit);
+    for (size_t c = 0; c < s->columns; c++)
+        BR_PUT(d, br_number(br_variation_value(s, i, c)), .key = s->column[c].key,
+               .heading = s->column[c].heading, .unit = s->column[c].unit,
+               .format = s->column[c].format,
+               .flags = s->column[c].for_programs ? BR_FOR_PROGRAMS : 0);
+    BR_PUT(d, br_text(s->remark[i]), .key = "remark", .flags = BR_WRAP);
+    BR_PUT(d, br_failure_text(&s->failure[i]), .key = "failure", .flags = BR_WRAP);
+}
+
+void br_report_variation(const struct br_variation *s, struct br_document *d)
+{
+    const struct br_varied *v = s->varied;
+    size_t first = 0, answers = 0;
+    const size_t failures = br_variation_failures(s, &first);
+    br_document_begin(d, s->name, s->format, 1, s->caption);
+    for (size_t c = 0; c < s->columns && answers < 3; c++)
+        if (s->column[c].axis) {
+            answer_range(d, s, c);
+            answers++;
+        }
+    if (failures)
+        br_put_answer(d, "%zu of %zu values FAILED; the first, %g %s: %s", failures, v->count,
+                      v->value[first], v->key->unit, s->failure[first].message);
+    br_put_table(d, "values", "What was found at each value", BR_MAIN | BR_LONG);
+    for (size_t i = 0; i < v->count; i++)
+        put_row(d, s, i);
+    const struct br_fact facts[] = {{"varied.key", "varied", NULL, br_text(v->name)},
+                                    {"varied.unit", NULL, NULL, br_text(v->key->unit)},
+                                    {"varied.logarithmic", NULL, NULL, br_truth(v->logarithmic)},
+                                    {"varied.help", "which is", NULL, br_text(v->key->help)}};
+    BR_FACTS(d, facts);
+}
