@@ -184,7 +184,7 @@ enum br_status br_session_variation(struct br_session *s, const struct br_variat
     const size_t failures = br_variation_failures(found, &first);
     return failures ? br_fail(err, BR_NOT_FINITE, "%zu of %zu values failed; the first, %g %s: %s",
                               failures, found->varied->count, found->varied->value[first],
-                              found->varied->key->unit, found->failure[first].message)
+                              found->varied->unit, found->failure[first].message)
                     : BR_OK;
 }
 

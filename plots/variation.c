@@ -21,7 +21,10 @@ static void add_panel(struct br_figure *f, const struct br_variation *variation,
 {
     const struct br_varied *v = variation->varied;
     char label[120];
-    BR_SAY(label, "%s (%s)", v->name, v->key->unit);
+    if (*v->unit)
+        BR_SAY(label, "%s (%s)", v->name, v->unit);
+    else
+        BR_SAY(label, "%s", v->name);
     for (char *under = label; (under = strchr(under, '_'));)
         *under = ' '; /* no subscript */
     struct br_panel *p = br_panel_add(f, label, variation->column[first].axis);

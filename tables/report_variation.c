@@ -21,8 +21,8 @@ static void answer_range(struct br_document *d, const struct br_variation *s, si
     br_put_answer(d, "%s over %s: ", what->heading, v->name);
     if (known)
         br_put_more(d, "from %.4g (at %g %s) to %.4g (at %g %s)%s%s.",
-                    br_variation_value(s, least, column), v->value[least], v->key->unit,
-                    br_variation_value(s, most, column), v->value[most], v->key->unit,
+                    br_variation_value(s, least, column), v->value[least], v->unit,
+                    br_variation_value(s, most, column), v->value[most], v->unit,
                     what->unit ? " " : "", what->unit ? what->unit : "");
     else
         br_put_more(d, "no value has one.");
@@ -32,7 +32,7 @@ static void put_row(struct br_document *d, const struct br_variation *s, size_t 
 {
     const struct br_varied *v = s->varied;
     br_put_row(d);
-    BR_PUT(d, br_number(v->value[i]), .key = "value", .heading = v->name, .unit = v->key->unit);
+    BR_PUT(d, br_number(v->value[i]), .key = "value", .heading = v->name, .unit = v->unit);
     for (size_t c = 0; c < s->columns; c++)
         BR_PUT(d, br_number(br_variation_value(s, i, c)), .key = s->column[c].key,
                .heading = s->column[c].heading, .unit = s->column[c].unit,
@@ -55,12 +55,12 @@ void br_report_variation(const struct br_variation *s, struct br_document *d)
         }
     if (failures)
         br_put_answer(d, "%zu of %zu values FAILED; the first, %g %s: %s", failures, v->count,
-                      v->value[first], v->key->unit, s->failure[first].message);
+                      v->value[first], v->unit, s->failure[first].message);
     br_put_table(d, "values", "What was found at each value", BR_MAIN | BR_LONG);
     for (size_t i = 0; i < v->count; i++)
         put_row(d, s, i);
     const struct br_fact facts[] = {{"varied.key", "varied", NULL, br_text(v->name)},
-                                    {"varied.unit", NULL, NULL, br_text(v->key->unit)},
+                                    {"varied.unit", NULL, NULL, br_text(v->unit)},
                                     {"varied.logarithmic", NULL, NULL, br_truth(v->logarithmic)},
                                     {"varied.help", "which is", NULL, br_text(v->key->help)}};
     BR_FACTS(d, facts);

@@ -387,9 +387,11 @@ static double unseen_peak(const struct br_probe_set *s)
 {
     static const double curved = 10; /* a peak: how much more than the load's mean curvature */
     const struct br_planned_march *o = s->planned;
+    if (o->method->scheme->adaptive || /* its steps are as short as peaks ask for */
+        !br_follows_at_once(o->scene, br_time_step(o->scene, o->steps)))
+        return 0;
     const double share = finest_step(s) / o->scene->duration;
-    const bool kept = br_follows_at_once(o->scene, br_time_step(o->scene, o->steps));
-    return kept ? curved * share * share : 0;
+    return curved * share * share;
 }
 
 static void judge(struct br_prediction *p, const struct br_probe_set *s)

@@ -458,11 +458,6 @@ struct target {
     struct br_verify *verify;
 };
 
-enum br_status br_scene_document(const struct br_scene_reader *r)
-{
-    return read_document(r, NULL);
-}
-
 static enum br_status take_scene(const struct br_scene_reader *reader, void *self)
 {
     const struct target *to = self;
@@ -471,6 +466,11 @@ static enum br_status take_scene(const struct br_scene_reader *reader, void *sel
     r.scene = to->scene;
     r.given = &given;
     return read_document(&r, to->verify);
+}
+
+enum br_status br_scene_document(const struct br_scene_reader *r)
+{
+    return take_scene(r, &(struct target){r->scene, NULL});
 }
 
 static enum br_status parse(const char *path, const char *text, struct br_scene *scene,

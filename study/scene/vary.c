@@ -47,14 +47,18 @@ static enum br_status find_key(const char *text, size_t length, struct br_varied
 }
 
 /* A number and perhaps its unit; returns what follows, or NULL. */
-static const char *read_value(const struct br_varied *v, const char *text, double *value)
+static const char *read_value(struct br_varied *v, const char *text, double *value)
 {
     const char *unit = v->key->unit, *rest = br_read_number(text, value);
     if (!rest)
         return NULL;
     rest += strspn(rest, " ");
-    if (strncmp(rest, unit, strlen(unit)) == 0)
-        rest += strlen(unit);
+    const bool given = strncmp(rest, unit, strlen(unit)) == 0;
+    const char *meant = v->key->need == BR_OR_RATIO && !given ? "" : unit;
+    if (v->unit && *v->unit != *meant) /* what a bare number is depends on its neighbours */
+        return NULL;
+    v->unit = meant;
+    rest += given ? strlen(unit) : 0;
     return rest + strspn(rest, " ");
 }
 
@@ -253,7 +257,7 @@ static enum br_status take(const struct br_scene_reader *reader, void *self)
         if (section->value == old)
             return br_scene_document(&r); /* no mapping: the reader refuses it */
     }
-    snprintf(text, sizeof text, "%.17g %s", c->varied->value[c->value], key->unit);
+    snprintf(text, sizeof text, "%.17g %s", c->varied->value[c->value], c->varied->unit);
     return set_text(document, mapping, key->name, text) ? br_scene_document(&r)
                                                         : br_no_memory(r.err, "the YAML parser");
 }
@@ -270,7 +274,7 @@ enum br_status br_varied_scene(const struct br_varied *v, size_t i, const char *
 
 const char *br_varied_text(const struct br_varied *v, size_t i, char text[BR_VARIED_TEXT])
 {
-    snprintf(text, BR_VARIED_TEXT, "%s = %.15g %s", v->name, v->value[i], v->key->unit);
+    snprintf(text, BR_VARIED_TEXT, "%s = %.15g %s", v->name, v->value[i], v->unit);
     return text;
 }
 

@@ -12,11 +12,14 @@ struct br_varied {
     const struct br_scene_key *key;
     char name[64];    /* "contact.stiffness" */
     bool logarithmic; /* its values are spaced so */
-    double *value;    /* count, in the key's unit, in the order given; owned */
+    const char *unit; /* of the values: the key's; "": of a key that also takes a number without
+                         unit, which then makes it, as Coulomb's coefficient */
+    double *value;    /* count, in that unit, in the order given; owned */
     size_t count;
 };
 
-/* Reads KEY=LOW..HIGH log|lin COUNT, or KEY=VALUE,VALUE,...; values may have the key's unit. Fails
+/* Reads KEY=LOW..HIGH log|lin COUNT, or KEY=VALUE,VALUE,...; values may have the key's unit, and
+ * those of a key that also takes numbers without unit all have it, or none has. Fails
  * with BR_BAD_INPUT, naming the key, what was found and what was expected, or with BR_NO_MEMORY;
  * clear it even then. */
 enum br_status br_varied_read(const char *text, struct br_varied *varied, struct br_error *err);
