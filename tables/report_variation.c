@@ -18,11 +18,12 @@ static void answer_range(struct br_document *d, const struct br_variation *s, si
         most = !known || x > br_variation_value(s, most, column) ? i : most;
         known++;
     }
+    const char *blank = *v->unit ? " " : "";
     br_put_answer(d, "%s over %s: ", what->heading, v->name);
     if (known)
-        br_put_more(d, "from %.4g (at %g %s) to %.4g (at %g %s)%s%s.",
-                    br_variation_value(s, least, column), v->value[least], v->unit,
-                    br_variation_value(s, most, column), v->value[most], v->unit,
+        br_put_more(d, "from %.4g (at %g%s%s) to %.4g (at %g%s%s)%s%s.",
+                    br_variation_value(s, least, column), v->value[least], blank, v->unit,
+                    br_variation_value(s, most, column), v->value[most], blank, v->unit,
                     what->unit ? " " : "", what->unit ? what->unit : "");
     else
         br_put_more(d, "no value has one.");
