@@ -779,7 +779,7 @@ static const struct planted_bug planted_bugs[] = {
     {"summary_has_viscosity_twice", "printed", "tables/report_run.c", "golden run",
      "put_two(d, r, w->scheme, ", "put_two(d, r, w->viscous, "},
     {"steps_over_a_peak_agree", "expected", "study/foresee/prediction_probes.c",
-     "tests/test_extreme_map", "while (follows_at_once(o) && is_affordable",
+     "tests/test_prediction test_followers", "while (follows_at_once(o) && is_affordable",
      "while (false && is_affordable"},
     {"tip_error_of_the_field", "units", "study/foresee/prediction.c", "golden run",
      "kind == BR_AXIAL ? 3 : 5;", "1;"},
@@ -882,9 +882,9 @@ static const struct planted_bug planted_bugs[] = {
      "if (!s->judge->create)", "if (s->judge)"},
 
     /* ---- repeated reports ---- */
-    {"every_number_is_near", "bound", "tables/repeated.c", "tests/test_reuse",
+    {"every_number_is_near", "bound", "tables/repeated.c", "golden repeat_differs",
      "return fabs(is - was) <= allowed;", "return fabs(is - was) >= 0;"},
-    {"scene_as_it_is_now", "stale", "cli/repeat.c", "tests/test_reuse",
+    {"scene_as_it_is_now", "stale", "cli/repeat.c", "golden repeat_differs",
      "add(r, *r->scene ? r->scene : r->options.word[i]);", "add(r, r->options.word[i]);"},
 
     /* ---- kept work ---- */
@@ -896,9 +896,9 @@ static const struct planted_bug planted_bugs[] = {
      "at.n, at.n,"},
     {"kept_under_any_norm", "lost", "study/kept/kept_study.c", "tests/test_kept",
      "s->norm->name, s->method.axial_degree", "\"\", s->method.axial_degree"},
-    {"scene_does_not_matter", "stale", "cli/session.c", "tests/test_reuse",
+    {"scene_does_not_matter", "stale", "cli/session.c", "golden study_resume",
      "br_kept_add(&kept->base, text);", "(void)text;"},
-    {"value_does_not_matter", "stale", "cli/session.c", "tests/test_reuse",
+    {"value_does_not_matter", "stale", "cli/session.c", "golden vary_resume",
      "br_kept_add(&kept->base, more);", "(void)more;"},
     /* ---- the library ---- */
     {"handler_of_the_host_not_put_back", "stale", "study/library/library.c",

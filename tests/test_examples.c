@@ -247,7 +247,8 @@ static void prepare(void)
     assert_int_equal(shell("cd '%s/files' && cp ../*.yaml . && "
                            "../bin/beamrate scenes %s >my_scene.yaml && "
                            "../bin/beamrate check my_scene.yaml --quiet --json old.json && "
-                           "cp old.json orders-of-last-month.json",
+                           "cp old.json orders-of-last-month.json && ../bin/beamrate study "
+                           "example2 -n 4,8,16 -k 0.1,0.05,0.025 --no-plots --quiet",
                            "example3"),
                      0);
     prepare_orders();

@@ -126,6 +126,8 @@ static enum br_status read_range(struct br_varied *v, const char *text, const ch
     char first[100]; /* "1..2" has no number "1." */
     snprintf(first, sizeof first, "%.*s", (int)(dots - text < 99 ? dots - text : 99), text);
     const char *rest = read_value(v, first, &low);
+    if (v->unit && !*v->unit) /* 100..300 N/m: the unit is that of both */
+        v->unit = NULL;
     const char *word = rest && !*rest ? read_value(v, dots + 2, &high) : NULL;
     const bool lin = word && strncmp(word, "lin ", 4) == 0;
     v->logarithmic = word && strncmp(word, "log ", 4) == 0;
@@ -274,7 +276,8 @@ enum br_status br_varied_scene(const struct br_varied *v, size_t i, const char *
 
 const char *br_varied_text(const struct br_varied *v, size_t i, char text[BR_VARIED_TEXT])
 {
-    snprintf(text, BR_VARIED_TEXT, "%s = %.15g %s", v->name, v->value[i], v->unit);
+    snprintf(text, BR_VARIED_TEXT, "%s = %.15g%s%s", v->name, v->value[i], *v->unit ? " " : "",
+             v->unit);
     return text;
 }
 
