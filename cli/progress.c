@@ -22,6 +22,7 @@ static struct {
     double start, last; /* s */
     double fraction;    /* of the whole work */
     int tenths;         /* lines told so far */
+    double waits;       /* since then for an exact reference, s; 0: not yet */
 } progress = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
 /* As wide as the terminal has room for beside the text; none where that is not much. */
@@ -72,6 +73,22 @@ static void show(void *self, double fraction)
     pthread_mutex_unlock(&progress.lock);
 }
 
+/* Of the most work that it may take; mostly it needs less. On a terminal short: 40 columns do. */
+static void print_wait(double elapsed, double share)
+{
+    const double most = elapsed * (1 - share) / share; /* s left */
+    const bool known = elapsed >= least_elapsed && share > 0;
+    if (progress.terminal && known)
+        fprintf(stderr, "exact reference: < %.0f s \033[K", most);
+    else if (progress.terminal)
+        fprintf(stderr, "exact reference: %.1f %% \033[K", 100 * share);
+    else if (known)
+        fprintf(stderr, "%s: waits for an exact reference, at most about %.0f s more\n",
+                progress.what, most);
+    else
+        fprintf(stderr, "%s: waits for an exact reference\n", progress.what);
+}
+
 /* Nothing is marched until the exact reference is there. Of other scenes' marches, done meanwhile,
  * show tells. */
 static void show_waiting(void *self, double share)
@@ -79,14 +96,12 @@ static void show_waiting(void *self, double share)
     (void)self;
     pthread_mutex_lock(&progress.lock);
     const double t = br_seconds();
+    progress.waits = progress.waits > 0 ? progress.waits : t;
     if (t - progress.last >= (progress.terminal ? 0.1 : 1)) {
         progress.last = t;
-        if (progress.terminal) {
+        if (progress.terminal)
             draw_bar();
-            fprintf(stderr, "exact reference: %.1f %% \033[K", 100 * share);
-        } else
-            fprintf(stderr, "%s: waits for an exact reference, %.1f %% of its most work\n",
-                    progress.what, 100 * share);
+        print_wait(t - progress.waits, share);
     }
     pthread_mutex_unlock(&progress.lock);
 }
@@ -107,6 +122,7 @@ const struct br_observer *br_progress_start(const char *what, bool quiet)
     progress.last = progress.terminal ? 0 : progress.start; /* a terminal shows it at once */
     progress.fraction = 0;
     progress.tenths = 0;
+    progress.waits = 0;
     observer = (struct br_observer){
         .progress = quiet ? NULL : show, .stop = stop, .preparing = quiet ? NULL : show_waiting};
     return &observer;
