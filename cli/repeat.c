@@ -105,9 +105,9 @@ static void add(struct run *r, const char *text)
 static bool is_left_out(enum br_option_id id)
 {
     static const enum br_option_id list[] = {
-        BR_OPT_OUT,  BR_OPT_JSON,  BR_OPT_JUNIT,           BR_OPT_TAP,     BR_OPT_MARKDOWN,
-        BR_OPT_PLOT, BR_OPT_QUIET, BR_OPT_UPDATE_BASELINE, BR_OPT_RESUME,  BR_OPT_ANIMATE,
-        BR_OPT_KEEP, BR_OPT_TRUST, BR_OPT_FORMAT,          BR_OPT_NO_PLOTS};
+        BR_OPT_OUT,  BR_OPT_JSON,  BR_OPT_JUNIT,           BR_OPT_TAP,      BR_OPT_MARKDOWN,
+        BR_OPT_PLOT, BR_OPT_QUIET, BR_OPT_UPDATE_BASELINE, BR_OPT_RESUME,   BR_OPT_ANIMATE,
+        BR_OPT_KEEP, BR_OPT_TRUST, BR_OPT_FORMAT,          BR_OPT_NO_PLOTS, BR_OPT_GITHUB};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         if (list[i] == id)
             return true;
