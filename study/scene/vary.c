@@ -54,7 +54,8 @@ static const char *read_value(struct br_varied *v, const char *text, double *val
         return NULL;
     rest += strspn(rest, " ");
     const bool given = strncmp(rest, unit, strlen(unit)) == 0;
-    const char *meant = v->key->need == BR_OR_RATIO && !given ? "" : unit;
+    const bool ratio = v->key->need == BR_OR_RATIO && !given;
+    const char *meant = ratio || strcmp(unit, "1") == 0 ? "" : unit;
     if (v->unit && *v->unit != *meant) /* what a bare number is depends on its neighbours */
         return NULL;
     v->unit = meant;
