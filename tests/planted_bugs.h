@@ -886,6 +886,8 @@ static const struct planted_bug planted_bugs[] = {
      "return fabs(is - was) <= allowed;", "return fabs(is - was) >= 0;"},
     {"scene_as_it_is_now", "stale", "cli/repeat.c", "golden repeat_differs",
      "add(r, *r->scene ? r->scene : r->options.word[i]);", "add(r, r->options.word[i]);"},
+    {"repeated_report_writes_elsewhere", "option", "cli/repeat.c", "golden repeat_elsewhere",
+     "BR_OPT_NO_PLOTS, BR_OPT_GITHUB};", "BR_OPT_NO_PLOTS};"},
 
     /* ---- kept work ---- */
     {"damaged_entry_is_taken", "option", "study/kept/kept.c", "tests/test_kept",

@@ -54,7 +54,8 @@ static const char *read_value(struct br_varied *v, const char *text, double *val
         return NULL;
     rest += strspn(rest, " ");
     const bool given = strncmp(rest, unit, strlen(unit)) == 0;
-    const char *meant = v->key->need == BR_OR_RATIO && !given ? "" : unit;
+    const bool ratio = v->key->need == BR_OR_RATIO && !given;
+    const char *meant = ratio || strcmp(unit, "1") == 0 ? "" : unit;
     if (v->unit && *v->unit != *meant) /* what a bare number is depends on its neighbours */
         return NULL;
     v->unit = meant;
@@ -118,6 +119,19 @@ static double rounded(double value)
     return value;
 }
 
+/* Ends that are too near each other leave no room for values between them. */
+static enum br_status check_rise(const struct br_varied *v, struct br_error *err)
+{
+    for (size_t i = 1; i < v->count; i++)
+        if (!(v->value[i] > v->value[i - 1]))
+            return br_fail(
+                err, BR_BAD_INPUT,
+                "--vary: %s: found %zu values from %.17g to %.17g, expected fewer: in 15 "
+                "digits some are the same",
+                v->name, v->count, v->value[0], v->value[v->count - 1]);
+    return BR_OK;
+}
+
 /* "LOW..HIGH log 9", with its dots. */
 static enum br_status read_range(struct br_varied *v, const char *text, const char *dots,
                                  struct br_error *err)
@@ -148,7 +162,7 @@ static enum br_status read_range(struct br_varied *v, const char *text, const ch
     }
     v->value[0] = low;
     v->value[v->count - 1] = high;
-    return BR_OK;
+    return check_rise(v, err);
 }
 
 enum br_status br_varied_read(const char *text, struct br_varied *v, struct br_error *err)
