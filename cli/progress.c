@@ -43,10 +43,13 @@ static void draw_bar(void)
  */
 static void print_left(double elapsed, double fraction)
 {
-    if (elapsed >= least_elapsed && fraction > 0)
-        fprintf(stderr, "about %.0f s left", elapsed * (1 - fraction) / fraction);
-    else
+    const double left = elapsed * (1 - fraction) / fraction;
+    if (!(elapsed >= least_elapsed && fraction > 0))
         fprintf(stderr, "begun");
+    else if (left < 0.5)
+        fprintf(stderr, "nearly done");
+    else
+        fprintf(stderr, "about %.0f s left", left);
 }
 
 static void show(void *self, double fraction)
@@ -85,7 +88,8 @@ static void show_waiting(void *self, double share)
             draw_bar();
             fprintf(stderr, "exact reference: %.1f %% \033[K", 100 * share);
         } else
-            fprintf(stderr, "%s: waits for an exact reference, %.1f %% of its most work\n",
+            fprintf(stderr,
+                    "%s: the exact reference has used %.1f %% of the work that it may take\n",
                     progress.what, 100 * share);
     }
     pthread_mutex_unlock(&progress.lock);

@@ -551,7 +551,10 @@ static void put_tips(struct br_document *d, const struct br_report *r)
     static const struct br_column extrapolated = {.key = "extrapolated", .unit = "m"};
     const struct br_study *s = br_report_fitted(r);
     const bool judged = s->judge != &br_judge_none;
-    br_put_table(d, "tips", "Tip at t = T from the cells alone (Richardson, h and k to 0)",
+    const bool known = isfinite(r->tip[BR_AXIAL].value) || isfinite(r->tip[BR_BENDING].value);
+    br_put_table(d, "tips",
+                 known ? "Tip at t = T from the cells alone (Richardson, h and k to 0)"
+                       : "Tip at t = T (the cells alone cannot be extrapolated)",
                  r->printed ? BR_FILES_ONLY : 0);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const struct br_estimate *e = &r->tip[kind];

@@ -4,7 +4,16 @@
 #include "study/scene/vary.h"
 #include "tables/report_parts.h"
 
-/* "error: 1e-3 (at 100 N/m) to 2e-2 (at 1e4 N/m)." */
+/* "1e-3 m (at 100 N/m)" */
+static void put_end(struct br_document *d, const struct br_variation *s, size_t i, size_t column)
+{
+    const char *unit = s->column[column].unit;
+    br_put_more(d, "%.4g%s%s (at %g%s%s)", br_variation_value(s, i, column), unit ? " " : "",
+                unit ? unit : "", s->varied->value[i], *s->varied->unit ? " " : "",
+                s->varied->unit);
+}
+
+/* "error over length: from 1e-3 m (at 1 m) to 2e-2 m (at 2 m)." */
 static void answer_range(struct br_document *d, const struct br_variation *s, size_t column)
 {
     const struct br_variation_column *what = &s->column[column];
@@ -18,15 +27,16 @@ static void answer_range(struct br_document *d, const struct br_variation *s, si
         most = !known || x > br_variation_value(s, most, column) ? i : most;
         known++;
     }
-    const char *blank = *v->unit ? " " : "";
     br_put_answer(d, "%s over %s: ", what->heading, v->name);
-    if (known)
-        br_put_more(d, "from %.4g (at %g%s%s) to %.4g (at %g%s%s)%s%s.",
-                    br_variation_value(s, least, column), v->value[least], blank, v->unit,
-                    br_variation_value(s, most, column), v->value[most], blank, v->unit,
-                    what->unit ? " " : "", what->unit ? what->unit : "");
-    else
+    if (!known) {
         br_put_more(d, "no value has one.");
+        return;
+    }
+    br_put_more(d, "from ");
+    put_end(d, s, least, column);
+    br_put_more(d, " to ");
+    put_end(d, s, most, column);
+    br_put_more(d, ".");
 }
 
 static void put_row(struct br_document *d, const struct br_variation *s, size_t i)
