@@ -32,10 +32,12 @@ static void answer_range(struct br_document *d, const struct br_variation *s, si
         br_put_more(d, "no value has one.");
         return;
     }
-    br_put_more(d, "from ");
+    br_put_more(d, known > 1 ? "from " : "known at one value alone, ");
     put_end(d, s, least, column);
-    br_put_more(d, " to ");
-    put_end(d, s, most, column);
+    if (known > 1) {
+        br_put_more(d, " to ");
+        put_end(d, s, most, column);
+    }
     br_put_more(d, ".");
 }
 
