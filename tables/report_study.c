@@ -112,7 +112,10 @@ static void say_flags(struct br_document *d, const struct br_study *s)
     };
     const size_t cells = s->n_count * s->k_count, good = count_flag(s, BR_FLAG_NONE);
     if (good == cells) {
-        br_put_more(d, "All %zu cells count.", cells);
+        if (cells == 1)
+            br_put_more(d, "Its one cell counts.");
+        else
+            br_put_more(d, "All %zu cells count.", cells);
         return;
     }
     br_put_more(d, "%zu of %zu cells are left out of fits:", cells - good, cells);
