@@ -13,8 +13,9 @@ static void put_end(struct br_document *d, const struct br_variation *s, size_t 
                 s->varied->unit);
 }
 
-/* "error over length: from 1e-3 m (at 1 m) to 2e-2 m (at 2 m)." */
-static void answer_range(struct br_document *d, const struct br_variation *s, size_t column)
+/* "error over length: from 1e-3 m (at 1 m) to 2e-2 m (at 2 m)." Returns whether it says anything: a
+ * length or a force that no march has is not modelled. */
+static bool answer_range(struct br_document *d, const struct br_variation *s, size_t column)
 {
     const struct br_variation_column *what = &s->column[column];
     const struct br_varied *v = s->varied;
@@ -27,10 +28,12 @@ static void answer_range(struct br_document *d, const struct br_variation *s, si
         most = !known || x > br_variation_value(s, most, column) ? i : most;
         known++;
     }
+    if (!known && what->unit)
+        return false;
     br_put_answer(d, "%s over %s: ", what->heading, v->name);
     if (!known) {
         br_put_more(d, "no value has one.");
-        return;
+        return true;
     }
     br_put_more(d, known > 1 ? "from " : "known at one value alone, ");
     put_end(d, s, least, column);
@@ -39,6 +42,7 @@ static void answer_range(struct br_document *d, const struct br_variation *s, si
         put_end(d, s, most, column);
     }
     br_put_more(d, ".");
+    return true;
 }
 
 static void put_row(struct br_document *d, const struct br_variation *s, size_t i)
@@ -62,10 +66,7 @@ void br_report_variation(const struct br_variation *s, struct br_document *d)
     const size_t failures = br_variation_failures(s, &first);
     br_document_begin(d, s->name, s->format, 1, s->caption);
     for (size_t c = 0; c < s->columns && answers < 3; c++)
-        if (s->column[c].axis) {
-            answer_range(d, s, c);
-            answers++;
-        }
+        answers += s->column[c].axis && answer_range(d, s, c) ? 1 : 0;
     if (failures)
         br_put_answer(d, "%zu of %zu values FAILED; the first, %g %s: %s", failures, v->count,
                       v->value[first], v->unit, s->failure[first].message);
