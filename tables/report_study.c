@@ -164,6 +164,7 @@ static void answer_printed(struct br_document *d, const struct br_report *r)
     }
     if (!compared)
         return;
+    const size_t pairs = count_contradictions(r);
     if (!differ)
         br_put_answer(d, "Ours and the printed errors agree within 5 %% in all %zu cells.",
                       compared);
@@ -176,12 +177,12 @@ static void answer_printed(struct br_document *d, const struct br_report *r)
             s->judge->name, differ, compared, least, most, s->cell[farthest].at.n,
             step_of(s, &s->cell[farthest]), s->cell[farthest].error[BR_PART_TOTAL],
             r->printed[farthest]);
-    if (differ && count_contradictions(r))
+    if (differ && pairs)
         br_put_answer(
             d,
-            "No reference can repair that: at least %zu pairs of printed errors break the "
+            "No reference can repair that: at least %zu pair%s of printed errors break%s the "
             "triangle inequality.",
-            count_contradictions(r));
+            pairs, pairs == 1 ? "" : "s", pairs == 1 ? "s" : "");
 }
 
 static bool is_outside(const struct br_report *r, enum br_field_kind kind)
