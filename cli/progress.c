@@ -44,10 +44,13 @@ static void draw_bar(void)
  */
 static void print_left(double elapsed, double fraction)
 {
-    if (elapsed >= least_elapsed && fraction > 0)
-        fprintf(stderr, "about %.0f s left", elapsed * (1 - fraction) / fraction);
-    else
+    const double left = elapsed * (1 - fraction) / fraction;
+    if (!(elapsed >= least_elapsed && fraction > 0))
         fprintf(stderr, "begun");
+    else if (left < 0.5)
+        fprintf(stderr, "nearly done");
+    else
+        fprintf(stderr, "about %.0f s left", left);
 }
 
 static void show(void *self, double fraction)

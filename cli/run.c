@@ -239,9 +239,9 @@ static void name_columns(struct br_variation_column column[SWEPT])
     column[TIP + BR_BENDING] =
         (struct br_variation_column){"tip_bending", "w(L, T)", "m", "%.6g", .axis = tip};
     column[TIP_ERROR + BR_AXIAL] = (struct br_variation_column){
-        "predicted_error_axial", "u off by, predicted", "m", "%.1e", .axis = NULL};
+        "predicted_error_axial", "predicted error of u", "m", "%.1e", .axis = NULL};
     column[TIP_ERROR + BR_BENDING] = (struct br_variation_column){
-        "predicted_error_bending", "w off by, predicted", "m", "%.1e", .axis = NULL};
+        "predicted_error_bending", "predicted error of w", "m", "%.1e", .axis = NULL};
     column[CONTACT_FORCE] = (struct br_variation_column){
         "largest_contact_force", "largest contact force", "N", "%.5g", .axis = forces};
     column[FRICTION_FORCE] = (struct br_variation_column){

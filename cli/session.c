@@ -90,12 +90,12 @@ void br_session_tell_kept(const struct br_session *s, const struct br_kept *k)
     const size_t taken = atomic_load(&k->taken), bad = atomic_load(&k->bad);
     const size_t lost = atomic_load(&k->lost);
     if (taken && !s->quiet)
-        fprintf(stderr, "beamrate: %zu finished cells and trials were taken from %s\n", taken,
-                k->folder);
+        fprintf(stderr, "beamrate: finished cells and trials taken from %s: %zu\n", k->folder,
+                taken);
     if (lost)
         fprintf(stderr,
-                "beamrate: warning: %zu finished cells and trials could not be kept in %s\n", lost,
-                k->folder);
+                "beamrate: warning: finished cells and trials that could not be kept in %s: %zu\n",
+                k->folder, lost);
     if (bad)
         fprintf(stderr,
                 "beamrate: warning: %zu entries in %s are damaged or not what their names "

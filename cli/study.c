@@ -401,18 +401,18 @@ static void foresee(const struct run *r, struct br_foreseen *work)
 /* A failed cell fails the run, after everything has been written. */
 static enum br_status check_cells(const struct run *r, struct br_error *err)
 {
-    size_t failed = 0;
+    size_t failed = 0, cells = 0;
     const struct br_cell *first = NULL;
     for (const struct br_study *s = r->study; s < r->study + r->heads; s++)
-        for (size_t c = 0; c < s->n_count * s->k_count; c++)
+        for (size_t c = 0; c < s->n_count * s->k_count; c++, cells++)
             if (s->cell[c].flag[BR_PART_TOTAL] == BR_FLAG_FAILED) {
                 first = first ? first : &s->cell[c];
                 failed++;
             }
     if (!failed)
         return BR_OK;
-    return br_fail(err, BR_NOT_FINITE, "%zu cells failed; the first is n = %zu: %s", failed,
-                   first->at.n,
+    return br_fail(err, BR_NOT_FINITE, "%zu of %zu cells failed; the first is n = %zu: %s", failed,
+                   cells, first->at.n,
                    first->failure.status ? first->failure.message : "its error is not a number");
 }
 

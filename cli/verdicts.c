@@ -142,8 +142,8 @@ enum br_status br_verdicts_conclude(const struct br_verdicts *v, const struct br
     if (passed < all)
         return br_fail(err, BR_VERDICT, "%zu of %zu orders do not pass", all - passed, all);
     if (v->comparison.tally[BR_SERIOUS])
-        return br_fail(err, BR_VERDICT, "%zu serious differences from %s",
-                       v->comparison.tally[BR_SERIOUS], v->compare);
+        return br_fail(err, BR_VERDICT, "serious differences from %s: %zu", v->compare,
+                       v->comparison.tally[BR_SERIOUS]);
     return BR_OK;
 }
 

@@ -123,21 +123,21 @@ static void answer_map(struct br_document *d, const struct br_extreme_map *m)
         br_put_answer(d, "None of %zu cases is silently wrong.", m->cases);
     br_put_answer(
         d,
-        "%zu are right, %zu are inaccurate and say so, %zu are inaccurate and say that their "
-        "error is not known, %zu are unstable as predicted, %zu are refused, and %zu were given "
-        "up by the map, since they or their judges take too long.",
+        "Right: %zu; inaccurate, and they say so: %zu; inaccurate, and they say that their error is "
+        "not known: %zu; unstable as predicted: %zu; refused: %zu; given up by the map, since they "
+        "or their judges take too long: %zu.",
         n[BR_EXTREME_RIGHT], n[BR_EXTREME_WARNED], n[BR_EXTREME_UNKNOWN], n[BR_EXTREME_UNSTABLE],
         n[BR_EXTREME_REFUSED], n[BR_EXTREME_UNJUDGED]);
     if (r.answers == 0)
         return;
     br_put_answer(
         d,
-        "Of %zu answers that were judged, %.2g %% are silently wrong, which tells a rate between "
-        "%.2g %% and %.2g %% (95 %%, Clopper and Pearson).",
+        "Of %zu answers that were judged, %.3g %% are silently wrong, which tells a rate between "
+        "%.3g %% and %.3g %% (95 %%, Clopper and Pearson).",
         r.answers, 100 * (double)r.wrong / (double)r.answers, 100 * r.low, 100 * r.high);
     br_put_answer(
         d,
-        "%zu of them, %.2g %%, say that their error is not known, %zu of these beyond the lagged "
+        "%zu of them, %.3g %%, say that their error is not known, %zu of these beyond the lagged "
         "contact's limit; all others state it, with an interval.",
         r.unstated, 100 * (double)r.unstated / (double)r.answers, r.unstated_unstable);
 }

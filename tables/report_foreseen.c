@@ -33,9 +33,9 @@ void br_report_foreseen(const struct br_foreseen *w, const char *command, int th
     for (size_t i = 0; i < w->rows; i++)
         unknown += isfinite(w->row[i].seconds) ? 0 : 1;
     br_document_begin(d, "dry-run", "beamrate dry run", 1, command);
-    br_put_answer(d,
-                  "%zu marches and references, about %.2g s on %d thread%s and %.2g MB of memory",
-                  w->rows, br_foreseen_seconds(w, threads), w->alone ? 1 : threads,
+    br_put_answer(d, "%zu %s, about %.2g s on %d thread%s and %.2g MB of memory", w->rows,
+                  w->rows == 1 ? "march" : "marches and references",
+                  br_foreseen_seconds(w, threads), w->alone ? 1 : threads,
                   w->alone || threads == 1 ? "" : "s", bytes / 1e6);
     br_put_more(d, bytes <= available ? "." : ", and only %.2g MB are available.", available / 1e6);
     if (unknown)

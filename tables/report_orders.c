@@ -120,7 +120,7 @@ static void put_answers(struct br_document *d, const struct br_orders *o,
         say_left_out(d, of);
     }
     if (o->count > MOST_NAMED)
-        br_put_answer(d, "%zu more columns: see the tables.", o->count - MOST_NAMED);
+        br_put_answer(d, "Columns that only the tables have: %zu.", o->count - MOST_NAMED);
     for (int axis = 0; axis < BR_AXES; axis++)
         if (isfinite(growth[axis].value))
             br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],

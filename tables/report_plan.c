@@ -70,9 +70,10 @@ static void answer_work(struct br_document *d, const struct br_plan *p)
     }
     br_put_answer(
         d,
-        "The planning took %.3g s: %zu cheap trials and %zu proposals (%zu failed), which "
+        "The planning took %.3g s: %zu cheap trials and %zu proposal%s (%zu failed), which "
         "take %.3g CPU s when marched once.",
-        p->wall_seconds, cheap, p->count - cheap, failed, br_plan_spent(p));
+        p->wall_seconds, cheap, p->count - cheap, p->count - cheap == 1 ? "" : "s", failed,
+        br_plan_spent(p));
 }
 
 /* Command lines that repeat the chosen trial: its march, and its error and seconds. */

@@ -295,11 +295,6 @@ static void put_friction(struct br_document *d, const struct br_run_findings *f)
     const bool coulomb = law->law == BR_COULOMB && bound > 0;
     const double error = coulomb ? law->coefficient * tip_error(f, BR_AXIAL) : NAN;
     const struct br_value regime = br_text(br_tip_regime_word(r->watch.regime));
-    const struct br_fact facts[] = {
-        {"tip.friction_share", "  of the bound", "%",
-         br_if(friction, br_number(100 * fabs(force) / bound))},
-        {"tip.regime", "friction", NULL, br_if(friction && r->watch.steps, regime)},
-    };
     put_number(
         d, f,
         &(struct br_column){.key = "tip.friction_force", .heading = "friction force", .unit = "N"},
@@ -308,7 +303,10 @@ static void put_friction(struct br_document *d, const struct br_run_findings *f)
         d, f,
         &(struct br_column){.key = "tip.friction_bound", .heading = "  its bound", .unit = "N"},
         br_if(friction, br_number(bound)), error);
-    BR_FACTS(d, facts);
+    BR_FACT(d, br_if(friction, br_number(100 * fabs(force) / bound)), .key = "tip.friction_share",
+            .heading = "  of the bound", .unit = "%", .format = "%.4g");
+    BR_FACT(d, br_if(friction && r->watch.steps, regime), .key = "tip.regime",
+            .heading = "friction");
     br_put_mark(d, r->watch.regime == BR_TIP_SLIP ? direction(r->watch.direction) : "");
     put_extreme(d, f, friction, "largest_friction_force", "largest friction force",
                 &r->watch.friction_force);

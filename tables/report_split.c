@@ -19,7 +19,7 @@ static const char *describe(const struct br_split *s, char text[TEXT])
 /* "99.8 %"; of a share of 0 to 1 */
 static const char *share_format(double share)
 {
-    return share > 0 && share < 1e-3 ? "%.1e %%" : "%.1f %%";
+    return share > 0 && share < 1e-3 ? "%.2g %%" : "%.1f %%";
 }
 
 static bool is_told(const struct br_share *share, size_t norm)

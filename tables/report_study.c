@@ -112,7 +112,10 @@ static void say_flags(struct br_document *d, const struct br_study *s)
     };
     const size_t cells = s->n_count * s->k_count, good = count_flag(s, BR_FLAG_NONE);
     if (good == cells) {
-        br_put_more(d, "All %zu cells count.", cells);
+        if (cells == 1)
+            br_put_more(d, "Its one cell counts.");
+        else
+            br_put_more(d, "All %zu cells count.", cells);
         return;
     }
     br_put_more(d, "%zu of %zu cells are left out of fits:", cells - good, cells);
@@ -161,6 +164,7 @@ static void answer_printed(struct br_document *d, const struct br_report *r)
     }
     if (!compared)
         return;
+    const size_t pairs = count_contradictions(r);
     if (!differ)
         br_put_answer(d, "Ours and the printed errors agree within 5 %% in all %zu cells.",
                       compared);
@@ -173,12 +177,12 @@ static void answer_printed(struct br_document *d, const struct br_report *r)
             s->judge->name, differ, compared, least, most, s->cell[farthest].at.n,
             step_of(s, &s->cell[farthest]), s->cell[farthest].error[BR_PART_TOTAL],
             r->printed[farthest]);
-    if (differ && count_contradictions(r))
+    if (differ && pairs)
         br_put_answer(
             d,
-            "No reference can repair that: at least %zu pairs of printed errors break the "
+            "No reference can repair that: at least %zu pair%s of printed errors break%s the "
             "triangle inequality.",
-            count_contradictions(r));
+            pairs, pairs == 1 ? "" : "s", pairs == 1 ? "s" : "");
 }
 
 static bool is_outside(const struct br_report *r, enum br_field_kind kind)
@@ -551,7 +555,10 @@ static void put_tips(struct br_document *d, const struct br_report *r)
     static const struct br_column extrapolated = {.key = "extrapolated", .unit = "m"};
     const struct br_study *s = br_report_fitted(r);
     const bool judged = s->judge != &br_judge_none;
-    br_put_table(d, "tips", "Tip at t = T from the cells alone (Richardson, h and k to 0)",
+    const bool known = isfinite(r->tip[BR_AXIAL].value) || isfinite(r->tip[BR_BENDING].value);
+    br_put_table(d, "tips",
+                 known ? "Tip at t = T from the cells alone (Richardson, h and k to 0)"
+                       : "Tip at t = T (the cells alone cannot be extrapolated)",
                  r->printed ? BR_FILES_ONLY : 0);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const struct br_estimate *e = &r->tip[kind];

@@ -4,8 +4,18 @@
 #include "study/scene/vary.h"
 #include "tables/report_parts.h"
 
-/* "error: 1e-3 (at 100 N/m) to 2e-2 (at 1e4 N/m)." */
-static void answer_range(struct br_document *d, const struct br_variation *s, size_t column)
+/* "1e-3 m (at 100 N/m)" */
+static void put_end(struct br_document *d, const struct br_variation *s, size_t i, size_t column)
+{
+    const char *unit = s->column[column].unit;
+    br_put_more(d, "%.4g%s%s (at %g%s%s)", br_variation_value(s, i, column), unit ? " " : "",
+                unit ? unit : "", s->varied->value[i], *s->varied->unit ? " " : "",
+                s->varied->unit);
+}
+
+/* "error over length: from 1e-3 m (at 1 m) to 2e-2 m (at 2 m)." Returns whether it says anything: a
+ * length or a force that no march has is not modelled. */
+static bool answer_range(struct br_document *d, const struct br_variation *s, size_t column)
 {
     const struct br_variation_column *what = &s->column[column];
     const struct br_varied *v = s->varied;
@@ -18,15 +28,21 @@ static void answer_range(struct br_document *d, const struct br_variation *s, si
         most = !known || x > br_variation_value(s, most, column) ? i : most;
         known++;
     }
-    const char *blank = *v->unit ? " " : "";
+    if (!known && what->unit)
+        return false;
     br_put_answer(d, "%s over %s: ", what->heading, v->name);
-    if (known)
-        br_put_more(d, "from %.4g (at %g%s%s) to %.4g (at %g%s%s)%s%s.",
-                    br_variation_value(s, least, column), v->value[least], blank, v->unit,
-                    br_variation_value(s, most, column), v->value[most], blank, v->unit,
-                    what->unit ? " " : "", what->unit ? what->unit : "");
-    else
+    if (!known) {
         br_put_more(d, "no value has one.");
+        return true;
+    }
+    br_put_more(d, known > 1 ? "from " : "known at one value alone, ");
+    put_end(d, s, least, column);
+    if (known > 1) {
+        br_put_more(d, " to ");
+        put_end(d, s, most, column);
+    }
+    br_put_more(d, ".");
+    return true;
 }
 
 static void put_row(struct br_document *d, const struct br_variation *s, size_t i)
@@ -50,10 +66,7 @@ void br_report_variation(const struct br_variation *s, struct br_document *d)
     const size_t failures = br_variation_failures(s, &first);
     br_document_begin(d, s->name, s->format, 1, s->caption);
     for (size_t c = 0; c < s->columns && answers < 3; c++)
-        if (s->column[c].axis) {
-            answer_range(d, s, c);
-            answers++;
-        }
+        answers += s->column[c].axis && answer_range(d, s, c) ? 1 : 0;
     if (failures)
         br_put_answer(d, "%zu of %zu values FAILED; the first, %g %s: %s", failures, v->count,
                       v->value[first], v->unit, s->failure[first].message);

@@ -139,7 +139,7 @@ static void test_failures(void **state)
                                  "axial:\n  stiffness: 1 N\n  viscosity: 0.1 N s\n  load: 1 [N/m]\n"
                                  "contact:\n  gap: 0.1 m\n  stiffness: 1000 N/m\n");
     cli_expect("study stiff.yaml --n 4 --k 1.25 --reference fine:4,0.01 --out s --quiet --no-plots",
-               NULL, 3, "1 cells failed; the first is n = 4: the march blew up at t = ");
+               NULL, 3, "1 of 1 cells failed; the first is n = 4: the march blew up at t = ");
     assert_true(cli_is_there("s/stiff.csv"));
 }
 

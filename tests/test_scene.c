@@ -91,8 +91,8 @@ static const struct {
     /* numbers and their units */
     {2, "length: 1", 2, "length", "found '1', expected a number and its unit, m"},
     {2, "length: 1 mn", 2, "length",
-     "found '1 mn', expected a number and its unit, m; any unit of a length does that is made of m "
-     "s g N Pa J bar t min h % in inch ft lb lbf kip psi ksi, with prefixes from n to T"},
+     "found '1 mn', expected a number and its unit, m, or another unit of a length, made of m s g "
+     "N Pa J bar t min h % in inch ft lb lbf kip psi ksi, with prefixes from n to T"},
     {2, "length: 1 m m", 2, "length", "found '1 m m', which is an area, expected a length, as m"},
     {2, "length: 1 1 m", 2, "length", "found '1 1 m', expected a number and its unit, m"},
     {2, "length: 1 2 m", 2, "length", "found '1 2 m', expected a number and its unit, m"},
@@ -139,7 +139,7 @@ static const struct {
     {8, "  load: 400*t [N/m", 8, "load", "expected an expression and its unit, like 'x*t [N/m]'"},
     {8, "  load: 400*t []", 8, "load", "expected an expression and its unit, like 'x*t [N/m]'"},
     {8, "  load: 400*t [newton]", 8, "load",
-     "found '400*t [newton]', expected a number and its unit, N/m; any unit of a force per length"},
+     "found '400*t [newton]', expected a number and its unit, N/m, or another unit of a force per length"},
     {8, "  load: 1) + (2 [kN/m]", 8, "load", "'1) + (2' is no expression in x and t"},
     {8, "  load: 400*(exp(t) - [N/m]", 8, "load", "'400*(exp(t) -' is no expression in x and t"},
     {8, "  load: x=1 [N/m]", 8, "load", "it assigns; a comparison is =="},
@@ -289,6 +289,8 @@ static const struct {
     {"title: t\nlength: 1 m\nduration: 1 s\ndensity: 0 kg/m\n"
      "axial: {stiffness: 1 N, damping_ratio: 0.1}\n",
      ":5: damping_ratio: makes no number of relaxation_time, expected a stiffness and a density"},
+    {"title: t\nlength: 1 m\nduration: 1 s\naxial: {stiffness: 1 N, damping_ratio: 0.1}\n",
+     ":1: density: missing, expected mass per length rho"},
     {TOP "bending: {stiffness: 0 N m^2, damping_ratio: 0.1}\n",
      ":5: damping_ratio: makes no number of relaxation_time"},
     {TOP "young: 1e290 GPa\narea: 1e10 m^2\naxial: {viscosity: 1 N s}\n",

@@ -136,7 +136,7 @@ static void test_answer(void **state)
         "Ours (against fine) DIFFER from the printed errors by more than 5 % in 9 of 9 cells, ours "
         "over printed is 2.1 to 6.8; the farthest (n = 40, k = 0.01 s) is 2.735e-02, printed "
         "4.001e-03.",
-        "at least 1 pairs of printed errors break the triangle inequality",
+        "at least 1 pair of printed errors breaks the triangle inequality",
         "Error of the finest cell (n = 40, k = 0.005 s): none, the march failed.",
         "Its own error is about 1.5e-03, measured against the exact solution; its round-off is "
         "about 5e-14. 2 of 12 cells are left out of fits: 1 R, too near the reference's own error; "

@@ -22,7 +22,7 @@ LEFT_TO_THE_PROGRAM = [
     "1/0", "sqrt(-1)", "1e999", "stiffness plus viscosity", "at x = 0", "its derivative",
     "the derivative of", "expected a finite number everywhere", "Coulomb friction takes its bound from",
     # units, and what makes others
-    "which is ", "any unit of", "makes nothing here", "makes no number", "is given beside",
+    "which is ", "another unit of", "makes nothing here", "makes no number", "is given beside",
     "forgotten?", "1e308 Tm", "1e-323 nm", "the wall of a tube",
     # of verify: numbers that belong together
     "errors, expected at least", "does not divide", "time levels of", "expected meshes and one",

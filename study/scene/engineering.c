@@ -147,7 +147,10 @@ static enum br_status try(const struct br_scene_reader *r, const struct recipe *
 {
     const struct br_scene_number *number = r->given->row;
     const size_t row = row_of(p->what), source[] = {row_of(p->first), row_of(p->second)};
-    const bool itself = source[0] == row;
+    const bool itself = source[0] == row,
+               mode = p->formula == axial_time || p->formula == bending_time;
+    if (mode && !number[row_of("density")].line)
+        return BR_OK; /* check_row refuses it */
     if (!number[source[0]].line || !number[source[1]].line || (itself && !number[row].ratio) ||
         !section_is_given(r->given, &br_scene_keys[row]))
         return BR_OK;

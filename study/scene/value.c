@@ -63,10 +63,11 @@ static enum br_status refuse_unit(const struct number *n, bool known, const stru
                                "found '%s', which is %s, expected %s, as %s%s",
                                br_yaml_text(n->node), br_dimension_words(found->of, text[1]),
                                expected, n->unit, ratio);
-    return br_scene_refuse(n->r, br_yaml_line(n->node), n->key->name,
-                           "found '%s', expected a number and its unit, %s%s; any unit of %s does "
-                           "that is made of %s, with prefixes from n to T",
-                           br_yaml_text(n->node), n->unit, ratio, expected, br_unit_words(words));
+    return br_scene_refuse(
+        n->r, br_yaml_line(n->node), n->key->name,
+        "found '%s', expected a number and its unit, %s%s, or another unit of %s, "
+        "made of %s, with prefixes from n to T",
+        br_yaml_text(n->node), n->unit, ratio, expected, br_unit_words(words));
 }
 
 /* Any unit of the dimension. */

@@ -46,6 +46,12 @@ static enum br_status find_key(const char *text, size_t length, struct br_varied
                    (int)(length < 100 ? length : 100), text, known);
 }
 
+/* Of the unit 1, which nobody prints. */
+static bool is_bare(const struct br_scene_key *key)
+{
+    return strcmp(key->unit, "1") == 0;
+}
+
 /* A number and perhaps its unit; returns what follows, or NULL. */
 static const char *read_value(struct br_varied *v, const char *text, double *value)
 {
@@ -54,8 +60,8 @@ static const char *read_value(struct br_varied *v, const char *text, double *val
         return NULL;
     rest += strspn(rest, " ");
     const bool given = strncmp(rest, unit, strlen(unit)) == 0;
-    const bool ratio = v->key->need == BR_OR_RATIO && !given;
-    const char *meant = ratio || strcmp(unit, "1") == 0 ? "" : unit;
+    const bool bare = is_bare(v->key) || (v->key->need == BR_OR_RATIO && !given);
+    const char *meant = bare ? "" : unit;
     if (v->unit && *v->unit != *meant) /* what a bare number is depends on its neighbours */
         return NULL;
     v->unit = meant;
@@ -68,8 +74,9 @@ static enum br_status refuse_values(const struct br_varied *v, const char *found
 {
     return br_fail(err, BR_BAD_INPUT,
                    "--vary: %s: found '%.200s', expected LOW..HIGH log COUNT, LOW..HIGH lin COUNT, "
-                   "or numbers in %s separated by commas, like '%s=1e2..1e6 log 9'",
-                   v->name, found, v->key->unit, v->name);
+                   "or numbers %s%s separated by commas, like '%s=1e2..1e6 log 9'",
+                   v->name, found, is_bare(v->key) ? "without unit" : "in ",
+                   is_bare(v->key) ? "" : v->key->unit, v->name);
 }
 
 static enum br_status make_room(struct br_varied *v, size_t count, struct br_error *err)

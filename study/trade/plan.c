@@ -3,6 +3,8 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 #include "solver/clock.h"
 #include "study/fit/fit.h"
@@ -14,11 +16,19 @@ double br_plan_y(const struct br_trial *t)
     return t->named->method.scheme->adaptive ? -log(t->tolerance) : log((double)t->at.steps);
 }
 
+/* To three digits, as a person types it. */
+static double rounded(double tolerance)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.3g", tolerance);
+    return strtod(text, NULL);
+}
+
 struct br_trial br_plan_trial(const struct br_plan_candidate *c)
 {
     struct br_trial t = {.named = c->named, .at = {(size_t)(c->n + 0.5), BR_PLAN_LEVELS}};
     if (c->named->method.scheme->adaptive)
-        t.tolerance = exp(-c->y);
+        t.tolerance = rounded(exp(-c->y));
     else
         t.at.steps = (size_t)(exp(c->y) + 0.5);
     return t;
