@@ -336,6 +336,7 @@ static enum br_status march_point(struct varied_run *w, size_t i, struct br_erro
     const enum br_status status = march(&r, err);
     if (!status)
         take_point(&r.report, &r.prediction, &w->found.value[i * SWEPT]);
+    w->found.unstable[i] = !status && r.report.contact_unstable;
     if (!status && (r.report.contact_unstable || !r.prediction.known))
         w->found.remark[i] = r.report.contact_unstable ? "beyond the contact's stability limit"
                                                        : "its error is not known";

@@ -481,8 +481,9 @@ static void take_order(double *value, const struct br_joint_fit *fit, const stru
     value[2] = e->high;
 }
 
-static void take_point(const struct run *r, double *value, const char **remark)
+static void take_point(const struct run *r, struct varied_study *w, size_t i)
 {
+    double *value = &w->found.value[i * SWEPT];
     const struct br_report *report = &r->page[0].report;
     const struct br_study *s = report->study;
     const struct br_joint_fit *fit = &report->fits[BR_PART_TOTAL].joint;
@@ -495,7 +496,8 @@ static void take_point(const struct run *r, double *value, const char **remark)
     value[MISFIT] = fit->misfit;
     value[POINTS] = (double)fit->points;
     if (finest->flag[BR_PART_TOTAL])
-        *remark = br_flag_name(finest->flag[BR_PART_TOTAL]);
+        w->found.remark[i] = br_flag_name(finest->flag[BR_PART_TOTAL]);
+    w->found.unstable[i] = finest->unstable;
 }
 
 /* All grids, so that what is refused is refused before anything marches. */
@@ -555,7 +557,7 @@ static enum br_status run_point(struct varied_study *w, size_t i, struct br_erro
     if (status == BR_NO_MEMORY || status == BR_INTERRUPTED || status == BR_IO)
         return br_fail(err, status, "%s", failure->message);
     if (!status) {
-        take_point(r, &w->found.value[i * SWEPT], &w->found.remark[i]);
+        take_point(r, w, i);
         check_cells(r, failure);
     }
     return BR_OK;

@@ -11,8 +11,9 @@ static void add_series(struct br_figure *f, const struct br_variation *variation
     const struct br_variation_column *c = &variation->column[column];
     struct br_series *s = br_series_add(f, BR_PEN_CURVE, "%s", c->heading);
     for (size_t i = 0; i < variation->varied->count; i++)
-        br_point_add(s, variation->varied->value[i], br_variation_value(variation, i, column),
-                     variation->remark[i]);
+        if (!variation->unstable[i])
+            br_point_add(s, variation->varied->value[i], br_variation_value(variation, i, column),
+                         variation->remark[i]);
     br_series_sort(s);
 }
 
@@ -40,7 +41,7 @@ static bool has_number(const struct br_variation *variation, size_t column)
 {
     bool has = false;
     for (size_t i = 0; i < variation->varied->count; i++)
-        has |= isfinite(br_variation_value(variation, i, column));
+        has |= !variation->unstable[i] && isfinite(br_variation_value(variation, i, column));
     return has;
 }
 

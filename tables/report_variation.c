@@ -22,7 +22,7 @@ static bool answer_range(struct br_document *d, const struct br_variation *s, si
     size_t least = 0, most = 0, known = 0;
     for (size_t i = 0; i < v->count; i++) {
         const double x = br_variation_value(s, i, column);
-        if (!isfinite(x))
+        if (s->unstable[i] || !isfinite(x))
             continue;
         least = !known || x < br_variation_value(s, least, column) ? i : least;
         most = !known || x > br_variation_value(s, most, column) ? i : most;
@@ -62,11 +62,18 @@ static void put_row(struct br_document *d, const struct br_variation *s, size_t 
 void br_report_variation(const struct br_variation *s, struct br_document *d)
 {
     const struct br_varied *v = s->varied;
-    size_t first = 0, answers = 0;
+    size_t first = 0, answers = 0, unstable = 0;
     const size_t failures = br_variation_failures(s, &first);
     br_document_begin(d, s->name, s->format, 1, s->caption);
     for (size_t c = 0; c < s->columns && answers < 3; c++)
         answers += s->column[c].axis && answer_range(d, s, c) ? 1 : 0;
+    for (size_t i = 0; i < v->count; i++)
+        unstable += s->unstable[i];
+    if (unstable)
+        br_put_answer(d,
+                      "%zu of %zu values are beyond the lagged contact's stability limit: they are "
+                      "in the table alone. --contact implicit has no limit.",
+                      unstable, v->count);
     if (failures)
         br_put_answer(d, "%zu of %zu values FAILED; the first, %g %s: %s", failures, v->count,
                       v->value[first], v->unit, s->failure[first].message);

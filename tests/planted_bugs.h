@@ -882,6 +882,8 @@ static const struct planted_bug planted_bugs[] = {
      "if (!s->judge->create)", "if (s->judge)"},
 
     /* ---- repeated reports ---- */
+    {"unstable_values_are_answers", "left out", "tables/report_variation.c", "golden run_vary",
+     "if (s->unstable[i] || !isfinite(x))", "if (!isfinite(x))"},
     {"every_number_is_near", "bound", "tables/repeated.c", "golden repeat_differs",
      "return fabs(is - was) <= allowed;", "return fabs(is - was) >= 0;"},
     {"scene_as_it_is_now", "stale", "cli/repeat.c", "golden repeat_differs",

@@ -311,16 +311,20 @@ enum br_status br_variation_create(struct br_variation *s, const struct br_scene
     snprintf(s->caption, sizeof s->caption, "%.300s, over %s", scene->title, s->varied->name);
     s->value = br_allocate(numbers, sizeof *s->value);
     s->remark = br_allocate(s->varied->count, sizeof(char *));
+    s->unstable = br_allocate(s->varied->count, sizeof *s->unstable);
     s->failure = br_allocate(s->varied->count, sizeof *s->failure);
     for (size_t i = 0; s->value && i < numbers; i++)
         s->value[i] = NAN;
-    return s->value && s->remark && s->failure ? BR_OK : br_no_memory(err, "the values of --vary");
+    return s->value && s->remark && s->unstable && s->failure
+               ? BR_OK
+               : br_no_memory(err, "the values of --vary");
 }
 
 void br_variation_clear(struct br_variation *s)
 {
     free(s->value);
     free(s->remark);
+    free(s->unstable);
     free(s->failure);
     *s = (struct br_variation){0};
 }

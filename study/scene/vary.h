@@ -52,6 +52,8 @@ struct br_variation {
     double *value;            /* varied->count rows of `columns` numbers; NaN: none; owned */
     const char **remark;      /* varied->count static texts: why it counts less; NULL: it does not;
                                  owned */
+    bool *unstable;           /* varied->count: beyond the lagged contact's stability limit; such a
+                                 row is in the tables alone; owned */
     struct br_error *failure; /* varied->count; status BR_OK: none; owned */
 };
 
