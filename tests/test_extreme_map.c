@@ -222,14 +222,15 @@ static struct br_extreme_verdict judge(struct named which, const struct br_extre
  * judge whose iterations add up (91). Seed 4: by a residual
  * where load and velocity cross zero at once (94), by steps that add many velocities (1851). By a
  * friction force that obeys the march's bound, which is that of the nodes to round-off (3, 512; 5,
- * 241; 10, 151); by what a light beam's velocities are rounded to (8, 811). */
+ * 241; 10, 151); by what a light beam's velocities are rounded to (8, 811). By a
+ * short step over a switch, each of whose stages obeys the law (3, 802). */
 static void test_sound_cases(void **state)
 {
     (void)state;
     static const struct named sound[] = {
         {1, 240}, {1, 246},  {1, 351}, {1, 502},  {1, 503},  {1, 681},  {1, 690}, {1, 741},
         {1, 751}, {1, 852},  {1, 866}, {1, 1136}, {1, 1277}, {1, 1304}, {7, 91},  {1, 102},
-        {4, 94},  {4, 1851}, {3, 512}, {5, 241},  {10, 151}, {8, 811}};
+        {4, 94},  {4, 1851}, {3, 512}, {5, 241},  {10, 151}, {8, 811}, {3, 802}};
     const struct br_extreme_judging judging = {.quick = true};
     for (size_t i = 0; i < sizeof sound / sizeof *sound; i++) {
         const struct br_extreme_verdict verdict = judge(sound[i], &judging);

@@ -20,6 +20,7 @@ struct tip_path {
 struct trial {
     struct br_certificate worst;     /* of this step's stages so far */
     double branch[BR_MOST_BRANCHES]; /* the worst so far of each branch that may be held */
+    double law;                      /* the worst so far of the law itself */
 };
 
 /* A step looks back at most three steps, to states that look back as far, and the tip's increments
@@ -85,8 +86,8 @@ static double tip_path_at(const struct tip_path *p, double time)
 
 /* ---- a stage ---- */
 
-/* A branch that is held through a step: all its stages are on one branch, and the last obeys the
- * law itself. */
+/* An adaptive step either holds a branch: all its stages are on it, and the last obeys the law. Or
+ * it is a short one over a switch, and each of its stages obeys the law. */
 static double hold(struct trial *f, const double *distance, int count, bool last, double law)
 {
     double nearest = INFINITY;
@@ -95,7 +96,9 @@ static double hold(struct trial *f, const double *distance, int count, bool last
         if (!(f->branch[i] >= nearest))
             nearest = f->branch[i];
     }
-    return last ? br_worse_of(nearest, law) : nearest;
+    f->law = br_worse_of(law, f->law);
+    const double held = last ? br_worse_of(nearest, law) : nearest;
+    return f->law < held ? f->law : held;
 }
 
 static struct br_step_field around(const struct br_watched_field *f)
