@@ -6,11 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/documents.h"
 #include "cli/progress.h"
+#include "cli/session.h"
 #include "cli/signals.h"
-#include "plots/pictures.h"
-#include "plots/render.h"
 #include "study/scene/quote.h"
 
 /* All frames are kept with all nodes: 120 MB at most. */
@@ -27,7 +25,7 @@ static bool is_folder(const char *path)
 /* Splits dir/name.gif into folder and stem; frames are called frame-0001.png in their folder. */
 static enum br_status split(struct br_pictures *p, char *folder, size_t size, struct br_error *err)
 {
-    const char *file = p->request.animate;
+    const char *file = p->animate;
     const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file;
     if (p->format->frames && !p->format->film) {
         snprintf(folder, size, "%s", file);
@@ -49,7 +47,7 @@ static enum br_status split(struct br_pictures *p, char *folder, size_t size, st
 
 static enum br_status choose_format(struct br_pictures *p, struct br_error *err)
 {
-    const char *file = p->request.animate;
+    const char *file = p->animate;
     p->format = br_movie_format_of(is_folder(file) ? "/" : file);
     if (p->format)
         return BR_OK;
@@ -70,7 +68,7 @@ static enum br_status check_programs(struct br_pictures *p, struct br_error *err
             err, BR_BAD_INPUT,
             "--animate: found '%s', which needs ffmpeg, and it is not installed; .gif and "
             ".webp do not need it",
-            p->request.animate);
+            p->animate);
     const int name = (int)strcspn(p->format->terminal, " ");
     FILE *question = tmpfile();
     if (question)
@@ -80,17 +78,17 @@ static enum br_status check_programs(struct br_pictures *p, struct br_error *err
         return BR_OK;
     return br_fail(err, BR_BAD_INPUT,
                    "--animate: found '%s', but the installed gnuplot has no terminal '%.*s'",
-                   p->request.animate, name, p->format->terminal);
+                   p->animate, name, p->format->terminal);
 }
 
 static enum br_status open_movie(struct br_pictures *p, struct br_error *err)
 {
     char folder[sizeof p->output.folder];
     struct br_error inner = {0};
-    if (strlen(p->request.animate) >= sizeof folder)
+    if (strlen(p->animate) >= sizeof folder)
         return br_fail(err, BR_BAD_INPUT, "--animate: the name is too long");
-    if (p->request.n > MOST_ELEMENTS)
-        return br_fail(err, BR_BAD_INPUT, "--animate: n is %zu, expected at most %d", p->request.n,
+    if (p->n > MOST_ELEMENTS)
+        return br_fail(err, BR_BAD_INPUT, "--animate: n is %zu, expected at most %d", p->n,
                        MOST_ELEMENTS);
     enum br_status status = choose_format(p, err);
     if (!status)
@@ -109,7 +107,7 @@ static enum br_status keep_step(void *self, const struct br_march *march,
                                 const struct br_history_row *row, struct br_error *err)
 {
     struct br_pictures *p = self;
-    const bool last = row->step == p->request.steps;
+    const bool last = row->step == p->steps;
     const bool frame = p->frames && (row->step % p->frames == 0 || last);
     const bool kept = p->rows && (row->step % p->rows == 0 || last);
     if (!frame && !kept)
@@ -124,14 +122,12 @@ static enum br_status keep_step(void *self, const struct br_march *march,
     return status;
 }
 
-enum br_status br_pictures_open(struct br_pictures *p, const struct br_pictures_request *request,
-                                struct br_error *err)
+enum br_status br_pictures_open(struct br_pictures *p, struct br_error *err)
 {
-    *p = (struct br_pictures){.request = *request};
-    p->keep = br_history_recorder(&p->record, request->n);
-    p->rows = request->plot ? br_history_stride(request->steps, ROWS) : 0;
-    p->frames = request->animate ? br_history_stride(request->steps, FRAMES) : 0;
-    return request->animate ? open_movie(p, err) : BR_OK;
+    p->keep = br_history_recorder(&p->record, p->n);
+    p->rows = p->plot ? br_history_stride(p->steps, ROWS) : 0;
+    p->frames = p->animate ? br_history_stride(p->steps, FRAMES) : 0;
+    return p->animate ? open_movie(p, err) : BR_OK;
 }
 
 struct br_history_observer br_pictures_observer(struct br_pictures *p)
@@ -148,7 +144,7 @@ static enum br_status render_movie(struct br_pictures *p, const struct br_movie 
     enum br_status status = br_gnuplot_start(&g, p->output.staging, script, NULL, &p->missing, err);
     if (status)
         return status;
-    g.observer = br_progress_start("drawing", p->request.quiet);
+    g.observer = br_progress_start("drawing", p->quiet);
     g.pictures = p->record.looks;
     status = br_gnuplot_end(&g, err);
     br_progress_end();
@@ -166,7 +162,7 @@ static enum br_status render_movie(struct br_pictures *p, const struct br_movie 
 
 static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
 {
-    const struct br_movie movie = {p->request.scene, &p->record, p->format, p->stem};
+    const struct br_movie movie = {p->scene, &p->record, p->format, p->stem};
     enum br_status status = BR_OK;
     char name[300];
     for (int script = 0; script < 2 && !status; script++) {
@@ -196,7 +192,7 @@ static int columns_of(FILE *letters)
 static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct br_error *err)
 {
     bool missing = false;
-    struct br_figure figure = br_history_draw(p->request.scene, &p->record);
+    struct br_figure figure = br_history_draw(p->scene, &p->record);
     struct br_error why = {0};
     FILE *script = tmpfile();
     const enum br_status status = br_figure_check(&figure, err);
@@ -213,9 +209,9 @@ static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct 
 enum br_status br_pictures_finish(struct br_pictures *p, FILE *letters, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    if (p->request.plot && letters && p->record.rows > 1)
+    if (p->plot && letters && p->record.rows > 1)
         status = draw_letters(p, letters, err);
-    if (!status && p->request.animate && p->record.looks > 0)
+    if (!status && p->animate && p->record.looks > 0)
         status = draw_movie(p, err);
     if (!status && p->missing)
         fprintf(stderr, "beamrate: gnuplot is not installed: the animation is written as a script "

@@ -8,15 +8,13 @@
 #include "plots/pictures.h"
 #include "study/run/history.h"
 
-struct br_pictures_request {
+/* Begins with what is wanted, the rest zeros. */
+struct br_pictures {
     const char *animate; /* a file; NULL: not wanted */
     bool plot, quiet;
     const struct br_scene *scene;
     size_t n, steps; /* of the march */
-};
 
-struct br_pictures {
-    struct br_pictures_request request;
     const struct br_movie_format *format;
     char stem[256];          /* of the movie's files */
     struct br_output output; /* its folder */
@@ -29,8 +27,7 @@ struct br_pictures {
 /* Opens the movie's files, so call it before a long march. Fails with BR_BAD_INPUT: a file of
  * another kind, a terminal that the installed gnuplot does not have, a folder that cannot be
  * written; discard it even then. Without gnuplot scripts and data are written, with a note. */
-enum br_status br_pictures_open(struct br_pictures *pictures,
-                                const struct br_pictures_request *request, struct br_error *err);
+enum br_status br_pictures_open(struct br_pictures *pictures, struct br_error *err);
 
 /* An observer that keeps what is shown; the pictures must outlive the march. */
 struct br_history_observer br_pictures_observer(struct br_pictures *pictures);

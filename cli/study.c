@@ -7,8 +7,8 @@
 
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/session.h"
 #include "cli/study_request.h"
+#include "cli/vary.h"
 #include "cli/warn.h"
 #include "plots/pictures.h"
 #include "reference/printed.h"
@@ -22,12 +22,11 @@
 
 /* One study: a scene, and the printed table to hold it against, if any. */
 struct job {
-    const char *name;                   /* of the result files; NULL: the scene's */
-    const char *scene;                  /* a file, or a bundled scene */
-    const char *printed;                /* a data file below the data folder, or NULL */
-    const char *caption;                /* NULL: the scene's title */
-    const struct br_opened_scene *base; /* of --vary, instead of `scene`: with that value */
-    const struct br_varied *varied;
+    const char *name;           /* of the result files; NULL: the scene's */
+    const char *scene;          /* a file, or a bundled scene */
+    const char *printed;        /* a data file below the data folder, or NULL */
+    const char *caption;        /* NULL: the scene's title */
+    const struct br_vary *vary; /* of --vary, instead of `scene`: with that value */
     size_t value;
 };
 
@@ -51,7 +50,7 @@ struct page {
 };
 
 struct run {
-    struct br_session session;
+    struct br_session *session; /* borrowed */
     struct br_study_request request;
     const char *what; /* for the progress */
     bool differences; /* --reference none: cells against the next finer ones */
@@ -77,7 +76,7 @@ static enum br_status make_grid(struct run *r, size_t i, struct br_error *err)
 {
     struct work *w = &r->work[i];
     const struct br_study_request *q = &r->request;
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->session->options;
     const struct br_scene *scene = &w->opened.scene;
     struct br_study *study = study_of(r, i, 0);
     *study = (struct br_study){
@@ -170,7 +169,7 @@ static enum br_status start_report(struct run *r, const struct job *job, size_t 
         .meshes = !r->differences ? &r->meshes[i * r->request.norms + m]
                   : variant == 0  ? study_of(r, i, m)
                                   : NULL,
-        .rates = br_option_given(r->session.options, BR_OPT_RATES),
+        .rates = br_option_given(r->session->options, BR_OPT_RATES),
     };
     const bool printed = job->printed && norm->printed && !r->differences;
     return printed ? read_printed(job->printed, &page->report, err) : BR_OK;
@@ -180,9 +179,8 @@ static enum br_status prepare_job(struct run *r, const struct job *job, size_t i
                                   struct br_error *err)
 {
     struct br_opened_scene *opened = &r->work[i].opened;
-    enum br_status status =
-        job->varied ? br_opened_scene_vary(opened, job->base, job->varied, job->value, err)
-                    : br_opened_scene_read(opened, job->scene, err);
+    enum br_status status = job->vary ? br_vary_scene(job->vary, job->value, opened, err)
+                                      : br_opened_scene_read(opened, job->scene, err);
     if (!status)
         status = make_grid(r, i, err);
     if (!status)
@@ -207,7 +205,7 @@ static enum br_status prepare(struct run *r, const struct job *job, bool with_ex
                               struct br_error *err)
 {
     const struct br_study_request *q = &r->request;
-    enum br_status status = br_study_request_read(r->session.options, &r->request, err);
+    enum br_status status = br_study_request_read(r->session->options, &r->request, err);
     if (status)
         return status;
     r->differences = q->judge == &br_judge_none;
@@ -241,7 +239,6 @@ static void clear(struct run *r)
     free(r->work);
     free(r->study);
     free(r->meshes);
-    br_session_close(&r->session);
 }
 
 /* ---- computing ---- */
@@ -250,12 +247,12 @@ static void clear(struct run *r)
 static enum br_status keep(struct run *r, const char *more, struct br_error *err)
 {
     if (r->differences)
-        return br_option_given(r->session.options, BR_OPT_RESUME)
+        return br_option_given(r->session->options, BR_OPT_RESUME)
                    ? br_fail(err, BR_BAD_INPUT, "--resume: --reference none does not heed it")
                    : BR_OK;
     enum br_status status = BR_OK;
     for (size_t i = 0; i < r->jobs && !status; i++)
-        status = br_session_keep(&r->session, r->work[i].opened.text, more, &r->work[i].kept, err);
+        status = br_session_keep(r->session, r->work[i].opened.text, more, &r->work[i].kept, err);
     for (size_t h = 0; h < r->heads && !status; h++)
         for (struct br_study *s = study_of(r, h, 0); s && *r->work->kept.folder; s = s->next_norm)
             s->kept = &r->work[h % r->jobs].kept;
@@ -281,7 +278,7 @@ static enum br_status run_differences(struct run *r, size_t job, const struct br
 {
     struct br_differences out[BR_MOST_NORMS] = {0};
     const enum br_status status = br_differences_run(study_of(r, job, 0), out, &r->work[job].tips,
-                                                     r->session.threads, observer, err);
+                                                     r->session->threads, observer, err);
     for (size_t m = 0; m < r->request.norms; m++) {
         *study_of(r, job, m) = out[m].over_h;
         *study_of(r, r->jobs + job, m) = out[m].over_k;
@@ -326,7 +323,7 @@ static enum br_status run_meshes(struct run *r, size_t job, const struct br_obse
         grid[m].next_norm = m + 1 < norms ? &grid[m + 1] : NULL;
     }
     const enum br_status status =
-        br_differences_run(grid, out, NULL, r->session.threads, observer, &w->no_meshes);
+        br_differences_run(grid, out, NULL, r->session->threads, observer, &w->no_meshes);
     if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
         return br_fail(err, status, "%s", w->no_meshes.message);
     for (size_t m = 0; m < norms && !status; m++) {
@@ -345,22 +342,22 @@ static enum br_status finish_page(const struct run *r, struct page *page, double
         report->meshes = NULL;
         report->no_meshes = page->work->no_meshes.message;
     }
-    return br_report_finish(report, r->session.threads, err);
+    return br_report_finish(report, r->session->threads, err);
 }
 
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
-    const struct br_observer *observer = br_progress_start(r->what, r->session.quiet);
+    const struct br_observer *observer = br_progress_start(r->what, r->session->quiet);
     enum br_status status = BR_OK;
     if (!r->differences)
-        status = br_study_run(r->study, r->heads, r->session.threads, observer, err);
+        status = br_study_run(r->study, r->heads, r->session->threads, observer, err);
     for (size_t i = 0; i < r->jobs && !status; i++)
         status =
             r->differences ? run_differences(r, i, observer, err) : run_meshes(r, i, observer, err);
     br_progress_end();
     for (size_t i = 0; i < r->jobs; i++)
-        br_session_tell_kept(&r->session, &r->work[i].kept);
+        br_session_tell_kept(r->session, &r->work[i].kept);
     const double wall = br_seconds() - start;
     for (size_t i = 0; i < r->pages && !status; i++)
         status = finish_page(r, &r->page[i], wall, err);
@@ -372,30 +369,29 @@ static enum br_status compute(struct run *r, struct br_error *err)
 static void build_report(struct run *r, size_t i)
 {
     const struct br_report *report = &r->page[i].report;
-    struct br_document *d = &r->session.document[i];
+    struct br_document *d = &r->session->document[i];
     const struct br_provenance provenance =
-        br_provenance_of(&r->page[i].work->opened, r->session.threads);
+        br_provenance_of(&r->page[i].work->opened, r->session->threads);
     br_report_study(report, d);
     for (const struct br_convergence_picture *const *p = br_convergence_pictures; *p; p++)
         if ((*p)->applies(report))
-            br_session_draw(&r->session, d, br_convergence_draw(*p, report), (*p)->title);
+            br_session_draw(r->session, d, br_convergence_draw(*p, report), (*p)->title);
     br_put_provenance(d, &provenance);
 }
 
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
-    if (br_session_report(&r->session, r->pages, err))
+    if (br_session_report(r->session, r->pages, err))
         return err->status;
     for (size_t i = 0; i < r->pages; i++)
         build_report(r, i);
-    return br_session_finish(&r->session, err);
+    return br_session_finish(r->session, err);
 }
 
 static void foresee(const struct run *r, struct br_foreseen *work)
 {
     for (size_t h = 0; h < (r->differences ? r->jobs : r->heads); h++)
         br_foreseen_add_study(work, study_of(r, h, 0));
-    work->together = true;
 }
 
 /* A failed cell fails the run, after everything has been written. */
@@ -419,19 +415,21 @@ static enum br_status check_cells(const struct run *r, struct br_error *err)
 static enum br_status run_jobs(const struct br_options *options, const struct job *job, size_t jobs,
                                bool with_exact, struct br_error *err)
 {
-    struct run r = {.session = br_session_begin(options), .jobs = jobs, .what = "marching"};
-    const bool writes = r.session.writes;
-    struct br_foreseen work = {0};
+    struct br_session session = br_session_begin(options);
+    struct run r = {.session = &session, .jobs = jobs, .what = "marching"};
+    const bool writes = session.writes;
+    struct br_foreseen work = {.together = true};
     bool failed = prepare(&r, job, with_exact, err);
     if (!failed && br_option_given(options, BR_OPT_DRY_RUN)) {
         foresee(&r, &work);
-        failed = br_session_foresee(&r.session, &work, err);
+        failed = br_session_foresee(&session, &work, err);
     } else if (!failed) {
-        failed = check_memory(&r, err) || br_session_open(&r.session, err) || keep(&r, "", err) ||
+        failed = check_memory(&r, err) || br_session_open(&session, err) || keep(&r, "", err) ||
                  (writes && br_warn_of_studies(r.study, jobs, err)) || compute(&r, err) ||
                  (writes && write_all(&r, err)) || check_cells(&r, err);
     }
     clear(&r);
+    br_session_close(&session);
     return failed ? err->status : BR_OK;
 }
 
@@ -439,23 +437,14 @@ static enum br_status run_jobs(const struct br_options *options, const struct jo
 
 enum { ERROR, RELATIVE, OWN, P, P_LOW, P_HIGH, Q, Q_LOW, Q_HIGH, MISFIT, POINTS, SWEPT };
 
-struct varied_study {
-    struct br_session session;
-    struct br_opened_scene base;
-    struct br_varied varied;
-    struct run *point; /* of each value; owned */
-    size_t points;
-    struct br_variation found;
-    struct br_variation_column column[SWEPT];
-    char axis[160];
-};
-
-static void name_columns(struct varied_study *w, const struct br_norm *norm)
+static const struct br_variation_column *name_columns(const void *point)
 {
-    snprintf(w->axis, sizeof w->axis, "%s of the finest cell (%s)", norm->symbol,
-             norm->unit_markup);
+    static char axis[160];
+    static struct br_variation_column column[SWEPT];
+    const struct br_norm *norm = ((const struct run *)point)->request.norm[0];
+    snprintf(axis, sizeof axis, "%s of the finest cell (%s)", norm->symbol, norm->unit_markup);
     const struct br_variation_column columns[SWEPT] = {
-        [ERROR] = {"error", "error of the finest cell", norm->unit, "%.3e", .axis = w->axis,
+        [ERROR] = {"error", "error of the finest cell", norm->unit, "%.3e", .axis = axis,
                    .logarithmic = true},
         [RELATIVE] = {"relative", "relative", .format = "%.2e"},
         [OWN] = {"reference_error", .unit = norm->unit, .for_programs = true},
@@ -468,7 +457,8 @@ static void name_columns(struct varied_study *w, const struct br_norm *norm)
         [MISFIT] = {"misfit", "misfit", .format = "%.2g"},
         [POINTS] = {"points", "cells that count", .format = "%.0f"},
     };
-    memcpy(w->column, columns, sizeof columns);
+    memcpy(column, columns, sizeof column);
+    return column;
 }
 
 /* An order is claimed as a study's report claims it. */
@@ -481,9 +471,9 @@ static void take_order(double *value, const struct br_joint_fit *fit, const stru
     value[2] = e->high;
 }
 
-static void take_point(const struct run *r, struct varied_study *w, size_t i)
+static void take_point(const struct run *r, struct br_variation *found, size_t i)
 {
-    double *value = &w->found.value[i * SWEPT];
+    double *value = &found->value[i * SWEPT];
     const struct br_report *report = &r->page[0].report;
     const struct br_study *s = report->study;
     const struct br_joint_fit *fit = &report->fits[BR_PART_TOTAL].joint;
@@ -496,110 +486,78 @@ static void take_point(const struct run *r, struct varied_study *w, size_t i)
     value[MISFIT] = fit->misfit;
     value[POINTS] = (double)fit->points;
     if (finest->flag[BR_PART_TOTAL])
-        w->found.remark[i] = br_flag_name(finest->flag[BR_PART_TOTAL]);
-    w->found.unstable[i] = finest->unstable;
+        found->remark[i] = br_flag_name(finest->flag[BR_PART_TOTAL]);
+    found->unstable[i] = finest->unstable;
 }
 
-/* All grids, so that what is refused is refused before anything marches. */
-static enum br_status prepare_points(struct varied_study *w, struct br_error *err)
+static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, struct br_error *err)
 {
-    const struct br_options *o = w->session.options;
-    char text[BR_VARIED_TEXT];
-    if (br_opened_scene_read(&w->base, o->word[0], err) ||
-        br_varied_read(br_option_text(o, BR_OPT_VARY), &w->varied, err))
-        return err->status;
-    if (!(w->point = br_allocate(w->varied.count, sizeof *w->point)))
-        return br_no_memory(err, "the studies");
-    while (w->points < w->varied.count) {
-        const size_t i = w->points++;
-        struct run *r = &w->point[i];
-        const struct job job = {.base = &w->base, .varied = &w->varied, .value = i};
-        *r = (struct run){.session = w->session, .jobs = 1, .what = "marching"};
-        if (prepare(r, &job, false, err) || check_memory(r, err))
-            return br_failed_in(err, br_varied_text(&w->varied, i, text));
-        if (r->request.norms > 1)
-            return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one with --vary",
-                           r->request.norms);
-        if (r->differences)
-            return br_fail(err, BR_BAD_INPUT,
-                           "--reference: found 'none', expected a judge that gives errors: exact, "
-                           "mms or fine:N,K");
-    }
-    name_columns(w, w->point[0].request.norm[0]);
-    w->found = (struct br_variation){.varied = &w->varied,
-                                     .format = "beamrate study variation",
-                                     .column = w->column,
-                                     .columns = SWEPT};
-    return br_variation_create(&w->found, &w->base.scene, err);
+    struct run *r = self;
+    const struct job job = {.vary = v, .value = i};
+    *r = (struct run){.session = &v->session, .jobs = 1};
+    return prepare(r, &job, false, err) ? err->status : check_memory(r, err);
 }
 
-/* A value whose study fails is a result. */
-static enum br_status run_point(struct varied_study *w, size_t i, struct br_error *err)
+static enum br_status foresee_value(const struct br_vary *v, void *self, struct br_foreseen *work,
+                                    struct br_error *err)
 {
-    struct run *r = &w->point[i];
-    struct br_error *failure = &w->found.failure[i];
+    (void)v;
+    (void)err;
+    foresee(self, work);
+    return BR_OK;
+}
+
+static enum br_status march_value(struct br_vary *v, size_t i, void *self, struct br_error *failure,
+                                  struct br_error *err)
+{
+    struct run *r = self;
     struct br_study named = *r->study;
     struct br_scene scene = *named.scene;
     char text[BR_VARIED_TEXT], what[64];
     named.scene = &scene;
-    scene.name = (char *)br_varied_text(&w->varied, i, text);
-    snprintf(what, sizeof what, "marching (value %zu of %zu)", i + 1, w->points);
+    scene.name = (char *)br_varied_text(&v->varied, i, text);
+    snprintf(what, sizeof what, "marching (value %zu of %zu)", i + 1, v->points);
     r->what = what;
-    if (w->session.writes && br_warn_of_studies(&named, 1, failure))
-        return failure->status == BR_BAD_INPUT
-                   ? BR_OK
-                   : br_fail(err, failure->status, "%s", failure->message);
-    r->session.output = w->session.output; /* open by now */
-    enum br_status status = keep(r, text, err);
-    if (status)
-        return status;
-    status = compute(r, failure);
-    if (status == BR_NO_MEMORY || status == BR_INTERRUPTED || status == BR_IO)
-        return br_fail(err, status, "%s", failure->message);
-    if (!status) {
-        take_point(r, w, i);
-        check_cells(r, failure);
-    }
+    if (keep(r, text, err))
+        return err->status;
+    if ((v->session.writes && br_warn_of_studies(&named, 1, failure)) || compute(r, failure))
+        return BR_OK;
+    take_point(r, &v->found, i);
+    check_cells(r, failure);
     return BR_OK;
 }
 
-static enum br_status run_points(struct varied_study *w, struct br_error *err)
+static void clear_value(void *self)
 {
-    enum br_status status = br_session_open(&w->session, err);
-    for (size_t i = 0; i < w->points && !status; i++)
-        status = run_point(w, i, err);
-    return status || !w->session.writes
-               ? status
-               : br_session_variation(&w->session, &w->found, &w->base, err);
+    clear(self);
 }
 
-static enum br_status foresee_points(const struct varied_study *w, struct br_error *err)
+static const struct br_vary_command varied = {
+    .format = "beamrate study variation",
+    .size = sizeof(struct run),
+    .columns = SWEPT,
+    .prepare = prepare_value,
+    .name_columns = name_columns,
+    .foresee = foresee_value,
+    .march = march_value,
+    .clear = clear_value,
+};
+
+/* One error a value. */
+static enum br_status run_varied(const struct br_options *o, struct br_error *err)
 {
-    struct br_foreseen work = {0};
-    for (size_t i = 0; i < w->points; i++)
-        foresee(&w->point[i], &work);
-    work.together = false;
-    return br_session_foresee(&w->session, &work, err);
+    const char *reference = br_option_text(o, BR_OPT_REFERENCE);
+    if (o->count[BR_OPT_NORM] > 1)
+        return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one with --vary",
+                       o->count[BR_OPT_NORM]);
+    if (reference && strcmp(reference, br_judge_none.name) == 0)
+        return br_fail(err, BR_BAD_INPUT,
+                       "--reference: found 'none', expected a judge that gives errors: exact, "
+                       "mms or fine:N,K");
+    return br_vary_run(o, &varied, err);
 }
 
-static enum br_status run_varied(const struct br_options *options, struct br_error *err)
-{
-    struct varied_study w = {.session = br_session_begin(options)};
-    bool failed = prepare_points(&w, err);
-    if (!failed)
-        failed = br_option_given(options, BR_OPT_DRY_RUN) ? foresee_points(&w, err)
-                                                          : run_points(&w, err);
-    for (size_t i = 0; i < w.points; i++) {
-        w.point[i].session = (struct br_session){0};
-        clear(&w.point[i]);
-    }
-    free(w.point);
-    br_variation_clear(&w.found);
-    br_varied_clear(&w.varied);
-    br_opened_scene_clear(&w.base);
-    br_session_close(&w.session);
-    return failed ? err->status : BR_OK;
-}
+/* ---- the commands ---- */
 
 static enum br_status run_study(const struct br_options *options, struct br_error *err)
 {
