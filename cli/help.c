@@ -3,7 +3,7 @@
  * the registries. */
 #include <string.h>
 
-#include "cli/languages.h"
+#include "cli/command.h"
 #include "study/trade/named_method.h"
 
 enum { WIDTH = 98, COLUMN = 34 };

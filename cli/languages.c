@@ -14,7 +14,7 @@
  *   w words that may be chosen, or one     v the pattern of a value
  *   u what a word without a title is       q "name:title" as a string of a shell
  *   x the version        z the bundled scenes */
-#include "cli/languages.h"
+#include "cli/command.h"
 
 #include <ctype.h>
 #include <string.h>

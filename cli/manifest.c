@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/manifest.h"
+#include "cli/output.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -11,7 +11,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "cli/output.h"
 #include "cli/provenance.h"
 #include "study/orders/sha256.h"
 #include "tables/json_value.h"

@@ -155,6 +155,9 @@ void br_options_clear(struct br_options *options);
 
 bool br_option_given(const struct br_options *o, enum br_option_id id);
 
+/* The name of the first one that is given, of a list that ends with BR_OPTIONS; NULL: none is. */
+const char *br_first_given(const struct br_options *o, const enum br_option_id *list);
+
 /* As given, or the default; NULL: neither. */
 const char *br_option_text(const struct br_options *o, enum br_option_id id);
 
@@ -178,9 +181,5 @@ enum br_status br_read_step(const char *option, const char *text, const struct b
  * the caller, NULL without any. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
 enum br_status br_option_steps(const struct br_options *o, const struct br_scene *scene,
                                size_t **steps, size_t *count, struct br_error *err);
-
-/* ---- help ---- */
-
-void br_print_command_help(FILE *out, const struct br_command *command);
 
 #endif

@@ -9,8 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/progress.h"
 #include "cli/provenance.h"
-#include "cli/signals.h"
 #include "study/scene/quote.h"
 #include "tables/json_value.h"
 

@@ -8,7 +8,6 @@
 
 #include "cli/progress.h"
 #include "cli/session.h"
-#include "cli/signals.h"
 #include "study/scene/quote.h"
 
 /* All frames are kept with all nodes: 120 MB at most. */

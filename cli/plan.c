@@ -92,7 +92,8 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     const struct br_provenance provenance = br_provenance_of(&r->opened, r->session.threads);
     if (br_session_report(&r->session, 1, err))
         return err->status;
-    br_warn_of_plan(&r->plan);
+    if (r->plan.chosen < r->plan.count)
+        br_warn_of_trials(&r->opened.scene, &r->plan.trial[r->plan.chosen], 1);
     br_report_plan(&r->plan, r->session.options->word[0], &provenance, r->session.document);
     const enum br_status status = br_session_finish(&r->session, err);
     if (!status && r->plan.end == BR_PLAN_MISSED)

@@ -2,13 +2,44 @@
 #include "cli/progress.h"
 
 #include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "cli/signals.h"
 #include "solver/clock.h"
-#include "study/grid/observer.h"
+
+/* ---- signals ---- */
+
+static volatile sig_atomic_t caught;
+
+static void remember(int number)
+{
+    caught = number;
+}
+
+void br_signals_install(void)
+{
+    struct sigaction action = {.sa_handler = remember, .sa_flags = (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL); /* a second Ctrl-C ends it at once */
+    sigaction(SIGTERM, &action, NULL);
+    signal(SIGXFSZ, SIG_IGN);
+    signal(SIGPIPE, SIG_IGN);
+}
+
+bool br_signals_caught(void)
+{
+    return caught != 0;
+}
+
+void br_signals_raise_again(void)
+{
+    const int number = caught ? caught : SIGINT;
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+/* ---- progress ---- */
 
 enum { BAR = 40, TEXT = 46 /* beside the bar, at most */ };
 
@@ -21,6 +52,7 @@ static struct {
     bool quiet, terminal;
     double start, last; /* s */
     double fraction;    /* of the whole work */
+    size_t part, parts; /* at work is part of parts */
     int tenths;         /* lines told so far */
     double waits;       /* since then for an exact reference, s; 0: not yet */
 } progress = {.lock = PTHREAD_MUTEX_INITIALIZER};
@@ -57,6 +89,7 @@ static void show(void *self, double fraction)
 {
     (void)self;
     pthread_mutex_lock(&progress.lock);
+    fraction = ((double)progress.part + fraction) / (double)progress.parts;
     progress.fraction = fraction;
     const double t = br_seconds(), elapsed = t - progress.start;
     if (progress.terminal && t - progress.last >= 0.1) {
@@ -115,6 +148,12 @@ static bool stop(void *self)
     return br_signals_caught();
 }
 
+void br_progress_part(size_t i, size_t parts)
+{
+    progress.part = i;
+    progress.parts = parts;
+}
+
 const struct br_observer *br_progress_start(const char *what, bool quiet)
 {
     static struct br_observer observer;
@@ -126,6 +165,7 @@ const struct br_observer *br_progress_start(const char *what, bool quiet)
     progress.fraction = 0;
     progress.tenths = 0;
     progress.waits = 0;
+    br_progress_part(0, 1);
     observer = (struct br_observer){
         .progress = quiet ? NULL : show, .stop = stop, .preparing = quiet ? NULL : show_waiting};
     return &observer;

@@ -9,9 +9,9 @@
 #include <unistd.h>
 
 #include "cli/command.h"
+#include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/session.h"
-#include "cli/signals.h"
 #include "study/orders/program.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"

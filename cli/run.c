@@ -349,18 +349,15 @@ static void take_point(const struct br_run_report *p, const struct br_prediction
 /* What is of one march alone. */
 static enum br_status check_swept(const struct br_options *o, struct br_error *err)
 {
-    static const enum br_option_id single[] = {BR_OPT_AT,     BR_OPT_EVERY,   BR_OPT_ROWS,
-                                               BR_OPT_PLOT,   BR_OPT_ANIMATE, BR_OPT_JSON,
-                                               BR_OPT_EXPLAIN};
-    static const char *const names[] = {"at",      "every", "rows",   "plot",
-                                        "animate", "json",  "explain"};
-    for (size_t i = 0; i < sizeof single / sizeof *single; i++)
-        if (br_option_given(o, single[i]))
-            return br_fail(err, BR_BAD_INPUT,
-                           "--%s: it is of one march: --vary does not heed it; --out has what is "
-                           "found at all values",
-                           names[i]);
-    return BR_OK;
+    static const enum br_option_id single[] = {BR_OPT_AT,      BR_OPT_EVERY,   BR_OPT_ROWS,
+                                               BR_OPT_PLOT,    BR_OPT_ANIMATE, BR_OPT_JSON,
+                                               BR_OPT_EXPLAIN, BR_OPTIONS};
+    const char *name = br_first_given(o, single);
+    return name ? br_fail(err, BR_BAD_INPUT,
+                          "--%s: it is of one march: --vary does not heed it; --out has what is "
+                          "found at all values",
+                          name)
+                : BR_OK;
 }
 
 static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, struct br_error *err)

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
+#include "cli/progress.h"
 #include "cli/provenance.h"
-#include "cli/signals.h"
 #include "study/grid/each.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"

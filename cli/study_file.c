@@ -96,9 +96,12 @@ enum br_status br_study_file_read(const char *path, const char *text,
     return status || !f->request.command ? status : check_trust(&f->request, text, options, err);
 }
 
-struct br_check br_study_file_check(const struct br_study_file *f)
+struct br_check br_study_file_check(struct br_study_file *f, const struct br_options *o)
 {
-    const struct br_orders_request *r = &f->request;
+    struct br_orders_request *r = &f->request;
+    r->jobs = (int)br_option_number(o, BR_OPT_THREADS, 0);
+    r->kept = br_option_text(o, BR_OPT_KEEP);
+    r->anew = !br_option_given(o, BR_OPT_RESUME);
     struct br_check check = {.path = r->path,
                              .name = r->title     ? r->title
                                      : r->command ? r->command
@@ -111,11 +114,10 @@ enum br_status br_study_file_run(struct br_study_file *f, struct br_check *check
                                  struct br_error *err)
 {
     struct br_orders_request *r = &f->request;
-    enum br_status status = br_orders_read(r, &f->numbers, err);
+    const enum br_status status = br_orders_read(r, &f->numbers, err);
     for (size_t i = 0; i < f->numbers.rows; i++)
         check->seconds += isfinite(f->numbers.row[i].seconds) ? f->numbers.row[i].seconds : 0;
-    if (!status)
-        status = br_orders_find(&f->numbers, r->formal, &f->orders, err);
-    return status ? status
-                  : br_orders_check(&f->orders, r->expectation, r->expectations, check, err);
+    if (status || br_orders_find(&f->numbers, r->formal, &f->orders, err))
+        return err->status;
+    return br_orders_check(&f->orders, r->expectation, r->expectations, check, err);
 }

@@ -20,8 +20,9 @@ enum br_status br_study_file_read(const char *path, const char *text,
                                   const struct br_options *options, struct br_study_file *file,
                                   struct br_error *err);
 
-/* The check that will hold the study's verdicts, with its path, name and problem. */
-struct br_check br_study_file_check(const struct br_study_file *file);
+/* Takes what the options say of its runs; returns the check that will hold its verdicts, with its
+ * path, name and problem. */
+struct br_check br_study_file_check(struct br_study_file *file, const struct br_options *options);
 
 /* Gets the numbers, finds the orders, and fills the check's cases. Fails as
  * br_orders_read, br_orders_find and br_orders_check do. */

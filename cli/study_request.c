@@ -68,16 +68,6 @@ enum br_status br_study_request_read(const struct br_options *o, struct br_study
     return methods ? br_named_methods_read("--methods", methods, &r->methods, err) : BR_OK;
 }
 
-enum br_status br_check_tolerances(const struct br_options *o,
-                                   const struct br_named_methods *methods, struct br_error *err)
-{
-    bool taken = !br_option_given(o, BR_OPT_TOLERANCES);
-    for (size_t i = 0; i < methods->count; i++)
-        taken = taken || methods->list[i].method.scheme->adaptive;
-    return taken ? BR_OK
-                 : br_fail(err, BR_BAD_INPUT, "--tolerances: no method of --methods heeds it");
-}
-
 enum br_status br_study_request_fine(const struct br_study_request *r, const struct br_scene *scene,
                                      struct br_resolution *fine, struct br_error *err)
 {

@@ -22,10 +22,6 @@ struct br_study_request {
 enum br_status br_study_request_read(const struct br_options *options,
                                      struct br_study_request *request, struct br_error *err);
 
-/* Refuses tolerances that none of these methods takes (BR_BAD_INPUT). */
-enum br_status br_check_tolerances(const struct br_options *options,
-                                   const struct br_named_methods *methods, struct br_error *err);
-
 /* The fine reference's resolution in a scene (out). Fails with BR_BAD_INPUT. */
 enum br_status br_study_request_fine(const struct br_study_request *request,
                                      const struct br_scene *scene, struct br_resolution *fine,

@@ -28,7 +28,8 @@ struct br_vary_command {
     enum br_status (*foresee)(const struct br_vary *vary, void *point, struct br_foreseen *work,
                               struct br_error *err);
     /* Marches, and fills row i of vary->found. failure (out): why there is nothing: a result, but
-     * for BR_NO_MEMORY, BR_IO and BR_INTERRUPTED, which end the command, as what it returns does. */
+     * for BR_NO_MEMORY, BR_IO and BR_INTERRUPTED, which end the command, as what it returns does.
+     */
     enum br_status (*march)(struct br_vary *vary, size_t i, void *point, struct br_error *failure,
                             struct br_error *err);
     void (*clear)(void *point);

@@ -5,28 +5,22 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The file that a format's option names, or NULL. */
-static const char *file_of(const struct br_options *options, const char *format)
-{
-    struct br_option row[BR_OPTIONS];
-    const size_t count = br_options_of(options->command, row);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(row[i].name, format) == 0)
-            return br_option_text(options, row[i].id);
-    return NULL;
-}
-
+/* For each format the file that its option names. */
 static enum br_status open_files(struct br_verdicts *v, const struct br_options *options,
                                  struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    for (size_t i = 1; br_check_formats[i] && !status; i++)
-        status = br_whole_file_open(&v->file[i], br_check_formats[i]->name,
-                                    file_of(options, br_check_formats[i]->name), err);
-    if (!status && br_option_given(options, BR_OPT_UPDATE_BASELINE))
-        status = br_whole_file_open(&v->baseline, "compare",
-                                    br_option_text(options, BR_OPT_COMPARE), err);
-    return status;
+    struct br_option row[BR_OPTIONS];
+    const size_t count = br_options_of(options->command, row);
+    for (size_t i = 1; br_check_formats[i]; i++)
+        for (size_t j = 0; j < count; j++)
+            if (strcmp(row[j].name, br_check_formats[i]->name) == 0 &&
+                br_whole_file_open(&v->file[i], row[j].name, br_option_text(options, row[j].id),
+                                   err))
+                return err->status;
+    return br_option_given(options, BR_OPT_UPDATE_BASELINE)
+               ? br_whole_file_open(&v->baseline, "compare",
+                                    br_option_text(options, BR_OPT_COMPARE), err)
+               : BR_OK;
 }
 
 enum br_status br_verdicts_spare(const struct br_verdicts *v, const char *path,
@@ -56,10 +50,10 @@ static enum br_status check_places(const struct br_verdicts *v, const char *base
             return br_fail(err, BR_BAD_INPUT, "--%s would replace what it is compared with, %s",
                            name, f->path);
     }
-    enum br_status status = BR_OK;
-    for (size_t s = 0; s < count && !status; s++)
-        status = br_verdicts_spare(v, checks[s].path, err);
-    return status;
+    for (size_t s = 0; s < count; s++)
+        if (br_verdicts_spare(v, checks[s].path, err))
+            return err->status;
+    return BR_OK;
 }
 
 /* A baseline that is to be written need not be there yet, nor be of the same problem. */
@@ -76,24 +70,22 @@ static enum br_status read_baseline(struct br_verdicts *v, const struct br_optio
         v->compare = NULL;
     if (!v->compare)
         return BR_OK;
-    enum br_status status = br_check_read_json(v->compare, &v->old, err);
-    if (!status)
-        status = br_compare_check(checks, count, &v->old, err);
-    if (status == BR_BAD_INPUT && update) {
-        v->compare = NULL;
-        status = BR_OK;
-    }
-    return status;
+    if (!br_check_read_json(v->compare, &v->old, err) &&
+        !br_compare_check(checks, count, &v->old, err))
+        return BR_OK;
+    if (err->status != BR_BAD_INPUT || !update)
+        return err->status;
+    v->compare = NULL;
+    return BR_OK;
 }
 
 enum br_status br_verdicts_open(struct br_verdicts *v, const struct br_options *options,
                                 const struct br_check *checks, size_t count, struct br_error *err)
 {
-    enum br_status status = read_baseline(v, options, checks, count, err);
-    if (!status)
-        status = open_files(v, options, err);
-    return status ? status
-                  : check_places(v, br_option_text(options, BR_OPT_COMPARE), checks, count, err);
+    const bool failed =
+        read_baseline(v, options, checks, count, err) || open_files(v, options, err) ||
+        check_places(v, br_option_text(options, BR_OPT_COMPARE), checks, count, err);
+    return failed ? err->status : BR_OK;
 }
 
 enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *session,
@@ -102,15 +94,18 @@ enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *sess
     for (size_t i = 1; br_check_formats[i]; i++)
         session->quiet |= v->file[i].file == stdout;
     const struct br_document *d = &session->document[session->documents - 1];
-    enum br_status status = br_session_finish(session, err);
-    for (size_t i = 1; br_check_formats[i] && !status; i++)
-        if (v->file[i].file)
-            status = br_document_print(v->file[i].file, br_check_formats[i], d, NULL, err);
-    if (v->baseline.file && !status)
-        status = br_document_print(v->baseline.file, &br_document_json, d, NULL, err);
-    for (size_t i = 1; br_check_formats[i] && !status; i++)
-        status = br_whole_file_commit(&v->file[i], err);
-    return status ? status : br_whole_file_commit(&v->baseline, err);
+    if (br_session_finish(session, err))
+        return err->status;
+    for (size_t i = 1; br_check_formats[i]; i++)
+        if (v->file[i].file &&
+            br_document_print(v->file[i].file, br_check_formats[i], d, NULL, err))
+            return err->status;
+    if (v->baseline.file && br_document_print(v->baseline.file, &br_document_json, d, NULL, err))
+        return err->status;
+    for (size_t i = 1; br_check_formats[i]; i++)
+        if (br_whole_file_commit(&v->file[i], err))
+            return err->status;
+    return br_whole_file_commit(&v->baseline, err);
 }
 
 enum br_status br_verdicts_report(struct br_verdicts *v, const struct br_check_findings *findings,

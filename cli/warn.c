@@ -117,22 +117,11 @@ void br_warn_of_checks(const struct br_check *checks, size_t count)
     }
 }
 
-void br_warn_of_trade(const struct br_trade *trade)
+void br_warn_of_trials(const struct br_scene *scene, const struct br_trial *trials, size_t count)
 {
-    struct look look = {.scene = trade->request.scene};
+    struct look look = {.scene = scene};
     struct br_error refusal = {0};
-    for (const struct br_trial *t = trade->trial; t < trade->trial + trade->count; t++)
+    for (const struct br_trial *t = trials; t < trials + count; t++)
         look_at(&look, &t->named->method, t->at.n, t->at.steps, &refusal);
-    end(&look, BR_OK, &refusal);
-}
-
-void br_warn_of_plan(const struct br_plan *plan)
-{
-    struct look look = {.scene = plan->request.scene};
-    struct br_error refusal = {0};
-    if (plan->chosen >= plan->count)
-        return;
-    const struct br_trial *t = &plan->trial[plan->chosen];
-    look_at(&look, &t->named->method, t->at.n, t->at.steps, &refusal);
     end(&look, BR_OK, &refusal);
 }

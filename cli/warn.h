@@ -4,9 +4,8 @@
 #define BR_CLI_WARN_H
 
 #include "study/foresee/warnings.h"
-#include "study/trade/plan.h"
 #include "study/trade/split.h"
-#include "study/trade/trade.h"
+#include "study/trade/trial.h"
 #include "study/verify/check.h"
 
 /* Prints them, a line each: "beamrate: warning: ...; ...", with the scene's name where it is not
@@ -21,10 +20,9 @@ enum br_status br_warn_of_studies(const struct br_study *studies, size_t count,
 enum br_status br_warn_of_splits(const struct br_split *splits, size_t count, struct br_error *err);
 enum br_status br_warn_of_paper(struct br_error *err);
 
-/* The same of the marches of checks, the trials of a trade, and the trial that a plan has chosen,
- * if there is one; a march that is refused is a result of theirs. */
+/* The same of the marches of checks, and of trials of a scene; a march that is refused is a result
+ * of theirs. */
 void br_warn_of_checks(const struct br_check *checks, size_t count);
-void br_warn_of_trade(const struct br_trade *trade);
-void br_warn_of_plan(const struct br_plan *plan);
+void br_warn_of_trials(const struct br_scene *scene, const struct br_trial *trials, size_t count);
 
 #endif
