@@ -116,6 +116,18 @@ enum br_status br_whole_file_commit(struct br_whole_file *whole, struct br_error
 /* Releases it; what has not been put in its place is lost. */
 void br_whole_file_discard(struct br_whole_file *whole);
 
+/* ---- among these files ---- */
+
+/* Writes all of the bytes, and waits until the disk has them. False: errno tells why. */
+bool br_write_whole(int file, const char *bytes, size_t count);
+
+/* Closes a descriptor, unless it is -1; errno is kept. */
+void br_close(int descriptor);
+
+/* Makes every folder of the path that is not there yet; *made: whether the last one was not. False:
+ * errno tells why. */
+bool br_make_folders(const char *path, mode_t last, bool *made);
+
 /* ---- the list of the sets in a folder (manifest.json), for output.c ---- */
 
 /* It is kept as JSON: an array of sets, each with the run that wrote it and its files, each of
@@ -146,8 +158,5 @@ const char *br_listed_name(const json_t *file);
 
 /* *same (out): whether the file in the open folder is as listed, to the byte. Fails with BR_IO. */
 enum br_status br_listed_compare(int folder, const json_t *file, bool *same, struct br_error *err);
-
-/* Writes all of the bytes, and waits until the disk has them. False: errno tells why. */
-bool br_write_whole(int file, const char *bytes, size_t count);
 
 #endif

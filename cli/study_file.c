@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/study_file.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "cli/output.h"
 #include "study/orders/sha256.h"
 #include "study/scene/quote.h"
 
@@ -31,13 +30,8 @@ static bool place_of_trust(char path[4096], bool make)
         snprintf(folder, sizeof folder, "%.3900s/.local/state/beamrate", home);
     else
         return false;
-    for (char *slash = folder + 1; make && (slash = strchr(slash, '/')); slash++) {
-        *slash = '\0';
-        mkdir(folder, 0777);
-        *slash = '/';
-    }
     snprintf(path, 4096, "%s/trusted", folder);
-    return !make || mkdir(folder, 0700) == 0 || errno == EEXIST;
+    return !make || br_make_folders(folder, 0700, &make);
 }
 
 static bool is_trusted(const char *sum)

@@ -166,10 +166,8 @@ static enum br_status write_beside(const struct br_whole_file *w, struct br_erro
     if (!status)
         status = descriptor >= 0 ? write_out(w, folder, strrchr(hidden, '/') + 1, descriptor, err)
                                  : br_fail(err, BR_IO, "%s: %s", w->path, strerror(errno));
-    if (descriptor >= 0)
-        close(descriptor);
-    if (folder >= 0)
-        close(folder);
+    br_close(descriptor);
+    br_close(folder);
     free(hidden);
     return status;
 }
