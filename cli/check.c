@@ -5,9 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/study_file.h"
 #include "cli/verdicts.h"
-#include "cli/warn.h"
 #include "solver/clock.h"
 #include "study/scene/file.h"
 

@@ -6,7 +6,6 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/session.h"
-#include "cli/warn.h"
 #include "plots/pictures.h"
 #include "study/paper/claims.h"
 #include "tables/reports.h"

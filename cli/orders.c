@@ -5,7 +5,6 @@
 
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/study_file.h"
 #include "cli/verdicts.h"
 #include "plots/pictures.h"
 #include "solver/clock.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/pictures.h"
+#include "cli/run.h"
 
 #include <string.h>
 #include <sys/ioctl.h>

@@ -6,7 +6,6 @@
 #include "cli/progress.h"
 #include "cli/session.h"
 #include "cli/study_request.h"
-#include "cli/warn.h"
 #include "study/scene/file.h"
 #include "study/trade/plan.h"
 #include "tables/reports.h"

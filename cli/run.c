@@ -5,11 +5,9 @@
 #include <string.h>
 
 #include "cli/command.h"
-#include "cli/pictures.h"
 #include "cli/progress.h"
 #include "cli/run.h"
 #include "cli/vary.h"
-#include "cli/warn.h"
 #include "solver/clock.h"
 #include "study/foresee/prediction.h"
 #include "study/ranks/ranks.h"

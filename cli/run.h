@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the command line of `run` says of a scene. */
+/* What the command line of `run` says of a scene (run_plan.c), and its pictures. */
 #ifndef BR_CLI_RUN_H
 #define BR_CLI_RUN_H
 
 #include "cli/option.h"
+#include "cli/output.h"
+#include "plots/pictures.h"
 #include "study/run/run.h"
 
 struct br_run_plan {
@@ -19,5 +21,38 @@ struct br_run_plan {
 enum br_status br_run_plan_make(const struct br_options *options, const struct br_scene *scene,
                                 struct br_run_plan *plan, struct br_error *err);
 void br_run_plan_clear(struct br_run_plan *plan);
+
+/* ---- what is shown of a march (pictures.c): a moving picture (--animate), and the tip's history
+ * in letters (--plot) ---- */
+
+/* Begins with what is wanted, the rest zeros. */
+struct br_pictures {
+    const char *animate; /* a file; NULL: not wanted */
+    bool plot, quiet;
+    const struct br_scene *scene;
+    size_t n, steps; /* of the march */
+
+    const struct br_movie_format *format;
+    char stem[256];          /* of the movie's files */
+    struct br_output output; /* its folder */
+    bool missing;            /* gnuplot */
+    size_t rows, frames;     /* steps between what is kept; 0: nothing is */
+    struct br_history_record record;
+    struct br_history_observer keep; /* into the record */
+};
+
+/* Opens the movie's files, so call it before a long march. Fails with BR_BAD_INPUT: a file of
+ * another kind, a terminal that the installed gnuplot does not have, a folder that cannot be
+ * written; discard it even then. Without gnuplot scripts and data are written, with a note. */
+enum br_status br_pictures_open(struct br_pictures *pictures, struct br_error *err);
+
+/* An observer that keeps what is shown; the pictures must outlive the march. */
+struct br_history_observer br_pictures_observer(struct br_pictures *pictures);
+
+/* Draws, and puts the movie in place: whole or not at all. letters: where --plot goes; NULL:
+ * nowhere. Fails with BR_IO. */
+enum br_status br_pictures_finish(struct br_pictures *pictures, FILE *letters,
+                                  struct br_error *err);
+void br_pictures_discard(struct br_pictures *pictures);
 
 #endif

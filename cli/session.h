@@ -10,7 +10,10 @@
 #include "plots/figure.h"
 #include "plots/render.h"
 #include "study/foresee/foreseen.h"
+#include "study/foresee/warnings.h"
 #include "study/kept/kept.h"
+#include "study/trade/split.h"
+#include "study/verify/check.h"
 #include "tables/document.h"
 
 /* A scene as a command opens it. Begins as zeros; not to be moved. */
@@ -101,5 +104,24 @@ void br_session_close(struct br_session *session);
 
 /* Puts a name before the message of a failure: "example2: ..."; returns its status. */
 enum br_status br_failed_in(struct br_error *err, const char *name);
+
+/* ---- warnings on standard error, before marches begin (warn.c) ---- */
+
+/* Prints them, a line each: "beamrate: warning: ...; ...", with the scene's name where it is not
+ * "". */
+void br_print_warnings(const char *scene, const struct br_warnings *warnings);
+
+/* What is cheap to tell of the many marches of a command, scene by scene. Of the cells of studies,
+ * the runs of `trade --split`, and the paper's examples as `figures` marches them: fails with
+ * BR_BAD_INPUT or BR_NO_MEMORY where one is refused. */
+enum br_status br_warn_of_studies(const struct br_study *studies, size_t count,
+                                  struct br_error *err);
+enum br_status br_warn_of_splits(const struct br_split *splits, size_t count, struct br_error *err);
+enum br_status br_warn_of_paper(struct br_error *err);
+
+/* The same of the marches of checks, and of trials of a scene; a march that is refused is a result
+ * of theirs. */
+void br_warn_of_checks(const struct br_check *checks, size_t count);
+void br_warn_of_trials(const struct br_scene *scene, const struct br_trial *trials, size_t count);
 
 #endif

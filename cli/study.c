@@ -9,7 +9,6 @@
 #include "cli/progress.h"
 #include "cli/study_request.h"
 #include "cli/vary.h"
-#include "cli/warn.h"
 #include "plots/pictures.h"
 #include "reference/printed.h"
 #include "solver/clock.h"

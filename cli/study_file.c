@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/study_file.h"
+#include "cli/verdicts.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/output.h"
 #include "study/orders/sha256.h"
 #include "study/scene/quote.h"
 
@@ -86,8 +85,9 @@ enum br_status br_study_file_read(const char *path, const char *text,
                                   const struct br_options *options, struct br_study_file *f,
                                   struct br_error *err)
 {
-    const enum br_status status = br_orders_request_read(path, text, &f->request, err);
-    return status || !f->request.command ? status : check_trust(&f->request, text, options, err);
+    if (br_orders_request_read(path, text, &f->request, err))
+        return err->status;
+    return f->request.command ? check_trust(&f->request, text, options, err) : BR_OK;
 }
 
 struct br_check br_study_file_check(struct br_study_file *f, const struct br_options *o)

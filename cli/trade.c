@@ -7,7 +7,6 @@
 #include "cli/progress.h"
 #include "cli/session.h"
 #include "cli/study_request.h"
-#include "cli/warn.h"
 #include "plots/pictures.h"
 #include "study/scene/file.h"
 #include "study/trade/split.h"
