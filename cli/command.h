@@ -25,6 +25,9 @@ struct br_command {
 /* NULL-terminated, in the order of the help text. */
 extern const struct br_command *const br_commands[];
 
+/* NULL: there is none. */
+const struct br_command *br_find_command(const char *name);
+
 /* ---- what commands, options and registries become in other languages than a terminal's ---- */
 
 void br_print_command_help(FILE *out, const struct br_command *command);

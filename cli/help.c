@@ -148,9 +148,8 @@ static enum br_status run(const struct br_options *o, struct br_error *err)
         print_commands(stdout);
     else if (strcmp(o->word[0], "methods") == 0)
         print_methods(stdout);
-    for (const struct br_command *const *c = br_commands; *c && o->words; c++)
-        if (strcmp((*c)->name, o->word[0]) == 0)
-            br_print_command_help(stdout, *c);
+    else
+        br_print_command_help(stdout, br_find_command(o->word[0]));
     return BR_OK;
 }
 

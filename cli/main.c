@@ -27,22 +27,12 @@ const struct br_command *const br_commands[] = {
     &br_command_help,    NULL,
 };
 
-static const struct br_command *find_command(const char *name)
+const struct br_command *br_find_command(const char *name)
 {
     for (const struct br_command *const *c = br_commands; *c; c++)
         if (strcmp((*c)->name, name) == 0)
             return *c;
     return NULL;
-}
-
-/* Standard output closed or full is a failure too. */
-static enum br_status check_stdout(struct br_error *err)
-{
-    if (fflush(stdout) != 0 || ferror(stdout))
-        return br_fail(err, BR_IO, "standard output could not be written");
-    if (br_json_lacked_memory())
-        return br_no_memory(err, "a JSON document");
-    return BR_OK;
 }
 
 /* Only rank 0 of several speaks. */
@@ -89,7 +79,7 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
         printf("beamrate %s (%s)\n%s\n", br_version(), br_commit(), br_libraries());
         return BR_OK;
     }
-    const struct br_command *command = help ? &br_command_help : find_command(word);
+    const struct br_command *command = help ? &br_command_help : br_find_command(word);
     if (!command)
         return unknown(word, err);
     br_signals_install();
@@ -97,14 +87,6 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     if (br_remember_command_line(argc, argv, err))
         return err->status;
     return run_parsed(command, argc - 1, argv + 1, err);
-}
-
-/* A message may repeat what a file says. */
-static void complain(const char *message)
-{
-    fputs("beamrate: ", stderr);
-    br_quote(stderr, &br_for_text, message);
-    fputc('\n', stderr);
 }
 
 /* Libraries that have no memory, or no thread, end the program: popt, OpenMP. */
@@ -125,7 +107,11 @@ static int run_all(int argc, const char **argv)
     /* What fails says so here. One that forgets to is a failure all the same: chains of calls
      * return err->status. */
     struct br_error err = {BR_IO, "a failure that says nothing: this is a defect of the program"};
-    const bool failed = join_ranks(&err) || run_command(argc, argv, &err) || check_stdout(&err);
+    bool failed = join_ranks(&err) || run_command(argc, argv, &err);
+    if (!failed && (fflush(stdout) != 0 || ferror(stdout))) /* closed, or full */
+        failed = br_fail(&err, BR_IO, "standard output could not be written");
+    if (!failed && br_json_lacked_memory())
+        failed = br_no_memory(&err, "a JSON document");
     const enum br_status status = br_ranks_end(failed ? err.status : BR_OK, &err);
     if (!br_ranks_first())
         return 0; /* rank 0 tells, and ends with the exit code */
@@ -137,8 +123,11 @@ static int run_all(int argc, const char **argv)
         fprintf(stderr, "beamrate: interrupted when all was written\n");
         br_signals_raise_again();
     }
-    if (status)
-        complain(err.message);
+    if (status) {
+        fputs("beamrate: ", stderr);
+        br_quote(stderr, &br_for_text, err.message); /* it may repeat what a file says */
+        fputc('\n', stderr);
+    }
     return br_status_exit_code(status);
 }
 

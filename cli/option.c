@@ -307,13 +307,9 @@ bool br_option_given(const struct br_options *o, enum br_option_id id)
 
 const char *br_first_given(const struct br_options *o, const enum br_option_id *list)
 {
-    static struct br_option row[BR_OPTIONS];
-    const size_t count = br_options_of(o->command, row);
-    for (; *list != BR_OPTIONS; list++)
-        for (size_t i = 0; i < count && o->given[*list]; i++)
-            if (row[i].id == *list)
-                return row[i].name;
-    return NULL;
+    while (*list != BR_OPTIONS && !o->given[*list])
+        list++;
+    return *list == BR_OPTIONS ? NULL : br_option_of(o->command, *list)->name;
 }
 
 const char *br_option_text(const struct br_options *o, enum br_option_id id)

@@ -122,6 +122,9 @@ struct br_command;
 /* The rows that a command takes, in the help's order (out); returns how many. */
 size_t br_options_of(const struct br_command *command, struct br_option row[BR_OPTIONS]);
 
+/* The row of an option that is no method's; NULL: the command does not take it. */
+const struct br_option *br_option_of(const struct br_command *command, enum br_option_id id);
+
 /* The default as the help shows it, or NULL. text: workspace. */
 const char *br_option_default(const struct br_option *row, char text[BR_METHOD_VALUE]);
 

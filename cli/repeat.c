@@ -53,21 +53,13 @@ static const char *provenance_of(const json_t *report, const char *key)
     return json_string_value(json_object_get(json_object_get(report, "provenance"), key));
 }
 
-static const struct br_command *find_command(const char *name)
+/* The command line that the report names, parsed as it was. */
+static enum br_status parse_command(struct run *r, struct br_error *err)
 {
     enum {
         REPEATED = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN | BR_FOR_TRADE |
                    BR_FOR_PLAN | BR_FOR_EXTREMES | BR_FOR_FIGURES
     };
-    for (const struct br_command *const *c = br_commands; *c; c++)
-        if ((*c)->bit & REPEATED && strcmp((*c)->name, name) == 0)
-            return *c;
-    return NULL;
-}
-
-/* The command line that the report names, parsed as it was. */
-static enum br_status parse_command(struct run *r, struct br_error *err)
-{
     const char *line = provenance_of(r->was, "command_line"), **word = NULL;
     int words = 0;
     struct br_error inner = {0};
@@ -76,20 +68,20 @@ static enum br_status parse_command(struct run *r, struct br_error *err)
                        "%s: no provenance: found no provenance.command_line and .version, expected "
                        "a report that this program has written as JSON",
                        r->path);
-    if (poptParseArgvString(line, &words, &word) != 0 || words < 2 ||
-        !(r->command = find_command(word[1]))) {
-        free(word);
-        return br_fail(err, BR_BAD_INPUT,
-                       "%s: provenance.command_line: found '%.300s', expected one of beamrate's "
-                       "tables, study, check, run, trade, plan, extremes or figures",
-                       r->path, line);
-    }
-    const enum br_status status =
+    if (poptParseArgvString(line, &words, &word) == 0 && words > 1)
+        r->command = br_find_command(word[1]);
+    if (!r->command || !(r->command->bit & REPEATED))
+        br_fail(
+            &inner, BR_BAD_INPUT,
+            "found '%.300s', expected one of beamrate's tables, study, check, run, trade, plan, "
+            "extremes or figures",
+            line);
+    else
         br_options_parse(words - 1, word + 1, r->command, &r->options, &inner);
     free(word);
-    return status ? br_fail(err, inner.status, "%s: provenance.command_line: %.1000s", r->path,
-                            inner.message)
-                  : BR_OK;
+    return inner.status ? br_fail(err, inner.status, "%s: provenance.command_line: %.1000s",
+                                  r->path, inner.message)
+                        : BR_OK;
 }
 
 /* ---- the new command ---- */
@@ -114,35 +106,24 @@ static bool is_left_out(enum br_option_id id)
     return false;
 }
 
-static bool takes(const struct br_option *row, size_t count, enum br_option_id id)
-{
-    for (size_t i = 0; i < count; i++)
-        if (row[i].id == id)
-            return true;
-    return false;
-}
-
 /* Into a folder of its own, or, as it was, one file. */
-static void add_outputs(struct run *r, const struct br_option *row, size_t count)
+static void add_outputs(struct run *r)
 {
+    const struct br_options *o = &r->options;
     const char *name = json_string_value(json_object_get(r->was, "name"));
-    const bool folder =
-        takes(row, count, BR_OPT_OUT) &&
-        (!br_option_given(&r->options, BR_OPT_JSON) || br_option_given(&r->options, BR_OPT_OUT));
-    char file[200];
+    const bool folder = br_option_of(r->command, BR_OPT_OUT) &&
+                        (!br_option_given(o, BR_OPT_JSON) || br_option_given(o, BR_OPT_OUT));
+    char file[200], out[100];
     snprintf(file, sizeof file, "%.190s", name ? name : "report");
     br_make_name(file);
-    snprintf(r->out, sizeof r->out, folder ? "%s/out/%s.json" : "%s/report.json", r->folder, file);
-    char out[100];
     snprintf(out, sizeof out, "%s/out", r->folder);
+    snprintf(r->out, sizeof r->out, folder ? "%s/out/%s.json" : "%s/report.json", r->folder, file);
     add(r, folder ? "--out" : "--json");
     add(r, folder ? out : r->out);
-    if (takes(row, count, BR_OPT_NO_PLOTS))
+    if (br_option_of(r->command, BR_OPT_NO_PLOTS))
         add(r, "--no-plots");
-    if (takes(row, count, BR_OPT_FORMAT) && folder) {
-        add(r, "--format");
-        add(r, "json");
-    }
+    if (br_option_of(r->command, BR_OPT_FORMAT) && folder)
+        add(r, "--format=json");
     add(r, "--quiet");
 }
 
@@ -161,7 +142,7 @@ static enum br_status make_command(struct run *r, struct br_error *err)
         if (row[i].kind != BR_TAKES_FLAG)
             add(r, r->options.given[row[i].id]);
     }
-    add_outputs(r, row, count);
+    add_outputs(r);
     add(r, "--");
     for (size_t i = 0; i < r->options.words; i++)
         add(r, *r->scene ? r->scene : r->options.word[i]);
@@ -256,10 +237,9 @@ static enum br_status make_folder(struct run *r, struct br_error *err)
              where && strlen(where) < 30 ? where : "/tmp");
     if (mkdtemp(r->folder))
         return BR_OK;
-    const int reason = errno;
-    const enum br_status status = br_fail(err, BR_IO, "%s: %s", r->folder, strerror(reason));
+    br_fail(err, BR_IO, "%s: %s", r->folder, strerror(errno));
     r->folder[0] = '\0';
-    return status;
+    return BR_IO;
 }
 
 static void clear(struct run *r)

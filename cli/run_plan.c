@@ -35,21 +35,10 @@ static enum br_status not_a_time(const char *option, const char *found, const ch
     return br_fail(err, BR_BAD_INPUT, "%s: found '%s', expected %s", option, found, example);
 }
 
-static enum br_status make_room(struct br_run_plan *plan, size_t levels, struct br_error *err)
-{
-    plan->level = br_allocate(levels, sizeof *plan->level);
-    return plan->level ? BR_OK : br_no_memory(err, "the output times");
-}
-
 static enum br_status read_at(const char *text, const struct br_scene *scene,
                               struct br_run_plan *plan, struct br_error *err)
 {
-    size_t most = 1;
-    for (const char *c = text; *c; c++)
-        most += *c == ',';
-    if (make_room(plan, most, err))
-        return err->status;
-    for (const char *rest = text;; rest++) {
+    for (const char *rest = text; rest; rest = *rest ? rest + 1 : NULL) {
         double t;
         const char *end = br_read_time(rest, scene->duration, &t);
         if (!end)
@@ -57,8 +46,6 @@ static enum br_status read_at(const char *text, const struct br_scene *scene,
         if (read_level("--at", t, scene, plan->steps, &plan->level[plan->levels++], err))
             return err->status;
         rest = end;
-        if (!*rest)
-            break;
     }
     br_sort_counts(plan->level, plan->levels);
     for (size_t i = 1; i < plan->levels; i++)
@@ -68,63 +55,50 @@ static enum br_status read_at(const char *text, const struct br_scene *scene,
     return BR_OK;
 }
 
-/* Every `interval` levels from 0 on. */
-static enum br_status fill_levels(struct br_run_plan *plan, size_t interval, struct br_error *err)
-{
-    plan->levels = plan->steps / interval + 1;
-    if (make_room(plan, plan->levels, err))
-        return err->status;
-    for (size_t i = 0; i < plan->levels; i++)
-        plan->level[i] = i * interval;
-    return BR_OK;
-}
-
-static enum br_status read_every(const char *text, const struct br_scene *scene,
-                                 struct br_run_plan *plan, struct br_error *err)
+static enum br_status read_every(const char *text, const struct br_scene *scene, size_t steps,
+                                 size_t *interval, struct br_error *err)
 {
     double t;
-    size_t interval;
     const char *end = br_read_time(text, scene->duration, &t);
     if (!end || *end || !(t > 0))
         return not_a_time("--every", text, "a time above 0, like 0.1", err);
-    if (read_level("--every", t, scene, plan->steps, &interval, err))
+    if (read_level("--every", t, scene, steps, interval, err))
         return err->status;
-    if (interval == 0)
-        return br_fail(err, BR_BAD_INPUT, "--every: found '%s', expected a multiple of k = %g s",
-                       text, scene->duration / (double)plan->steps);
-    return fill_levels(plan, interval, err);
+    return *interval
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT, "--every: found '%s', expected a multiple of k = %g s",
+                         text, scene->duration / (double)steps);
 }
 
-/* Ten of about the same length, whatever the number of steps. */
-static enum br_status default_levels(struct br_run_plan *plan, struct br_error *err)
+/* By default ten intervals of about the same length, whatever the number of steps. */
+static enum br_status make_levels(const struct br_options *o, const struct br_scene *scene,
+                                  struct br_run_plan *plan, struct br_error *err)
 {
     enum { PARTS = 10 };
-    if (make_room(plan, PARTS + 1, err))
+    const char *at = br_option_text(o, BR_OPT_AT), *every = br_option_text(o, BR_OPT_EVERY);
+    size_t room = PARTS + 1, interval = 1;
+    if (at && every)
+        return br_fail(err, BR_BAD_INPUT, "--at and --every are given, expected one of the two");
+    if ((at || every) && !br_option_given(o, BR_OPT_OUT))
+        return br_fail(err, BR_BAD_INPUT, "%s needs --out, the folder for the fields",
+                       at ? "--at" : "--every");
+    if (every && read_every(every, scene, plan->steps, &interval, err))
         return err->status;
-    for (size_t i = 0; i <= PARTS; i++) {
+    if (at || every)
+        room = at ? strlen(at) + 1 : plan->steps / interval + 1;
+    plan->level = br_allocate(room, sizeof *plan->level);
+    if (!plan->level)
+        return br_no_memory(err, "the output times");
+    if (at)
+        return read_at(at, scene, plan, err);
+    for (size_t i = 0; i < room && br_option_given(o, BR_OPT_OUT); i++) {
         const size_t level =
-            (size_t)llround((double)plan->steps * (double)i / PARTS); /* exact below 2^49 */
+            every ? i * interval
+                  : (size_t)llround((double)plan->steps * (double)i / PARTS); /* exact below 2^49 */
         if (plan->levels == 0 || level > plan->level[plan->levels - 1])
             plan->level[plan->levels++] = level;
     }
     return BR_OK;
-}
-
-static enum br_status make_levels(const struct br_options *o, const struct br_scene *scene,
-                                  struct br_run_plan *plan, struct br_error *err)
-{
-    const char *at = br_option_text(o, BR_OPT_AT), *every = br_option_text(o, BR_OPT_EVERY);
-    const bool out = br_option_given(o, BR_OPT_OUT);
-    if (at && every)
-        return br_fail(err, BR_BAD_INPUT, "--at and --every are given, expected one of the two");
-    if ((at || every) && !out)
-        return br_fail(err, BR_BAD_INPUT, "%s needs --out, the folder for the fields",
-                       at ? "--at" : "--every");
-    if (at)
-        return read_at(at, scene, plan, err);
-    if (every)
-        return read_every(every, scene, plan, err);
-    return out ? default_levels(plan, err) : BR_OK;
 }
 
 /* ---- the plan ---- */
@@ -148,16 +122,6 @@ static enum br_status read_fields(const char *text, unsigned *wanted, struct br_
     return BR_OK;
 }
 
-static enum br_status read_resolution(const struct br_options *o, const struct br_scene *scene,
-                                      struct br_run_plan *plan, struct br_error *err)
-{
-    const double steps = br_option_number(o, BR_OPT_STEPS, 0);
-    plan->n = (size_t)br_option_number(o, BR_OPT_N, 0);
-    plan->steps = (size_t)steps;
-    return steps > 0 ? BR_OK
-                     : br_read_step("--k", br_option_text(o, BR_OPT_K), scene, &plan->steps, err);
-}
-
 enum br_status br_run_plan_make(const struct br_options *o, const struct br_scene *scene,
                                 struct br_run_plan *plan, struct br_error *err)
 {
@@ -166,8 +130,11 @@ enum br_status br_run_plan_make(const struct br_options *o, const struct br_scen
     *plan = (struct br_run_plan){.method = br_method_default()};
     if (br_method_read(given, BR_METHOD_OPTION, &plan->method, err) ||
         br_method_check_heeded(given, BR_METHOD_OPTION, methods, 1, err) ||
-        read_fields(br_option_text(o, BR_OPT_FIELDS), &plan->wanted, err) ||
-        read_resolution(o, scene, plan, err))
+        read_fields(br_option_text(o, BR_OPT_FIELDS), &plan->wanted, err))
+        return err->status;
+    plan->n = (size_t)br_option_number(o, BR_OPT_N, 0);
+    plan->steps = (size_t)br_option_number(o, BR_OPT_STEPS, 0);
+    if (!plan->steps && br_read_step("--k", br_option_text(o, BR_OPT_K), scene, &plan->steps, err))
         return err->status;
     if (br_option_given(o, BR_OPT_OUT))
         plan->stride = br_history_stride(plan->steps, (size_t)br_option_number(o, BR_OPT_ROWS, 0));

@@ -128,15 +128,14 @@ static enum br_status read_printed(const char *relative, struct br_report *repor
     const struct br_study *study = report->study;
     const size_t cells = study->n_count * study->k_count;
     br_data_path(relative, path, sizeof path);
-    enum br_status status = br_printed_read(path, &printed, err);
-    if (!status && !(report->printed = br_allocate(cells, sizeof(double))))
-        status = br_no_memory(err, "the printed values");
-    for (size_t c = 0; c < cells && !status; c++)
+    const bool read = !br_printed_read(path, &printed, err);
+    report->printed = read ? br_allocate(cells, sizeof(double)) : NULL;
+    for (size_t c = 0; c < cells && report->printed; c++)
         report->printed[c] =
             br_printed_error(&printed, study->n[c / study->k_count],
                              br_time_step(study->scene, study->steps[c % study->k_count]));
     br_printed_clear(&printed);
-    return status;
+    return report->printed ? BR_OK : read ? br_no_memory(err, "the printed values") : err->status;
 }
 
 /* Of a job in norm m; without a reference over h (variant 0) or k (1). Names end with the norm, but
@@ -178,25 +177,16 @@ static enum br_status prepare_job(struct run *r, const struct job *job, size_t i
                                   struct br_error *err)
 {
     struct br_opened_scene *opened = &r->work[i].opened;
-    enum br_status status = job->vary ? br_vary_scene(job->vary, job->value, opened, err)
-                                      : br_opened_scene_read(opened, job->scene, err);
-    if (!status)
-        status = make_grid(r, i, err);
-    if (!status)
-        spread_study(r, i);
+    if ((job->vary ? br_vary_scene(job->vary, job->value, opened, err)
+                   : br_opened_scene_read(opened, job->scene, err)) ||
+        make_grid(r, i, err))
+        return err->status;
+    spread_study(r, i);
     for (size_t m = 0; m < r->request.norms; m++)
-        for (size_t v = 0; v < (r->differences ? 2 : 1) && !status; v++)
-            status = start_report(r, job, i, m, v, err);
-    return status;
-}
-
-static enum br_status check_degree(const struct run *r, struct br_error *err)
-{
-    bool axial = r->request.method.axial_degree == 1;
-    for (size_t i = 0; i < r->jobs; i++)
-        axial |= r->work[i].opened.scene.axial.modelled;
-    return axial ? BR_OK
-                 : br_fail(err, BR_BAD_INPUT, "--axial-degree: no scene has an axial field");
+        for (size_t v = 0; v < (r->differences ? 2 : 1); v++)
+            if (start_report(r, job, i, m, v, err))
+                return err->status;
+    return BR_OK;
 }
 
 /* with_exact: a fine reference gets the exact one beside it. */
@@ -204,9 +194,9 @@ static enum br_status prepare(struct run *r, const struct job *job, bool with_ex
                               struct br_error *err)
 {
     const struct br_study_request *q = &r->request;
-    enum br_status status = br_study_request_read(r->session->options, &r->request, err);
-    if (status)
-        return status;
+    bool axial = false;
+    if (br_study_request_read(r->session->options, &r->request, err))
+        return err->status;
     r->differences = q->judge == &br_judge_none;
     r->heads =
         r->differences || (with_exact && q->judge && q->judge->nests) ? 2 * r->jobs : r->jobs;
@@ -216,9 +206,14 @@ static enum br_status prepare(struct run *r, const struct job *job, bool with_ex
     r->meshes = br_allocate(r->jobs * q->norms, sizeof *r->meshes);
     if (!r->work || !r->page || !r->study || !r->meshes)
         return br_no_memory(err, "the studies");
-    for (size_t i = 0; i < r->jobs && !status; i++)
-        status = prepare_job(r, &job[i], i, err);
-    return status ? status : check_degree(r, err);
+    for (size_t i = 0; i < r->jobs; i++) {
+        if (prepare_job(r, &job[i], i, err))
+            return err->status;
+        axial |= r->work[i].opened.scene.axial.modelled;
+    }
+    return axial || q->method.axial_degree == 1
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT, "--axial-degree: no scene has an axial field");
 }
 
 static void clear(struct run *r)
@@ -249,26 +244,24 @@ static enum br_status keep(struct run *r, const char *more, struct br_error *err
         return br_option_given(r->session->options, BR_OPT_RESUME)
                    ? br_fail(err, BR_BAD_INPUT, "--resume: --reference none does not heed it")
                    : BR_OK;
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < r->jobs && !status; i++)
-        status = br_session_keep(r->session, r->work[i].opened.text, more, &r->work[i].kept, err);
-    for (size_t h = 0; h < r->heads && !status; h++)
-        for (struct br_study *s = study_of(r, h, 0); s && *r->work->kept.folder; s = s->next_norm)
+    for (size_t i = 0; i < r->jobs; i++)
+        if (br_session_keep(r->session, r->work[i].opened.text, more, &r->work[i].kept, err))
+            return err->status;
+    for (size_t h = 0; h < r->heads && *r->work->kept.folder; h++)
+        for (struct br_study *s = study_of(r, h, 0); s; s = s->next_norm)
             s->kept = &r->work[h % r->jobs].kept;
-    return status;
+    return BR_OK;
 }
 
 /* Of what marches at once: without a reference one job after the other. */
 static enum br_status check_memory(const struct run *r, struct br_error *err)
 {
     const double available = br_memory_available();
-    const size_t at_once = r->differences ? 1 : r->heads;
-    enum br_status status = BR_OK;
-    if (br_ranks_size() > 1)
-        return BR_OK;
-    for (size_t i = 0; i < (r->differences ? r->jobs : 1) && !status; i++)
-        status = br_fit_together(study_of(r, i, 0), at_once, available, err);
-    return status;
+    const size_t groups = r->differences ? r->jobs : 1, at_once = r->differences ? 1 : r->heads;
+    for (size_t i = 0; i < groups && br_ranks_size() == 1; i++)
+        if (br_fit_together(study_of(r, i, 0), at_once, available, err))
+            return err->status;
+    return BR_OK;
 }
 
 /* The differences of one job's grids, into its studies. */
@@ -332,18 +325,6 @@ static enum br_status run_meshes(struct run *r, size_t job, const struct br_obse
     return BR_OK;
 }
 
-static enum br_status finish_page(const struct run *r, struct page *page, double wall,
-                                  struct br_error *err)
-{
-    struct br_report *report = &page->report;
-    report->wall_seconds = wall;
-    if (page->work->no_meshes.status) {
-        report->meshes = NULL;
-        report->no_meshes = page->work->no_meshes.message;
-    }
-    return br_report_finish(report, r->session->threads, err);
-}
-
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
@@ -358,33 +339,37 @@ static enum br_status compute(struct run *r, struct br_error *err)
     for (size_t i = 0; i < r->jobs; i++)
         br_session_tell_kept(r->session, &r->work[i].kept);
     const double wall = br_seconds() - start;
-    for (size_t i = 0; i < r->pages && !status; i++)
-        status = finish_page(r, &r->page[i], wall, err);
+    for (struct page *page = r->page; page < r->page + r->pages && !status; page++) {
+        const struct br_error *no_meshes = &page->work->no_meshes;
+        page->report.wall_seconds = wall;
+        if (no_meshes->status) {
+            page->report.meshes = NULL;
+            page->report.no_meshes = no_meshes->message;
+        }
+        status = br_report_finish(&page->report, r->session->threads, err);
+    }
     return br_progress_result(status, err);
 }
 
 /* ---- results ---- */
 
-static void build_report(struct run *r, size_t i)
-{
-    const struct br_report *report = &r->page[i].report;
-    struct br_document *d = &r->session->document[i];
-    const struct br_provenance provenance =
-        br_provenance_of(&r->page[i].work->opened, r->session->threads);
-    br_report_study(report, d);
-    for (const struct br_convergence_picture *const *p = br_convergence_pictures; *p; p++)
-        if ((*p)->applies(report))
-            br_session_draw(r->session, d, br_convergence_draw(*p, report), (*p)->title);
-    br_put_provenance(d, &provenance);
-}
-
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
-    if (br_session_report(r->session, r->pages, err))
+    struct br_session *session = r->session;
+    if (br_session_report(session, r->pages, err))
         return err->status;
-    for (size_t i = 0; i < r->pages; i++)
-        build_report(r, i);
-    return br_session_finish(r->session, err);
+    for (size_t i = 0; i < r->pages; i++) {
+        const struct br_report *report = &r->page[i].report;
+        const struct br_provenance provenance =
+            br_provenance_of(&r->page[i].work->opened, session->threads);
+        struct br_document *d = &session->document[i];
+        br_report_study(report, d);
+        for (const struct br_convergence_picture *const *p = br_convergence_pictures; *p; p++)
+            if ((*p)->applies(report))
+                br_session_draw(session, d, br_convergence_draw(*p, report), (*p)->title);
+        br_put_provenance(d, &provenance);
+    }
+    return br_session_finish(session, err);
 }
 
 static void foresee(const struct run *r, struct br_foreseen *work)
