@@ -18,8 +18,6 @@ struct run {
     struct br_session session;
     const char *out, *json, *animate; /* files and folders of the options; NULL: not given */
     struct br_run_plan plan;
-    struct br_opened_scene opened;
-    struct br_scene marched; /* borrows from that */
     struct br_prediction prediction;
     struct br_warnings warnings;
     struct br_run_report report;
@@ -45,11 +43,11 @@ static enum br_status open_results(struct run *r, struct br_error *err)
     snprintf(r->fields_path, sizeof r->fields_path, "%s/%s", output->staging, r->format->file_name);
     const struct br_fields_request fields = {
         .path = r->fields_path,
-        .scene = &r->marched,
-        .n = r->plan.n,
-        .steps = r->plan.steps,
-        .looks = r->plan.levels,
-        .axial_degree = r->plan.method.axial_degree,
+        .scene = &r->plan.marched,
+        .n = r->plan.request.n,
+        .steps = r->plan.request.steps,
+        .looks = r->plan.request.levels,
+        .axial_degree = r->plan.request.method.axial_degree,
         .provenance = &r->provenance,
     };
     return r->format->open(&r->fields, &fields, err);
@@ -60,13 +58,13 @@ static enum br_status write_row(void *self, const struct br_history_row *row, st
 {
     struct run *r = self;
     struct br_history_row told = *row;
-    if (!r->marched.axial.modelled)
+    if (!r->plan.marched.axial.modelled)
         told.displacement[BR_AXIAL] = told.velocity[BR_AXIAL] = NAN;
-    if (!r->marched.bending.modelled)
+    if (!r->plan.marched.bending.modelled)
         told.displacement[BR_BENDING] = told.velocity[BR_BENDING] = NAN;
-    if (!r->marched.contact.modelled)
+    if (!r->plan.marched.contact.modelled)
         told.contact_force = NAN;
-    if (r->marched.friction.law == BR_FRICTIONLESS)
+    if (r->plan.marched.friction.law == BR_FRICTIONLESS)
         told.friction_force = told.friction_bound = NAN;
     br_history_csv_row(r->history, &told);
     return ferror(r->history) ? br_fail(err, BR_IO, "history.csv could not be written") : BR_OK;
@@ -121,7 +119,7 @@ static enum br_status check_places(const struct run *r, struct br_error *err)
 {
     const char *slash = r->animate ? strrchr(r->animate, '/') : NULL;
     char folder[1024] = ".";
-    if (br_whole_file_replaces(&r->summary, r->opened.path))
+    if (br_whole_file_replaces(&r->summary, r->plan.opened.path))
         return br_fail(err, BR_BAD_INPUT, "--json would replace the scene %s", r->summary.path);
     if (r->out && br_whole_file_is_in(&r->summary, r->out))
         return br_fail(err, BR_BAD_INPUT,
@@ -141,14 +139,14 @@ static enum br_status check_places(const struct run *r, struct br_error *err)
 
 static enum br_status open_files(struct run *r, struct br_error *err)
 {
-    r->provenance = br_provenance_of(&r->opened, 1);
+    r->provenance = br_provenance_of(&r->plan.opened, 1);
     r->pictures = (struct br_pictures){
         .animate = r->animate,
         .quiet = r->session.quiet,
         .plot = br_option_given(r->session.options, BR_OPT_PLOT),
-        .scene = &r->opened.scene,
-        .n = r->plan.n,
-        .steps = r->plan.steps,
+        .scene = &r->plan.opened.scene,
+        .n = r->plan.request.n,
+        .steps = r->plan.request.steps,
     };
     const bool failed = br_whole_file_open(&r->summary, "json", r->json, err) ||
                         check_places(r, err) || br_pictures_open(&r->pictures, err) ||
@@ -156,29 +154,33 @@ static enum br_status open_files(struct run *r, struct br_error *err)
     return failed ? err->status : BR_OK;
 }
 
-/* What is to be marched, and what is to be expected of it, before anything of it is there. */
-static enum br_status look_at_march(struct run *r, struct br_error *err)
+static enum br_status open_scene(struct run *r, struct br_error *err)
 {
-    struct br_scene *scene = &r->opened.scene;
-    if (br_run_plan_make(r->session.options, scene, &r->plan, err) ||
-        br_model_select(scene, r->plan.wanted, &r->marched, err))
-        return err->status;
-    if (r->plan.method.axial_degree != 1 && !r->marched.axial.modelled)
-        return br_fail(err, BR_BAD_INPUT, "--axial-degree: no axial field is marched");
-    const struct br_planned_march planned = {
-        .scene = &r->marched,
-        .method = &r->plan.method,
-        .n = r->plan.n,
-        .steps = r->plan.steps,
-        .prediction = &r->prediction,
-    };
-    return br_look_ahead(&planned, &r->warnings, err);
+    const struct br_options *o = r->session.options;
+    const bool failed = br_opened_scene_read(&r->plan.opened, o->word[0], err) ||
+                        br_run_plan_make(&r->plan, o, err);
+    return failed ? err->status : BR_OK;
+}
+
+static struct br_planned_march planned(const struct br_run_plan *p)
+{
+    return (struct br_planned_march){.scene = &p->marched,
+                                     .method = &p->request.method,
+                                     .n = p->request.n,
+                                     .steps = p->request.steps};
+}
+
+/* What is to be expected of the march, before anything of it is there. */
+static enum br_status look_ahead(struct run *r, struct br_error *err)
+{
+    struct br_planned_march march = planned(&r->plan);
+    march.prediction = &r->prediction;
+    return br_look_ahead(&march, &r->warnings, err);
 }
 
 static enum br_status prepare(struct run *r, struct br_error *err)
 {
-    if (br_opened_scene_read(&r->opened, r->session.options->word[0], err) ||
-        look_at_march(r, err) || open_files(r, err))
+    if (open_scene(r, err) || look_ahead(r, err) || open_files(r, err))
         return err->status;
     br_print_warnings("", &r->warnings);
     return BR_OK;
@@ -196,22 +198,10 @@ static enum br_status march(struct run *r, struct br_error *err)
             (struct br_history_observer){.self = r, .row = write_row, .look = write_look};
     if (r->animate || br_option_given(o, BR_OPT_PLOT))
         output[outputs++] = br_pictures_observer(&r->pictures);
-    const struct br_run_request request = {
-        .scene = &r->opened.scene,
-        .wanted = r->plan.wanted,
-        .method = r->plan.method,
-        .n = r->plan.n,
-        .steps = r->plan.steps,
-        .stride = r->plan.stride,
-        .level = r->plan.level,
-        .levels = r->plan.levels,
-        .check = br_option_given(o, BR_OPT_CHECK),
-        .energies = br_option_given(o, BR_OPT_ENERGIES),
-        .explain = br_option_given(o, BR_OPT_EXPLAIN),
-        .output = output,
-        .outputs = outputs,
-        .progress = br_progress_start("marching", r->session.quiet),
-    };
+    struct br_run_request request = r->plan.request;
+    request.output = output;
+    request.outputs = outputs;
+    request.progress = br_progress_start("marching", r->session.quiet);
     const enum br_status status = br_run(&request, &r->report, err);
     br_progress_end();
     return status;
@@ -255,32 +245,14 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-/* ---- what would be run ---- */
-
-/* marched (out) must outlive the work. */
-static enum br_status add_march(const struct br_options *o, const struct br_scene *scene,
-                                struct br_scene *marched, struct br_foreseen *work,
-                                struct br_error *err)
-{
-    struct br_run_plan plan = {0};
-    const bool failed =
-        br_run_plan_make(o, scene, &plan, err) || br_model_select(scene, plan.wanted, marched, err);
-    if (!failed)
-        br_foreseen_add_march(
-            work, &(struct br_planned_march){
-                      .scene = marched, .method = &plan.method, .n = plan.n, .steps = plan.steps});
-    br_run_plan_clear(&plan);
-    return failed ? err->status : BR_OK;
-}
-
 static enum br_status foresee(struct run *r, struct br_error *err)
 {
     struct br_foreseen work = {.alone = true};
-    const bool failed = br_opened_scene_read(&r->opened, r->session.options->word[0], err) ||
-                        add_march(r->session.options, &r->opened.scene, &r->marched, &work, err) ||
-                        br_session_foresee(&r->session, &work, err);
-    br_foreseen_clear(&work);
-    return failed ? err->status : BR_OK;
+    if (open_scene(r, err))
+        return err->status;
+    const struct br_planned_march march = planned(&r->plan);
+    br_foreseen_add_march(&work, &march);
+    return br_session_foresee(&r->session, &work, err);
 }
 
 /* ---- a parameter that varies ---- */
@@ -293,11 +265,6 @@ enum {
     EVENTS,
     BAD_STEPS = EVENTS + BR_TIP_EVENTS,
     SWEPT
-};
-
-struct point {
-    struct br_opened_scene opened;
-    struct br_scene marched; /* for what is foreseen */
 };
 
 static const struct br_variation_column *name_columns(const void *point)
@@ -360,19 +327,16 @@ static enum br_status check_swept(const struct br_options *o, struct br_error *e
 
 static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, struct br_error *err)
 {
-    struct point *point = self;
-    struct br_run_plan plan = {0};
-    const bool failed = br_vary_scene(v, i, &point->opened, err) ||
-                        br_run_plan_make(v->session.options, &point->opened.scene, &plan, err);
-    br_run_plan_clear(&plan);
+    struct br_run_plan *p = self;
+    const bool failed =
+        br_vary_scene(v, i, &p->opened, err) || br_run_plan_make(p, v->session.options, err);
     return failed ? err->status : BR_OK;
 }
 
-static enum br_status foresee_value(const struct br_vary *v, void *self, struct br_foreseen *work,
-                                    struct br_error *err)
+static void foresee_value(void *self, struct br_foreseen *work)
 {
-    struct point *point = self;
-    return add_march(v->session.options, &point->opened.scene, &point->marched, work, err);
+    const struct br_planned_march march = planned(self);
+    br_foreseen_add_march(work, &march);
 }
 
 /* One march as of `run` alone, without files; the static part is large. */
@@ -380,39 +344,35 @@ static enum br_status march_value(struct br_vary *v, size_t i, void *self, struc
                                   struct br_error *err)
 {
     static struct run r;
-    const struct point *point = self;
+    const struct br_run_plan *p = self;
     char text[BR_VARIED_TEXT];
-    r = (struct run){.session = v->session, .opened = point->opened};
-    r.session.quiet = true;
     (void)err;
-    bool failed = look_at_march(&r, failure);
-    if (!failed) {
-        br_print_warnings(br_varied_text(&v->varied, i, text), &r.warnings);
-        r.plan.levels = r.plan.stride = 0;
-        failed = march(&r, failure);
-    }
-    if (!failed) {
-        const bool unstable = r.report.contact_unstable;
-        take_point(&r.report, &r.prediction, &v->found.value[i * SWEPT]);
-        v->found.unstable[i] = unstable;
-        v->found.remark[i] = unstable             ? "beyond the contact's stability limit"
-                             : r.prediction.known ? NULL
-                                                  : "its error is not known";
-        conclude(&r, failure);
-    }
-    br_run_plan_clear(&r.plan);
+    r = (struct run){.session = v->session, .plan = *p};
+    r.session.quiet = true;
+    r.plan.request.levels = r.plan.request.stride = 0;
+    if (look_ahead(&r, failure))
+        return BR_OK;
+    br_print_warnings(br_varied_text(&v->varied, i, text), &r.warnings);
+    if (march(&r, failure))
+        return BR_OK;
+    const bool unstable = r.report.contact_unstable;
+    take_point(&r.report, &r.prediction, &v->found.value[i * SWEPT]);
+    v->found.unstable[i] = unstable;
+    v->found.remark[i] = unstable             ? "beyond the contact's stability limit"
+                         : r.prediction.known ? NULL
+                                              : "its error is not known";
+    conclude(&r, failure);
     return BR_OK;
 }
 
 static void clear_value(void *self)
 {
-    struct point *point = self;
-    br_opened_scene_clear(&point->opened);
+    br_run_plan_clear(self);
 }
 
 static const struct br_vary_command varied = {
     .format = "beamrate run variation",
-    .size = sizeof(struct point),
+    .size = sizeof(struct br_run_plan),
     .columns = SWEPT,
     .alone = true,
     .prepare = prepare_value,
@@ -444,7 +404,6 @@ static enum br_status run(const struct br_options *options, struct br_error *err
     br_pictures_discard(&r.pictures);
     br_whole_file_discard(&r.summary);
     br_run_plan_clear(&r.plan);
-    br_opened_scene_clear(&r.opened);
     br_session_close(&r.session);
     return failed ? err->status : BR_OK;
 }

@@ -3,23 +3,21 @@
 #ifndef BR_CLI_RUN_H
 #define BR_CLI_RUN_H
 
-#include "cli/option.h"
-#include "cli/output.h"
+#include "cli/session.h"
 #include "plots/pictures.h"
 #include "study/run/run.h"
 
 struct br_run_plan {
-    struct br_method method;
-    size_t n, steps, stride;
-    unsigned wanted; /* see study/run/run.h */
-    size_t *level;   /* levels, ascending; owned; the output times */
-    size_t levels;
+    struct br_opened_scene opened;
+    struct br_scene marched;       /* borrows from that */
+    struct br_run_request request; /* without outputs */
+    size_t *level;                 /* of the request; owned */
 };
 
-/* Checks the options against the scene. Fails with BR_BAD_INPUT, naming the option, what was found
- * and what was expected; clear the plan even then. */
-enum br_status br_run_plan_make(const struct br_options *options, const struct br_scene *scene,
-                                struct br_run_plan *plan, struct br_error *err);
+/* Checks the options against the open scene. Fails with BR_BAD_INPUT, naming the option, what was
+ * found and what was expected; clear the plan even then. */
+enum br_status br_run_plan_make(struct br_run_plan *plan, const struct br_options *options,
+                                struct br_error *err);
 void br_run_plan_clear(struct br_run_plan *plan);
 
 /* ---- what is shown of a march (pictures.c): a moving picture (--animate), and the tip's history

@@ -216,8 +216,9 @@ static enum br_status prepare(struct run *r, const struct job *job, bool with_ex
                : br_fail(err, BR_BAD_INPUT, "--axial-degree: no scene has an axial field");
 }
 
-static void clear(struct run *r)
+static void clear(void *self)
 {
+    struct run *r = self;
     for (size_t i = 0; i < r->pages; i++)
         br_report_clear(&r->page[i].report);
     for (size_t i = 0; r->study && i < r->heads * r->request.norms; i++)
@@ -372,8 +373,9 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     return br_session_finish(session, err);
 }
 
-static void foresee(const struct run *r, struct br_foreseen *work)
+static void foresee(void *self, struct br_foreseen *work)
 {
+    const struct run *r = self;
     for (size_t h = 0; h < (r->differences ? r->jobs : r->heads); h++)
         br_foreseen_add_study(work, study_of(r, h, 0));
 }
@@ -482,15 +484,6 @@ static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, str
     return prepare(r, &job, false, err) ? err->status : check_memory(r, err);
 }
 
-static enum br_status foresee_value(const struct br_vary *v, void *self, struct br_foreseen *work,
-                                    struct br_error *err)
-{
-    (void)v;
-    (void)err;
-    foresee(self, work);
-    return BR_OK;
-}
-
 static enum br_status march_value(struct br_vary *v, size_t i, void *self, struct br_error *failure,
                                   struct br_error *err)
 {
@@ -511,20 +504,15 @@ static enum br_status march_value(struct br_vary *v, size_t i, void *self, struc
     return BR_OK;
 }
 
-static void clear_value(void *self)
-{
-    clear(self);
-}
-
 static const struct br_vary_command varied = {
     .format = "beamrate study variation",
     .size = sizeof(struct run),
     .columns = SWEPT,
     .prepare = prepare_value,
     .name_columns = name_columns,
-    .foresee = foresee_value,
+    .foresee = foresee,
     .march = march_value,
-    .clear = clear_value,
+    .clear = clear,
 };
 
 /* One error a value. */

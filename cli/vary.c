@@ -48,13 +48,9 @@ static enum br_status foresee(const struct br_vary *v, const struct br_vary_comm
                               void *points, struct br_error *err)
 {
     struct br_foreseen work = {.alone = c->alone};
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < v->points && !status; i++)
-        status = c->foresee(v, point_at(c, points, i), &work, err);
-    if (!status)
-        status = br_session_foresee(&v->session, &work, err);
-    br_foreseen_clear(&work);
-    return status;
+    for (size_t i = 0; i < v->points; i++)
+        c->foresee(point_at(c, points, i), &work);
+    return br_session_foresee(&v->session, &work, err);
 }
 
 /* A value whose march fails is a result. */

@@ -25,8 +25,7 @@ struct br_vary_command {
     enum br_status (*prepare)(struct br_vary *vary, size_t i, void *point, struct br_error *err);
     /* What is found at a value, which is prepared. */
     const struct br_variation_column *(*name_columns)(const void *point);
-    enum br_status (*foresee)(const struct br_vary *vary, void *point, struct br_foreseen *work,
-                              struct br_error *err);
+    void (*foresee)(void *point, struct br_foreseen *work);
     /* Marches, and fills row i of vary->found. failure (out): why there is nothing: a result, but
      * for BR_NO_MEMORY, BR_IO and BR_INTERRUPTED, which end the command, as what it returns does.
      */
