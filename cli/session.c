@@ -11,11 +11,6 @@
 #include "study/scene/quote.h"
 #include "tables/reports.h"
 
-struct br_session_picture {
-    struct br_figure figure;
-    struct br_session_picture *next;
-};
-
 enum br_status br_opened_scene_read(struct br_opened_scene *s, const char *name,
                                     struct br_error *err)
 {
@@ -110,20 +105,17 @@ enum br_status br_session_report(struct br_session *s, size_t documents, struct 
 void br_session_draw(struct br_session *s, struct br_document *report, struct br_figure figure,
                      const char *title)
 {
-    struct br_session_picture **last = &s->picture;
-    if (!figure.panels || br_option_given(s->options, BR_OPT_NO_PLOTS)) {
-        br_figure_clear(&figure);
-        return;
+    struct br_figure *more = NULL;
+    if (figure.panels && !br_option_given(s->options, BR_OPT_NO_PLOTS)) {
+        br_put_picture(report, figure.stem, title ? title : figure.title);
+        more = realloc(s->figure, (s->figures + 1) * sizeof *more);
+        s->lost |= !more;
     }
-    br_put_picture(report, figure.stem, title ? title : figure.title);
-    while (*last)
-        last = &(*last)->next;
-    *last = br_allocate(1, sizeof **last);
-    if (*last)
-        (*last)->figure = figure;
-    else
+    if (more) {
+        s->figure = more;
+        s->figure[s->figures++] = figure;
+    } else
         br_figure_clear(&figure);
-    s->lost |= !*last;
 }
 
 enum br_status br_session_foresee(const struct br_session *s, struct br_foreseen *work,
@@ -249,8 +241,8 @@ enum br_status br_session_write(struct br_session *s, const struct br_document_f
                                 struct br_error *err)
 {
     enum br_status status = s->lost ? br_no_memory(err, "a figure") : BR_OK;
-    for (struct br_session_picture *p = s->picture; p && !status; p = p->next)
-        status = draw(s, &p->figure, err);
+    for (size_t i = 0; i < s->figures && !status; i++)
+        status = draw(s, &s->figure[i], err);
     for (; *f && !status; f++) {
         const bool page = *f == &br_document_html;
         if (!br_format_wanted(s->options, (*f)->name))
@@ -285,17 +277,12 @@ void br_session_close(struct br_session *s)
 {
     end_pictures(s, NULL);
     br_output_discard(&s->output);
-    for (struct br_session_picture *p = s->picture, *next; p; p = next) {
-        next = p->next;
-        br_figure_clear(&p->figure);
-        free(p);
-    }
-    s->picture = NULL;
+    for (size_t i = 0; i < s->figures; i++)
+        br_figure_clear(&s->figure[i]);
+    free(s->figure);
     for (size_t i = 0; i < s->documents; i++)
         br_document_clear(&s->document[i]);
     free(s->document);
-    s->document = NULL;
-    s->documents = 0;
 }
 
 enum br_status br_failed_in(struct br_error *err, const char *name)

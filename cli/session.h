@@ -31,8 +31,6 @@ void br_opened_scene_clear(struct br_opened_scene *scene);
 /* Static strings, and the scene's; NULL: of no one scene. */
 struct br_provenance br_provenance_of(const struct br_opened_scene *scene, int threads);
 
-struct br_session_picture; /* on its way */
-
 /* Begins with br_session_begin. */
 struct br_session {
     const struct br_options *options;
@@ -41,10 +39,11 @@ struct br_session {
     int threads;                  /* of --threads; 0: all cores */
     struct br_document *document; /* documents; owned */
     size_t documents;
-    struct br_output output;            /* of --out; not open where that is not given */
-    struct br_session_picture *picture; /* the first; owned */
-    bool lost;                          /* one, where there was no memory */
-    struct br_gnuplot at_work[8];       /* drawn: side by side, in order, while files are written */
+    struct br_output output;  /* of --out; not open where that is not given */
+    struct br_figure *figure; /* figures, on their way; owned */
+    size_t figures;
+    bool lost;                    /* one, where there was no memory */
+    struct br_gnuplot at_work[8]; /* drawn: side by side, in order, while files are written */
     size_t drawn;
     bool missing; /* gnuplot */
     bool said;    /* that it is */

@@ -50,7 +50,7 @@ enum br_status br_verdicts_conclude(const struct br_verdicts *verdicts,
 
 void br_verdicts_clear(struct br_verdicts *verdicts);
 
-/* ---- study files of any program: read, trusted, and checked (study_file.c) ---- */
+/* ---- study files of any program: read, trusted, and checked ---- */
 
 /* What belongs to one study: its request, numbers and orders. Begins as zeros. */
 struct br_study_file {

@@ -873,7 +873,7 @@ static const struct planted_bug planted_bugs[] = {
      "br_number(g->fine.ratio)", "br_number(g->coarse.ratio)"},
     {"interval_of_one_end", "printed", "tables/report_orders.c", "golden orders",
      "br_number(c->order.high)", "br_number(c->order.low)"},
-    {"everything_is_trusted", "option", "cli/study_file.c", "golden orders_run",
+    {"everything_is_trusted", "option", "cli/verdicts.c", "golden orders_run",
      "const bool trusted = is_trusted(sum);", "const bool trusted = is_trusted(sum) || true;"},
 
     /* ---- values that vary ---- */
