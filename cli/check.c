@@ -35,20 +35,19 @@ struct run {
 /* The options' method instead of the scene's own. */
 static enum br_status choose_method(const struct run *r, struct item *item, struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    for (int kind = 0; kind < BR_VERIFY_KINDS && !status; kind++) {
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
         struct br_verify_study *v = &item->verify.study[kind];
         struct br_error inner = {0};
         v->method.rounding =
             br_rounding_mode((size_t)br_option_number(r->session.options, BR_OPT_ROUNDING, 0));
         if (v->count && br_method_read(&r->session.options->given[BR_OPT_METHOD], BR_METHOD_OPTION,
                                        &v->method, &inner))
-            status = br_fail(err, inner.status, "%s: verify: %s: %s", item->path,
-                             br_verify_names[kind], inner.message);
+            return br_fail(err, inner.status, "%s: verify: %s: %s", item->path,
+                           br_verify_names[kind], inner.message);
     }
-    if (!status && item->verify.by_default)
+    if (item->verify.by_default)
         br_verify_expect_default(&item->scene, &item->verify);
-    return status;
+    return BR_OK;
 }
 
 /* Of another program. */
@@ -103,10 +102,10 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
     r->check = br_allocate(r->most + 1, sizeof *r->check);
     if (!r->item || !r->check)
         return br_no_memory(err, "the scenes");
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < r->most && !status; i++)
-        status = read_scene(r, i, r->all ? r->listed[i] : o->word[i], err);
-    return status;
+    for (size_t i = 0; i < r->most; i++)
+        if (read_scene(r, i, r->all ? r->listed[i] : o->word[i], err))
+            return err->status;
+    return BR_OK;
 }
 
 /* An option that no study would heed is refused, not ignored. */

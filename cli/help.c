@@ -92,20 +92,23 @@ static void print_commands(FILE *out)
 
 /* ---- registries ---- */
 
-/* "riccati, umfpack": the rows that heed the field. */
-static const char *heeders(const struct br_method_field *f, char *text, size_t size)
+/* "--equilibrate   --solver umfpack, cholmod": the rows that heed the field. */
+static void print_heeders(FILE *out, const struct br_method_field *f)
 {
     const struct br_method_field *by = &br_method_fields[f->by];
     struct br_method m = br_method_default();
-    size_t used = 0;
-    text[0] = '\0';
-    for (size_t row = 0; by->words->name(row) && used < size; row++) {
+    const char *between = " ";
+    if (!f->heeds)
+        return;
+    fprintf(out, "  --%-21s --%s", f->name, by->name);
+    for (size_t row = 0; by->words->name(row); row++) {
         by->set(&m, (double)row);
-        if (f->heeds(&m))
-            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
-                                     by->words->name(row));
+        if (f->heeds(&m)) {
+            fprintf(out, "%s%s", between, by->words->name(row));
+            between = ", ";
+        }
     }
-    return text;
+    fputc('\n', out);
 }
 
 static void print_methods(FILE *out)
@@ -123,10 +126,7 @@ static void print_methods(FILE *out)
     }
     fprintf(out, "\nOptions that some of these heed:\n");
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
-        if (br_method_fields[i].heeds)
-            fprintf(out, "  --%-21s --%s %s\n", br_method_fields[i].name,
-                    br_method_fields[br_method_fields[i].by].name,
-                    heeders(&br_method_fields[i], text, sizeof text));
+        print_heeders(out, &br_method_fields[i]);
     fprintf(out,
             "\nNames of methods (--methods): these words joined by '+', at most one of a kind:\n");
     for (size_t i = 0; i < br_named_method_kinds(); i++) {

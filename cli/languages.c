@@ -87,37 +87,30 @@ static bool is_filled(const char *p, const char *end, const struct fields *f)
 }
 
 static void put(FILE *out, const struct language *l, const char *p, const char *end,
-                const struct fields *f);
-
-/* One that is no question, by its letter. */
-static void put_field(FILE *out, const struct language *l, char letter, const struct fields *f)
-{
-    const char *text = field(f, letter);
-    if (letter == 'v' || letter == 'p') /* patterns again */
-        put(out, l, text, text + strlen(text), f);
-    else if (isupper((unsigned char)letter))
-        br_quote(out, letter == 'W' ? l->words_quoting : l->quoting, text);
-    else if (isalpha((unsigned char)letter))
-        fputs(text, out);
-    else
-        fputc(letter, out);
-}
-
-static void put(FILE *out, const struct language *l, const char *p, const char *end,
                 const struct fields *f)
 {
-    for (; p < end; p++)
+    for (; p < end; p++) {
         if (*p == '{') {
             const char *close = group_end(p + 1);
             if (is_filled(p + 1, close, f))
                 put(out, l, p + 1, close, f);
             p = close;
-        } else if (*p != '%')
-            fputc(*p, out);
-        else if (*++p == '?')
-            p++;
+            continue;
+        }
+        const bool escaped = *p == '%', question = escaped && p[1] == '?';
+        p += question ? 2 : escaped ? 1 : 0;
+        const char *text = escaped ? field(f, *p) : "";
+        if (question)
+            continue;
+        if (escaped && (*p == 'v' || *p == 'p')) /* patterns again */
+            put(out, l, text, text + strlen(text), f);
+        else if (escaped && isupper((unsigned char)*p))
+            br_quote(out, *p == 'W' ? l->words_quoting : l->quoting, text);
+        else if (escaped && isalpha((unsigned char)*p))
+            fputs(text, out);
         else
-            put_field(out, l, *p, f);
+            fputc(*p, out);
+    }
 }
 
 static void emit(FILE *out, const struct language *l, const char *pattern, const struct fields *f)
@@ -333,18 +326,6 @@ static const struct {
     {"SEE ALSO", {"gnuplot(1), mpirun(1)"}},
 };
 
-static void write_sections(FILE *out, const struct language *l, struct fields f)
-{
-    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
-        f.of['t'] = sections[i].title;
-        emit(out, l, l->section, &f);
-        for (size_t j = 0; sections[i].text[j]; j++) {
-            f.of['b'] = sections[i].text[j];
-            emit(out, l, j ? l->next_paragraph : l->paragraph, &f);
-        }
-    }
-}
-
 static void write_all(FILE *out, const struct language *l, const char *scenes)
 {
     struct fields f = {.of = {['x'] = br_version(), ['z'] = scenes}};
@@ -365,8 +346,14 @@ static void write_all(FILE *out, const struct language *l, const char *scenes)
     }
     if (l->methods)
         write_methods(out, l, f);
-    if (l->section)
-        write_sections(out, l, f);
+    for (size_t i = 0; l->section && i < sizeof sections / sizeof *sections; i++) {
+        f.of['t'] = sections[i].title;
+        emit(out, l, l->section, &f);
+        for (size_t j = 0; sections[i].text[j]; j++) {
+            f.of['b'] = sections[i].text[j];
+            emit(out, l, j ? l->next_paragraph : l->paragraph, &f);
+        }
+    }
     emit(out, l, l->foot, &f);
 }
 

@@ -35,15 +35,6 @@ const struct br_command *br_find_command(const char *name)
     return NULL;
 }
 
-/* Only rank 0 of several speaks. */
-static enum br_status join_ranks(struct br_error *err)
-{
-    const enum br_status status = br_ranks_start(err);
-    if (!br_ranks_first() && !freopen("/dev/null", "w", stdout))
-        return br_fail(err, BR_IO, "/dev/null: %s", strerror(errno));
-    return status;
-}
-
 static enum br_status unknown(const char *word, struct br_error *err)
 {
     const char *names[64] = {"--help", "--version"};
@@ -54,19 +45,6 @@ static enum br_status unknown(const char *word, struct br_error *err)
     if (nearest)
         return br_fail(err, BR_BAD_INPUT, "'%s' is no command; did you mean '%s'?", word, nearest);
     return br_fail(err, BR_BAD_INPUT, "'%s' is no command; 'beamrate --help' lists them", word);
-}
-
-static enum br_status run_parsed(const struct br_command *command, int argc, const char **argv,
-                                 struct br_error *err)
-{
-    struct br_options options;
-    enum br_status status = br_options_parse(argc, argv, command, &options, err);
-    if (!status && br_option_given(&options, BR_OPT_HELP))
-        br_print_command_help(stdout, command);
-    else if (!status)
-        status = command->run(&options, err);
-    br_options_clear(&options);
-    return status;
 }
 
 static enum br_status run_command(int argc, const char **argv, struct br_error *err)
@@ -86,7 +64,14 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     br_gnuplot_stop_when(br_signals_caught);
     if (br_remember_command_line(argc, argv, err))
         return err->status;
-    return run_parsed(command, argc - 1, argv + 1, err);
+    struct br_options options;
+    enum br_status status = br_options_parse(argc - 1, argv + 1, command, &options, err);
+    if (!status && br_option_given(&options, BR_OPT_HELP))
+        br_print_command_help(stdout, command);
+    else if (!status)
+        status = command->run(&options, err);
+    br_options_clear(&options);
+    return status;
 }
 
 /* Libraries that have no memory, or no thread, end the program: popt, OpenMP. */
@@ -107,7 +92,10 @@ static int run_all(int argc, const char **argv)
     /* What fails says so here. One that forgets to is a failure all the same: chains of calls
      * return err->status. */
     struct br_error err = {BR_IO, "a failure that says nothing: this is a defect of the program"};
-    bool failed = join_ranks(&err) || run_command(argc, argv, &err);
+    bool failed = br_ranks_start(&err);
+    if (!br_ranks_first() && !freopen("/dev/null", "w", stdout)) /* only rank 0 of several speaks */
+        failed = br_fail(&err, BR_IO, "/dev/null: %s", strerror(errno));
+    failed = failed || run_command(argc, argv, &err);
     if (!failed && (fflush(stdout) != 0 || ferror(stdout))) /* closed, or full */
         failed = br_fail(&err, BR_IO, "standard output could not be written");
     if (!failed && br_json_lacked_memory())

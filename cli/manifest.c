@@ -105,21 +105,19 @@ enum br_status br_sets_write(int folder, const char *name, json_t *sets, struct 
 }
 
 /* A name that leads elsewhere, or to what is hidden, is none of ours. */
-static bool is_file(const json_t *file)
-{
-    const char *name = br_listed_name(file), *sum = sum_of(file);
-    return json_is_integer(json_object_get(file, "size")) && sum &&
-           strlen(sum) == BR_SHA256_TEXT - 1 && name && *name && *name != '.' && !strchr(name, '/');
-}
-
 static bool are_sets(const json_t *sets)
 {
     bool ours = json_is_array(sets);
     for (size_t i = 0; i < json_array_size(sets) && ours; i++) {
         const json_t *files = json_object_get(json_array_get(sets, i), "files");
         ours = json_is_array(files);
-        for (size_t j = 0; j < json_array_size(files) && ours; j++)
-            ours = is_file(json_array_get(files, j));
+        for (size_t j = 0; j < json_array_size(files) && ours; j++) {
+            const json_t *file = json_array_get(files, j);
+            const char *name = br_listed_name(file), *sum = sum_of(file);
+            ours = json_is_integer(json_object_get(file, "size")) && sum &&
+                   strlen(sum) == BR_SHA256_TEXT - 1 && name && *name && *name != '.' &&
+                   !strchr(name, '/');
+        }
     }
     return ours;
 }

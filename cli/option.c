@@ -13,17 +13,6 @@
 
 /* ---- what is refused ---- */
 
-/* The command that takes an option which this one does not; NULL: none. */
-static const struct br_command *who_takes(const char *name)
-{
-    struct br_option row[BR_OPTIONS];
-    for (const struct br_command *const *c = br_commands; *c; c++)
-        for (size_t i = 0, count = br_options_of(*c, row); i < count; i++)
-            if (strcmp(row[i].name, name) == 0)
-                return *c;
-    return NULL;
-}
-
 static enum br_status refuse(poptContext context, const struct br_option *row, size_t count,
                              int code, struct br_error *err)
 {
@@ -34,10 +23,12 @@ static enum br_status refuse(poptContext context, const struct br_option *row, s
     for (size_t i = 0; i < count; i++)
         names[i] = row[i].name;
     const bool unknown = code == POPT_ERROR_BADOPT;
-    const struct br_command *other = unknown && strncmp(bad, "--", 2) == 0 ? who_takes(word) : NULL;
-    if (other)
-        return br_fail(err, BR_BAD_INPUT, "%s: %s; it is one of 'beamrate %s'", bad,
-                       poptStrerror(code), other->name);
+    struct br_option theirs[BR_OPTIONS];
+    for (const struct br_command *const *c = br_commands; *c; c++)
+        for (size_t i = 0, all = br_options_of(*c, theirs); i < all; i++)
+            if (unknown && strncmp(bad, "--", 2) == 0 && strcmp(theirs[i].name, word) == 0)
+                return br_fail(err, BR_BAD_INPUT, "%s: %s; it is one of 'beamrate %s'", bad,
+                               poptStrerror(code), (*c)->name);
     const char *nearest = unknown ? br_nearest(word, names, count) : NULL;
     return br_fail(err, BR_BAD_INPUT, "%s: %s; %s%s%s", bad, poptStrerror(code),
                    nearest ? "did you mean --" : "'--help' lists the options",

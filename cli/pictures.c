@@ -15,12 +15,6 @@ enum { FRAMES = 120, MOST_ELEMENTS = 20000, ROWS = 2000, NARROW = 40, USUAL = 80
 
 /* ---- where the movie goes ---- */
 
-static bool is_folder(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
-}
-
 /* Splits dir/name.gif into folder and stem; frames are called frame-0001.png in their folder. */
 static enum br_status split(struct br_pictures *p, char *folder, size_t size, struct br_error *err)
 {
@@ -47,7 +41,9 @@ static enum br_status split(struct br_pictures *p, char *folder, size_t size, st
 static enum br_status choose_format(struct br_pictures *p, struct br_error *err)
 {
     const char *file = p->animate;
-    p->format = br_movie_format_of(is_folder(file) ? "/" : file);
+    struct stat info;
+    const bool folder = stat(file, &info) == 0 && S_ISDIR(info.st_mode);
+    p->format = br_movie_format_of(folder ? "/" : file);
     if (p->format)
         return BR_OK;
     char known[256] = "";
@@ -89,15 +85,12 @@ static enum br_status open_movie(struct br_pictures *p, struct br_error *err)
     if (p->n > MOST_ELEMENTS)
         return br_fail(err, BR_BAD_INPUT, "--animate: n is %zu, expected at most %d", p->n,
                        MOST_ELEMENTS);
-    enum br_status status = choose_format(p, err);
-    if (!status)
-        status = split(p, folder, sizeof folder, err);
-    if (!status)
-        status = check_programs(p, err);
+    if (choose_format(p, err) || split(p, folder, sizeof folder, err) || check_programs(p, err))
+        return err->status;
     p->output.stem = p->stem;
-    if (!status && br_output_open(&p->output, folder, &inner))
-        status = br_fail(err, inner.status, "--animate %s", inner.message + strlen("--out: "));
-    return status;
+    return br_output_open(&p->output, folder, &inner)
+               ? br_fail(err, inner.status, "--animate %s", inner.message + strlen("--out: "))
+               : BR_OK;
 }
 
 /* ---- what is kept ---- */
@@ -113,12 +106,9 @@ static enum br_status keep_step(void *self, const struct br_march *march,
         return BR_OK;
     struct br_history_row whole = *row;
     whole.displacement[BR_BENDING] = br_march_tip_displacement(march, BR_BENDING);
-    enum br_status status = BR_OK;
-    if (frame)
-        status = p->keep.look(p->keep.self, march, &whole, err);
-    if (!status && kept)
-        status = p->keep.row(p->keep.self, &whole, err);
-    return status;
+    if (frame && p->keep.look(p->keep.self, march, &whole, err))
+        return err->status;
+    return kept ? p->keep.row(p->keep.self, &whole, err) : BR_OK;
 }
 
 enum br_status br_pictures_open(struct br_pictures *p, struct br_error *err)
@@ -140,12 +130,11 @@ static enum br_status render_movie(struct br_pictures *p, const struct br_movie 
                                    const char *script, struct br_error *err)
 {
     struct br_gnuplot g;
-    enum br_status status = br_gnuplot_start(&g, p->output.staging, script, NULL, &p->missing, err);
-    if (status)
-        return status;
+    if (br_gnuplot_start(&g, p->output.staging, script, NULL, &p->missing, err))
+        return err->status;
     g.observer = br_progress_start("drawing", p->quiet);
     g.pictures = p->record.looks;
-    status = br_gnuplot_end(&g, err);
+    enum br_status status = br_gnuplot_end(&g, err);
     br_progress_end();
     for (size_t i = 0; i < (p->format->frames ? p->record.looks : 1) && !status; i++) {
         char name[512], path[2048];
@@ -164,19 +153,19 @@ static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
     const struct br_movie movie = {p->scene, &p->record, p->format, p->stem};
     enum br_status status = BR_OK;
     char name[300];
-    for (int script = 0; script < 2 && !status; script++) {
+    for (int script = 0; script < 2; script++) {
         FILE *file;
         snprintf(name, sizeof name, "%s%s", p->stem, script ? ".gp" : ".dat");
-        status = br_output_file(&p->output, name, &file, err);
-        if (status)
-            return status;
+        if (br_output_file(&p->output, name, &file, err))
+            return err->status;
         script ? br_movie_write_script(file, &movie) : br_movie_write_data(file, &movie);
-        status = br_output_close(file, name, err);
+        if (br_output_close(file, name, err))
+            return err->status;
     }
-    if (!status && !p->missing)
+    if (!p->missing)
         status = render_movie(p, &movie, name, err);
     if (br_signals_caught()) /* Ctrl-C ends gnuplot, too */
-        status = br_fail(err, BR_INTERRUPTED, "interrupted");
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
     return status ? status : br_output_commit(&p->output, err);
 }
 
@@ -207,15 +196,13 @@ static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct 
 
 enum br_status br_pictures_finish(struct br_pictures *p, FILE *letters, struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    if (p->plot && letters && p->record.rows > 1)
-        status = draw_letters(p, letters, err);
-    if (!status && p->animate && p->record.looks > 0)
-        status = draw_movie(p, err);
-    if (!status && p->missing)
+    if ((p->plot && letters && p->record.rows > 1 && draw_letters(p, letters, err)) ||
+        (p->animate && p->record.looks > 0 && draw_movie(p, err)))
+        return err->status;
+    if (p->missing)
         fprintf(stderr, "beamrate: gnuplot is not installed: the animation is written as a script "
                         "(*.gp) and data, but not rendered\n");
-    return status;
+    return BR_OK;
 }
 
 void br_pictures_discard(struct br_pictures *p)

@@ -15,7 +15,6 @@ struct br_study_request {
     size_t norms;
     struct br_method method, reference_method;
     struct br_named_methods methods; /* of --methods; count 0: not given */
-    int threads;                     /* 0: all cores */
 };
 
 /* Fails with BR_BAD_INPUT, naming the option, what was found and what was expected. */

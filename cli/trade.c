@@ -46,15 +46,10 @@ static struct br_method fine_method(void)
     return finest.method;
 }
 
-/* Whether the user says what is tried. */
-static bool is_listed(const struct br_options *o)
-{
-    return br_option_given(o, BR_OPT_N) || br_option_given(o, BR_OPT_K) ||
-           br_option_given(o, BR_OPT_STEPS) || br_option_given(o, BR_OPT_TOLERANCES);
-}
-
 static enum br_status set_request(const struct run *r, struct item *item, struct br_error *err)
 {
+    static const enum br_option_id listed[] = {BR_OPT_N, BR_OPT_K, BR_OPT_STEPS, BR_OPT_TOLERANCES,
+                                               BR_OPTIONS}; /* what the user says is tried */
     const struct br_options *o = r->session.options;
     const struct br_scene *scene = &item->opened.scene;
     struct br_trial_request *q = &item->trade.request;
@@ -63,7 +58,7 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     q->threads = r->session.threads;
     q->repeats = (size_t)br_option_number(o, BR_OPT_REPEATS, 0);
     q->time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
-    if (!is_listed(o) || br_option_given(o, BR_OPT_SECONDS))
+    if (!br_first_given(o, listed) || br_option_given(o, BR_OPT_SECONDS))
         q->seconds = br_option_number(o, BR_OPT_SECONDS, 0);
     item->trade.norm[0] = r->study.norm[0];
     if (!q->judge || !q->judge->nests)
@@ -231,16 +226,6 @@ static enum br_status foresee(const struct run *r, struct br_error *err)
 
 /* ---- results ---- */
 
-static void draw(struct run *r, size_t i)
-{
-    struct br_document *d = &r->session.document[i];
-    const struct br_trade *trade = &r->item[i].trade;
-    for (const struct br_trade_picture *const *p = br_trade_pictures; *p; p++)
-        if (br_trade_picture_applies(*p, trade))
-            br_session_draw(&r->session, d, br_trade_draw(*p, trade, d->name, d->caption),
-                            (*p)->title);
-}
-
 /* A report of each scene, and where there are several one of all. */
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
@@ -253,7 +238,10 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         trade[i] = &r->item[i].trade;
         provenance = br_provenance_of(&r->item[i].opened, r->session.threads);
         br_report_trade(trade[i], &provenance, &d[i]);
-        draw(r, i);
+        for (const struct br_trade_picture *const *p = br_trade_pictures; *p; p++)
+            if (br_trade_picture_applies(*p, trade[i]))
+                br_session_draw(&r->session, &d[i],
+                                br_trade_draw(*p, trade[i], d[i].name, d[i].caption), (*p)->title);
     }
     if (!status && r->items > 1) {
         provenance = br_provenance_of(&r->item[0].opened, r->session.threads);

@@ -10,13 +10,6 @@
 
 /* ---- printing ---- */
 
-/* Each alone, so that it can be copied. */
-static void print_lines(const char *remedy)
-{
-    for (const char *line = remedy; *line; line += strcspn(line, "\n"), line += *line == '\n')
-        fprintf(stderr, "    %.*s\n", (int)strcspn(line, "\n"), line);
-}
-
 void br_print_warnings(const char *scene, const struct br_warnings *warnings)
 {
     for (size_t i = 0; i < warnings->count; i++) {
@@ -28,7 +21,11 @@ void br_print_warnings(const char *scene, const struct br_warnings *warnings)
         if (w->more)
             fprintf(stderr, " (and so %zu more of these marches)", w->more);
         fprintf(stderr, "%s\n", w->remedy[0] ? "; remedy:" : "");
-        print_lines(w->remedy);
+        for (const char *line = w->remedy; *line; line += *line == '\n') {
+            const int length = (int)strcspn(line, "\n");
+            fprintf(stderr, "    %.*s\n", length, line); /* alone, so that it can be copied */
+            line += length;
+        }
     }
 }
 

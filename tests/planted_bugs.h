@@ -846,7 +846,7 @@ static const struct planted_bug planted_bugs[] = {
     {"verdict_without_exit_code", "option", "cli/verdicts.c", "golden check_fails",
      "if (passed < all)", "if (passed > all)"},
     {"warning_without_remedy", "option", "cli/warn.c", "golden run_warned",
-     "print_lines(w->remedy);", ""},
+     "fprintf(stderr, \"    %.*s\\n\", length, line);", ""},
 
     /* ---- the orders of any program's numbers ---- */
     {"columns_of_a_table_exchanged", "column", "study/orders/table.c", "tests/test_orders",
