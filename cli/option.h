@@ -161,6 +161,11 @@ bool br_option_given(const struct br_options *o, enum br_option_id id);
 /* The name of the first one that is given, of a list that ends with BR_OPTIONS; NULL: none is. */
 const char *br_first_given(const struct br_options *o, const enum br_option_id *list);
 
+/* Gives an option, which the command may not take, another text; NULL: it is not given. Fails as
+ * br_options_parse. */
+enum br_status br_option_set(struct br_options *o, enum br_option_id id, const char *text,
+                             struct br_error *err);
+
 /* As given, or the default; NULL: neither. */
 const char *br_option_text(const struct br_options *o, enum br_option_id id);
 

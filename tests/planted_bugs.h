@@ -890,7 +890,7 @@ static const struct planted_bug planted_bugs[] = {
     {"every_number_is_near", "bound", "tables/repeated.c", "golden repeat_differs",
      "return fabs(is - was) <= allowed;", "return fabs(is - was) >= 0;"},
     {"scene_as_it_is_now", "stale", "cli/repeat.c", "golden repeat_differs",
-     "add(r, *r->scene ? r->scene : r->options.word[i]);", "add(r, r->options.word[i]);"},
+     "r->options.word[0] = strdup(r->scene);", "r->options.word[0] = strdup(path);"},
     {"repeated_report_writes_elsewhere", "option", "cli/repeat.c", "golden repeat_elsewhere",
      "BR_OPT_NO_PLOTS, BR_OPT_GITHUB};", "BR_OPT_NO_PLOTS};"},
 
