@@ -209,12 +209,10 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         .stopped = r->done < r->count,
         .wall_seconds = r->wall_seconds,
     };
-    const bool failed = br_session_report(&r->session, 1, err) ||
-                        br_verdicts_report(&r->verdicts, &findings, r->all && r->done == r->count,
-                                           r->session.threads, r->session.document, err) ||
-                        br_verdicts_finish(&r->verdicts, &r->session, err) ||
-                        br_verdicts_conclude(&r->verdicts, r->check, r->done, err);
-    return failed ? err->status : BR_OK;
+    if (br_session_report(&r->session, 1, err))
+        return err->status;
+    return br_verdicts_finish(&r->verdicts, &r->session, &findings, r->all && r->done == r->count,
+                              err);
 }
 
 /* What the reports need, before a long computation. */

@@ -198,13 +198,8 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     if (br_session_report(&r->session, judged ? 2 : 1, err) ||
         build_report(r, &r->session.document[0], err))
         return err->status;
-    if (!judged)
-        return br_session_finish(&r->session, err);
-    const bool failed = br_verdicts_report(&r->verdicts, &findings, true, r->session.threads,
-                                           &r->session.document[1], err) ||
-                        br_verdicts_finish(&r->verdicts, &r->session, err) ||
-                        br_verdicts_conclude(&r->verdicts, &r->check, 1, err);
-    return failed ? err->status : BR_OK;
+    return judged ? br_verdicts_finish(&r->verdicts, &r->session, &findings, true, err)
+                  : br_session_finish(&r->session, err);
 }
 
 /* Runs without a number fail the command, after everything has been written. */

@@ -92,14 +92,9 @@ enum br_status br_verdicts_open(struct br_verdicts *v, const struct br_options *
     return failed ? err->status : BR_OK;
 }
 
-enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *session,
+static enum br_status write_files(struct br_verdicts *v, const struct br_document *d,
                                   struct br_error *err)
 {
-    for (size_t i = 1; br_check_formats[i]; i++)
-        session->quiet |= v->file[i].file == stdout;
-    const struct br_document *d = &session->document[session->documents - 1];
-    if (br_session_finish(session, err))
-        return err->status;
     for (size_t i = 1; br_check_formats[i]; i++)
         if (v->file[i].file &&
             br_document_print(v->file[i].file, br_check_formats[i], d, NULL, err))
@@ -112,22 +107,8 @@ enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *sess
     return br_whole_file_commit(&v->baseline, err);
 }
 
-enum br_status br_verdicts_report(struct br_verdicts *v, const struct br_check_findings *findings,
-                                  bool whole, int threads, struct br_document *d,
-                                  struct br_error *err)
-{
-    const struct br_provenance provenance = br_provenance_of(NULL, threads);
-    struct br_check_findings all = *findings;
-    if (v->compare && br_compare(all.checks, all.count, whole, &v->old, &v->comparison, err))
-        return err->status;
-    all.comparison = v->compare ? &v->comparison : NULL;
-    all.provenance = &provenance;
-    br_report_check(&all, d);
-    return BR_OK;
-}
-
-enum br_status br_verdicts_conclude(const struct br_verdicts *v, const struct br_check *checks,
-                                    size_t count, struct br_error *err)
+static enum br_status conclude(const struct br_verdicts *v, const struct br_check *checks,
+                               size_t count, struct br_error *err)
 {
     size_t all = 0;
     const size_t passed = br_check_tally(checks, count, BR_PASS);
@@ -144,6 +125,25 @@ enum br_status br_verdicts_conclude(const struct br_verdicts *v, const struct br
         return br_fail(err, BR_VERDICT, "serious differences from %s: %zu", v->compare,
                        v->comparison.tally[BR_SERIOUS]);
     return BR_OK;
+}
+
+enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *session,
+                                  const struct br_check_findings *findings, bool whole,
+                                  struct br_error *err)
+{
+    const struct br_provenance provenance = br_provenance_of(NULL, session->threads);
+    struct br_document *d = &session->document[session->documents - 1];
+    struct br_check_findings all = *findings;
+    if (v->compare && br_compare(all.checks, all.count, whole, &v->old, &v->comparison, err))
+        return err->status;
+    all.comparison = v->compare ? &v->comparison : NULL;
+    all.provenance = &provenance;
+    br_report_check(&all, d);
+    for (size_t i = 1; br_check_formats[i]; i++)
+        session->quiet |= v->file[i].file == stdout;
+    const bool failed = br_session_finish(session, err) || write_files(v, d, err) ||
+                        conclude(v, all.checks, all.count, err);
+    return failed ? err->status : BR_OK;
 }
 
 void br_verdicts_clear(struct br_verdicts *v)

@@ -30,23 +30,14 @@ enum br_status br_verdicts_open(struct br_verdicts *verdicts, const struct br_op
 enum br_status br_verdicts_spare(const struct br_verdicts *verdicts, const char *path,
                                  struct br_error *err);
 
-/* Builds the report of the verdicts (out, begins as zeros). findings: without comparison and
- * provenance. whole: all that there is was checked. Fails with BR_NO_MEMORY. */
-enum br_status br_verdicts_report(struct br_verdicts *verdicts,
-                                  const struct br_check_findings *findings, bool whole, int threads,
-                                  struct br_document *report, struct br_error *err);
-
-/* Finishes the session, whose last report is that of the verdicts, and writes the files. Where one
- * of them is standard output, no report is shown there. Fails as br_session_finish,
- * br_document_print and br_whole_file_commit. */
+/* Builds the report of the verdicts, the session's last, finishes the session and writes the files;
+ * where one of them is standard output, no report is shown there. findings: without comparison and
+ * provenance. whole: all that there is was checked. Fails as br_session_finish, br_document_print
+ * and br_whole_file_commit; then, when all is written, with BR_VERDICT where not all passed or the
+ * comparison is serious, and BR_BAD_INPUT where something could not be verified. */
 enum br_status br_verdicts_finish(struct br_verdicts *verdicts, struct br_session *session,
+                                  const struct br_check_findings *findings, bool whole,
                                   struct br_error *err);
-
-/* BR_VERDICT where not all passed or the comparison is serious; BR_BAD_INPUT where something could
- * not be verified. */
-enum br_status br_verdicts_conclude(const struct br_verdicts *verdicts,
-                                    const struct br_check *checks, size_t count,
-                                    struct br_error *err);
 
 void br_verdicts_clear(struct br_verdicts *verdicts);
 
