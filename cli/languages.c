@@ -318,7 +318,7 @@ static const struct {
       "TMPDIR: the folder for what run --plot and --animate need for a moment, /tmp by "
       "default."}},
     {"EXIT STATUS",
-     {"0 done; 1 a verdict failed; 2 bad input; 3 the computation failed (a failed cell, "
+     {"0 done; 1 a verdict failed, or a repeated report differs; 2 bad input; 3 the computation failed (a failed cell, "
       "too, after the results have been written; a march of run that stops early keeps "
       "what it has written). An interrupted program ends by its signal and leaves no file "
       "half written; a hidden folder that a second signal leaves behind is removed, or "
@@ -514,25 +514,17 @@ static const char *shell_name(size_t row)
 
 static const struct br_words shell_words = {shell_name, NULL, NULL};
 
-/* Bundled scenes, separated by blanks. */
-static enum br_status collect_scenes(char text[MOST_SCENES], struct br_error *err)
+static enum br_status run(const struct br_options *o, struct br_error *err)
 {
+    static char scenes[MOST_SCENES]; /* the bundled ones, separated by blanks */
     char **name;
     size_t count, used = 0;
     const enum br_status status = br_scene_list(&name, &count, err);
-    text[0] = '\0';
     for (size_t i = 0; i < count && !status && used < MOST_SCENES; i++)
         if (br_is_name(name[i]) && !strchr(name[i], ' ')) /* else no shell could complete it */
-            used +=
-                (size_t)snprintf(text + used, MOST_SCENES - used, "%s%s", used ? " " : "", name[i]);
+            used += (size_t)snprintf(scenes + used, MOST_SCENES - used, "%s%s", used ? " " : "",
+                                     name[i]);
     br_scene_list_free(name, count);
-    return status;
-}
-
-static enum br_status run(const struct br_options *o, struct br_error *err)
-{
-    static char scenes[MOST_SCENES];
-    const enum br_status status = collect_scenes(scenes, err);
     if (!status)
         br_write_language(stdout, o->word[0], scenes);
     return status;

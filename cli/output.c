@@ -394,9 +394,8 @@ static enum br_status divert(struct br_output *o, json_t *sets, const char *fore
 {
     char name[64];
     snprintf(name, sizeof name, "set-%s", o->run);
-    const enum br_status status = br_sets_write(o->descriptor, "manifest.json", sets, err);
-    if (status)
-        return status;
+    if (br_sets_write(o->descriptor, "manifest.json", sets, err))
+        return err->status;
     if (unlinkat(o->descriptor, ".owner", 0) != 0 ||
         fchmod(o->descriptor, br_new_permissions(0777)) != 0 ||
         renameat(o->parent, o->hidden, o->parent, name) != 0)

@@ -227,34 +227,37 @@ static enum br_status write_file(const struct br_session *s, const struct br_doc
 static enum br_status write_report(const struct br_session *s, const struct br_document_format *f,
                                    const struct br_document *d, struct br_error *err)
 {
-    enum br_status status = br_document_status(d, err);
-    if (!f->by_table)
-        return status ? status : write_file(s, f, d, NULL, err);
     size_t block = 0;
-    for (const struct br_document_table *t; !status && (t = br_document_next_table(d, &block));)
-        status = write_file(s, f, d, t, err);
-    return status;
+    if (br_document_status(d, err))
+        return err->status;
+    if (!f->by_table)
+        return write_file(s, f, d, NULL, err);
+    for (const struct br_document_table *t; (t = br_document_next_table(d, &block));)
+        if (write_file(s, f, d, t, err))
+            return err->status;
+    return BR_OK;
 }
 
 /* The page has the pictures, so it waits for them. */
 enum br_status br_session_write(struct br_session *s, const struct br_document_format *const *f,
                                 struct br_error *err)
 {
-    enum br_status status = s->lost ? br_no_memory(err, "a figure") : BR_OK;
-    for (size_t i = 0; i < s->figures && !status; i++)
-        status = draw(s, &s->figure[i], err);
-    for (; *f && !status; f++) {
+    if (s->lost)
+        return br_no_memory(err, "a figure");
+    for (size_t i = 0; i < s->figures; i++)
+        if (draw(s, &s->figure[i], err))
+            return err->status;
+    for (; *f; f++) {
         const bool page = *f == &br_document_html;
         if (!br_format_wanted(s->options, (*f)->name))
             continue;
-        if (page)
-            status = end_pictures(s, err);
-        for (size_t i = 0; i < (page ? 1 : s->documents) && !status; i++)
-            status = write_report(s, *f, &s->document[i], err);
+        if (page && end_pictures(s, err))
+            return err->status;
+        for (size_t i = 0; i < (page ? 1 : s->documents); i++)
+            if (write_report(s, *f, &s->document[i], err))
+                return err->status;
     }
-    if (!status)
-        status = end_pictures(s, err);
-    return status ? status : br_output_commit(&s->output, err);
+    return end_pictures(s, err) ? err->status : br_output_commit(&s->output, err);
 }
 
 enum br_status br_session_finish(struct br_session *s, struct br_error *err)

@@ -73,16 +73,15 @@ static enum br_status read_printed(struct item *item, struct br_error *err)
     static const char *const tables[][2] = {
         {"study/scenes/example1.yaml", "reference/printed/table1.csv"},
         {"study/scenes/example2.yaml", "reference/printed/table2.csv"}};
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < sizeof tables / sizeof *tables && !status; i++) {
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
         char path[1024];
         br_data_path(tables[i][0], path, sizeof path);
         if (strcmp(path, item->opened.path) != 0)
             continue;
         br_data_path(tables[i][1], path, sizeof path);
-        status = br_printed_read(path, &item->printed, err);
+        return br_printed_read(path, &item->printed, err);
     }
-    return status;
+    return BR_OK;
 }
 
 static enum br_status lay_out(const struct run *r, struct item *item, struct br_error *err)
@@ -161,38 +160,25 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status prepare(struct run *r, struct br_error *err)
-{
-    bool failed = read_request(r, err) || read_scenes(r, err);
-    for (size_t i = 0; i < r->items && !failed; i++)
-        failed = lay_out(r, &r->item[i], err);
-    return failed ? err->status : BR_OK;
-}
-
 /* ---- computing ---- */
 
 /* Less is not worth a word, s. */
 static const double worth_telling = 3;
 
-static void tell_outlook(const char *name, const struct br_trial_outlook *o)
-{
-    if (o->seconds < worth_telling && o->left == 0)
-        return;
-    fprintf(stderr, "%s: %zu trials take about %.0f s", name, o->held, o->seconds);
-    if (o->left)
-        fprintf(stderr, "; left out, the dearest first: %zu, --seconds %.0f has all", o->left,
-                br_trade_seconds_of_all(o));
-    fputc('\n', stderr);
-}
-
 static enum br_status hold_one(struct run *r, struct item *item, struct br_error *err)
 {
     struct br_trade *trade = &item->trade;
+    const struct br_trial_outlook *o = &trade->outlook;
     const char *name = item->opened.scene.name;
     trade->request.observer = br_progress_start(name, r->session.quiet);
     enum br_status status = br_trade_foresee(trade, err);
-    if (!status && !r->session.quiet)
-        tell_outlook(name, &trade->outlook);
+    if (!status && !r->session.quiet && (o->seconds >= worth_telling || o->left > 0)) {
+        fprintf(stderr, "%s: %zu trials take about %.0f s", name, o->held, o->seconds);
+        if (o->left)
+            fprintf(stderr, "; left out, the dearest first: %zu, --seconds %.0f has all", o->left,
+                    br_trade_seconds_of_all(o));
+        fputc('\n', stderr);
+    }
     if (!status)
         status = br_trade_hold(trade, err);
     br_progress_end();
@@ -202,17 +188,18 @@ static enum br_status hold_one(struct run *r, struct item *item, struct br_error
 
 static enum br_status hold(struct run *r, struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < r->items && !status; i++) {
+    for (size_t i = 0; i < r->items; i++) {
         struct item *item = &r->item[i];
-        status = br_session_keep(&r->session, item->opened.text, "", &item->kept, err);
+        if (br_session_keep(&r->session, item->opened.text, "", &item->kept, err))
+            return err->status;
         item->trade.request.kept = *item->kept.folder ? &item->kept : NULL;
     }
     for (size_t i = 0; i < r->items; i++)
         br_warn_of_trials(&r->item[i].opened.scene, r->item[i].trade.trial, r->item[i].trade.count);
-    for (size_t i = 0; i < r->items && !status; i++)
-        status = hold_one(r, &r->item[i], err);
-    return status;
+    for (size_t i = 0; i < r->items; i++)
+        if (hold_one(r, &r->item[i], err))
+            return err->status;
+    return BR_OK;
 }
 
 static enum br_status foresee(const struct run *r, struct br_error *err)
@@ -372,8 +359,11 @@ static bool split(struct run *r, struct br_error *err)
 
 static bool trade(struct run *r, struct br_error *err)
 {
-    if (br_session_alone(err) || prepare(r, err))
+    if (br_session_alone(err) || read_request(r, err) || read_scenes(r, err))
         return true;
+    for (size_t i = 0; i < r->items; i++)
+        if (lay_out(r, &r->item[i], err))
+            return true;
     return br_option_given(r->session.options, BR_OPT_DRY_RUN)
                ? foresee(r, err)
                : br_session_open(&r->session, err) || hold(r, err) || write_all(r, err) ||
