@@ -31,24 +31,23 @@ static enum br_status copy_text(const char *text, char **to, struct br_error *er
 static enum br_status read_readings(const char *text, struct br_orders_request *q,
                                     struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    for (const char *at = text; at && *at && !status;) {
-        const size_t length = strcspn(at, "\n"), name = strcspn(at, "=\n");
-        char *line = strndup(at, length);
-        if (!line)
-            return br_no_memory(err, "the options");
-        if (name == 0 || name >= length)
-            status = br_fail(err, BR_BAD_INPUT,
+    char *copy, *rest;
+    bool failed = copy_text(text, &copy, err);
+    for (char *line = copy ? strtok_r(copy, "\n", &rest) : NULL; line && !failed;
+         line = strtok_r(NULL, "\n", &rest)) {
+        char *equals = strchr(line, '=');
+        if (!equals || equals == line)
+            failed = br_fail(err, BR_BAD_INPUT,
                              "--read: found '%s', expected NAME=REGEX, NAME=json:POINTER or "
                              "NAME=csv:COLUMN",
                              line);
-        line[name < length ? name : 0] = '\0';
-        if (!status)
-            status = br_orders_request_reading(q, line, line + name + 1, err);
-        free(line);
-        at += length + (at[length] == '\n');
+        else {
+            *equals = '\0';
+            failed = br_orders_request_reading(q, line, equals + 1, err);
+        }
     }
-    return status;
+    free(copy);
+    return failed ? err->status : BR_OK;
 }
 
 /* The options beside the file. Those of a run are refused beside a file. */

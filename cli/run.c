@@ -267,7 +267,7 @@ enum {
     SWEPT
 };
 
-static const struct br_variation_column *name_columns(const void *point)
+static const struct br_variation_column *name_columns(void)
 {
     static const char tip[] = "tip at t = T (m)", forces[] = "largest forces at the tip (N)";
     static struct br_variation_column column[SWEPT] = {
@@ -283,7 +283,6 @@ static const struct br_variation_column *name_columns(const void *point)
                             .axis = forces},
         [BAD_STEPS] = {"bad_steps", "bad steps", .format = "%.0f"},
     };
-    (void)point; /* all have the same */
     for (int kind = 0; kind < BR_TIP_EVENTS; kind++) {
         const char *word = br_tip_event_word((enum br_tip_event_kind)kind);
         column[EVENTS + kind] = (struct br_variation_column){word, word, .format = "%.0f"};
@@ -328,6 +327,7 @@ static enum br_status check_swept(const struct br_options *o, struct br_error *e
 static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, struct br_error *err)
 {
     struct br_run_plan *p = self;
+    v->column = name_columns();
     const bool failed =
         br_vary_scene(v, i, &p->opened, err) || br_run_plan_make(p, v->session.options, err);
     return failed ? err->status : BR_OK;
@@ -376,7 +376,6 @@ static const struct br_vary_command varied = {
     .columns = SWEPT,
     .alone = true,
     .prepare = prepare_value,
-    .name_columns = name_columns,
     .foresee = foresee_value,
     .march = march_value,
     .clear = clear_value,

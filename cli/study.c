@@ -39,6 +39,8 @@ struct work {
     size_t mesh[MESHES];       /* for differences, where those of the grid do not do */
     struct br_error no_meshes; /* why there are no differences */
     struct br_kept kept;
+    struct br_study meshes[BR_MOST_NORMS]; /* each mesh against the next at one time step; without
+                                              a reference not used */
 };
 
 /* A report with its name and caption. */
@@ -58,9 +60,7 @@ struct run {
                           without a reference over h, then over k */
     struct work *work; /* jobs */
     struct page *page; /* pages, those of a job together */
-    struct br_study *study;  /* heads * norms, in the first norm first, which br_study_run takes */
-    struct br_study *meshes; /* jobs * norms, those of a job together: each mesh against the next at
-                                one time step; without a reference not used */
+    struct br_study *study; /* heads * norms, in the first norm first, which br_study_run takes */
 };
 
 /* Study h of the heads in norm m. */
@@ -164,7 +164,7 @@ static enum br_status start_report(struct run *r, const struct job *job, size_t 
         .study = study_of(r, variant * r->jobs + i, m),
         .exact = !r->differences && r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
         .tips = r->differences ? &r->work[i].tips : NULL,
-        .meshes = !r->differences ? &r->meshes[i * r->request.norms + m]
+        .meshes = !r->differences ? &r->work[i].meshes[m]
                   : variant == 0  ? study_of(r, i, m)
                                   : NULL,
         .rates = br_option_given(r->session->options, BR_OPT_RATES),
@@ -203,8 +203,7 @@ static enum br_status prepare(struct run *r, const struct job *job, bool with_ex
     r->work = br_allocate(r->jobs, sizeof *r->work);
     r->page = br_allocate(2 * r->jobs * q->norms, sizeof *r->page);
     r->study = br_allocate(r->heads * q->norms, sizeof *r->study);
-    r->meshes = br_allocate(r->jobs * q->norms, sizeof *r->meshes);
-    if (!r->work || !r->page || !r->study || !r->meshes)
+    if (!r->work || !r->page || !r->study)
         return br_no_memory(err, "the studies");
     for (size_t i = 0; i < r->jobs; i++) {
         if (prepare_job(r, &job[i], i, err))
@@ -223,9 +222,9 @@ static void clear(void *self)
         br_report_clear(&r->page[i].report);
     for (size_t i = 0; r->study && i < r->heads * r->request.norms; i++)
         br_study_clear(&r->study[i]);
-    for (size_t i = 0; r->meshes && i < r->jobs * r->request.norms; i++)
-        br_study_clear(&r->meshes[i]);
     for (size_t i = 0; r->work && i < r->jobs; i++) {
+        for (size_t m = 0; m < r->request.norms; m++)
+            br_study_clear(&r->work[i].meshes[m]);
         br_opened_scene_clear(&r->work[i].opened);
         br_tips_clear(&r->work[i].tips);
         free(r->work[i].steps);
@@ -233,7 +232,6 @@ static void clear(void *self)
     free(r->page);
     free(r->work);
     free(r->study);
-    free(r->meshes);
 }
 
 /* ---- computing ---- */
@@ -320,8 +318,8 @@ static enum br_status run_meshes(struct run *r, size_t job, const struct br_obse
     if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
         return br_fail(err, status, "%s", w->no_meshes.message);
     for (size_t m = 0; m < norms && !status; m++) {
-        r->meshes[job * norms + m] = out[m].over_h;
-        br_flag_beside(&r->meshes[job * norms + m]);
+        w->meshes[m] = out[m].over_h;
+        br_flag_beside(&w->meshes[m]);
     }
     return BR_OK;
 }
@@ -423,11 +421,10 @@ static enum br_status run_jobs(const struct br_options *options, const struct jo
 
 enum { ERROR, RELATIVE, OWN, P, P_LOW, P_HIGH, Q, Q_LOW, Q_HIGH, MISFIT, POINTS, SWEPT };
 
-static const struct br_variation_column *name_columns(const void *point)
+static const struct br_variation_column *name_columns(const struct br_norm *norm)
 {
     static char axis[160];
     static struct br_variation_column column[SWEPT];
-    const struct br_norm *norm = ((const struct run *)point)->request.norm[0];
     snprintf(axis, sizeof axis, "%s of the finest cell (%s)", norm->symbol, norm->unit_markup);
     const struct br_variation_column columns[SWEPT] = {
         [ERROR] = {"error", "error of the finest cell", norm->unit, "%.3e", .axis = axis,
@@ -481,7 +478,10 @@ static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, str
     struct run *r = self;
     const struct job job = {.vary = v, .value = i};
     *r = (struct run){.session = &v->session, .jobs = 1};
-    return prepare(r, &job, false, err) ? err->status : check_memory(r, err);
+    if (prepare(r, &job, false, err) || check_memory(r, err))
+        return err->status;
+    v->column = name_columns(r->request.norm[0]);
+    return BR_OK;
 }
 
 static enum br_status march_value(struct br_vary *v, size_t i, void *self, struct br_error *failure,
@@ -509,7 +509,6 @@ static const struct br_vary_command varied = {
     .size = sizeof(struct run),
     .columns = SWEPT,
     .prepare = prepare_value,
-    .name_columns = name_columns,
     .foresee = foresee,
     .march = march_value,
     .clear = clear,

@@ -37,10 +37,8 @@ static enum br_status prepare(struct br_vary *v, const struct br_vary_command *c
         if (c->prepare(v, i, point_at(c, *points, i), err))
             return br_failed_in(err, br_varied_text(&v->varied, i, text));
     }
-    v->found = (struct br_variation){.varied = &v->varied,
-                                     .format = c->format,
-                                     .column = c->name_columns(*points),
-                                     .columns = c->columns};
+    v->found = (struct br_variation){
+        .varied = &v->varied, .format = c->format, .column = v->column, .columns = c->columns};
     return br_variation_create(&v->found, &v->base.scene, err);
 }
 

@@ -11,7 +11,8 @@ struct br_vary {
     struct br_session session;
     struct br_opened_scene base;
     struct br_varied varied;
-    size_t points; /* values that are prepared */
+    size_t points;                            /* values that are prepared */
+    const struct br_variation_column *column; /* what is found, once a value is prepared */
     struct br_variation found;
 };
 
@@ -21,10 +22,8 @@ struct br_vary_command {
     size_t size;        /* of a point */
     size_t columns;
     bool alone; /* as that of br_foreseen */
-    /* Checks all that can be refused before anything is marched. */
+    /* Checks all that can be refused before anything is marched, and names the columns. */
     enum br_status (*prepare)(struct br_vary *vary, size_t i, void *point, struct br_error *err);
-    /* What is found at a value, which is prepared. */
-    const struct br_variation_column *(*name_columns)(const void *point);
     void (*foresee)(void *point, struct br_foreseen *work);
     /* Marches, and fills row i of vary->found. failure (out): why there is nothing: a result, but
      * for BR_NO_MEMORY, BR_IO and BR_INTERRUPTED, which end the command, as what it returns does.
