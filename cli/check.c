@@ -50,7 +50,6 @@ static enum br_status choose_method(const struct run *r, struct item *item, stru
     return BR_OK;
 }
 
-/* Of another program. */
 static enum br_status read_study(struct run *r, struct item *item, const char *text,
                                  struct br_error *err)
 {

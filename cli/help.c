@@ -94,14 +94,14 @@ static void print_commands(FILE *out)
 /* ---- registries ---- */
 
 /* "--equilibrate   --solver umfpack, cholmod": the rows that heed the field. */
-static void print_heeders(FILE *out, const struct br_method_field *f)
+static void print_heeders(FILE *out, size_t i)
 {
-    const struct br_method_field *by = &br_method_fields[f->by];
+    const struct br_method_field *f = &br_method_fields[i], *by = &br_method_fields[f->by];
     struct br_method m = br_method_default();
     const char *between = " ";
     if (!f->heeds)
         return;
-    fprintf(out, "  --%-21s --%s", f->name, by->name);
+    fprintf(out, "  --%-21s --%s", br_method_fields[i].name, br_method_fields[f->by].name);
     for (size_t row = 0; by->words->name(row); row++) {
         by->set(&m, (double)row);
         if (f->heeds(&m)) {
@@ -127,7 +127,7 @@ static void print_methods(FILE *out)
     }
     fprintf(out, "\nOptions that some of these heed:\n");
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
-        print_heeders(out, &br_method_fields[i]);
+        print_heeders(out, i);
     fprintf(out,
             "\nNames of methods (--methods): these words joined by '+', at most one of a kind:\n");
     for (size_t i = 0; i < br_named_method_kinds(); i++) {

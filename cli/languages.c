@@ -46,7 +46,6 @@ struct language {
     const char *foot;
 };
 
-/* By their letters. */
 struct fields {
     const char *of['z' + 1];
 };

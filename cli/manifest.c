@@ -147,7 +147,6 @@ json_t *br_sets_newest(const json_t *sets)
     return json_object_get(json_array_get(sets, json_array_size(sets) - 1), "files");
 }
 
-/* Of the files of one set. */
 static json_t *find(const json_t *files, const char *name)
 {
     for (size_t i = 0; i < json_array_size(files); i++)
@@ -187,7 +186,6 @@ static enum br_status list_one(int folder, const char *name, json_t *files, stru
     return BR_OK;
 }
 
-/* The files of the open folder. */
 static enum br_status list_files(int folder, json_t *files, struct br_error *err)
 {
     struct dirent **entry;

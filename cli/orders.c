@@ -95,12 +95,6 @@ static enum br_status read_beside(const char *path, const struct br_options *o,
     return failed ? err->status : BR_OK;
 }
 
-static bool ends_with(const char *text, const char *end)
-{
-    const size_t length = strlen(text), wanted = strlen(end);
-    return length >= wanted && strcmp(text + length - wanted, end) == 0;
-}
-
 /* A study file says all by itself. */
 static enum br_status read_study(const char *path, const struct br_options *o,
                                  struct br_study_file *study, struct br_error *err)
@@ -129,7 +123,8 @@ static enum br_status read_request(struct run *r, struct br_error *err)
         return br_fail(err, BR_BAD_INPUT,
                        word ? "--run and a file are given, expected one of the two"
                             : "no file is given, expected a table, a study file, or --run");
-    const bool study = word && (ends_with(word, ".yaml") || ends_with(word, ".yml"));
+    const char *dot = word ? strrchr(word, '.') : NULL;
+    const bool study = dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
     if (study ? read_study(word, o, &r->study, err) : read_beside(word, o, q, err))
         return err->status;
     const char *expect = br_option_text(o, BR_OPT_EXPECT);

@@ -32,7 +32,6 @@ const char *br_command_line(void)
     return command_line ? command_line : "";
 }
 
-/* As a shell would read it. */
 enum br_status br_remember_command_line(int argc, const char **argv, struct br_error *err)
 {
     size_t size;

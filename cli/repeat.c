@@ -81,21 +81,18 @@ static enum br_status parse_command(struct run *r, struct br_error *err)
 
 /* ---- the scene as it was ---- */
 
-static bool is_there_as_it_was(const char *path, const char *text)
-{
-    char *now = NULL;
-    const bool stream = strncmp(path, "/dev/", 5) == 0;
-    const bool same = !stream && !br_scene_load(path, &now, NULL) && strcmp(now, text) == 0;
-    free(now);
-    return same;
-}
-
 /* Where the scene's file is not what it was, its text is in the report. */
 static enum br_status restore_scene(struct run *r, struct br_error *err)
 {
     const char *path = provenance_of(r->was, "scene_path");
     const char *text = provenance_of(r->was, "scene_text");
-    if (!path || !text || r->options.words != 1 || is_there_as_it_was(path, text))
+    char *now = NULL;
+    if (!path || !text || r->options.words != 1)
+        return BR_OK;
+    const bool there = strncmp(path, "/dev/", 5) != 0 && !br_scene_load(path, &now, NULL) &&
+                       strcmp(now, text) == 0;
+    free(now);
+    if (there)
         return BR_OK;
     const char *slash = strrchr(path, '/');
     snprintf(r->scene, sizeof r->scene, "%s/%.1000s", r->folder, slash ? slash + 1 : path);

@@ -514,7 +514,6 @@ static const struct br_vary_command varied = {
     .clear = clear,
 };
 
-/* One error a value. */
 static enum br_status run_varied(const struct br_options *o, struct br_error *err)
 {
     const char *reference = br_option_text(o, BR_OPT_REFERENCE);

@@ -51,7 +51,6 @@ static enum br_status foresee(const struct br_vary *v, const struct br_vary_comm
     return br_session_foresee(&v->session, &work, err);
 }
 
-/* A value whose march fails is a result. */
 static enum br_status march(struct br_vary *v, const struct br_vary_command *c, void *points,
                             struct br_error *err)
 {
