@@ -441,13 +441,6 @@ enum br_status br_output_commit(struct br_output *o, struct br_error *err)
     return failed ? err->status : BR_OK;
 }
 
-void br_output_announce(const struct br_output *o)
-{
-    fputs("Written to ", stdout);
-    br_quote(stdout, &br_for_text, o->folder);
-    fputs("/\n", stdout);
-}
-
 void br_output_discard(struct br_output *o)
 {
     if (!o->staging[0])

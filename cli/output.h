@@ -69,9 +69,6 @@ enum br_status br_output_close(FILE *file, const char *name, struct br_error *er
  * fails with BR_IO, as it does where the disk fails. Fails with BR_INTERRUPTED after a signal. */
 enum br_status br_output_commit(struct br_output *output, struct br_error *err);
 
-/* Says on the terminal where they are. */
-void br_output_announce(const struct br_output *output);
-
 /* Removes what has not been put in place, and the folder if it was made for nothing; does
  * nothing after a commit. */
 void br_output_discard(struct br_output *output);

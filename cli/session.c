@@ -271,8 +271,11 @@ enum br_status br_session_finish(struct br_session *s, struct br_error *err)
     if (status || !br_output_is_open(&s->output))
         return status;
     status = br_session_write(s, br_document_formats, err);
-    if (!status && !s->quiet)
-        br_output_announce(&s->output);
+    if (!status && !s->quiet) {
+        fputs("Written to ", stdout);
+        br_quote(stdout, &br_for_text, s->output.folder);
+        fputs("/\n", stdout);
+    }
     return status;
 }
 
