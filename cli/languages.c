@@ -317,11 +317,12 @@ static const struct {
       "TMPDIR: the folder for what run --plot and --animate need for a moment, /tmp by "
       "default."}},
     {"EXIT STATUS",
-     {"0 done; 1 a verdict failed, or a repeated report differs; 2 bad input; 3 the computation failed (a failed cell, "
-      "too, after the results have been written; a march of run that stops early keeps "
-      "what it has written). An interrupted program ends by its signal and leaves no file "
-      "half written; a hidden folder that a second signal leaves behind is removed, or "
-      "its set put in place, by the next command that writes there."}},
+     {"0 done; 1 a verdict failed, or a repeated report differs; 2 bad input; 3 the "
+      "computation failed (a failed cell, too, after the results have been written; a march "
+      "of run that stops early keeps what it has written). An interrupted program ends by "
+      "its signal and leaves no file half written; a hidden folder that a second signal "
+      "leaves behind is removed, or its set put in place, by the next command that writes "
+      "there."}},
     {"SEE ALSO", {"gnuplot(1), mpirun(1)"}},
 };
 

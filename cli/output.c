@@ -12,7 +12,6 @@
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "study/scene/quote.h"
-#include "tables/json_value.h"
 
 /* Of the hidden folder: the manifests of the new set, which decides it, and of the old one. */
 static const char decided[] = ".manifest", replaced[] = ".old";

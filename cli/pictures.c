@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "cli/progress.h"
-#include "cli/session.h"
 #include "study/scene/quote.h"
 
 /* All frames are kept with all nodes: 120 MB at most. */

@@ -9,7 +9,6 @@
 
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/provenance.h"
 #include "cli/session.h"
 #include "study/orders/program.h"
 #include "study/scene/file.h"

@@ -4,9 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/run/history.h"
-#include "study/run/run.h"
-
 /* ---- times ---- */
 
 /* The time level at t, s; the option names where it was found. */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate study SCENE: a grid of cells against one reference; and beamrate tables: the paper's
  * Tables 1 and 2 on their printed grids, two studies at once. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
