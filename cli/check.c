@@ -5,9 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/study_file.h"
 #include "cli/verdicts.h"
-#include "cli/warn.h"
 #include "solver/clock.h"
 #include "study/scene/file.h"
 
@@ -37,37 +35,32 @@ struct run {
 /* The options' method instead of the scene's own. */
 static enum br_status choose_method(const struct run *r, struct item *item, struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    for (int kind = 0; kind < BR_VERIFY_KINDS && !status; kind++) {
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
         struct br_verify_study *v = &item->verify.study[kind];
         struct br_error inner = {0};
         v->method.rounding =
             br_rounding_mode((size_t)br_option_number(r->session.options, BR_OPT_ROUNDING, 0));
         if (v->count && br_method_read(&r->session.options->given[BR_OPT_METHOD], BR_METHOD_OPTION,
                                        &v->method, &inner))
-            status = br_fail(err, inner.status, "%s: verify: %s: %s", item->path,
-                             br_verify_names[kind], inner.message);
+            return br_fail(err, inner.status, "%s: verify: %s: %s", item->path,
+                           br_verify_names[kind], inner.message);
     }
-    if (!status && item->verify.by_default)
+    if (item->verify.by_default)
         br_verify_expect_default(&item->scene, &item->verify);
-    return status;
+    return BR_OK;
 }
 
-/* Of another program. */
 static enum br_status read_study(struct run *r, struct item *item, const char *text,
                                  struct br_error *err)
 {
     const struct br_options *o = r->session.options;
-    enum br_status status = br_study_file_read(item->path, text, o, &item->study, err);
-    if (!status && item->study.request.expectations == 0)
-        status = br_fail(err, BR_BAD_INPUT, "%s: verify: missing, expected what is to be checked",
-                         item->path);
-    item->study.request.jobs = r->session.threads;
-    item->study.request.kept = br_option_text(o, BR_OPT_KEEP);
-    item->study.request.anew = !br_option_given(o, BR_OPT_RESUME);
-    r->check[r->count] = br_study_file_check(&item->study);
-    r->count += !status;
-    return status;
+    if (br_study_file_read(item->path, text, o, &item->study, err))
+        return err->status;
+    if (item->study.request.expectations == 0)
+        return br_fail(err, BR_BAD_INPUT, "%s: verify: missing, expected what is to be checked",
+                       item->path);
+    r->check[r->count++] = br_study_file_check(&item->study, o);
+    return BR_OK;
 }
 
 static enum br_status read_scene(struct run *r, size_t i, const char *name, struct br_error *err)
@@ -84,14 +77,13 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
         br_scene_load(item->path, &text, err))
         return err->status;
     const bool foreign = br_is_study_file(text);
-    const enum br_status status =
+    const bool failed =
         foreign ? read_study(r, item, text, err)
-                : br_scene_read_verify_text(item->path, text, &item->scene, &item->verify, err);
+                : br_scene_read_verify_text(item->path, text, &item->scene, &item->verify, err) ||
+                      choose_method(r, item, err);
     free(text);
-    if (status || foreign)
-        return status;
-    if (choose_method(r, item, err))
-        return err->status;
+    if (failed || foreign)
+        return failed ? err->status : BR_OK;
     r->check[r->count++] = (struct br_check){.path = item->path,
                                              .name = item->scene.name,
                                              .scene = &item->scene,
@@ -109,10 +101,10 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
     r->check = br_allocate(r->most + 1, sizeof *r->check);
     if (!r->item || !r->check)
         return br_no_memory(err, "the scenes");
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < r->most && !status; i++)
-        status = read_scene(r, i, r->all ? r->listed[i] : o->word[i], err);
-    return status;
+    for (size_t i = 0; i < r->most; i++)
+        if (read_scene(r, i, r->all ? r->listed[i] : o->word[i], err))
+            return err->status;
+    return BR_OK;
 }
 
 /* An option that no study would heed is refused, not ignored. */
@@ -137,18 +129,18 @@ static enum br_status check_heeded(const struct run *r, struct br_error *err)
 static enum br_status foresee(const struct run *r, struct br_error *err)
 {
     struct br_foreseen work = {.together = !r->fail_fast};
-    for (size_t i = 0; i < r->count; i++)
-        for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
-            const struct br_check *c = &r->check[i];
-            const size_t cells = c->verify ? c->verify->study[kind].count : 0;
+    for (const struct br_check *c = r->check; c < r->check + r->count; c++) {
+        if (!c->verify)
+            work.then = "come the runs of other programs, which study files name";
+        for (int kind = 0; kind < BR_VERIFY_KINDS && c->verify; kind++) {
+            const size_t cells = c->verify->study[kind].count;
             const size_t heads = kind == BR_VERIFY_JOINT && cells ? 1 : cells ? cells - 1 : 0;
-            if (!c->verify)
-                work.then = "come the runs of other programs, which study files name";
             for (size_t h = 0; h < heads; h++) {
                 const struct br_study study = br_check_study(c, (enum br_verify_kind)kind, h);
                 br_foreseen_add_study(&work, &study);
             }
         }
+    }
     return br_session_foresee(&r->session, &work, err);
 }
 
@@ -160,18 +152,13 @@ static int by_work(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static size_t orders(const struct run *r)
-{
-    size_t orders = 0;
-    for (size_t i = 0; i < r->done; i++)
-        orders += r->check[i].count;
-    return orders;
-}
-
 static bool failed_so_far(const struct run *r)
 {
     const struct br_check *first;
-    return br_check_tally(r->check, r->done, BR_PASS) < orders(r) ||
+    size_t orders = 0;
+    for (size_t i = 0; i < r->done; i++)
+        orders += r->check[i].count;
+    return br_check_tally(r->check, r->done, BR_PASS) < orders ||
            br_check_failures(r->check, r->done, &first) > 0;
 }
 
@@ -179,15 +166,16 @@ static bool failed_so_far(const struct run *r)
 static enum br_status run_studies(struct run *r, size_t first, size_t count,
                                   const struct br_observer *observer, struct br_error *err)
 {
-    enum br_status status = BR_OK;
     for (size_t i = 0; i < r->most; i++)
-        for (size_t c = first; c < first + count && !status; c++)
-            if (r->item[i].study.request.path &&
-                r->check[c].path == r->item[i].study.request.path) {
-                r->item[i].study.request.observer = observer;
-                status = br_study_file_run(&r->item[i].study, &r->check[c], err);
-            }
-    return status;
+        for (size_t c = first; c < first + count; c++) {
+            struct br_study_file *study = &r->item[i].study;
+            if (!study->request.path || r->check[c].path != study->request.path)
+                continue;
+            study->request.observer = observer;
+            if (br_study_file_run(study, &r->check[c], err))
+                return err->status;
+        }
+    return BR_OK;
 }
 
 /* With --fail-fast one after the other, the cheapest first, else all at once. */
@@ -220,25 +208,22 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         .stopped = r->done < r->count,
         .wall_seconds = r->wall_seconds,
     };
-    enum br_status status = br_session_report(&r->session, 1, err);
-    if (!status)
-        status = br_verdicts_report(&r->verdicts, &findings, r->all && r->done == r->count,
-                                    r->session.threads, r->session.document, err);
-    return status ? status : br_verdicts_finish(&r->verdicts, &r->session, err);
+    if (br_session_report(&r->session, 1, err))
+        return err->status;
+    return br_verdicts_finish(&r->verdicts, &r->session, &findings, r->all && r->done == r->count,
+                              err);
 }
 
 /* What the reports need, before a long computation. */
 static enum br_status prepare_reports(struct run *r, struct br_error *err)
 {
-    const struct br_options *o = r->session.options;
-    enum br_status status = br_verdicts_open(&r->verdicts, o, r->check, r->count, err);
-    for (size_t i = 0; i < r->most && !status; i++)
-        status = br_verdicts_spare(&r->verdicts, r->item[i].study.request.table_path, err);
-    if (!status)
-        status = br_session_open(&r->session, err);
-    if (!status)
-        br_warn_of_checks(r->check, r->count);
-    return status;
+    bool failed = br_verdicts_open(&r->verdicts, r->session.options, r->check, r->count, err);
+    for (size_t i = 0; i < r->most && !failed; i++)
+        failed = br_verdicts_spare(&r->verdicts, r->item[i].study.request.table_path, err);
+    if (failed || br_session_open(&r->session, err))
+        return err->status;
+    br_warn_of_checks(r->check, r->count);
+    return BR_OK;
 }
 
 static void clear(struct run *r)
@@ -275,8 +260,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
         failed = foresee(&r, err);
     else if (!failed)
         failed = (writes && prepare_reports(&r, err)) || compute(&r, err) ||
-                 (writes &&
-                  (write_all(&r, err) || br_verdicts_conclude(&r.verdicts, r.check, r.done, err)));
+                 (writes && write_all(&r, err));
     clear(&r);
     return failed ? err->status : BR_OK;
 }

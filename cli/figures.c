@@ -6,7 +6,6 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/session.h"
-#include "cli/warn.h"
 #include "plots/pictures.h"
 #include "study/paper/claims.h"
 #include "tables/reports.h"
@@ -32,16 +31,6 @@ static void put_caption(struct br_document *d, const struct br_paper_figure *f,
         br_put_note(d, "%s", f->beside);
 }
 
-static enum br_status compute(struct run *r, struct br_error *err)
-{
-    struct br_paper_request request = br_paper_request_default();
-    request.threads = r->session.threads;
-    const struct br_observer *observer = br_progress_start("marching", r->session.quiet);
-    const enum br_status status = br_paper_run(&r->paper, &request, observer, err);
-    br_progress_end();
-    return status;
-}
-
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
     const struct br_provenance provenance = br_provenance_of(NULL, r->session.threads);
@@ -63,10 +52,16 @@ static enum br_status write_all(struct run *r, struct br_error *err)
 static enum br_status run(const struct br_options *options, struct br_error *err)
 {
     struct run r = {.session = br_session_begin(options)};
+    struct br_paper_request request = br_paper_request_default();
     const bool writes = r.session.writes;
-    const bool failed = br_session_open(&r.session, err) || (writes && br_warn_of_paper(err)) ||
-                        compute(&r, err) /* on every rank: it takes a second */ ||
-                        (writes && write_all(&r, err));
+    request.threads = r.session.threads;
+    bool failed = br_session_open(&r.session, err) || (writes && br_warn_of_paper(err));
+    if (!failed) { /* on every rank: it takes a second */
+        const struct br_observer *observer = br_progress_start("marching", r.session.quiet);
+        failed = br_paper_run(&r.paper, &request, observer, err);
+        br_progress_end();
+    }
+    failed = failed || (writes && write_all(&r, err));
     br_session_close(&r.session);
     br_paper_clear(&r.paper);
     return failed ? err->status : BR_OK;

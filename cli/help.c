@@ -3,7 +3,7 @@
  * the registries. */
 #include <string.h>
 
-#include "cli/languages.h"
+#include "cli/command.h"
 #include "study/trade/named_method.h"
 
 enum { WIDTH = 98, COLUMN = 34 };
@@ -86,26 +86,30 @@ static void print_commands(FILE *out)
             "  beamrate check example2 example3\n"
             "  beamrate scenes --new my_scene.yaml\n\n"
             "'beamrate COMMAND --help' lists a command's options, with examples;\n%s\n"
-            "Exit codes: 0 done, 1 a verdict failed, 2 bad input, 3 the computation failed.\n",
+            "Exit codes: 0 done, 1 a verdict failed or a repeated report differs, 2 bad input,\n"
+            "3 the computation failed.\n",
             methods_hint);
 }
 
 /* ---- registries ---- */
 
-/* "riccati, umfpack": the rows that heed the field. */
-static const char *heeders(const struct br_method_field *f, char *text, size_t size)
+/* "--equilibrate   --solver umfpack, cholmod": the rows that heed the field. */
+static void print_heeders(FILE *out, size_t i)
 {
-    const struct br_method_field *by = &br_method_fields[f->by];
+    const struct br_method_field *f = &br_method_fields[i], *by = &br_method_fields[f->by];
     struct br_method m = br_method_default();
-    size_t used = 0;
-    text[0] = '\0';
-    for (size_t row = 0; by->words->name(row) && used < size; row++) {
+    const char *between = " ";
+    if (!f->heeds)
+        return;
+    fprintf(out, "  --%-21s --%s", br_method_fields[i].name, br_method_fields[f->by].name);
+    for (size_t row = 0; by->words->name(row); row++) {
         by->set(&m, (double)row);
-        if (f->heeds(&m))
-            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
-                                     by->words->name(row));
+        if (f->heeds(&m)) {
+            fprintf(out, "%s%s", between, by->words->name(row));
+            between = ", ";
+        }
     }
-    return text;
+    fputc('\n', out);
 }
 
 static void print_methods(FILE *out)
@@ -123,10 +127,7 @@ static void print_methods(FILE *out)
     }
     fprintf(out, "\nOptions that some of these heed:\n");
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
-        if (br_method_fields[i].heeds)
-            fprintf(out, "  --%-21s --%s %s\n", br_method_fields[i].name,
-                    br_method_fields[br_method_fields[i].by].name,
-                    heeders(&br_method_fields[i], text, sizeof text));
+        print_heeders(out, i);
     fprintf(out,
             "\nNames of methods (--methods): these words joined by '+', at most one of a kind:\n");
     for (size_t i = 0; i < br_named_method_kinds(); i++) {
@@ -148,9 +149,8 @@ static enum br_status run(const struct br_options *o, struct br_error *err)
         print_commands(stdout);
     else if (strcmp(o->word[0], "methods") == 0)
         print_methods(stdout);
-    for (const struct br_command *const *c = br_commands; *c && o->words; c++)
-        if (strcmp((*c)->name, o->word[0]) == 0)
-            br_print_command_help(stdout, *c);
+    else
+        br_print_command_help(stdout, br_find_command(o->word[0]));
     return BR_OK;
 }
 

@@ -14,7 +14,7 @@
  *   w words that may be chosen, or one     v the pattern of a value
  *   u what a word without a title is       q "name:title" as a string of a shell
  *   x the version        z the bundled scenes */
-#include "cli/languages.h"
+#include "cli/command.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -46,7 +46,6 @@ struct language {
     const char *foot;
 };
 
-/* By their letters. */
 struct fields {
     const char *of['z' + 1];
 };
@@ -87,37 +86,30 @@ static bool is_filled(const char *p, const char *end, const struct fields *f)
 }
 
 static void put(FILE *out, const struct language *l, const char *p, const char *end,
-                const struct fields *f);
-
-/* One that is no question, by its letter. */
-static void put_field(FILE *out, const struct language *l, char letter, const struct fields *f)
-{
-    const char *text = field(f, letter);
-    if (letter == 'v' || letter == 'p') /* patterns again */
-        put(out, l, text, text + strlen(text), f);
-    else if (isupper((unsigned char)letter))
-        br_quote(out, letter == 'W' ? l->words_quoting : l->quoting, text);
-    else if (isalpha((unsigned char)letter))
-        fputs(text, out);
-    else
-        fputc(letter, out);
-}
-
-static void put(FILE *out, const struct language *l, const char *p, const char *end,
                 const struct fields *f)
 {
-    for (; p < end; p++)
+    for (; p < end; p++) {
         if (*p == '{') {
             const char *close = group_end(p + 1);
             if (is_filled(p + 1, close, f))
                 put(out, l, p + 1, close, f);
             p = close;
-        } else if (*p != '%')
-            fputc(*p, out);
-        else if (*++p == '?')
-            p++;
+            continue;
+        }
+        const bool escaped = *p == '%', question = escaped && p[1] == '?';
+        p += question ? 2 : escaped ? 1 : 0;
+        const char *text = escaped ? field(f, *p) : "";
+        if (question)
+            continue;
+        if (escaped && (*p == 'v' || *p == 'p')) /* patterns again */
+            put(out, l, text, text + strlen(text), f);
+        else if (escaped && isupper((unsigned char)*p))
+            br_quote(out, *p == 'W' ? l->words_quoting : l->quoting, text);
+        else if (escaped && isalpha((unsigned char)*p))
+            fputs(text, out);
         else
-            put_field(out, l, *p, f);
+            fputc(*p, out);
+    }
 }
 
 static void emit(FILE *out, const struct language *l, const char *pattern, const struct fields *f)
@@ -325,25 +317,14 @@ static const struct {
       "TMPDIR: the folder for what run --plot and --animate need for a moment, /tmp by "
       "default."}},
     {"EXIT STATUS",
-     {"0 done; 1 a verdict failed; 2 bad input; 3 the computation failed (a failed cell, "
-      "too, after the results have been written; a march of run that stops early keeps "
-      "what it has written). An interrupted program ends by its signal and leaves no file "
-      "half written; a hidden folder that a second signal leaves behind is removed, or "
-      "its set put in place, by the next command that writes there."}},
+     {"0 done; 1 a verdict failed, or a repeated report differs; 2 bad input; 3 the "
+      "computation failed (a failed cell, too, after the results have been written; a march "
+      "of run that stops early keeps what it has written). An interrupted program ends by "
+      "its signal and leaves no file half written; a hidden folder that a second signal "
+      "leaves behind is removed, or its set put in place, by the next command that writes "
+      "there."}},
     {"SEE ALSO", {"gnuplot(1), mpirun(1)"}},
 };
-
-static void write_sections(FILE *out, const struct language *l, struct fields f)
-{
-    for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
-        f.of['t'] = sections[i].title;
-        emit(out, l, l->section, &f);
-        for (size_t j = 0; sections[i].text[j]; j++) {
-            f.of['b'] = sections[i].text[j];
-            emit(out, l, j ? l->next_paragraph : l->paragraph, &f);
-        }
-    }
-}
 
 static void write_all(FILE *out, const struct language *l, const char *scenes)
 {
@@ -365,8 +346,14 @@ static void write_all(FILE *out, const struct language *l, const char *scenes)
     }
     if (l->methods)
         write_methods(out, l, f);
-    if (l->section)
-        write_sections(out, l, f);
+    for (size_t i = 0; l->section && i < sizeof sections / sizeof *sections; i++) {
+        f.of['t'] = sections[i].title;
+        emit(out, l, l->section, &f);
+        for (size_t j = 0; sections[i].text[j]; j++) {
+            f.of['b'] = sections[i].text[j];
+            emit(out, l, j ? l->next_paragraph : l->paragraph, &f);
+        }
+    }
     emit(out, l, l->foot, &f);
 }
 
@@ -527,25 +514,17 @@ static const char *shell_name(size_t row)
 
 static const struct br_words shell_words = {shell_name, NULL, NULL};
 
-/* Bundled scenes, separated by blanks. */
-static enum br_status collect_scenes(char text[MOST_SCENES], struct br_error *err)
+static enum br_status run(const struct br_options *o, struct br_error *err)
 {
+    static char scenes[MOST_SCENES]; /* the bundled ones, separated by blanks */
     char **name;
     size_t count, used = 0;
     const enum br_status status = br_scene_list(&name, &count, err);
-    text[0] = '\0';
     for (size_t i = 0; i < count && !status && used < MOST_SCENES; i++)
         if (br_is_name(name[i]) && !strchr(name[i], ' ')) /* else no shell could complete it */
-            used +=
-                (size_t)snprintf(text + used, MOST_SCENES - used, "%s%s", used ? " " : "", name[i]);
+            used += (size_t)snprintf(scenes + used, MOST_SCENES - used, "%s%s", used ? " " : "",
+                                     name[i]);
     br_scene_list_free(name, count);
-    return status;
-}
-
-static enum br_status run(const struct br_options *o, struct br_error *err)
-{
-    static char scenes[MOST_SCENES];
-    const enum br_status status = collect_scenes(scenes, err);
     if (!status)
         br_write_language(stdout, o->word[0], scenes);
     return status;

@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include "cli/command.h"
+#include "cli/progress.h"
 #include "cli/provenance.h"
-#include "cli/signals.h"
 #include "plots/render.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/quote.h"
@@ -14,51 +14,25 @@
 #include "tables/json_value.h"
 
 extern const struct br_command br_command_check, br_command_completions, br_command_extremes,
-    br_command_figures, br_command_help, br_command_orders, br_command_plan, br_command_repeat, br_command_run,
-    br_command_scenes, br_command_study, br_command_tables, br_command_trade;
+    br_command_figures, br_command_help, br_command_orders, br_command_plan, br_command_repeat,
+    br_command_run, br_command_scenes, br_command_study, br_command_tables, br_command_trade;
 
 const struct br_command *const br_commands[] = {
-    &br_command_tables,
-    &br_command_study,
-    &br_command_check,
-    &br_command_orders,
-    &br_command_run,
-    &br_command_trade,
-    &br_command_plan,
-    &br_command_extremes,
-    &br_command_figures,
-    &br_command_repeat,
-    &br_command_scenes,
-    &br_command_completions,
-    &br_command_help,
-    NULL,
+    &br_command_tables,  &br_command_study,
+    &br_command_check,   &br_command_orders,
+    &br_command_run,     &br_command_trade,
+    &br_command_plan,    &br_command_extremes,
+    &br_command_figures, &br_command_repeat,
+    &br_command_scenes,  &br_command_completions,
+    &br_command_help,    NULL,
 };
 
-static const struct br_command *find_command(const char *name)
+const struct br_command *br_find_command(const char *name)
 {
     for (const struct br_command *const *c = br_commands; *c; c++)
         if (strcmp((*c)->name, name) == 0)
             return *c;
     return NULL;
-}
-
-/* Standard output closed or full is a failure too. */
-static enum br_status check_stdout(struct br_error *err)
-{
-    if (fflush(stdout) != 0 || ferror(stdout))
-        return br_fail(err, BR_IO, "standard output could not be written");
-    if (br_json_lacked_memory())
-        return br_no_memory(err, "a JSON document");
-    return BR_OK;
-}
-
-/* Only rank 0 of several speaks. */
-static enum br_status join_ranks(struct br_error *err)
-{
-    const enum br_status status = br_ranks_start(err);
-    if (!br_ranks_first() && !freopen("/dev/null", "w", stdout))
-        return br_fail(err, BR_IO, "/dev/null: %s", strerror(errno));
-    return status;
 }
 
 static enum br_status unknown(const char *word, struct br_error *err)
@@ -73,19 +47,6 @@ static enum br_status unknown(const char *word, struct br_error *err)
     return br_fail(err, BR_BAD_INPUT, "'%s' is no command; 'beamrate --help' lists them", word);
 }
 
-static enum br_status run_parsed(const struct br_command *command, int argc, const char **argv,
-                                 struct br_error *err)
-{
-    struct br_options options;
-    enum br_status status = br_options_parse(argc, argv, command, &options, err);
-    if (!status && br_option_given(&options, BR_OPT_HELP))
-        br_print_command_help(stdout, command);
-    else if (!status)
-        status = command->run(&options, err);
-    br_options_clear(&options);
-    return status;
-}
-
 static enum br_status run_command(int argc, const char **argv, struct br_error *err)
 {
     const char *word = argc > 1 ? argv[1] : "";
@@ -96,22 +57,21 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
         printf("beamrate %s (%s)\n%s\n", br_version(), br_commit(), br_libraries());
         return BR_OK;
     }
-    const struct br_command *command = help ? &br_command_help : find_command(word);
+    const struct br_command *command = help ? &br_command_help : br_find_command(word);
     if (!command)
         return unknown(word, err);
     br_signals_install();
     br_gnuplot_stop_when(br_signals_caught);
     if (br_remember_command_line(argc, argv, err))
         return err->status;
-    return run_parsed(command, argc - 1, argv + 1, err);
-}
-
-/* A message may repeat what a file says. */
-static void complain(const char *message)
-{
-    fputs("beamrate: ", stderr);
-    br_quote(stderr, &br_for_text, message);
-    fputc('\n', stderr);
+    struct br_options options;
+    enum br_status status = br_options_parse(argc - 1, argv + 1, command, &options, err);
+    if (!status && br_option_given(&options, BR_OPT_HELP))
+        br_print_command_help(stdout, command);
+    else if (!status)
+        status = command->run(&options, err);
+    br_options_clear(&options);
+    return status;
 }
 
 /* Libraries that have no memory, or no thread, end the program: popt, OpenMP. */
@@ -132,7 +92,14 @@ static int run_all(int argc, const char **argv)
     /* What fails says so here. One that forgets to is a failure all the same: chains of calls
      * return err->status. */
     struct br_error err = {BR_IO, "a failure that says nothing: this is a defect of the program"};
-    const bool failed = join_ranks(&err) || run_command(argc, argv, &err) || check_stdout(&err);
+    bool failed = br_ranks_start(&err);
+    if (!br_ranks_first() && !freopen("/dev/null", "w", stdout)) /* only rank 0 of several speaks */
+        failed = br_fail(&err, BR_IO, "/dev/null: %s", strerror(errno));
+    failed = failed || run_command(argc, argv, &err);
+    if (!failed && (fflush(stdout) != 0 || ferror(stdout))) /* closed, or full */
+        failed = br_fail(&err, BR_IO, "standard output could not be written");
+    if (!failed && br_json_lacked_memory())
+        failed = br_no_memory(&err, "a JSON document");
     const enum br_status status = br_ranks_end(failed ? err.status : BR_OK, &err);
     if (!br_ranks_first())
         return 0; /* rank 0 tells, and ends with the exit code */
@@ -144,8 +111,11 @@ static int run_all(int argc, const char **argv)
         fprintf(stderr, "beamrate: interrupted when all was written\n");
         br_signals_raise_again();
     }
-    if (status)
-        complain(err.message);
+    if (status) {
+        fputs("beamrate: ", stderr);
+        br_quote(stderr, &br_for_text, err.message); /* it may repeat what a file says */
+        fputc('\n', stderr);
+    }
     return br_status_exit_code(status);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/manifest.h"
+#include "cli/output.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -11,7 +11,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "cli/output.h"
 #include "cli/provenance.h"
 #include "study/orders/sha256.h"
 #include "tables/json_value.h"
@@ -57,11 +56,9 @@ enum br_status br_listed_compare(int folder, const json_t *listed, bool *same, s
         return BR_OK; /* a symbolic link now */
     const bool known = file >= 0 && fstat(file, &info) == 0;
     const bool read = known && (!S_ISREG(info.st_mode) || br_sha256_file(file, &size, sum));
-    const int reason = errno;
-    if (file >= 0)
-        close(file);
+    br_close(file);
     if (!read)
-        return br_fail(err, BR_IO, "%s: %s", name, strerror(reason));
+        return br_fail(err, BR_IO, "%s: %s", name, strerror(errno));
     *same = S_ISREG(info.st_mode) && size == json_integer_value(json_object_get(listed, "size")) &&
             strcmp(sum, sum_of(listed)) == 0;
     return BR_OK;
@@ -81,27 +78,15 @@ bool br_write_whole(int file, const char *text, size_t length)
 
 /* ---- reading and writing ---- */
 
-/* An object that has so many members, or NULL: json_pack forgets those that it has no memory for.
- */
-static json_t *whole(json_t *object, size_t members)
-{
-    if (json_object_size(object) == members)
-        return object;
-    json_decref(object);
-    return NULL;
-}
-
 static enum br_status write_text(int folder, const char *name, const char *text,
                                  struct br_error *err)
 {
     static const char unfinished[] = ".unfinished";
     const int file = openat(folder, unfinished, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     const bool written = file >= 0 && br_write_whole(file, text, strlen(text));
-    const int reason = errno;
-    if (file >= 0)
-        close(file);
+    br_close(file);
     if (!written)
-        return br_fail(err, BR_IO, "the manifest could not be written: %s", strerror(reason));
+        return br_fail(err, BR_IO, "the manifest could not be written: %s", strerror(errno));
     if (renameat(folder, unfinished, folder, name) != 0 || fsync(folder) != 0)
         return br_fail(err, BR_IO, "the manifest: %s", strerror(errno));
     return BR_OK;
@@ -109,31 +94,30 @@ static enum br_status write_text(int folder, const char *name, const char *text,
 
 enum br_status br_sets_write(int folder, const char *name, json_t *sets, struct br_error *err)
 {
-    json_t *json = whole(json_pack("{s:s, s:O}", "format", format, "sets", sets), 2);
+    json_t *json = json_pack("{s:s, s:O}", "format", format, "sets", sets);
     char *text = json ? json_dumps(json, JSON_INDENT(2)) : NULL;
     json_decref(json);
-    const enum br_status status =
-        text ? write_text(folder, name, text, err) : br_no_memory(err, "the manifest");
+    const enum br_status status = text && !br_json_lacked_memory()
+                                      ? write_text(folder, name, text, err)
+                                      : br_no_memory(err, "the manifest");
     free(text);
     return status;
 }
 
 /* A name that leads elsewhere, or to what is hidden, is none of ours. */
-static bool is_file(const json_t *file)
-{
-    const char *name = br_listed_name(file), *sum = sum_of(file);
-    return json_is_integer(json_object_get(file, "size")) && sum &&
-           strlen(sum) == BR_SHA256_TEXT - 1 && name && *name && *name != '.' && !strchr(name, '/');
-}
-
 static bool are_sets(const json_t *sets)
 {
     bool ours = json_is_array(sets);
     for (size_t i = 0; i < json_array_size(sets) && ours; i++) {
         const json_t *files = json_object_get(json_array_get(sets, i), "files");
         ours = json_is_array(files);
-        for (size_t j = 0; j < json_array_size(files) && ours; j++)
-            ours = is_file(json_array_get(files, j));
+        for (size_t j = 0; j < json_array_size(files) && ours; j++) {
+            const json_t *file = json_array_get(files, j);
+            const char *name = br_listed_name(file), *sum = sum_of(file);
+            ours = json_is_integer(json_object_get(file, "size")) && sum &&
+                   strlen(sum) == BR_SHA256_TEXT - 1 && name && *name && *name != '.' &&
+                   !strchr(name, '/');
+        }
     }
     return ours;
 }
@@ -163,7 +147,6 @@ json_t *br_sets_newest(const json_t *sets)
     return json_object_get(json_array_get(sets, json_array_size(sets) - 1), "files");
 }
 
-/* Of the files of one set. */
 static json_t *find(const json_t *files, const char *name)
 {
     for (size_t i = 0; i < json_array_size(files); i++)
@@ -193,18 +176,16 @@ static enum br_status list_one(int folder, const char *name, json_t *files, stru
     long long size;
     const int file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
     const bool read = file >= 0 && fsync(file) == 0 && br_sha256_file(file, &size, sum);
-    const int reason = errno;
-    if (file >= 0)
-        close(file);
+    br_close(file);
     if (!read)
-        return br_fail(err, BR_IO, "%s could not be written whole: %s", name, strerror(reason));
-    json_t *listed = whole(
-        json_pack("{s:s, s:I, s:s}", "name", name, "size", (json_int_t)size, "sha256", sum), 3);
-    return json_array_append_new(files, listed) == 0 ? BR_OK
-                                                     : br_no_memory(err, "the list of files");
+        return br_fail(err, BR_IO, "%s could not be written whole: %s", name, strerror(errno));
+    json_t *listed =
+        json_pack("{s:s, s:I, s:s}", "name", name, "size", (json_int_t)size, "sha256", sum);
+    if (json_array_append_new(files, listed) != 0)
+        return br_no_memory(err, "the list of files");
+    return BR_OK;
 }
 
-/* The files of the open folder. */
 static enum br_status list_files(int folder, json_t *files, struct br_error *err)
 {
     struct dirent **entry;
@@ -244,17 +225,17 @@ static bool is_superseded(const json_t *old, const json_t *new)
 
 /* Copies an old set, if it shares no name with the new files; where these have the page, the copy
  * loses its own, and is no set if it has nothing else. */
-static bool keep(json_t *sets, const json_t *set, const json_t *new)
+static void keep(json_t *sets, const json_t *set, const json_t *new)
 {
     if (is_superseded(json_object_get(set, "files"), new))
-        return true;
+        return;
     json_t *copy = json_deep_copy(set), *files = json_object_get(copy, "files");
     for (size_t i = json_array_size(files); i > 0 && find(new, BR_PAGE); i--)
         if (strcmp(br_listed_name(json_array_get(files, i - 1)), BR_PAGE) == 0)
             json_array_remove(files, i - 1);
-    const bool kept = json_array_size(files) == 0 || json_array_append(sets, copy) == 0;
+    if (json_array_size(files))
+        json_array_append(sets, copy);
     json_decref(copy);
-    return kept;
 }
 
 enum br_status br_sets_add(int folder, const char *run, const json_t *old, json_t **sets,
@@ -262,17 +243,12 @@ enum br_status br_sets_add(int folder, const char *run, const json_t *old, json_
 {
     json_t *files = json_array();
     *sets = json_array();
-    enum br_status status =
-        files && *sets ? list_files(folder, files, err) : br_no_memory(err, "the list of files");
-    bool kept = true;
-    for (size_t i = 0; i < json_array_size(old) && kept && !status; i++)
-        kept = keep(*sets, json_array_get(old, i), files);
-    json_t *set =
-        whole(json_pack("{s:s, s:s, s:s, s:o, s:O}", "run", run, "version", br_version(), "commit",
-                        br_commit(), "command", br_json_string(br_command_line()), "files", files),
-              5);
-    if (json_array_append_new(*sets, set) != 0 && !status)
-        kept = false;
+    enum br_status status = list_files(folder, files, err);
+    for (size_t i = 0; i < json_array_size(old); i++)
+        keep(*sets, json_array_get(old, i), files);
+    json_array_append_new(*sets, json_pack("{s:s, s:s, s:s, s:o, s:O}", "run", run, "version",
+                                           br_version(), "commit", br_commit(), "command",
+                                           br_json_string(br_command_line()), "files", files));
     json_decref(files);
-    return !kept ? br_no_memory(err, "the manifest") : status;
+    return !status && br_json_lacked_memory() ? br_no_memory(err, "the manifest") : status;
 }

@@ -13,17 +13,6 @@
 
 /* ---- what is refused ---- */
 
-/* The command that takes an option which this one does not; NULL: none. */
-static const struct br_command *who_takes(const char *name)
-{
-    struct br_option row[BR_OPTIONS];
-    for (const struct br_command *const *c = br_commands; *c; c++)
-        for (size_t i = 0, count = br_options_of(*c, row); i < count; i++)
-            if (strcmp(row[i].name, name) == 0)
-                return *c;
-    return NULL;
-}
-
 static enum br_status refuse(poptContext context, const struct br_option *row, size_t count,
                              int code, struct br_error *err)
 {
@@ -34,10 +23,12 @@ static enum br_status refuse(poptContext context, const struct br_option *row, s
     for (size_t i = 0; i < count; i++)
         names[i] = row[i].name;
     const bool unknown = code == POPT_ERROR_BADOPT;
-    const struct br_command *other = unknown && strncmp(bad, "--", 2) == 0 ? who_takes(word) : NULL;
-    if (other)
-        return br_fail(err, BR_BAD_INPUT, "%s: %s; it is one of 'beamrate %s'", bad,
-                       poptStrerror(code), other->name);
+    struct br_option theirs[BR_OPTIONS];
+    for (const struct br_command *const *c = br_commands; *c; c++)
+        for (size_t i = 0, all = br_options_of(*c, theirs); i < all; i++)
+            if (unknown && strncmp(bad, "--", 2) == 0 && strcmp(theirs[i].name, word) == 0)
+                return br_fail(err, BR_BAD_INPUT, "%s: %s; it is one of 'beamrate %s'", bad,
+                               poptStrerror(code), (*c)->name);
     const char *nearest = unknown ? br_nearest(word, names, count) : NULL;
     return br_fail(err, BR_BAD_INPUT, "%s: %s; %s%s%s", bad, poptStrerror(code),
                    nearest ? "did you mean --" : "'--help' lists the options",
@@ -95,23 +86,6 @@ enum br_status br_read_step(const char *option, const char *text, const struct b
     return BR_OK;
 }
 
-static enum br_status read_steps(const char *text, const struct br_scene *scene, size_t *steps,
-                                 size_t *count, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (const char *rest = text; !status; rest += strcspn(rest, ",") + 1) {
-        status = br_read_step("--k", rest, scene, &steps[*count], err);
-        for (size_t i = 0; i < *count && !status; i++)
-            if (steps[i] == steps[*count])
-                status = br_fail(err, BR_BAD_INPUT, "--k: %g is given twice",
-                                 br_time_step(scene, steps[i]));
-        ++*count;
-        if (!strchr(rest, ','))
-            break;
-    }
-    return status;
-}
-
 enum br_status br_option_steps(const struct br_options *o, const struct br_scene *scene,
                                size_t **steps, size_t *count, struct br_error *err)
 {
@@ -123,7 +97,17 @@ enum br_status br_option_steps(const struct br_options *o, const struct br_scene
         return br_no_memory(err, "the time steps");
     if (given)
         memcpy(*steps, o->whole[BR_OPT_STEPS], given * sizeof **steps);
-    return given || !text ? BR_OK : read_steps(text, scene, *steps, count, err);
+    for (const char *rest = given ? NULL : text; rest; rest = strchr(rest, ',')) {
+        rest += *rest == ',';
+        if (br_read_step("--k", rest, scene, &(*steps)[*count], err))
+            return err->status;
+        for (size_t i = 0; i < *count; i++)
+            if ((*steps)[i] == (*steps)[*count])
+                return br_fail(err, BR_BAD_INPUT, "--k: %g is given twice",
+                               br_time_step(scene, (*steps)[i]));
+        ++*count;
+    }
+    return BR_OK;
 }
 
 /* ---- values ---- */
@@ -131,7 +115,9 @@ enum br_status br_option_steps(const struct br_options *o, const struct br_scene
 static enum br_status read_words(struct br_options *o, const struct br_option *row,
                                  const char *text, struct br_error *err)
 {
-    double *number = o->number[row->id];
+    double *number = o->number[row->id] = br_allocate(strlen(text) + 1, sizeof *number);
+    if (!number)
+        return br_no_memory(err, "the options");
     for (const char *rest = text;; rest++) {
         size_t found;
         const size_t length = row->kind == BR_TAKES_WORD ? strlen(rest) : strcspn(rest, ",");
@@ -148,52 +134,45 @@ static enum br_status read_words(struct br_options *o, const struct br_option *r
     }
 }
 
-static enum br_status read_list(struct br_options *o, const struct br_option *row, const char *text,
-                                struct br_error *err)
+static enum br_status read_numbers(struct br_options *o, const struct br_option *row,
+                                   const char *name, struct br_error *err)
 {
-    size_t *count = &o->count[row->id];
-    char name[64];
-    snprintf(name, sizeof name, "--%s", row->name);
-    if (row->kind == BR_TAKES_COUNTS)
-        return br_read_counts(name, text, &o->whole[row->id], count, err);
-    if (br_read_numbers(name, text, &o->number[row->id], count, err))
+    double **number = &o->number[row->id];
+    if (br_read_numbers(name, o->text[row->id], number, &o->count[row->id], err))
         return err->status;
-    for (size_t i = 0; i < *count; i++)
-        if (!(o->number[row->id][i] > row->range.low && o->number[row->id][i] < row->range.high))
+    for (size_t i = 0; i < o->count[row->id]; i++)
+        if (!((*number)[i] > row->range.low && (*number)[i] < row->range.high))
             return br_fail(err, BR_BAD_INPUT,
                            "%s: found %g, expected numbers above %g and below %g", name,
-                           o->number[row->id][i], row->range.low, row->range.high);
+                           (*number)[i], row->range.low, row->range.high);
     return BR_OK;
-}
-
-static enum br_status read_one(struct br_options *o, const struct br_option *row, const char *text,
-                               struct br_error *err)
-{
-    if (row->kind == BR_TAKES_TIMES)
-        return check_times(row, text, err);
-    if (row->kind != BR_TAKES_NUMBER && row->kind != BR_TAKES_WORD &&
-        row->kind != BR_TAKES_WORD_LIST)
-        return BR_OK;
-    if (!(o->number[row->id] = br_allocate(strlen(text) + 1, sizeof(double))))
-        return br_no_memory(err, "the options");
-    if (row->kind != BR_TAKES_NUMBER)
-        return read_words(o, row, text, err);
-    o->count[row->id] = 1;
-    return br_read_in_range(text, &row->range, o->number[row->id], err);
 }
 
 static enum br_status read_value(struct br_options *o, const struct br_option *row,
                                  struct br_error *err)
 {
     const char *text = o->text[row->id];
+    double **number = &o->number[row->id];
+    size_t *count = &o->count[row->id];
+    char name[64];
     struct br_error inner = {0};
-    if (!text || row->kind == BR_TAKES_FLAG)
+    snprintf(name, sizeof name, "--%s", row->name);
+    if (!text)
         return BR_OK;
-    if (row->kind == BR_TAKES_COUNTS || row->kind == BR_TAKES_NUMBERS)
-        return read_list(o, row, text, err);
-    if (!read_one(o, row, text, &inner))
-        return BR_OK;
-    return br_fail(err, inner.status, "--%s: %s", row->name, inner.message);
+    if (row->kind == BR_TAKES_COUNTS)
+        return br_read_counts(name, text, &o->whole[row->id], count, err);
+    if (row->kind == BR_TAKES_NUMBERS)
+        return read_numbers(o, row, name, err);
+    if (row->kind == BR_TAKES_TIMES)
+        check_times(row, text, &inner);
+    else if (row->kind == BR_TAKES_WORD || row->kind == BR_TAKES_WORD_LIST)
+        read_words(o, row, text, &inner);
+    else if (row->kind == BR_TAKES_NUMBER && (*number = br_allocate(1, sizeof **number))) {
+        *count = 1;
+        br_read_in_range(text, &row->range, *number, &inner);
+    } else if (row->kind == BR_TAKES_NUMBER)
+        br_no_memory(&inner, "the options");
+    return inner.status ? br_fail(err, inner.status, "%s: %s", name, inner.message) : BR_OK;
 }
 
 /* Names and numbers of a method must be some, whatever a scene says. */
@@ -201,16 +180,15 @@ static enum br_status read_values(struct br_options *o, const struct br_option *
                                   struct br_error *err)
 {
     struct br_method method = br_method_default();
-    enum br_status status = BR_OK;
     if (br_option_given(o, BR_OPT_K) && br_option_given(o, BR_OPT_STEPS))
         return br_fail(err, BR_BAD_INPUT, "--k and --steps are given, expected one of the two");
-    for (size_t i = 0; i < count && !status; i++) {
+    for (size_t i = 0; i < count; i++) {
         if (!o->text[row[i].id])
             o->text[row[i].id] = row[i].standard;
-        status = read_value(o, &row[i], err);
+        if (read_value(o, &row[i], err))
+            return err->status;
     }
-    return status ? status
-                  : br_method_read(&o->given[BR_OPT_METHOD], BR_METHOD_OPTION, &method, err);
+    return br_method_read(&o->given[BR_OPT_METHOD], BR_METHOD_OPTION, &method, err);
 }
 
 /* ---- the command line ---- */
@@ -251,32 +229,29 @@ static enum br_status read_rest(poptContext context, struct br_options *o, struc
         return br_fail(err, BR_BAD_INPUT, "found '%s', expected nothing more", word[c->most_words]);
     if (!(o->word = br_allocate(given + 1, sizeof *o->word)))
         return br_no_memory(err, "the options");
-    enum br_status status = BR_OK;
-    for (; o->words < given && !status; o->words++) {
+    for (; o->words < given; o->words++) {
         size_t row;
-        if (c->words)
-            status = br_words_read(c->words, word[o->words], strlen(word[o->words]), &row, err);
-        if (!status && !(o->word[o->words] = strdup(word[o->words])))
-            status = br_no_memory(err, "the options");
+        const char *text = word[o->words];
+        if (c->words && br_words_read(c->words, text, strlen(text), &row, err))
+            return err->status;
+        if (!(o->word[o->words] = strdup(text)))
+            return br_no_memory(err, "the options");
     }
-    return status;
+    return BR_OK;
 }
 
 static enum br_status read_all(poptContext context, struct br_options *o,
                                const struct br_option *row, size_t count, struct br_error *err)
 {
-    enum br_status status = BR_OK;
     int code;
-    while (!status && (code = poptGetNextOpt(context)) > 0) {
-        status = take(context, o, &row[code - 1], err);
-        if (row[code - 1].id == BR_OPT_HELP)
+    while ((code = poptGetNextOpt(context)) > 0) {
+        const enum br_status status = take(context, o, &row[code - 1], err);
+        if (status || row[code - 1].id == BR_OPT_HELP)
             return status;
     }
-    if (!status && code < -1)
-        status = refuse(context, row, count, code, err);
-    if (!status)
-        status = read_values(o, row, count, err);
-    return status ? status : read_rest(context, o, err);
+    if (code < -1)
+        return refuse(context, row, count, code, err);
+    return read_values(o, row, count, err) ? err->status : read_rest(context, o, err);
 }
 
 enum br_status br_options_parse(int argc, const char **argv, const struct br_command *command,
@@ -316,9 +291,33 @@ void br_options_clear(struct br_options *o)
     *o = (struct br_options){0};
 }
 
+enum br_status br_option_set(struct br_options *o, enum br_option_id id, const char *text,
+                             struct br_error *err)
+{
+    const struct br_option *row = br_option_of(o->command, id);
+    if (!row)
+        return BR_OK;
+    free((char *)o->given[id]);
+    free(o->number[id]);
+    free(o->whole[id]);
+    o->given[id] = text ? strdup(text) : NULL;
+    o->text[id] = text ? o->given[id] : row->standard;
+    o->number[id] = NULL;
+    o->whole[id] = NULL;
+    o->count[id] = 0;
+    return text && !o->given[id] ? br_no_memory(err, "the options") : read_value(o, row, err);
+}
+
 bool br_option_given(const struct br_options *o, enum br_option_id id)
 {
     return o->given[id];
+}
+
+const char *br_first_given(const struct br_options *o, const enum br_option_id *list)
+{
+    while (*list != BR_OPTIONS && !o->given[*list])
+        list++;
+    return *list == BR_OPTIONS ? NULL : br_option_of(o->command, *list)->name;
 }
 
 const char *br_option_text(const struct br_options *o, enum br_option_id id)

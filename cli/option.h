@@ -122,6 +122,9 @@ struct br_command;
 /* The rows that a command takes, in the help's order (out); returns how many. */
 size_t br_options_of(const struct br_command *command, struct br_option row[BR_OPTIONS]);
 
+/* The row of an option that is no method's; NULL: the command does not take it. */
+const struct br_option *br_option_of(const struct br_command *command, enum br_option_id id);
+
 /* The default as the help shows it, or NULL. text: workspace. */
 const char *br_option_default(const struct br_option *row, char text[BR_METHOD_VALUE]);
 
@@ -155,6 +158,14 @@ void br_options_clear(struct br_options *options);
 
 bool br_option_given(const struct br_options *o, enum br_option_id id);
 
+/* The name of the first one that is given, of a list that ends with BR_OPTIONS; NULL: none is. */
+const char *br_first_given(const struct br_options *o, const enum br_option_id *list);
+
+/* Gives an option, which the command may not take, another text; NULL: it is not given. Fails as
+ * br_options_parse. */
+enum br_status br_option_set(struct br_options *o, enum br_option_id id, const char *text,
+                             struct br_error *err);
+
 /* As given, or the default; NULL: neither. */
 const char *br_option_text(const struct br_options *o, enum br_option_id id);
 
@@ -178,9 +189,5 @@ enum br_status br_read_step(const char *option, const char *text, const struct b
  * the caller, NULL without any. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
 enum br_status br_option_steps(const struct br_options *o, const struct br_scene *scene,
                                size_t **steps, size_t *count, struct br_error *err);
-
-/* ---- help ---- */
-
-void br_print_command_help(FILE *out, const struct br_command *command);
 
 #endif

@@ -378,6 +378,14 @@ size_t br_options_of(const struct br_command *command, struct br_option row[BR_O
     return count;
 }
 
+const struct br_option *br_option_of(const struct br_command *command, enum br_option_id id)
+{
+    for (size_t i = 0; i < ROWS; i++)
+        if (rows[i].id == id && rows[i].commands & command->bit)
+            return &rows[i];
+    return NULL;
+}
+
 const char *br_option_default(const struct br_option *row, char text[BR_METHOD_VALUE])
 {
     if (row->kind != BR_TAKES_METHOD)

@@ -5,7 +5,6 @@
 
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/study_file.h"
 #include "cli/verdicts.h"
 #include "plots/pictures.h"
 #include "solver/clock.h"
@@ -32,93 +31,68 @@ static enum br_status copy_text(const char *text, char **to, struct br_error *er
 static enum br_status read_readings(const char *text, struct br_orders_request *q,
                                     struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    for (const char *at = text; at && *at && !status;) {
-        const size_t length = strcspn(at, "\n"), name = strcspn(at, "=\n");
-        char *line = strndup(at, length);
-        if (!line)
-            return br_no_memory(err, "the options");
-        if (name == 0 || name >= length)
-            status = br_fail(err, BR_BAD_INPUT,
+    char *copy, *rest;
+    bool failed = copy_text(text, &copy, err);
+    for (char *line = copy ? strtok_r(copy, "\n", &rest) : NULL; line && !failed;
+         line = strtok_r(NULL, "\n", &rest)) {
+        char *equals = strchr(line, '=');
+        if (!equals || equals == line)
+            failed = br_fail(err, BR_BAD_INPUT,
                              "--read: found '%s', expected NAME=REGEX, NAME=json:POINTER or "
                              "NAME=csv:COLUMN",
                              line);
-        line[name < length ? name : 0] = '\0';
-        if (!status)
-            status = br_orders_request_reading(q, line, line + name + 1, err);
-        free(line);
-        at += length + (at[length] == '\n');
+        else {
+            *equals = '\0';
+            failed = br_orders_request_reading(q, line, equals + 1, err);
+        }
     }
-    return status;
+    free(copy);
+    return failed ? err->status : BR_OK;
 }
 
 /* The options beside the file. Those of a run are refused beside a file. */
 static enum br_status read_options(const struct br_options *o, struct br_orders_request *q,
                                    struct br_error *err)
 {
-    static const struct {
-        enum br_option_id id;
-        const char *column;
-    } lists[] = {{BR_OPT_N, "n"}, {BR_OPT_DOFS, "dofs"}, {BR_OPT_K, "k"}, {BR_OPT_STEPS, "steps"}};
-    enum br_status status = BR_OK;
+    static const enum br_option_id of_runs[] = {BR_OPT_N,      BR_OPT_DOFS,       BR_OPT_K,
+                                                BR_OPT_STEPS,  BR_OPT_TIME_LIMIT, BR_OPT_KEEP,
+                                                BR_OPT_RESUME, BR_OPTIONS};
+    static const char *const axes[] = {"n", "dofs", "k", "steps"}; /* the first of these */
+    const char *unheeded = q->command ? NULL : br_first_given(o, of_runs);
     q->dimension = br_option_number(o, BR_OPT_DIMENSION, q->dimension);
     q->formal = br_option_number(o, BR_OPT_FORMAL, q->formal);
     q->seconds = br_option_number(o, BR_OPT_TIME_LIMIT, q->seconds);
-    for (size_t i = 0; i < sizeof lists / sizeof *lists && !status; i++) {
-        const char *list = br_option_text(o, lists[i].id);
-        if (list && !q->command)
-            status = br_fail(err, BR_BAD_INPUT, "--%s is given without --run", lists[i].column);
-        else if (list)
-            status = br_orders_request_axis(q, lists[i].column, list, err);
+    if (unheeded)
+        return br_fail(err, BR_BAD_INPUT, "--%s is given without --run", unheeded);
+    if (br_option_given(o, BR_OPT_TRUST))
+        return br_fail(err, BR_BAD_INPUT, "--trust is given without a study file");
+    if (br_option_given(o, BR_OPT_READ) != !!q->command)
+        return br_fail(err, BR_BAD_INPUT, "--run and --read belong together, found one of the two");
+    for (size_t i = 0; i < sizeof axes / sizeof *axes; i++) {
+        const char *list = br_option_text(o, of_runs[i]);
+        if (list && br_orders_request_axis(q, axes[i], list, err))
+            return err->status;
     }
-    static const struct {
-        enum br_option_id id;
-        const char *name;
-    } of_runs[] = {{BR_OPT_TIME_LIMIT, "time-limit"},
-                   {BR_OPT_KEEP, "keep"},
-                   {BR_OPT_RESUME, "resume"},
-                   {BR_OPT_TRUST, "trust"}};
-    for (size_t i = 0; i < sizeof of_runs / sizeof *of_runs && !status; i++)
-        if (br_option_given(o, of_runs[i].id) && (!q->command || of_runs[i].id == BR_OPT_TRUST))
-            status = br_fail(err, BR_BAD_INPUT, "--%s is given without %s", of_runs[i].name,
-                             of_runs[i].id == BR_OPT_TRUST ? "a study file" : "--run");
-    if (!status && br_option_given(o, BR_OPT_READ) != !!q->command)
-        status =
-            br_fail(err, BR_BAD_INPUT, "--run and --read belong together, found one of the two");
-    if (!status)
-        status = read_readings(br_option_text(o, BR_OPT_READ), q, err);
-    if (!status)
-        status = copy_text(br_option_text(o, BR_OPT_ERROR), &q->errors, err);
-    if (!status)
-        status = copy_text(br_option_text(o, BR_OPT_VALUE), &q->values, err);
-    return status;
+    const bool failed = read_readings(br_option_text(o, BR_OPT_READ), q, err) ||
+                        copy_text(br_option_text(o, BR_OPT_ERROR), &q->errors, err) ||
+                        copy_text(br_option_text(o, BR_OPT_VALUE), &q->values, err);
+    return failed ? err->status : BR_OK;
 }
 
-static enum br_status read_program(const struct br_options *o, struct br_orders_request *q,
-                                   struct br_error *err)
+/* Of a table, or of the program of --run (path NULL). */
+static enum br_status read_beside(const char *path, const struct br_options *o,
+                                  struct br_orders_request *q, struct br_error *err)
 {
+    const bool standard = path && strcmp(path, "-") == 0;
     *q = br_orders_request_default();
-    enum br_status status = copy_text(br_option_text(o, BR_OPT_RUN), &q->command, err);
-    if (!status)
-        status = copy_text("--run", &q->path, err);
-    return status ? status : read_options(o, q, err);
-}
-
-static enum br_status read_table(const char *path, const struct br_options *o,
-                                 struct br_orders_request *q, struct br_error *err)
-{
-    *q = br_orders_request_default();
-    const bool standard = strcmp(path, "-") == 0;
-    enum br_status status = copy_text(standard ? "standard input" : path, &q->path, err);
-    if (!status)
-        status = br_table_load(standard ? "/dev/stdin" : path, &q->table, err);
-    return status ? status : read_options(o, q, err);
-}
-
-static bool ends_with(const char *text, const char *end)
-{
-    const size_t length = strlen(text), wanted = strlen(end);
-    return length >= wanted && strcmp(text + length - wanted, end) == 0;
+    const bool failed = copy_text(!path      ? "--run"
+                                  : standard ? "standard input"
+                                             : path,
+                                  &q->path, err) ||
+                        copy_text(br_option_text(o, BR_OPT_RUN), &q->command, err) ||
+                        (path && br_table_load(standard ? "/dev/stdin" : path, &q->table, err)) ||
+                        read_options(o, q, err);
+    return failed ? err->status : BR_OK;
 }
 
 /* A study file says all by itself. */
@@ -126,20 +100,18 @@ static enum br_status read_study(const char *path, const struct br_options *o,
                                  struct br_study_file *study, struct br_error *err)
 {
     static const enum br_option_id refused[] = {
-        BR_OPT_N,     BR_OPT_DOFS,      BR_OPT_K,      BR_OPT_STEPS, BR_OPT_ERROR,
-        BR_OPT_VALUE, BR_OPT_DIMENSION, BR_OPT_FORMAL, BR_OPT_READ,  BR_OPT_TIME_LIMIT};
+        BR_OPT_N,         BR_OPT_DOFS,   BR_OPT_K,    BR_OPT_STEPS,      BR_OPT_ERROR, BR_OPT_VALUE,
+        BR_OPT_DIMENSION, BR_OPT_FORMAL, BR_OPT_READ, BR_OPT_TIME_LIMIT, BR_OPTIONS};
     char *text = NULL;
-    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
-        if (br_option_given(o, refused[i]))
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s: what the study file says is given as an option, too, expected one "
-                           "of the two",
-                           path);
-    enum br_status status = br_scene_load(path, &text, err);
-    if (!status)
-        status = br_study_file_read(path, text, o, study, err);
+    if (br_first_given(o, refused))
+        return br_fail(err, BR_BAD_INPUT,
+                       "%s: what the study file says is given as an option, too, expected one "
+                       "of the two",
+                       path);
+    const bool failed =
+        br_scene_load(path, &text, err) || br_study_file_read(path, text, o, study, err);
     free(text);
-    return status;
+    return failed ? err->status : BR_OK;
 }
 
 static enum br_status read_request(struct run *r, struct br_error *err)
@@ -151,17 +123,12 @@ static enum br_status read_request(struct run *r, struct br_error *err)
         return br_fail(err, BR_BAD_INPUT,
                        word ? "--run and a file are given, expected one of the two"
                             : "no file is given, expected a table, a study file, or --run");
-    enum br_status status = !word ? read_program(o, q, err)
-                            : ends_with(word, ".yaml") || ends_with(word, ".yml")
-                                ? read_study(word, o, &r->study, err)
-                                : read_table(word, o, q, err);
+    const char *dot = word ? strrchr(word, '.') : NULL;
+    const bool study = dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
+    if (study ? read_study(word, o, &r->study, err) : read_beside(word, o, q, err))
+        return err->status;
     const char *expect = br_option_text(o, BR_OPT_EXPECT);
-    if (!status && expect)
-        status = br_orders_request_expect(q, "--expect", expect, 0, err);
-    q->jobs = r->session.threads;
-    q->kept = br_option_text(o, BR_OPT_KEEP);
-    q->anew = !br_option_given(o, BR_OPT_RESUME);
-    return status;
+    return expect ? br_orders_request_expect(q, "--expect", expect, 0, err) : BR_OK;
 }
 
 /* What can be refused is refused before a program is run. */
@@ -169,18 +136,17 @@ static enum br_status prepare(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
     static const enum br_option_id of_verdicts[] = {
-        BR_OPT_COMPARE, BR_OPT_UPDATE_BASELINE, BR_OPT_JUNIT, BR_OPT_JSON,
-        BR_OPT_TAP,     BR_OPT_MARKDOWN,        BR_OPT_GITHUB};
-    r->check = br_study_file_check(&r->study);
-    for (size_t i = 0; i < sizeof of_verdicts / sizeof *of_verdicts; i++)
-        if (br_option_given(o, of_verdicts[i]) && r->study.request.expectations == 0)
-            return br_fail(err, BR_BAD_INPUT,
-                           "nothing is expected, so there are no verdicts to be written or "
-                           "compared: give --expect, or 'verify:' in a study file");
-    enum br_status status = br_verdicts_open(&r->verdicts, o, &r->check, 1, err);
-    if (!status)
-        status = br_verdicts_spare(&r->verdicts, r->study.request.table_path, err);
-    return status ? status : br_session_open(&r->session, err);
+        BR_OPT_COMPARE, BR_OPT_UPDATE_BASELINE, BR_OPT_JUNIT,  BR_OPT_JSON,
+        BR_OPT_TAP,     BR_OPT_MARKDOWN,        BR_OPT_GITHUB, BR_OPTIONS};
+    r->check = br_study_file_check(&r->study, o);
+    if (r->study.request.expectations == 0 && br_first_given(o, of_verdicts))
+        return br_fail(err, BR_BAD_INPUT,
+                       "nothing is expected, so there are no verdicts to be written or "
+                       "compared: give --expect, or 'verify:' in a study file");
+    const bool failed = br_verdicts_open(&r->verdicts, o, &r->check, 1, err) ||
+                        br_verdicts_spare(&r->verdicts, r->study.request.table_path, err) ||
+                        br_session_open(&r->session, err);
+    return failed ? err->status : BR_OK;
 }
 
 /* ---- computing ---- */
@@ -223,17 +189,11 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     const struct br_check_findings findings = {
         .checks = &r->check, .count = 1, .wall_seconds = r->wall_seconds};
     const bool judged = r->study.request.expectations > 0;
-    enum br_status status = br_session_report(&r->session, judged ? 2 : 1, err);
-    if (!status)
-        status = build_report(r, &r->session.document[0], err);
-    if (!status && !judged)
-        return br_session_finish(&r->session, err);
-    if (!status)
-        status = br_verdicts_report(&r->verdicts, &findings, true, r->session.threads,
-                                    &r->session.document[1], err);
-    if (!status)
-        status = br_verdicts_finish(&r->verdicts, &r->session, err);
-    return status ? status : br_verdicts_conclude(&r->verdicts, &r->check, 1, err);
+    if (br_session_report(&r->session, judged ? 2 : 1, err) ||
+        build_report(r, &r->session.document[0], err))
+        return err->status;
+    return judged ? br_verdicts_finish(&r->verdicts, &r->session, &findings, true, err)
+                  : br_session_finish(&r->session, err);
 }
 
 /* Runs without a number fail the command, after everything has been written. */
@@ -257,12 +217,11 @@ static enum br_status run(const struct br_options *options, struct br_error *err
     r = (struct run){.session = br_session_begin(options)};
     const bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err) ||
                         compute(&r, err) || write_all(&r, err) || check_rows(&r, err);
-    const enum br_status status = failed ? err->status : BR_OK;
     br_verdicts_clear(&r.verdicts);
     br_check_clear(&r.check);
     br_study_file_clear(&r.study);
     br_session_close(&r.session);
-    return status;
+    return failed ? err->status : BR_OK;
 }
 
 const struct br_command br_command_orders = {

@@ -9,13 +9,20 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/progress.h"
 #include "cli/provenance.h"
-#include "cli/signals.h"
 #include "study/scene/quote.h"
-#include "tables/json_value.h"
 
 /* Of the hidden folder: the manifests of the new set, which decides it, and of the old one. */
 static const char decided[] = ".manifest", replaced[] = ".old";
+
+void br_close(int descriptor)
+{
+    const int reason = errno;
+    if (descriptor >= 0)
+        close(descriptor);
+    errno = reason;
+}
 
 static bool is_there(int folder, const char *name)
 {
@@ -45,14 +52,6 @@ static bool is_still(int parent, const char *name, int folder)
            there.st_dev == ours.st_dev && there.st_ino == ours.st_ino;
 }
 
-/* errno is kept. */
-static void close_again(int folder)
-{
-    const int reason = errno;
-    close(folder);
-    errno = reason;
-}
-
 static bool write_owner(int folder)
 {
     const int file = openat(folder, owner_name, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
@@ -62,7 +61,7 @@ static bool write_owner(int folder)
     gethostname(host, sizeof host - 1);
     const bool written =
         dprintf(file, "process %ld on %s: %.700s", (long)getpid(), host, br_command_line()) > 0;
-    close_again(file);
+    br_close(file);
     return written;
 }
 
@@ -73,10 +72,8 @@ static enum br_status refuse(int parent, const char *name, struct br_error *err)
     const int file = folder >= 0 ? openat(folder, owner_name, O_RDONLY | O_CLOEXEC) : -1;
     const ssize_t got = file >= 0 ? read(file, owner, sizeof owner - 1) : 0;
     owner[got > 0 ? got : (ssize_t)strlen(owner)] = '\0';
-    if (file >= 0)
-        close(file);
-    if (folder >= 0)
-        close(folder);
+    br_close(file);
+    br_close(folder);
     return br_fail(err, BR_BAD_INPUT,
                    "the folder is in use by %s; wait for its end, choose another folder, or, if "
                    "that program has ended, remove %s there",
@@ -97,8 +94,7 @@ static enum br_status make_hidden(int parent, const char *name, int *folder, str
     const bool taken = !locked && errno == EWOULDBLOCK;
     if (*folder >= 0 && made && !taken && is_still(parent, name, *folder) && write_owner(*folder))
         return BR_OK;
-    if (*folder >= 0)
-        close_again(*folder);
+    br_close(*folder);
     const bool gone = *folder < 0 && errno == ENOENT;
     *folder = -1;
     if (made && !taken && errno && errno != ENOENT)
@@ -129,8 +125,8 @@ static DIR *open_list(int folder)
 {
     const int copy = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     DIR *list = copy >= 0 ? fdopendir(copy) : NULL;
-    if (!list && copy >= 0)
-        close_again(copy);
+    if (!list)
+        br_close(copy);
     return list;
 }
 
@@ -204,21 +200,22 @@ static enum br_status move_files(int parent, int folder, const json_t *old, cons
                                  struct br_error *err)
 {
     const json_t *files = br_sets_newest(sets);
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < json_array_size(files) && !status; i++) {
+    for (size_t i = 0; i < json_array_size(files); i++) {
         const char *name = br_listed_name(json_array_get(files, i));
-        status = place(parent, folder, name, br_sets_find(old, name), err);
+        if (place(parent, folder, name, br_sets_find(old, name), err))
+            return err->status;
     }
     for (size_t s = 0; s < json_array_size(old); s++) {
         files = json_object_get(json_array_get(old, s), "files");
-        for (size_t i = 0; i < json_array_size(files) && !status; i++) {
+        for (size_t i = 0; i < json_array_size(files); i++) {
             const json_t *file = json_array_get(files, i);
             const char *name = br_listed_name(file);
-            if (!br_sets_find(sets, name) && is_there(parent, name))
-                status = remove_stale(parent, file, err);
+            if (!br_sets_find(sets, name) && is_there(parent, name) &&
+                remove_stale(parent, file, err))
+                return err->status;
         }
     }
-    return status;
+    return BR_OK;
 }
 
 /* name: of the manifest in the open folder `parent`. */
@@ -290,10 +287,9 @@ enum br_status br_output_sweep(int folder, struct br_error *err)
 
 /* ---- opening ---- */
 
-/* Every folder of the path that is not there yet; *made: whether the last one was not. */
-static bool make_folders(const char *path, bool *made)
+bool br_make_folders(const char *path, mode_t last, bool *made)
 {
-    char part[1024];
+    char part[4096];
     snprintf(part, sizeof part, "%s", path);
     for (char *slash = strchr(part + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
         *slash = '\0';
@@ -301,30 +297,21 @@ static bool make_folders(const char *path, bool *made)
             return false;
         *slash = '/';
     }
-    *made = mkdir(part, 0777) == 0;
+    *made = mkdir(part, last) == 0;
     return *made || errno == EEXIST;
 }
 
 static enum br_status make_staging(struct br_output *o, struct br_error *err)
 {
     enum { TRIALS = 100 };
-    enum br_status status = BR_OK;
-    for (int i = 0; i < TRIALS && !status && o->descriptor < 0; i++) {
-        status = br_output_sweep(o->parent, err);
-        if (!status)
-            status = make_hidden(o->parent, o->hidden, &o->descriptor, err);
+    for (int i = 0; i < TRIALS; i++) {
+        if (br_output_sweep(o->parent, err) ||
+            make_hidden(o->parent, o->hidden, &o->descriptor, err))
+            return err->status;
+        if (o->descriptor >= 0)
+            return BR_OK;
     }
-    if (!status && o->descriptor < 0)
-        return br_fail(err, BR_BAD_INPUT, "%s is in the way", o->hidden);
-    return status;
-}
-
-static enum br_status check_manifest(const struct br_output *o, struct br_error *err)
-{
-    json_t *old;
-    const enum br_status status = br_sets_read(o->parent, o->manifest, &old, err);
-    json_decref(old);
-    return status;
+    return br_fail(err, BR_BAD_INPUT, "%s is in the way", o->hidden);
 }
 
 enum br_status br_output_open(struct br_output *o, const char *folder, struct br_error *err)
@@ -338,12 +325,16 @@ enum br_status br_output_open(struct br_output *o, const char *folder, struct br
     snprintf(o->hidden, sizeof o->hidden, "%s%s%.250s", BR_HIDDEN, o->stem ? "-" : "",
              o->stem ? o->stem : "");
     name_manifest(o->hidden, o->manifest);
-    if (!make_folders(folder, &o->made) ||
+    if (!br_make_folders(folder, 0777, &o->made) ||
         (o->parent = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)) < 0)
         return br_fail(err, BR_BAD_INPUT, "--out: cannot make the folder %s: %s", folder,
                        strerror(errno));
     snprintf(o->staging, sizeof o->staging, "%s/%s", folder, o->hidden);
-    if (!br_run_id_make(o->run, &inner) && !make_staging(o, &inner) && !check_manifest(o, &inner))
+    json_t *old = NULL;
+    const bool failed = br_run_id_make(o->run, &inner) || make_staging(o, &inner) ||
+                        br_sets_read(o->parent, o->manifest, &old, &inner);
+    json_decref(old);
+    if (!failed)
         return BR_OK;
     br_output_discard(o);
     return br_fail(err, inner.status, "--out: %s: %.900s", folder, inner.message);
@@ -391,9 +382,8 @@ static const char *find_foreign(const struct br_output *o, const json_t *sets, c
 
 static void close_output(struct br_output *o)
 {
-    if (o->descriptor >= 0)
-        close(o->descriptor);
-    close(o->parent);
+    br_close(o->descriptor);
+    br_close(o->parent);
     o->staging[0] = '\0';
 }
 
@@ -403,9 +393,8 @@ static enum br_status divert(struct br_output *o, json_t *sets, const char *fore
 {
     char name[64];
     snprintf(name, sizeof name, "set-%s", o->run);
-    const enum br_status status = br_sets_write(o->descriptor, "manifest.json", sets, err);
-    if (status)
-        return status;
+    if (br_sets_write(o->descriptor, "manifest.json", sets, err))
+        return err->status;
     if (unlinkat(o->descriptor, ".owner", 0) != 0 ||
         fchmod(o->descriptor, br_new_permissions(0777)) != 0 ||
         renameat(o->parent, o->hidden, o->parent, name) != 0)
@@ -423,46 +412,32 @@ static enum br_status put_in_place(struct br_output *o, struct br_error *err)
 {
     struct br_error inner = {0};
     const enum br_status status = finish(o->parent, o->descriptor, o->manifest, &inner);
-    if (status)
-        br_fail(err, status,
-                "%s: %.700s; the results are whole in %s: the next command with this folder puts "
-                "them in place first",
-                o->folder, inner.message, o->staging);
-    else {
+    if (!status) {
         remove_hidden(o->parent, o->hidden, o->descriptor);
         o->descriptor = -1;
     }
     close_output(o);
-    return status;
+    return status ? br_fail(err, status,
+                            "%s: %.700s; the results are whole in %s/%s: the next command with "
+                            "this folder puts them in place first",
+                            o->folder, inner.message, o->folder, o->hidden)
+                  : BR_OK;
 }
 
 enum br_status br_output_commit(struct br_output *o, struct br_error *err)
 {
     json_t *sets = NULL, *old = NULL;
-    enum br_status status = br_sets_read(o->parent, o->manifest, &old, err);
-    if (!status)
-        status = br_sets_add(o->descriptor, o->run, old, &sets, err);
-    const char *foreign = status ? NULL : find_foreign(o, sets, old);
-    if (!status && br_json_lacked_memory())
-        status = br_no_memory(err, "a JSON document");
-    if (!status && br_signals_caught())
-        status = br_fail(err, BR_INTERRUPTED, "interrupted");
-    if (foreign && !status)
-        status = divert(o, sets, foreign, err);
-    else if (!status)
-        status = br_sets_write(o->descriptor, decided, sets, err);
-    if (!status)
-        status = put_in_place(o, err);
+    bool failed = br_sets_read(o->parent, o->manifest, &old, err) ||
+                  br_sets_add(o->descriptor, o->run, old, &sets, err) ||
+                  br_progress_result(BR_OK, err);
+    const char *foreign = failed ? NULL : find_foreign(o, sets, old);
+    if (foreign)
+        failed = divert(o, sets, foreign, err);
+    else if (!failed)
+        failed = br_sets_write(o->descriptor, decided, sets, err) || put_in_place(o, err);
     json_decref(sets);
     json_decref(old);
-    return status;
-}
-
-void br_output_announce(const struct br_output *o)
-{
-    fputs("Written to ", stdout);
-    br_quote(stdout, &br_for_text, o->folder);
-    fputs("/\n", stdout);
+    return failed ? err->status : BR_OK;
 }
 
 void br_output_discard(struct br_output *o)

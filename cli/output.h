@@ -2,7 +2,7 @@
 /* Results, put in place whole or not at all: a set of files in a folder, or one file.
  *
  * Files are written in a hidden folder, .beamrate, which is locked: a second program that would
- * write there is refused. To commit is to put a manifest (cli/manifest.h) into the hidden folder by
+ * write there is refused. To commit is to put a manifest (manifest.c) into the hidden folder by
  * one rename. From then on the set is decided:
  *   1. the manifest of the old set is taken away: the folder has no set,
  *   2. the files are renamed into place,
@@ -17,11 +17,12 @@
 #ifndef BR_CLI_OUTPUT_H
 #define BR_CLI_OUTPUT_H
 
+#include <jansson.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <sys/types.h>
 
-#include "cli/manifest.h"
+#include "solver/status.h"
 
 /* What the names of all hidden folders and files begin with. Who writes in a hidden folder has
  * locked it; the lock ends with its program, however that ends. */
@@ -29,6 +30,8 @@
 
 /* The page that every run writes: it is that of the run that was last, and of no other set. */
 #define BR_PAGE "report.html"
+
+enum { BR_RUN_ID = 40 };
 
 /* Begins as zeros, or with a stem. */
 struct br_output {
@@ -65,9 +68,6 @@ enum br_status br_output_close(FILE *file, const char *name, struct br_error *er
  * person's own), the set is put into a folder beside it that is named after the run, and the call
  * fails with BR_IO, as it does where the disk fails. Fails with BR_INTERRUPTED after a signal. */
 enum br_status br_output_commit(struct br_output *output, struct br_error *err);
-
-/* Says on the terminal where they are. */
-void br_output_announce(const struct br_output *output);
 
 /* Removes what has not been put in place, and the folder if it was made for nothing; does
  * nothing after a commit. */
@@ -112,5 +112,48 @@ enum br_status br_whole_file_commit(struct br_whole_file *whole, struct br_error
 
 /* Releases it; what has not been put in its place is lost. */
 void br_whole_file_discard(struct br_whole_file *whole);
+
+/* ---- among these files ---- */
+
+/* Writes all of the bytes, and waits until the disk has them. False: errno tells why. */
+bool br_write_whole(int file, const char *bytes, size_t count);
+
+/* Closes a descriptor, unless it is -1; errno is kept. */
+void br_close(int descriptor);
+
+/* Makes every folder of the path that is not there yet; *made: whether the last one was not. False:
+ * errno tells why. */
+bool br_make_folders(const char *path, mode_t last, bool *made);
+
+/* ---- the list of the sets in a folder (manifest.json), for output.c ---- */
+
+/* It is kept as JSON: an array of sets, each with the run that wrote it and its files, each of
+ * these with name, size and SHA-256. NULL: no set. */
+
+/* Fails with BR_IO where the system has no random bits. */
+enum br_status br_run_id_make(char run[BR_RUN_ID], struct br_error *err);
+
+/* *sets (out, owned by the caller): the old sets with which a new one shares no name (but for what
+ * follows a name's last dot; the page does not count, they lose it), and that one: the files of an
+ * open folder whose names do not begin with a dot; and waits until the disk has them. Fails with
+ * BR_IO or BR_NO_MEMORY. */
+enum br_status br_sets_add(int folder, const char *run, const json_t *old, json_t **sets,
+                           struct br_error *err);
+
+/* Writes them into a file of an open folder, whole or not at all. Fails with BR_IO or BR_NO_MEMORY.
+ */
+enum br_status br_sets_write(int folder, const char *name, json_t *sets, struct br_error *err);
+
+/* Reads them; *sets (out) is owned by the caller, NULL where there is no such file. Fails with
+ * BR_BAD_INPUT where the program has not written it; else with BR_IO or BR_NO_MEMORY. */
+enum br_status br_sets_read(int folder, const char *name, json_t **sets, struct br_error *err);
+
+/* The file of that name; NULL: it is in no set. The files of the set that was written last. */
+json_t *br_sets_find(const json_t *sets, const char *name);
+json_t *br_sets_newest(const json_t *sets);
+const char *br_listed_name(const json_t *file);
+
+/* *same (out): whether the file in the open folder is as listed, to the byte. Fails with BR_IO. */
+enum br_status br_listed_compare(int folder, const json_t *file, bool *same, struct br_error *err);
 
 #endif

@@ -1,16 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/pictures.h"
+#include "cli/run.h"
 
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/documents.h"
 #include "cli/progress.h"
-#include "cli/signals.h"
-#include "plots/pictures.h"
-#include "plots/render.h"
 #include "study/scene/quote.h"
 
 /* All frames are kept with all nodes: 120 MB at most. */
@@ -18,16 +14,10 @@ enum { FRAMES = 120, MOST_ELEMENTS = 20000, ROWS = 2000, NARROW = 40, USUAL = 80
 
 /* ---- where the movie goes ---- */
 
-static bool is_folder(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
-}
-
 /* Splits dir/name.gif into folder and stem; frames are called frame-0001.png in their folder. */
 static enum br_status split(struct br_pictures *p, char *folder, size_t size, struct br_error *err)
 {
-    const char *file = p->request.animate;
+    const char *file = p->animate;
     const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file;
     if (p->format->frames && !p->format->film) {
         snprintf(folder, size, "%s", file);
@@ -49,8 +39,10 @@ static enum br_status split(struct br_pictures *p, char *folder, size_t size, st
 
 static enum br_status choose_format(struct br_pictures *p, struct br_error *err)
 {
-    const char *file = p->request.animate;
-    p->format = br_movie_format_of(is_folder(file) ? "/" : file);
+    const char *file = p->animate;
+    struct stat info;
+    const bool folder = stat(file, &info) == 0 && S_ISDIR(info.st_mode);
+    p->format = br_movie_format_of(folder ? "/" : file);
     if (p->format)
         return BR_OK;
     char known[256] = "";
@@ -70,7 +62,7 @@ static enum br_status check_programs(struct br_pictures *p, struct br_error *err
             err, BR_BAD_INPUT,
             "--animate: found '%s', which needs ffmpeg, and it is not installed; .gif and "
             ".webp do not need it",
-            p->request.animate);
+            p->animate);
     const int name = (int)strcspn(p->format->terminal, " ");
     FILE *question = tmpfile();
     if (question)
@@ -80,27 +72,24 @@ static enum br_status check_programs(struct br_pictures *p, struct br_error *err
         return BR_OK;
     return br_fail(err, BR_BAD_INPUT,
                    "--animate: found '%s', but the installed gnuplot has no terminal '%.*s'",
-                   p->request.animate, name, p->format->terminal);
+                   p->animate, name, p->format->terminal);
 }
 
 static enum br_status open_movie(struct br_pictures *p, struct br_error *err)
 {
     char folder[sizeof p->output.folder];
     struct br_error inner = {0};
-    if (strlen(p->request.animate) >= sizeof folder)
+    if (strlen(p->animate) >= sizeof folder)
         return br_fail(err, BR_BAD_INPUT, "--animate: the name is too long");
-    if (p->request.n > MOST_ELEMENTS)
-        return br_fail(err, BR_BAD_INPUT, "--animate: n is %zu, expected at most %d", p->request.n,
+    if (p->n > MOST_ELEMENTS)
+        return br_fail(err, BR_BAD_INPUT, "--animate: n is %zu, expected at most %d", p->n,
                        MOST_ELEMENTS);
-    enum br_status status = choose_format(p, err);
-    if (!status)
-        status = split(p, folder, sizeof folder, err);
-    if (!status)
-        status = check_programs(p, err);
+    if (choose_format(p, err) || split(p, folder, sizeof folder, err) || check_programs(p, err))
+        return err->status;
     p->output.stem = p->stem;
-    if (!status && br_output_open(&p->output, folder, &inner))
-        status = br_fail(err, inner.status, "--animate %s", inner.message + strlen("--out: "));
-    return status;
+    return br_output_open(&p->output, folder, &inner)
+               ? br_fail(err, inner.status, "--animate %s", inner.message + strlen("--out: "))
+               : BR_OK;
 }
 
 /* ---- what is kept ---- */
@@ -109,29 +98,24 @@ static enum br_status keep_step(void *self, const struct br_march *march,
                                 const struct br_history_row *row, struct br_error *err)
 {
     struct br_pictures *p = self;
-    const bool last = row->step == p->request.steps;
+    const bool last = row->step == p->steps;
     const bool frame = p->frames && (row->step % p->frames == 0 || last);
     const bool kept = p->rows && (row->step % p->rows == 0 || last);
     if (!frame && !kept)
         return BR_OK;
     struct br_history_row whole = *row;
     whole.displacement[BR_BENDING] = br_march_tip_displacement(march, BR_BENDING);
-    enum br_status status = BR_OK;
-    if (frame)
-        status = p->keep.look(p->keep.self, march, &whole, err);
-    if (!status && kept)
-        status = p->keep.row(p->keep.self, &whole, err);
-    return status;
+    if (frame && p->keep.look(p->keep.self, march, &whole, err))
+        return err->status;
+    return kept ? p->keep.row(p->keep.self, &whole, err) : BR_OK;
 }
 
-enum br_status br_pictures_open(struct br_pictures *p, const struct br_pictures_request *request,
-                                struct br_error *err)
+enum br_status br_pictures_open(struct br_pictures *p, struct br_error *err)
 {
-    *p = (struct br_pictures){.request = *request};
-    p->keep = br_history_recorder(&p->record, request->n);
-    p->rows = request->plot ? br_history_stride(request->steps, ROWS) : 0;
-    p->frames = request->animate ? br_history_stride(request->steps, FRAMES) : 0;
-    return request->animate ? open_movie(p, err) : BR_OK;
+    p->keep = br_history_recorder(&p->record, p->n);
+    p->rows = p->plot ? br_history_stride(p->steps, ROWS) : 0;
+    p->frames = p->animate ? br_history_stride(p->steps, FRAMES) : 0;
+    return p->animate ? open_movie(p, err) : BR_OK;
 }
 
 struct br_history_observer br_pictures_observer(struct br_pictures *p)
@@ -145,12 +129,11 @@ static enum br_status render_movie(struct br_pictures *p, const struct br_movie 
                                    const char *script, struct br_error *err)
 {
     struct br_gnuplot g;
-    enum br_status status = br_gnuplot_start(&g, p->output.staging, script, NULL, &p->missing, err);
-    if (status)
-        return status;
-    g.observer = br_progress_start("drawing", p->request.quiet);
+    if (br_gnuplot_start(&g, p->output.staging, script, NULL, &p->missing, err))
+        return err->status;
+    g.observer = br_progress_start("drawing", p->quiet);
     g.pictures = p->record.looks;
-    status = br_gnuplot_end(&g, err);
+    enum br_status status = br_gnuplot_end(&g, err);
     br_progress_end();
     for (size_t i = 0; i < (p->format->frames ? p->record.looks : 1) && !status; i++) {
         char name[512], path[2048];
@@ -166,22 +149,22 @@ static enum br_status render_movie(struct br_pictures *p, const struct br_movie 
 
 static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
 {
-    const struct br_movie movie = {p->request.scene, &p->record, p->format, p->stem};
+    const struct br_movie movie = {p->scene, &p->record, p->format, p->stem};
     enum br_status status = BR_OK;
     char name[300];
-    for (int script = 0; script < 2 && !status; script++) {
+    for (int script = 0; script < 2; script++) {
         FILE *file;
         snprintf(name, sizeof name, "%s%s", p->stem, script ? ".gp" : ".dat");
-        status = br_output_file(&p->output, name, &file, err);
-        if (status)
-            return status;
+        if (br_output_file(&p->output, name, &file, err))
+            return err->status;
         script ? br_movie_write_script(file, &movie) : br_movie_write_data(file, &movie);
-        status = br_output_close(file, name, err);
+        if (br_output_close(file, name, err))
+            return err->status;
     }
-    if (!status && !p->missing)
+    if (!p->missing)
         status = render_movie(p, &movie, name, err);
     if (br_signals_caught()) /* Ctrl-C ends gnuplot, too */
-        status = br_fail(err, BR_INTERRUPTED, "interrupted");
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
     return status ? status : br_output_commit(&p->output, err);
 }
 
@@ -196,7 +179,7 @@ static int columns_of(FILE *letters)
 static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct br_error *err)
 {
     bool missing = false;
-    struct br_figure figure = br_history_draw(p->request.scene, &p->record);
+    struct br_figure figure = br_history_draw(p->scene, &p->record);
     struct br_error why = {0};
     FILE *script = tmpfile();
     const enum br_status status = br_figure_check(&figure, err);
@@ -212,15 +195,13 @@ static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct 
 
 enum br_status br_pictures_finish(struct br_pictures *p, FILE *letters, struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    if (p->request.plot && letters && p->record.rows > 1)
-        status = draw_letters(p, letters, err);
-    if (!status && p->request.animate && p->record.looks > 0)
-        status = draw_movie(p, err);
-    if (!status && p->missing)
+    if ((p->plot && letters && p->record.rows > 1 && draw_letters(p, letters, err)) ||
+        (p->animate && p->record.looks > 0 && draw_movie(p, err)))
+        return err->status;
+    if (p->missing)
         fprintf(stderr, "beamrate: gnuplot is not installed: the animation is written as a script "
                         "(*.gp) and data, but not rendered\n");
-    return status;
+    return BR_OK;
 }
 
 void br_pictures_discard(struct br_pictures *p)

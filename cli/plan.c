@@ -6,7 +6,6 @@
 #include "cli/progress.h"
 #include "cli/session.h"
 #include "cli/study_request.h"
-#include "cli/warn.h"
 #include "study/scene/file.h"
 #include "study/trade/plan.h"
 #include "tables/reports.h"
@@ -19,11 +18,12 @@ struct run {
     struct br_kept kept;
 };
 
-static enum br_status read_request(struct run *r, struct br_error *err)
+static enum br_status prepare(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
     const bool error = br_option_given(o, BR_OPT_ERROR);
-    if (br_study_request_read(o, &r->study, err))
+    struct br_plan *p = &r->plan;
+    if (br_session_alone(err) || br_study_request_read(o, &r->study, err))
         return err->status;
     const struct br_judge *judge = r->study.judge;
     if (judge && (!judge->create || judge->nests))
@@ -34,20 +34,13 @@ static enum br_status read_request(struct run *r, struct br_error *err)
     if (error == br_option_given(o, BR_OPT_SECONDS))
         return br_fail(err, BR_BAD_INPUT, "expected one of --error and --seconds, found %s",
                        error ? "both" : "none");
-    return BR_OK;
-}
-
-static enum br_status prepare(struct run *r, struct br_error *err)
-{
-    const struct br_options *o = r->session.options;
     if (br_opened_scene_read(&r->opened, o->word[0], err))
         return err->status;
-    struct br_plan *p = &r->plan;
     br_plan_default(p, &r->opened.scene);
     p->goal = (struct br_plan_goal){br_option_number(o, BR_OPT_ERROR, NAN),
                                     br_option_number(o, BR_OPT_SECONDS, NAN)};
     p->norm[0] = r->study.norm[0];
-    p->request.judge = r->study.judge;
+    p->request.judge = judge;
     p->request.threads = r->session.threads;
     p->request.repeats = (size_t)br_option_number(o, BR_OPT_REPEATS, 0);
     p->request.time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
@@ -92,7 +85,8 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     const struct br_provenance provenance = br_provenance_of(&r->opened, r->session.threads);
     if (br_session_report(&r->session, 1, err))
         return err->status;
-    br_warn_of_plan(&r->plan);
+    if (r->plan.chosen < r->plan.count)
+        br_warn_of_trials(&r->opened.scene, &r->plan.trial[r->plan.chosen], 1);
     br_report_plan(&r->plan, r->session.options->word[0], &provenance, r->session.document);
     const enum br_status status = br_session_finish(&r->session, err);
     if (!status && r->plan.end == BR_PLAN_MISSED)
@@ -105,7 +99,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 {
     static struct run r; /* large: models of all methods */
     r = (struct run){.session = br_session_begin(options)};
-    bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err);
+    bool failed = prepare(&r, err);
     if (!failed)
         failed = br_option_given(options, BR_OPT_DRY_RUN)
                      ? foresee(&r, err)

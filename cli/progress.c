@@ -2,28 +2,60 @@
 #include "cli/progress.h"
 
 #include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "cli/signals.h"
 #include "solver/clock.h"
-#include "study/grid/observer.h"
+
+/* ---- signals ---- */
+
+static volatile sig_atomic_t caught;
+
+static void remember(int number)
+{
+    caught = number;
+}
+
+void br_signals_install(void)
+{
+    struct sigaction action = {.sa_handler = remember, .sa_flags = (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL); /* a second Ctrl-C ends it at once */
+    sigaction(SIGTERM, &action, NULL);
+    signal(SIGXFSZ, SIG_IGN);
+    signal(SIGPIPE, SIG_IGN);
+}
+
+bool br_signals_caught(void)
+{
+    return caught != 0;
+}
+
+void br_signals_raise_again(void)
+{
+    const int number = caught ? caught : SIGINT;
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+/* ---- progress ---- */
 
 enum { BAR = 40, TEXT = 46 /* beside the bar, at most */ };
 
 /* Of less time a remainder cannot be told, s. */
 static const double least_elapsed = 1;
 
-static struct {
-    pthread_mutex_t lock;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static struct progress {
     const char *what;
     bool quiet, terminal;
     double start, last; /* s */
     double fraction;    /* of the whole work */
+    size_t part, parts; /* at work is part of parts */
     int tenths;         /* lines told so far */
     double waits;       /* since then for an exact reference, s; 0: not yet */
-} progress = {.lock = PTHREAD_MUTEX_INITIALIZER};
+} progress;
 
 /* As wide as the terminal has room for beside the text; none where that is not much. */
 static void draw_bar(void)
@@ -56,7 +88,8 @@ static void print_left(double elapsed, double fraction)
 static void show(void *self, double fraction)
 {
     (void)self;
-    pthread_mutex_lock(&progress.lock);
+    pthread_mutex_lock(&lock);
+    fraction = ((double)progress.part + fraction) / (double)progress.parts;
     progress.fraction = fraction;
     const double t = br_seconds(), elapsed = t - progress.start;
     if (progress.terminal && t - progress.last >= 0.1) {
@@ -73,7 +106,7 @@ static void show(void *self, double fraction)
         print_left(elapsed, fraction);
         fputc('\n', stderr);
     }
-    pthread_mutex_unlock(&progress.lock);
+    pthread_mutex_unlock(&lock);
 }
 
 /* Of the most work that it may take; mostly it needs less. On a terminal short: 40 columns do. */
@@ -97,7 +130,7 @@ static void print_wait(double elapsed, double share)
 static void show_waiting(void *self, double share)
 {
     (void)self;
-    pthread_mutex_lock(&progress.lock);
+    pthread_mutex_lock(&lock);
     const double t = br_seconds();
     progress.waits = progress.waits > 0 ? progress.waits : t;
     if (t - progress.last >= (progress.terminal ? 0.1 : 1)) {
@@ -106,7 +139,7 @@ static void show_waiting(void *self, double share)
             draw_bar();
         print_wait(t - progress.waits, share);
     }
-    pthread_mutex_unlock(&progress.lock);
+    pthread_mutex_unlock(&lock);
 }
 
 static bool stop(void *self)
@@ -115,20 +148,25 @@ static bool stop(void *self)
     return br_signals_caught();
 }
 
+void br_progress_part(size_t i, size_t parts)
+{
+    progress.part = i;
+    progress.parts = parts;
+}
+
 const struct br_observer *br_progress_start(const char *what, bool quiet)
 {
-    static struct br_observer observer;
-    progress.what = what;
-    progress.quiet = quiet;
-    progress.terminal = isatty(STDERR_FILENO) == 1;
-    progress.start = br_seconds();
-    progress.last = progress.terminal ? 0 : progress.start; /* a terminal shows it at once */
-    progress.fraction = 0;
-    progress.tenths = 0;
-    progress.waits = 0;
-    observer = (struct br_observer){
-        .progress = quiet ? NULL : show, .stop = stop, .preparing = quiet ? NULL : show_waiting};
-    return &observer;
+    static const struct br_observer shown = {show, stop, NULL, show_waiting},
+                                    silent = {.stop = stop};
+    const bool terminal = isatty(STDERR_FILENO) == 1;
+    const double t = br_seconds();
+    progress = (struct progress){.what = what,
+                                 .quiet = quiet,
+                                 .terminal = terminal,
+                                 .start = t,
+                                 .last = terminal ? 0 : t, /* a terminal shows it at once */
+                                 .parts = 1};
+    return quiet ? &silent : &shown;
 }
 
 void br_progress_end(void)

@@ -32,7 +32,6 @@ const char *br_command_line(void)
     return command_line ? command_line : "";
 }
 
-/* As a shell would read it. */
 enum br_status br_remember_command_line(int argc, const char **argv, struct br_error *err)
 {
     size_t size;
@@ -67,24 +66,19 @@ static void find_processor(char *name, size_t size)
         fclose(file);
 }
 
-static void describe_machine(void)
+void br_provenance_fill(struct br_provenance *p, int threads)
 {
+    const time_t now = time(NULL);
+    struct tm utc;
     struct utsname system;
     char processor[256];
+    gmtime_r(&now, &utc);
+    strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
     find_processor(processor, sizeof processor);
     if (uname(&system) < 0)
         memset(&system, 0, sizeof system);
     snprintf(machine, sizeof machine, "%.32s %.64s %.32s, %s, %ld cores", system.sysname,
              system.release, system.machine, processor, sysconf(_SC_NPROCESSORS_ONLN));
-}
-
-void br_provenance_fill(struct br_provenance *p, int threads)
-{
-    const time_t now = time(NULL);
-    struct tm utc;
-    gmtime_r(&now, &utc);
-    strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &utc);
-    describe_machine();
     *p = (struct br_provenance){
         .version = BR_VERSION,
         .commit = BR_COMMIT,

@@ -5,33 +5,27 @@
 #include <popt.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "cli/command.h"
-#include "cli/provenance.h"
+#include "cli/progress.h"
 #include "cli/session.h"
-#include "cli/signals.h"
 #include "study/orders/program.h"
-#include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 #include "study/scene/quote.h"
 #include "tables/json_value.h"
 #include "tables/repeated.h"
 
-enum { MOST_WORDS = 2 * BR_OPTIONS + 40, PATH = 1300 };
+enum { PATH = 1300 };
 
 struct run {
     const char *path;                 /* of the report */
     json_t *was, *is;                 /* owned */
     const struct br_command *command; /* that made it */
-    struct br_options options;        /* as it had them */
+    struct br_options options;        /* as it had them, then those of the new run */
     char folder[64];                  /* a temporary one; "": not made */
     char out[PATH];                   /* the new report */
     char scene[PATH];                 /* a copy of the scene as it was; "": not needed */
-    char *word[MOST_WORDS + 1];       /* words, of the new command; owned */
-    size_t words;
-    bool lacked; /* memory for one of them */
 };
 
 /* ---- the report ---- */
@@ -53,21 +47,13 @@ static const char *provenance_of(const json_t *report, const char *key)
     return json_string_value(json_object_get(json_object_get(report, "provenance"), key));
 }
 
-static const struct br_command *find_command(const char *name)
+/* The command line that the report names, parsed as it was. */
+static enum br_status parse_command(struct run *r, struct br_error *err)
 {
     enum {
         REPEATED = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN | BR_FOR_TRADE |
                    BR_FOR_PLAN | BR_FOR_EXTREMES | BR_FOR_FIGURES
     };
-    for (const struct br_command *const *c = br_commands; *c; c++)
-        if ((*c)->bit & REPEATED && strcmp((*c)->name, name) == 0)
-            return *c;
-    return NULL;
-}
-
-/* The command line that the report names, parsed as it was. */
-static enum br_status parse_command(struct run *r, struct br_error *err)
-{
     const char *line = provenance_of(r->was, "command_line"), **word = NULL;
     int words = 0;
     struct br_error inner = {0};
@@ -76,115 +62,36 @@ static enum br_status parse_command(struct run *r, struct br_error *err)
                        "%s: no provenance: found no provenance.command_line and .version, expected "
                        "a report that this program has written as JSON",
                        r->path);
-    if (poptParseArgvString(line, &words, &word) != 0 || words < 2 ||
-        !(r->command = find_command(word[1]))) {
-        free(word);
-        return br_fail(err, BR_BAD_INPUT,
-                       "%s: provenance.command_line: found '%.300s', expected one of beamrate's "
-                       "tables, study, check, run, trade, plan, extremes or figures",
-                       r->path, line);
-    }
-    const enum br_status status =
+    if (poptParseArgvString(line, &words, &word) == 0 && words > 1)
+        r->command = br_find_command(word[1]);
+    if (!r->command || !(r->command->bit & REPEATED))
+        br_fail(
+            &inner, BR_BAD_INPUT,
+            "found '%.300s', expected one of beamrate's tables, study, check, run, trade, plan, "
+            "extremes or figures",
+            line);
+    else
         br_options_parse(words - 1, word + 1, r->command, &r->options, &inner);
     free(word);
-    return status ? br_fail(err, inner.status, "%s: provenance.command_line: %.1000s", r->path,
-                            inner.message)
-                  : BR_OK;
-}
-
-/* ---- the new command ---- */
-
-static void add(struct run *r, const char *text)
-{
-    r->word[r->words] = r->words < MOST_WORDS ? strdup(text) : NULL;
-    r->lacked |= !r->word[r->words];
-    r->words += r->word[r->words] ? 1 : 0;
-}
-
-/* Where it wrote, and what would write elsewhere, or ask. */
-static bool is_left_out(enum br_option_id id)
-{
-    static const enum br_option_id list[] = {
-        BR_OPT_OUT,  BR_OPT_JSON,  BR_OPT_JUNIT,           BR_OPT_TAP,      BR_OPT_MARKDOWN,
-        BR_OPT_PLOT, BR_OPT_QUIET, BR_OPT_UPDATE_BASELINE, BR_OPT_RESUME,   BR_OPT_ANIMATE,
-        BR_OPT_KEEP, BR_OPT_TRUST, BR_OPT_FORMAT,          BR_OPT_NO_PLOTS, BR_OPT_GITHUB};
-    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
-        if (list[i] == id)
-            return true;
-    return false;
-}
-
-static bool takes(const struct br_option *row, size_t count, enum br_option_id id)
-{
-    for (size_t i = 0; i < count; i++)
-        if (row[i].id == id)
-            return true;
-    return false;
-}
-
-/* Into a folder of its own, or, as it was, one file. */
-static void add_outputs(struct run *r, const struct br_option *row, size_t count)
-{
-    const char *name = json_string_value(json_object_get(r->was, "name"));
-    const bool folder =
-        takes(row, count, BR_OPT_OUT) &&
-        (!br_option_given(&r->options, BR_OPT_JSON) || br_option_given(&r->options, BR_OPT_OUT));
-    char file[200];
-    snprintf(file, sizeof file, "%.190s", name ? name : "report");
-    br_make_name(file);
-    snprintf(r->out, sizeof r->out, folder ? "%s/out/%s.json" : "%s/report.json", r->folder, file);
-    char out[100];
-    snprintf(out, sizeof out, "%s/out", r->folder);
-    add(r, folder ? "--out" : "--json");
-    add(r, folder ? out : r->out);
-    if (takes(row, count, BR_OPT_NO_PLOTS))
-        add(r, "--no-plots");
-    if (takes(row, count, BR_OPT_FORMAT) && folder) {
-        add(r, "--format");
-        add(r, "json");
-    }
-    add(r, "--quiet");
-}
-
-static enum br_status make_command(struct run *r, struct br_error *err)
-{
-    struct br_option row[BR_OPTIONS];
-    const size_t count = br_options_of(r->command, row);
-    add(r, "beamrate");
-    add(r, r->command->name);
-    for (size_t i = 0; i < count; i++) {
-        char name[80];
-        if (!br_option_given(&r->options, row[i].id) || is_left_out(row[i].id))
-            continue;
-        snprintf(name, sizeof name, "--%s", row[i].name);
-        add(r, name);
-        if (row[i].kind != BR_TAKES_FLAG)
-            add(r, r->options.given[row[i].id]);
-    }
-    add_outputs(r, row, count);
-    add(r, "--");
-    for (size_t i = 0; i < r->options.words; i++)
-        add(r, *r->scene ? r->scene : r->options.word[i]);
-    return r->lacked ? br_no_memory(err, "the command") : BR_OK;
+    return inner.status ? br_fail(err, inner.status, "%s: provenance.command_line: %.1000s",
+                                  r->path, inner.message)
+                        : BR_OK;
 }
 
 /* ---- the scene as it was ---- */
-
-static bool is_there_as_it_was(const char *path, const char *text)
-{
-    char *now = NULL;
-    const bool stream = strncmp(path, "/dev/", 5) == 0;
-    const bool same = !stream && !br_scene_load(path, &now, NULL) && strcmp(now, text) == 0;
-    free(now);
-    return same;
-}
 
 /* Where the scene's file is not what it was, its text is in the report. */
 static enum br_status restore_scene(struct run *r, struct br_error *err)
 {
     const char *path = provenance_of(r->was, "scene_path");
     const char *text = provenance_of(r->was, "scene_text");
-    if (!path || !text || r->options.words != 1 || is_there_as_it_was(path, text))
+    char *now = NULL;
+    if (!path || !text || r->options.words != 1)
+        return BR_OK;
+    const bool there = strncmp(path, "/dev/", 5) != 0 && !br_scene_load(path, &now, NULL) &&
+                       strcmp(now, text) == 0;
+    free(now);
+    if (there)
         return BR_OK;
     const char *slash = strrchr(path, '/');
     snprintf(r->scene, sizeof r->scene, "%s/%.1000s", r->folder, slash ? slash + 1 : path);
@@ -192,35 +99,58 @@ static enum br_status restore_scene(struct run *r, struct br_error *err)
     const bool written = file && fputs(text, file) >= 0;
     if ((file && fclose(file) != 0) || !written)
         return br_fail(err, BR_IO, "%s: %s", r->scene, strerror(errno));
-    return BR_OK;
+    free(r->options.word[0]);
+    r->options.word[0] = strdup(r->scene);
+    return r->options.word[0] ? BR_OK : br_no_memory(err, "the command");
 }
 
 /* ---- at work ---- */
 
-/* The program itself, so that its version is this one's. Its warnings are shown. */
+/* Into a folder of its own, or, as it was, one file. What would write elsewhere, or ask, is left
+ * out. */
+static enum br_status redirect(struct run *r, struct br_error *err)
+{
+    static const enum br_option_id left_out[] = {
+        BR_OPT_OUT,  BR_OPT_JSON,  BR_OPT_JUNIT,           BR_OPT_TAP,      BR_OPT_MARKDOWN,
+        BR_OPT_PLOT, BR_OPT_QUIET, BR_OPT_UPDATE_BASELINE, BR_OPT_RESUME,   BR_OPT_ANIMATE,
+        BR_OPT_KEEP, BR_OPT_TRUST, BR_OPT_FORMAT,          BR_OPT_NO_PLOTS, BR_OPT_GITHUB};
+    struct br_options *o = &r->options;
+    const char *name = json_string_value(json_object_get(r->was, "name"));
+    const bool folder = br_option_of(r->command, BR_OPT_OUT) &&
+                        (!br_option_given(o, BR_OPT_JSON) || br_option_given(o, BR_OPT_OUT));
+    char file[200], out[100];
+    snprintf(file, sizeof file, "%.190s", name ? name : "report");
+    br_make_name(file);
+    snprintf(out, sizeof out, "%s/out", r->folder);
+    snprintf(r->out, sizeof r->out, folder ? "%s/out/%s.json" : "%s/report.json", r->folder, file);
+    for (size_t i = 0; i < sizeof left_out / sizeof *left_out; i++)
+        if (br_option_set(o, left_out[i], NULL, err))
+            return err->status;
+    const bool failed =
+        br_option_set(o, folder ? BR_OPT_OUT : BR_OPT_JSON, folder ? out : r->out, err) ||
+        (folder && br_option_set(o, BR_OPT_FORMAT, "json", err)) ||
+        br_option_set(o, BR_OPT_NO_PLOTS, "", err) || br_option_set(o, BR_OPT_QUIET, "", err);
+    return failed ? err->status : BR_OK;
+}
+
+/* Whether it fails or not, it may have written its report. */
 static enum br_status run_command(struct run *r, struct br_error *err)
 {
-    int state = 0;
-    fflush(stdout);
-    const pid_t child = fork();
-    if (child == 0) {
-        const int nowhere = open("/dev/null", O_WRONLY);
-        if (nowhere >= 0 && dup2(nowhere, STDOUT_FILENO) >= 0)
-            execv("/proc/self/exe", r->word);
-        _exit(127);
-    }
-    if (child < 0)
-        return br_fail(err, BR_IO, "the command could not be started: %s", strerror(errno));
-    while (waitpid(child, &state, 0) < 0 && errno == EINTR) {
-    }
+    struct br_error inner = {0};
+    const enum br_status status = r->command->run(&r->options, &inner);
     if (br_signals_caught())
         return br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (status) {
+        fputs("beamrate: ", stderr);
+        br_quote(stderr, &br_for_text, inner.message);
+        fputc('\n', stderr);
+    }
     if (access(r->out, R_OK) == 0)
         return read_json(r->out, &r->is, err);
     return br_fail(err, BR_IO,
                    "%s: the repeated command wrote no such report: it ended with exit code %d; is "
                    "this the folder that it was run in?",
-                   r->path, WIFEXITED(state) ? WEXITSTATUS(state) : -1);
+                   r->path, br_status_exit_code(status));
 }
 
 static enum br_status report(struct run *r, bool quiet, struct br_error *err)
@@ -256,10 +186,9 @@ static enum br_status make_folder(struct run *r, struct br_error *err)
              where && strlen(where) < 30 ? where : "/tmp");
     if (mkdtemp(r->folder))
         return BR_OK;
-    const int reason = errno;
-    const enum br_status status = br_fail(err, BR_IO, "%s: %s", r->folder, strerror(reason));
+    br_fail(err, BR_IO, "%s: %s", r->folder, strerror(errno));
     r->folder[0] = '\0';
-    return status;
+    return BR_IO;
 }
 
 static void clear(struct run *r)
@@ -268,20 +197,18 @@ static void clear(struct run *r)
     br_options_clear(&r->options);
     json_decref(r->was);
     json_decref(r->is);
-    for (size_t i = 0; i < r->words; i++)
-        free(r->word[i]);
 }
 
 static enum br_status run(const struct br_options *options, struct br_error *err)
 {
     struct run r = {.path = options->words ? options->word[0] : NULL};
-    if (!br_ranks_first())
-        return BR_OK;
+    if (br_session_alone(err))
+        return err->status;
     if (!options->words)
         return br_fail(err, BR_BAD_INPUT,
                        "no report is given, expected a file that beamrate has written as JSON");
     const bool failed = read_json(r.path, &r.was, err) || parse_command(&r, err) ||
-                        make_folder(&r, err) || restore_scene(&r, err) || make_command(&r, err) ||
+                        make_folder(&r, err) || restore_scene(&r, err) || redirect(&r, err) ||
                         run_command(&r, err) ||
                         report(&r, br_option_given(options, BR_OPT_QUIET), err);
     clear(&r);

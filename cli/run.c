@@ -5,28 +5,104 @@
 #include <string.h>
 
 #include "cli/command.h"
-#include "cli/pictures.h"
 #include "cli/progress.h"
 #include "cli/run.h"
-#include "cli/session.h"
-#include "cli/warn.h"
+#include "cli/vary.h"
 #include "solver/clock.h"
+#include "study/foresee/prediction.h"
 #include "study/ranks/ranks.h"
+#include "tables/fields_file.h"
+#include "tables/reports.h"
 
 struct run {
     struct br_session session;
     const char *out, *json, *animate; /* files and folders of the options; NULL: not given */
     struct br_run_plan plan;
-    struct br_opened_scene opened;
-    struct br_scene marched; /* borrows from that */
     struct br_prediction prediction;
     struct br_warnings warnings;
     struct br_run_report report;
     struct br_provenance provenance;
     struct br_whole_file summary; /* of --json */
-    struct br_run_files files;
+    FILE *history;                /* of --out, as all of these */
+    const struct br_fields_format *format;
+    struct br_fields_file *fields;
+    char fields_path[2048];
     struct br_pictures pictures;
 };
+
+/* ---- the files of --out: the tip's history and the fields, written while it marches ---- */
+
+static enum br_status open_results(struct run *r, struct br_error *err)
+{
+    const struct br_output *output = &r->session.output;
+    if (br_session_open(&r->session, err) ||
+        br_output_file(output, "history.csv", &r->history, err))
+        return err->status;
+    br_history_csv_head(r->history);
+    r->format = br_fields_formats[0];
+    snprintf(r->fields_path, sizeof r->fields_path, "%s/%s", output->staging, r->format->file_name);
+    const struct br_fields_request fields = {
+        .path = r->fields_path,
+        .scene = &r->plan.marched,
+        .n = r->plan.request.n,
+        .steps = r->plan.request.steps,
+        .looks = r->plan.request.levels,
+        .axial_degree = r->plan.request.method.axial_degree,
+        .provenance = &r->provenance,
+    };
+    return r->format->open(&r->fields, &fields, err);
+}
+
+/* What is not modelled is an empty field, not a zero. */
+static enum br_status write_row(void *self, const struct br_history_row *row, struct br_error *err)
+{
+    struct run *r = self;
+    struct br_history_row told = *row;
+    if (!r->plan.marched.axial.modelled)
+        told.displacement[BR_AXIAL] = told.velocity[BR_AXIAL] = NAN;
+    if (!r->plan.marched.bending.modelled)
+        told.displacement[BR_BENDING] = told.velocity[BR_BENDING] = NAN;
+    if (!r->plan.marched.contact.modelled)
+        told.contact_force = NAN;
+    if (r->plan.marched.friction.law == BR_FRICTIONLESS)
+        told.friction_force = told.friction_bound = NAN;
+    br_history_csv_row(r->history, &told);
+    return ferror(r->history) ? br_fail(err, BR_IO, "history.csv could not be written") : BR_OK;
+}
+
+static enum br_status write_look(void *self, const struct br_march *march,
+                                 const struct br_history_row *row, struct br_error *err)
+{
+    struct run *r = self;
+    return r->format->look(r->fields, march, row, err);
+}
+
+/* stopped: why the march did not reach T; NULL: it did. */
+static enum br_status close_results(struct run *r, const char *stopped, struct br_error *err)
+{
+    enum br_status status = BR_OK, closed = BR_OK;
+    if (r->history && stopped)
+        br_history_csv_stopped(r->history, stopped);
+    if (r->history)
+        status = br_output_close(r->history, "history.csv", err);
+    if (r->format)
+        closed = r->format->close(r->fields, stopped, status ? NULL : err);
+    r->history = NULL;
+    r->format = NULL;
+    return status ? status : closed;
+}
+
+/* Put in place also where a march stopped early. */
+static enum br_status write_results(struct run *r, const char *stopped, struct br_error *err)
+{
+    static const struct br_document_format *const formats[] = {&br_document_text, &br_document_json,
+                                                               &br_document_html, NULL};
+    const bool failed =
+        close_results(r, stopped, err) || br_session_write(&r->session, formats, err);
+    return failed ? err->status : BR_OK;
+}
+
+/* ---- before the march ---- */
 
 /* Whether two files have one name but for what follows its last dot. */
 static bool same_stem(const char *a, const char *b)
@@ -43,7 +119,7 @@ static enum br_status check_places(const struct run *r, struct br_error *err)
 {
     const char *slash = r->animate ? strrchr(r->animate, '/') : NULL;
     char folder[1024] = ".";
-    if (br_whole_file_replaces(&r->summary, r->opened.path))
+    if (br_whole_file_replaces(&r->summary, r->plan.opened.path))
         return br_fail(err, BR_BAD_INPUT, "--json would replace the scene %s", r->summary.path);
     if (r->out && br_whole_file_is_in(&r->summary, r->out))
         return br_fail(err, BR_BAD_INPUT,
@@ -63,56 +139,54 @@ static enum br_status check_places(const struct run *r, struct br_error *err)
 
 static enum br_status open_files(struct run *r, struct br_error *err)
 {
-    r->provenance = br_provenance_of(&r->opened, 1);
-    const struct br_pictures_request pictures = {
+    r->provenance = br_provenance_of(&r->plan.opened, 1);
+    r->pictures = (struct br_pictures){
         .animate = r->animate,
         .quiet = r->session.quiet,
         .plot = br_option_given(r->session.options, BR_OPT_PLOT),
-        .scene = &r->opened.scene,
-        .n = r->plan.n,
-        .steps = r->plan.steps,
-    };
-    const struct br_fields_request fields = {
-        .scene = &r->marched,
-        .n = r->plan.n,
-        .steps = r->plan.steps,
-        .looks = r->plan.levels,
-        .axial_degree = r->plan.method.axial_degree,
-        .provenance = &r->provenance,
+        .scene = &r->plan.opened.scene,
+        .n = r->plan.request.n,
+        .steps = r->plan.request.steps,
     };
     const bool failed = br_whole_file_open(&r->summary, "json", r->json, err) ||
-                        check_places(r, err) || br_pictures_open(&r->pictures, &pictures, err) ||
-                        (r->out && br_run_files_open(&r->files, r->out, &fields, err));
+                        check_places(r, err) || br_pictures_open(&r->pictures, err) ||
+                        (r->out && open_results(r, err));
     return failed ? err->status : BR_OK;
 }
 
-/* What is to be marched, and what is to be expected of it, before anything of it is there. */
-static enum br_status look_at_march(struct run *r, struct br_error *err)
+static enum br_status open_scene(struct run *r, struct br_error *err)
 {
-    struct br_scene *scene = &r->opened.scene;
-    if (br_run_plan_make(r->session.options, scene, &r->plan, err) ||
-        br_model_select(scene, r->plan.wanted, &r->marched, err))
-        return err->status;
-    if (r->plan.method.axial_degree != 1 && !r->marched.axial.modelled)
-        return br_fail(err, BR_BAD_INPUT, "--axial-degree: no axial field is marched");
-    const struct br_planned_march planned = {
-        .scene = &r->marched,
-        .method = &r->plan.method,
-        .n = r->plan.n,
-        .steps = r->plan.steps,
-        .prediction = &r->prediction,
-    };
-    return br_look_ahead(&planned, &r->warnings, err);
+    const struct br_options *o = r->session.options;
+    const bool failed = br_opened_scene_read(&r->plan.opened, o->word[0], err) ||
+                        br_run_plan_make(&r->plan, o, err);
+    return failed ? err->status : BR_OK;
+}
+
+static struct br_planned_march planned(const struct br_run_plan *p)
+{
+    return (struct br_planned_march){.scene = &p->marched,
+                                     .method = &p->request.method,
+                                     .n = p->request.n,
+                                     .steps = p->request.steps};
+}
+
+/* What is to be expected of the march, before anything of it is there. */
+static enum br_status look_ahead(struct run *r, struct br_error *err)
+{
+    struct br_planned_march march = planned(&r->plan);
+    march.prediction = &r->prediction;
+    return br_look_ahead(&march, &r->warnings, err);
 }
 
 static enum br_status prepare(struct run *r, struct br_error *err)
 {
-    if (br_opened_scene_read(&r->opened, r->session.options->word[0], err) ||
-        look_at_march(r, err) || open_files(r, err))
+    if (open_scene(r, err) || look_ahead(r, err) || open_files(r, err))
         return err->status;
     br_print_warnings("", &r->warnings);
     return BR_OK;
 }
+
+/* ---- the march and its report ---- */
 
 static enum br_status march(struct run *r, struct br_error *err)
 {
@@ -120,25 +194,14 @@ static enum br_status march(struct run *r, struct br_error *err)
     struct br_history_observer output[2];
     size_t outputs = 0;
     if (r->out)
-        output[outputs++] = br_run_files_observer(&r->files);
+        output[outputs++] =
+            (struct br_history_observer){.self = r, .row = write_row, .look = write_look};
     if (r->animate || br_option_given(o, BR_OPT_PLOT))
         output[outputs++] = br_pictures_observer(&r->pictures);
-    const struct br_run_request request = {
-        .scene = &r->opened.scene,
-        .wanted = r->plan.wanted,
-        .method = r->plan.method,
-        .n = r->plan.n,
-        .steps = r->plan.steps,
-        .stride = r->plan.stride,
-        .level = r->plan.level,
-        .levels = r->plan.levels,
-        .check = br_option_given(o, BR_OPT_CHECK),
-        .energies = br_option_given(o, BR_OPT_ENERGIES),
-        .explain = br_option_given(o, BR_OPT_EXPLAIN),
-        .output = output,
-        .outputs = outputs,
-        .progress = br_progress_start("marching", r->session.quiet),
-    };
+    struct br_run_request request = r->plan.request;
+    request.output = output;
+    request.outputs = outputs;
+    request.progress = br_progress_start("marching", r->session.quiet);
     const enum br_status status = br_run(&request, &r->report, err);
     br_progress_end();
     return status;
@@ -151,7 +214,6 @@ static enum br_status write_all(struct run *r, double start, struct br_error *er
     const struct br_error *failure = &r->report.failure;
     const char *stopped = failure->status ? failure->message : NULL;
     FILE *summary = r->summary.file, *terminal = summary == stdout ? NULL : stdout;
-    struct br_document d = {0};
     const struct br_run_findings findings = {
         .report = &r->report,
         .prediction = &r->prediction,
@@ -159,13 +221,15 @@ static enum br_status write_all(struct run *r, double start, struct br_error *er
         .provenance = &r->provenance,
         .wall_seconds = br_seconds() - start,
     };
-    br_report_run(&findings, &d);
-    const bool failed = (summary && br_document_print(summary, &br_document_json, &d, NULL, err)) ||
-                        (terminal && !r->session.quiet && br_document_show(terminal, &d, err)) ||
-                        (r->out && br_run_files_commit(&r->files, &d, stopped, err)) ||
+    if (br_session_report(&r->session, 1, err))
+        return err->status;
+    struct br_document *d = r->session.document;
+    br_report_run(&findings, d);
+    const bool failed = (summary && br_document_print(summary, &br_document_json, d, NULL, err)) ||
+                        (terminal && !r->session.quiet && br_document_show(terminal, d, err)) ||
+                        (r->out && write_results(r, stopped, err)) ||
                         br_whole_file_commit(&r->summary, err) ||
                         br_pictures_finish(&r->pictures, terminal, err);
-    br_document_clear(&d);
     return failed ? err->status : BR_OK;
 }
 
@@ -181,32 +245,14 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-/* ---- what would be run ---- */
-
-static enum br_status foresee(const struct br_session *session,
-                              const struct br_opened_scene *opened, size_t count,
-                              struct br_error *err)
+static enum br_status foresee(struct run *r, struct br_error *err)
 {
     struct br_foreseen work = {.alone = true};
-    struct br_scene *marched = br_allocate(count, sizeof *marched);
-    enum br_status status = marched ? BR_OK : br_no_memory(err, "the scenes");
-    for (size_t i = 0; i < count && !status; i++) {
-        struct br_run_plan plan = {0};
-        status = br_run_plan_make(session->options, &opened[i].scene, &plan, err);
-        if (!status)
-            status = br_model_select(&opened[i].scene, plan.wanted, &marched[i], err);
-        if (!status)
-            br_foreseen_add_march(&work, &(struct br_planned_march){.scene = &marched[i],
-                                                                    .method = &plan.method,
-                                                                    .n = plan.n,
-                                                                    .steps = plan.steps});
-        br_run_plan_clear(&plan);
-    }
-    if (!status)
-        status = br_session_foresee(session, &work, err);
-    br_foreseen_clear(&work);
-    free(marched);
-    return status;
+    if (open_scene(r, err))
+        return err->status;
+    const struct br_planned_march march = planned(&r->plan);
+    br_foreseen_add_march(&work, &march);
+    return br_session_foresee(&r->session, &work, err);
 }
 
 /* ---- a parameter that varies ---- */
@@ -221,36 +267,27 @@ enum {
     SWEPT
 };
 
-struct varied_run {
-    struct br_session session;
-    struct br_opened_scene base;
-    struct br_varied varied;
-    struct br_opened_scene *point; /* points, of each value; owned */
-    size_t points;
-    struct br_variation found;
-    struct br_variation_column column[SWEPT];
-};
-
-static void name_columns(struct br_variation_column column[SWEPT])
+static const struct br_variation_column *name_columns(void)
 {
     static const char tip[] = "tip at t = T (m)", forces[] = "largest forces at the tip (N)";
-    column[TIP + BR_AXIAL] =
-        (struct br_variation_column){"tip_axial", "u(L, T)", "m", "%.6g", .axis = tip};
-    column[TIP + BR_BENDING] =
-        (struct br_variation_column){"tip_bending", "w(L, T)", "m", "%.6g", .axis = tip};
-    column[TIP_ERROR + BR_AXIAL] = (struct br_variation_column){
-        "predicted_error_axial", "predicted error of u", "m", "%.1e", .axis = NULL};
-    column[TIP_ERROR + BR_BENDING] = (struct br_variation_column){
-        "predicted_error_bending", "predicted error of w", "m", "%.1e", .axis = NULL};
-    column[CONTACT_FORCE] = (struct br_variation_column){
-        "largest_contact_force", "largest contact force", "N", "%.5g", .axis = forces};
-    column[FRICTION_FORCE] = (struct br_variation_column){
-        "largest_friction_force", "largest friction force", "N", "%.5g", .axis = forces};
+    static struct br_variation_column column[SWEPT] = {
+        [TIP + BR_AXIAL] = {"tip_axial", "u(L, T)", "m", "%.6g", .axis = tip},
+        [TIP + BR_BENDING] = {"tip_bending", "w(L, T)", "m", "%.6g", .axis = tip},
+        [TIP_ERROR + BR_AXIAL] = {"predicted_error_axial", "predicted error of u", "m", "%.1e",
+                                  .axis = NULL},
+        [TIP_ERROR + BR_BENDING] = {"predicted_error_bending", "predicted error of w", "m", "%.1e",
+                                    .axis = NULL},
+        [CONTACT_FORCE] = {"largest_contact_force", "largest contact force", "N", "%.5g",
+                           .axis = forces},
+        [FRICTION_FORCE] = {"largest_friction_force", "largest friction force", "N", "%.5g",
+                            .axis = forces},
+        [BAD_STEPS] = {"bad_steps", "bad steps", .format = "%.0f"},
+    };
     for (int kind = 0; kind < BR_TIP_EVENTS; kind++) {
         const char *word = br_tip_event_word((enum br_tip_event_kind)kind);
         column[EVENTS + kind] = (struct br_variation_column){word, word, .format = "%.0f"};
     }
-    column[BAD_STEPS] = (struct br_variation_column){"bad_steps", "bad steps", .format = "%.0f"};
+    return column;
 }
 
 static void take_point(const struct br_run_report *p, const struct br_prediction *prediction,
@@ -276,98 +313,75 @@ static void take_point(const struct br_run_report *p, const struct br_prediction
 /* What is of one march alone. */
 static enum br_status check_swept(const struct br_options *o, struct br_error *err)
 {
-    static const enum br_option_id single[] = {BR_OPT_AT,     BR_OPT_EVERY,   BR_OPT_ROWS,
-                                               BR_OPT_PLOT,   BR_OPT_ANIMATE, BR_OPT_JSON,
-                                               BR_OPT_EXPLAIN};
-    static const char *const names[] = {"at",      "every", "rows",   "plot",
-                                        "animate", "json",  "explain"};
-    for (size_t i = 0; i < sizeof single / sizeof *single; i++)
-        if (br_option_given(o, single[i]))
-            return br_fail(err, BR_BAD_INPUT,
-                           "--%s: it is of one march: --vary does not heed it; --out has what is "
-                           "found at all values",
-                           names[i]);
-    return BR_OK;
+    static const enum br_option_id single[] = {BR_OPT_AT,      BR_OPT_EVERY,   BR_OPT_ROWS,
+                                               BR_OPT_PLOT,    BR_OPT_ANIMATE, BR_OPT_JSON,
+                                               BR_OPT_EXPLAIN, BR_OPTIONS};
+    const char *name = br_first_given(o, single);
+    return name ? br_fail(err, BR_BAD_INPUT,
+                          "--%s: it is of one march: --vary does not heed it; --out has what is "
+                          "found at all values",
+                          name)
+                : BR_OK;
 }
 
-/* All scenes, so that what is refused is refused before anything marches. */
-static enum br_status prepare_values(struct varied_run *w, struct br_error *err)
+static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, struct br_error *err)
 {
-    const struct br_options *o = w->session.options;
-    char text[BR_VARIED_TEXT];
-    if (check_swept(o, err) || br_opened_scene_read(&w->base, o->word[0], err) ||
-        br_varied_read(br_option_text(o, BR_OPT_VARY), &w->varied, err))
-        return err->status;
-    if (!(w->point = br_allocate(w->varied.count, sizeof *w->point)))
-        return br_no_memory(err, "the scenes");
-    while (w->points < w->varied.count) {
-        struct br_run_plan plan = {0};
-        struct br_opened_scene *point = &w->point[w->points++];
-        const bool failed = br_opened_scene_vary(point, &w->base, &w->varied, w->points - 1, err) ||
-                            br_run_plan_make(o, &point->scene, &plan, err);
-        br_run_plan_clear(&plan);
-        if (failed)
-            return br_failed_in(err, br_varied_text(&w->varied, w->points - 1, text));
-    }
-    name_columns(w->column);
-    w->found = (struct br_variation){.varied = &w->varied,
-                                     .format = "beamrate run variation",
-                                     .column = w->column,
-                                     .columns = SWEPT};
-    return br_variation_create(&w->found, &w->base.scene, err);
+    struct br_run_plan *p = self;
+    v->column = name_columns();
+    const bool failed =
+        br_vary_scene(v, i, &p->opened, err) || br_run_plan_make(p, v->session.options, err);
+    return failed ? err->status : BR_OK;
+}
+
+static void foresee_value(void *self, struct br_foreseen *work)
+{
+    const struct br_planned_march march = planned(self);
+    br_foreseen_add_march(work, &march);
 }
 
 /* One march as of `run` alone, without files; the static part is large. */
-static enum br_status march_point(struct varied_run *w, size_t i, struct br_error *err)
+static enum br_status march_value(struct br_vary *v, size_t i, void *self, struct br_error *failure,
+                                  struct br_error *err)
 {
     static struct run r;
-    struct br_error *failure = &w->found.failure[i];
+    const struct br_run_plan *p = self;
     char text[BR_VARIED_TEXT];
-    r = (struct run){.session = w->session, .opened = w->point[i]};
+    (void)err;
+    r = (struct run){.session = v->session, .plan = *p};
     r.session.quiet = true;
-    if (look_at_march(&r, failure)) {
-        br_run_plan_clear(&r.plan);
-        return failure->status == BR_BAD_INPUT
-                   ? BR_OK
-                   : br_fail(err, failure->status, "%s", failure->message);
-    }
-    br_print_warnings(br_varied_text(&w->varied, i, text), &r.warnings);
-    r.plan.levels = r.plan.stride = 0;
-    const enum br_status status = march(&r, err);
-    if (!status)
-        take_point(&r.report, &r.prediction, &w->found.value[i * SWEPT]);
-    w->found.unstable[i] = !status && r.report.contact_unstable;
-    if (!status && (r.report.contact_unstable || !r.prediction.known))
-        w->found.remark[i] = r.report.contact_unstable ? "beyond the contact's stability limit"
-                                                       : "its error is not known";
-    if (!status)
-        conclude(&r, failure);
-    br_run_plan_clear(&r.plan);
-    return br_progress_result(status, err);
+    r.plan.request.levels = r.plan.request.stride = 0;
+    if (look_ahead(&r, failure))
+        return BR_OK;
+    br_print_warnings(br_varied_text(&v->varied, i, text), &r.warnings);
+    if (march(&r, failure))
+        return BR_OK;
+    const bool unstable = r.report.contact_unstable;
+    take_point(&r.report, &r.prediction, &v->found.value[i * SWEPT]);
+    v->found.unstable[i] = unstable;
+    v->found.remark[i] = unstable             ? "beyond the contact's stability limit"
+                         : r.prediction.known ? NULL
+                                              : "its error is not known";
+    conclude(&r, failure);
+    return BR_OK;
 }
 
-static enum br_status run_varied(const struct br_options *options, struct br_error *err)
+static void clear_value(void *self)
 {
-    struct varied_run w = {.session = br_session_begin(options)};
-    bool failed = prepare_values(&w, err);
-    if (!failed && br_option_given(options, BR_OPT_DRY_RUN)) {
-        failed = foresee(&w.session, w.point, w.points, err);
-    } else if (!failed) {
-        failed = br_session_open(&w.session, err);
-        for (size_t i = 0; i < w.points && !failed; i++)
-            failed = march_point(&w, i, err);
-        if (!failed)
-            failed = br_session_variation(&w.session, &w.found, &w.base, err);
-    }
-    for (size_t i = 0; i < w.points; i++)
-        br_opened_scene_clear(&w.point[i]);
-    free(w.point);
-    br_variation_clear(&w.found);
-    br_varied_clear(&w.varied);
-    br_opened_scene_clear(&w.base);
-    br_session_close(&w.session);
-    return failed ? err->status : BR_OK;
+    br_run_plan_clear(self);
 }
+
+static const struct br_vary_command varied = {
+    .format = "beamrate run variation",
+    .size = sizeof(struct br_run_plan),
+    .columns = SWEPT,
+    .alone = true,
+    .prepare = prepare_value,
+    .foresee = foresee_value,
+    .march = march_value,
+    .clear = clear_value,
+};
+
+/* ---- the command ---- */
 
 static enum br_status run(const struct br_options *options, struct br_error *err)
 {
@@ -376,21 +390,20 @@ static enum br_status run(const struct br_options *options, struct br_error *err
     if (!br_ranks_first())
         return BR_OK; /* one march is the work of one rank */
     if (br_option_given(options, BR_OPT_VARY))
-        return run_varied(options, err);
+        return check_swept(options, err) ? err->status : br_vary_run(options, &varied, err);
     r = (struct run){.session = br_session_begin(options),
                      .out = br_option_text(options, BR_OPT_OUT),
                      .json = br_option_text(options, BR_OPT_JSON),
                      .animate = br_option_text(options, BR_OPT_ANIMATE)};
     const bool failed =
         br_option_given(options, BR_OPT_DRY_RUN)
-            ? br_opened_scene_read(&r.opened, options->word[0], err) ||
-                  foresee(&r.session, &r.opened, 1, err)
+            ? foresee(&r, err)
             : prepare(&r, err) || march(&r, err) || write_all(&r, start, err) || conclude(&r, err);
-    br_run_files_discard(&r.files);
+    close_results(&r, NULL, NULL);
     br_pictures_discard(&r.pictures);
     br_whole_file_discard(&r.summary);
     br_run_plan_clear(&r.plan);
-    br_opened_scene_clear(&r.opened);
+    br_session_close(&r.session);
     return failed ? err->status : BR_OK;
 }
 

@@ -1,56 +1,56 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The two halves of `run`: what its command line says of a scene, and the files that it writes. */
+/* What the command line of `run` says of a scene (run_plan.c), and its pictures. */
 #ifndef BR_CLI_RUN_H
 #define BR_CLI_RUN_H
 
-#include "cli/option.h"
-#include "cli/output.h"
-#include "study/foresee/prediction.h"
+#include "cli/session.h"
+#include "plots/pictures.h"
 #include "study/run/run.h"
-#include "tables/fields_file.h"
-#include "tables/reports.h"
-
-/* ---- run_plan.c ---- */
 
 struct br_run_plan {
-    struct br_method method;
-    size_t n, steps, stride;
-    unsigned wanted; /* see study/run/run.h */
-    size_t *level;   /* levels, ascending; owned; the output times */
-    size_t levels;
+    struct br_opened_scene opened;
+    struct br_scene marched;       /* borrows from that */
+    struct br_run_request request; /* without outputs */
+    size_t *level;                 /* of the request; owned */
 };
 
-/* Checks the options against the scene. Fails with BR_BAD_INPUT, naming the option, what was found
- * and what was expected; clear the plan even then. */
-enum br_status br_run_plan_make(const struct br_options *options, const struct br_scene *scene,
-                                struct br_run_plan *plan, struct br_error *err);
+/* Checks the options against the open scene. Fails with BR_BAD_INPUT, naming the option, what was
+ * found and what was expected; clear the plan even then. */
+enum br_status br_run_plan_make(struct br_run_plan *plan, const struct br_options *options,
+                                struct br_error *err);
 void br_run_plan_clear(struct br_run_plan *plan);
 
-/* ---- run_files.c ---- */
+/* ---- what is shown of a march (pictures.c): a moving picture (--animate), and the tip's history
+ * in letters (--plot) ---- */
 
-/* The files of --out: the tip's history and the fields, written while it marches, and its summary.
- * They are put in place together, also where a march stopped early. */
-struct br_run_files {
-    struct br_output output;
-    const struct br_scene *scene; /* as it is marched; borrowed */
-    FILE *history;
-    const struct br_fields_format *format;
-    struct br_fields_file *fields;
-    char path[2048]; /* of the fields */
+/* Begins with what is wanted, the rest zeros. */
+struct br_pictures {
+    const char *animate; /* a file; NULL: not wanted */
+    bool plot, quiet;
+    const struct br_scene *scene;
+    size_t n, steps; /* of the march */
+
+    const struct br_movie_format *format;
+    char stem[256];          /* of the movie's files */
+    struct br_output output; /* its folder */
+    bool missing;            /* gnuplot */
+    size_t rows, frames;     /* steps between what is kept; 0: nothing is */
+    struct br_history_record record;
+    struct br_history_observer keep; /* into the record */
 };
 
-/* Opens them in a folder. request->path is not needed. Fails with BR_BAD_INPUT, BR_IO,
- * BR_NO_MEMORY; discard them even then. */
-enum br_status br_run_files_open(struct br_run_files *files, const char *folder,
-                                 const struct br_fields_request *request, struct br_error *err);
+/* Opens the movie's files, so call it before a long march. Fails with BR_BAD_INPUT: a file of
+ * another kind, a terminal that the installed gnuplot does not have, a folder that cannot be
+ * written; discard it even then. Without gnuplot scripts and data are written, with a note. */
+enum br_status br_pictures_open(struct br_pictures *pictures, struct br_error *err);
 
-/* An observer that writes them; they must outlive the march. */
-struct br_history_observer br_run_files_observer(struct br_run_files *files);
+/* An observer that keeps what is shown; the pictures must outlive the march. */
+struct br_history_observer br_pictures_observer(struct br_pictures *pictures);
 
-/* Writes the summary, and puts all in place. stopped: why the march did not reach T; NULL: it did.
- * Fails with BR_IO or BR_NO_MEMORY. */
-enum br_status br_run_files_commit(struct br_run_files *files, const struct br_document *summary,
-                                   const char *stopped, struct br_error *err);
-void br_run_files_discard(struct br_run_files *files);
+/* Draws, and puts the movie in place: whole or not at all. letters: where --plot goes; NULL:
+ * nowhere. Fails with BR_IO. */
+enum br_status br_pictures_finish(struct br_pictures *pictures, FILE *letters,
+                                  struct br_error *err);
+void br_pictures_discard(struct br_pictures *pictures);
 
 #endif

@@ -4,9 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/run/history.h"
-#include "study/run/run.h"
-
 /* ---- times ---- */
 
 /* The time level at t, s; the option names where it was found. */
@@ -35,96 +32,71 @@ static enum br_status not_a_time(const char *option, const char *found, const ch
     return br_fail(err, BR_BAD_INPUT, "%s: found '%s', expected %s", option, found, example);
 }
 
-static enum br_status make_room(struct br_run_plan *plan, size_t levels, struct br_error *err)
+static enum br_status read_at(const char *text, struct br_run_plan *plan, struct br_error *err)
 {
-    plan->level = br_allocate(levels, sizeof *plan->level);
-    return plan->level ? BR_OK : br_no_memory(err, "the output times");
-}
-
-static enum br_status read_at(const char *text, const struct br_scene *scene,
-                              struct br_run_plan *plan, struct br_error *err)
-{
-    size_t most = 1;
-    for (const char *c = text; *c; c++)
-        most += *c == ',';
-    if (make_room(plan, most, err))
-        return err->status;
-    for (const char *rest = text;; rest++) {
+    struct br_run_request *q = &plan->request;
+    for (const char *rest = text; rest; rest = *rest ? rest + 1 : NULL) {
         double t;
-        const char *end = br_read_time(rest, scene->duration, &t);
+        const char *end = br_read_time(rest, q->scene->duration, &t);
         if (!end)
             return not_a_time("--at", rest, "times separated by commas, like 0.1,0.5", err);
-        if (read_level("--at", t, scene, plan->steps, &plan->level[plan->levels++], err))
+        if (read_level("--at", t, q->scene, q->steps, &plan->level[q->levels++], err))
             return err->status;
         rest = end;
-        if (!*rest)
-            break;
     }
-    br_sort_counts(plan->level, plan->levels);
-    for (size_t i = 1; i < plan->levels; i++)
+    br_sort_counts(plan->level, q->levels);
+    for (size_t i = 1; i < q->levels; i++)
         if (plan->level[i] == plan->level[i - 1])
             return br_fail(err, BR_BAD_INPUT, "--at: %g s is given twice",
-                           scene->duration * (double)plan->level[i] / (double)plan->steps);
+                           q->scene->duration * (double)plan->level[i] / (double)q->steps);
     return BR_OK;
 }
 
-/* Every `interval` levels from 0 on. */
-static enum br_status fill_levels(struct br_run_plan *plan, size_t interval, struct br_error *err)
-{
-    plan->levels = plan->steps / interval + 1;
-    if (make_room(plan, plan->levels, err))
-        return err->status;
-    for (size_t i = 0; i < plan->levels; i++)
-        plan->level[i] = i * interval;
-    return BR_OK;
-}
-
-static enum br_status read_every(const char *text, const struct br_scene *scene,
-                                 struct br_run_plan *plan, struct br_error *err)
+static enum br_status read_every(const char *text, const struct br_scene *scene, size_t steps,
+                                 size_t *interval, struct br_error *err)
 {
     double t;
-    size_t interval;
     const char *end = br_read_time(text, scene->duration, &t);
     if (!end || *end || !(t > 0))
         return not_a_time("--every", text, "a time above 0, like 0.1", err);
-    if (read_level("--every", t, scene, plan->steps, &interval, err))
+    if (read_level("--every", t, scene, steps, interval, err))
         return err->status;
-    if (interval == 0)
-        return br_fail(err, BR_BAD_INPUT, "--every: found '%s', expected a multiple of k = %g s",
-                       text, scene->duration / (double)plan->steps);
-    return fill_levels(plan, interval, err);
+    return *interval
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT, "--every: found '%s', expected a multiple of k = %g s",
+                         text, scene->duration / (double)steps);
 }
 
-/* Ten of about the same length, whatever the number of steps. */
-static enum br_status default_levels(struct br_run_plan *plan, struct br_error *err)
+/* By default ten intervals of about the same length, whatever the number of steps. */
+static enum br_status make_levels(struct br_run_plan *plan, const struct br_options *o,
+                                  struct br_error *err)
 {
     enum { PARTS = 10 };
-    if (make_room(plan, PARTS + 1, err))
-        return err->status;
-    for (size_t i = 0; i <= PARTS; i++) {
-        const size_t level =
-            (size_t)llround((double)plan->steps * (double)i / PARTS); /* exact below 2^49 */
-        if (plan->levels == 0 || level > plan->level[plan->levels - 1])
-            plan->level[plan->levels++] = level;
-    }
-    return BR_OK;
-}
-
-static enum br_status make_levels(const struct br_options *o, const struct br_scene *scene,
-                                  struct br_run_plan *plan, struct br_error *err)
-{
+    struct br_run_request *q = &plan->request;
     const char *at = br_option_text(o, BR_OPT_AT), *every = br_option_text(o, BR_OPT_EVERY);
-    const bool out = br_option_given(o, BR_OPT_OUT);
+    size_t room = PARTS + 1, interval = 1;
     if (at && every)
         return br_fail(err, BR_BAD_INPUT, "--at and --every are given, expected one of the two");
-    if ((at || every) && !out)
+    if ((at || every) && !br_option_given(o, BR_OPT_OUT))
         return br_fail(err, BR_BAD_INPUT, "%s needs --out, the folder for the fields",
                        at ? "--at" : "--every");
+    if (every && read_every(every, q->scene, q->steps, &interval, err))
+        return err->status;
+    if (at || every)
+        room = at ? strlen(at) + 1 : q->steps / interval + 1;
+    q->level = plan->level = br_allocate(room, sizeof *plan->level);
+    if (!plan->level)
+        return br_no_memory(err, "the output times");
     if (at)
-        return read_at(at, scene, plan, err);
-    if (every)
-        return read_every(every, scene, plan, err);
-    return out ? default_levels(plan, err) : BR_OK;
+        return read_at(at, plan, err);
+    for (size_t i = 0; i < room && br_option_given(o, BR_OPT_OUT); i++) {
+        const size_t level =
+            every ? i * interval
+                  : (size_t)llround((double)q->steps * (double)i / PARTS); /* exact below 2^49 */
+        if (q->levels == 0 || level > plan->level[q->levels - 1])
+            plan->level[q->levels++] = level;
+    }
+    return BR_OK;
 }
 
 /* ---- the plan ---- */
@@ -148,34 +120,36 @@ static enum br_status read_fields(const char *text, unsigned *wanted, struct br_
     return BR_OK;
 }
 
-static enum br_status read_resolution(const struct br_options *o, const struct br_scene *scene,
-                                      struct br_run_plan *plan, struct br_error *err)
-{
-    const double steps = br_option_number(o, BR_OPT_STEPS, 0);
-    plan->n = (size_t)br_option_number(o, BR_OPT_N, 0);
-    plan->steps = (size_t)steps;
-    return steps > 0 ? BR_OK
-                     : br_read_step("--k", br_option_text(o, BR_OPT_K), scene, &plan->steps, err);
-}
-
-enum br_status br_run_plan_make(const struct br_options *o, const struct br_scene *scene,
-                                struct br_run_plan *plan, struct br_error *err)
+enum br_status br_run_plan_make(struct br_run_plan *plan, const struct br_options *o,
+                                struct br_error *err)
 {
     const char *const *given = &o->given[BR_OPT_METHOD];
-    const struct br_method *const methods[] = {&plan->method};
-    *plan = (struct br_run_plan){.method = br_method_default()};
-    if (br_method_read(given, BR_METHOD_OPTION, &plan->method, err) ||
+    struct br_run_request *q = &plan->request;
+    const struct br_method *const methods[] = {&q->method};
+    *q = (struct br_run_request){
+        .scene = &plan->opened.scene,
+        .method = br_method_default(),
+        .n = (size_t)br_option_number(o, BR_OPT_N, 0),
+        .steps = (size_t)br_option_number(o, BR_OPT_STEPS, 0),
+        .check = br_option_given(o, BR_OPT_CHECK),
+        .energies = br_option_given(o, BR_OPT_ENERGIES),
+        .explain = br_option_given(o, BR_OPT_EXPLAIN),
+    };
+    if (br_method_read(given, BR_METHOD_OPTION, &q->method, err) ||
         br_method_check_heeded(given, BR_METHOD_OPTION, methods, 1, err) ||
-        read_fields(br_option_text(o, BR_OPT_FIELDS), &plan->wanted, err) ||
-        read_resolution(o, scene, plan, err))
+        read_fields(br_option_text(o, BR_OPT_FIELDS), &q->wanted, err) ||
+        (!q->steps && br_read_step("--k", br_option_text(o, BR_OPT_K), q->scene, &q->steps, err)) ||
+        make_levels(plan, o, err) || br_model_select(q->scene, q->wanted, &plan->marched, err))
         return err->status;
     if (br_option_given(o, BR_OPT_OUT))
-        plan->stride = br_history_stride(plan->steps, (size_t)br_option_number(o, BR_OPT_ROWS, 0));
-    return make_levels(o, scene, plan, err);
+        q->stride = br_history_stride(q->steps, (size_t)br_option_number(o, BR_OPT_ROWS, 0));
+    return q->method.axial_degree == 1 || plan->marched.axial.modelled
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT, "--axial-degree: no axial field is marched");
 }
 
 void br_run_plan_clear(struct br_run_plan *plan)
 {
     free(plan->level);
-    *plan = (struct br_run_plan){0};
+    br_opened_scene_clear(&plan->opened);
 }

@@ -14,16 +14,6 @@
 
 /* ---- the list ---- */
 
-/* How many columns a text takes on a terminal: characters, not bytes. */
-static int width_of(const char *text)
-{
-    char visible[4096];
-    int width = 0;
-    for (const char *c = br_quoted(visible, sizeof visible, &br_for_text, text); *c; c++)
-        width += ((unsigned char)*c & 0xc0) != 0x80;
-    return width;
-}
-
 static enum br_status print_line(const char *name, size_t width, struct br_error *err)
 {
     char path[1024];
@@ -31,8 +21,11 @@ static enum br_status print_line(const char *name, size_t width, struct br_error
     const bool failed =
         br_scene_find(name, path, sizeof path, err) || br_scene_read(path, &scene, err);
     if (!failed) {
-        br_quote(stdout, &br_for_text, name);
-        printf("%*s", (int)width + 2 - width_of(name), "");
+        int left = (int)width + 2; /* columns of a terminal: characters, not bytes */
+        char visible[4096];
+        for (const char *c = br_quoted(visible, sizeof visible, &br_for_text, name); *c; c++)
+            left -= ((unsigned char)*c & 0xc0) != 0x80;
+        printf("%s%*s", visible, left, "");
         br_quote(stdout, &br_for_text, scene.title);
         puts("");
     }
@@ -61,9 +54,8 @@ static enum br_status show(const char *name, struct br_error *err)
     const bool terminal = isatty(STDOUT_FILENO);
     char path[1024], *line = NULL;
     size_t size = 0;
-    const enum br_status status = br_scene_find(name, path, sizeof path, err);
-    if (status)
-        return status;
+    if (br_scene_find(name, path, sizeof path, err))
+        return err->status;
     FILE *file = fopen(path, "r");
     if (!file)
         return br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno));

@@ -3,26 +3,18 @@
 
 #include <string.h>
 
+#include "cli/progress.h"
 #include "cli/provenance.h"
-#include "plots/pictures.h"
 #include "study/grid/each.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
+#include "study/scene/quote.h"
 #include "tables/reports.h"
 
 enum br_status br_opened_scene_read(struct br_opened_scene *s, const char *name,
                                     struct br_error *err)
 {
     return br_scene_open(name, s->path, sizeof s->path, &s->text, &s->scene, err);
-}
-
-enum br_status br_opened_scene_vary(struct br_opened_scene *s, const struct br_opened_scene *base,
-                                    const struct br_varied *varied, size_t i, struct br_error *err)
-{
-    *s = (struct br_opened_scene){.text = strdup(base->text)};
-    strcpy(s->path, base->path);
-    return s->text ? br_varied_scene(varied, i, s->path, s->text, &s->scene, err)
-                   : br_no_memory(err, "the scene");
 }
 
 void br_opened_scene_clear(struct br_opened_scene *s)
@@ -113,41 +105,17 @@ enum br_status br_session_report(struct br_session *s, size_t documents, struct 
 void br_session_draw(struct br_session *s, struct br_document *report, struct br_figure figure,
                      const char *title)
 {
-    struct br_session_picture **last = &s->picture;
-    if (!figure.panels || br_option_given(s->options, BR_OPT_NO_PLOTS)) {
-        br_figure_clear(&figure);
-        return;
+    struct br_figure *more = NULL;
+    if (figure.panels && !br_option_given(s->options, BR_OPT_NO_PLOTS)) {
+        br_put_picture(report, figure.stem, title ? title : figure.title);
+        more = realloc(s->figure, (s->figures + 1) * sizeof *more);
+        s->lost |= !more;
     }
-    br_put_picture(report, figure.stem, title ? title : figure.title);
-    while (*last)
-        last = &(*last)->next;
-    *last = br_allocate(1, sizeof **last);
-    if (*last)
-        (*last)->figure = figure;
-    else
+    if (more) {
+        s->figure = more;
+        s->figure[s->figures++] = figure;
+    } else
         br_figure_clear(&figure);
-    s->lost |= !*last;
-}
-
-/* They are rendered while the reports are written. */
-static enum br_status draw_all(struct br_session *s, struct br_error *err)
-{
-    enum br_status status = s->lost ? br_no_memory(err, "a figure") : BR_OK;
-    s->files.output = &s->output;
-    for (struct br_session_picture *p = s->picture; p && !status; p = p->next)
-        status = br_picture_files_draw(&s->files, &p->figure, err);
-    return status;
-}
-
-static enum br_status write_all(struct br_session *s, struct br_error *err)
-{
-    if (draw_all(s, err) ||
-        br_documents_write(&s->files, s->options, s->document, s->documents, err) ||
-        br_picture_files_finish(&s->files, err) || br_output_commit(&s->output, err))
-        return err->status;
-    if (!s->quiet)
-        br_output_announce(&s->output);
-    return BR_OK;
 }
 
 enum br_status br_session_foresee(const struct br_session *s, struct br_foreseen *work,
@@ -162,47 +130,165 @@ enum br_status br_session_foresee(const struct br_session *s, struct br_foreseen
     return status;
 }
 
-enum br_status br_session_finish(struct br_session *s, struct br_error *err)
+/* ---- pictures ---- */
+
+enum br_status br_picture_failed(const struct br_error *why, const char *what, struct br_error *err)
 {
-    const enum br_status status =
-        s->quiet ? BR_OK : br_documents_show(s->document, s->documents, err);
-    return !status && br_output_is_open(&s->output) ? write_all(s, err) : status;
+    if (br_signals_caught()) /* Ctrl-C ends gnuplot, too: that is no failure of its own */
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
+    fprintf(stderr, "beamrate: warning: ");
+    br_quote(stderr, &br_for_text, what);
+    fprintf(stderr, " is not drawn: ");
+    br_quote(stderr, &br_for_text, why->message);
+    fprintf(stderr, "; its script (*.gp), its data and all tables are kept\n");
+    return BR_OK;
 }
 
-enum br_status br_session_variation(struct br_session *s, const struct br_variation *found,
-                                    const struct br_opened_scene *base, struct br_error *err)
+static enum br_status end_oldest(struct br_session *s, struct br_error *err)
 {
-    const struct br_provenance provenance = br_provenance_of(base, s->threads);
-    size_t first;
-    if (br_session_report(s, 1, err))
+    struct br_error why = {0};
+    struct br_gnuplot oldest = s->at_work[0];
+    memmove(s->at_work, s->at_work + 1, --s->drawn * sizeof *s->at_work);
+    return br_gnuplot_end_figure(&oldest, &why) ? br_picture_failed(&why, oldest.script, err)
+                                                : BR_OK;
+}
+
+static enum br_status render(struct br_session *s, const char *script, struct br_error *err)
+{
+    struct br_error why = {0};
+    if (s->missing)
+        return BR_OK;
+    if (s->drawn == sizeof s->at_work / sizeof *s->at_work && end_oldest(s, err))
         return err->status;
-    br_report_variation(found, s->document);
-    br_session_draw(s, s->document, br_variation_draw(found), NULL);
-    br_put_provenance(s->document, &provenance);
-    if (br_session_finish(s, err))
+    if (br_gnuplot_start(&s->at_work[s->drawn], s->output.staging, script, NULL, &s->missing, &why))
+        return s->missing ? BR_OK : br_picture_failed(&why, script, err);
+    s->drawn++;
+    return BR_OK;
+}
+
+/* Writes a figure's data and script, and starts gnuplot on it, where there is one. */
+static enum br_status draw(struct br_session *s, const struct br_figure *figure,
+                           struct br_error *err)
+{
+    char name[BR_SCRIPT_NAME + 8];
+    if (br_figure_check(figure, err))
         return err->status;
-    const size_t failures = br_variation_failures(found, &first);
-    return failures ? br_fail(err, BR_NOT_FINITE, "%zu of %zu values failed; the first, %g %s: %s",
-                              failures, found->varied->count, found->varied->value[first],
-                              found->varied->unit, found->failure[first].message)
-                    : BR_OK;
+    for (int script = 0; script < 2; script++) {
+        FILE *file;
+        BR_SAY(name, "%s%s", figure->stem, script ? ".gp" : ".dat");
+        if (br_output_file(&s->output, name, &file, err))
+            return err->status;
+        script ? br_figure_write_script(file, figure) : br_figure_write_data(file, figure);
+        if (br_output_close(file, name, err))
+            return err->status;
+    }
+    return render(s, name, err);
+}
+
+/* Waits for all pictures, and says once where gnuplot is missing. */
+static enum br_status end_pictures(struct br_session *s, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    while (s->drawn)
+        if (end_oldest(s, err))
+            status = BR_INTERRUPTED;
+    if (br_signals_caught())
+        status = br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (!status && s->missing && !s->said) {
+        s->said = true;
+        fprintf(stderr, "beamrate: gnuplot is not installed: the pictures are written as scripts "
+                        "(*.gp) and data, but not rendered\n");
+    }
+    return status;
+}
+
+/* ---- files ---- */
+
+/* One file: of one table, of a report, or, as a page, of all. */
+static enum br_status write_file(const struct br_session *s, const struct br_document_format *f,
+                                 const struct br_document *d, const struct br_document_table *table,
+                                 struct br_error *err)
+{
+    char name[600] = BR_PAGE;
+    FILE *file;
+    const bool page = f == &br_document_html, main = !table || table->flags & BR_MAIN;
+    if (!page)
+        snprintf(name, sizeof name, "%.400s%s%.100s%s", d->name, main ? "" : "-",
+                 main ? "" : table->key, f->extension);
+    if (br_output_file(&s->output, name, &file, err))
+        return err->status;
+    const enum br_status status =
+        page ? br_document_print_page(file, d, s->documents, s->output.staging, err)
+             : br_document_print(file, f, d, table, err);
+    const enum br_status closed = br_output_close(file, name, status ? NULL : err);
+    return status ? status : closed;
+}
+
+static enum br_status write_report(const struct br_session *s, const struct br_document_format *f,
+                                   const struct br_document *d, struct br_error *err)
+{
+    size_t block = 0;
+    if (br_document_status(d, err))
+        return err->status;
+    if (!f->by_table)
+        return write_file(s, f, d, NULL, err);
+    for (const struct br_document_table *t; (t = br_document_next_table(d, &block));)
+        if (write_file(s, f, d, t, err))
+            return err->status;
+    return BR_OK;
+}
+
+/* The page has the pictures, so it waits for them. */
+enum br_status br_session_write(struct br_session *s, const struct br_document_format *const *f,
+                                struct br_error *err)
+{
+    if (s->lost)
+        return br_no_memory(err, "a figure");
+    for (size_t i = 0; i < s->figures; i++)
+        if (draw(s, &s->figure[i], err))
+            return err->status;
+    for (; *f; f++) {
+        const bool page = *f == &br_document_html;
+        if (!br_format_wanted(s->options, (*f)->name))
+            continue;
+        if (page && end_pictures(s, err))
+            return err->status;
+        for (size_t i = 0; i < (page ? 1 : s->documents); i++)
+            if (write_report(s, *f, &s->document[i], err))
+                return err->status;
+    }
+    return end_pictures(s, err) ? err->status : br_output_commit(&s->output, err);
+}
+
+enum br_status br_session_finish(struct br_session *s, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < s->documents && !s->quiet && !status; i++) {
+        status = br_document_show(stdout, &s->document[i], err);
+        putchar('\n');
+    }
+    fflush(stdout); /* before what follows fails; that this did is found at the end */
+    if (status || !br_output_is_open(&s->output))
+        return status;
+    status = br_session_write(s, br_document_formats, err);
+    if (!status && !s->quiet) {
+        fputs("Written to ", stdout);
+        br_quote(stdout, &br_for_text, s->output.folder);
+        fputs("/\n", stdout);
+    }
+    return status;
 }
 
 void br_session_close(struct br_session *s)
 {
-    br_picture_files_finish(&s->files, NULL);
+    end_pictures(s, NULL);
     br_output_discard(&s->output);
-    for (struct br_session_picture *p = s->picture, *next; p; p = next) {
-        next = p->next;
-        br_figure_clear(&p->figure);
-        free(p);
-    }
-    s->picture = NULL;
+    for (size_t i = 0; i < s->figures; i++)
+        br_figure_clear(&s->figure[i]);
+    free(s->figure);
     for (size_t i = 0; i < s->documents; i++)
         br_document_clear(&s->document[i]);
     free(s->document);
-    s->document = NULL;
-    s->documents = 0;
 }
 
 enum br_status br_failed_in(struct br_error *err, const char *name)

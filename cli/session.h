@@ -5,10 +5,16 @@
 #ifndef BR_CLI_SESSION_H
 #define BR_CLI_SESSION_H
 
-#include "cli/documents.h"
+#include "cli/option.h"
+#include "cli/output.h"
+#include "plots/figure.h"
+#include "plots/render.h"
 #include "study/foresee/foreseen.h"
+#include "study/foresee/warnings.h"
 #include "study/kept/kept.h"
-#include "study/scene/vary.h"
+#include "study/trade/split.h"
+#include "study/verify/check.h"
+#include "tables/document.h"
 
 /* A scene as a command opens it. Begins as zeros; not to be moved. */
 struct br_opened_scene {
@@ -20,20 +26,10 @@ struct br_opened_scene {
 /* Fails as br_scene_open; clear it even then. */
 enum br_status br_opened_scene_read(struct br_opened_scene *scene, const char *name,
                                     struct br_error *err);
-/* The same scene with value i of what is varied. Fails as br_varied_scene; clear it even then. */
-enum br_status br_opened_scene_vary(struct br_opened_scene *scene,
-                                    const struct br_opened_scene *base,
-                                    const struct br_varied *varied, size_t i, struct br_error *err);
 void br_opened_scene_clear(struct br_opened_scene *scene);
 
 /* Static strings, and the scene's; NULL: of no one scene. */
 struct br_provenance br_provenance_of(const struct br_opened_scene *scene, int threads);
-
-/* A picture on its way. */
-struct br_session_picture {
-    struct br_figure figure;
-    struct br_session_picture *next;
-};
 
 /* Begins with br_session_begin. */
 struct br_session {
@@ -43,10 +39,14 @@ struct br_session {
     int threads;                  /* of --threads; 0: all cores */
     struct br_document *document; /* documents; owned */
     size_t documents;
-    struct br_output output;            /* of --out; not open where that is not given */
-    struct br_session_picture *picture; /* the first; owned */
-    bool lost;                          /* one, where there was no memory */
-    struct br_picture_files files;
+    struct br_output output;  /* of --out; not open where that is not given */
+    struct br_figure *figure; /* figures, on their way; owned */
+    size_t figures;
+    bool lost;                    /* one, where there was no memory */
+    struct br_gnuplot at_work[8]; /* drawn: side by side, in order, while files are written */
+    size_t drawn;
+    bool missing; /* gnuplot */
+    bool said;    /* that it is */
 };
 
 struct br_session br_session_begin(const struct br_options *options);
@@ -71,9 +71,8 @@ void br_session_tell_kept(const struct br_session *session, const struct br_kept
 enum br_status br_session_report(struct br_session *session, size_t documents,
                                  struct br_error *err);
 
-/* Names a picture in a report and keeps it for br_session_finish, which tells of what failed; but
- * not where it has no panels, or the options want no pictures. Takes the figure. title: NULL: its
- * own. */
+/* Names a picture in a report and keeps it for br_session_finish; but not where it has no panels,
+ * or the options want no pictures. Takes the figure. title: NULL: its own. */
 void br_session_draw(struct br_session *session, struct br_document *report,
                      struct br_figure figure, const char *title);
 
@@ -81,19 +80,47 @@ void br_session_draw(struct br_session *session, struct br_document *report,
 enum br_status br_session_foresee(const struct br_session *session, struct br_foreseen *work,
                                   struct br_error *err);
 
-/* Shows the reports on the terminal, draws the pictures, writes all and puts it in place. Fails as
- * br_picture_files_draw, br_documents_write and br_output_commit; what is shown was shown then. */
+/* Writes the reports and pictures and puts all in place. For each of the formats (NULL-terminated)
+ * that --format wants and each report there is a file NAME.EXTENSION; formats that have a table a
+ * file have NAME.EXTENSION (the main table) and NAME-TABLE.EXTENSION; report.html has all reports.
+ * A picture that fails costs no table and no exit code: a warning says which, and why. Fails as
+ * br_figure_check, br_document_print and br_output_commit. */
+enum br_status br_session_write(struct br_session *session,
+                                const struct br_document_format *const *formats,
+                                struct br_error *err);
+
+/* Shows the reports on the terminal, with an empty line after each, then writes all, if there is
+ * where to. Fails as br_session_write; what is shown was shown then. */
 enum br_status br_session_finish(struct br_session *session, struct br_error *err);
 
-/* The whole report of what varies, with its picture, and that of the session's end: fails as
- * br_session_finish, and with BR_NOT_FINITE where values have failed, when all is written. */
-enum br_status br_session_variation(struct br_session *session, const struct br_variation *found,
-                                    const struct br_opened_scene *base, struct br_error *err);
+/* Warns of a picture that gnuplot has not drawn (what: its name). Fails with BR_INTERRUPTED where
+ * that is why. */
+enum br_status br_picture_failed(const struct br_error *why, const char *what,
+                                 struct br_error *err);
 
 /* Removes what has not been put in place, and releases the rest. */
 void br_session_close(struct br_session *session);
 
 /* Puts a name before the message of a failure: "example2: ..."; returns its status. */
 enum br_status br_failed_in(struct br_error *err, const char *name);
+
+/* ---- warnings on standard error, before marches begin (warn.c) ---- */
+
+/* Prints them, a line each: "beamrate: warning: ...; ...", with the scene's name where it is not
+ * "". */
+void br_print_warnings(const char *scene, const struct br_warnings *warnings);
+
+/* What is cheap to tell of the many marches of a command, scene by scene. Of the cells of studies,
+ * the runs of `trade --split`, and the paper's examples as `figures` marches them: fails with
+ * BR_BAD_INPUT or BR_NO_MEMORY where one is refused. */
+enum br_status br_warn_of_studies(const struct br_study *studies, size_t count,
+                                  struct br_error *err);
+enum br_status br_warn_of_splits(const struct br_split *splits, size_t count, struct br_error *err);
+enum br_status br_warn_of_paper(struct br_error *err);
+
+/* The same of the marches of checks, and of trials of a scene; a march that is refused is a result
+ * of theirs. */
+void br_warn_of_checks(const struct br_check *checks, size_t count);
+void br_warn_of_trials(const struct br_scene *scene, const struct br_trial *trials, size_t count);
 
 #endif

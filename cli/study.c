@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate study SCENE: a grid of cells against one reference; and beamrate tables: the paper's
  * Tables 1 and 2 on their printed grids, two studies at once. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/session.h"
 #include "cli/study_request.h"
-#include "cli/warn.h"
+#include "cli/vary.h"
 #include "plots/pictures.h"
 #include "reference/printed.h"
 #include "solver/clock.h"
@@ -22,12 +20,11 @@
 
 /* One study: a scene, and the printed table to hold it against, if any. */
 struct job {
-    const char *name;                   /* of the result files; NULL: the scene's */
-    const char *scene;                  /* a file, or a bundled scene */
-    const char *printed;                /* a data file below the data folder, or NULL */
-    const char *caption;                /* NULL: the scene's title */
-    const struct br_opened_scene *base; /* of --vary, instead of `scene`: with that value */
-    const struct br_varied *varied;
+    const char *name;           /* of the result files; NULL: the scene's */
+    const char *scene;          /* a file, or a bundled scene */
+    const char *printed;        /* a data file below the data folder, or NULL */
+    const char *caption;        /* NULL: the scene's title */
+    const struct br_vary *vary; /* of --vary, instead of `scene`: with that value */
     size_t value;
 };
 
@@ -41,6 +38,8 @@ struct work {
     size_t mesh[MESHES];       /* for differences, where those of the grid do not do */
     struct br_error no_meshes; /* why there are no differences */
     struct br_kept kept;
+    struct br_study meshes[BR_MOST_NORMS]; /* each mesh against the next at one time step; without
+                                              a reference not used */
 };
 
 /* A report with its name and caption. */
@@ -51,7 +50,7 @@ struct page {
 };
 
 struct run {
-    struct br_session session;
+    struct br_session *session; /* borrowed */
     struct br_study_request request;
     const char *what; /* for the progress */
     bool differences; /* --reference none: cells against the next finer ones */
@@ -60,9 +59,7 @@ struct run {
                           without a reference over h, then over k */
     struct work *work; /* jobs */
     struct page *page; /* pages, those of a job together */
-    struct br_study *study;  /* heads * norms, in the first norm first, which br_study_run takes */
-    struct br_study *meshes; /* jobs * norms, those of a job together: each mesh against the next at
-                                one time step; without a reference not used */
+    struct br_study *study; /* heads * norms, in the first norm first, which br_study_run takes */
 };
 
 /* Study h of the heads in norm m. */
@@ -77,7 +74,7 @@ static enum br_status make_grid(struct run *r, size_t i, struct br_error *err)
 {
     struct work *w = &r->work[i];
     const struct br_study_request *q = &r->request;
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->session->options;
     const struct br_scene *scene = &w->opened.scene;
     struct br_study *study = study_of(r, i, 0);
     *study = (struct br_study){
@@ -130,15 +127,14 @@ static enum br_status read_printed(const char *relative, struct br_report *repor
     const struct br_study *study = report->study;
     const size_t cells = study->n_count * study->k_count;
     br_data_path(relative, path, sizeof path);
-    enum br_status status = br_printed_read(path, &printed, err);
-    if (!status && !(report->printed = br_allocate(cells, sizeof(double))))
-        status = br_no_memory(err, "the printed values");
-    for (size_t c = 0; c < cells && !status; c++)
+    const bool read = !br_printed_read(path, &printed, err);
+    report->printed = read ? br_allocate(cells, sizeof(double)) : NULL;
+    for (size_t c = 0; c < cells && report->printed; c++)
         report->printed[c] =
             br_printed_error(&printed, study->n[c / study->k_count],
                              br_time_step(study->scene, study->steps[c % study->k_count]));
     br_printed_clear(&printed);
-    return status;
+    return report->printed ? BR_OK : read ? br_no_memory(err, "the printed values") : err->status;
 }
 
 /* Of a job in norm m; without a reference over h (variant 0) or k (1). Names end with the norm, but
@@ -167,10 +163,10 @@ static enum br_status start_report(struct run *r, const struct job *job, size_t 
         .study = study_of(r, variant * r->jobs + i, m),
         .exact = !r->differences && r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
         .tips = r->differences ? &r->work[i].tips : NULL,
-        .meshes = !r->differences ? &r->meshes[i * r->request.norms + m]
+        .meshes = !r->differences ? &r->work[i].meshes[m]
                   : variant == 0  ? study_of(r, i, m)
                                   : NULL,
-        .rates = br_option_given(r->session.options, BR_OPT_RATES),
+        .rates = br_option_given(r->session->options, BR_OPT_RATES),
     };
     const bool printed = job->printed && norm->printed && !r->differences;
     return printed ? read_printed(job->printed, &page->report, err) : BR_OK;
@@ -180,26 +176,16 @@ static enum br_status prepare_job(struct run *r, const struct job *job, size_t i
                                   struct br_error *err)
 {
     struct br_opened_scene *opened = &r->work[i].opened;
-    enum br_status status =
-        job->varied ? br_opened_scene_vary(opened, job->base, job->varied, job->value, err)
-                    : br_opened_scene_read(opened, job->scene, err);
-    if (!status)
-        status = make_grid(r, i, err);
-    if (!status)
-        spread_study(r, i);
+    if ((job->vary ? br_vary_scene(job->vary, job->value, opened, err)
+                   : br_opened_scene_read(opened, job->scene, err)) ||
+        make_grid(r, i, err))
+        return err->status;
+    spread_study(r, i);
     for (size_t m = 0; m < r->request.norms; m++)
-        for (size_t v = 0; v < (r->differences ? 2 : 1) && !status; v++)
-            status = start_report(r, job, i, m, v, err);
-    return status;
-}
-
-static enum br_status check_degree(const struct run *r, struct br_error *err)
-{
-    bool axial = r->request.method.axial_degree == 1;
-    for (size_t i = 0; i < r->jobs; i++)
-        axial |= r->work[i].opened.scene.axial.modelled;
-    return axial ? BR_OK
-                 : br_fail(err, BR_BAD_INPUT, "--axial-degree: no scene has an axial field");
+        for (size_t v = 0; v < (r->differences ? 2 : 1); v++)
+            if (start_report(r, job, i, m, v, err))
+                return err->status;
+    return BR_OK;
 }
 
 /* with_exact: a fine reference gets the exact one beside it. */
@@ -207,32 +193,37 @@ static enum br_status prepare(struct run *r, const struct job *job, bool with_ex
                               struct br_error *err)
 {
     const struct br_study_request *q = &r->request;
-    enum br_status status = br_study_request_read(r->session.options, &r->request, err);
-    if (status)
-        return status;
+    bool axial = false;
+    if (br_study_request_read(r->session->options, &r->request, err))
+        return err->status;
     r->differences = q->judge == &br_judge_none;
     r->heads =
         r->differences || (with_exact && q->judge && q->judge->nests) ? 2 * r->jobs : r->jobs;
     r->work = br_allocate(r->jobs, sizeof *r->work);
     r->page = br_allocate(2 * r->jobs * q->norms, sizeof *r->page);
     r->study = br_allocate(r->heads * q->norms, sizeof *r->study);
-    r->meshes = br_allocate(r->jobs * q->norms, sizeof *r->meshes);
-    if (!r->work || !r->page || !r->study || !r->meshes)
+    if (!r->work || !r->page || !r->study)
         return br_no_memory(err, "the studies");
-    for (size_t i = 0; i < r->jobs && !status; i++)
-        status = prepare_job(r, &job[i], i, err);
-    return status ? status : check_degree(r, err);
+    for (size_t i = 0; i < r->jobs; i++) {
+        if (prepare_job(r, &job[i], i, err))
+            return err->status;
+        axial |= r->work[i].opened.scene.axial.modelled;
+    }
+    return axial || q->method.axial_degree == 1
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT, "--axial-degree: no scene has an axial field");
 }
 
-static void clear(struct run *r)
+static void clear(void *self)
 {
+    struct run *r = self;
     for (size_t i = 0; i < r->pages; i++)
         br_report_clear(&r->page[i].report);
     for (size_t i = 0; r->study && i < r->heads * r->request.norms; i++)
         br_study_clear(&r->study[i]);
-    for (size_t i = 0; r->meshes && i < r->jobs * r->request.norms; i++)
-        br_study_clear(&r->meshes[i]);
     for (size_t i = 0; r->work && i < r->jobs; i++) {
+        for (size_t m = 0; m < r->request.norms; m++)
+            br_study_clear(&r->work[i].meshes[m]);
         br_opened_scene_clear(&r->work[i].opened);
         br_tips_clear(&r->work[i].tips);
         free(r->work[i].steps);
@@ -240,8 +231,6 @@ static void clear(struct run *r)
     free(r->page);
     free(r->work);
     free(r->study);
-    free(r->meshes);
-    br_session_close(&r->session);
 }
 
 /* ---- computing ---- */
@@ -250,29 +239,27 @@ static void clear(struct run *r)
 static enum br_status keep(struct run *r, const char *more, struct br_error *err)
 {
     if (r->differences)
-        return br_option_given(r->session.options, BR_OPT_RESUME)
+        return br_option_given(r->session->options, BR_OPT_RESUME)
                    ? br_fail(err, BR_BAD_INPUT, "--resume: --reference none does not heed it")
                    : BR_OK;
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < r->jobs && !status; i++)
-        status = br_session_keep(&r->session, r->work[i].opened.text, more, &r->work[i].kept, err);
-    for (size_t h = 0; h < r->heads && !status; h++)
-        for (struct br_study *s = study_of(r, h, 0); s && *r->work->kept.folder; s = s->next_norm)
+    for (size_t i = 0; i < r->jobs; i++)
+        if (br_session_keep(r->session, r->work[i].opened.text, more, &r->work[i].kept, err))
+            return err->status;
+    for (size_t h = 0; h < r->heads && *r->work->kept.folder; h++)
+        for (struct br_study *s = study_of(r, h, 0); s; s = s->next_norm)
             s->kept = &r->work[h % r->jobs].kept;
-    return status;
+    return BR_OK;
 }
 
 /* Of what marches at once: without a reference one job after the other. */
 static enum br_status check_memory(const struct run *r, struct br_error *err)
 {
     const double available = br_memory_available();
-    const size_t at_once = r->differences ? 1 : r->heads;
-    enum br_status status = BR_OK;
-    if (br_ranks_size() > 1)
-        return BR_OK;
-    for (size_t i = 0; i < (r->differences ? r->jobs : 1) && !status; i++)
-        status = br_fit_together(study_of(r, i, 0), at_once, available, err);
-    return status;
+    const size_t groups = r->differences ? r->jobs : 1, at_once = r->differences ? 1 : r->heads;
+    for (size_t i = 0; i < groups && br_ranks_size() == 1; i++)
+        if (br_fit_together(study_of(r, i, 0), at_once, available, err))
+            return err->status;
+    return BR_OK;
 }
 
 /* The differences of one job's grids, into its studies. */
@@ -281,7 +268,7 @@ static enum br_status run_differences(struct run *r, size_t job, const struct br
 {
     struct br_differences out[BR_MOST_NORMS] = {0};
     const enum br_status status = br_differences_run(study_of(r, job, 0), out, &r->work[job].tips,
-                                                     r->session.threads, observer, err);
+                                                     r->session->threads, observer, err);
     for (size_t m = 0; m < r->request.norms; m++) {
         *study_of(r, job, m) = out[m].over_h;
         *study_of(r, r->jobs + job, m) = out[m].over_k;
@@ -326,76 +313,68 @@ static enum br_status run_meshes(struct run *r, size_t job, const struct br_obse
         grid[m].next_norm = m + 1 < norms ? &grid[m + 1] : NULL;
     }
     const enum br_status status =
-        br_differences_run(grid, out, NULL, r->session.threads, observer, &w->no_meshes);
+        br_differences_run(grid, out, NULL, r->session->threads, observer, &w->no_meshes);
     if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
         return br_fail(err, status, "%s", w->no_meshes.message);
     for (size_t m = 0; m < norms && !status; m++) {
-        r->meshes[job * norms + m] = out[m].over_h;
-        br_flag_beside(&r->meshes[job * norms + m]);
+        w->meshes[m] = out[m].over_h;
+        br_flag_beside(&w->meshes[m]);
     }
     return BR_OK;
-}
-
-static enum br_status finish_page(const struct run *r, struct page *page, double wall,
-                                  struct br_error *err)
-{
-    struct br_report *report = &page->report;
-    report->wall_seconds = wall;
-    if (page->work->no_meshes.status) {
-        report->meshes = NULL;
-        report->no_meshes = page->work->no_meshes.message;
-    }
-    return br_report_finish(report, r->session.threads, err);
 }
 
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
-    const struct br_observer *observer = br_progress_start(r->what, r->session.quiet);
+    const struct br_observer *observer = br_progress_start(r->what, r->session->quiet);
     enum br_status status = BR_OK;
     if (!r->differences)
-        status = br_study_run(r->study, r->heads, r->session.threads, observer, err);
+        status = br_study_run(r->study, r->heads, r->session->threads, observer, err);
     for (size_t i = 0; i < r->jobs && !status; i++)
         status =
             r->differences ? run_differences(r, i, observer, err) : run_meshes(r, i, observer, err);
     br_progress_end();
     for (size_t i = 0; i < r->jobs; i++)
-        br_session_tell_kept(&r->session, &r->work[i].kept);
+        br_session_tell_kept(r->session, &r->work[i].kept);
     const double wall = br_seconds() - start;
-    for (size_t i = 0; i < r->pages && !status; i++)
-        status = finish_page(r, &r->page[i], wall, err);
+    for (struct page *page = r->page; page < r->page + r->pages && !status; page++) {
+        const struct br_error *no_meshes = &page->work->no_meshes;
+        page->report.wall_seconds = wall;
+        if (no_meshes->status) {
+            page->report.meshes = NULL;
+            page->report.no_meshes = no_meshes->message;
+        }
+        status = br_report_finish(&page->report, r->session->threads, err);
+    }
     return br_progress_result(status, err);
 }
 
 /* ---- results ---- */
 
-static void build_report(struct run *r, size_t i)
-{
-    const struct br_report *report = &r->page[i].report;
-    struct br_document *d = &r->session.document[i];
-    const struct br_provenance provenance =
-        br_provenance_of(&r->page[i].work->opened, r->session.threads);
-    br_report_study(report, d);
-    for (const struct br_convergence_picture *const *p = br_convergence_pictures; *p; p++)
-        if ((*p)->applies(report))
-            br_session_draw(&r->session, d, br_convergence_draw(*p, report), (*p)->title);
-    br_put_provenance(d, &provenance);
-}
-
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
-    if (br_session_report(&r->session, r->pages, err))
+    struct br_session *session = r->session;
+    if (br_session_report(session, r->pages, err))
         return err->status;
-    for (size_t i = 0; i < r->pages; i++)
-        build_report(r, i);
-    return br_session_finish(&r->session, err);
+    for (size_t i = 0; i < r->pages; i++) {
+        const struct br_report *report = &r->page[i].report;
+        const struct br_provenance provenance =
+            br_provenance_of(&r->page[i].work->opened, session->threads);
+        struct br_document *d = &session->document[i];
+        br_report_study(report, d);
+        for (const struct br_convergence_picture *const *p = br_convergence_pictures; *p; p++)
+            if ((*p)->applies(report))
+                br_session_draw(session, d, br_convergence_draw(*p, report), (*p)->title);
+        br_put_provenance(d, &provenance);
+    }
+    return br_session_finish(session, err);
 }
 
-static void foresee(const struct run *r, struct br_foreseen *work)
+static void foresee(void *self, struct br_foreseen *work)
 {
+    const struct run *r = self;
     for (size_t h = 0; h < (r->differences ? r->jobs : r->heads); h++)
         br_foreseen_add_study(work, study_of(r, h, 0));
-    work->together = true;
 }
 
 /* A failed cell fails the run, after everything has been written. */
@@ -419,19 +398,21 @@ static enum br_status check_cells(const struct run *r, struct br_error *err)
 static enum br_status run_jobs(const struct br_options *options, const struct job *job, size_t jobs,
                                bool with_exact, struct br_error *err)
 {
-    struct run r = {.session = br_session_begin(options), .jobs = jobs, .what = "marching"};
-    const bool writes = r.session.writes;
-    struct br_foreseen work = {0};
+    struct br_session session = br_session_begin(options);
+    struct run r = {.session = &session, .jobs = jobs, .what = "marching"};
+    const bool writes = session.writes;
+    struct br_foreseen work = {.together = true};
     bool failed = prepare(&r, job, with_exact, err);
     if (!failed && br_option_given(options, BR_OPT_DRY_RUN)) {
         foresee(&r, &work);
-        failed = br_session_foresee(&r.session, &work, err);
+        failed = br_session_foresee(&session, &work, err);
     } else if (!failed) {
-        failed = check_memory(&r, err) || br_session_open(&r.session, err) || keep(&r, "", err) ||
+        failed = check_memory(&r, err) || br_session_open(&session, err) || keep(&r, "", err) ||
                  (writes && br_warn_of_studies(r.study, jobs, err)) || compute(&r, err) ||
                  (writes && write_all(&r, err)) || check_cells(&r, err);
     }
     clear(&r);
+    br_session_close(&session);
     return failed ? err->status : BR_OK;
 }
 
@@ -439,23 +420,13 @@ static enum br_status run_jobs(const struct br_options *options, const struct jo
 
 enum { ERROR, RELATIVE, OWN, P, P_LOW, P_HIGH, Q, Q_LOW, Q_HIGH, MISFIT, POINTS, SWEPT };
 
-struct varied_study {
-    struct br_session session;
-    struct br_opened_scene base;
-    struct br_varied varied;
-    struct run *point; /* of each value; owned */
-    size_t points;
-    struct br_variation found;
-    struct br_variation_column column[SWEPT];
-    char axis[160];
-};
-
-static void name_columns(struct varied_study *w, const struct br_norm *norm)
+static const struct br_variation_column *name_columns(const struct br_norm *norm)
 {
-    snprintf(w->axis, sizeof w->axis, "%s of the finest cell (%s)", norm->symbol,
-             norm->unit_markup);
+    static char axis[160];
+    static struct br_variation_column column[SWEPT];
+    snprintf(axis, sizeof axis, "%s of the finest cell (%s)", norm->symbol, norm->unit_markup);
     const struct br_variation_column columns[SWEPT] = {
-        [ERROR] = {"error", "error of the finest cell", norm->unit, "%.3e", .axis = w->axis,
+        [ERROR] = {"error", "error of the finest cell", norm->unit, "%.3e", .axis = axis,
                    .logarithmic = true},
         [RELATIVE] = {"relative", "relative", .format = "%.2e"},
         [OWN] = {"reference_error", .unit = norm->unit, .for_programs = true},
@@ -468,7 +439,8 @@ static void name_columns(struct varied_study *w, const struct br_norm *norm)
         [MISFIT] = {"misfit", "misfit", .format = "%.2g"},
         [POINTS] = {"points", "cells that count", .format = "%.0f"},
     };
-    memcpy(w->column, columns, sizeof columns);
+    memcpy(column, columns, sizeof column);
+    return column;
 }
 
 /* An order is claimed as a study's report claims it. */
@@ -481,9 +453,9 @@ static void take_order(double *value, const struct br_joint_fit *fit, const stru
     value[2] = e->high;
 }
 
-static void take_point(const struct run *r, struct varied_study *w, size_t i)
+static void take_point(const struct run *r, struct br_variation *found, size_t i)
 {
-    double *value = &w->found.value[i * SWEPT];
+    double *value = &found->value[i * SWEPT];
     const struct br_report *report = &r->page[0].report;
     const struct br_study *s = report->study;
     const struct br_joint_fit *fit = &report->fits[BR_PART_TOTAL].joint;
@@ -496,110 +468,65 @@ static void take_point(const struct run *r, struct varied_study *w, size_t i)
     value[MISFIT] = fit->misfit;
     value[POINTS] = (double)fit->points;
     if (finest->flag[BR_PART_TOTAL])
-        w->found.remark[i] = br_flag_name(finest->flag[BR_PART_TOTAL]);
-    w->found.unstable[i] = finest->unstable;
+        found->remark[i] = br_flag_name(finest->flag[BR_PART_TOTAL]);
+    found->unstable[i] = finest->unstable;
 }
 
-/* All grids, so that what is refused is refused before anything marches. */
-static enum br_status prepare_points(struct varied_study *w, struct br_error *err)
+static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, struct br_error *err)
 {
-    const struct br_options *o = w->session.options;
-    char text[BR_VARIED_TEXT];
-    if (br_opened_scene_read(&w->base, o->word[0], err) ||
-        br_varied_read(br_option_text(o, BR_OPT_VARY), &w->varied, err))
+    struct run *r = self;
+    const struct job job = {.vary = v, .value = i};
+    *r = (struct run){.session = &v->session, .jobs = 1};
+    if (prepare(r, &job, false, err) || check_memory(r, err))
         return err->status;
-    if (!(w->point = br_allocate(w->varied.count, sizeof *w->point)))
-        return br_no_memory(err, "the studies");
-    while (w->points < w->varied.count) {
-        const size_t i = w->points++;
-        struct run *r = &w->point[i];
-        const struct job job = {.base = &w->base, .varied = &w->varied, .value = i};
-        *r = (struct run){.session = w->session, .jobs = 1, .what = "marching"};
-        if (prepare(r, &job, false, err) || check_memory(r, err))
-            return br_failed_in(err, br_varied_text(&w->varied, i, text));
-        if (r->request.norms > 1)
-            return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one with --vary",
-                           r->request.norms);
-        if (r->differences)
-            return br_fail(err, BR_BAD_INPUT,
-                           "--reference: found 'none', expected a judge that gives errors: exact, "
-                           "mms or fine:N,K");
-    }
-    name_columns(w, w->point[0].request.norm[0]);
-    w->found = (struct br_variation){.varied = &w->varied,
-                                     .format = "beamrate study variation",
-                                     .column = w->column,
-                                     .columns = SWEPT};
-    return br_variation_create(&w->found, &w->base.scene, err);
+    v->column = name_columns(r->request.norm[0]);
+    return BR_OK;
 }
 
-/* A value whose study fails is a result. */
-static enum br_status run_point(struct varied_study *w, size_t i, struct br_error *err)
+static enum br_status march_value(struct br_vary *v, size_t i, void *self, struct br_error *failure,
+                                  struct br_error *err)
 {
-    struct run *r = &w->point[i];
-    struct br_error *failure = &w->found.failure[i];
+    struct run *r = self;
     struct br_study named = *r->study;
     struct br_scene scene = *named.scene;
     char text[BR_VARIED_TEXT], what[64];
     named.scene = &scene;
-    scene.name = (char *)br_varied_text(&w->varied, i, text);
-    snprintf(what, sizeof what, "marching (value %zu of %zu)", i + 1, w->points);
+    scene.name = (char *)br_varied_text(&v->varied, i, text);
+    snprintf(what, sizeof what, "marching (value %zu of %zu)", i + 1, v->points);
     r->what = what;
-    if (w->session.writes && br_warn_of_studies(&named, 1, failure))
-        return failure->status == BR_BAD_INPUT
-                   ? BR_OK
-                   : br_fail(err, failure->status, "%s", failure->message);
-    r->session.output = w->session.output; /* open by now */
-    enum br_status status = keep(r, text, err);
-    if (status)
-        return status;
-    status = compute(r, failure);
-    if (status == BR_NO_MEMORY || status == BR_INTERRUPTED || status == BR_IO)
-        return br_fail(err, status, "%s", failure->message);
-    if (!status) {
-        take_point(r, w, i);
-        check_cells(r, failure);
-    }
+    if (keep(r, text, err))
+        return err->status;
+    if ((v->session.writes && br_warn_of_studies(&named, 1, failure)) || compute(r, failure))
+        return BR_OK;
+    take_point(r, &v->found, i);
+    check_cells(r, failure);
     return BR_OK;
 }
 
-static enum br_status run_points(struct varied_study *w, struct br_error *err)
+static const struct br_vary_command varied = {
+    .format = "beamrate study variation",
+    .size = sizeof(struct run),
+    .columns = SWEPT,
+    .prepare = prepare_value,
+    .foresee = foresee,
+    .march = march_value,
+    .clear = clear,
+};
+
+static enum br_status run_varied(const struct br_options *o, struct br_error *err)
 {
-    enum br_status status = br_session_open(&w->session, err);
-    for (size_t i = 0; i < w->points && !status; i++)
-        status = run_point(w, i, err);
-    return status || !w->session.writes
-               ? status
-               : br_session_variation(&w->session, &w->found, &w->base, err);
+    const char *reference = br_option_text(o, BR_OPT_REFERENCE);
+    if (o->count[BR_OPT_NORM] > 1)
+        return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one with --vary",
+                       o->count[BR_OPT_NORM]);
+    if (reference && strcmp(reference, br_judge_none.name) == 0)
+        return br_fail(err, BR_BAD_INPUT,
+                       "--reference: found 'none', expected a judge that gives errors: exact, "
+                       "mms or fine:N,K");
+    return br_vary_run(o, &varied, err);
 }
 
-static enum br_status foresee_points(const struct varied_study *w, struct br_error *err)
-{
-    struct br_foreseen work = {0};
-    for (size_t i = 0; i < w->points; i++)
-        foresee(&w->point[i], &work);
-    work.together = false;
-    return br_session_foresee(&w->session, &work, err);
-}
-
-static enum br_status run_varied(const struct br_options *options, struct br_error *err)
-{
-    struct varied_study w = {.session = br_session_begin(options)};
-    bool failed = prepare_points(&w, err);
-    if (!failed)
-        failed = br_option_given(options, BR_OPT_DRY_RUN) ? foresee_points(&w, err)
-                                                          : run_points(&w, err);
-    for (size_t i = 0; i < w.points; i++) {
-        w.point[i].session = (struct br_session){0};
-        clear(&w.point[i]);
-    }
-    free(w.point);
-    br_variation_clear(&w.found);
-    br_varied_clear(&w.varied);
-    br_opened_scene_clear(&w.base);
-    br_session_close(&w.session);
-    return failed ? err->status : BR_OK;
-}
+/* ---- the commands ---- */
 
 static enum br_status run_study(const struct br_options *options, struct br_error *err)
 {

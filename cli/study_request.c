@@ -38,44 +38,26 @@ static enum br_status read_reference(const char *text, struct br_study_request *
     return read_fine(text, text + length + (text[length] == ':'), r, err);
 }
 
-static enum br_status read_method(const struct br_options *o, struct br_study_request *r,
-                                  struct br_error *err)
-{
-    const char *const *given = &o->given[BR_OPT_METHOD];
-    const double solver = br_option_number(o, BR_OPT_REFERENCE_SOLVER, NAN);
-    r->method = br_method_default();
-    const enum br_status status = br_method_read(given, BR_METHOD_OPTION, &r->method, err);
-    if (status)
-        return status;
-    r->reference_method = r->method;
-    if (isfinite(solver))
-        r->reference_method.solver = br_linear_solvers[(size_t)solver];
-    const struct br_method *const methods[] = {&r->method, &r->reference_method};
-    return br_method_check_heeded(given, BR_METHOD_OPTION, methods, isfinite(solver) ? 2 : 1, err);
-}
-
 enum br_status br_study_request_read(const struct br_options *o, struct br_study_request *r,
                                      struct br_error *err)
 {
-    *r = (struct br_study_request){.threads = (int)br_option_number(o, BR_OPT_THREADS, 0),
-                                   .norms = o->count[BR_OPT_NORM]};
+    const char *const *given = &o->given[BR_OPT_METHOD];
     const char *reference = br_option_text(o, BR_OPT_REFERENCE);
     const char *methods = br_option_text(o, BR_OPT_METHODS);
+    const double solver = br_option_number(o, BR_OPT_REFERENCE_SOLVER, NAN);
+    *r = (struct br_study_request){.norms = o->count[BR_OPT_NORM], .method = br_method_default()};
     for (size_t i = 0; i < r->norms; i++)
         r->norm[i] = br_norms[(size_t)o->number[BR_OPT_NORM][i]];
-    if (read_method(o, r, err) || (reference && read_reference(reference, r, err)))
+    if (br_method_read(given, BR_METHOD_OPTION, &r->method, err))
+        return err->status;
+    r->reference_method = r->method;
+    if (isfinite(solver))
+        r->reference_method.solver = br_linear_solvers[(size_t)solver];
+    const struct br_method *const both[] = {&r->method, &r->reference_method};
+    if (br_method_check_heeded(given, BR_METHOD_OPTION, both, isfinite(solver) ? 2 : 1, err) ||
+        (reference && read_reference(reference, r, err)))
         return err->status;
     return methods ? br_named_methods_read("--methods", methods, &r->methods, err) : BR_OK;
-}
-
-enum br_status br_check_tolerances(const struct br_options *o,
-                                   const struct br_named_methods *methods, struct br_error *err)
-{
-    bool taken = !br_option_given(o, BR_OPT_TOLERANCES);
-    for (size_t i = 0; i < methods->count; i++)
-        taken = taken || methods->list[i].method.scheme->adaptive;
-    return taken ? BR_OK
-                 : br_fail(err, BR_BAD_INPUT, "--tolerances: no method of --methods heeds it");
 }
 
 enum br_status br_study_request_fine(const struct br_study_request *r, const struct br_scene *scene,

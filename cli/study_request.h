@@ -15,16 +15,11 @@ struct br_study_request {
     size_t norms;
     struct br_method method, reference_method;
     struct br_named_methods methods; /* of --methods; count 0: not given */
-    int threads;                     /* 0: all cores */
 };
 
 /* Fails with BR_BAD_INPUT, naming the option, what was found and what was expected. */
 enum br_status br_study_request_read(const struct br_options *options,
                                      struct br_study_request *request, struct br_error *err);
-
-/* Refuses tolerances that none of these methods takes (BR_BAD_INPUT). */
-enum br_status br_check_tolerances(const struct br_options *options,
-                                   const struct br_named_methods *methods, struct br_error *err);
 
 /* The fine reference's resolution in a scene (out). Fails with BR_BAD_INPUT. */
 enum br_status br_study_request_fine(const struct br_study_request *request,

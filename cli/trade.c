@@ -7,10 +7,10 @@
 #include "cli/progress.h"
 #include "cli/session.h"
 #include "cli/study_request.h"
-#include "cli/trade_split.h"
-#include "cli/warn.h"
 #include "plots/pictures.h"
 #include "study/scene/file.h"
+#include "study/trade/split.h"
+#include "study/trade/trade.h"
 #include "tables/reports.h"
 
 /* A scene on its way; not to be moved once its trade is laid out. */
@@ -27,6 +27,8 @@ struct run {
     struct br_study_request study;
     struct item *item; /* items, one a scene; owned */
     size_t items;
+    struct br_split *split; /* splits, of --split; owned */
+    size_t splits;
 };
 
 /* ---- what is tried ---- */
@@ -44,15 +46,10 @@ static struct br_method fine_method(void)
     return finest.method;
 }
 
-/* Whether the user says what is tried. */
-static bool is_listed(const struct br_options *o)
-{
-    return br_option_given(o, BR_OPT_N) || br_option_given(o, BR_OPT_K) ||
-           br_option_given(o, BR_OPT_STEPS) || br_option_given(o, BR_OPT_TOLERANCES);
-}
-
 static enum br_status set_request(const struct run *r, struct item *item, struct br_error *err)
 {
+    static const enum br_option_id listed[] = {BR_OPT_N, BR_OPT_K, BR_OPT_STEPS, BR_OPT_TOLERANCES,
+                                               BR_OPTIONS}; /* what the user says is tried */
     const struct br_options *o = r->session.options;
     const struct br_scene *scene = &item->opened.scene;
     struct br_trial_request *q = &item->trade.request;
@@ -61,7 +58,7 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     q->threads = r->session.threads;
     q->repeats = (size_t)br_option_number(o, BR_OPT_REPEATS, 0);
     q->time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
-    if (!is_listed(o) || br_option_given(o, BR_OPT_SECONDS))
+    if (!br_first_given(o, listed) || br_option_given(o, BR_OPT_SECONDS))
         q->seconds = br_option_number(o, BR_OPT_SECONDS, 0);
     item->trade.norm[0] = r->study.norm[0];
     if (!q->judge || !q->judge->nests)
@@ -70,12 +67,29 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     return br_study_request_fine(&r->study, scene, &q->reference, err);
 }
 
+/* Only the bundled scene itself is what the paper printed a table of. */
+static enum br_status read_printed(struct item *item, struct br_error *err)
+{
+    static const char *const tables[][2] = {
+        {"study/scenes/example1.yaml", "reference/printed/table1.csv"},
+        {"study/scenes/example2.yaml", "reference/printed/table2.csv"}};
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
+        char path[1024];
+        br_data_path(tables[i][0], path, sizeof path);
+        if (strcmp(path, item->opened.path) != 0)
+            continue;
+        br_data_path(tables[i][1], path, sizeof path);
+        return br_printed_read(path, &item->printed, err);
+    }
+    return BR_OK;
+}
+
 static enum br_status lay_out(const struct run *r, struct item *item, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
     const struct br_scene *scene = &item->opened.scene;
     size_t steps = 0;
-    if (set_request(r, item, err))
+    if (read_printed(item, err) || set_request(r, item, err))
         return err->status;
     if (br_option_steps(o, scene, &item->steps, &steps, err))
         return br_failed_in(err, scene->name);
@@ -95,39 +109,53 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
     return br_trade_lay_out(&item->trade, &grid, err);
 }
 
-/* Only the bundled scene itself is what the paper printed a table of. */
-static enum br_status read_printed(struct item *item, struct br_error *err)
+/* A list that no method heeds is refused. */
+static enum br_status check_heeded(const struct run *r, bool split, struct br_error *err)
 {
-    static const char *const tables[][2] = {
-        {"study/scenes/example1.yaml", "reference/printed/table1.csv"},
-        {"study/scenes/example2.yaml", "reference/printed/table2.csv"}};
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < sizeof tables / sizeof *tables && !status; i++) {
-        char path[1024];
-        br_data_path(tables[i][0], path, sizeof path);
-        if (strcmp(path, item->opened.path) != 0)
-            continue;
-        br_data_path(tables[i][1], path, sizeof path);
-        status = br_printed_read(path, &item->printed, err);
+    const struct br_options *o = r->session.options;
+    const struct br_named_methods *methods = &r->study.methods;
+    bool fixed = methods->count == 0, adaptive = methods->count == 0;
+    for (size_t i = 0; i < methods->count; i++) {
+        fixed |= !methods->list[i].method.scheme->adaptive;
+        adaptive |= methods->list[i].method.scheme->adaptive;
     }
-    return status;
+    const char *dropped = !adaptive && br_option_given(o, BR_OPT_TOLERANCES) ? "tolerances"
+                          : fixed || split                                   ? NULL
+                          : br_option_given(o, BR_OPT_K)                     ? "k"
+                          : br_option_given(o, BR_OPT_STEPS)                 ? "steps"
+                                                                             : NULL;
+    return dropped ? br_fail(err, BR_BAD_INPUT, "--%s: no method of --methods heeds it", dropped)
+                   : BR_OK;
 }
 
-static enum br_status prepare(struct run *r, struct br_error *err)
+static enum br_status read_request(struct run *r, struct br_error *err)
+{
+    if (br_study_request_read(r->session.options, &r->study, err))
+        return err->status;
+    const struct br_judge *judge = r->study.judge;
+    if (r->study.norms > 1)
+        return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->study.norms);
+    if (judge && !judge->create)
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "--reference: found '%s', expected a judge that gives errors: exact, mms or fine:N,K",
+            judge->name);
+    return check_heeded(r, false, err);
+}
+
+static enum br_status read_scenes(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
     if (!(r->item = br_allocate(o->words, sizeof *r->item)))
         return br_no_memory(err, "the scenes");
     for (size_t i = 0; i < o->words; i++) {
-        struct item *item = &r->item[r->items++];
-        if (br_opened_scene_read(&item->opened, o->word[i], err) || read_printed(item, err))
+        const struct br_scene *scene = &r->item[i].opened.scene;
+        r->items++;
+        if (br_opened_scene_read(&r->item[i].opened, o->word[i], err))
             return err->status;
         for (size_t j = 0; j < i; j++)
-            if (strcmp(r->item[j].opened.scene.name, item->opened.scene.name) == 0)
-                return br_fail(err, BR_BAD_INPUT, "scene %s is given twice",
-                               item->opened.scene.name);
-        if (lay_out(r, item, err))
-            return err->status;
+            if (strcmp(r->item[j].opened.scene.name, scene->name) == 0)
+                return br_fail(err, BR_BAD_INPUT, "scene %s is given twice", scene->name);
     }
     return BR_OK;
 }
@@ -137,25 +165,20 @@ static enum br_status prepare(struct run *r, struct br_error *err)
 /* Less is not worth a word, s. */
 static const double worth_telling = 3;
 
-static void tell_outlook(const char *name, const struct br_trial_outlook *o)
-{
-    if (o->seconds < worth_telling && o->left == 0)
-        return;
-    fprintf(stderr, "%s: %zu trials take about %.0f s", name, o->held, o->seconds);
-    if (o->left)
-        fprintf(stderr, "; left out, the dearest first: %zu, --seconds %.0f has all", o->left,
-                br_trade_seconds_of_all(o));
-    fputc('\n', stderr);
-}
-
 static enum br_status hold_one(struct run *r, struct item *item, struct br_error *err)
 {
     struct br_trade *trade = &item->trade;
+    const struct br_trial_outlook *o = &trade->outlook;
     const char *name = item->opened.scene.name;
     trade->request.observer = br_progress_start(name, r->session.quiet);
     enum br_status status = br_trade_foresee(trade, err);
-    if (!status && !r->session.quiet)
-        tell_outlook(name, &trade->outlook);
+    if (!status && !r->session.quiet && (o->seconds >= worth_telling || o->left > 0)) {
+        fprintf(stderr, "%s: %zu trials take about %.0f s", name, o->held, o->seconds);
+        if (o->left)
+            fprintf(stderr, "; left out, the dearest first: %zu, --seconds %.0f has all", o->left,
+                    br_trade_seconds_of_all(o));
+        fputc('\n', stderr);
+    }
     if (!status)
         status = br_trade_hold(trade, err);
     br_progress_end();
@@ -165,17 +188,18 @@ static enum br_status hold_one(struct run *r, struct item *item, struct br_error
 
 static enum br_status hold(struct run *r, struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < r->items && !status; i++) {
+    for (size_t i = 0; i < r->items; i++) {
         struct item *item = &r->item[i];
-        status = br_session_keep(&r->session, item->opened.text, "", &item->kept, err);
+        if (br_session_keep(&r->session, item->opened.text, "", &item->kept, err))
+            return err->status;
         item->trade.request.kept = *item->kept.folder ? &item->kept : NULL;
     }
     for (size_t i = 0; i < r->items; i++)
-        br_warn_of_trade(&r->item[i].trade);
-    for (size_t i = 0; i < r->items && !status; i++)
-        status = hold_one(r, &r->item[i], err);
-    return status;
+        br_warn_of_trials(&r->item[i].opened.scene, r->item[i].trade.trial, r->item[i].trade.count);
+    for (size_t i = 0; i < r->items; i++)
+        if (hold_one(r, &r->item[i], err))
+            return err->status;
+    return BR_OK;
 }
 
 static enum br_status foresee(const struct run *r, struct br_error *err)
@@ -189,16 +213,6 @@ static enum br_status foresee(const struct run *r, struct br_error *err)
 
 /* ---- results ---- */
 
-static void draw(struct run *r, size_t i)
-{
-    struct br_document *d = &r->session.document[i];
-    const struct br_trade *trade = &r->item[i].trade;
-    for (const struct br_trade_picture *const *p = br_trade_pictures; *p; p++)
-        if (br_trade_picture_applies(*p, trade))
-            br_session_draw(&r->session, d, br_trade_draw(*p, trade, d->name, d->caption),
-                            (*p)->title);
-}
-
 /* A report of each scene, and where there are several one of all. */
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
@@ -211,7 +225,10 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         trade[i] = &r->item[i].trade;
         provenance = br_provenance_of(&r->item[i].opened, r->session.threads);
         br_report_trade(trade[i], &provenance, &d[i]);
-        draw(r, i);
+        for (const struct br_trade_picture *const *p = br_trade_pictures; *p; p++)
+            if (br_trade_picture_applies(*p, trade[i]))
+                br_session_draw(&r->session, &d[i],
+                                br_trade_draw(*p, trade[i], d[i].name, d[i].caption), (*p)->title);
     }
     if (!status && r->items > 1) {
         provenance = br_provenance_of(&r->item[0].opened, r->session.threads);
@@ -235,66 +252,128 @@ static enum br_status check(const struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-/* ---- the command ---- */
+/* ---- --split: where the error of each of some runs comes from ---- */
 
 /* Clocks do not matter to where errors come from, nor does who judges. */
-static enum br_status split(const struct br_options *o, struct br_error *err)
+static enum br_status check_split(const struct br_options *o, struct br_error *err)
 {
-    const char *other = br_option_given(o, BR_OPT_REPEATS)      ? "repeats"
-                        : br_option_given(o, BR_OPT_TIME_LIMIT) ? "time-limit"
-                        : br_option_given(o, BR_OPT_SECONDS)    ? "seconds"
-                        : br_option_given(o, BR_OPT_REFERENCE)  ? "reference"
-                        : br_option_given(o, BR_OPT_DRY_RUN)    ? "dry-run"
-                        : br_option_given(o, BR_OPT_RESUME)     ? "resume"
-                                                                : NULL;
+    static const enum br_option_id others[] = {BR_OPT_REPEATS,   BR_OPT_TIME_LIMIT, BR_OPT_SECONDS,
+                                               BR_OPT_REFERENCE, BR_OPT_DRY_RUN,    BR_OPT_RESUME,
+                                               BR_OPTIONS};
+    const char *other = br_first_given(o, others);
     if (other)
         return br_fail(err, BR_BAD_INPUT, "--%s: --split does not heed it", other);
     if (o->words != 1)
         return br_fail(err, BR_BAD_INPUT, "--split: found %zu scenes, expected one", o->words);
-    return br_trade_split(o, err);
+    return BR_OK;
 }
 
-/* A list that no method heeds is refused. */
-static enum br_status check_heeded(const struct run *r, struct br_error *err)
+/* Without --methods the first scheme marches. */
+static enum br_status read_split(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
-    const struct br_named_methods *methods = &r->study.methods;
-    const bool k = br_option_given(o, BR_OPT_K);
-    bool fixed = methods->count == 0;
-    for (size_t i = 0; i < methods->count; i++)
-        fixed = fixed || !methods->list[i].method.scheme->adaptive;
-    if (!fixed && (k || br_option_given(o, BR_OPT_STEPS)))
-        return br_fail(err, BR_BAD_INPUT, "--%s: no method of --methods heeds it",
-                       k ? "k" : "steps");
-    return methods->count ? br_check_tolerances(o, methods, err) : BR_OK;
+    struct br_named_methods *methods = &r->study.methods;
+    const bool failed =
+        check_split(o, err) || br_study_request_read(o, &r->study, err) ||
+        (methods->count == 0 &&
+         br_named_methods_read("--methods", br_time_schemes[0]->name, methods, err)) ||
+        check_heeded(r, true, err) || read_scenes(r, err);
+    return failed ? err->status : BR_OK;
 }
 
-static enum br_status read_request(struct run *r, struct br_error *err)
+/* Of a method on a mesh: time steps, then tolerances. */
+static void add_runs(struct run *r, const struct br_named_method *c, size_t n, size_t step_count)
 {
-    if (br_study_request_read(r->session.options, &r->study, err))
+    enum { DEFAULT_STEPS = 1000 };
+    const struct br_options *o = r->session.options;
+    const size_t tolerances = c->method.scheme->adaptive ? o->count[BR_OPT_TOLERANCES] : 0;
+    for (size_t j = 0; j < (step_count ? step_count : 1); j++)
+        for (size_t t = 0; t < (tolerances ? tolerances : 1); t++) {
+            struct br_split *split = &r->split[r->splits++];
+            *split = (struct br_split){
+                .scene = &r->item->opened.scene,
+                .method = c->method,
+                .at = {n, step_count ? r->item->steps[j] : DEFAULT_STEPS},
+                .norms = r->study.norms,
+            };
+            memcpy(split->norm, r->study.norm, sizeof split->norm);
+            if (tolerances)
+                split->method.tolerance = o->number[BR_OPT_TOLERANCES][t];
+        }
+}
+
+static enum br_status lay_out_split(struct run *r, struct br_error *err)
+{
+    static const size_t default_n[] = {100};
+    const struct br_options *o = r->session.options;
+    const struct br_named_methods *methods = &r->study.methods;
+    const size_t *n = o->count[BR_OPT_N] ? o->whole[BR_OPT_N] : default_n;
+    const size_t meshes = o->count[BR_OPT_N] ? o->count[BR_OPT_N] : 1;
+    size_t steps;
+    if (read_split(r, err) ||
+        br_option_steps(o, &r->item->opened.scene, &r->item->steps, &steps, err))
         return err->status;
-    const struct br_judge *judge = r->study.judge;
-    if (r->study.norms > 1)
-        return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->study.norms);
-    if (judge && !judge->create)
-        return br_fail(
-            err, BR_BAD_INPUT,
-            "--reference: found '%s', expected a judge that gives errors: exact, mms or fine:N,K",
-            judge->name);
-    return check_heeded(r, err);
+    r->split =
+        br_allocate(methods->count * meshes * (steps + 1) * (o->count[BR_OPT_TOLERANCES] + 1),
+                    sizeof *r->split);
+    if (!r->split)
+        return br_no_memory(err, "the parts of the errors");
+    for (size_t c = 0; c < methods->count; c++)
+        for (size_t i = 0; i < meshes; i++)
+            add_runs(r, &methods->list[c], n[i], steps);
+    return BR_OK;
+}
+
+static enum br_status compute_split(struct run *r, struct br_error *err)
+{
+    const struct br_observer *observer = br_progress_start("splitting", r->session.quiet);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < r->splits && !status; i++) {
+        br_progress_part(i, r->splits);
+        status = br_split_run(&r->split[i], r->session.threads, observer, err);
+    }
+    br_progress_end();
+    return br_progress_result(status, err);
+}
+
+/* The picture is over k or h, where the runs differ by one of them. */
+static enum br_status write_split(struct run *r, struct br_error *err)
+{
+    const struct br_provenance provenance = br_provenance_of(&r->item->opened, r->session.threads);
+    if (br_session_report(&r->session, 1, err))
+        return err->status;
+    br_report_split(r->split, r->splits, &provenance, r->session.document);
+    br_session_draw(&r->session, r->session.document, br_split_draw(r->split, r->splits), NULL);
+    return br_session_finish(&r->session, err);
+}
+
+static bool split(struct run *r, struct br_error *err)
+{
+    const bool writes = r->session.writes;
+    return lay_out_split(r, err) || br_session_open(&r->session, err) ||
+           (writes && br_warn_of_splits(r->split, r->splits, err)) || compute_split(r, err) ||
+           (writes && write_split(r, err));
+}
+
+/* ---- the command ---- */
+
+static bool trade(struct run *r, struct br_error *err)
+{
+    if (br_session_alone(err) || read_request(r, err) || read_scenes(r, err))
+        return true;
+    for (size_t i = 0; i < r->items; i++)
+        if (lay_out(r, &r->item[i], err))
+            return true;
+    return br_option_given(r->session.options, BR_OPT_DRY_RUN)
+               ? foresee(r, err)
+               : br_session_open(&r->session, err) || hold(r, err) || write_all(r, err) ||
+                     check(r, err);
 }
 
 static enum br_status run(const struct br_options *options, struct br_error *err)
 {
-    if (br_option_given(options, BR_OPT_SPLIT))
-        return split(options, err);
     struct run r = {.session = br_session_begin(options)};
-    bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err);
-    if (!failed)
-        failed = br_option_given(options, BR_OPT_DRY_RUN)
-                     ? foresee(&r, err)
-                     : br_session_open(&r.session, err) || hold(&r, err) || write_all(&r, err) ||
-                           check(&r, err);
+    const bool failed = br_option_given(options, BR_OPT_SPLIT) ? split(&r, err) : trade(&r, err);
     br_session_close(&r.session);
     for (size_t i = 0; i < r.items; i++) {
         br_trade_clear(&r.item[i].trade);
@@ -303,6 +382,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
         free(r.item[i].steps);
     }
     free(r.item);
+    free(r.split);
     return failed ? err->status : BR_OK;
 }
 

@@ -1,32 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/verdicts.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-/* The file that a format's option names, or NULL. */
-static const char *file_of(const struct br_options *options, const char *format)
-{
-    struct br_option row[BR_OPTIONS];
-    const size_t count = br_options_of(options->command, row);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(row[i].name, format) == 0)
-            return br_option_text(options, row[i].id);
-    return NULL;
-}
+#include "study/orders/sha256.h"
+#include "study/scene/quote.h"
 
+/* For each format the file that its option names. */
 static enum br_status open_files(struct br_verdicts *v, const struct br_options *options,
                                  struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    for (size_t i = 1; br_check_formats[i] && !status; i++)
-        status = br_whole_file_open(&v->file[i], br_check_formats[i]->name,
-                                    file_of(options, br_check_formats[i]->name), err);
-    if (!status && br_option_given(options, BR_OPT_UPDATE_BASELINE))
-        status = br_whole_file_open(&v->baseline, "compare",
-                                    br_option_text(options, BR_OPT_COMPARE), err);
-    return status;
+    struct br_option row[BR_OPTIONS];
+    const size_t count = br_options_of(options->command, row);
+    for (size_t i = 1; br_check_formats[i]; i++)
+        for (size_t j = 0; j < count; j++)
+            if (strcmp(row[j].name, br_check_formats[i]->name) == 0 &&
+                br_whole_file_open(&v->file[i], row[j].name, br_option_text(options, row[j].id),
+                                   err))
+                return err->status;
+    return br_option_given(options, BR_OPT_UPDATE_BASELINE)
+               ? br_whole_file_open(&v->baseline, "compare",
+                                    br_option_text(options, BR_OPT_COMPARE), err)
+               : BR_OK;
 }
 
 enum br_status br_verdicts_spare(const struct br_verdicts *v, const char *path,
@@ -56,10 +54,10 @@ static enum br_status check_places(const struct br_verdicts *v, const char *base
             return br_fail(err, BR_BAD_INPUT, "--%s would replace what it is compared with, %s",
                            name, f->path);
     }
-    enum br_status status = BR_OK;
-    for (size_t s = 0; s < count && !status; s++)
-        status = br_verdicts_spare(v, checks[s].path, err);
-    return status;
+    for (size_t s = 0; s < count; s++)
+        if (br_verdicts_spare(v, checks[s].path, err))
+            return err->status;
+    return BR_OK;
 }
 
 /* A baseline that is to be written need not be there yet, nor be of the same problem. */
@@ -76,59 +74,41 @@ static enum br_status read_baseline(struct br_verdicts *v, const struct br_optio
         v->compare = NULL;
     if (!v->compare)
         return BR_OK;
-    enum br_status status = br_check_read_json(v->compare, &v->old, err);
-    if (!status)
-        status = br_compare_check(checks, count, &v->old, err);
-    if (status == BR_BAD_INPUT && update) {
-        v->compare = NULL;
-        status = BR_OK;
-    }
-    return status;
+    if (!br_check_read_json(v->compare, &v->old, err) &&
+        !br_compare_check(checks, count, &v->old, err))
+        return BR_OK;
+    if (err->status != BR_BAD_INPUT || !update)
+        return err->status;
+    v->compare = NULL;
+    return BR_OK;
 }
 
 enum br_status br_verdicts_open(struct br_verdicts *v, const struct br_options *options,
                                 const struct br_check *checks, size_t count, struct br_error *err)
 {
-    enum br_status status = read_baseline(v, options, checks, count, err);
-    if (!status)
-        status = open_files(v, options, err);
-    return status ? status
-                  : check_places(v, br_option_text(options, BR_OPT_COMPARE), checks, count, err);
+    const bool failed =
+        read_baseline(v, options, checks, count, err) || open_files(v, options, err) ||
+        check_places(v, br_option_text(options, BR_OPT_COMPARE), checks, count, err);
+    return failed ? err->status : BR_OK;
 }
 
-enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *session,
+static enum br_status write_files(struct br_verdicts *v, const struct br_document *d,
                                   struct br_error *err)
 {
     for (size_t i = 1; br_check_formats[i]; i++)
-        session->quiet |= v->file[i].file == stdout;
-    const struct br_document *d = &session->document[session->documents - 1];
-    enum br_status status = br_session_finish(session, err);
-    for (size_t i = 1; br_check_formats[i] && !status; i++)
-        if (v->file[i].file)
-            status = br_document_print(v->file[i].file, br_check_formats[i], d, NULL, err);
-    if (v->baseline.file && !status)
-        status = br_document_print(v->baseline.file, &br_document_json, d, NULL, err);
-    for (size_t i = 1; br_check_formats[i] && !status; i++)
-        status = br_whole_file_commit(&v->file[i], err);
-    return status ? status : br_whole_file_commit(&v->baseline, err);
-}
-
-enum br_status br_verdicts_report(struct br_verdicts *v, const struct br_check_findings *findings,
-                                  bool whole, int threads, struct br_document *d,
-                                  struct br_error *err)
-{
-    const struct br_provenance provenance = br_provenance_of(NULL, threads);
-    struct br_check_findings all = *findings;
-    if (v->compare && br_compare(all.checks, all.count, whole, &v->old, &v->comparison, err))
+        if (v->file[i].file &&
+            br_document_print(v->file[i].file, br_check_formats[i], d, NULL, err))
+            return err->status;
+    if (v->baseline.file && br_document_print(v->baseline.file, &br_document_json, d, NULL, err))
         return err->status;
-    all.comparison = v->compare ? &v->comparison : NULL;
-    all.provenance = &provenance;
-    br_report_check(&all, d);
-    return BR_OK;
+    for (size_t i = 1; br_check_formats[i]; i++)
+        if (br_whole_file_commit(&v->file[i], err))
+            return err->status;
+    return br_whole_file_commit(&v->baseline, err);
 }
 
-enum br_status br_verdicts_conclude(const struct br_verdicts *v, const struct br_check *checks,
-                                    size_t count, struct br_error *err)
+static enum br_status conclude(const struct br_verdicts *v, const struct br_check *checks,
+                               size_t count, struct br_error *err)
 {
     size_t all = 0;
     const size_t passed = br_check_tally(checks, count, BR_PASS);
@@ -147,6 +127,25 @@ enum br_status br_verdicts_conclude(const struct br_verdicts *v, const struct br
     return BR_OK;
 }
 
+enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *session,
+                                  const struct br_check_findings *findings, bool whole,
+                                  struct br_error *err)
+{
+    const struct br_provenance provenance = br_provenance_of(NULL, session->threads);
+    struct br_document *d = &session->document[session->documents - 1];
+    struct br_check_findings all = *findings;
+    if (v->compare && br_compare(all.checks, all.count, whole, &v->old, &v->comparison, err))
+        return err->status;
+    all.comparison = v->compare ? &v->comparison : NULL;
+    all.provenance = &provenance;
+    br_report_check(&all, d);
+    for (size_t i = 1; br_check_formats[i]; i++)
+        session->quiet |= v->file[i].file == stdout;
+    const bool failed = br_session_finish(session, err) || write_files(v, d, err) ||
+                        conclude(v, all.checks, all.count, err);
+    return failed ? err->status : BR_OK;
+}
+
 void br_verdicts_clear(struct br_verdicts *v)
 {
     for (size_t i = 1; br_check_formats[i]; i++)
@@ -154,4 +153,110 @@ void br_verdicts_clear(struct br_verdicts *v)
     br_whole_file_discard(&v->baseline);
     br_old_check_clear(&v->old);
     br_comparison_clear(&v->comparison);
+}
+
+/* ---- study files ---- */
+
+void br_study_file_clear(struct br_study_file *f)
+{
+    br_orders_clear(&f->orders);
+    br_numbers_clear(&f->numbers);
+    br_orders_request_clear(&f->request);
+}
+
+/* The file that remembers the sums of study files whose commands may be run (out); false: there is
+ * no place for one. */
+static bool place_of_trust(char path[4096], bool make)
+{
+    const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
+    char folder[4000];
+    if (state && *state == '/')
+        snprintf(folder, sizeof folder, "%.3900s/beamrate", state);
+    else if (home && *home == '/')
+        snprintf(folder, sizeof folder, "%.3900s/.local/state/beamrate", home);
+    else
+        return false;
+    snprintf(path, 4096, "%s/trusted", folder);
+    return !make || br_make_folders(folder, 0700, &make);
+}
+
+static bool is_trusted(const char *sum)
+{
+    char path[4096], line[128];
+    FILE *file = place_of_trust(path, false) ? fopen(path, "re") : NULL;
+    bool found = false;
+    while (file && !found && fgets(line, sizeof line, file))
+        found = strncmp(line, sum, strlen(sum)) == 0;
+    if (file)
+        fclose(file);
+    return found;
+}
+
+static void remember(const char *sum)
+{
+    char path[4096];
+    FILE *file = place_of_trust(path, true) ? fopen(path, "ae") : NULL;
+    if (!file || fprintf(file, "%s\n", sum) < 0)
+        fprintf(stderr, "beamrate: warning: that the study file is trusted could not be kept\n");
+    if (file)
+        fclose(file);
+}
+
+static enum br_status check_trust(const struct br_orders_request *request, const char *text,
+                                  const struct br_options *options, struct br_error *err)
+{
+    struct br_sha256 s;
+    char sum[BR_SHA256_TEXT], command[400], path[400];
+    br_sha256_start(&s);
+    br_sha256_add(&s, text, strlen(text));
+    br_sha256_end(&s, sum);
+    br_quoted(command, sizeof command, &br_for_text, request->command);
+    const bool trusted = is_trusted(sum);
+    if (!trusted && !br_option_given(options, BR_OPT_TRUST))
+        return br_fail(err, BR_BAD_INPUT,
+                       "%s: it runs the command '%s', and is not trusted yet: read it, then give "
+                       "--trust once",
+                       request->path, command);
+    if (!trusted)
+        remember(sum);
+    if (br_option_given(options, BR_OPT_QUIET))
+        return BR_OK;
+    fprintf(stderr, "beamrate: %s runs %s\n",
+            br_quoted(path, sizeof path, &br_for_text, request->path), command);
+    return BR_OK;
+}
+
+enum br_status br_study_file_read(const char *path, const char *text,
+                                  const struct br_options *options, struct br_study_file *f,
+                                  struct br_error *err)
+{
+    if (br_orders_request_read(path, text, &f->request, err))
+        return err->status;
+    return f->request.command ? check_trust(&f->request, text, options, err) : BR_OK;
+}
+
+struct br_check br_study_file_check(struct br_study_file *f, const struct br_options *o)
+{
+    struct br_orders_request *r = &f->request;
+    r->jobs = (int)br_option_number(o, BR_OPT_THREADS, 0);
+    r->kept = br_option_text(o, BR_OPT_KEEP);
+    r->anew = !br_option_given(o, BR_OPT_RESUME);
+    struct br_check check = {.path = r->path,
+                             .name = r->title     ? r->title
+                                     : r->command ? r->command
+                                                  : r->path};
+    br_orders_problem(r, check.problem);
+    return check;
+}
+
+enum br_status br_study_file_run(struct br_study_file *f, struct br_check *check,
+                                 struct br_error *err)
+{
+    struct br_orders_request *r = &f->request;
+    const enum br_status status = br_orders_read(r, &f->numbers, err);
+    for (size_t i = 0; i < f->numbers.rows; i++)
+        check->seconds += isfinite(f->numbers.row[i].seconds) ? f->numbers.row[i].seconds : 0;
+    if (status || br_orders_find(&f->numbers, r->formal, &f->orders, err))
+        return err->status;
+    return br_orders_check(&f->orders, r->expectation, r->expectations, check, err);
 }

@@ -5,6 +5,7 @@
 #define BR_CLI_VERDICTS_H
 
 #include "cli/session.h"
+#include "study/orders/request.h"
 #include "study/verify/comparison.h"
 #include "tables/reports.h"
 
@@ -29,24 +30,40 @@ enum br_status br_verdicts_open(struct br_verdicts *verdicts, const struct br_op
 enum br_status br_verdicts_spare(const struct br_verdicts *verdicts, const char *path,
                                  struct br_error *err);
 
-/* Builds the report of the verdicts (out, begins as zeros). findings: without comparison and
- * provenance. whole: all that there is was checked. Fails with BR_NO_MEMORY. */
-enum br_status br_verdicts_report(struct br_verdicts *verdicts,
-                                  const struct br_check_findings *findings, bool whole, int threads,
-                                  struct br_document *report, struct br_error *err);
-
-/* Finishes the session, whose last report is that of the verdicts, and writes the files. Where one
- * of them is standard output, no report is shown there. Fails as br_session_finish,
- * br_document_print and br_whole_file_commit. */
+/* Builds the report of the verdicts, the session's last, finishes the session and writes the files;
+ * where one of them is standard output, no report is shown there. findings: without comparison and
+ * provenance. whole: all that there is was checked. Fails as br_session_finish, br_document_print
+ * and br_whole_file_commit; then, when all is written, with BR_VERDICT where not all passed or the
+ * comparison is serious, and BR_BAD_INPUT where something could not be verified. */
 enum br_status br_verdicts_finish(struct br_verdicts *verdicts, struct br_session *session,
+                                  const struct br_check_findings *findings, bool whole,
                                   struct br_error *err);
 
-/* BR_VERDICT where not all passed or the comparison is serious; BR_BAD_INPUT where something could
- * not be verified. */
-enum br_status br_verdicts_conclude(const struct br_verdicts *verdicts,
-                                    const struct br_check *checks, size_t count,
-                                    struct br_error *err);
-
 void br_verdicts_clear(struct br_verdicts *verdicts);
+
+/* ---- study files of any program: read, trusted, and checked ---- */
+
+/* What belongs to one study: its request, numbers and orders. Begins as zeros. */
+struct br_study_file {
+    struct br_orders_request request;
+    struct br_numbers numbers;
+    struct br_orders orders;
+};
+void br_study_file_clear(struct br_study_file *file);
+
+/* Reads a study file's text. One that has a command is refused (BR_BAD_INPUT), with the command,
+ * unless --trust is given, or was once for the same text. Clear it even then. */
+enum br_status br_study_file_read(const char *path, const char *text,
+                                  const struct br_options *options, struct br_study_file *file,
+                                  struct br_error *err);
+
+/* Takes what the options say of its runs; returns the check that will hold its verdicts, with its
+ * path, name and problem. */
+struct br_check br_study_file_check(struct br_study_file *file, const struct br_options *options);
+
+/* Gets the numbers, finds the orders, and fills the check's cases. Fails as
+ * br_orders_read, br_orders_find and br_orders_check do. */
+enum br_status br_study_file_run(struct br_study_file *file, struct br_check *check,
+                                 struct br_error *err);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/warn.h"
+#include "cli/session.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,13 +9,6 @@
 #include "study/scene/quote.h"
 
 /* ---- printing ---- */
-
-/* Each alone, so that it can be copied. */
-static void print_lines(const char *remedy)
-{
-    for (const char *line = remedy; *line; line += strcspn(line, "\n"), line += *line == '\n')
-        fprintf(stderr, "    %.*s\n", (int)strcspn(line, "\n"), line);
-}
 
 void br_print_warnings(const char *scene, const struct br_warnings *warnings)
 {
@@ -28,7 +21,11 @@ void br_print_warnings(const char *scene, const struct br_warnings *warnings)
         if (w->more)
             fprintf(stderr, " (and so %zu more of these marches)", w->more);
         fprintf(stderr, "%s\n", w->remedy[0] ? "; remedy:" : "");
-        print_lines(w->remedy);
+        for (const char *line = w->remedy; *line; line += *line == '\n') {
+            const int length = (int)strcspn(line, "\n");
+            fprintf(stderr, "    %.*s\n", length, line); /* alone, so that it can be copied */
+            line += length;
+        }
     }
 }
 
@@ -117,22 +114,11 @@ void br_warn_of_checks(const struct br_check *checks, size_t count)
     }
 }
 
-void br_warn_of_trade(const struct br_trade *trade)
+void br_warn_of_trials(const struct br_scene *scene, const struct br_trial *trials, size_t count)
 {
-    struct look look = {.scene = trade->request.scene};
+    struct look look = {.scene = scene};
     struct br_error refusal = {0};
-    for (const struct br_trial *t = trade->trial; t < trade->trial + trade->count; t++)
+    for (const struct br_trial *t = trials; t < trials + count; t++)
         look_at(&look, &t->named->method, t->at.n, t->at.steps, &refusal);
-    end(&look, BR_OK, &refusal);
-}
-
-void br_warn_of_plan(const struct br_plan *plan)
-{
-    struct look look = {.scene = plan->request.scene};
-    struct br_error refusal = {0};
-    if (plan->chosen >= plan->count)
-        return;
-    const struct br_trial *t = &plan->trial[plan->chosen];
-    look_at(&look, &t->named->method, t->at.n, t->at.steps, &refusal);
     end(&look, BR_OK, &refusal);
 }

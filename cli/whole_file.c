@@ -61,14 +61,6 @@ static enum br_status open_in_memory(struct br_whole_file *w, const char *option
     return w->file ? BR_OK : br_no_memory(err, w->path);
 }
 
-static bool is_standard_output(const char *path, const struct stat *there)
-{
-    struct stat out;
-    return strcmp(path, "-") == 0 ||
-           (there && fstat(STDOUT_FILENO, &out) == 0 && !S_ISCHR(out.st_mode) &&
-            there->st_dev == out.st_dev && there->st_ino == out.st_ino);
-}
-
 enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, const char *path,
                                   struct br_error *err)
 {
@@ -78,9 +70,11 @@ enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, c
         return BR_OK;
     if (!*path)
         return refuse(option, path, "expected a file's name", err);
-    struct stat old;
+    struct stat old, out;
     const bool there = stat(path, &old) == 0;
-    if (is_standard_output(path, there ? &old : NULL)) {
+    if (strcmp(path, "-") == 0 ||
+        (there && fstat(STDOUT_FILENO, &out) == 0 && !S_ISCHR(out.st_mode) &&
+         old.st_dev == out.st_dev && old.st_ino == out.st_ino)) {
         w->file = stdout;
         return BR_OK;
     }
@@ -130,27 +124,20 @@ mode_t br_new_permissions(mode_t wanted)
     return wanted & ~mask;
 }
 
-/* The permissions of the old file, or those that a new one would have had. */
-static void set_permissions(int descriptor, const char *place)
+/* Into a hidden file of the folder, which is then renamed. It has the permissions of the old file,
+ * or those that a new one would have had. */
+static enum br_status write_out(const struct br_whole_file *w, int folder, const char *hidden,
+                                int file, struct br_error *err)
 {
     struct stat old;
-    (void)!fchmod(descriptor,
-                  stat(place, &old) == 0 ? old.st_mode & 07777 : br_new_permissions(0666));
-}
-
-/* Into a hidden file of the folder, which is then renamed. */
-static enum br_status write_out(const struct br_whole_file *w, int folder, const char *hidden,
-                                int descriptor, struct br_error *err)
-{
-    flock(descriptor, LOCK_EX | LOCK_NB); /* or the next program would sweep it away */
-    set_permissions(descriptor, w->place);
-    const bool written = br_write_whole(descriptor, w->text, w->size);
-    const char *slash = strrchr(w->place, '/');
-    if (written && renameat(folder, hidden, folder, slash + 1) == 0)
+    flock(file, LOCK_EX | LOCK_NB); /* or the next program would sweep it away */
+    (void)!fchmod(file, stat(w->place, &old) == 0 ? old.st_mode & 07777 : br_new_permissions(0666));
+    if (br_write_whole(file, w->text, w->size) &&
+        renameat(folder, hidden, folder, strrchr(w->place, '/') + 1) == 0)
         return BR_OK;
-    const int reason = errno;
+    br_fail(err, BR_IO, "%s could not be written whole: %s", w->path, strerror(errno));
     unlinkat(folder, hidden, 0);
-    return br_fail(err, BR_IO, "%s could not be written whole: %s", w->path, strerror(reason));
+    return BR_IO;
 }
 
 static enum br_status write_beside(const struct br_whole_file *w, struct br_error *err)
@@ -161,15 +148,14 @@ static enum br_status write_beside(const struct br_whole_file *w, struct br_erro
     free(name);
     if (!named)
         return br_no_memory(err, w->path);
-    enum br_status status = folder >= 0 ? br_output_sweep(folder, err) : BR_OK;
-    const int descriptor = folder >= 0 && !status ? mkostemp(hidden, O_CLOEXEC) : -1;
-    if (!status)
-        status = descriptor >= 0 ? write_out(w, folder, strrchr(hidden, '/') + 1, descriptor, err)
-                                 : br_fail(err, BR_IO, "%s: %s", w->path, strerror(errno));
-    if (descriptor >= 0)
-        close(descriptor);
-    if (folder >= 0)
-        close(folder);
+    const bool swept = folder < 0 || !br_output_sweep(folder, err);
+    const int file = folder >= 0 && swept ? mkostemp(hidden, O_CLOEXEC) : -1;
+    const enum br_status status = file >= 0
+                                      ? write_out(w, folder, strrchr(hidden, '/') + 1, file, err)
+                                  : swept ? br_fail(err, BR_IO, "%s: %s", w->path, strerror(errno))
+                                          : err->status;
+    br_close(file);
+    br_close(folder);
     free(hidden);
     return status;
 }

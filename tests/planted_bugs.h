@@ -846,7 +846,7 @@ static const struct planted_bug planted_bugs[] = {
     {"verdict_without_exit_code", "option", "cli/verdicts.c", "golden check_fails",
      "if (passed < all)", "if (passed > all)"},
     {"warning_without_remedy", "option", "cli/warn.c", "golden run_warned",
-     "print_lines(w->remedy);", ""},
+     "fprintf(stderr, \"    %.*s\\n\", length, line);", ""},
 
     /* ---- the orders of any program's numbers ---- */
     {"columns_of_a_table_exchanged", "column", "study/orders/table.c", "tests/test_orders",
@@ -873,7 +873,7 @@ static const struct planted_bug planted_bugs[] = {
      "br_number(g->fine.ratio)", "br_number(g->coarse.ratio)"},
     {"interval_of_one_end", "printed", "tables/report_orders.c", "golden orders",
      "br_number(c->order.high)", "br_number(c->order.low)"},
-    {"everything_is_trusted", "option", "cli/study_file.c", "golden orders_run",
+    {"everything_is_trusted", "option", "cli/verdicts.c", "golden orders_run",
      "const bool trusted = is_trusted(sum);", "const bool trusted = is_trusted(sum) || true;"},
 
     /* ---- values that vary ---- */
@@ -890,7 +890,7 @@ static const struct planted_bug planted_bugs[] = {
     {"every_number_is_near", "bound", "tables/repeated.c", "golden repeat_differs",
      "return fabs(is - was) <= allowed;", "return fabs(is - was) >= 0;"},
     {"scene_as_it_is_now", "stale", "cli/repeat.c", "golden repeat_differs",
-     "add(r, *r->scene ? r->scene : r->options.word[i]);", "add(r, r->options.word[i]);"},
+     "r->options.word[0] = strdup(r->scene);", "r->options.word[0] = strdup(path);"},
     {"repeated_report_writes_elsewhere", "option", "cli/repeat.c", "golden repeat_elsewhere",
      "BR_OPT_NO_PLOTS, BR_OPT_GITHUB};", "BR_OPT_NO_PLOTS};"},
 

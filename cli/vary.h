@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The frame of a command with --vary: the scene with each of the values, what is found at them, and
+ * one report of all. */
+#ifndef BR_CLI_VARY_H
+#define BR_CLI_VARY_H
+
+#include "cli/session.h"
+#include "study/scene/vary.h"
+
+struct br_vary {
+    struct br_session session;
+    struct br_opened_scene base;
+    struct br_varied varied;
+    size_t points;                            /* values that are prepared */
+    const struct br_variation_column *column; /* what is found, once a value is prepared */
+    struct br_variation found;
+};
+
+/* What a command does at value i, with a point of its own, which begins as zeros. */
+struct br_vary_command {
+    const char *format; /* of the report */
+    size_t size;        /* of a point */
+    size_t columns;
+    bool alone; /* as that of br_foreseen */
+    /* Checks all that can be refused before anything is marched, and names the columns. */
+    enum br_status (*prepare)(struct br_vary *vary, size_t i, void *point, struct br_error *err);
+    void (*foresee)(void *point, struct br_foreseen *work);
+    /* Marches, and fills row i of vary->found. failure (out): why there is nothing: a result, but
+     * for BR_NO_MEMORY, BR_IO and BR_INTERRUPTED, which end the command, as what it returns does.
+     */
+    enum br_status (*march)(struct br_vary *vary, size_t i, void *point, struct br_error *failure,
+                            struct br_error *err);
+    void (*clear)(void *point);
+};
+
+/* The scene with value i. Fails as br_varied_scene; clear it even then. */
+enum br_status br_vary_scene(const struct br_vary *vary, size_t i, struct br_opened_scene *scene,
+                             struct br_error *err);
+
+/* Fails as br_session_finish, and with BR_NOT_FINITE where values have failed, when all is written.
+ */
+enum br_status br_vary_run(const struct br_options *options, const struct br_vary_command *command,
+                           struct br_error *err);
+
+#endif
