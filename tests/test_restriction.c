@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "reference/exact/combine.h"
-#include "reference/exact/restriction.h"
+#include "reference/exact/projection.h"
 #include "tests/support.h"
 
 enum { MOST_LENGTH = 160, MOST_POINTS = 160, MOST_LOCAL = 20 };

@@ -185,17 +185,28 @@ COMBINER(portable, 2, , true)
 
 const struct br_combiner br_combiners[] = {
 #ifdef __x86_64__
-    {"avx512", available_avx512, combine_avx512, solve_avx512},
-    {"avx2", available_avx2, combine_avx2, solve_avx2},
+    {available_avx512, combine_avx512, solve_avx512},
+    {available_avx2, combine_avx2, solve_avx2},
 #endif
-    {"portable", available_portable, combine_portable, solve_portable},
+    {available_portable, combine_portable, solve_portable},
 };
 const size_t br_combiner_count = sizeof br_combiners / sizeof *br_combiners;
 
-const struct br_combiner *br_combiner_best(void)
+static const struct br_combiner *best(void)
 {
     size_t i = 0;
     while (!br_combiners[i].available())
         i++;
     return &br_combiners[i];
+}
+
+void br_combine(size_t rows, size_t count, const double *factor, size_t width, const double *table,
+                double *out)
+{
+    best()->combine(rows, count, factor, width, table, out);
+}
+
+void br_stage_solve(const struct br_stage_system *system, size_t first, double *x)
+{
+    best()->solve(system, first, x);
 }

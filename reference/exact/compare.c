@@ -53,7 +53,7 @@ static enum br_status build_bridge(struct pair *p, struct br_error *err)
             memcpy(&row[i * m + br_pieces_at(&fine->pieces, e, 0)],
                    &coarse->curve[i * coarse->count + br_pieces_at(&coarse->pieces, e, 0)],
                    coarse->pieces.terms[e] * sizeof *row);
-    br_combiner_best()->combine(coarse->count, m, row, m, turned, p->bridge);
+    br_combine(coarse->count, m, row, m, turned, p->bridge);
     free(row);
     return BR_OK;
 }
@@ -85,8 +85,8 @@ static struct br_tip_state other_at(struct pair *p, double t)
     const struct br_history *track = p->track[1];
     const size_t n = br_history_find(track, t);
     if (n != p->translated) {
-        br_combiner_best()->combine(BR_HISTORY_ROWS, track->modes, br_history_values(track, n),
-                                    p->step.modes, p->bridge, p->values);
+        br_combine(BR_HISTORY_ROWS, track->modes, br_history_values(track, n), p->step.modes,
+                   p->bridge, p->values);
         p->step.tip = &track->tip[n];
         p->translated = n;
     }

@@ -94,7 +94,7 @@ enum br_status br_modes_init(struct br_modes *modes, size_t degree, struct br_st
 
 void br_modes_expand(const struct br_modes *modes, size_t order, const double *q, double *c)
 {
-    br_combiner_best()->combine(1, modes->count, q, modes->count, modes->curve, c); /* c = U q */
+    br_combine(1, modes->count, q, modes->count, modes->curve, c); /* c = U q */
     for (size_t d = 0; d < modes->degree - order; d++)
         br_pieces_integrate(&modes->pieces, d, c);
 }
@@ -107,8 +107,7 @@ enum br_status br_modes_project(const struct br_modes *modes, const struct br_fu
     double *c = br_allocate((size_t)rows, sizeof *c);
     if (!c)
         return br_no_memory(err, "a projection");
-    const enum br_status status =
-        br_quadrature_project(&modes->quadrature, f, 0, (struct br_places){0}, c, err);
+    const enum br_status status = br_quadrature_project(&modes->quadrature, f, 0, NULL, c, err);
     cblas_dgemv(CblasColMajor, CblasTrans, rows, (int)modes->count, 1, modes->shape, rows, c, 1, 0,
                 q, 1); /* q = Y' c */
     for (size_t i = 0; i < modes->count; i++)
@@ -151,7 +150,7 @@ static enum br_status set_initial(struct br_oscillators *f, struct br_error *err
 static void test(const struct br_oscillators *f, size_t rows, const double *c, double *out)
 {
     const struct br_modes *m = &f->modes;
-    m->quadrature.combine(rows, br_modes_length(m, 0), c, m->width, m->function, out);
+    br_combine(rows, br_modes_length(m, 0), c, m->width, m->function, out);
 }
 
 static enum br_status set_space(struct br_oscillators *f, struct br_error *err)
@@ -163,8 +162,8 @@ static enum br_status set_space(struct br_oscillators *f, struct br_error *err)
         double *space = f->load_space + term * width;
         if (p->space.uses_t || br_product_is_zero(p))
             continue;
-        status = br_quadrature_project(&f->modes.quadrature, &p->space, 0, (struct br_places){0},
-                                       f->load_series, err);
+        status =
+            br_quadrature_project(&f->modes.quadrature, &p->space, 0, NULL, f->load_series, err);
         test(f, 1, f->load_series, space);
         for (size_t i = 0; i < width; i++)
             space[i] *= f->length;
@@ -243,15 +242,8 @@ static enum br_status load_at(const struct br_oscillators *f, const struct br_fu
     enum br_status status = BR_OK;
     if (f->fronts && space->uses_x)
         status = br_breaks_add(space, BR_X, (struct br_box){{0, f->length}, {t, t}}, &breaks, err);
-    double *x = br_allocate(breaks.count + 1, sizeof *x);
-    if (!status && !x)
-        status = br_no_memory(err, "a load");
-    for (size_t i = 0; i < breaks.count && x; i++)
-        x[i] = breaks.at[i].high;
     if (!status)
-        status = br_quadrature_project(&f->modes.quadrature, space, t,
-                                       (struct br_places){breaks.count, x}, c, err);
-    free(x);
+        status = br_quadrature_project(&f->modes.quadrature, space, t, &breaks, c, err);
     br_breaks_free(&breaks);
     return status;
 }

@@ -8,7 +8,7 @@
 
 #include "reference/exact/combine.h"
 #include "reference/exact/legendre.h"
-#include "reference/exact/restriction.h"
+#include "reference/exact/projection.h"
 #include "reference/exact/solution.h"
 
 struct br_exact_report br_exact_report(const struct br_exact *exact, enum br_exact_field field)
@@ -226,9 +226,8 @@ void br_exact_give_back(const struct br_exact *exact)
 struct br_exact_projection {
     struct br_exact_part part;
     size_t modes, length; /* of the field, of its part's series */
-    br_combine *combine;
-    double *expand; /* modes x length: each mode's series */
-    double *series; /* length, workspace */
+    double *expand;       /* modes x length: each mode's series */
+    double *series;       /* length, workspace */
     struct br_piecewise *piecewise;
     struct br_store store;
 };
@@ -253,7 +252,6 @@ static enum br_status projection_init(struct br_exact_projection *p,
                                       const struct br_exact_mesh *mesh, struct br_error *err)
 {
     const size_t longest = br_modes_length(&field->modes, 0);
-    p->combine = br_combiner_best()->combine;
     p->modes = field->modes.count;
     p->length = br_modes_length(&field->modes, p->part.order);
     p->expand = br_store_take(&p->store, p->modes * p->length, sizeof *p->expand);
@@ -302,7 +300,7 @@ void br_exact_projection_free(struct br_exact_projection *p)
 void br_exact_projection_apply(struct br_exact_projection *p, const struct br_exact_state *state,
                                double *c, double *rest)
 {
-    p->combine(1, p->modes, state->mode[p->part.field][p->part.velocity], p->length, p->expand,
+    br_combine(1, p->modes, state->mode[p->part.field][p->part.velocity], p->length, p->expand,
                p->series);
     br_piecewise_apply(p->piecewise, p->series, c, rest);
 }

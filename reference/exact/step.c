@@ -60,7 +60,7 @@ static void respond_to(struct br_stepper *s, size_t j)
     memset(x + j * width, 0, (S - j) * width * sizeof *x);
     for (size_t i = 0; i < width; i++)
         x[j * width + i] = tip[i] * scale(s);
-    br_combiner_best()->solve(&s->system, j, x);
+    br_stage_solve(&s->system, j, x);
     for (size_t k = j; k < S; k++) {
         s->tip_response[k][j] = tip_sum(s, &x[k * width]);
         s->tip_response[j][k] = (k + j) % 2 ? -s->tip_response[k][j] : s->tip_response[k][j];
@@ -91,7 +91,7 @@ static void respond(struct br_stepper *s, double h)
     memset(s->series, 0, S * width * sizeof *s->series);
     for (size_t i = 0; i < width; i++)
         s->series[i] = scale(s);
-    br_combiner_best()->solve(&s->system, 0, s->series);
+    br_stage_solve(&s->system, 0, s->series);
     memcpy(s->gain, s->series, width * sizeof *s->gain);
     for (size_t i = 0; i < f->modes.count; i++) {
         const double size = f->modes.size[i], gain = size * size * s->gain[i];
@@ -106,7 +106,7 @@ static void set_rest(struct br_stepper *s)
 {
     const struct br_oscillators *f = s->field;
     const size_t width = s->system.width;
-    br_combiner_best()->combine(S, S, &s->radau.to_coefficients[0][0], width, s->load, s->rest);
+    br_combine(S, S, &s->radau.to_coefficients[0][0], width, s->load, s->rest);
     for (size_t i = 0; i < width; i++) {
         const double reach = f->stiffness * s->length * s->v[i];
         s->rest[i] -=
@@ -132,7 +132,7 @@ static void move(struct br_stepper *s)
         for (size_t i = 0; i < width; i++)
             x[i] = (s->rest[k * width + i] - tip[i] * force) * factor;
     }
-    br_combiner_best()->solve(&s->system, 0, s->series);
+    br_stage_solve(&s->system, 0, s->series);
     for (size_t k = 0; k < S; k++)
         s->tip.velocity[k] = tip_sum(s, &s->series[k * width]);
     s->tip.velocity[0] += tip_start(s);
@@ -187,7 +187,7 @@ void br_stepper_accept(struct br_stepper *s, double time)
 {
     for (size_t i = 0; i < s->system.width; i++)
         s->q[i] += s->tip.length * s->series[i]; /* the other p_k have no mean */
-    br_combiner_best()->combine(1, S, s->radau.end, s->system.width, s->series, s->v);
+    br_combine(1, S, s->radau.end, s->system.width, s->series, s->v);
     s->tip_displacement += s->tip.length * s->tip.velocity[0];
     s->tip_velocity = br_radau_sum(s->tip.velocity, s->radau.end);
     s->time = time;

@@ -318,14 +318,13 @@ struct br_tip_state br_history_at(const struct br_history *track, double t, doub
     const struct br_tip_step *tip = &track->tip[n];
     const struct moment at = moment_at(fraction(tip, t));
     const double *values = br_history_values(track, n);
-    br_combine *combine = br_combiner_best()->combine;
     double factor[BR_HISTORY_ROWS];
     for (size_t k = 0; k < S; k++)
         factor[k] = tip->length * at.integral[k];
     factor[S] = 1;
     if (q)
-        combine(1, BR_HISTORY_ROWS, factor, m, values, q);
+        br_combine(1, BR_HISTORY_ROWS, factor, m, values, q);
     if (v)
-        combine(1, S, at.value, m, values, v);
+        br_combine(1, S, at.value, m, values, v);
     return tip_at(tip, &at);
 }

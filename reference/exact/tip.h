@@ -6,7 +6,7 @@
 
 #include "reference/exact/exact.h"
 #include "reference/exact/legendre.h"
-#include "reference/exact/store.h"
+#include "reference/exact/pieces.h"
 
 /* The tip along one step; series in p_k((t - start) / length). */
 struct br_tip_step {

@@ -1,16 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* In two stages: the series on groups of elements, in as many local polynomials as round-off lets
- * matter, and these on the elements, by one table for all groups. Elements that do not fill the
- * last group get it moved back over those before. */
-#include "reference/exact/restriction.h"
+#include "reference/exact/projection.h"
 
 #include <lapacke.h>
 #include <math.h>
 #include <string.h>
 
-#include "reference/exact/combine.h"
+/* ---- a part of an interval ---- */
 
-void br_subinterval_init(struct br_subinterval *v, size_t count, struct br_store *store)
+/* Legendre series on [0, 1] as series on an interval of it. */
+struct subinterval {
+    size_t count;
+    long double *coupling; /* count + 1: b in x p_k = b_{k+1} p_{k+1} + p_k / 2 + b_k p_{k-1} */
+    long double *r;        /* count x count, see move; 0 for l > k */
+};
+
+/* For p_0 ... p_{count - 1}. After a failure, which the store keeps, it is of no use. */
+static void subinterval_init(struct subinterval *v, size_t count, struct br_store *store)
 {
     v->count = count;
     v->coupling = br_store_take(store, count + 1, sizeof *v->coupling);
@@ -21,9 +26,10 @@ void br_subinterval_init(struct br_subinterval *v, size_t count, struct br_store
     }
 }
 
-/* The recurrence of p_{k+1} in x = first + width xi, where a product with xi is the same
+/* p_k(first + width xi) = sum over l of r[k * count + l] p_l(xi), 0 <= first and first + width <=
+ * 1: by the recurrence of p_{k+1} in x = first + width xi, where a product with xi is the same
  * recurrence in l. Small coefficients keep their digits: they only come from each other. */
-void br_subinterval_move(struct br_subinterval *v, long double first, long double width)
+static void move(struct subinterval *v, long double first, long double width)
 {
     const size_t count = v->count;
     const long double *b = v->coupling;
@@ -87,27 +93,31 @@ static enum br_status remainder_add(const struct remainder *m, struct br_error *
                 : BR_OK;
 }
 
+/* ---- one piece ----
+ *
+ * In two stages: the series on groups of elements, in as many local polynomials as round-off lets
+ * matter, and these on the elements, by one table for all groups. Elements that do not fill the
+ * last group get it moved back over those before. */
+
 /* Local coefficients are left out of the tables where the root of the sum of their squares is
  * below this part of the series, and out of a sum at this part of what they are added to. */
 static const double table_tail = 1e-18, sum_tail = 1e-17;
 
 struct br_restriction {
     struct br_restriction_shape shape;
-    br_combine *combine;
     size_t group, groups; /* elements in each, and their number */
     size_t terms;         /* local coefficients of a group that are kept */
     double *coarse;       /* length x (groups x terms): the series on the groups */
     double *fine;         /* terms x (group x (degree + 1)); NULL for groups of one element */
     double *rest;         /* length x length, R' with rest = |R series|^2 */
     double *local;        /* groups x terms, workspace */
-    double *left;         /* length, workspace */
-    double *square;       /* terms, workspace */
+    double *work;         /* length */
 };
 
 /* What the tables are made with. */
 struct making {
-    struct br_subinterval series, local; /* the series on a group, and a group's on an element */
-    struct remainder group, all;         /* what elements leave out of either */
+    struct subinterval series, local; /* the series on a group, and a group's on an element */
+    struct remainder group, all;      /* what elements leave out of either */
     struct br_store store;
 };
 
@@ -153,22 +163,20 @@ static size_t first_element(const struct br_restriction *r, size_t g)
 }
 
 /* The series on group g. */
-static void move_to(const struct br_restriction *r, size_t g, struct br_subinterval *series)
+static void move_to(const struct br_restriction *r, size_t g, struct subinterval *series)
 {
     const long double h = r->shape.width / (long double)r->shape.elements;
-    br_subinterval_move(series, r->shape.first + h * (long double)first_element(r, g),
-                        h * (long double)r->group);
+    move(series, r->shape.first + h * (long double)first_element(r, g), h * (long double)r->group);
 }
 
 /* A group's series, of r->terms, on its element j. */
-static void move_inside(const struct br_restriction *r, size_t j, struct br_subinterval *local)
+static void move_inside(const struct br_restriction *r, size_t j, struct subinterval *local)
 {
-    br_subinterval_move(local, (long double)j / (long double)r->group, 1 / (long double)r->group);
+    move(local, (long double)j / (long double)r->group, 1 / (long double)r->group);
 }
 
 /* ---- what is left out ---- */
 
-/* |R_0 c|^2 is what the group's elements from `first` on leave out of its series c. */
 /* |R_0 c|^2 is what the group's elements from `first` on leave out of its series c. */
 static enum br_status reduce_group(const struct br_restriction *r, size_t first,
                                    struct making *with, struct br_error *err)
@@ -189,7 +197,7 @@ static enum br_status reduce_group(const struct br_restriction *r, size_t first,
 }
 
 /* Adds R_0 times the series on a group. */
-static enum br_status add_group(const struct remainder *group, const struct br_subinterval *series,
+static enum br_status add_group(const struct remainder *group, const struct subinterval *series,
                                 const struct remainder *all, struct br_error *err)
 {
     for (size_t k = 0; k < series->count; k++)
@@ -202,27 +210,19 @@ static enum br_status add_group(const struct remainder *group, const struct br_s
     return remainder_add(all, err);
 }
 
-/* Groups first to last - 1, of which the elements before `skipped` do not count. */
-/* Groups first to last - 1, of which the elements before `skipped` do not count. */
-static enum br_status add_groups(const struct br_restriction *r, const size_t range[2],
-                                 size_t skipped, struct making *with, struct br_error *err)
-{
-    enum br_status status = reduce_group(r, skipped, with, err);
-    for (size_t g = range[0]; g < range[1] && !status; g++) {
-        move_to(r, g, &with->series);
-        status = add_group(&with->group, &with->series, &with->all, err);
-    }
-    return status;
-}
-
+/* The last group's first elements may be of the one before, too, and count once. */
 static enum br_status fill_rest(const struct br_restriction *r, struct making *with,
                                 struct br_error *err)
 {
     const size_t length = r->shape.length, last = r->groups - 1;
-    const size_t skipped = last * r->group - first_element(r, last);
-    enum br_status status = add_groups(r, (size_t[]){0, last}, 0, with, err);
-    if (!status)
-        status = add_groups(r, (size_t[]){last, r->groups}, skipped, with, err);
+    enum br_status status = BR_OK;
+    for (size_t g = 0; g <= last && !status; g++) {
+        if (g == 0 || g == last)
+            status = reduce_group(r, g * r->group - first_element(r, g), with, err);
+        move_to(r, g, &with->series);
+        if (!status)
+            status = add_group(&with->group, &with->series, &with->all, err);
+    }
     for (size_t k = 0; k < length && !status; k++)
         memcpy(&r->rest[k * length], remainder_r(&with->all, 0, k), length * sizeof *r->rest);
     return status;
@@ -232,7 +232,7 @@ static enum br_status fill_rest(const struct br_restriction *r, struct making *w
 
 /* The number of local coefficients that count in any series of norm 1. square: length x length,
  * workspace. */
-static size_t count_terms(const struct br_restriction *r, struct br_subinterval *series,
+static size_t count_terms(const struct br_restriction *r, struct subinterval *series,
                           double *square)
 {
     const size_t length = r->shape.length;
@@ -253,7 +253,7 @@ static size_t count_terms(const struct br_restriction *r, struct br_subinterval 
     return terms;
 }
 
-static void fill_coarse(struct br_restriction *r, struct br_subinterval *series)
+static void fill_coarse(struct br_restriction *r, struct subinterval *series)
 {
     const size_t length = r->shape.length;
     const double factor = r->fine ? 1 : scale(r);
@@ -266,7 +266,7 @@ static void fill_coarse(struct br_restriction *r, struct br_subinterval *series)
     }
 }
 
-static void fill_fine(struct br_restriction *r, struct br_subinterval *local)
+static void fill_fine(struct br_restriction *r, struct subinterval *local)
 {
     const size_t kept = r->shape.degree + 1;
     for (size_t j = 0; j < r->group; j++) {
@@ -285,11 +285,10 @@ static enum br_status allocate(struct br_restriction *r, size_t terms, struct ma
     r->terms = r->group == 1 ? kept : terms;
     r->coarse = br_store_take(store, length * r->groups * r->terms, sizeof *r->coarse);
     r->local = br_store_take(store, r->groups * r->terms, sizeof *r->local);
-    r->left = br_store_take(store, length, sizeof *r->left);
-    r->square = br_store_take(store, r->terms, sizeof *r->square);
+    r->work = br_store_take(store, length, sizeof *r->work);
     if (r->group > 1)
         r->fine = br_store_take(store, r->terms * r->group * kept, sizeof *r->fine);
-    br_subinterval_init(&with->local, terms, &with->store);
+    subinterval_init(&with->local, terms, &with->store);
     remainder_init(&with->group, terms, terms > kept ? terms - kept : 0, &with->store);
     remainder_init(&with->all, length, terms, &with->store);
     return store->failed || with->store.failed ? br_no_memory(err, "a projection") : BR_OK;
@@ -299,7 +298,7 @@ static enum br_status fill(struct br_restriction *r, struct making *with, struct
                            struct br_error *err)
 {
     const size_t length = r->shape.length;
-    br_subinterval_init(&with->series, length, &with->store);
+    subinterval_init(&with->series, length, &with->store);
     r->rest = br_store_take(store, length * length, sizeof *r->rest);
     if (with->store.failed || !r->rest)
         return br_no_memory(err, "a projection");
@@ -321,7 +320,6 @@ enum br_status br_restriction_create(struct br_restriction **out,
     if (!r)
         return br_no_memory(err, "a projection");
     r->shape = *shape;
-    r->combine = br_combiner_best()->combine;
     r->group = choose_group(shape);
     r->groups = (shape->elements + r->group - 1) / r->group;
     struct making with = {0};
@@ -343,41 +341,247 @@ static size_t significant(size_t count, const double *square)
     return count;
 }
 
-static double sum_of_squares(size_t count, const double *x)
-{
-    double sum = 0;
-    for (size_t i = 0; i < count; i++)
-        sum += x[i] * x[i];
-    return sum;
-}
-
-static size_t significant_series(const struct br_restriction *r, const double *series)
-{
-    for (size_t k = 0; k < r->shape.length; k++)
-        r->left[k] = series[k] * series[k];
-    return significant(r->shape.length, r->left);
-}
-
 static size_t significant_terms(const struct br_restriction *r)
 {
-    memset(r->square, 0, r->terms * sizeof *r->square);
+    memset(r->work, 0, r->terms * sizeof *r->work);
     for (size_t g = 0; g < r->groups; g++)
         for (size_t l = 0; l < r->terms; l++)
-            r->square[l] += r->local[g * r->terms + l] * r->local[g * r->terms + l];
-    return significant(r->terms, r->square);
+            r->work[l] += r->local[g * r->terms + l] * r->local[g * r->terms + l];
+    return significant(r->terms, r->work);
 }
 
 void br_restriction_apply(struct br_restriction *r, const double *series, double *c, double *rest)
 {
     const size_t length = r->shape.length, kept = r->shape.degree + 1;
-    const size_t count = significant_series(r, series);
-    r->combine(1, count, series, r->groups * r->terms, r->coarse, r->fine ? r->local : c);
+    for (size_t k = 0; k < length; k++)
+        r->work[k] = series[k] * series[k];
+    br_combine(1, significant(length, r->work), series, r->groups * r->terms, r->coarse,
+               r->fine ? r->local : c);
     if (r->fine) {
         const size_t terms = significant_terms(r);
         for (size_t g = 0; g < r->groups; g++)
-            r->combine(1, terms, r->local + g * r->terms, r->group * kept, r->fine,
+            br_combine(1, terms, r->local + g * r->terms, r->group * kept, r->fine,
                        c + first_element(r, g) * kept);
     }
-    r->combine(1, length, series, length, r->rest, r->left);
-    *rest = sum_of_squares(length, r->left);
+    br_combine(1, length, series, length, r->rest, r->work);
+    *rest = 0;
+    for (size_t k = 0; k < length; k++)
+        *rest += r->work[k] * r->work[k];
+}
+
+/* ---- all pieces ----
+ *
+ * Most elements of the mesh lie inside of one piece: those are a restriction each piece. The others
+ * straddle: in each overlap of such an element with a piece, the piece's series and the element's
+ * polynomials are written in the polynomials of the overlap. */
+
+/* An element that reaches this far out of a piece, in units of L, lies inside: round-off. */
+static const long double tolerance = 4e-16L;
+
+struct overlap {
+    size_t element, piece;
+    size_t terms;   /* of the series there, at least kept */
+    double *series; /* terms x terms, [k][l]: the piece's k-th polynomial in the overlap's l-th */
+    double *kept;   /* kept x terms: the element's */
+};
+
+struct inside {
+    struct br_restriction *restriction; /* NULL: no element */
+    size_t first;                       /* element */
+};
+
+struct br_piecewise {
+    const struct br_pieces *pieces; /* borrowed */
+    size_t extra;
+    struct br_exact_mesh mesh;
+    struct inside *inside; /* pieces */
+    struct overlap *overlap;
+    size_t overlaps, room;
+    double *local; /* workspace: an overlap's coefficients */
+    struct br_store *store;
+};
+
+/* In units of L. */
+static long double piece_end(const struct br_piecewise *w, size_t e)
+{
+    return (long double)w->pieces->end[e] / w->pieces->length;
+}
+
+static long double node(const struct br_piecewise *w, size_t j)
+{
+    return (long double)j / (long double)w->mesh.elements;
+}
+
+static size_t piece_terms(const struct br_piecewise *w, size_t e)
+{
+    return w->pieces->terms[e] + w->extra;
+}
+
+/* The elements first to last - 1 lie inside of piece e. */
+static enum br_status restrict_inside(struct br_piecewise *w, size_t e, size_t first, size_t last,
+                                      struct br_error *err)
+{
+    struct inside *in = &w->inside[e];
+    in->first = first;
+    const long double a = piece_end(w, e), h = piece_end(w, e + 1) - a;
+    const bool whole = w->pieces->count == 1;
+    const struct br_restriction_shape shape = {
+        .length = piece_terms(w, e),
+        .elements = last - first,
+        .degree = w->mesh.degree,
+        .scale = sqrt(w->pieces->length),
+        .first = whole ? 0 : (node(w, first) - a) / h,
+        .width = whole ? 1 : (node(w, last) - node(w, first)) / h,
+    };
+    return br_restriction_create(&in->restriction, &shape, w->store, err);
+}
+
+/* out (count x s->count) = the orthonormal polynomials of `all` in those of `part` of it. */
+static void rewrite(struct subinterval *s, const long double part[2], const long double all[2],
+                    size_t count, double *out)
+{
+    const long double width = (part[1] - part[0]) / (all[1] - all[0]);
+    move(s, (part[0] - all[0]) / (all[1] - all[0]), width);
+    for (size_t k = 0; k < count; k++)
+        for (size_t l = 0; l <= k; l++)
+            out[k * s->count + l] = (double)(sqrtl(width) * s->r[k * s->count + l]);
+}
+
+/* The overlap of element j and piece e, from part[0] to part[1]. */
+static enum br_status add_overlap(struct br_piecewise *w, size_t j, size_t e,
+                                  const long double part[2], struct br_error *err)
+{
+    const size_t kept = w->mesh.degree + 1, all = piece_terms(w, e);
+    const size_t terms = all > kept ? all : kept;
+    const long double piece[2] = {piece_end(w, e), piece_end(w, e + 1)};
+    const long double element[2] = {node(w, j), node(w, j + 1)};
+    struct br_store store = {0};
+    struct subinterval s;
+    subinterval_init(&s, terms, &store);
+    struct overlap o = {.element = j, .piece = e, .terms = terms};
+    o.series = br_store_take(w->store, terms * terms, sizeof *o.series);
+    o.kept = br_store_take(w->store, kept * terms, sizeof *o.kept);
+    struct overlap *all_of = br_store_grow(w->store, w->overlap, w->overlaps, &w->room, sizeof o);
+    const bool failed = store.failed || w->store->failed;
+    if (!failed) {
+        w->overlap = all_of;
+        rewrite(&s, part, piece, terms, o.series);
+        rewrite(&s, part, element, kept, o.kept);
+        w->overlap[w->overlaps++] = o;
+    }
+    br_store_clear(&store);
+    return failed ? br_no_memory(err, "a projection") : BR_OK;
+}
+
+/* Element j, which begins in piece e and ends in another. */
+static enum br_status straddle(struct br_piecewise *w, size_t j, size_t e, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (; e < w->pieces->count && piece_end(w, e) < node(w, j + 1) && !status; e++) {
+        const long double part[2] = {fmaxl(node(w, j), piece_end(w, e)),
+                                     fminl(node(w, j + 1), piece_end(w, e + 1))};
+        if (part[1] > part[0])
+            status = add_overlap(w, j, e, part, err);
+    }
+    return status;
+}
+
+static enum br_status fill_pieces(struct br_piecewise *w, struct br_error *err)
+{
+    const size_t n = w->mesh.elements;
+    enum br_status status = BR_OK;
+    for (size_t j = 0, e = 0; j < n && !status;) {
+        while (e + 1 < w->pieces->count && piece_end(w, e + 1) <= node(w, j) + tolerance)
+            e++;
+        const long double inside = (piece_end(w, e + 1) + tolerance) * (long double)n;
+        const size_t last = inside < (long double)n ? (size_t)inside : n;
+        if (last > j) {
+            status = restrict_inside(w, e, j, last, err);
+            j = last;
+        } else
+            status = straddle(w, j++, e, err);
+    }
+    return status;
+}
+
+enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_pieces *pieces,
+                                   size_t extra, const struct br_exact_mesh *mesh,
+                                   struct br_store *store, struct br_error *err)
+{
+    struct br_piecewise *w = *out = br_store_take(store, 1, sizeof *w);
+    if (!w)
+        return br_no_memory(err, "a projection");
+    *w = (struct br_piecewise){.pieces = pieces, .extra = extra, .mesh = *mesh, .store = store};
+    size_t most = mesh->degree + 1;
+    for (size_t e = 0; e < pieces->count; e++)
+        most = piece_terms(w, e) > most ? piece_terms(w, e) : most;
+    w->inside = br_store_take(store, pieces->count, sizeof *w->inside);
+    w->local = br_store_take(store, most, sizeof *w->local);
+    return store->failed ? br_no_memory(err, "a projection") : fill_pieces(w, err);
+}
+
+/* The series in the overlap's own polynomials, into w->local. */
+static void localise(const struct br_piecewise *w, const struct overlap *o, const double *series)
+{
+    const double *here = series + br_pieces_at(w->pieces, o->piece, w->extra);
+    const size_t terms = piece_terms(w, o->piece);
+    const double scale = sqrt(w->pieces->length);
+    for (size_t l = 0; l < o->terms; l++) {
+        w->local[l] = 0;
+        for (size_t k = l; k < terms; k++)
+            w->local[l] += here[k] * o->series[k * o->terms + l];
+        w->local[l] *= scale;
+    }
+}
+
+static void add_values(const struct br_piecewise *w, const struct overlap *o, double *c)
+{
+    for (size_t k = 0; k <= w->mesh.degree; k++)
+        for (size_t l = 0; l <= k; l++)
+            c[k] += o->kept[k * o->terms + l] * w->local[l];
+}
+
+/* The square of what the element's values c leave out of the overlap. */
+static double left_out(const struct br_piecewise *w, const struct overlap *o, const double *c)
+{
+    double sum = 0;
+    for (size_t l = 0; l < o->terms; l++) {
+        for (size_t k = l; k <= w->mesh.degree; k++)
+            w->local[l] -= c[k] * o->kept[k * o->terms + l];
+        sum += w->local[l] * w->local[l];
+    }
+    return sum;
+}
+
+static double apply_overlaps(const struct br_piecewise *w, const double *series, double *c)
+{
+    const size_t kept = w->mesh.degree + 1;
+    double rest = 0;
+    for (size_t i = 0; i < w->overlaps; i++)
+        for (size_t k = 0; k < kept; k++)
+            c[w->overlap[i].element * kept + k] = 0;
+    for (size_t i = 0; i < w->overlaps; i++) {
+        localise(w, &w->overlap[i], series);
+        add_values(w, &w->overlap[i], &c[w->overlap[i].element * kept]);
+    }
+    for (size_t i = 0; i < w->overlaps; i++) {
+        localise(w, &w->overlap[i], series);
+        rest += left_out(w, &w->overlap[i], &c[w->overlap[i].element * kept]);
+    }
+    return rest;
+}
+
+void br_piecewise_apply(struct br_piecewise *w, const double *series, double *c, double *rest)
+{
+    const size_t kept = w->mesh.degree + 1;
+    *rest = apply_overlaps(w, series, c);
+    for (size_t e = 0; e < w->pieces->count; e++) {
+        double part;
+        if (!w->inside[e].restriction)
+            continue;
+        br_restriction_apply(w->inside[e].restriction,
+                             series + br_pieces_at(w->pieces, e, w->extra),
+                             &c[w->inside[e].first * kept], &part);
+        *rest += part;
+    }
 }
