@@ -278,10 +278,15 @@ static void fill_fine(struct br_restriction *r, struct subinterval *local)
     }
 }
 
-static enum br_status allocate(struct br_restriction *r, size_t terms, struct making *with,
-                               struct br_store *store, struct br_error *err)
+static enum br_status fill(struct br_restriction *r, struct making *with, struct br_store *store,
+                           struct br_error *err)
 {
     const size_t length = r->shape.length, kept = r->shape.degree + 1;
+    subinterval_init(&with->series, length, &with->store);
+    r->rest = br_store_take(store, length * length, sizeof *r->rest);
+    if (with->store.failed || !r->rest)
+        return br_no_memory(err, "a projection");
+    const size_t terms = count_terms(r, &with->series, r->rest);
     r->terms = r->group == 1 ? kept : terms;
     r->coarse = br_store_take(store, length * r->groups * r->terms, sizeof *r->coarse);
     r->local = br_store_take(store, r->groups * r->terms, sizeof *r->local);
@@ -291,21 +296,8 @@ static enum br_status allocate(struct br_restriction *r, size_t terms, struct ma
     subinterval_init(&with->local, terms, &with->store);
     remainder_init(&with->group, terms, terms > kept ? terms - kept : 0, &with->store);
     remainder_init(&with->all, length, terms, &with->store);
-    return store->failed || with->store.failed ? br_no_memory(err, "a projection") : BR_OK;
-}
-
-static enum br_status fill(struct br_restriction *r, struct making *with, struct br_store *store,
-                           struct br_error *err)
-{
-    const size_t length = r->shape.length;
-    subinterval_init(&with->series, length, &with->store);
-    r->rest = br_store_take(store, length * length, sizeof *r->rest);
-    if (with->store.failed || !r->rest)
+    if (store->failed || with->store.failed)
         return br_no_memory(err, "a projection");
-    const size_t terms = count_terms(r, &with->series, r->rest);
-    const enum br_status status = allocate(r, terms, with, store, err);
-    if (status)
-        return status;
     fill_coarse(r, &with->series);
     if (r->fine)
         fill_fine(r, &with->local);

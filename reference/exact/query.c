@@ -161,7 +161,7 @@ static bool serves(const struct loan *loan, const struct br_scene *scene,
 {
     const struct br_exact_options *l = &loan->options;
     const bool same = l->tolerance == o->tolerance && l->acceptable == o->acceptable &&
-                      l->rate_tolerance == o->rate_tolerance && l->max_steps == o->max_steps;
+                      l->max_steps == o->max_steps;
     return loan->scene == scene && same &&
            (most_modes(l) == most_modes(o) ||
             (below(loan->exact, most_modes(l)) && below(loan->exact, most_modes(o))));
@@ -232,36 +232,29 @@ struct br_exact_projection {
     struct br_store store;
 };
 
-/* The series of every mode. */
-/* The series of every mode. q: modes zeros, c: the longest series; workspace. */
-static void expand_modes(struct br_exact_projection *p, const struct br_oscillators *field,
-                         double *q, double *c)
-{
-    const double scale = pow(field->length, -(double)p->part.order);
-    for (size_t i = 0; i < p->modes; i++) {
-        q[i] = 1;
-        br_modes_expand(&field->modes, p->part.order, q, c);
-        for (size_t k = 0; k < p->length; k++)
-            p->expand[i * p->length + k] = scale * c[k];
-        q[i] = 0;
-    }
-}
-
 static enum br_status projection_init(struct br_exact_projection *p,
                                       const struct br_oscillators *field,
                                       const struct br_exact_mesh *mesh, struct br_error *err)
 {
-    const size_t longest = br_modes_length(&field->modes, 0);
-    p->modes = field->modes.count;
-    p->length = br_modes_length(&field->modes, p->part.order);
+    const struct br_modes *modes = &field->modes;
+    const double scale = pow(field->length, -(double)p->part.order);
+    p->modes = modes->count;
+    p->length = br_modes_length(modes, p->part.order);
     p->expand = br_store_take(&p->store, p->modes * p->length, sizeof *p->expand);
     p->series = br_store_take(&p->store, p->length, sizeof *p->series);
-    double *work = br_store_take(&p->store, p->modes + longest, sizeof *work);
+    double *q = br_store_take(&p->store, p->modes, sizeof *q);
+    double *longest = br_store_take(&p->store, br_modes_length(modes, 0), sizeof *longest);
     if (p->store.failed)
         return br_no_memory(err, "a projection");
-    expand_modes(p, field, work, work + p->modes);
-    return br_piecewise_create(&p->piecewise, &field->modes.pieces,
-                               field->modes.degree - p->part.order, mesh, &p->store, err);
+    for (size_t i = 0; i < p->modes; i++) {
+        q[i] = 1;
+        br_modes_expand(modes, p->part.order, q, longest);
+        for (size_t k = 0; k < p->length; k++)
+            p->expand[i * p->length + k] = scale * longest[k];
+        q[i] = 0;
+    }
+    return br_piecewise_create(&p->piecewise, &modes->pieces, modes->degree - p->part.order, mesh,
+                               &p->store, err);
 }
 
 enum br_status br_exact_projection_create(struct br_exact_projection **out,

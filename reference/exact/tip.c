@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/exact/tip.h"
+#include "reference/exact/march.h"
 
 #include <lapacke.h>
 #include <math.h>
 #include <string.h>
-
-#include "reference/exact/combine.h"
 
 enum { S = BR_STAGES };
 
@@ -172,99 +170,6 @@ enum br_status br_law_force(const struct br_law *law, const struct br_radau *rad
 
 /* ---- the history ---- */
 
-enum br_status br_history_create(struct br_history **out, size_t modes, double gap,
-                                 struct br_error *err)
-{
-    *out = br_allocate(1, sizeof **out);
-    if (!*out)
-        return br_no_memory(err, "the exact solution's steps");
-    (*out)->modes = modes;
-    (*out)->gap = gap;
-    return BR_OK;
-}
-
-void br_history_free(struct br_history *track)
-{
-    if (!track)
-        return;
-    free(track->tip);
-    free(track->block);
-    br_store_clear(&track->store);
-    free(track->entry);
-    free(track);
-}
-
-/* *array moves to a room of `room` records of the given size; `used` are kept. */
-static enum br_status move(void *array, size_t used, size_t room, size_t size, struct br_error *err)
-{
-    void *old, *bigger = br_allocate(room, size);
-    if (!bigger)
-        return br_no_memory(err, "the exact solution's steps");
-    memcpy(&old, array, sizeof old);
-    if (used)
-        memcpy(bigger, old, used * size);
-    free(old);
-    memcpy(array, &bigger, sizeof bigger);
-    return BR_OK;
-}
-
-/* Room for one more step. What steps hold stays where it is: it may be much. */
-static enum br_status make_room(struct br_history *track, struct br_error *err)
-{
-    const size_t n = track->steps, b = track->blocks;
-    const size_t length = BR_HISTORY_BLOCK * BR_HISTORY_ROWS * track->modes;
-    enum br_status status = BR_OK;
-    if (n == track->step_room) {
-        status = move(&track->tip, n, 2 * n + 64, sizeof *track->tip, err);
-        track->step_room = status ? n : 2 * n + 64;
-    }
-    if (status || n < b * BR_HISTORY_BLOCK)
-        return status;
-    if (b == track->block_room) {
-        status = move(&track->block, b, 2 * b + 16, sizeof *track->block, err);
-        track->block_room = status ? b : 2 * b + 16;
-    }
-    if (status)
-        return status;
-    track->block[b] = br_store_take(&track->store, length, sizeof **track->block);
-    track->blocks += track->block[b] != NULL;
-    return track->block[b] ? BR_OK : br_no_memory(err, "the exact solution's steps");
-}
-
-enum br_status br_history_append(struct br_history *track, const struct br_tip_step *tip,
-                                 const double *q, size_t width, const double *v,
-                                 struct br_error *err)
-{
-    const enum br_status status = make_room(track, err);
-    if (status)
-        return status;
-    const size_t n = track->steps++, m = track->modes;
-    track->tip[n] = *tip;
-    double *values = br_history_values(track, n);
-    for (size_t k = 0; k < S; k++)
-        memcpy(&values[k * m], &v[k * width], m * sizeof *v);
-    memcpy(&values[S * m], q, m * sizeof *q);
-    return BR_OK;
-}
-
-enum br_status br_history_enter(struct br_history *track, const struct br_entry *entry,
-                                struct br_error *err)
-{
-    const size_t n = track->entries;
-    if (n && track->entry[n - 1].time == entry->time) {
-        track->entry[n - 1].phase = entry->phase;
-        return BR_OK;
-    }
-    if (n == track->entry_room) {
-        const enum br_status status = move(&track->entry, n, 2 * n + 16, sizeof *track->entry, err);
-        if (status)
-            return status;
-        track->entry_room = 2 * n + 16;
-    }
-    track->entry[track->entries++] = *entry;
-    return BR_OK;
-}
-
 size_t br_history_find(const struct br_history *track, double t)
 {
     size_t low = 0, high = track->steps; /* tip[low].start <= t < tip[high].start */
@@ -276,12 +181,6 @@ size_t br_history_find(const struct br_history *track, double t)
             high = middle;
     }
     return low;
-}
-
-/* The fraction of a step that is over at t. */
-static double fraction(const struct br_tip_step *tip, double t)
-{
-    return fmin(fmax((t - tip->start) / tip->length, 0), 1);
 }
 
 /* A step's p_k at one moment, and their integrals from its start, over its length. */
@@ -316,15 +215,14 @@ struct br_tip_state br_history_at(const struct br_history *track, double t, doub
 {
     const size_t n = br_history_find(track, t), m = track->modes;
     const struct br_tip_step *tip = &track->tip[n];
-    const struct moment at = moment_at(fraction(tip, t));
-    const double *values = br_history_values(track, n);
+    const struct moment at = moment_at(fmin(fmax((t - tip->start) / tip->length, 0), 1));
     double factor[BR_HISTORY_ROWS];
     for (size_t k = 0; k < S; k++)
         factor[k] = tip->length * at.integral[k];
     factor[S] = 1;
     if (q)
-        br_combine(1, BR_HISTORY_ROWS, factor, m, values, q);
+        br_combine(1, BR_HISTORY_ROWS, factor, m, tip->values, q);
     if (v)
-        br_combine(1, S, at.value, m, values, v);
+        br_combine(1, S, at.value, m, tip->values, v);
     return tip_at(tip, &at);
 }
