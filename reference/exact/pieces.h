@@ -10,23 +10,6 @@
 #include "reference/exact/combine.h"
 #include "solver/proof.h"
 
-/* ---- memory with one owner: taken piece by piece, released at once ---- */
-
-struct br_store {
-    struct br_block *last; /* each block points to the one before it */
-    bool failed;           /* there was no memory for a piece */
-};
-
-/* count zeroed things of a size in bytes, at the start of a cache line. NULL where there is no room
- * or was none before: whoever takes several looks at `failed` after the last of them. */
-void *br_store_take(struct br_store *store, size_t count, size_t size);
-
-/* The array with room for one more than `count`: itself, or a larger copy. NULL as above. */
-void *br_store_grow(struct br_store *store, void *array, size_t count, size_t *room, size_t size);
-void br_store_clear(struct br_store *store);
-
-/* ---- elements ---- */
-
 struct br_pieces {
     double length; /* L, m */
     size_t count;  /* elements, 1 or more */
