@@ -163,26 +163,11 @@ static bool same_phases(const struct br_history *a, const struct br_history *b)
     return true;
 }
 
-/* A place in a history: instant `instant` of a step. */
-struct cursor {
-    size_t step, instant;
-};
-
-/* Infinite behind the last one. */
-static double cursor_time(const struct br_history *track, const struct cursor *at)
+/* The time of instant i of a history; infinite behind the last one. */
+static double instant_time(const struct br_history *track, size_t i)
 {
-    if (at->step == track->steps)
-        return INFINITY;
-    const struct br_tip_step *tip = &track->tip[at->step];
-    return tip->start + inside[at->instant] * tip->length;
-}
-
-static void cursor_advance(struct cursor *at)
-{
-    if (++at->instant == INSTANTS) {
-        at->instant = 0;
-        at->step++;
-    }
+    const struct br_tip_step *tip = &track->tip[i / INSTANTS];
+    return i < track->steps * INSTANTS ? tip->start + inside[i % INSTANTS] * tip->length : INFINITY;
 }
 
 /* Work of the comparisons in a step; a translated step serves those in two. */
@@ -198,19 +183,18 @@ static enum br_status compare_field(struct pair *p, double duration, struct br_e
                                     struct br_exact_report *report, struct br_error *err)
 {
     struct br_error spent;
-    struct cursor at[2] = {{0, 0}, {0, 0}};
+    size_t at[2] = {0, 0};
     if (!same_phases(p->track[0], p->track[1])) {
         report->error = (struct br_exact_size){INFINITY, INFINITY, INFINITY, INFINITY};
         return BR_OK;
     }
     for (;;) {
-        const double t[2] = {cursor_time(p->track[0], &at[0]), cursor_time(p->track[1], &at[1])};
+        const double t[2] = {instant_time(p->track[0], at[0]), instant_time(p->track[1], at[1])};
         const size_t first = t[1] < t[0];
         if (isinf(t[first]))
             break;
         compare_at(p, t[first], duration, report);
-        cursor_advance(&at[first]);
-        if (at[first].instant == 0 &&
+        if (++at[first] % INSTANTS == 0 &&
             br_effort_spend(effort, step_work(p), &spent) == BR_INTERRUPTED)
             return br_fail(err, BR_INTERRUPTED, "%s", spent.message);
     }
@@ -242,12 +226,6 @@ static enum br_status compare(struct br_exact *exact, const struct br_exact_solu
     return status;
 }
 
-/* A phase that goes on through an event of the other field is none. */
-static bool is_event(const struct br_history *track, size_t i)
-{
-    return i == 0 || track->entry[i].phase != track->entry[i - 1].phase;
-}
-
 static int by_time(const void *a, const void *b)
 {
     const struct br_exact_event *x = a, *y = b;
@@ -272,7 +250,8 @@ static enum br_status list_events(struct br_exact *exact, const struct br_exact_
         const struct br_history *track = exact->solution->track[which];
         for (size_t i = 0; track && i < track->entries; i++) {
             const double t = track->entry[i].time, t2 = other->track[which]->entry[i].time;
-            if (is_event(track, i))
+            /* a phase that goes on through an event of the other field is none */
+            if (i == 0 || track->entry[i].phase != track->entry[i - 1].phase)
                 exact->event[exact->events++] = (struct br_exact_event){
                     .time = t,
                     .error = safety * fabs(t - t2) + track->entry[i].error,

@@ -107,30 +107,26 @@ static double weight(const struct stepper *s)
     return 1 / (s->field->stiffness * s->length + 1e-30 * s->field->damping);
 }
 
-/* Sums over the modes of tip^2 times the response to a force's coefficient j, as far as they stand
- * below the diagonal: X' is X with changed signs of k + j. */
-static void respond_to(struct stepper *s, size_t j)
+/* Sums over the modes of tip^2 times the responses to a force's coefficients j, for phases that
+ * need them: those below the diagonal, X' is X with changed signs of k + j. */
+static void respond_tip(struct stepper *s)
 {
     const size_t width = s->system.width;
     const double *tip = s->field->modes.tip;
     double *x = s->series;
-    memset(x + j * width, 0, (S - j) * width * sizeof *x);
-    for (size_t i = 0; i < width; i++)
-        x[j * width + i] = tip[i] * weight(s);
-    br_stage_solve(&s->system, j, x);
-    for (size_t k = j; k < S; k++) {
-        s->tip_response[k][j] = tip_sum(s, &x[k * width]);
-        s->tip_response[j][k] = (k + j) % 2 ? -s->tip_response[k][j] : s->tip_response[k][j];
+    if ((s->phase != BR_CLOSED && s->phase != BR_STICK) || s->tip_length == s->length)
+        return;
+    s->tip_length = s->length;
+    for (size_t j = 0; j < S; j++) {
+        memset(x + j * width, 0, (S - j) * width * sizeof *x);
+        for (size_t i = 0; i < width; i++)
+            x[j * width + i] = tip[i] * weight(s);
+        br_stage_solve(&s->system, j, x);
+        for (size_t k = j; k < S; k++) {
+            s->tip_response[k][j] = tip_sum(s, &x[k * width]);
+            s->tip_response[j][k] = (k + j) % 2 ? -s->tip_response[k][j] : s->tip_response[k][j];
+        }
     }
-}
-
-static void respond_tip(struct stepper *s)
-{
-    const bool needed = s->phase == BR_CLOSED || s->phase == BR_STICK;
-    for (size_t j = 0; j < S && needed && s->tip_length != s->length; j++)
-        respond_to(s, j);
-    if (needed)
-        s->tip_length = s->length;
 }
 
 static void respond(struct stepper *s, double h)
@@ -640,8 +636,14 @@ static enum br_phase phase_now(const struct march *m)
     return br_law_phase(s->law, s->time, s->phase, s->tip_displacement, s->tip_velocity);
 }
 
-static void march(struct march *m, const struct change *change, size_t count)
+static void march_all(struct march *m)
 {
+    const struct br_history *axial = m->s->law->axial;
+    const size_t most = 1 + m->options->outline[0]->jump.count + (axial ? axial->entries : 0);
+    struct change *change = br_allocate(most, sizeof *change);
+    if (!change)
+        m->status = br_no_memory(m->err, "the exact solution");
+    const size_t count = change ? list_changes(m, change) : 0;
     for (size_t i = 0; i < count && !m->status; i++) {
         const bool last = i + 1 == count;
         m->s->from = change[i].at.high;
@@ -649,17 +651,6 @@ static void march(struct march *m, const struct change *change, size_t count)
         enter(m, phase_now(m), change[i].error);
         march_to(m, last ? m->options->duration : change[i + 1].at.high);
     }
-}
-
-static void march_all(struct march *m)
-{
-    const struct br_history *axial = m->s->law->axial;
-    const size_t most = 1 + m->options->outline[0]->jump.count + (axial ? axial->entries : 0);
-    struct change *change = br_allocate(most, sizeof *change);
-    if (change)
-        march(m, change, list_changes(m, change));
-    else
-        m->status = br_no_memory(m->err, "the exact solution");
     free(change);
 }
 

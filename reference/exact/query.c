@@ -149,10 +149,7 @@ static size_t most_modes(const struct br_exact_options *o)
 
 static bool below(const struct br_exact *exact, size_t limit)
 {
-    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
-        if (exact->solution->field[i] && !(exact->report[i].modes < limit))
-            return false;
-    return true;
+    return exact->report[0].modes < limit && exact->report[1].modes < limit;
 }
 
 /* Whether a loan is what `o` would give: a limit to the modes that was not met changes nothing. */

@@ -352,24 +352,27 @@ struct drift_fit {
     double left, before; /* squares that are left over: with the next term, and without it */
 };
 
-/* Rows 1, log z, z of the model; y as in regress. */
+/* Rows 1, log z, z of the model; y as in regress. x: room for count rows. */
 static struct drift_fit regress_drifting(const struct br_order_point *point, size_t count, double p,
-                                         gsl_matrix *x, gsl_vector *y, gsl_vector *c,
-                                         gsl_matrix *cov, gsl_multifit_linear_workspace *space)
+                                         double *x, double *y, gsl_multifit_linear_workspace *space)
 {
     struct drift_fit fit;
-    double c0, c1, cov00, cov01, cov11;
+    double c0, c1, cov00, cov01, cov11, c[TERMS], covariance[TERMS * TERMS];
     for (size_t i = 0; i < count; i++) {
-        gsl_matrix_set(x, i, 0, 1);
-        gsl_matrix_set(x, i, 1, log(point[i].z));
-        gsl_matrix_set(x, i, 2, point[i].z / point[0].z);
-        gsl_vector_set(y, i, log(point[i].error) - log_loss(point[i].z_against / point[i].z, p));
+        x[i * TERMS] = 1;
+        x[i * TERMS + 1] = log(point[i].z);
+        x[i * TERMS + 2] = point[i].z / point[0].z;
+        y[i] = log(point[i].error) - log_loss(point[i].z_against / point[i].z, p);
     }
-    gsl_fit_linear(gsl_matrix_ptr(x, 0, 1), x->tda, y->data, y->stride, count, &c0, &c1, &cov00,
-                   &cov01, &cov11, &fit.before);
-    gsl_multifit_linear(x, y, c, cov, &fit.left, space);
-    fit.order = gsl_vector_get(c, 1);
-    fit.deviation = sqrt(fmax(0, gsl_matrix_get(cov, 1, 1)));
+    gsl_matrix_view rows = gsl_matrix_view_array(x, count, TERMS);
+    gsl_matrix_view cov = gsl_matrix_view_array(covariance, TERMS, TERMS);
+    gsl_vector_view values = gsl_vector_view_array(y, count);
+    gsl_vector_view solution = gsl_vector_view_array(c, TERMS);
+    gsl_fit_linear(x + 1, TERMS, y, 1, count, &c0, &c1, &cov00, &cov01, &cov11, &fit.before);
+    gsl_multifit_linear(&rows.matrix, &values.vector, &solution.vector, &cov.matrix, &fit.left,
+                        space);
+    fit.order = c[1];
+    fit.deviation = sqrt(fmax(0, covariance[TERMS + 1]));
     return fit;
 }
 
@@ -380,13 +383,12 @@ enum br_status br_order_fit_drifting(const struct br_order_point *point, size_t 
     if (status || count < LEAST_DRIFTING || !isfinite(order->value))
         return status;
     gsl_multifit_linear_workspace *space = gsl_multifit_linear_alloc(count, TERMS);
-    gsl_matrix *x = gsl_matrix_alloc(count, TERMS), *cov = gsl_matrix_alloc(TERMS, TERMS);
-    gsl_vector *y = gsl_vector_alloc(count), *c = gsl_vector_alloc(TERMS);
-    const bool ready = space && x && cov && y && c;
+    double *x = br_allocate(count * (TERMS + 1), sizeof *x);
+    const bool ready = space && x;
     struct drift_fit fit = {.order = order->value, .left = INFINITY};
     for (int i = 0; i < 100 && ready; i++) {
         const double before = fit.order;
-        fit = regress_drifting(point, count, before, x, y, c, cov, space);
+        fit = regress_drifting(point, count, before, x, x + count * TERMS, space);
         if (!(fabs(fit.order - before) > 1e-12 * fmax(1, fabs(before))))
             break;
     }
@@ -396,9 +398,6 @@ enum br_status br_order_fit_drifting(const struct br_order_point *point, size_t 
         *order = (struct br_estimate){fit.order, fit.order - half, fit.order + half};
     }
     gsl_multifit_linear_free(space);
-    gsl_matrix_free(x);
-    gsl_matrix_free(cov);
-    gsl_vector_free(y);
-    gsl_vector_free(c);
+    free(x);
     return ready ? BR_OK : br_no_memory(err, "the fit");
 }

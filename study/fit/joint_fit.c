@@ -63,18 +63,13 @@ static void spread(const struct problem *problem, const gsl_vector *v, double fu
         full[kinds[problem->kind].unknown[i]] = gsl_vector_get(v, i);
 }
 
-static double part_h(const struct problem *problem, const double full[UNKNOWNS],
-                     const struct br_observation *o)
+/* The two errors; that which the model has not is 0. */
+static void find_parts(const struct problem *problem, const double full[UNKNOWNS],
+                       const struct br_observation *o, double *a, double *b)
 {
-    return problem->kind == BR_JOINT_TIME ? 0
-                                          : signed_error(full[LOG_C_H], full[P], o->h, o->h_ref);
-}
-
-static double part_k(const struct problem *problem, const double full[UNKNOWNS],
-                     const struct br_observation *o)
-{
-    return problem->kind == BR_JOINT_SPACE ? 0
-                                           : signed_error(full[LOG_C_K], full[Q], o->k, o->k_ref);
+    const bool space = problem->kind != BR_JOINT_TIME, time = problem->kind != BR_JOINT_SPACE;
+    *a = space ? signed_error(full[LOG_C_H], full[P], o->h, o->h_ref) : 0;
+    *b = time ? signed_error(full[LOG_C_K], full[Q], o->k, o->k_ref) : 0;
 }
 
 static const double least_model = 1e-300;
@@ -88,7 +83,9 @@ static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
     const double r = sin(full[THETA]);
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
-        const double m = combine(part_h(problem, full, o), part_k(problem, full, o), r);
+        double a, b;
+        find_parts(problem, full, o, &a, &b);
+        const double m = combine(a, b, r);
         const double f = log((m < least_model ? least_model : m) / o->error);
         if (!isfinite(f))
             return GSL_EDOM;
@@ -107,7 +104,8 @@ static int jacobian(const gsl_vector *v, void *params, gsl_matrix *out)
     const double r = sin(full[THETA]), slope = cos(full[THETA]);
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
-        const double a = part_h(problem, full, o), b = part_k(problem, full, o);
+        double a, b;
+        find_parts(problem, full, o, &a, &b);
         const double m = combine(a, b, r), square = m * m;
         const double by_a = (a + r * b) / square, by_b = (b + r * a) / square;
         const double rate[UNKNOWNS] = {
@@ -191,22 +189,20 @@ static void read_attempt(const struct problem *problem, gsl_multifit_nlinear_wor
     }
     if (!isfinite(sum))
         return;
-    gsl_matrix *covariance = gsl_matrix_alloc(unknowns, unknowns);
-    if (!covariance)
-        return;
-    gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(w), 1e-12, covariance);
+    double room[UNKNOWNS * UNKNOWNS];
+    gsl_matrix_view covariance = gsl_matrix_view_array(room, unknowns, unknowns);
+    gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(w), 1e-12, &covariance.matrix);
     const double variance = sum / (double)(problem->count - unknowns);
     double full[UNKNOWNS];
     spread(problem, gsl_multifit_nlinear_position(w), full);
     for (size_t i = 0; i < unknowns; i++) {
         const int u = kinds[problem->kind].unknown[i];
-        const double c = variance_of(problem, covariance, i);
+        const double c = variance_of(problem, &covariance.matrix, i);
         out->value[u] = full[u] - shift(problem, u, full);
         out->deviation[u] = c > 0 ? sqrt(variance * c) : INFINITY;
     }
     out->sum = sum;
     out->worst = worst;
-    gsl_matrix_free(covariance);
 }
 
 /* A fit that starts from the given values of all unknowns, in m and s. */
@@ -219,24 +215,24 @@ static struct attempt attempt_from(const struct problem *problem, const double f
     gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(
         gsl_multifit_nlinear_trust, &parameters, problem->count, unknowns);
-    gsl_vector *start = gsl_vector_alloc(unknowns);
-    if (w && start) {
+    if (w) {
+        double start[UNKNOWNS];
         for (size_t i = 0; i < unknowns; i++) {
             const int u = kinds[problem->kind].unknown[i];
-            gsl_vector_set(start, i, full[u] + shift(problem, u, full));
+            start[i] = full[u] + shift(problem, u, full);
         }
+        const gsl_vector_view from = gsl_vector_view_array(start, unknowns);
         gsl_multifit_nlinear_fdf fdf = {.f = residuals,
                                         .df = jacobian,
                                         .n = problem->count,
                                         .p = unknowns,
                                         .params = (void *)problem};
         int info;
-        if (gsl_multifit_nlinear_init(start, &fdf, w) == GSL_SUCCESS) {
+        if (gsl_multifit_nlinear_init(&from.vector, &fdf, w) == GSL_SUCCESS) {
             gsl_multifit_nlinear_driver(500, 1e-13, 1e-13, 0, NULL, NULL, &info, w);
             read_attempt(problem, w, &out);
         }
     }
-    gsl_vector_free(start);
     gsl_multifit_nlinear_free(w);
     return out;
 }
