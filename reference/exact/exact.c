@@ -42,14 +42,10 @@ struct pair {
 
 /* bridge = U_1' U_0, the energy's products of the modes: the derivatives' coefficients on each
  * element, of which the finer ones begin with the others. */
-static enum br_status build_bridge(struct pair *p, struct br_error *err)
+static void build_bridge(struct pair *p, double *row, double *turned)
 {
     const struct br_modes *fine = &p->field[0]->modes, *coarse = &p->field[1]->modes;
     const size_t m = fine->count;
-    double *row = br_allocate(coarse->count * m + m * m, sizeof *row);
-    if (!row)
-        return br_no_memory(err, "the comparison of two solutions");
-    double *turned = row + coarse->count * m;
     for (size_t i = 0; i < m; i++)
         for (size_t k = 0; k < m; k++)
             turned[k * m + i] = fine->curve[i * m + k];
@@ -59,29 +55,30 @@ static enum br_status build_bridge(struct pair *p, struct br_error *err)
                    &coarse->curve[i * coarse->count + br_pieces_at(&coarse->pieces, e, 0)],
                    coarse->pieces.terms[e] * sizeof *row);
     br_combine(coarse->count, m, row, m, turned, p->bridge);
-    free(row);
-    return BR_OK;
 }
 
-static enum br_status pair_init(struct pair *p, const struct br_exact_solution *a,
-                                const struct br_exact_solution *b, size_t which,
-                                struct br_error *err)
+static enum br_status pair_init(struct pair *p, const struct br_exact_solution *const solution[2],
+                                size_t which, struct br_error *err)
 {
-    const struct br_exact_solution *solution[2] = {a, b};
+    const size_t m = solution[0]->field[which]->modes.count;
+    const size_t other = solution[1]->field[which]->modes.count * m;
     for (size_t i = 0; i < 2; i++) {
         p->field[i] = solution[i]->field[which];
         p->law[i] = &solution[i]->law[which];
         p->track[i] = solution[i]->track[which];
-        p->q[i] = br_store_take(&p->store, a->field[which]->modes.count, sizeof(double));
-        p->v[i] = br_store_take(&p->store, a->field[which]->modes.count, sizeof(double));
+        p->q[i] = br_store_take(&p->store, m, sizeof(double));
+        p->v[i] = br_store_take(&p->store, m, sizeof(double));
     }
-    const size_t m = p->field[0]->modes.count;
     p->step = (struct br_history){.modes = m, .steps = 1, .tip = &p->tip};
     p->tip.values = br_store_take(&p->store, BR_HISTORY_ROWS * m, sizeof(double));
     p->translated = SIZE_MAX;
-    p->bridge = br_store_take(&p->store, p->field[1]->modes.count * m, sizeof(double));
-    return p->store.failed ? br_no_memory(err, "the comparison of two solutions")
-                           : build_bridge(p, err);
+    p->bridge = br_store_take(&p->store, other, sizeof(double));
+    double *row = br_store_take(&p->store, other, sizeof *row);
+    double *turned = br_store_take(&p->store, m * m, sizeof *turned);
+    if (p->store.failed)
+        return br_no_memory(err, "the comparison of two solutions");
+    build_bridge(p, row, turned);
+    return BR_OK;
 }
 
 /* The other solution's values at t, in the finer one's modes. */
@@ -127,7 +124,7 @@ static void compare_at(struct pair *p, double t, double duration, struct br_exac
 {
     struct br_tip_state tip[2] = {br_history_at(p->track[0], t, p->q[0], p->v[0]), other_at(p, t)};
     for (size_t i = 0; i < 2; i++)
-        tip[i].force = br_law_force_at(p->law[i], t, &tip[i]);
+        tip[i].force = br_law_at(p->law[i], t, &tip[i]).force;
     const struct br_oscillators *field = p->field[0];
     const size_t m = field->modes.count, degree = field->modes.degree;
     const double length = field->length, norm = 1 / sqrt(length);
@@ -218,7 +215,8 @@ static enum br_status compare(struct br_exact *exact, const struct br_exact_solu
         report->modes = exact->solution->field[which]->modes.count;
         report->steps = exact->solution->track[which]->steps;
         exact->noise[which] = 1e-13 * exact->solution->track[which]->free_velocity;
-        status = pair_init(&p, exact->solution, other, which, err);
+        const struct br_exact_solution *const both[2] = {exact->solution, other};
+        status = pair_init(&p, both, which, err);
         if (!status)
             status = compare_field(&p, exact->duration, effort, report, err);
         br_store_clear(&p.store);

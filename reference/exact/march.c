@@ -345,7 +345,7 @@ static double guard_at(const struct march *m, double theta)
 {
     const struct br_tip_step *tip = &m->s->tip;
     const struct br_tip_state state = br_tip_at(tip, theta);
-    return br_law_guard(m->s->law, tip->start + theta * tip->length, &state);
+    return br_law_at(m->s->law, tip->start + theta * tip->length, &state).guard;
 }
 
 static double guard_scale(enum br_phase phase, const struct scale *scale)
@@ -507,7 +507,7 @@ static void end_phase(struct march *m, size_t i)
     }
     if (at_rest)
         stepper_settle(s);
-    enter(m, br_law_next(&over), error);
+    enter(m, br_law_at(s->law, s->time, &over).next, error);
 }
 
 /* How long a step may be, lest it overlook something that the data do. */

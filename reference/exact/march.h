@@ -82,20 +82,18 @@ struct br_law {
 /* The friction bound b(t), N. */
 double br_law_bound(const struct br_law *law, double t);
 
-/* The force on a tip in this state, N: the series' value only where the law does
- * not give it. */
-double br_law_force_at(const struct br_law *law, double t, const struct br_tip_state *tip);
+/* What the law says of a tip in its phase. */
+struct br_law_state {
+    double force;       /* on it, N: the series' value only where the law does not give it */
+    double guard;       /* distance to the end of the phase: negative when it is over */
+    enum br_phase next; /* the phase that follows when the guard ends it */
+};
+struct br_law_state br_law_at(const struct br_law *law, double t, const struct br_tip_state *tip);
 
 /* The phase at t of a tip with this displacement (less the gap) and velocity;
  * `now` is the phase before t, BR_FREE at t = 0. */
 enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now,
                            double displacement, double velocity);
-
-/* The phase that follows when the guard of one with this tip ends it. */
-enum br_phase br_law_next(const struct br_tip_state *tip);
-
-/* Distance to the end of the phase: negative when it is over. */
-double br_law_guard(const struct br_law *law, double t, const struct br_tip_state *tip);
 
 /* tip->force (in: zero; out): series of the force over a step, from the velocity
  * tip->velocity that the tip has without it, and the velocity's response z (row

@@ -68,7 +68,7 @@ void br_exact_field_at(const struct br_exact *exact, enum br_exact_field field, 
         br_history_at(track, time, state->mode[field][0], state->mode[field][1]);
     state->tip[field].displacement = tip.displacement + track->gap;
     state->tip[field].velocity = tip.velocity;
-    const double force = br_law_force_at(&exact->solution->law[field], time, &tip);
+    const double force = br_law_at(&exact->solution->law[field], time, &tip).force;
     *(field == BR_EXACT_AXIAL ? &state->contact_force : &state->friction_force) = force;
 }
 

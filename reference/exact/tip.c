@@ -44,59 +44,26 @@ enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now
     return velocity > 0 ? BR_SLIP_UP : velocity < 0 ? BR_SLIP_DOWN : BR_STICK;
 }
 
-enum br_phase br_law_next(const struct br_tip_state *tip)
+struct br_law_state br_law_at(const struct br_law *law, double t, const struct br_tip_state *tip)
 {
+    const double force = tip->force, pressed = fmax(tip->displacement, 0);
+    /* a force that cannot hold is against the slip that follows */
+    const enum br_phase slip = force > 0 ? BR_SLIP_UP : BR_SLIP_DOWN;
     switch (tip->phase) {
     case BR_OPEN:
-        return BR_CLOSED;
+        return (struct br_law_state){0, -tip->displacement, BR_CLOSED};
     case BR_CLOSED:
-        return BR_OPEN;
-    case BR_STICK: /* the force is against the slip that it could not hold */
-        return tip->force > 0 ? BR_SLIP_UP : BR_SLIP_DOWN;
-    case BR_SLIP_UP:
-    case BR_SLIP_DOWN:
-        return BR_STICK;
-    case BR_FREE:
-        break;
-    }
-    return BR_FREE;
-}
-
-double br_law_guard(const struct br_law *law, double t, const struct br_tip_state *tip)
-{
-    switch (tip->phase) {
-    case BR_OPEN:
-        return -tip->displacement;
-    case BR_CLOSED:
-        return tip->displacement;
+        return (struct br_law_state){law->stiffness * pressed, tip->displacement, BR_OPEN};
     case BR_STICK:
-        return br_law_bound(law, t) - fabs(tip->force);
+        return (struct br_law_state){force, br_law_bound(law, t) - fabs(force), slip};
     case BR_SLIP_UP:
-        return tip->velocity;
+        return (struct br_law_state){br_law_bound(law, t), tip->velocity, BR_STICK};
     case BR_SLIP_DOWN:
-        return -tip->velocity;
+        return (struct br_law_state){-br_law_bound(law, t), -tip->velocity, BR_STICK};
     case BR_FREE:
         break;
     }
-    return INFINITY;
-}
-
-double br_law_force_at(const struct br_law *law, double t, const struct br_tip_state *tip)
-{
-    switch (tip->phase) {
-    case BR_CLOSED:
-        return law->stiffness * fmax(tip->displacement, 0);
-    case BR_SLIP_UP:
-        return br_law_bound(law, t);
-    case BR_SLIP_DOWN:
-        return -br_law_bound(law, t);
-    case BR_STICK:
-        return tip->force;
-    case BR_FREE:
-    case BR_OPEN:
-        break;
-    }
-    return 0;
+    return (struct br_law_state){0, INFINITY, BR_FREE};
 }
 
 /* x = a \ x; a is destroyed */
@@ -183,46 +150,29 @@ size_t br_history_find(const struct br_history *track, double t)
     return low;
 }
 
-/* A step's p_k at one moment, and their integrals from its start, over its length. */
-struct moment {
-    double value[S], integral[S];
-};
-
-static struct moment moment_at(double theta)
+struct br_tip_state br_tip_at(const struct br_tip_step *tip, double theta)
 {
-    struct moment at;
-    br_legendre_integral(S, theta, at.value, at.integral);
-    return at;
-}
-
-static struct br_tip_state tip_at(const struct br_tip_step *tip, const struct moment *at)
-{
+    double value[S], integral[S]; /* of the p_k, from the step's start and over its length */
+    br_legendre_integral(S, theta, value, integral);
     return (struct br_tip_state){
-        .displacement = tip->displacement + tip->length * br_radau_sum(tip->velocity, at->integral),
-        .velocity = br_radau_sum(tip->velocity, at->value),
-        .force = br_radau_sum(tip->force, at->value),
+        .displacement = tip->displacement + tip->length * br_radau_sum(tip->velocity, integral),
+        .velocity = br_radau_sum(tip->velocity, value),
+        .force = br_radau_sum(tip->force, value),
         .phase = tip->phase,
     };
 }
 
-struct br_tip_state br_tip_at(const struct br_tip_step *tip, double theta)
-{
-    const struct moment at = moment_at(theta);
-    return tip_at(tip, &at);
-}
-
 struct br_tip_state br_history_at(const struct br_history *track, double t, double *q, double *v)
 {
-    const size_t n = br_history_find(track, t), m = track->modes;
-    const struct br_tip_step *tip = &track->tip[n];
-    const struct moment at = moment_at(fmin(fmax((t - tip->start) / tip->length, 0), 1));
-    double factor[BR_HISTORY_ROWS];
+    const struct br_tip_step *tip = &track->tip[br_history_find(track, t)];
+    const double theta = fmin(fmax((t - tip->start) / tip->length, 0), 1);
+    double value[S], factor[BR_HISTORY_ROWS] = {[S] = 1};
+    br_legendre_integral(S, theta, value, factor);
     for (size_t k = 0; k < S; k++)
-        factor[k] = tip->length * at.integral[k];
-    factor[S] = 1;
+        factor[k] *= tip->length;
     if (q)
-        br_combine(1, BR_HISTORY_ROWS, factor, m, tip->values, q);
+        br_combine(1, BR_HISTORY_ROWS, factor, track->modes, tip->values, q);
     if (v)
-        br_combine(1, S, at.value, m, tip->values, v);
-    return tip_at(tip, &at);
+        br_combine(1, S, value, track->modes, tip->values, v);
+    return br_tip_at(tip, theta);
 }

@@ -411,6 +411,13 @@ static bool is_told(const struct br_joint_fit *fit)
            (fit->kind == BR_JOINT_SPACE || br_order_determined(&fit->q));
 }
 
+/* Two errors, of which one cannot be told, where nothing simpler will do. */
+static bool tells_one(const struct br_joint_fit *fit)
+{
+    return br_joint_describes(fit) &&
+           (br_order_determined(&fit->p) || br_order_determined(&fit->q));
+}
+
 /* A problem in units of its own; own: out, its observations, count. */
 static struct problem problem_of(const struct br_observation *observation, size_t count,
                                  struct br_observation *own)
@@ -442,19 +449,27 @@ struct candidate {
     bool widened;
 };
 
-/* With the intervals of the jackknife, which is the dear part. */
-static struct br_joint_fit widened(struct problem *problem, enum br_joint_kind kind,
-                                   struct candidate *c, struct br_observation *workspace)
+/* Sets the fit to a kind that is accepted, with the intervals of the jackknife, which is the dear
+ * part: intervals only grow in it, so what is refused without it need not be widened. */
+static bool take_kind(struct problem *problem, enum br_joint_kind kind, struct candidate *c,
+                      bool (*accepts)(const struct br_joint_fit *),
+                      struct br_observation *workspace, struct br_joint_fit *fit)
 {
-    struct br_joint_fit fit;
+    struct br_joint_fit one;
     problem->kind = kind;
-    if (kind != BR_JOINT_TIME && !c->widened)
-        widen_by_jackknife(problem, &c->attempt, true, workspace);
-    if (kind != BR_JOINT_SPACE && !c->widened)
-        widen_by_jackknife(problem, &c->attempt, false, workspace);
-    c->widened = true;
-    describe(problem, &c->attempt, &fit);
-    return fit;
+    describe(problem, &c->attempt, &one);
+    if (accepts(&one) && !c->widened) {
+        if (kind != BR_JOINT_TIME)
+            widen_by_jackknife(problem, &c->attempt, true, workspace);
+        if (kind != BR_JOINT_SPACE)
+            widen_by_jackknife(problem, &c->attempt, false, workspace);
+        c->widened = true;
+        describe(problem, &c->attempt, &one);
+    }
+    if (!accepts(&one))
+        return false;
+    *fit = one;
+    return true;
 }
 
 /* The kind that is not done whose criterion is the least, of equal ones the first; BR_JOINT_SPACE +
@@ -467,25 +482,6 @@ static int next_best(const struct candidate *candidate, const bool *done)
             (best > BR_JOINT_SPACE || candidate[kind].criterion < candidate[best].criterion))
             best = kind;
     return best;
-}
-
-/* The best kind whose orders can be told. Intervals only grow in the jackknife: what cannot be told
- * without it need not be widened. */
-static void choose_kind(struct problem *problem, struct candidate *candidate,
-                        struct br_observation *workspace, struct br_joint_fit *fit)
-{
-    bool done[BR_JOINT_SPACE + 1] = {false};
-    for (int kind; (kind = next_best(candidate, done)) <= BR_JOINT_SPACE; done[kind] = true) {
-        struct br_joint_fit one;
-        problem->kind = (enum br_joint_kind)kind;
-        describe(problem, &candidate[kind].attempt, &one);
-        if (is_told(&one))
-            one = widened(problem, problem->kind, &candidate[kind], workspace);
-        if (!is_told(&one))
-            continue;
-        *fit = one;
-        return;
-    }
 }
 
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
@@ -507,18 +503,13 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
         if (isfinite(c->attempt.sum))
             c->criterion = br_akaike(c->attempt.sum, count, kinds[kind].count);
     }
-    choose_kind(&problem, candidate, own + count, fit);
-    /* Two errors, of which one cannot be told, where nothing simpler will do. */
-    if (!br_joint_describes(fit) && isfinite(candidate[BR_JOINT_BOTH].criterion)) {
-        struct br_joint_fit both;
-        problem.kind = BR_JOINT_BOTH;
-        describe(&problem, &candidate[BR_JOINT_BOTH].attempt, &both);
-        if (br_joint_describes(&both))
-            both = widened(&problem, BR_JOINT_BOTH, &candidate[BR_JOINT_BOTH], own + count);
-        if (br_joint_describes(&both) &&
-            (br_order_determined(&both.p) || br_order_determined(&both.q)))
-            *fit = both;
-    }
+    bool done[BR_JOINT_SPACE + 1] = {false}, taken = false;
+    for (int kind; !taken && (kind = next_best(candidate, done)) <= BR_JOINT_SPACE;
+         done[kind] = true)
+        taken = take_kind(&problem, (enum br_joint_kind)kind, &candidate[kind], is_told,
+                          own + count, fit);
+    if (!br_joint_describes(fit) && isfinite(candidate[BR_JOINT_BOTH].criterion))
+        take_kind(&problem, BR_JOINT_BOTH, &candidate[BR_JOINT_BOTH], tells_one, own + count, fit);
     gsl_set_error_handler(handler);
     free(own);
     return BR_OK;
