@@ -2,6 +2,7 @@
 #include "reference/exact/outline.h"
 
 #include <float.h>
+#include <gsl/gsl_interp.h>
 #include <math.h>
 
 /* Degrees of the polynomials that replace the data: on an element, and over a Radau step. */
@@ -487,15 +488,7 @@ size_t br_outline_terms(const struct br_outline *o, size_t e, size_t modes)
 /* The cell that holds t; where two meet the later one. */
 static size_t cell_of(const struct br_list *cells, double t)
 {
-    size_t low = 0, high = cells->count - 1;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (cells->at[middle] <= t)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    return gsl_interp_bsearch(cells->at, t, 0, cells->count - 1);
 }
 
 static double reach_in(const struct br_list *cells, double t)

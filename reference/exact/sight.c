@@ -6,6 +6,7 @@
  * it. */
 #include "reference/exact/outline.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
 
 /* ---- lists ---- */
@@ -21,17 +22,11 @@ enum br_status br_list_add(struct br_list *list, double value, struct br_store *
     return BR_OK;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 void br_list_sort(struct br_list *list)
 {
     size_t kept = 0;
     if (list->count)
-        qsort(list->at, list->count, sizeof *list->at, ascending);
+        gsl_sort(list->at, 1, list->count);
     for (size_t i = 0; i < list->count; i++)
         if (!kept || list->at[i] > list->at[kept - 1])
             list->at[kept++] = list->at[i];
