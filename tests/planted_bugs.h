@@ -492,8 +492,8 @@ static const struct planted_bug planted_bugs[] = {
     /* ---- in what judges ---- */
     {"own_error_times_the_length", "units", "reference/exact/judge.c",
      "tests/test_rescale test_powers_of_two",
-     "own[BR_DISPLACEMENT] = error.displacement * sqrt(e->length);",
-     "own[BR_DISPLACEMENT] = error.displacement * e->length;"},
+     "own[BR_DISPLACEMENT] = error.displacement * sqrt(length);",
+     "own[BR_DISPLACEMENT] = error.displacement * length;"},
     {"strain_rates_in_other_units", "units", "reference/exact/exact.c",
      "tests/test_rescale test_powers_of_two", "const double strain = pow(length, -(double)degree);",
      "const double strain = pow(length, (double)degree);"},

@@ -65,16 +65,12 @@ double br_norm(size_t count, const double *weight, const double *x)
     return sqrt(all);
 }
 
-void br_stage_set(struct br_stage_system *s, const struct br_radau *radau)
+void br_stage_factor(struct br_stage_system *s, const struct br_radau *radau)
 {
     s->first = radau->integral[0][0];
     s->last = radau->integral[S - 1][S - 1];
     for (size_t k = 1; k < S; k++)
         s->coupling[k] = radau->integral[k][k - 1];
-}
-
-void br_stage_factor(struct br_stage_system *s)
-{
     for (size_t k = 0; k < S; k++) {
         const double diagonal = k == 0 ? s->first : k + 1 == S ? s->last : 0;
         const double square = s->coupling[k] * s->coupling[k];

@@ -35,11 +35,8 @@ enum { BR_STAGE_LANES = 8 };
  * X x from there on. The same bits on every instruction set. */
 void br_stage_solve(const struct br_stage_system *system, size_t first, double *x);
 
-/* Sets X. */
-void br_stage_set(struct br_stage_system *system, const struct br_radau *radau);
-
-/* Sets the pivots. */
-void br_stage_factor(struct br_stage_system *system);
+/* Sets X and the pivots. */
+void br_stage_factor(struct br_stage_system *system, const struct br_radau *radau);
 
 /* Sum of a[i] b[i], and root of the sum of squares of weight[i] x[i] (weight NULL: of x[i]), i <
  * count. The same bits on every machine. */

@@ -11,11 +11,10 @@ struct exact_judge {
     const struct br_exact *exact; /* shared */
     struct br_exact_state *state;
     struct br_exact_projection **projection; /* by br_field_kind, measure and mesh */
-    bool modelled[2];
+    const struct br_scene *scene;
     size_t meshes, levels;
     int axial_degree;
-    double length, duration; /* m, s */
-    double seconds[2];       /* by br_field_kind */
+    double seconds[2]; /* by br_field_kind */
 };
 
 static struct br_exact_projection **projection_at(const struct exact_judge *e, int kind,
@@ -76,13 +75,10 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
     if (!e)
         return br_no_memory(err, "the exact reference");
     const double start = br_seconds();
-    e->modelled[BR_AXIAL] = r->scene->axial.modelled;
-    e->modelled[BR_BENDING] = r->scene->bending.modelled;
+    e->scene = r->scene;
     e->meshes = r->mesh_count;
     e->levels = r->levels;
     e->axial_degree = r->axial_degree;
-    e->length = r->scene->length;
-    e->duration = r->scene->duration;
     struct br_exact_options options = {.acceptable = 1e-5};
     if (r->modest)
         options.max_modes = 64;
@@ -107,7 +103,7 @@ static enum br_status exact_advance(void *self, enum br_field_kind kind, size_t 
     (void)err;
     const double start = br_seconds();
     br_exact_field_at(e->exact, part_of(kind, BR_TIP).field,
-                      e->duration * (double)i / (double)e->levels, e->state);
+                      e->scene->duration * (double)i / (double)e->levels, e->state);
     e->seconds[kind] += br_seconds() - start;
     return BR_OK;
 }
@@ -130,16 +126,15 @@ static void exact_sample(void *self, const struct br_sample_at *at, struct br_vi
 static struct br_judge_report exact_report(const void *self)
 {
     const struct exact_judge *e = self;
+    const double length = e->scene->length;
     struct br_judge_report report = {.seconds = e->seconds[BR_AXIAL] + e->seconds[BR_BENDING]};
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        if (!e->modelled[kind])
-            continue;
-        const struct br_exact_size error =
+        const struct br_exact_size error = /* zeros where nothing is modelled */
             br_exact_report(e->exact, part_of((enum br_field_kind)kind, BR_TIP).field).error;
         double *own = report.own_error[kind];
-        own[BR_DISPLACEMENT] = error.displacement * sqrt(e->length);
-        own[BR_VELOCITY] = error.velocity * sqrt(e->length);
-        own[BR_STRAIN_RATE] = error.strain_rate * sqrt(e->length);
+        own[BR_DISPLACEMENT] = error.displacement * sqrt(length);
+        own[BR_VELOCITY] = error.velocity * sqrt(length);
+        own[BR_STRAIN_RATE] = error.strain_rate * sqrt(length);
         own[BR_TIP] = error.displacement;
     }
     return report;

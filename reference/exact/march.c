@@ -87,9 +87,7 @@ static enum br_status stepper_init(struct stepper *s, double gap, struct br_stor
         return br_no_memory(err, "a time step");
     memcpy(s->q, field->displacement, m * sizeof *s->q);
     memcpy(s->v, field->velocity, m * sizeof *s->v);
-    const enum br_status status = br_radau_init(&s->radau, err);
-    br_stage_set(&s->system, &s->radau);
-    return status;
+    return br_radau_init(&s->radau, err);
 }
 
 /* Sum of the modes' tip values. */
@@ -140,7 +138,7 @@ static void respond(struct stepper *s, double h)
     s->system.b = f->damping * weight(s);
     for (size_t i = 0; i < width; i++)
         s->system.a[i] = f->mass[i] / h * weight(s);
-    br_stage_factor(&s->system);
+    br_stage_factor(&s->system, &s->radau);
     memset(s->series, 0, S * width * sizeof *s->series);
     for (size_t i = 0; i < width; i++)
         s->series[i] = weight(s);
