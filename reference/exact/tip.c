@@ -20,15 +20,6 @@ double br_law_bound(const struct br_law *law, double t)
     return 0;
 }
 
-/* Whether friction can act just after t. */
-static bool friction_acts(const struct br_law *law, double t)
-{
-    if (!(law->coefficient > 0) || law->friction == BR_FRICTIONLESS)
-        return false;
-    return law->friction == BR_TRESCA ||
-           law->axial->tip[br_history_find(law->axial, t)].phase == BR_CLOSED;
-}
-
 enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now,
                            double displacement, double velocity)
 {
@@ -37,7 +28,10 @@ enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now
             return BR_FREE;
         return displacement > 0 || (displacement == 0 && velocity >= 0) ? BR_CLOSED : BR_OPEN;
     }
-    if (!friction_acts(law, t))
+    if (!(law->coefficient > 0) || law->friction == BR_FRICTIONLESS)
+        return BR_FREE;
+    if (law->friction == BR_COULOMB &&
+        law->axial->tip[br_history_find(law->axial, t)].phase != BR_CLOSED)
         return BR_FREE;
     if (now != BR_FREE)
         return now;

@@ -104,31 +104,25 @@ static struct br_slope slope_of(const double *x, const double *y, size_t count)
     return slope;
 }
 
-/* Slopes along one direction of the grid: `outer` lines of `inner` cells. */
-struct lines {
-    size_t outer, inner;
-    size_t outer_stride, inner_stride;
-    double (*abscissa)(const struct br_study *, const struct br_cell *);
-};
-
-static enum br_status fit_lines(const struct br_study *s, enum br_part part,
-                                const struct lines *lines, struct br_slope **slopes,
-                                struct br_error *err)
+/* Slopes along one direction of the grid: over k at each n, or over h at each k. */
+static enum br_status fit_lines(const struct br_study *s, enum br_part part, bool over_k,
+                                struct br_slope **slopes, struct br_error *err)
 {
-    double *x = br_allocate(2 * lines->inner, sizeof *x);
-    *slopes = br_allocate(lines->outer, sizeof **slopes);
+    const size_t outer = over_k ? s->n_count : s->k_count, inner = over_k ? s->k_count : s->n_count;
+    double *x = br_allocate(2 * inner, sizeof *x);
+    *slopes = br_allocate(outer, sizeof **slopes);
     if (!x || !*slopes) {
         free(x);
         return br_no_memory(err, "the fits");
     }
-    double *y = x + lines->inner;
-    for (size_t i = 0; i < lines->outer; i++) {
+    double *y = x + inner;
+    for (size_t i = 0; i < outer; i++) {
         size_t count = 0;
-        for (size_t j = 0; j < lines->inner; j++) {
-            const struct br_cell *c = &s->cell[i * lines->outer_stride + j * lines->inner_stride];
+        for (size_t j = 0; j < inner; j++) {
+            const struct br_cell *c = over_k ? br_study_cell(s, i, j) : br_study_cell(s, j, i);
             if (!usable(c, part))
                 continue;
-            x[count] = log(lines->abscissa(s, c));
+            x[count] = log(over_k ? step_of(s, c) : mesh_of(s, c));
             y[count++] = log(c->error[part]);
         }
         (*slopes)[i] = slope_of(x, y, count);
@@ -234,12 +228,10 @@ enum br_status br_fit(struct br_study *s, enum br_part part, struct br_fits *fit
         if (!(own <= fits->reference_error) && isfinite(own))
             fits->reference_error = own;
     } while (!status && set_flags(s, part, fits->reference_error) != 0);
-    const struct lines rows = {s->n_count, s->k_count, s->k_count, 1, step_of};
-    const struct lines columns = {s->k_count, s->n_count, 1, s->k_count, mesh_of};
     if (!status)
-        status = fit_lines(s, part, &rows, &fits->by_n, err);
+        status = fit_lines(s, part, true, &fits->by_n, err);
     if (!status)
-        status = fit_lines(s, part, &columns, &fits->by_k, err);
+        status = fit_lines(s, part, false, &fits->by_k, err);
     return status;
 }
 
