@@ -3,7 +3,6 @@
 
 #include <stdarg.h>
 #include <stdatomic.h>
-#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -75,4 +74,48 @@ void *br_allocate_aligned(size_t count, size_t size)
     if (unit == HUGE_PAGE) /* fewer misses of the address tables; a refusal does no harm */
         madvise(p, bytes, MADV_HUGEPAGE);
     return memset(p, 0, bytes);
+}
+
+/* ---- memory with one owner ---- */
+
+struct br_block {
+    struct br_block *before;
+};
+
+enum { LINE = 64 }; /* bytes: what was taken begins so far behind its block */
+
+void *br_store_take(struct br_store *store, size_t count, size_t size)
+{
+    const bool fits = !store->failed && count <= (SIZE_MAX - LINE) / size;
+    struct br_block *block = fits ? br_allocate_aligned(LINE + count * size, 1) : NULL;
+    store->failed = !block;
+    if (!block)
+        return NULL;
+    block->before = store->last;
+    store->last = block;
+    return (char *)block + LINE;
+}
+
+void *br_store_grow(struct br_store *store, void *array, size_t count, size_t *room, size_t size)
+{
+    if (count < *room)
+        return array;
+    const size_t more = 2 * *room + 32;
+    void *bigger = br_store_take(store, more, size);
+    if (!bigger)
+        return NULL;
+    if (count)
+        memcpy(bigger, array, count * size);
+    *room = more;
+    return bigger;
+}
+
+void br_store_clear(struct br_store *store)
+{
+    while (store->last) {
+        struct br_block *block = store->last;
+        store->last = block->before;
+        free(block);
+    }
+    store->failed = false;
 }

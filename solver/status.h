@@ -3,6 +3,7 @@
 #ifndef BR_SOLVER_STATUS_H
 #define BR_SOLVER_STATUS_H
 
+#include <stdbool.h>
 #include <stdlib.h>
 
 /* X(name, exit code, text). The exit codes are the program's: 0 done, 1 a
@@ -51,5 +52,20 @@ void *br_allocate(size_t count, size_t size);
 /* The same at the start of a cache line. */
 void *br_allocate_aligned(size_t count, size_t size);
 void br_allocation_fails_at(long i);
+
+/* ---- memory with one owner: taken piece by piece, released at once ---- */
+
+struct br_store {
+    struct br_block *last; /* each block points to the one before it */
+    bool failed;           /* there was no memory for a piece */
+};
+
+/* count zeroed things of a size in bytes, at the start of a cache line. NULL where there is no room
+ * or was none before: whoever takes several looks at `failed` after the last of them. */
+void *br_store_take(struct br_store *store, size_t count, size_t size);
+
+/* The array with room for one more than `count`: itself, or a larger copy. NULL as above. */
+void *br_store_grow(struct br_store *store, void *array, size_t count, size_t *room, size_t size);
+void br_store_clear(struct br_store *store);
 
 #endif

@@ -93,10 +93,11 @@ static enum br_status ladder(const void *data, struct br_error *err)
 {
     (void)data;
     struct br_ladder *l = NULL;
+    struct br_store store = {0};
     const enum br_status status =
         br_ladder_create(&l, BR_BENDING, &(struct br_mesh_list){1, (const size_t[]){12}},
-                         &(struct br_mesh_list){3, (const size_t[]){4, 6, 2}}, err);
-    br_ladder_free(l);
+                         &(struct br_mesh_list){3, (const size_t[]){4, 6, 2}}, &store, err);
+    br_store_clear(&store);
     return status;
 }
 

@@ -138,7 +138,6 @@ static void test_refusals(void **unused)
     refuses(&s, (struct br_exact_options){0}, BR_NOT_FINITE, "not finite");
     refuses(&good, (struct br_exact_options){.tolerance = 1e-14}, BR_BAD_INPUT, "tolerance");
     refuses(&good, (struct br_exact_options){.tolerance = NAN}, BR_BAD_INPUT, "tolerance");
-    refuses(&good, (struct br_exact_options){.rate_tolerance = 1e-12}, BR_BAD_INPUT, "rate");
     refuses(&good, (struct br_exact_options){.max_modes = 2}, BR_BAD_INPUT, "modes");
     refuses(&good, (struct br_exact_options){.max_steps = 30}, BR_NOT_FINITE, "more than 30");
     s = good;

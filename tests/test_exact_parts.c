@@ -11,7 +11,7 @@
 
 #include "reference/exact/field.h"
 #include "reference/exact/legendre.h"
-#include "reference/exact/restriction.h"
+#include "reference/exact/projection.h"
 #include "tests/exact_scenes.h"
 
 enum { S = BR_STAGES };
@@ -200,7 +200,9 @@ static const double beam = 2.5;
 static void project_square(struct br_pieces *pieces, size_t fronts, struct br_store *store,
                            double c[MOST])
 {
-    static const double end[] = {0, 0.4, 1.7, 2.5}, front[] = {1.1};
+    static const double end[] = {0, 0.4, 1.7, 2.5};
+    struct br_interval front[] = {{1.1, 1.1}};
+    const struct br_breaks breaks = {.at = front, .count = fronts};
     static const size_t terms[] = {TERMS, TERMS, TERMS};
     struct formula square = {f_power, {1, 2}};
     struct br_error err;
@@ -209,8 +211,7 @@ static void project_square(struct br_pieces *pieces, size_t fronts, struct br_st
     br_quadrature_init(&q, pieces, 0, store);
     assert_false(store->failed);
     const struct br_function f = formula_function(&square);
-    assert_int_equal(br_quadrature_project(&q, &f, 0, (struct br_places){fronts, front}, c, &err),
-                     BR_OK);
+    assert_int_equal(br_quadrature_project(&q, &f, 0, &breaks, c, &err), BR_OK);
 }
 
 static double squares(size_t count, const double *c)

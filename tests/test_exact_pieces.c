@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "reference/exact/field.h"
-#include "reference/exact/restriction.h"
+#include "reference/exact/projection.h"
 #include "tests/exact_scenes.h"
 #include "tests/support.h"
 
@@ -329,17 +329,23 @@ static void test_sight_of_a_root(void **unused)
     struct br_error err;
     struct br_function f = br_test_function("sqrt(t)");
     struct br_list ends = {0};
-    struct br_sight sight = {
-        .f = &f, .degree = {15, 8}, .mean = 1, .most_missed = 1e-6, .least = 1e-15, .most = 1000};
+    struct br_store store = {0};
+    struct br_sight sight = {.f = &f,
+                             .degree = {15, 8},
+                             .mean = 1,
+                             .most_missed = 1e-6,
+                             .least = 1e-15,
+                             .most = 1000,
+                             .store = &store};
     MUST(br_sight_along(&sight, BR_T, (struct br_box){{0, 0}, {0, 2}}, &ends, &err));
-    br_list_sort(&ends, 0);
+    br_list_sort(&ends);
     assert_true(ends.count > 10);
     AT_MOST(pow(ends.at[0], 1.5) * (1 - 1e-9),
             sight.missed); /* its width times its values' range */
     AT_MOST(sight.missed, (double)ends.count * 1e-6);
     for (size_t i = 1; i < ends.count; i++)
         AT_MOST(ends.at[i], 2.1 * ends.at[i - 1]);
-    br_list_free(&ends);
+    br_store_clear(&store);
     br_function_free(&f);
 }
 
@@ -349,14 +355,15 @@ static void test_sight_of_a_front(void **unused)
     (void)unused;
     struct br_error err;
     struct br_function f = br_test_function("step(x-t)*(1+exp(-((x-0.5003)/1e-5)^2))");
-    struct br_list ends[2] = {{0}, {0}};
-    struct br_sight sight = {.f = &f, .degree = {15, 8}, .mean = 1};
-    MUST(br_sight_both(&sight, (struct br_box){{0, 1}, {0, 1}}, ends, &err));
+    struct br_list x = {0}, t = {0};
+    struct br_store store = {0};
+    struct br_sight sight = {.f = &f, .degree = {15, 8}, .mean = 1, .store = &store};
+    MUST(
+        br_sight_both(&sight, (struct br_box){{0, 1}, {0, 1}}, (struct br_list *[]){&x, &t}, &err));
     const double box = pow(0.5, 20);
     AT_MOST(0.9 * box, sight.missed);
     AT_MOST(sight.missed, 2.1 * box);
-    for (int v = 0; v < 2; v++)
-        br_list_free(&ends[v]);
+    br_store_clear(&store);
     br_function_free(&f);
 }
 

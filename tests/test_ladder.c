@@ -33,6 +33,8 @@ static struct br_view view_of(const struct br_field *f, const double *nodal)
     return view;
 }
 
+static struct br_store store; /* of the ladders of a test */
+
 static struct br_ladder *create(enum br_field_kind kind, size_t finest, size_t count,
                                 const size_t *n)
 {
@@ -40,7 +42,7 @@ static struct br_ladder *create(enum br_field_kind kind, size_t finest, size_t c
     struct br_ladder *ladder;
     MUST(br_ladder_create(&ladder, br_mode_count((struct br_elements){kind, 1}, BR_DISPLACEMENT),
                           &(struct br_mesh_list){1, &finest}, &(struct br_mesh_list){count, n},
-                          &err));
+                          &store, &err));
     return ladder;
 }
 
@@ -88,7 +90,7 @@ static void check_ladder(struct br_test_random *r, enum br_field_kind kind, size
     }
     free(projection);
     free(reference);
-    br_ladder_free(ladder);
+    br_store_clear(&store);
 }
 
 static void test_random_functions(void **state)
@@ -152,7 +154,7 @@ static void test_close_functions(void **state)
                 }
                 free(small);
                 free(v);
-                br_ladder_free(ladder);
+                br_store_clear(&store);
             }
 }
 
@@ -176,8 +178,7 @@ static void test_norms(void **state)
     projection = projection_of(ladder[1], &beam, w);
     CLOSE(distance(ladder[1], 0, &beam, zero, projection), sqrt(pow(length, 7) / 7), 1e-14);
     free(projection);
-    br_ladder_free(ladder[0]);
-    br_ladder_free(ladder[1]);
+    br_store_clear(&store);
 }
 
 static void test_refusals(void **state)
@@ -187,14 +188,13 @@ static void test_refusals(void **state)
     struct br_ladder *ladder;
     const struct br_mesh_list twelve = {1, (const size_t[]){12}};
     REFUSED(br_ladder_create(&ladder, 2, &twelve, &(struct br_mesh_list){2, (const size_t[]){4, 5}},
-                             &err),
+                             &store, &err),
             BR_BAD_INPUT, "n = 5 does not divide the reference's 12");
-    br_ladder_free(ladder);
-    REFUSED(
-        br_ladder_create(&ladder, 2, &twelve, &(struct br_mesh_list){1, (const size_t[]){0}}, &err),
-        BR_BAD_INPUT, "n is 0");
-    br_ladder_free(ladder);
-    br_ladder_free(NULL);
+    br_store_clear(&store);
+    REFUSED(br_ladder_create(&ladder, 2, &twelve, &(struct br_mesh_list){1, (const size_t[]){0}},
+                             &store, &err),
+            BR_BAD_INPUT, "n is 0");
+    br_store_clear(&store);
 }
 
 static void test_nan_stays(void **state)
@@ -212,7 +212,7 @@ static void test_nan_stays(void **state)
     assert_true(distance(ladder, 0, &coarse, good, projection) == 0);
     assert_true(isnan(distance(ladder, 0, &coarse, bad, projection)));
     free(projection);
-    br_ladder_free(ladder);
+    br_store_clear(&store);
 }
 
 int main(void)

@@ -213,8 +213,9 @@ static void test_norm(void **state)
     for (const struct br_ladder_kernel *const *kernel = br_ladder_kernels; *kernel; kernel++)
         for (size_t modes = 1; modes <= 4 && (*kernel)->available(); modes++) {
             struct br_ladder *ladder;
+            struct br_store store = {0};
             MUST(br_ladder_create(&ladder, modes, &(struct br_mesh_list){1, &n},
-                                  &(struct br_mesh_list){5, rungs}, &err));
+                                  &(struct br_mesh_list){5, rungs}, &store, &err));
             br_ladder_use(ladder, *kernel);
             double *projection = malloc(br_ladder_size(ladder) * sizeof *projection);
             assert_non_null(projection);
@@ -236,7 +237,7 @@ static void test_norm(void **state)
                       2e-14);
             free(zero.values);
             free(projection);
-            br_ladder_free(ladder);
+            br_store_clear(&store);
         }
 }
 
@@ -252,7 +253,8 @@ static void test_same_mesh(void **state)
         for (size_t modes = 1; modes <= 4 && (*kernel)->available(); modes++) {
             const struct br_mesh_list mesh = {1, &n};
             struct br_ladder *ladder;
-            MUST(br_ladder_create(&ladder, modes, &mesh, &mesh, &err));
+            struct br_store store = {0};
+            MUST(br_ladder_create(&ladder, modes, &mesh, &mesh, &store, &err));
             br_ladder_use(ladder, *kernel);
             double *projection = malloc(br_ladder_size(ladder) * sizeof *projection);
             assert_non_null(projection);
@@ -262,7 +264,7 @@ static void test_same_mesh(void **state)
             br_ladder_project(ladder, &s.view, projection);
             CLOSE(br_ladder_distance(ladder, 0, &s.view, projection), 0, 0);
             free(projection);
-            br_ladder_free(ladder);
+            br_store_clear(&store);
         }
 }
 

@@ -65,16 +65,12 @@ double br_norm(size_t count, const double *weight, const double *x)
     return sqrt(all);
 }
 
-void br_stage_set(struct br_stage_system *s, const struct br_radau *radau)
+void br_stage_factor(struct br_stage_system *s, const struct br_radau *radau)
 {
     s->first = radau->integral[0][0];
     s->last = radau->integral[S - 1][S - 1];
     for (size_t k = 1; k < S; k++)
         s->coupling[k] = radau->integral[k][k - 1];
-}
-
-void br_stage_factor(struct br_stage_system *s)
-{
     for (size_t k = 0; k < S; k++) {
         const double diagonal = k == 0 ? s->first : k + 1 == S ? s->last : 0;
         const double square = s->coupling[k] * s->coupling[k];
@@ -185,17 +181,28 @@ COMBINER(portable, 2, , true)
 
 const struct br_combiner br_combiners[] = {
 #ifdef __x86_64__
-    {"avx512", available_avx512, combine_avx512, solve_avx512},
-    {"avx2", available_avx2, combine_avx2, solve_avx2},
+    {available_avx512, combine_avx512, solve_avx512},
+    {available_avx2, combine_avx2, solve_avx2},
 #endif
-    {"portable", available_portable, combine_portable, solve_portable},
+    {available_portable, combine_portable, solve_portable},
 };
 const size_t br_combiner_count = sizeof br_combiners / sizeof *br_combiners;
 
-const struct br_combiner *br_combiner_best(void)
+static const struct br_combiner *best(void)
 {
     size_t i = 0;
     while (!br_combiners[i].available())
         i++;
     return &br_combiners[i];
+}
+
+void br_combine(size_t rows, size_t count, const double *factor, size_t width, const double *table,
+                double *out)
+{
+    best()->combine(rows, count, factor, width, table, out);
+}
+
+void br_stage_solve(const struct br_stage_system *system, size_t first, double *x)
+{
+    best()->solve(system, first, x);
 }

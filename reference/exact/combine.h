@@ -12,8 +12,8 @@
 /* out[r * width + j] (out, rows x width) = sum over k < count of factor[r * count + k]
  * table[k * width + j]. The same bits on every instruction set, and for any number of rows: a sum
  * goes from the first k to the last. */
-typedef void br_combine(size_t rows, size_t count, const double *factor, size_t width,
-                        const double *table, double *out);
+void br_combine(size_t rows, size_t count, const double *factor, size_t width, const double *table,
+                double *out);
 
 /* The stages' equations of every mode, (a_i + b X + X^2) x = r with Radau's X of legendre.h.
  *
@@ -33,31 +33,27 @@ enum { BR_STAGE_LANES = 8 };
 
 /* x (BR_STAGES x width): in, right-hand sides r that are zero in the rows before `first`; out,
  * X x from there on. The same bits on every instruction set. */
-typedef void br_stage_solve(const struct br_stage_system *system, size_t first, double *x);
+void br_stage_solve(const struct br_stage_system *system, size_t first, double *x);
 
-/* Sets X. */
-void br_stage_set(struct br_stage_system *system, const struct br_radau *radau);
-
-/* Sets the pivots. */
-void br_stage_factor(struct br_stage_system *system);
+/* Sets X and the pivots. */
+void br_stage_factor(struct br_stage_system *system, const struct br_radau *radau);
 
 /* Sum of a[i] b[i], and root of the sum of squares of weight[i] x[i] (weight NULL: of x[i]), i <
  * count. The same bits on every machine. */
 double br_sum_products(size_t count, const double *a, const double *b);
 double br_norm(size_t count, const double *weight, const double *x);
 
+/* Both loops for one instruction set. */
 struct br_combiner {
-    const char *name; /* the instruction set */
     bool (*available)(void);
-    br_combine *combine;
-    br_stage_solve *solve;
+    void (*combine)(size_t rows, size_t count, const double *factor, size_t width,
+                    const double *table, double *out);
+    void (*solve)(const struct br_stage_system *system, size_t first, double *x);
 };
 
-/* The fastest first; the last one runs anywhere, and ends the list. */
+/* The fastest first; the last one runs anywhere, and ends the list. The first that is available is
+ * taken. */
 extern const struct br_combiner br_combiners[];
 extern const size_t br_combiner_count;
-
-/* The first that is available. */
-const struct br_combiner *br_combiner_best(void);
 
 #endif

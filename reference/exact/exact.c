@@ -3,14 +3,268 @@
 
 #include <gsl/gsl_errno.h>
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 #include "reference/exact/solution.h"
 
-/* How finely a solution is to be made. */
-struct fineness {
-    size_t modes;
-    double tolerance, first_step; /* see br_march_options */
+/* ---- two solutions ---- */
+
+/* The estimate is this many times the distance of two solutions: either may be
+ * the worse one, but hardly by less than that. */
+static const double safety = 2;
+
+/* After an event, a jump of the data or a blow that is as short, velocity and force are not
+ * compared for this part of T. */
+static const double layer = 1e-6;
+
+/* Times of a step at which solutions are compared: where it begins, where velocities are at their
+ * worst, and some of its nodes, where displacements are. */
+static const double inside[] = {0, 0.0913, 0.3719, 0.5452, 0.8556};
+enum { INSTANTS = sizeof inside / sizeof *inside };
+
+/* One field of two solutions, the finer one first, with room for their values at one time.
+ *
+ * The elements are the same, and the finer solution has at least as many polynomials on each: the
+ * other one's modes are sums of its modes. Both are compared in these. */
+struct pair {
+    const struct br_outline *outline;
+    const struct br_oscillators *field[2];
+    const struct br_law *law[2];
+    const struct br_history *track[2];
+    double *bridge;         /* modes of the other one x those of the finer one */
+    struct br_history step; /* one step of the other one, in the finer one's modes */
+    struct br_tip_step tip; /* of that step */
+    size_t translated;      /* its number */
+    double *q[2], *v[2];    /* modes of the finer one */
+    struct br_store store;
 };
+
+/* bridge = U_1' U_0, the energy's products of the modes: the derivatives' coefficients on each
+ * element, of which the finer ones begin with the others. */
+static void build_bridge(struct pair *p, double *row, double *turned)
+{
+    const struct br_modes *fine = &p->field[0]->modes, *coarse = &p->field[1]->modes;
+    const size_t m = fine->count;
+    for (size_t i = 0; i < m; i++)
+        for (size_t k = 0; k < m; k++)
+            turned[k * m + i] = fine->curve[i * m + k];
+    for (size_t i = 0; i < coarse->count; i++)
+        for (size_t e = 0; e < fine->pieces.count; e++)
+            memcpy(&row[i * m + br_pieces_at(&fine->pieces, e, 0)],
+                   &coarse->curve[i * coarse->count + br_pieces_at(&coarse->pieces, e, 0)],
+                   coarse->pieces.terms[e] * sizeof *row);
+    br_combine(coarse->count, m, row, m, turned, p->bridge);
+}
+
+static enum br_status pair_init(struct pair *p, const struct br_exact_solution *const solution[2],
+                                size_t which, struct br_error *err)
+{
+    const size_t m = solution[0]->field[which]->modes.count;
+    const size_t other = solution[1]->field[which]->modes.count * m;
+    for (size_t i = 0; i < 2; i++) {
+        p->field[i] = solution[i]->field[which];
+        p->law[i] = &solution[i]->law[which];
+        p->track[i] = solution[i]->track[which];
+        p->q[i] = br_store_take(&p->store, m, sizeof(double));
+        p->v[i] = br_store_take(&p->store, m, sizeof(double));
+    }
+    p->step = (struct br_history){.modes = m, .steps = 1, .tip = &p->tip};
+    p->tip.values = br_store_take(&p->store, BR_HISTORY_ROWS * m, sizeof(double));
+    p->translated = SIZE_MAX;
+    p->bridge = br_store_take(&p->store, other, sizeof(double));
+    double *row = br_store_take(&p->store, other, sizeof *row);
+    double *turned = br_store_take(&p->store, m * m, sizeof *turned);
+    if (p->store.failed)
+        return br_no_memory(err, "the comparison of two solutions");
+    build_bridge(p, row, turned);
+    return BR_OK;
+}
+
+/* The other solution's values at t, in the finer one's modes. */
+static struct br_tip_state other_at(struct pair *p, double t)
+{
+    const struct br_history *track = p->track[1];
+    const size_t n = br_history_find(track, t);
+    if (n != p->translated) {
+        double *values = p->tip.values;
+        br_combine(BR_HISTORY_ROWS, track->modes, track->tip[n].values, p->step.modes, p->bridge,
+                   values);
+        p->tip = track->tip[n];
+        p->tip.values = values;
+        p->translated = n;
+    }
+    return br_history_at(&p->step, t, p->q[1], p->v[1]);
+}
+
+/* *most becomes the larger one; NaN counts as infinite. */
+static void grow(double *most, double value)
+{
+    if (!(value <= *most))
+        *most = isnan(value) ? INFINITY : value;
+}
+
+static bool in_layer(const struct br_history *track, double t, double width)
+{
+    for (size_t i = 0; i < track->entries && track->entry[i].time - width <= t; i++)
+        if (t <= track->entry[i].time + width)
+            return true;
+    return false;
+}
+
+/* Whether velocities and forces are compared at t. */
+static bool is_smooth(const struct pair *p, double t, double duration)
+{
+    return t == duration || (!in_layer(p->track[0], t, layer * duration) &&
+                             !in_layer(p->track[1], t, layer * duration) &&
+                             !br_outline_is_sharp(p->outline, t, layer * duration));
+}
+
+static void compare_at(struct pair *p, double t, double duration, struct br_exact_report *report)
+{
+    struct br_tip_state tip[2] = {br_history_at(p->track[0], t, p->q[0], p->v[0]), other_at(p, t)};
+    for (size_t i = 0; i < 2; i++)
+        tip[i].force = br_law_at(p->law[i], t, &tip[i]).force;
+    const struct br_oscillators *field = p->field[0];
+    const size_t m = field->modes.count, degree = field->modes.degree;
+    const double length = field->length, norm = 1 / sqrt(length);
+    const double strain = pow(length, -(double)degree);
+    struct br_exact_size *largest = &report->largest, *error = &report->error;
+    grow(&largest->displacement, norm * br_oscillators_norm(field, p->q[0]));
+    grow(&largest->displacement, fabs(tip[0].displacement + p->track[0]->gap));
+    grow(&largest->velocity, norm * br_oscillators_norm(field, p->v[0]));
+    grow(&largest->velocity, fabs(tip[0].velocity));
+    grow(&largest->force, fabs(tip[0].force));
+    grow(&largest->strain_rate, br_norm(m, NULL, p->v[0]) * strain);
+    for (size_t i = 0; i < m; i++) {
+        p->q[1][i] -= p->q[0][i];
+        p->v[1][i] -= p->v[0][i];
+    }
+    grow(&error->displacement, safety * norm * br_oscillators_norm(field, p->q[1]));
+    grow(&error->displacement, safety * fabs(tip[0].displacement - tip[1].displacement));
+    if (!is_smooth(p, t, duration))
+        return;
+    grow(&error->velocity, safety * norm * br_oscillators_norm(field, p->v[1]));
+    grow(&error->strain_rate, safety * br_norm(m, NULL, p->v[1]) * strain);
+    grow(&error->velocity, safety * fabs(tip[0].velocity - tip[1].velocity));
+    grow(&error->force, safety * fabs(tip[0].force - tip[1].force));
+}
+
+static bool same_phases(const struct br_history *a, const struct br_history *b)
+{
+    if (a->entries != b->entries)
+        return false;
+    for (size_t i = 0; i < a->entries; i++)
+        if (a->entry[i].phase != b->entry[i].phase)
+            return false;
+    return true;
+}
+
+/* The time of instant i of a history; infinite behind the last one. */
+static double instant_time(const struct br_history *track, size_t i)
+{
+    const struct br_tip_step *tip = &track->tip[i / INSTANTS];
+    return i < track->steps * INSTANTS ? tip->start + inside[i % INSTANTS] * tip->length : INFINITY;
+}
+
+/* Work of the comparisons in a step; a translated step serves those in two. */
+static double step_work(const struct pair *p)
+{
+    const double a = (double)p->field[0]->modes.count, b = (double)p->field[1]->modes.count;
+    return 3e-4 * a * b + 0.035 * a;
+}
+
+/* Compares at each step of either solution, in order of time. What is begun is ended, though no
+ * work be left for it; but not where somebody stops it. */
+static enum br_status compare_field(struct pair *p, double duration, struct br_effort *effort,
+                                    struct br_exact_report *report, struct br_error *err)
+{
+    struct br_error spent;
+    size_t at[2] = {0, 0};
+    if (!same_phases(p->track[0], p->track[1])) {
+        report->error = (struct br_exact_size){INFINITY, INFINITY, INFINITY, INFINITY};
+        return BR_OK;
+    }
+    for (;;) {
+        const double t[2] = {instant_time(p->track[0], at[0]), instant_time(p->track[1], at[1])};
+        const size_t first = t[1] < t[0];
+        if (isinf(t[first]))
+            break;
+        compare_at(p, t[first], duration, report);
+        if (++at[first] % INSTANTS == 0 &&
+            br_effort_spend(effort, step_work(p), &spent) == BR_INTERRUPTED)
+            return br_fail(err, BR_INTERRUPTED, "%s", spent.message);
+    }
+    compare_at(p, duration, duration, report);
+    return BR_OK;
+}
+
+/* Fills exact->report with the size of exact->solution and its distance to another, infinite where
+ * their events differ. Its work counts. Fails with BR_NO_MEMORY or BR_INTERRUPTED. */
+static enum br_status compare(struct br_exact *exact, const struct br_exact_solution *other,
+                              const struct br_outline outline[BR_EXACT_FIELDS],
+                              struct br_effort *effort, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t which = 0; which < BR_EXACT_FIELDS && !status; which++) {
+        struct br_exact_report *report = &exact->report[which];
+        *report = (struct br_exact_report){0};
+        if (!exact->solution->track[which])
+            continue;
+        struct pair p = {.outline = &outline[which]};
+        report->modes = exact->solution->field[which]->modes.count;
+        report->steps = exact->solution->track[which]->steps;
+        exact->noise[which] = 1e-13 * exact->solution->track[which]->free_velocity;
+        const struct br_exact_solution *const both[2] = {exact->solution, other};
+        status = pair_init(&p, both, which, err);
+        if (!status)
+            status = compare_field(&p, exact->duration, effort, report, err);
+        br_store_clear(&p.store);
+    }
+    return status;
+}
+
+static int by_time(const void *a, const void *b)
+{
+    const struct br_exact_event *x = a, *y = b;
+    if (x->time != y->time)
+        return x->time < y->time ? -1 : 1;
+    return (int)x->field - (int)y->field;
+}
+
+/* Fills exact->event from exact->solution, with error bars from another that has the same events.
+ * Fails with BR_NO_MEMORY. */
+static enum br_status list_events(struct br_exact *exact, const struct br_exact_solution *other,
+                                  struct br_error *err)
+{
+    size_t room = 0;
+    for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
+        if (exact->solution->track[which])
+            room += exact->solution->track[which]->entries;
+    exact->event = br_allocate(room, sizeof *exact->event);
+    if (!exact->event)
+        return br_no_memory(err, "the events");
+    for (size_t which = 0; which < BR_EXACT_FIELDS; which++) {
+        const struct br_history *track = exact->solution->track[which];
+        for (size_t i = 0; track && i < track->entries; i++) {
+            const double t = track->entry[i].time, t2 = other->track[which]->entry[i].time;
+            /* a phase that goes on through an event of the other field is none */
+            if (i == 0 || track->entry[i].phase != track->entry[i - 1].phase)
+                exact->event[exact->events++] = (struct br_exact_event){
+                    .time = t,
+                    .error = safety * fabs(t - t2) + track->entry[i].error,
+                    .field = (enum br_exact_field)which,
+                    .phase = track->entry[i].phase,
+                };
+        }
+    }
+    qsort(exact->event, exact->events, sizeof *exact->event, by_time);
+    for (size_t i = 1; i < exact->events; i++) /* errors are handed on, agreement may be luck */
+        grow(&exact->event[i].error, exact->event[i - 1].error);
+    return BR_OK;
+}
+
+/* ---- the search for two that agree ---- */
 
 enum { FIRST_MODES = 12, LEAST_MODES = 18 };
 
@@ -22,7 +276,6 @@ static struct br_exact_options with_defaults(const struct br_exact_options *opti
     struct br_exact_options o = options ? *options : (struct br_exact_options){0};
     o.tolerance = o.tolerance != 0 ? o.tolerance : 1e-10;
     o.acceptable = o.acceptable != 0 ? o.acceptable : o.tolerance;
-    o.rate_tolerance = o.rate_tolerance != 0 ? o.rate_tolerance : 10 * o.tolerance;
     o.max_modes = o.max_modes ? o.max_modes : 256;
     o.max_steps = o.max_steps ? o.max_steps : 20000;
     return o;
@@ -37,9 +290,6 @@ static enum br_status check(const struct br_scene *scene, const struct br_exact_
     if (!(o->acceptable >= o->tolerance && o->acceptable <= 1e-3))
         return br_fail(err, BR_BAD_INPUT, "the acceptable tolerance is %g, expected %g to 1e-3",
                        o->acceptable, o->tolerance);
-    if (!(o->rate_tolerance >= 10 * o->tolerance && o->rate_tolerance <= 1))
-        return br_fail(err, BR_BAD_INPUT, "the rate tolerance is %g, expected %g to 1",
-                       o->rate_tolerance, 10 * o->tolerance);
     if (o->max_modes < LEAST_MODES || o->max_modes > 1000)
         return br_fail(err, BR_BAD_INPUT, "at most %zu modes are allowed, expected %d to 1000",
                        o->max_modes, LEAST_MODES);
@@ -55,29 +305,17 @@ static enum br_status check(const struct br_scene *scene, const struct br_exact_
     return BR_OK;
 }
 
-/* Every second solution has finer steps, so that any two that follow each other
- * differ in time as well as in space. */
-static struct fineness fineness_of(const struct br_exact_options *o, double duration, size_t round,
-                                   size_t modes)
-{
-    const bool finer = round % 2;
-    return (struct fineness){
-        .modes = modes,
-        .tolerance = o->tolerance * (finer ? 0.1 : 0.4),
-        .first_step = duration * (finer ? 2e-13 : 1e-12),
-    };
-}
-
 /* The largest error over what is allowed; 0 / 0 counts as 0 */
 static double badness(const struct br_exact *exact, const struct br_exact_options *o)
 {
+    const double rate_tolerance = 10 * o->tolerance;
     double worst = 0;
     for (size_t i = 0; i < BR_EXACT_FIELDS; i++) {
         const struct br_exact_size *e = &exact->report[i].error, *l = &exact->report[i].largest;
         const double error[] = {e->displacement, e->velocity, e->force};
         const double allowed[] = {
             o->tolerance * l->displacement + exact->noise[i] * exact->duration,
-            o->rate_tolerance * l->velocity + exact->noise[i], o->rate_tolerance * l->force};
+            rate_tolerance * l->velocity + exact->noise[i], rate_tolerance * l->force};
         for (size_t j = 0; j < 3; j++)
             if (error[j] != 0 && !(error[j] / allowed[j] <= worst))
                 worst = error[j] / allowed[j];
@@ -85,21 +323,14 @@ static double badness(const struct br_exact *exact, const struct br_exact_option
     return worst;
 }
 
-static void scale_size(struct br_exact_size *size, double factor)
+/* size = factor size + share of */
+static void add_to_size(struct br_exact_size *size, double factor, double share,
+                        const struct br_exact_size *of)
 {
-    size->displacement *= factor;
-    size->velocity *= factor;
-    size->force *= factor;
-    size->strain_rate *= factor;
-}
-
-/* size += share * of */
-static void add_to_size(struct br_exact_size *size, double share, const struct br_exact_size *of)
-{
-    size->displacement += share * of->displacement;
-    size->velocity += share * of->velocity;
-    size->force += share * of->force;
-    size->strain_rate += share * of->strain_rate;
+    size->displacement = factor * size->displacement + share * of->displacement;
+    size->velocity = factor * size->velocity + share * of->velocity;
+    size->force = factor * size->force + share * of->force;
+    size->strain_rate = factor * size->strain_rate + share * of->strain_rate;
 }
 
 static enum br_status refuse(const struct br_exact *exact, double worst,
@@ -123,6 +354,7 @@ struct search {
     const struct br_exact_options *o;
     struct br_outline outline[BR_EXACT_FIELDS];
     struct br_effort effort;
+    size_t round, modes; /* of the next solution */
     struct br_exact_solution *before;
     double missed;              /* the largest of the outlines */
     double worst, worst_before; /* of the last two pairs, infinite where that cannot be said */
@@ -131,21 +363,25 @@ struct search {
 
 /* ---- one solution ---- */
 
-static struct br_law axial_law(const struct br_scene *scene)
+static bool is_modelled(const struct br_scene *s, enum br_exact_field which)
 {
-    return (struct br_law){
-        .contact = true,
-        .obstacle = scene->contact.modelled,
-        .stiffness = scene->contact.modelled ? scene->contact.stiffness : 0,
-    };
+    return which == BR_EXACT_AXIAL ? s->axial.modelled : s->bending.modelled;
 }
 
-static struct br_law bending_law(const struct br_scene *scene, const struct br_history *axial)
+static struct br_law law_of(const struct br_scene *s, enum br_exact_field which,
+                            const struct br_history *axial)
 {
+    const struct br_friction *f = &s->friction;
+    if (which == BR_EXACT_AXIAL)
+        return (struct br_law){
+            .contact = true,
+            .obstacle = s->contact.modelled,
+            .stiffness = s->contact.modelled ? s->contact.stiffness : 0,
+        };
     return (struct br_law){
-        .friction = scene->friction.law,
-        .coefficient = scene->friction.coefficient,
-        .axial = scene->friction.law == BR_COULOMB ? axial : NULL,
+        .friction = f->law,
+        .coefficient = f->coefficient,
+        .axial = f->law == BR_COULOMB ? axial : NULL,
     };
 }
 
@@ -153,8 +389,6 @@ static void solution_free(struct br_exact_solution *s)
 {
     if (!s)
         return;
-    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
-        br_history_free(s->track[i]);
     br_store_clear(&s->store);
     free(s);
 }
@@ -167,48 +401,34 @@ static size_t count_modes(const struct search *s, size_t which, size_t modes)
     return count;
 }
 
-/* One field; a singular value decomposition is most of what its modes cost. */
+/* One field. Every second solution has finer steps, so that any two that follow each other differ
+ * in time as well as in space. A singular value decomposition is most of what its modes cost. Why
+ * it fails is in s->cause. */
 static enum br_status solve(struct search *s, enum br_exact_field which,
-                            const struct fineness *fine, struct br_exact_solution *into)
+                            struct br_exact_solution *into)
 {
-    const bool axial = which == BR_EXACT_AXIAL;
+    const bool finer = s->round % 2;
     const struct br_scene *scene = s->scene;
     const struct br_outline *outline = &s->outline[which];
     struct br_law *law = &into->law[which];
-    *law = axial ? axial_law(scene) : bending_law(scene, into->track[BR_EXACT_AXIAL]);
+    *law = law_of(scene, which, into->track[BR_EXACT_AXIAL]);
     const struct br_march_options options = {
         .duration = scene->duration,
-        .gap = axial && scene->contact.modelled ? scene->contact.gap : 0,
-        .tolerance = fine->tolerance,
-        .first_step = fine->first_step,
+        .gap = law->obstacle ? scene->contact.gap : 0,
+        .tolerance = s->o->tolerance * (finer ? 0.1 : 0.4),
+        .first_step = scene->duration * (finer ? 2e-13 : 1e-12),
         .max_steps = s->o->max_steps,
         .outline = {outline, law->axial ? &s->outline[BR_EXACT_AXIAL] : NULL},
         .effort = &s->effort,
     };
-    const double count = (double)count_modes(s, which, fine->modes);
+    const double count = (double)count_modes(s, which, s->modes);
     enum br_status status = br_effort_spend(&s->effort, 2e-3 * count * count * count, &s->cause);
     if (!status)
-        status = br_oscillators_create(&into->field[which], scene, outline, fine->modes,
-                                       &into->store, &s->cause);
+        status = br_oscillators_create(&into->field[which], scene, outline, s->modes, &into->store,
+                                       &s->cause);
     if (!status)
-        status = br_march(into->field[which], law, &options, &into->track[which], &s->cause);
-    return status;
-}
-
-/* *out (owned by the caller); why it fails is in s->cause. */
-static enum br_status solution_create(struct search *s, const struct fineness *fine,
-                                      struct br_exact_solution **out)
-{
-    enum br_status status = BR_OK;
-    *out = br_allocate(1, sizeof **out);
-    if (!*out)
-        return br_no_memory(&s->cause, "the exact solution");
-    if (s->scene->axial.modelled)
-        status = solve(s, BR_EXACT_AXIAL, fine, *out);
-    if (!status && s->scene->bending.modelled)
-        status = solve(s, BR_EXACT_BENDING, fine, *out);
-    if (status)
-        solution_free(*out);
+        status = br_march(into->field[which], law, &options, &into->store, &into->track[which],
+                          &s->cause);
     return status;
 }
 
@@ -216,22 +436,27 @@ static enum br_status solution_create(struct search *s, const struct fineness *f
 
 /* The next solution, and how far it is from the last one. Where it fails, more modes may help;
  * where no work is left the last pair stays. */
-static enum br_status next_round(struct search *s, const struct fineness *fine)
+static enum br_status next_round(struct search *s)
 {
     struct br_exact *exact = s->exact;
-    struct br_exact_solution *next = NULL;
+    struct br_exact_solution *next = br_allocate(1, sizeof *next);
+    enum br_status status = BR_OK;
     s->cause = (struct br_error){0};
-    enum br_status status = solution_create(s, fine, &next);
-    if (status == BR_NOT_FINITE)
-        return BR_OK;
-    if (status)
-        return status;
+    if (!next)
+        return br_no_memory(&s->cause, "the exact solution");
+    for (enum br_exact_field which = 0; which < BR_EXACT_FIELDS && !status; which++)
+        if (is_modelled(s->scene, which))
+            status = solve(s, which, next);
+    if (status) {
+        solution_free(next);
+        return status == BR_NOT_FINITE ? BR_OK : status;
+    }
     solution_free(s->before);
     s->before = exact->solution;
     exact->solution = next;
     if (!s->before)
         return BR_OK;
-    status = br_exact_compare(exact, s->before, s->outline, &s->effort, &s->cause);
+    status = compare(exact, s->before, s->outline, &s->effort, &s->cause);
     s->worst_before = s->worst;
     s->worst = badness(exact, s->o);
     return status;
@@ -244,14 +469,14 @@ static bool is_spent(const struct search *s)
 }
 
 /* Modes of a next round, 0 if it may not be: elements multiply what is allowed for one by six. */
-static size_t next_modes(const struct search *s, size_t modes)
+static size_t next_modes(const struct search *s)
 {
-    const size_t most = s->o->max_modes, more = modes * 3 / 2;
-    const size_t next = !modes ? FIRST_MODES : more < most ? more : most;
+    const size_t most = s->o->max_modes, more = s->modes * 3 / 2;
+    const size_t next = !s->modes ? FIRST_MODES : more < most ? more : most;
     for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
         if (count_modes(s, which, next) > 6 * most)
             return 0;
-    return modes == most || is_spent(s) ? 0 : next;
+    return s->modes == most || is_spent(s) ? 0 : next;
 }
 
 /* Whether the last pair is all but what was wished for, and more modes do not help: the steps' own
@@ -272,7 +497,7 @@ static bool will_do(struct search *s)
     if (s->worst <= near)
         return true;
     for (size_t i = 0; i < BR_EXACT_FIELDS && ratio <= slow; i++)
-        scale_size(&s->exact->report[i].error, 1 / (1 - ratio));
+        add_to_size(&s->exact->report[i].error, 1 / (1 - ratio), 0, &s->exact->report[i].largest);
     return ratio <= slow;
 }
 
@@ -294,33 +519,32 @@ static enum br_status refine(struct search *s, struct br_error *err)
 {
     const double enough = fmax(1, s->missed / s->o->tolerance);
     enum br_status status = BR_OK;
-    size_t modes = next_modes(s, 0);
-    if (!modes)
+    s->modes = next_modes(s);
+    if (!s->modes)
         return br_fail(err, BR_NOT_FINITE,
                        "no exact solution: the loads and initial data ask for %zu and %zu elements",
                        s->outline[0].end.count, s->outline[1].end.count);
-    for (size_t round = 0; !status && modes && !(s->worst <= enough) && !is_stuck(s); round++) {
-        const struct fineness fine = fineness_of(s->o, s->exact->duration, round, modes);
-        status = next_round(s, &fine);
-        modes = next_modes(s, modes);
+    for (; !status && s->modes && !(s->worst <= enough) && !is_stuck(s); s->round++) {
+        status = next_round(s);
+        s->modes = next_modes(s);
     }
     if (status)
         return br_fail(err, status, "%s", s->cause.message);
     if (!(s->worst <= enough) && !will_do(s))
         return refuse(s->exact, s->worst, &s->cause, err);
     for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
-        add_to_size(&s->exact->report[i].error, unproved(s, i), &s->exact->report[i].largest);
-    return br_exact_list_events(s->exact, s->before, err);
+        add_to_size(&s->exact->report[i].error, 1, unproved(s, i), &s->exact->report[i].largest);
+    return list_events(s->exact, s->before, err);
 }
 
 static enum br_status outline(struct search *s, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t which = 0; which < BR_EXACT_FIELDS && !status; which++) {
-        const bool axial = which == BR_EXACT_AXIAL;
-        if (!(axial ? s->scene->axial.modelled : s->scene->bending.modelled))
+    for (enum br_exact_field which = 0; which < BR_EXACT_FIELDS && !status; which++) {
+        if (!is_modelled(s->scene, which))
             continue;
-        status = br_outline_init(&s->outline[which], s->scene, axial ? 1 : 2, err);
+        status =
+            br_outline_init(&s->outline[which], s->scene, which == BR_EXACT_AXIAL ? 1 : 2, err);
         s->missed = fmax(s->missed, s->outline[which].missed);
     }
     if (!status && !(s->missed <= s->o->acceptable))
@@ -332,26 +556,6 @@ static enum br_status outline(struct search *s, struct br_error *err)
     return status;
 }
 
-static enum br_status search(struct br_exact *exact, const struct br_scene *scene,
-                             const struct br_exact_options *o, struct br_error *err)
-{
-    struct search s = {
-        .exact = exact,
-        .scene = scene,
-        .o = o,
-        .effort = {.most = most_work, .who = o},
-        .worst = INFINITY,
-        .worst_before = INFINITY,
-    };
-    enum br_status status = outline(&s, err);
-    if (!status)
-        status = refine(&s, err);
-    solution_free(s.before);
-    for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
-        br_outline_clear(&s.outline[which]);
-    return status;
-}
-
 enum br_status br_exact_create(struct br_exact **out, const struct br_scene *scene,
                                const struct br_exact_options *options, struct br_error *err)
 {
@@ -360,16 +564,28 @@ enum br_status br_exact_create(struct br_exact **out, const struct br_scene *sce
     enum br_status status = check(scene, &o, err);
     if (status)
         return status;
-    struct br_exact *exact = br_allocate(1, sizeof *exact);
-    if (!exact)
+    struct search s = {
+        .exact = br_allocate(1, sizeof *s.exact),
+        .scene = scene,
+        .o = &o,
+        .effort = {.most = most_work, .who = &o},
+        .worst = INFINITY,
+        .worst_before = INFINITY,
+    };
+    if (!s.exact)
         return br_no_memory(err, "the exact solution");
     gsl_set_error_handler_off(); /* it would end the program */
-    exact->duration = scene->duration;
-    status = search(exact, scene, &o, err);
+    s.exact->duration = scene->duration;
+    status = outline(&s, err);
+    if (!status)
+        status = refine(&s, err);
+    solution_free(s.before);
+    for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
+        br_outline_clear(&s.outline[which]);
     if (status)
-        br_exact_free(exact);
+        br_exact_free(s.exact);
     else
-        *out = exact;
+        *out = s.exact;
     return status;
 }
 

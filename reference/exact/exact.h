@@ -39,13 +39,13 @@ enum br_phase {
 
 /* Zeros mean the defaults. Tolerances are relative to the largest value over time. */
 struct br_exact_options {
-    double tolerance;      /* 1e-10: of displacements, 2e-11 to 1e-3 */
-    double acceptable;     /* the tolerance: up to this, 1e-3 at most, will do where max_modes are
-                              not enough for the tolerance; the report has what was reached */
-    double rate_tolerance; /* ten times tolerance, and at least that: of velocities and forces */
-    size_t max_modes;      /* 256 per field, 18 to 1000; on several elements six times as many in
-                              all */
-    size_t max_steps;      /* 20000 per field */
+    double tolerance;  /* 1e-10: of displacements, 2e-11 to 1e-3; ten times that of velocities and
+                          forces */
+    double acceptable; /* the tolerance: up to this, 1e-3 at most, will do where max_modes are
+                          not enough for the tolerance; the report has what was reached */
+    size_t max_modes;  /* 256 per field, 18 to 1000; on several elements six times as many in
+                          all */
+    size_t max_steps;  /* 20000 per field */
     bool (*stop)(void *self); /* asked every step; true: give up, with BR_INTERRUPTED */
     void *stop_self;
     /* gets, every step, the share of the most work that is done, 0 to 1; self is stop_self */

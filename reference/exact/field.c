@@ -74,6 +74,8 @@ static enum br_status integrate(struct br_modes *modes, struct br_error *err)
 enum br_status br_modes_init(struct br_modes *modes, size_t degree, struct br_store *store,
                              struct br_error *err)
 {
+    if (store->failed)
+        return br_no_memory(err, "the modes");
     const size_t m = modes->count = br_pieces_at(&modes->pieces, modes->pieces.count, 0);
     const size_t lanes = BR_STAGE_LANES, width = (m + lanes - 1) / lanes * lanes;
     modes->width = width;
@@ -94,7 +96,7 @@ enum br_status br_modes_init(struct br_modes *modes, size_t degree, struct br_st
 
 void br_modes_expand(const struct br_modes *modes, size_t order, const double *q, double *c)
 {
-    br_combiner_best()->combine(1, modes->count, q, modes->count, modes->curve, c); /* c = U q */
+    br_combine(1, modes->count, q, modes->count, modes->curve, c); /* c = U q */
     for (size_t d = 0; d < modes->degree - order; d++)
         br_pieces_integrate(&modes->pieces, d, c);
 }
@@ -107,8 +109,7 @@ enum br_status br_modes_project(const struct br_modes *modes, const struct br_fu
     double *c = br_allocate((size_t)rows, sizeof *c);
     if (!c)
         return br_no_memory(err, "a projection");
-    const enum br_status status =
-        br_quadrature_project(&modes->quadrature, f, 0, (struct br_places){0}, c, err);
+    const enum br_status status = br_quadrature_project(&modes->quadrature, f, 0, NULL, c, err);
     cblas_dgemv(CblasColMajor, CblasTrans, rows, (int)modes->count, 1, modes->shape, rows, c, 1, 0,
                 q, 1); /* q = Y' c */
     for (size_t i = 0; i < modes->count; i++)
@@ -151,7 +152,7 @@ static enum br_status set_initial(struct br_oscillators *f, struct br_error *err
 static void test(const struct br_oscillators *f, size_t rows, const double *c, double *out)
 {
     const struct br_modes *m = &f->modes;
-    m->quadrature.combine(rows, br_modes_length(m, 0), c, m->width, m->function, out);
+    br_combine(rows, br_modes_length(m, 0), c, m->width, m->function, out);
 }
 
 static enum br_status set_space(struct br_oscillators *f, struct br_error *err)
@@ -163,8 +164,8 @@ static enum br_status set_space(struct br_oscillators *f, struct br_error *err)
         double *space = f->load_space + term * width;
         if (p->space.uses_t || br_product_is_zero(p))
             continue;
-        status = br_quadrature_project(&f->modes.quadrature, &p->space, 0, (struct br_places){0},
-                                       f->load_series, err);
+        status =
+            br_quadrature_project(&f->modes.quadrature, &p->space, 0, NULL, f->load_series, err);
         test(f, 1, f->load_series, space);
         for (size_t i = 0; i < width; i++)
             space[i] *= f->length;
@@ -172,55 +173,39 @@ static enum br_status set_space(struct br_oscillators *f, struct br_error *err)
     return status;
 }
 
-static enum br_status create_modes(struct br_oscillators *f, const struct br_outline *o,
-                                   size_t modes, struct br_error *err)
-{
-    const size_t elements = o->end.count - 1;
-    size_t *terms = br_store_take(f->store, elements, sizeof *terms);
-    for (size_t e = 0; terms && e < elements; e++)
-        terms[e] = br_outline_terms(o, e, modes);
-    if (terms)
-        br_pieces_init(&f->modes.pieces, f->length, elements, o->end.at, terms, f->store);
-    return f->store->failed ? br_no_memory(err, "the modes")
-                            : br_modes_init(&f->modes, o->degree, f->store, err);
-}
-
-static enum br_status allocate(struct br_oscillators *f, struct br_error *err)
-{
-    const size_t m = f->modes.count, width = f->modes.width;
-    f->mass = br_store_take(f->store, width, sizeof *f->mass);
-    f->load_space = br_store_take(f->store, width * BR_LOAD_TERMS, sizeof *f->load_space);
-    f->load_series =
-        br_store_take(f->store, BR_STAGES * br_modes_length(&f->modes, 0), sizeof *f->load_series);
-    f->load_sum = br_store_take(f->store, BR_STAGES * width, sizeof *f->load_sum);
-    f->displacement = br_store_take(f->store, m, sizeof *f->displacement);
-    f->velocity = br_store_take(f->store, m, sizeof *f->velocity);
-    return f->store->failed ? br_no_memory(err, "the modes") : BR_OK;
-}
-
 enum br_status br_oscillators_create(struct br_oscillators **out, const struct br_scene *scene,
                                      const struct br_outline *outline, size_t modes,
                                      struct br_store *store, struct br_error *err)
 {
-    struct br_oscillators *f = *out = br_store_take(store, 1, sizeof *f);
-    if (!f)
-        return br_no_memory(err, "the modes");
+    const size_t elements = outline->end.count - 1;
     const double power = pow(scene->length, 1 - 2 * (double)outline->degree);
-    f->store = store;
+    struct br_oscillators *f = *out = br_store_take(store, 1, sizeof *f);
+    size_t *terms = br_store_take(store, elements, sizeof *terms);
+    if (!terms)
+        return br_no_memory(err, "the modes");
     f->length = scene->length;
     f->data = br_exact_data_of(scene, outline->degree);
     f->fronts = outline->fronts;
     f->damping = f->data.viscosity * power;
     f->stiffness = f->data.stiffness * power;
-    enum br_status status = create_modes(f, outline, modes, err);
-    if (!status)
-        status = allocate(f, err);
-    for (size_t i = 0; !status && i < f->modes.width; i++)
-        f->mass[i] = i < f->modes.count
-                         ? scene->density * f->length * f->modes.size[i] * f->modes.size[i]
-                         : 1;
-    if (!status)
-        status = set_space(f, err);
+    for (size_t e = 0; e < elements; e++)
+        terms[e] = br_outline_terms(outline, e, modes);
+    br_pieces_init(&f->modes.pieces, f->length, elements, outline->end.at, terms, store);
+    enum br_status status = br_modes_init(&f->modes, outline->degree, store, err);
+    if (status)
+        return status;
+    const size_t m = f->modes.count, width = f->modes.width, rows = br_modes_length(&f->modes, 0);
+    f->mass = br_store_take(store, width, sizeof *f->mass);
+    f->load_space = br_store_take(store, width * BR_LOAD_TERMS, sizeof *f->load_space);
+    f->load_series = br_store_take(store, S * rows, sizeof *f->load_series);
+    f->load_sum = br_store_take(store, S * width, sizeof *f->load_sum);
+    f->displacement = br_store_take(store, m, sizeof *f->displacement);
+    f->velocity = br_store_take(store, m, sizeof *f->velocity);
+    if (store->failed)
+        return br_no_memory(err, "the modes");
+    for (size_t i = 0; i < width; i++)
+        f->mass[i] = i < m ? scene->density * f->length * f->modes.size[i] * f->modes.size[i] : 1;
+    status = set_space(f, err);
     return status ? status : set_initial(f, err);
 }
 
@@ -243,15 +228,8 @@ static enum br_status load_at(const struct br_oscillators *f, const struct br_fu
     enum br_status status = BR_OK;
     if (f->fronts && space->uses_x)
         status = br_breaks_add(space, BR_X, (struct br_box){{0, f->length}, {t, t}}, &breaks, err);
-    double *x = br_allocate(breaks.count + 1, sizeof *x);
-    if (!status && !x)
-        status = br_no_memory(err, "a load");
-    for (size_t i = 0; i < breaks.count && x; i++)
-        x[i] = breaks.at[i].high;
     if (!status)
-        status = br_quadrature_project(&f->modes.quadrature, space, t,
-                                       (struct br_places){breaks.count, x}, c, err);
-    free(x);
+        status = br_quadrature_project(&f->modes.quadrature, space, t, &breaks, c, err);
     br_breaks_free(&breaks);
     return status;
 }

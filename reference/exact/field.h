@@ -70,7 +70,6 @@ struct br_oscillators {
     double *displacement;      /* modes: at t = 0, m */
     double *velocity;          /* modes: at t = 0, m/s */
     double tip_displacement, tip_velocity; /* at t = 0, m, m/s */
-    struct br_store *store;                /* that it is from */
 };
 
 /* *out (owned by the store). The scene (borrowed, with its functions) must model the field. On the

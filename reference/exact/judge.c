@@ -10,26 +10,27 @@
 struct exact_judge {
     const struct br_exact *exact; /* shared */
     struct br_exact_state *state;
-    struct br_exact_projection **projection[2][BR_MEASURES]; /* by br_field_kind, then by mesh */
-    bool modelled[2];
+    struct br_exact_projection **projection; /* by br_field_kind, measure and mesh */
+    const struct br_scene *scene;
     size_t meshes, levels;
     int axial_degree;
-    double length, duration; /* m, s */
-    double seconds[2];       /* by br_field_kind */
+    double seconds[2]; /* by br_field_kind */
 };
+
+static struct br_exact_projection **projection_at(const struct exact_judge *e, int kind,
+                                                  int measure, size_t mesh)
+{
+    return &e->projection[((size_t)kind * BR_MEASURES + (size_t)measure) * e->meshes + mesh];
+}
 
 static void exact_free(void *self)
 {
     struct exact_judge *e = self;
     if (!e)
         return;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        for (int measure = 0; measure < BR_MEASURES; measure++) {
-            struct br_exact_projection **projection = e->projection[kind][measure];
-            for (size_t i = 0; projection && i < e->meshes; i++)
-                br_exact_projection_free(projection[i]);
-            free(projection);
-        }
+    for (size_t i = 0; e->projection && i < 2 * BR_MEASURES * e->meshes; i++)
+        br_exact_projection_free(e->projection[i]);
+    free(e->projection);
     br_exact_state_free(e->state);
     br_exact_give_back(e->exact);
     free(e);
@@ -46,33 +47,23 @@ static struct br_exact_part part_of(enum br_field_kind kind, enum br_measure mea
     };
 }
 
-static enum br_status create_projections(struct exact_judge *e, enum br_field_kind kind,
-                                         enum br_measure measure, const struct br_judge_request *r,
+static enum br_status create_projections(struct exact_judge *e, const struct br_judge_request *r,
                                          struct br_error *err)
 {
-    struct br_exact_projection **projection = br_allocate(r->mesh_count, sizeof *projection);
-    e->projection[kind][measure] = projection;
-    if (!projection)
-        return br_no_memory(err, "the exact reference");
-    const struct br_exact_part part = part_of(kind, measure);
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < r->mesh_count && !status; i++) {
-        const struct br_exact_mesh mesh = {
-            r->mesh[i], br_mode_count((struct br_elements){kind, r->axial_degree}, measure) - 1};
-        status = br_exact_projection_create(&projection[i], e->exact, &part, &mesh, err);
-    }
-    return status;
-}
-
-static enum br_status create_all_projections(struct exact_judge *e,
-                                             const struct br_judge_request *r, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        for (int measure = 0; measure < BR_TIP && !status; measure++)
-            if (r->measured[kind][measure])
-                status = create_projections(e, (enum br_field_kind)kind, (enum br_measure)measure,
-                                            r, err);
+    e->projection = br_allocate(2 * BR_MEASURES * r->mesh_count, sizeof(void *));
+    enum br_status status = e->projection ? BR_OK : br_no_memory(err, "the exact reference");
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (enum br_measure measure = 0; measure < BR_TIP; measure++) {
+            const struct br_exact_part part = part_of(kind, measure);
+            const struct br_elements elements = {kind, r->axial_degree};
+            const size_t meshes = r->measured[kind][measure] ? r->mesh_count : 0;
+            for (size_t i = 0; i < meshes && !status; i++) {
+                const struct br_exact_mesh mesh = {r->mesh[i],
+                                                   br_mode_count(elements, measure) - 1};
+                status = br_exact_projection_create(projection_at(e, kind, measure, i), e->exact,
+                                                    &part, &mesh, err);
+            }
+        }
     return status;
 }
 
@@ -84,13 +75,10 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
     if (!e)
         return br_no_memory(err, "the exact reference");
     const double start = br_seconds();
-    e->modelled[BR_AXIAL] = r->scene->axial.modelled;
-    e->modelled[BR_BENDING] = r->scene->bending.modelled;
+    e->scene = r->scene;
     e->meshes = r->mesh_count;
     e->levels = r->levels;
     e->axial_degree = r->axial_degree;
-    e->length = r->scene->length;
-    e->duration = r->scene->duration;
     struct br_exact_options options = {.acceptable = 1e-5};
     if (r->modest)
         options.max_modes = 64;
@@ -103,7 +91,7 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
     if (!status)
         status = br_exact_state_create(&e->state, e->exact, err);
     if (!status)
-        status = create_all_projections(e, r, err);
+        status = create_projections(e, r, err);
     e->seconds[BR_AXIAL] = br_seconds() - start;
     return status;
 }
@@ -115,7 +103,7 @@ static enum br_status exact_advance(void *self, enum br_field_kind kind, size_t 
     (void)err;
     const double start = br_seconds();
     br_exact_field_at(e->exact, part_of(kind, BR_TIP).field,
-                      e->duration * (double)i / (double)e->levels, e->state);
+                      e->scene->duration * (double)i / (double)e->levels, e->state);
     e->seconds[kind] += br_seconds() - start;
     return BR_OK;
 }
@@ -130,7 +118,7 @@ static void exact_sample(void *self, const struct br_sample_at *at, struct br_vi
     }
     br_view_modes(view,
                   br_mode_count((struct br_elements){at->kind, e->axial_degree}, at->measure));
-    br_exact_projection_apply(e->projection[at->kind][at->measure][at->mesh], e->state,
+    br_exact_projection_apply(*projection_at(e, at->kind, at->measure, at->mesh), e->state,
                               view->values, &view->rest);
 }
 
@@ -138,16 +126,15 @@ static void exact_sample(void *self, const struct br_sample_at *at, struct br_vi
 static struct br_judge_report exact_report(const void *self)
 {
     const struct exact_judge *e = self;
+    const double length = e->scene->length;
     struct br_judge_report report = {.seconds = e->seconds[BR_AXIAL] + e->seconds[BR_BENDING]};
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        if (!e->modelled[kind])
-            continue;
-        const struct br_exact_size error =
+        const struct br_exact_size error = /* zeros where nothing is modelled */
             br_exact_report(e->exact, part_of((enum br_field_kind)kind, BR_TIP).field).error;
         double *own = report.own_error[kind];
-        own[BR_DISPLACEMENT] = error.displacement * sqrt(e->length);
-        own[BR_VELOCITY] = error.velocity * sqrt(e->length);
-        own[BR_STRAIN_RATE] = error.strain_rate * sqrt(e->length);
+        own[BR_DISPLACEMENT] = error.displacement * sqrt(length);
+        own[BR_VELOCITY] = error.velocity * sqrt(length);
+        own[BR_STRAIN_RATE] = error.strain_rate * sqrt(length);
         own[BR_TIP] = error.displacement;
     }
     return report;

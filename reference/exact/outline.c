@@ -2,6 +2,7 @@
 #include "reference/exact/outline.h"
 
 #include <float.h>
+#include <gsl/gsl_interp.h>
 #include <math.h>
 
 /* Degrees of the polynomials that replace the data: on an element, and over a Radau step. */
@@ -12,7 +13,9 @@ enum { MOST = 2 * BR_LOAD_TERMS + 2 };
 
 struct subject {
     const struct br_function *f;
-    double until; /* s: f is needed from 0 to this time; 0: at t = 0 alone, or f has no t */
+    struct br_box box; /* where it is needed: at t = 0 alone where it has no t, or later ones do not
+                          matter */
+    bool both;         /* of x and t, and no product */
 };
 
 /* Arrays of two: by br_variable. */
@@ -62,14 +65,16 @@ static bool is_known(const struct br_function *f)
 
 static void list(struct work *w, enum br_variable along, const struct br_function *f, double until)
 {
-    w->subject[along][w->subjects[along]++] = (struct subject){f, until};
+    const struct br_box box = {{0, w->all[BR_X]}, {0, f->uses_t ? until : 0}};
+    w->subject[along][w->subjects[along]++] =
+        (struct subject){f, box, f->uses_x && f->uses_t && until > 0};
 }
 
 /* A function without bounds has no proofs: of such a function only the ends of steps are known. */
 static void list_space(struct work *w, const struct br_function *f, double until)
 {
     if (f->uses_x && is_known(f))
-        list(w, BR_X, f, f->uses_t ? until : 0);
+        list(w, BR_X, f, until);
 }
 
 static void list_time(struct work *w, const struct br_function *f)
@@ -78,8 +83,9 @@ static void list_time(struct work *w, const struct br_function *f)
         list(w, BR_T, f, w->all[BR_T]);
 }
 
-static void list_subjects(struct work *w, const struct br_exact_data *d)
+static void list_subjects(struct work *w)
 {
+    const struct br_exact_data *d = w->data;
     for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
         const struct br_product *p = &d->load->term[i];
         if (br_product_is_zero(p))
@@ -94,22 +100,12 @@ static void list_subjects(struct work *w, const struct br_exact_data *d)
     list_time(w, d->tip_moment);
 }
 
-static struct br_box box_of(const struct work *w, const struct subject *s)
-{
-    return (struct br_box){{0, w->all[BR_X]}, {0, s->until}};
-}
-
 /* The box that is `here` along one axis, and the beginning of the other axis. */
 static struct br_box line(enum br_variable along, struct br_interval here)
 {
     struct br_box box = {{0, 0}, {0, 0}};
     *br_side(&box, along) = here;
     return box;
-}
-
-static bool inseparable(const struct subject *s)
-{
-    return s->f->uses_x && s->f->uses_t && s->until > 0;
 }
 
 /* ---- parts between places where functions jump ---- */
@@ -153,7 +149,7 @@ static void join_breaks(struct work *w, enum br_variable along)
 static void add(struct work *w, struct br_list *to, double value)
 {
     if (!w->status)
-        w->status = br_list_add(to, value, w->err);
+        w->status = br_list_add(to, value, &w->o->store, w->err);
 }
 
 /* The ends of an axis and of its parts. */
@@ -182,7 +178,7 @@ static void add_breaks(struct work *w, enum br_variable along, const struct br_f
 static void find_bends(struct work *w)
 {
     for (size_t i = 0; i < w->subjects[BR_X]; i++)
-        add_breaks(w, BR_X, w->subject[BR_X][i].f, box_of(w, &w->subject[BR_X][i]));
+        add_breaks(w, BR_X, w->subject[BR_X][i].f, w->subject[BR_X][i].box);
     w->o->fronts = w->breaks[BR_X].moving;
     join_breaks(w, BR_X);
 }
@@ -192,15 +188,15 @@ static void find_jumps(struct work *w)
 {
     for (size_t i = 0; i < w->subjects[BR_T]; i++)
         if (is_known(w->subject[BR_T][i].f))
-            add_breaks(w, BR_T, w->subject[BR_T][i].f, box_of(w, &w->subject[BR_T][i]));
+            add_breaks(w, BR_T, w->subject[BR_T][i].f, w->subject[BR_T][i].box);
     for (size_t i = 0; i < w->subjects[BR_X]; i++) {
         const struct subject *s = &w->subject[BR_X][i];
         bool complete = true;
-        if (!inseparable(s))
+        if (!s->both)
             continue;
-        add_breaks(w, BR_T, s->f, box_of(w, s));
+        add_breaks(w, BR_T, s->f, s->box);
         if (!w->status)
-            w->status = br_front_times(s->f, box_of(w, s), &w->breaks[BR_T], &complete, w->err);
+            w->status = br_front_times(s->f, s->box, &w->breaks[BR_T], &complete, w->err);
     }
     join_breaks(w, BR_T);
 }
@@ -212,7 +208,7 @@ static void find_crossings(struct work *w)
         for (size_t e = 1; e + 1 < w->o->end.count; e++) {
             const double x = w->o->end.at[e];
             const struct br_box box = {{x, x}, {0, w->all[BR_T]}};
-            if (inseparable(&w->subject[BR_X][i]))
+            if (w->subject[BR_X][i].both)
                 add_breaks(w, BR_T, w->subject[BR_X][i].f, box);
         }
 }
@@ -226,9 +222,8 @@ static struct br_list *new_cells(struct work *w)
 
 static struct br_sight sight_of(const struct work *w, const struct subject *s)
 {
-    const double x = s->f->uses_x ? w->all[BR_X] : 1,
-                 t = s->f->uses_t && s->until > 0 ? s->until : 1;
-    const double mean = br_sight_mean(s->f, box_of(w, s));
+    const double x = s->f->uses_x ? w->all[BR_X] : 1, t = s->box.t.high > 0 ? s->box.t.high : 1;
+    const double mean = br_sight_mean(s->f, s->box);
     return (struct br_sight){
         .f = s->f,
         .degree = {SPACE_DEGREE, TIME_DEGREE},
@@ -236,6 +231,7 @@ static struct br_sight sight_of(const struct work *w, const struct subject *s)
         .most_missed = 1e-13 * mean * x * t,
         .least = 1e-15 * w->all[s->f->uses_x ? BR_X : BR_T],
         .most = MOST_CELLS,
+        .store = &w->o->store,
     };
 }
 
@@ -249,18 +245,14 @@ static void count_missed(struct work *w, const struct br_sight *sight)
 static void mesh_both(struct work *w, const struct subject *s)
 {
     struct br_sight sight = sight_of(w, s);
-    struct br_list ends[2] = {{0}, {0}};
-    add_parts(w, BR_T, &ends[BR_T]);
+    struct br_list *ends[2] = {&w->o->end, new_cells(w)};
+    add_parts(w, BR_T, ends[BR_T]);
     for (size_t i = 0; i <= w->breaks[BR_X].count; i++)
         for (size_t j = 0; j <= w->breaks[BR_T].count && !w->status; j++) {
             const struct br_box box = {part(w, BR_X, i), part(w, BR_T, j)};
             if (box.x.high > box.x.low && box.t.high > box.t.low)
                 w->status = br_sight_both(&sight, box, ends, w->err);
         }
-    for (size_t i = 0; i < ends[BR_X].count; i++)
-        add(w, &w->o->end, ends[BR_X].at[i]);
-    br_list_free(&ends[BR_X]);
-    *new_cells(w) = ends[BR_T];
     count_missed(w, &sight);
 }
 
@@ -281,12 +273,12 @@ static void find_elements(struct work *w)
     add_parts(w, BR_X, &w->o->end);
     for (size_t i = 0; i < w->subjects[BR_X] && !w->status; i++) {
         const struct subject *s = &w->subject[BR_X][i];
-        if (inseparable(s))
+        if (s->both)
             mesh_both(w, s);
         else
             mesh_parts(w, s, BR_X, &w->o->end);
     }
-    br_list_sort(&w->o->end, 0);
+    br_list_sort(&w->o->end);
 }
 
 /* Adds the cells of functions of t alone, behind those of functions of both. */
@@ -309,9 +301,9 @@ static bool fits(const struct work *w, double a, double b)
             return false;
     for (size_t i = 0; i < w->subjects[BR_X]; i++) {
         const struct subject *s = &w->subject[BR_X][i];
-        const struct br_box box = {{a * (1 + apart), b * (1 - apart)}, {0, s->until}};
+        const struct br_box box = {{a * (1 + apart), b * (1 - apart)}, s->box.t};
         struct br_interval value;
-        if (inseparable(s) || !br_function_bound(s->f, box, &value))
+        if (s->both || !br_function_bound(s->f, box, &value))
             return false;
         const double size = fmax(fabs(value.low), fabs(value.high));
         if (!(br_sight_error(s->f, BR_X, box, SPACE_DEGREE) <= BR_SIGHT_TOLERANCE * size))
@@ -341,7 +333,7 @@ static void count_hidden(struct work *w, const struct subject *s, enum br_variab
     const struct br_breaks *breaks = &w->breaks[along];
     for (size_t i = 0; i < breaks->count && !w->status; i++) {
         const struct br_interval at = breaks->at[i];
-        struct br_box box = box_of(w, s), where;
+        struct br_box box = s->box, where;
         struct br_interval value;
         if (!is_known(s->f) || !(at.high - at.low > 4 * DBL_EPSILON * at.high))
             continue;
@@ -352,7 +344,7 @@ static void count_hidden(struct work *w, const struct subject *s, enum br_variab
         }
         const double share = (at.high - at.low) / w->all[along] * (value.high - value.low);
         if (share > 0)
-            w->o->missed = fmax(w->o->missed, share / br_sight_mean(s->f, box_of(w, s)));
+            w->o->missed = fmax(w->o->missed, share / br_sight_mean(s->f, s->box));
     }
 }
 
@@ -360,7 +352,7 @@ static void count_all_hidden(struct work *w)
 {
     for (size_t i = 0; i < w->subjects[BR_X]; i++) {
         count_hidden(w, &w->subject[BR_X][i], BR_X);
-        if (inseparable(&w->subject[BR_X][i]))
+        if (w->subject[BR_X][i].both)
             count_hidden(w, &w->subject[BR_X][i], BR_T);
     }
     for (size_t i = 0; i < w->subjects[BR_T]; i++)
@@ -370,7 +362,7 @@ static void count_all_hidden(struct work *w)
 /* ---- layers ---- */
 
 /* The shortest time, s, in which the data change so that a layer remains: at jumps after t = 0 and
- * in short cells. At least what estimates leave out (compare.c). Infinite: no layer. */
+ * in short cells. At least what estimates leave out (exact.c). Infinite: no layer. */
 static double shortest_change(const struct work *w)
 {
     const double least = 1e-6 * w->all[BR_T], most = 1e-3 * w->all[BR_T];
@@ -390,15 +382,7 @@ static void grade(struct work *w, bool tip, double layer)
     const double first = tip ? length - end->at[end->count - 2] : end->at[1];
     for (double d = layer; growth * d < first; d *= growth)
         add(w, end, tip ? length - d : d);
-    br_list_sort(end, 0);
-}
-
-static bool has_spread_load(const struct br_load *load)
-{
-    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
-        if (!br_product_is_zero(&load->term[i]))
-            return true;
-    return false;
+    br_list_sort(end);
 }
 
 static void find_layers(struct work *w)
@@ -412,7 +396,7 @@ static void find_layers(struct work *w)
         return;
     if (tip)
         grade(w, true, layer);
-    if (has_spread_load(d->load))
+    if (!br_load_is_zero(d->load))
         grade(w, false, layer);
 }
 
@@ -433,13 +417,13 @@ static void count_proved(struct work *w, const struct subject *s, enum br_variab
         sum += (cell.high - cell.low) / w->all[along] * fmin(error, value.high - value.low);
     }
     if (sum > 0)
-        w->o->proved += sum / br_sight_mean(s->f, box_of(w, s));
+        w->o->proved += sum / br_sight_mean(s->f, s->box);
 }
 
 static void count_all_proved(struct work *w)
 {
     for (size_t i = 0; i < w->subjects[BR_X]; i++)
-        if (inseparable(&w->subject[BR_X][i]))
+        if (w->subject[BR_X][i].both)
             w->o->proved += BR_SIGHT_TOLERANCE;
         else
             count_proved(w, &w->subject[BR_X][i], BR_X, &w->o->end);
@@ -460,10 +444,11 @@ enum br_status br_outline_init(struct br_outline *o, const struct br_scene *scen
         .density = scene->density,
         .err = err,
     };
-    *o = (struct br_outline){.degree = degree, .cell = br_allocate(MOST, sizeof *o->cell)};
+    *o = (struct br_outline){.degree = degree};
+    o->cell = br_store_take(&o->store, MOST, sizeof *o->cell);
     if (!o->cell)
         return br_no_memory(err, "the exact solution");
-    list_subjects(&w, &data);
+    list_subjects(&w);
     find_bends(&w);
     find_jumps(&w);
     count_all_hidden(&w);
@@ -474,7 +459,7 @@ enum br_status br_outline_init(struct br_outline *o, const struct br_scene *scen
     find_layers(&w);
     find_crossings(&w);
     for (size_t i = 0; i < o->cells; i++)
-        br_list_sort(&o->cell[i], 0);
+        br_list_sort(&o->cell[i]);
     if (!w.status)
         count_all_proved(&w);
     br_breaks_free(&w.breaks[BR_X]);
@@ -484,10 +469,7 @@ enum br_status br_outline_init(struct br_outline *o, const struct br_scene *scen
 
 void br_outline_clear(struct br_outline *o)
 {
-    for (size_t i = 0; i < o->cells; i++)
-        br_list_free(&o->cell[i]);
-    free(o->cell);
-    br_list_free(&o->end);
+    br_store_clear(&o->store);
     br_breaks_free(&o->jump);
     *o = (struct br_outline){0};
 }
@@ -506,15 +488,7 @@ size_t br_outline_terms(const struct br_outline *o, size_t e, size_t modes)
 /* The cell that holds t; where two meet the later one. */
 static size_t cell_of(const struct br_list *cells, double t)
 {
-    size_t low = 0, high = cells->count - 1;
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (cells->at[middle] <= t)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    return gsl_interp_bsearch(cells->at, t, 0, cells->count - 1);
 }
 
 static double reach_in(const struct br_list *cells, double t)
@@ -546,11 +520,10 @@ bool br_outline_is_sharp(const struct br_outline *o, double t, double width)
 double br_outline_cell(const struct br_outline *o, double t)
 {
     double width = INFINITY;
-    for (size_t i = 0; i < o->cells; i++)
-        if (o->cell[i].count > 1) {
-            const size_t j = cell_of(&o->cell[i], t);
-            width = fmin(width, o->cell[i].at[j + 1] - o->cell[i].at[j]);
-        }
+    for (size_t i = 0; i < o->cells; i++) {
+        const size_t j = cell_of(&o->cell[i], t);
+        width = fmin(width, o->cell[i].at[j + 1] - o->cell[i].at[j]);
+    }
     return width;
 }
 
@@ -558,7 +531,6 @@ double br_outline_reach(const struct br_outline *o, double t)
 {
     double reach = INFINITY;
     for (size_t i = 0; i < o->cells; i++)
-        if (o->cell[i].count > 1)
-            reach = fmin(reach, reach_in(&o->cell[i], t));
+        reach = fmin(reach, reach_in(&o->cell[i], t));
     return reach;
 }

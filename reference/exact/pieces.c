@@ -5,8 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "reference/exact/legendre.h"
-
 void br_pieces_init(struct br_pieces *p, double length, size_t count, const double *end,
                     const size_t *terms, struct br_store *store)
 {
@@ -100,8 +98,7 @@ static void fill_rule(struct br_quadrature *q, size_t e, size_t start, struct br
 void br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces, size_t extra,
                         struct br_store *store)
 {
-    *q = (struct br_quadrature){
-        .pieces = pieces, .extra = extra, .combine = br_combiner_best()->combine};
+    *q = (struct br_quadrature){.pieces = pieces, .extra = extra};
     q->points = br_store_take(store, pieces->count, sizeof *q->points);
     q->table = br_store_take(store, pieces->count, sizeof *q->table);
     for (size_t e = 0; !store->failed && e < pieces->count; e++)
@@ -161,16 +158,17 @@ static enum br_status add_part(const struct br_quadrature *q, const struct br_fu
     return BR_OK;
 }
 
-/* An element that holds the fronts first to last - 1. */
+/* An element that holds `count` fronts. */
 static enum br_status project_parts(const struct br_quadrature *q, const struct br_function *f,
-                                    double t, size_t e, size_t start, struct br_places fronts,
-                                    double *c, struct br_error *err)
+                                    double t, size_t e, size_t start,
+                                    const struct br_interval *front, size_t count, double *c,
+                                    struct br_error *err)
 {
     double part[2] = {q->pieces->end[e], 0};
     enum br_status status = BR_OK;
     memset(c, 0, (q->pieces->terms[e] + q->extra) * sizeof *c);
-    for (size_t i = 0; i <= fronts.count && !status; i++) {
-        part[1] = i < fronts.count ? fronts.x[i] : q->pieces->end[e + 1];
+    for (size_t i = 0; i <= count && !status; i++) {
+        part[1] = i < count ? front[i].high : q->pieces->end[e + 1];
         if (part[1] > part[0])
             status = add_part(q, f, t, e, start, part, c, err);
         part[0] = part[1];
@@ -178,36 +176,30 @@ static enum br_status project_parts(const struct br_quadrature *q, const struct 
     return status;
 }
 
-/* Moves on to element e: the fronts inside of it. */
-static struct br_places fronts_in(const struct br_pieces *p, size_t e, struct br_places *left)
-{
-    while (left->count && left->x[0] <= p->end[e])
-        left->x++, left->count--;
-    struct br_places here = {0, left->x};
-    while (here.count < left->count && left->x[here.count] < p->end[e + 1])
-        here.count++;
-    return here;
-}
-
 enum br_status br_quadrature_project(const struct br_quadrature *q, const struct br_function *f,
-                                     double t, struct br_places fronts, double *c,
+                                     double t, const struct br_breaks *fronts, double *c,
                                      struct br_error *err)
 {
     const struct br_pieces *p = q->pieces;
+    const size_t count = fronts ? fronts->count : 0;
     enum br_status status = BR_OK;
     br_function_evaluate(f, q->count, q->x, t, q->value);
-    for (size_t e = 0, start = 0; e < p->count && !status; start += q->points[e++]) {
-        const struct br_places here = fronts_in(p, e, &fronts);
+    for (size_t e = 0, start = 0, i = 0; e < p->count && !status; start += q->points[e++]) {
         const size_t terms = p->terms[e] + q->extra;
         double *out = &c[br_pieces_at(p, e, q->extra)], *value = &q->value[start];
-        if (here.count) {
-            status = project_parts(q, f, t, e, start, here, out, err);
+        while (i < count && fronts->at[i].high <= p->end[e])
+            i++;
+        const size_t first = i;
+        while (i < count && fronts->at[i].high < p->end[e + 1])
+            i++;
+        if (i > first) {
+            status = project_parts(q, f, t, e, start, &fronts->at[first], i - first, out, err);
             continue;
         }
         const double root = sqrt(br_pieces_width(p, e));
-        for (size_t i = 0; i < q->points[e]; i++)
-            value[i] *= q->weight[start + i];
-        q->combine(1, q->points[e], value, terms, q->table[e], out);
+        for (size_t k = 0; k < q->points[e]; k++)
+            value[k] *= q->weight[start + k];
+        br_combine(1, q->points[e], value, terms, q->table[e], out);
         for (size_t k = 0; k < terms; k++)
             out[k] *= root;
     }

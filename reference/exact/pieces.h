@@ -7,11 +7,8 @@
 #ifndef BR_REFERENCE_EXACT_PIECES_H
 #define BR_REFERENCE_EXACT_PIECES_H
 
-#include <stddef.h>
-
 #include "reference/exact/combine.h"
-#include "reference/exact/store.h"
-#include "solver/function.h"
+#include "solver/proof.h"
 
 struct br_pieces {
     double length; /* L, m */
@@ -51,30 +48,23 @@ void br_pieces_integrate(const struct br_pieces *pieces, size_t extra, double *c
 struct br_quadrature {
     const struct br_pieces *pieces; /* borrowed */
     size_t extra;                   /* of the series */
-    br_combine *combine;
-    size_t *points; /* elements: of its rule */
-    size_t count;   /* all points */
-    double *x;      /* count, m: inside of the elements, never at their ends */
-    double *weight; /* count: of the rule on [0, 1] */
-    double **table; /* elements: points x (terms + extra), p_k at the points */
-    double *value;  /* count, workspace */
+    size_t *points;                 /* elements: of its rule */
+    size_t count;                   /* all points */
+    double *x;                      /* count, m: inside of the elements, never at their ends */
+    double *weight;                 /* count: of the rule on [0, 1] */
+    double **table;                 /* elements: points x (terms + extra), p_k at the points */
+    double *value;                  /* count, workspace */
 };
 
 /* After a failure, which the store keeps, the quadrature is of no use. */
 void br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces, size_t extra,
                         struct br_store *store);
 
-/* Places where a function jumps or bends at one time: count of them, ascending, m. */
-struct br_places {
-    size_t count;
-    const double *x;
-};
-
 /* c (out, with extra): coefficients of the function f(x, t)'s projection: its integrals over x / L
- * against the polynomials. Elements that hold some of `fronts` are cut there. Fails with
- * BR_NO_MEMORY. */
+ * against the polynomials. Elements that hold some of `fronts`, places in m where f jumps or bends
+ * at t (NULL: none), are cut there. Fails with BR_NO_MEMORY. */
 enum br_status br_quadrature_project(const struct br_quadrature *q, const struct br_function *f,
-                                     double t, struct br_places fronts, double *c,
+                                     double t, const struct br_breaks *fronts, double *c,
                                      struct br_error *err);
 
 /* c (out, extra 0): the same of the derivative in x / L of a continuous f(x, 0). */

@@ -8,7 +8,7 @@
 
 #include "reference/exact/combine.h"
 #include "reference/exact/legendre.h"
-#include "reference/exact/restriction.h"
+#include "reference/exact/projection.h"
 #include "reference/exact/solution.h"
 
 struct br_exact_report br_exact_report(const struct br_exact *exact, enum br_exact_field field)
@@ -68,7 +68,7 @@ void br_exact_field_at(const struct br_exact *exact, enum br_exact_field field, 
         br_history_at(track, time, state->mode[field][0], state->mode[field][1]);
     state->tip[field].displacement = tip.displacement + track->gap;
     state->tip[field].velocity = tip.velocity;
-    const double force = br_law_force_at(&exact->solution->law[field], time, &tip);
+    const double force = br_law_at(&exact->solution->law[field], time, &tip).force;
     *(field == BR_EXACT_AXIAL ? &state->contact_force : &state->friction_force) = force;
 }
 
@@ -149,10 +149,7 @@ static size_t most_modes(const struct br_exact_options *o)
 
 static bool below(const struct br_exact *exact, size_t limit)
 {
-    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
-        if (exact->solution->field[i] && !(exact->report[i].modes < limit))
-            return false;
-    return true;
+    return exact->report[0].modes < limit && exact->report[1].modes < limit;
 }
 
 /* Whether a loan is what `o` would give: a limit to the modes that was not met changes nothing. */
@@ -161,7 +158,7 @@ static bool serves(const struct loan *loan, const struct br_scene *scene,
 {
     const struct br_exact_options *l = &loan->options;
     const bool same = l->tolerance == o->tolerance && l->acceptable == o->acceptable &&
-                      l->rate_tolerance == o->rate_tolerance && l->max_steps == o->max_steps;
+                      l->max_steps == o->max_steps;
     return loan->scene == scene && same &&
            (most_modes(l) == most_modes(o) ||
             (below(loan->exact, most_modes(l)) && below(loan->exact, most_modes(o))));
@@ -226,44 +223,35 @@ void br_exact_give_back(const struct br_exact *exact)
 struct br_exact_projection {
     struct br_exact_part part;
     size_t modes, length; /* of the field, of its part's series */
-    br_combine *combine;
-    double *expand; /* modes x length: each mode's series */
-    double *series; /* length, workspace */
+    double *expand;       /* modes x length: each mode's series */
+    double *series;       /* length, workspace */
     struct br_piecewise *piecewise;
     struct br_store store;
 };
-
-/* The series of every mode. */
-/* The series of every mode. q: modes zeros, c: the longest series; workspace. */
-static void expand_modes(struct br_exact_projection *p, const struct br_oscillators *field,
-                         double *q, double *c)
-{
-    const double scale = pow(field->length, -(double)p->part.order);
-    for (size_t i = 0; i < p->modes; i++) {
-        q[i] = 1;
-        br_modes_expand(&field->modes, p->part.order, q, c);
-        for (size_t k = 0; k < p->length; k++)
-            p->expand[i * p->length + k] = scale * c[k];
-        q[i] = 0;
-    }
-}
 
 static enum br_status projection_init(struct br_exact_projection *p,
                                       const struct br_oscillators *field,
                                       const struct br_exact_mesh *mesh, struct br_error *err)
 {
-    const size_t longest = br_modes_length(&field->modes, 0);
-    p->combine = br_combiner_best()->combine;
-    p->modes = field->modes.count;
-    p->length = br_modes_length(&field->modes, p->part.order);
+    const struct br_modes *modes = &field->modes;
+    const double scale = pow(field->length, -(double)p->part.order);
+    p->modes = modes->count;
+    p->length = br_modes_length(modes, p->part.order);
     p->expand = br_store_take(&p->store, p->modes * p->length, sizeof *p->expand);
     p->series = br_store_take(&p->store, p->length, sizeof *p->series);
-    double *work = br_store_take(&p->store, p->modes + longest, sizeof *work);
+    double *q = br_store_take(&p->store, p->modes, sizeof *q);
+    double *longest = br_store_take(&p->store, br_modes_length(modes, 0), sizeof *longest);
     if (p->store.failed)
         return br_no_memory(err, "a projection");
-    expand_modes(p, field, work, work + p->modes);
-    return br_piecewise_create(&p->piecewise, &field->modes.pieces,
-                               field->modes.degree - p->part.order, mesh, &p->store, err);
+    for (size_t i = 0; i < p->modes; i++) {
+        q[i] = 1;
+        br_modes_expand(modes, p->part.order, q, longest);
+        for (size_t k = 0; k < p->length; k++)
+            p->expand[i * p->length + k] = scale * longest[k];
+        q[i] = 0;
+    }
+    return br_piecewise_create(&p->piecewise, &modes->pieces, modes->degree - p->part.order, mesh,
+                               &p->store, err);
 }
 
 enum br_status br_exact_projection_create(struct br_exact_projection **out,
@@ -302,7 +290,7 @@ void br_exact_projection_free(struct br_exact_projection *p)
 void br_exact_projection_apply(struct br_exact_projection *p, const struct br_exact_state *state,
                                double *c, double *rest)
 {
-    p->combine(1, p->modes, state->mode[p->part.field][p->part.velocity], p->length, p->expand,
+    br_combine(1, p->modes, state->mode[p->part.field][p->part.velocity], p->length, p->expand,
                p->series);
     br_piecewise_apply(p->piecewise, p->series, c, rest);
 }

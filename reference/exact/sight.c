@@ -4,49 +4,31 @@
  * function, or a guard goes through it that never lets go. What counts as an end of a cell is where
  * smooth functions ask for more, not where a guard does: that moves, and quadratures are cut at
  * it. */
-#include "reference/exact/sight.h"
+#include "reference/exact/outline.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
-#include <string.h>
 
 /* ---- lists ---- */
 
-void br_list_free(struct br_list *list)
+enum br_status br_list_add(struct br_list *list, double value, struct br_store *store,
+                           struct br_error *err)
 {
-    free(list->at);
-    *list = (struct br_list){0};
-}
-
-enum br_status br_list_add(struct br_list *list, double value, struct br_error *err)
-{
-    if (list->count == list->room) {
-        const size_t room = 2 * list->room + 32;
-        double *bigger = br_allocate(room, sizeof *bigger);
-        if (!bigger)
-            return br_no_memory(err, "a mesh");
-        if (list->count)
-            memcpy(bigger, list->at, list->count * sizeof *bigger);
-        free(list->at);
-        list->at = bigger;
-        list->room = room;
-    }
+    double *at = br_store_grow(store, list->at, list->count, &list->room, sizeof *at);
+    if (!at)
+        return br_no_memory(err, "a mesh");
+    list->at = at;
     list->at[list->count++] = value;
     return BR_OK;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-void br_list_sort(struct br_list *list, double least)
+void br_list_sort(struct br_list *list)
 {
     size_t kept = 0;
     if (list->count)
-        qsort(list->at, list->count, sizeof *list->at, ascending);
+        gsl_sort(list->at, 1, list->count);
     for (size_t i = 0; i < list->count; i++)
-        if (!kept || list->at[i] - list->at[kept - 1] > least)
+        if (!kept || list->at[i] > list->at[kept - 1])
             list->at[kept++] = list->at[i];
     list->count = kept;
 }
@@ -96,7 +78,7 @@ struct share {
 
 static double measure(struct br_box box)
 {
-    const double x = box.x.high - box.x.low, t = box.t.high - box.t.low;
+    const double x = width(box.x), t = width(box.t);
     return (x > 0 ? x : 1) * (t > 0 ? t : 1);
 }
 
@@ -127,9 +109,8 @@ double br_sight_mean(const struct br_function *f, struct br_box whole)
         if (count == MOST || low >= high / 2)
             return (low > 0 ? low : high) / measure(whole);
         const struct br_box box = share[worst].box;
-        const double x = box.x.high - box.x.low, t = box.t.high - box.t.low;
-        const bool along_x =
-            x > 0 && !(t / (whole.t.high - whole.t.low) > x / (whole.x.high - whole.x.low));
+        const double x = width(box.x), t = width(box.t);
+        const bool along_x = x > 0 && !(t / width(whole.t) > x / width(whole.x));
         struct br_box half[2];
         halve(box, along_x ? BR_X : BR_T, half);
         share[worst] = share_of(f, half[0]);
@@ -139,23 +120,17 @@ double br_sight_mean(const struct br_function *f, struct br_box whole)
 
 /* ---- one variable ---- */
 
-struct survey {
+struct cover {
     struct br_sight *sight;
     enum br_variable along;
-    double end; /* of the whole box */
     struct br_list *ends;
+    struct br_box whole;
     struct br_error *err;
+    double missed; /* the rest is for both variables */
+    size_t boxes;
 };
 
-static enum br_status too_fine(const struct survey *s, double place)
-{
-    const char *name = s->along == BR_X ? "x" : "t", *unit = s->along == BR_X ? "m" : "s";
-    return br_fail(s->err, BR_NOT_FINITE,
-                   "no exact solution: the data have details that are too fine near %s = %g %s",
-                   name, place, unit);
-}
-
-static enum br_status survey(const struct survey *s, struct br_box box)
+static enum br_status survey(const struct cover *s, struct br_box box)
 {
     struct br_sight *sight = s->sight;
     const struct br_interval here = along(&box, s->along);
@@ -178,32 +153,28 @@ static enum br_status survey(const struct survey *s, struct br_box box)
         sight->missed += unseen;
     }
     if (s->ends->count >= sight->most)
-        return too_fine(s, middle);
-    return here.high < s->end ? br_list_add(s->ends, here.high, s->err) : BR_OK;
+        return br_fail(s->err, BR_NOT_FINITE,
+                       "no exact solution: the data have details that are too fine near %s = %g %s",
+                       s->along == BR_X ? "x" : "t", middle, s->along == BR_X ? "m" : "s");
+    return here.high < along(&s->whole, s->along).high
+               ? br_list_add(s->ends, here.high, sight->store, s->err)
+               : BR_OK;
 }
 
 enum br_status br_sight_along(struct br_sight *sight, enum br_variable v, struct br_box box,
                               struct br_list *ends, struct br_error *err)
 {
-    const struct survey s = {sight, v, along(&box, v).high, ends, err};
+    const struct cover s = {sight, v, ends, box, err, 0, 0};
     return survey(&s, box);
 }
 
-enum { MOST_BOXES = 40000, MOST_HALVINGS = 10 };
+/* ---- both variables ---- */
 
-struct cover {
-    struct br_sight *sight;
-    enum br_variable along;
-    struct br_list *ends;
-    double missed;
-    struct br_box whole;
-    size_t boxes;
-    struct br_error *err;
-};
+enum { MOST_BOXES = 40000, MOST_HALVINGS = 10 };
 
 /* A guard goes through the box, which is not halved any more: how much more than its values at
  * some places the function may take there. */
-static enum br_status give_up(struct cover *c, const struct br_box *box, struct br_interval value)
+static void give_up(struct cover *c, const struct br_box *box, struct br_interval value)
 {
     double low = INFINITY, high = -INFINITY;
     for (int j = 0; j <= 2; j++) {
@@ -218,17 +189,17 @@ static enum br_status give_up(struct cover *c, const struct br_box *box, struct 
     }
     const double excess = fmax(low - value.low, 0) + fmax(value.high - high, 0);
     c->missed += width(box->x) * width(box->t) * excess;
-    return BR_OK;
 }
 
+/* The ends of a cell; the box's own are none. */
 static enum br_status add_ends(struct cover *c, const struct br_box *box)
 {
     const struct br_interval i = along(box, c->along), whole = along(&c->whole, c->along);
+    const double end[2] = {i.low, i.high};
     enum br_status status = BR_OK;
-    if (i.low > whole.low)
-        status = br_list_add(c->ends, i.low, c->err);
-    if (i.high < whole.high && !status)
-        status = br_list_add(c->ends, i.high, c->err);
+    for (size_t k = 0; k < 2 && !status; k++)
+        if (end[k] > whole.low && end[k] < whole.high)
+            status = br_list_add(c->ends, end[k], c->sight->store, c->err);
     return status;
 }
 
@@ -262,7 +233,7 @@ static double error_of_halves(const struct cover *c, struct br_box box, enum br_
     return fmax(error_in(c, half[0]), error_in(c, half[1]));
 }
 
-/* The share_along of the whole that the box takes along a variable. */
+/* The share of the whole that the box takes along a variable. */
 static double share_along(const struct cover *c, const struct br_box *box, enum br_variable v)
 {
     return width(along(box, v)) / width(along(&c->whole, v));
@@ -273,7 +244,7 @@ static enum br_status cover(struct cover *c, struct br_box box)
     const enum br_variable one = c->along, other = one == BR_X ? BR_T : BR_X;
     struct br_interval value;
     const bool bounded = br_function_bound(c->sight->f, box, &value);
-    const double size = bounded ? fmax(fabs(value.low), fabs(value.high)) : 0;
+    const double size = bounded ? magnitude(value) : 0;
     const double error = error_in(c, box), least = pow(0.5, MOST_HALVINGS);
     if (++c->boxes > MOST_BOXES)
         return br_fail(c->err, BR_NOT_FINITE,
@@ -291,16 +262,19 @@ static enum br_status cover(struct cover *c, struct br_box box)
         share_along(c, &box, BR_X) >= share_along(c, &box, BR_T) ? BR_X : BR_T;
     if (share_along(c, &box, longer) > least)
         return cover_halves(c, box, longer, false);
-    return bounded ? give_up(c, &box, value) : br_must_be_finite(c->sight->f, box, c->err);
+    if (!bounded)
+        return br_must_be_finite(c->sight->f, box, c->err);
+    give_up(c, &box, value);
+    return BR_OK;
 }
 
-enum br_status br_sight_both(struct br_sight *sight, struct br_box box, struct br_list ends[2],
+enum br_status br_sight_both(struct br_sight *sight, struct br_box box, struct br_list *ends[2],
                              struct br_error *err)
 {
     enum br_status status = BR_OK;
     double missed = 0;
     for (enum br_variable v = BR_X; v <= BR_T && !status; v++) {
-        struct cover c = {.sight = sight, .along = v, .ends = &ends[v], .whole = box, .err = err};
+        struct cover c = {.sight = sight, .along = v, .ends = ends[v], .whole = box, .err = err};
         status = cover(&c, box);
         missed = fmax(missed, c.missed);
     }

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/exact/tip.h"
+#include "reference/exact/march.h"
 
 #include <lapacke.h>
 #include <math.h>
 #include <string.h>
-
-#include "reference/exact/combine.h"
 
 enum { S = BR_STAGES };
 
@@ -22,15 +20,6 @@ double br_law_bound(const struct br_law *law, double t)
     return 0;
 }
 
-/* Whether friction can act just after t. */
-static bool friction_acts(const struct br_law *law, double t)
-{
-    if (!(law->coefficient > 0) || law->friction == BR_FRICTIONLESS)
-        return false;
-    return law->friction == BR_TRESCA ||
-           law->axial->tip[br_history_find(law->axial, t)].phase == BR_CLOSED;
-}
-
 enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now,
                            double displacement, double velocity)
 {
@@ -39,66 +28,36 @@ enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now
             return BR_FREE;
         return displacement > 0 || (displacement == 0 && velocity >= 0) ? BR_CLOSED : BR_OPEN;
     }
-    if (!friction_acts(law, t))
+    if (!(law->coefficient > 0) || law->friction == BR_FRICTIONLESS)
+        return BR_FREE;
+    if (law->friction == BR_COULOMB &&
+        law->axial->tip[br_history_find(law->axial, t)].phase != BR_CLOSED)
         return BR_FREE;
     if (now != BR_FREE)
         return now;
     return velocity > 0 ? BR_SLIP_UP : velocity < 0 ? BR_SLIP_DOWN : BR_STICK;
 }
 
-enum br_phase br_law_next(const struct br_tip_state *tip)
+struct br_law_state br_law_at(const struct br_law *law, double t, const struct br_tip_state *tip)
 {
+    const double force = tip->force, pressed = fmax(tip->displacement, 0);
+    /* a force that cannot hold is against the slip that follows */
+    const enum br_phase slip = force > 0 ? BR_SLIP_UP : BR_SLIP_DOWN;
     switch (tip->phase) {
     case BR_OPEN:
-        return BR_CLOSED;
+        return (struct br_law_state){0, -tip->displacement, BR_CLOSED};
     case BR_CLOSED:
-        return BR_OPEN;
-    case BR_STICK: /* the force is against the slip that it could not hold */
-        return tip->force > 0 ? BR_SLIP_UP : BR_SLIP_DOWN;
-    case BR_SLIP_UP:
-    case BR_SLIP_DOWN:
-        return BR_STICK;
-    case BR_FREE:
-        break;
-    }
-    return BR_FREE;
-}
-
-double br_law_guard(const struct br_law *law, double t, const struct br_tip_state *tip)
-{
-    switch (tip->phase) {
-    case BR_OPEN:
-        return -tip->displacement;
-    case BR_CLOSED:
-        return tip->displacement;
+        return (struct br_law_state){law->stiffness * pressed, tip->displacement, BR_OPEN};
     case BR_STICK:
-        return br_law_bound(law, t) - fabs(tip->force);
+        return (struct br_law_state){force, br_law_bound(law, t) - fabs(force), slip};
     case BR_SLIP_UP:
-        return tip->velocity;
+        return (struct br_law_state){br_law_bound(law, t), tip->velocity, BR_STICK};
     case BR_SLIP_DOWN:
-        return -tip->velocity;
+        return (struct br_law_state){-br_law_bound(law, t), -tip->velocity, BR_STICK};
     case BR_FREE:
         break;
     }
-    return INFINITY;
-}
-
-double br_law_force_at(const struct br_law *law, double t, const struct br_tip_state *tip)
-{
-    switch (tip->phase) {
-    case BR_CLOSED:
-        return law->stiffness * fmax(tip->displacement, 0);
-    case BR_SLIP_UP:
-        return br_law_bound(law, t);
-    case BR_SLIP_DOWN:
-        return -br_law_bound(law, t);
-    case BR_STICK:
-        return tip->force;
-    case BR_FREE:
-    case BR_OPEN:
-        break;
-    }
-    return 0;
+    return (struct br_law_state){0, INFINITY, BR_FREE};
 }
 
 /* x = a \ x; a is destroyed */
@@ -172,99 +131,6 @@ enum br_status br_law_force(const struct br_law *law, const struct br_radau *rad
 
 /* ---- the history ---- */
 
-enum br_status br_history_create(struct br_history **out, size_t modes, double gap,
-                                 struct br_error *err)
-{
-    *out = br_allocate(1, sizeof **out);
-    if (!*out)
-        return br_no_memory(err, "the exact solution's steps");
-    (*out)->modes = modes;
-    (*out)->gap = gap;
-    return BR_OK;
-}
-
-void br_history_free(struct br_history *track)
-{
-    if (!track)
-        return;
-    free(track->tip);
-    free(track->block);
-    br_store_clear(&track->store);
-    free(track->entry);
-    free(track);
-}
-
-/* *array moves to a room of `room` records of the given size; `used` are kept. */
-static enum br_status move(void *array, size_t used, size_t room, size_t size, struct br_error *err)
-{
-    void *old, *bigger = br_allocate(room, size);
-    if (!bigger)
-        return br_no_memory(err, "the exact solution's steps");
-    memcpy(&old, array, sizeof old);
-    if (used)
-        memcpy(bigger, old, used * size);
-    free(old);
-    memcpy(array, &bigger, sizeof bigger);
-    return BR_OK;
-}
-
-/* Room for one more step. What steps hold stays where it is: it may be much. */
-static enum br_status make_room(struct br_history *track, struct br_error *err)
-{
-    const size_t n = track->steps, b = track->blocks;
-    const size_t length = BR_HISTORY_BLOCK * BR_HISTORY_ROWS * track->modes;
-    enum br_status status = BR_OK;
-    if (n == track->step_room) {
-        status = move(&track->tip, n, 2 * n + 64, sizeof *track->tip, err);
-        track->step_room = status ? n : 2 * n + 64;
-    }
-    if (status || n < b * BR_HISTORY_BLOCK)
-        return status;
-    if (b == track->block_room) {
-        status = move(&track->block, b, 2 * b + 16, sizeof *track->block, err);
-        track->block_room = status ? b : 2 * b + 16;
-    }
-    if (status)
-        return status;
-    track->block[b] = br_store_take(&track->store, length, sizeof **track->block);
-    track->blocks += track->block[b] != NULL;
-    return track->block[b] ? BR_OK : br_no_memory(err, "the exact solution's steps");
-}
-
-enum br_status br_history_append(struct br_history *track, const struct br_tip_step *tip,
-                                 const double *q, size_t width, const double *v,
-                                 struct br_error *err)
-{
-    const enum br_status status = make_room(track, err);
-    if (status)
-        return status;
-    const size_t n = track->steps++, m = track->modes;
-    track->tip[n] = *tip;
-    double *values = br_history_values(track, n);
-    for (size_t k = 0; k < S; k++)
-        memcpy(&values[k * m], &v[k * width], m * sizeof *v);
-    memcpy(&values[S * m], q, m * sizeof *q);
-    return BR_OK;
-}
-
-enum br_status br_history_enter(struct br_history *track, const struct br_entry *entry,
-                                struct br_error *err)
-{
-    const size_t n = track->entries;
-    if (n && track->entry[n - 1].time == entry->time) {
-        track->entry[n - 1].phase = entry->phase;
-        return BR_OK;
-    }
-    if (n == track->entry_room) {
-        const enum br_status status = move(&track->entry, n, 2 * n + 16, sizeof *track->entry, err);
-        if (status)
-            return status;
-        track->entry_room = 2 * n + 16;
-    }
-    track->entry[track->entries++] = *entry;
-    return BR_OK;
-}
-
 size_t br_history_find(const struct br_history *track, double t)
 {
     size_t low = 0, high = track->steps; /* tip[low].start <= t < tip[high].start */
@@ -278,54 +144,29 @@ size_t br_history_find(const struct br_history *track, double t)
     return low;
 }
 
-/* The fraction of a step that is over at t. */
-static double fraction(const struct br_tip_step *tip, double t)
+struct br_tip_state br_tip_at(const struct br_tip_step *tip, double theta)
 {
-    return fmin(fmax((t - tip->start) / tip->length, 0), 1);
-}
-
-/* A step's p_k at one moment, and their integrals from its start, over its length. */
-struct moment {
-    double value[S], integral[S];
-};
-
-static struct moment moment_at(double theta)
-{
-    struct moment at;
-    br_legendre_integral(S, theta, at.value, at.integral);
-    return at;
-}
-
-static struct br_tip_state tip_at(const struct br_tip_step *tip, const struct moment *at)
-{
+    double value[S], integral[S]; /* of the p_k, from the step's start and over its length */
+    br_legendre_integral(S, theta, value, integral);
     return (struct br_tip_state){
-        .displacement = tip->displacement + tip->length * br_radau_sum(tip->velocity, at->integral),
-        .velocity = br_radau_sum(tip->velocity, at->value),
-        .force = br_radau_sum(tip->force, at->value),
+        .displacement = tip->displacement + tip->length * br_radau_sum(tip->velocity, integral),
+        .velocity = br_radau_sum(tip->velocity, value),
+        .force = br_radau_sum(tip->force, value),
         .phase = tip->phase,
     };
 }
 
-struct br_tip_state br_tip_at(const struct br_tip_step *tip, double theta)
-{
-    const struct moment at = moment_at(theta);
-    return tip_at(tip, &at);
-}
-
 struct br_tip_state br_history_at(const struct br_history *track, double t, double *q, double *v)
 {
-    const size_t n = br_history_find(track, t), m = track->modes;
-    const struct br_tip_step *tip = &track->tip[n];
-    const struct moment at = moment_at(fraction(tip, t));
-    const double *values = br_history_values(track, n);
-    br_combine *combine = br_combiner_best()->combine;
-    double factor[BR_HISTORY_ROWS];
+    const struct br_tip_step *tip = &track->tip[br_history_find(track, t)];
+    const double theta = fmin(fmax((t - tip->start) / tip->length, 0), 1);
+    double value[S], factor[BR_HISTORY_ROWS] = {[S] = 1};
+    br_legendre_integral(S, theta, value, factor);
     for (size_t k = 0; k < S; k++)
-        factor[k] = tip->length * at.integral[k];
-    factor[S] = 1;
+        factor[k] *= tip->length;
     if (q)
-        combine(1, BR_HISTORY_ROWS, factor, m, values, q);
+        br_combine(1, BR_HISTORY_ROWS, factor, track->modes, tip->values, q);
     if (v)
-        combine(1, S, at.value, m, values, v);
-    return tip_at(tip, &at);
+        br_combine(1, S, value, track->modes, tip->values, v);
+    return br_tip_at(tip, theta);
 }

@@ -46,7 +46,7 @@ void br_tips_clear(struct br_tips *tips)
 
 /* Three values on finer and finer grids; x is h or k in any unit. */
 struct triple {
-    double x[3], value[3];
+    const double *x, *value;
 };
 
 /* (x0^q - x1^q)/(x1^q - x2^q) - (v0 - v1)/(v1 - v2), which is 0 for v = v* + C x^q */
@@ -88,19 +88,8 @@ static double observed_order(const struct triple *t)
 struct line {
     size_t count;
     const double *x, *value;
-    double noise;  /* uncertainty of each value */
     double formal; /* order that theory knows */
 };
-
-static struct triple triple_at(const struct line *l, size_t first)
-{
-    struct triple t;
-    for (size_t i = 0; i < 3; i++) {
-        t.x[i] = l->x[first + i];
-        t.value[i] = l->value[first + i];
-    }
-    return t;
-}
 
 static struct br_estimate around(double value, double half)
 {
@@ -127,9 +116,9 @@ static struct br_estimate extrapolate_line(const struct line *whole)
     const struct line part = known_part(whole), *l = &part;
     if (l->count < 3)
         return around(NAN, NAN);
-    const struct triple fine = triple_at(l, l->count - 3);
+    const struct triple fine = {l->x + l->count - 3, l->value + l->count - 3};
     const double last = fabs(fine.value[2] - fine.value[1]);
-    const double round_off = 64 * DBL_EPSILON * fabs(fine.value[2]) + l->noise;
+    const double round_off = 64 * DBL_EPSILON * fabs(fine.value[2]);
     if (last <= careful * round_off)
         return around(fine.value[2], careful * last + round_off);
     const double order = observed_order(&fine);
@@ -138,7 +127,7 @@ static struct br_estimate extrapolate_line(const struct line *whole)
     const double value = limit(&fine, order);
     double spread = fabs(value - limit(&fine, l->formal));
     if (l->count > 3) {
-        const struct triple coarse = triple_at(l, l->count - 4);
+        const struct triple coarse = {l->x + l->count - 4, l->value + l->count - 4};
         const double coarse_order = observed_order(&coarse);
         const double other =
             isfinite(coarse_order) ? limit(&coarse, coarse_order) : coarse.value[2];
@@ -147,49 +136,31 @@ static struct br_estimate extrapolate_line(const struct line *whole)
     return around(value, safety * spread + round_off);
 }
 
-/* What one mesh says of k = 0. */
-static struct br_estimate over_time(const struct br_tips *tips, enum br_field_kind kind, size_t row)
-{
-    double *x = br_allocate(tips->k_count, sizeof *x);
-    if (!x)
-        return around(NAN, NAN);
-    for (size_t j = 0; j < tips->k_count; j++)
-        x[j] = 1 / (double)tips->steps[j];
-    const struct line line = {
-        .count = tips->k_count,
-        .x = x,
-        .value = tips->value[kind] + row * tips->k_count,
-        .formal = 1,
-    };
-    const struct br_estimate e = extrapolate_line(&line);
-    free(x);
-    return e;
-}
-
-/* The uncertainty over time is nearly the same on all meshes: it is added at the end, and
- * only what it does not share is noise for the extrapolation over h. */
+/* First over k on each mesh, then over h. The uncertainty over time is nearly the same on all
+ * meshes: it is added at the end, and only what it does not share is noise for the extrapolation
+ * over h. */
 struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind kind)
 {
-    double *x = br_allocate(2 * tips->n_count, sizeof *x);
-    if (!x)
+    const size_t n_count = tips->n_count, k_count = tips->k_count;
+    double *h = br_allocate(2 * n_count + k_count, sizeof *h);
+    if (!h)
         return around(NAN, NAN);
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
-    double *value = x + tips->n_count, half = 0;
-    for (size_t i = 0; i < tips->n_count; i++) {
-        const struct br_estimate e = over_time(tips, kind, i);
-        x[i] = 1 / (double)tips->n[i];
+    double *value = h + n_count, *k = value + n_count, half = 0;
+    for (size_t j = 0; j < k_count; j++)
+        k[j] = 1 / (double)tips->steps[j];
+    for (size_t i = 0; i < n_count; i++) {
+        const struct line row = {k_count, k, tips->value[kind] + i * k_count, 1};
+        const struct br_estimate e = extrapolate_line(&row);
+        h[i] = 1 / (double)tips->n[i];
         value[i] = e.value;
         half = (e.high - e.low) / 2;
     }
-    const struct line line = {
-        .count = tips->n_count,
-        .x = x,
-        .value = value,
-        .formal = kind == BR_AXIAL && tips->axial_degree != 2 ? 2 : 4,
-    };
+    const double formal = kind == BR_AXIAL && tips->axial_degree != 2 ? 2 : 4;
+    const struct line line = {n_count, h, value, formal};
     struct br_estimate e = extrapolate_line(&line);
     gsl_set_error_handler(handler);
-    free(x);
+    free(h);
     e.low -= half;
     e.high += half;
     return e;

@@ -104,31 +104,25 @@ static struct br_slope slope_of(const double *x, const double *y, size_t count)
     return slope;
 }
 
-/* Slopes along one direction of the grid: `outer` lines of `inner` cells. */
-struct lines {
-    size_t outer, inner;
-    size_t outer_stride, inner_stride;
-    double (*abscissa)(const struct br_study *, const struct br_cell *);
-};
-
-static enum br_status fit_lines(const struct br_study *s, enum br_part part,
-                                const struct lines *lines, struct br_slope **slopes,
-                                struct br_error *err)
+/* Slopes along one direction of the grid: over k at each n, or over h at each k. */
+static enum br_status fit_lines(const struct br_study *s, enum br_part part, bool over_k,
+                                struct br_slope **slopes, struct br_error *err)
 {
-    double *x = br_allocate(2 * lines->inner, sizeof *x);
-    *slopes = br_allocate(lines->outer, sizeof **slopes);
+    const size_t outer = over_k ? s->n_count : s->k_count, inner = over_k ? s->k_count : s->n_count;
+    double *x = br_allocate(2 * inner, sizeof *x);
+    *slopes = br_allocate(outer, sizeof **slopes);
     if (!x || !*slopes) {
         free(x);
         return br_no_memory(err, "the fits");
     }
-    double *y = x + lines->inner;
-    for (size_t i = 0; i < lines->outer; i++) {
+    double *y = x + inner;
+    for (size_t i = 0; i < outer; i++) {
         size_t count = 0;
-        for (size_t j = 0; j < lines->inner; j++) {
-            const struct br_cell *c = &s->cell[i * lines->outer_stride + j * lines->inner_stride];
+        for (size_t j = 0; j < inner; j++) {
+            const struct br_cell *c = over_k ? br_study_cell(s, i, j) : br_study_cell(s, j, i);
             if (!usable(c, part))
                 continue;
-            x[count] = log(lines->abscissa(s, c));
+            x[count] = log(over_k ? step_of(s, c) : mesh_of(s, c));
             y[count++] = log(c->error[part]);
         }
         (*slopes)[i] = slope_of(x, y, count);
@@ -234,12 +228,10 @@ enum br_status br_fit(struct br_study *s, enum br_part part, struct br_fits *fit
         if (!(own <= fits->reference_error) && isfinite(own))
             fits->reference_error = own;
     } while (!status && set_flags(s, part, fits->reference_error) != 0);
-    const struct lines rows = {s->n_count, s->k_count, s->k_count, 1, step_of};
-    const struct lines columns = {s->k_count, s->n_count, 1, s->k_count, mesh_of};
     if (!status)
-        status = fit_lines(s, part, &rows, &fits->by_n, err);
+        status = fit_lines(s, part, true, &fits->by_n, err);
     if (!status)
-        status = fit_lines(s, part, &columns, &fits->by_k, err);
+        status = fit_lines(s, part, false, &fits->by_k, err);
     return status;
 }
 
@@ -352,24 +344,27 @@ struct drift_fit {
     double left, before; /* squares that are left over: with the next term, and without it */
 };
 
-/* Rows 1, log z, z of the model; y as in regress. */
+/* Rows 1, log z, z of the model; y as in regress. x: room for count rows. */
 static struct drift_fit regress_drifting(const struct br_order_point *point, size_t count, double p,
-                                         gsl_matrix *x, gsl_vector *y, gsl_vector *c,
-                                         gsl_matrix *cov, gsl_multifit_linear_workspace *space)
+                                         double *x, double *y, gsl_multifit_linear_workspace *space)
 {
     struct drift_fit fit;
-    double c0, c1, cov00, cov01, cov11;
+    double c0, c1, cov00, cov01, cov11, c[TERMS], covariance[TERMS * TERMS];
     for (size_t i = 0; i < count; i++) {
-        gsl_matrix_set(x, i, 0, 1);
-        gsl_matrix_set(x, i, 1, log(point[i].z));
-        gsl_matrix_set(x, i, 2, point[i].z / point[0].z);
-        gsl_vector_set(y, i, log(point[i].error) - log_loss(point[i].z_against / point[i].z, p));
+        x[i * TERMS] = 1;
+        x[i * TERMS + 1] = log(point[i].z);
+        x[i * TERMS + 2] = point[i].z / point[0].z;
+        y[i] = log(point[i].error) - log_loss(point[i].z_against / point[i].z, p);
     }
-    gsl_fit_linear(gsl_matrix_ptr(x, 0, 1), x->tda, y->data, y->stride, count, &c0, &c1, &cov00,
-                   &cov01, &cov11, &fit.before);
-    gsl_multifit_linear(x, y, c, cov, &fit.left, space);
-    fit.order = gsl_vector_get(c, 1);
-    fit.deviation = sqrt(fmax(0, gsl_matrix_get(cov, 1, 1)));
+    gsl_matrix_view rows = gsl_matrix_view_array(x, count, TERMS);
+    gsl_matrix_view cov = gsl_matrix_view_array(covariance, TERMS, TERMS);
+    gsl_vector_view values = gsl_vector_view_array(y, count);
+    gsl_vector_view solution = gsl_vector_view_array(c, TERMS);
+    gsl_fit_linear(x + 1, TERMS, y, 1, count, &c0, &c1, &cov00, &cov01, &cov11, &fit.before);
+    gsl_multifit_linear(&rows.matrix, &values.vector, &solution.vector, &cov.matrix, &fit.left,
+                        space);
+    fit.order = c[1];
+    fit.deviation = sqrt(fmax(0, covariance[TERMS + 1]));
     return fit;
 }
 
@@ -380,13 +375,12 @@ enum br_status br_order_fit_drifting(const struct br_order_point *point, size_t 
     if (status || count < LEAST_DRIFTING || !isfinite(order->value))
         return status;
     gsl_multifit_linear_workspace *space = gsl_multifit_linear_alloc(count, TERMS);
-    gsl_matrix *x = gsl_matrix_alloc(count, TERMS), *cov = gsl_matrix_alloc(TERMS, TERMS);
-    gsl_vector *y = gsl_vector_alloc(count), *c = gsl_vector_alloc(TERMS);
-    const bool ready = space && x && cov && y && c;
+    double *x = br_allocate(count * (TERMS + 1), sizeof *x);
+    const bool ready = space && x;
     struct drift_fit fit = {.order = order->value, .left = INFINITY};
     for (int i = 0; i < 100 && ready; i++) {
         const double before = fit.order;
-        fit = regress_drifting(point, count, before, x, y, c, cov, space);
+        fit = regress_drifting(point, count, before, x, x + count * TERMS, space);
         if (!(fabs(fit.order - before) > 1e-12 * fmax(1, fabs(before))))
             break;
     }
@@ -396,9 +390,6 @@ enum br_status br_order_fit_drifting(const struct br_order_point *point, size_t 
         *order = (struct br_estimate){fit.order, fit.order - half, fit.order + half};
     }
     gsl_multifit_linear_free(space);
-    gsl_matrix_free(x);
-    gsl_matrix_free(cov);
-    gsl_vector_free(y);
-    gsl_vector_free(c);
+    free(x);
     return ready ? BR_OK : br_no_memory(err, "the fit");
 }

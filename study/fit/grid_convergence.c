@@ -232,16 +232,17 @@ static void data_free(struct data *d)
 static enum br_status data_create(struct data *d, const double *h, const double *value,
                                   size_t count, double full, struct br_error *err)
 {
-    *d = (struct data){.count = count, .y = br_allocate(7 * count, sizeof(double))};
-    if (!d->y)
-        return br_no_memory(err, "the fits");
-    d->ln_h = d->y + count;
-    d->weight[0] = d->y + 2 * count;
-    d->weight[1] = d->y + 3 * count;
-    d->x = d->y + 4 * count;
-    d->linear = gsl_multifit_linear_alloc(count, 3);
-    d->minimizer = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
-    if (!d->linear || !d->minimizer)
+    double *room = br_allocate(7 * count, sizeof *room);
+    *d = (struct data){
+        .count = count,
+        .y = room,
+        .ln_h = room + count,
+        .weight = {room + 2 * count, room + 3 * count},
+        .x = room + 4 * count,
+        .linear = gsl_multifit_linear_alloc(count, 3),
+        .minimizer = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent),
+    };
+    if (!room || !d->linear || !d->minimizer)
         return br_no_memory(err, "the fits");
     const double finest = h[count - 1];
     double sum = 0;

@@ -63,18 +63,13 @@ static void spread(const struct problem *problem, const gsl_vector *v, double fu
         full[kinds[problem->kind].unknown[i]] = gsl_vector_get(v, i);
 }
 
-static double part_h(const struct problem *problem, const double full[UNKNOWNS],
-                     const struct br_observation *o)
+/* The two errors; that which the model has not is 0. */
+static void find_parts(const struct problem *problem, const double full[UNKNOWNS],
+                       const struct br_observation *o, double *a, double *b)
 {
-    return problem->kind == BR_JOINT_TIME ? 0
-                                          : signed_error(full[LOG_C_H], full[P], o->h, o->h_ref);
-}
-
-static double part_k(const struct problem *problem, const double full[UNKNOWNS],
-                     const struct br_observation *o)
-{
-    return problem->kind == BR_JOINT_SPACE ? 0
-                                           : signed_error(full[LOG_C_K], full[Q], o->k, o->k_ref);
+    const bool space = problem->kind != BR_JOINT_TIME, time = problem->kind != BR_JOINT_SPACE;
+    *a = space ? signed_error(full[LOG_C_H], full[P], o->h, o->h_ref) : 0;
+    *b = time ? signed_error(full[LOG_C_K], full[Q], o->k, o->k_ref) : 0;
 }
 
 static const double least_model = 1e-300;
@@ -88,7 +83,9 @@ static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
     const double r = sin(full[THETA]);
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
-        const double m = combine(part_h(problem, full, o), part_k(problem, full, o), r);
+        double a, b;
+        find_parts(problem, full, o, &a, &b);
+        const double m = combine(a, b, r);
         const double f = log((m < least_model ? least_model : m) / o->error);
         if (!isfinite(f))
             return GSL_EDOM;
@@ -107,7 +104,8 @@ static int jacobian(const gsl_vector *v, void *params, gsl_matrix *out)
     const double r = sin(full[THETA]), slope = cos(full[THETA]);
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
-        const double a = part_h(problem, full, o), b = part_k(problem, full, o);
+        double a, b;
+        find_parts(problem, full, o, &a, &b);
         const double m = combine(a, b, r), square = m * m;
         const double by_a = (a + r * b) / square, by_b = (b + r * a) / square;
         const double rate[UNKNOWNS] = {
@@ -191,22 +189,20 @@ static void read_attempt(const struct problem *problem, gsl_multifit_nlinear_wor
     }
     if (!isfinite(sum))
         return;
-    gsl_matrix *covariance = gsl_matrix_alloc(unknowns, unknowns);
-    if (!covariance)
-        return;
-    gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(w), 1e-12, covariance);
+    double room[UNKNOWNS * UNKNOWNS];
+    gsl_matrix_view covariance = gsl_matrix_view_array(room, unknowns, unknowns);
+    gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(w), 1e-12, &covariance.matrix);
     const double variance = sum / (double)(problem->count - unknowns);
     double full[UNKNOWNS];
     spread(problem, gsl_multifit_nlinear_position(w), full);
     for (size_t i = 0; i < unknowns; i++) {
         const int u = kinds[problem->kind].unknown[i];
-        const double c = variance_of(problem, covariance, i);
+        const double c = variance_of(problem, &covariance.matrix, i);
         out->value[u] = full[u] - shift(problem, u, full);
         out->deviation[u] = c > 0 ? sqrt(variance * c) : INFINITY;
     }
     out->sum = sum;
     out->worst = worst;
-    gsl_matrix_free(covariance);
 }
 
 /* A fit that starts from the given values of all unknowns, in m and s. */
@@ -219,24 +215,24 @@ static struct attempt attempt_from(const struct problem *problem, const double f
     gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(
         gsl_multifit_nlinear_trust, &parameters, problem->count, unknowns);
-    gsl_vector *start = gsl_vector_alloc(unknowns);
-    if (w && start) {
+    if (w) {
+        double start[UNKNOWNS];
         for (size_t i = 0; i < unknowns; i++) {
             const int u = kinds[problem->kind].unknown[i];
-            gsl_vector_set(start, i, full[u] + shift(problem, u, full));
+            start[i] = full[u] + shift(problem, u, full);
         }
+        const gsl_vector_view from = gsl_vector_view_array(start, unknowns);
         gsl_multifit_nlinear_fdf fdf = {.f = residuals,
                                         .df = jacobian,
                                         .n = problem->count,
                                         .p = unknowns,
                                         .params = (void *)problem};
         int info;
-        if (gsl_multifit_nlinear_init(start, &fdf, w) == GSL_SUCCESS) {
+        if (gsl_multifit_nlinear_init(&from.vector, &fdf, w) == GSL_SUCCESS) {
             gsl_multifit_nlinear_driver(500, 1e-13, 1e-13, 0, NULL, NULL, &info, w);
             read_attempt(problem, w, &out);
         }
     }
-    gsl_vector_free(start);
     gsl_multifit_nlinear_free(w);
     return out;
 }
@@ -415,6 +411,13 @@ static bool is_told(const struct br_joint_fit *fit)
            (fit->kind == BR_JOINT_SPACE || br_order_determined(&fit->q));
 }
 
+/* Two errors, of which one cannot be told, where nothing simpler will do. */
+static bool tells_one(const struct br_joint_fit *fit)
+{
+    return br_joint_describes(fit) &&
+           (br_order_determined(&fit->p) || br_order_determined(&fit->q));
+}
+
 /* A problem in units of its own; own: out, its observations, count. */
 static struct problem problem_of(const struct br_observation *observation, size_t count,
                                  struct br_observation *own)
@@ -446,19 +449,27 @@ struct candidate {
     bool widened;
 };
 
-/* With the intervals of the jackknife, which is the dear part. */
-static struct br_joint_fit widened(struct problem *problem, enum br_joint_kind kind,
-                                   struct candidate *c, struct br_observation *workspace)
+/* Sets the fit to a kind that is accepted, with the intervals of the jackknife, which is the dear
+ * part: intervals only grow in it, so what is refused without it need not be widened. */
+static bool take_kind(struct problem *problem, enum br_joint_kind kind, struct candidate *c,
+                      bool (*accepts)(const struct br_joint_fit *),
+                      struct br_observation *workspace, struct br_joint_fit *fit)
 {
-    struct br_joint_fit fit;
+    struct br_joint_fit one;
     problem->kind = kind;
-    if (kind != BR_JOINT_TIME && !c->widened)
-        widen_by_jackknife(problem, &c->attempt, true, workspace);
-    if (kind != BR_JOINT_SPACE && !c->widened)
-        widen_by_jackknife(problem, &c->attempt, false, workspace);
-    c->widened = true;
-    describe(problem, &c->attempt, &fit);
-    return fit;
+    describe(problem, &c->attempt, &one);
+    if (accepts(&one) && !c->widened) {
+        if (kind != BR_JOINT_TIME)
+            widen_by_jackknife(problem, &c->attempt, true, workspace);
+        if (kind != BR_JOINT_SPACE)
+            widen_by_jackknife(problem, &c->attempt, false, workspace);
+        c->widened = true;
+        describe(problem, &c->attempt, &one);
+    }
+    if (!accepts(&one))
+        return false;
+    *fit = one;
+    return true;
 }
 
 /* The kind that is not done whose criterion is the least, of equal ones the first; BR_JOINT_SPACE +
@@ -471,25 +482,6 @@ static int next_best(const struct candidate *candidate, const bool *done)
             (best > BR_JOINT_SPACE || candidate[kind].criterion < candidate[best].criterion))
             best = kind;
     return best;
-}
-
-/* The best kind whose orders can be told. Intervals only grow in the jackknife: what cannot be told
- * without it need not be widened. */
-static void choose_kind(struct problem *problem, struct candidate *candidate,
-                        struct br_observation *workspace, struct br_joint_fit *fit)
-{
-    bool done[BR_JOINT_SPACE + 1] = {false};
-    for (int kind; (kind = next_best(candidate, done)) <= BR_JOINT_SPACE; done[kind] = true) {
-        struct br_joint_fit one;
-        problem->kind = (enum br_joint_kind)kind;
-        describe(problem, &candidate[kind].attempt, &one);
-        if (is_told(&one))
-            one = widened(problem, problem->kind, &candidate[kind], workspace);
-        if (!is_told(&one))
-            continue;
-        *fit = one;
-        return;
-    }
 }
 
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
@@ -511,18 +503,13 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
         if (isfinite(c->attempt.sum))
             c->criterion = br_akaike(c->attempt.sum, count, kinds[kind].count);
     }
-    choose_kind(&problem, candidate, own + count, fit);
-    /* Two errors, of which one cannot be told, where nothing simpler will do. */
-    if (!br_joint_describes(fit) && isfinite(candidate[BR_JOINT_BOTH].criterion)) {
-        struct br_joint_fit both;
-        problem.kind = BR_JOINT_BOTH;
-        describe(&problem, &candidate[BR_JOINT_BOTH].attempt, &both);
-        if (br_joint_describes(&both))
-            both = widened(&problem, BR_JOINT_BOTH, &candidate[BR_JOINT_BOTH], own + count);
-        if (br_joint_describes(&both) &&
-            (br_order_determined(&both.p) || br_order_determined(&both.q)))
-            *fit = both;
-    }
+    bool done[BR_JOINT_SPACE + 1] = {false}, taken = false;
+    for (int kind; !taken && (kind = next_best(candidate, done)) <= BR_JOINT_SPACE;
+         done[kind] = true)
+        taken = take_kind(&problem, (enum br_joint_kind)kind, &candidate[kind], is_told,
+                          own + count, fit);
+    if (!br_joint_describes(fit) && isfinite(candidate[BR_JOINT_BOTH].criterion))
+        take_kind(&problem, BR_JOINT_BOTH, &candidate[BR_JOINT_BOTH], tells_one, own + count, fit);
     gsl_set_error_handler(handler);
     free(own);
     return BR_OK;

@@ -1,12 +1,320 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which orders a report claims. The error of a cell is one of space and one of time, and the larger
+ * one hides the order of the other. So the order in h comes from the differences of successive
+ * meshes at one time step, which have no time error in them, or from the joint fit of the grid, if
+ * that tells it more sharply. The order in k comes from the joint fit, or from the errors on the
+ * finest mesh where the error of space is small beside them. What does not fall, or slowly and
+ * unevenly, tells no order: the sizes are too coarse. */
 #include "study/fit/report.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LEAST = 3, MOST = 5 }; /* errors of an order: of more, the finest count */
+/* Of the error of time: an error of space this large is in the way. */
+static const double hidden = 0.1;
+static const double near = 0.1, clear = 0.02; /* of an order */
+
+/* Errors along a line of the grid, from coarse to fine. */
+struct line {
+    struct br_order_point point[MOST]; /* the finest that are not flagged; z in m or s */
+    size_t count, left_out;
+    enum br_flag flag; /* of the first that is left out */
+};
+
+__attribute__((format(printf, 2, 3))) static void remark(struct br_seen_order *o,
+                                                         const char *format, ...)
+{
+    const size_t used = strlen(o->remark);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(o->remark + used, sizeof o->remark - used, format, args);
+    va_end(args);
+}
 
 struct br_study *br_report_fitted(const struct br_report *r)
 {
     return r->exact ? r->exact : r->study;
 }
+
+/* ---- theory ---- */
+
+/* In L2, and one order less for each derivative; at the nodes twice what a derivative has. */
+static double order_of_elements(const struct br_study *s, enum br_field_kind kind)
+{
+    const int degree = kind == BR_AXIAL ? s->method.axial_degree : 3;
+    const int derivatives = kind == BR_AXIAL ? 1 : 2;
+    if (s->norm->level == br_norm_tip.level)
+        return 2 * (degree + 1 - derivatives);
+    return degree + 1 - (s->norm->energy ? derivatives : 0);
+}
+
+static double theory_in_h(const struct br_study *s, enum br_part part)
+{
+    double order = INFINITY;
+    if (s->scene->axial.modelled && part != BR_PART_BENDING)
+        order = order_of_elements(s, BR_AXIAL);
+    if (s->scene->bending.modelled && part != BR_PART_AXIAL)
+        order = fmin(order, order_of_elements(s, BR_BENDING));
+    return order;
+}
+
+/* A contact force of the time level before is wrong by O(k). */
+static double theory_in_k(const struct br_study *s)
+{
+    const bool lags = s->scene->contact.modelled && !s->method.contact->at_new_step;
+    return lags ? 1 : s->method.scheme->order;
+}
+
+/* ---- lines ---- */
+
+static void add(struct line *l, const struct br_cell *c, enum br_part part, double z,
+                double z_against)
+{
+    if (c->flag[part] != BR_FLAG_NONE || !(c->error[part] > 0)) {
+        l->flag = l->left_out++ ? l->flag : c->flag[part];
+        return;
+    }
+    if (l->count == MOST)
+        memmove(l->point, l->point + 1, --l->count * sizeof *l->point);
+    l->point[l->count++] = (struct br_order_point){z, z_against, c->error[part]};
+}
+
+static struct line line_in_h(const struct br_study *s, enum br_part part, size_t column)
+{
+    struct line l = {0};
+    for (size_t i = 0; i < s->n_count; i++) {
+        const struct br_cell *c = br_study_cell(s, i, column);
+        add(&l, c, part, br_mesh_size(s->scene, c->at.n), br_mesh_size(s->scene, c->against.n));
+    }
+    return l;
+}
+
+/* At the coarsest time step that has enough of them. */
+static struct line meshes_of(const struct br_study *s, enum br_part part, size_t *column)
+{
+    struct line l;
+    for (*column = 0; *column < s->k_count; ++*column) {
+        l = line_in_h(s, part, *column);
+        if (l.count >= LEAST)
+            return l;
+    }
+    return line_in_h(s, part, *column = 0);
+}
+
+/* On the finest mesh. */
+static struct line steps_of(const struct br_study *s, enum br_part part)
+{
+    struct line l = {0};
+    for (size_t j = 0; j < s->k_count; j++) {
+        const struct br_cell *c = br_study_cell(s, s->n_count - 1, j);
+        add(&l, c, part, br_time_step(s->scene, c->at.steps),
+            br_time_step(s->scene, c->against.steps));
+    }
+    return l;
+}
+
+/* The order from point i to the next; what is lost beside z^p is as in theory. */
+static double rate(const struct line *l, size_t i, double theory)
+{
+    const struct br_order_point *a = &l->point[i], *b = a + 1;
+    const double lost =
+        log(1 - pow(a->z_against / a->z, theory)) - log(1 - pow(b->z_against / b->z, theory));
+    return (log(a->error / b->error) - lost) / log(a->z / b->z);
+}
+
+/* ---- what is seen ---- */
+
+static void say_rates(struct br_seen_order *o, const struct line *l)
+{
+    for (size_t i = 0; i + 1 < l->count; i++)
+        remark(o, "%s%.2f", i ? ", " : " ", rate(l, i, o->theory));
+    remark(o, " from size to size");
+}
+
+/* How much nearer to theory the finest errors are than the coarsest ones, in orders of theory. */
+static double comes_closer(const struct br_seen_order *o, const struct line *l)
+{
+    const double first = rate(l, 0, o->theory), last = rate(l, l->count - 2, o->theory);
+    return (fabs(first - o->theory) - fabs(last - o->theory)) / o->theory;
+}
+
+/* line: what says more of an order that is not as in theory; NULL: nothing. */
+static void claim(struct br_seen_order *o, struct br_estimate order, const struct line *l)
+{
+    const double off = fabs(order.value - o->theory) / o->theory;
+    const bool held = order.low <= o->theory && o->theory <= order.high;
+    o->order = order;
+    if (off <= near && (held || off <= near / 2))
+        remark(o, "as in theory");
+    else if (off <= near)
+        remark(o, "near theory");
+    else
+        remark(o, held ? "not settled" : order.value < o->theory ? "below theory" : "above theory");
+    if (off <= near || !l)
+        return;
+    remark(o, comes_closer(o, l) > clear ? ", but comes closer:" : ":");
+    say_rates(o, l);
+}
+
+static void say_too_few(struct br_seen_order *o, const struct line *l)
+{
+    remark(o, "not seen: %zu error%s, an order needs %d", l->count, l->count == 1 ? "" : "s",
+           LEAST);
+    if (l->left_out)
+        remark(o, "; %zu left out%s%s", l->left_out, l->flag ? ", the first: " : "",
+               l->flag == BR_FLAG_ROUND_OFF ? "at the round-off" : br_flag_name(l->flag));
+}
+
+/* From errors alone. */
+static enum br_status judge_line(struct br_seen_order *o, const struct line *l, const char *size,
+                                 struct br_error *err)
+{
+    struct br_estimate order;
+    bool falls = true;
+    if (l->count < LEAST) {
+        say_too_few(o, l);
+        return BR_OK;
+    }
+    for (size_t i = 1; i < l->count; i++)
+        falls = falls && l->point[i].error < l->point[i - 1].error;
+    const enum br_status status = br_order_fit(l->point, l->count, &order, err);
+    if (status)
+        return status;
+    const bool settled = order.high - order.low <= near * order.value;
+    if (falls && br_order_determined(&order) && (settled || order.value > o->theory / 2)) {
+        claim(o, order, l);
+        return BR_OK;
+    }
+    if (falls) {
+        remark(o, "not seen: the errors fall by orders of");
+        say_rates(o, l);
+    } else {
+        remark(o, "not seen: the errors do not fall,");
+        for (size_t i = 0; i < l->count; i++)
+            remark(o, "%s%.1e", i ? ", " : " ", l->point[i].error);
+    }
+    const double closer = falls ? comes_closer(o, l) : 1;
+    if (fabs(closer) > clear)
+        remark(o, "; a %s %s may show it", closer > 0 ? "smaller" : "larger", size);
+    return BR_OK;
+}
+
+/* Whether the joint fit tells an order that can be believed. */
+static bool tells(const struct br_joint_fit *fit, const struct br_estimate *order, double theory)
+{
+    return br_joint_describes(fit) && br_order_determined(order) && order->value > theory / 2;
+}
+
+static void claim_joint(struct br_seen_order *o, const struct br_joint_fit *fit,
+                        const struct br_estimate *order)
+{
+    snprintf(o->by, sizeof o->by, "joint fit of %zu cells, misfit %.2g %%", fit->points,
+             100 * fit->misfit);
+    *o->remark = '\0';
+    claim(o, *order, NULL);
+}
+
+/* Coulomb's bound depends on the axial displacement of the tip. */
+static void explain_bending(struct br_seen_order *o, const struct br_study *s)
+{
+    const double axial = theory_in_h(s, BR_PART_AXIAL), order = o->order.value;
+    if (s->scene->friction.law == BR_COULOMB && order < (1 - near) * o->theory &&
+        fabs(order - axial) <= near / 2 * axial)
+        remark(o, ", as the axial part, on which friction depends");
+}
+
+static enum br_status see_in_h(const struct br_report *r, enum br_part part,
+                               struct br_seen_order *o, struct br_error *err)
+{
+    const struct br_joint_fit *fit = &r->fits[part].joint;
+    if (r->meshes) {
+        size_t column;
+        const struct line l = meshes_of(r->meshes, part, &column);
+        snprintf(o->by, sizeof o->by, "each mesh against the next at k = %g s",
+                 br_time_step(r->meshes->scene, r->meshes->steps[column]));
+        const enum br_status status = judge_line(o, &l, "h", err);
+        if (status)
+            return status;
+        if (part == BR_PART_BENDING)
+            explain_bending(o, r->meshes);
+    }
+    const double width = o->order.high - o->order.low;
+    if (tells(fit, &fit->p, o->theory) && !(width <= fit->p.high - fit->p.low))
+        claim_joint(o, fit, &fit->p);
+    else if (!r->meshes)
+        remark(o, "not seen: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");
+    return BR_OK;
+}
+
+/* The error of space on the finest mesh of the study, by the finest difference. */
+static double error_of_space(const struct br_report *r, enum br_part part)
+{
+    const struct br_study *s = br_report_fitted(r);
+    const double order = theory_in_h(s, part);
+    size_t column;
+    if (!r->meshes)
+        return 0; /* not known */
+    const struct line l = meshes_of(r->meshes, part, &column);
+    if (!l.count)
+        return 0;
+    const struct br_order_point *p = &l.point[l.count - 1];
+    const double h = br_mesh_size(s->scene, s->n[s->n_count - 1]);
+    return p->error * pow(h, order) / (pow(p->z, order) - pow(p->z_against, order));
+}
+
+static enum br_status see_in_k(const struct br_report *r, enum br_part part,
+                               struct br_seen_order *o, struct br_error *err)
+{
+    const struct br_study *s = br_report_fitted(r);
+    const struct br_joint_fit *fit = &r->fits[part].joint;
+    const struct line l = steps_of(s, part);
+    if (tells(fit, &fit->q, o->theory)) {
+        claim_joint(o, fit, &fit->q);
+        return BR_OK;
+    }
+    const double space = error_of_space(r, part);
+    snprintf(o->by, sizeof o->by, "%s on the finest mesh, n = %zu",
+             s->judge == &br_judge_none ? "each step against the next" : "errors",
+             s->n[s->n_count - 1]);
+    if (l.count && space > hidden * l.point[l.count - 1].error) {
+        remark(o, "hidden by the error in h, about %.1e beside %.1e: a finer mesh shows it", space,
+               l.point[l.count - 1].error);
+        return BR_OK;
+    }
+    return judge_line(o, &l, "k", err);
+}
+
+static bool has_part(const struct br_scene *scene, enum br_part part)
+{
+    return (part != BR_PART_AXIAL || scene->axial.modelled) &&
+           (part != BR_PART_BENDING || scene->bending.modelled);
+}
+
+enum br_status br_report_see_orders(struct br_report *r, struct br_error *err)
+{
+    const struct br_study *s = br_report_fitted(r);
+    const bool none = s->judge == &br_judge_none;
+    enum br_status status = BR_OK;
+    for (enum br_part part = 0; part < BR_PARTS && !status; part++) {
+        struct br_seen_order *h = &r->seen[part][BR_OVER_H], *k = &r->seen[part][BR_OVER_K];
+        const struct br_estimate nothing = {NAN, NAN, NAN};
+        const bool has = has_part(s->scene, part) && br_study_cells(s) > 0;
+        const bool in_k = has && (!none || !r->meshes) && !s->method.scheme->adaptive;
+        *h = (struct br_seen_order){
+            .asked = has && (!none || r->meshes), .order = nothing, .theory = theory_in_h(s, part)};
+        *k = (struct br_seen_order){.asked = in_k, .order = nothing, .theory = theory_in_k(s)};
+        if (h->asked)
+            status = see_in_h(r, part, h, err);
+        if (k->asked && !status)
+            status = see_in_k(r, part, k, err);
+    }
+    return status;
+}
+
+/* ---- the report ---- */
 
 static enum br_status extrapolate_tips(struct br_report *r, struct br_error *err)
 {

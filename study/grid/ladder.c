@@ -58,21 +58,18 @@ static double transfer(const gsl_integration_glfixed_table *gauss, const struct 
     return rung->ratio > 1 ? sum : i == m;
 }
 
-static enum br_status fill_transfers(struct rung *rung, size_t modes, struct br_error *err)
+static enum br_status fill_transfers(struct rung *rung, size_t modes, struct br_store *store,
+                                     struct br_error *err)
 {
     const size_t half = (rung->ratio + 1) / 2;
-    rung->transfer = br_allocate_aligned(half * modes * modes, sizeof *rung->transfer);
+    rung->transfer = br_store_take(store, half * modes * modes, sizeof *rung->transfer);
     gsl_integration_glfixed_table *gauss = gsl_integration_glfixed_table_alloc(BR_MOST_MODES);
-    if (!rung->transfer || !gauss) {
-        gsl_integration_glfixed_table_free(gauss);
-        return br_no_memory(err, "the ladder of meshes");
-    }
-    for (size_t j = 0; j < half; j++)
+    for (size_t j = 0; rung->transfer && gauss && j < half; j++)
         for (size_t i = 0; i < modes; i++)
             for (size_t m = i; m < modes; m++)
                 rung->transfer[(j * modes + i) * modes + m] = transfer(gauss, rung, j, i, m);
     gsl_integration_glfixed_table_free(gauss);
-    return BR_OK;
+    return rung->transfer && gauss ? BR_OK : br_no_memory(err, "the ladder of meshes");
 }
 
 /* Elements of the mesh that a rung is projected from. */
@@ -103,12 +100,8 @@ static size_t round_up(size_t count, size_t lanes)
 }
 
 static enum br_status add_rungs(struct br_ladder *ladder, const struct br_mesh_list *rungs,
-                                struct br_error *err)
+                                struct br_store *store, struct br_error *err)
 {
-    ladder->rung = br_allocate(rungs->count, sizeof *ladder->rung);
-    ladder->order = br_allocate(rungs->count, sizeof *ladder->order);
-    if (!ladder->rung || !ladder->order)
-        return br_no_memory(err, "the ladder of meshes");
     ladder->count = rungs->count;
     ladder->size = round_up(rungs->count, BR_MOST_LANES);
     for (size_t r = 0; r < rungs->count; r++) {
@@ -123,7 +116,7 @@ static enum br_status add_rungs(struct br_ladder *ladder, const struct br_mesh_l
             return br_fail(err, BR_BAD_INPUT, "n = %zu does not divide the reference's %zu",
                            rung->n, ladder->root[0]);
         rung->ratio = parent_n(ladder, rung->parent) / rung->n;
-        const enum br_status status = fill_transfers(rung, ladder->modes, err);
+        const enum br_status status = fill_transfers(rung, ladder->modes, store, err);
         if (status)
             return status;
     }
@@ -143,35 +136,24 @@ static void sort_rungs(struct br_ladder *ladder)
 
 enum br_status br_ladder_create(struct br_ladder **out, size_t modes,
                                 const struct br_mesh_list *roots, const struct br_mesh_list *rungs,
-                                struct br_error *err)
+                                struct br_store *store, struct br_error *err)
 {
-    struct br_ladder *ladder = br_allocate(1, sizeof *ladder);
-    *out = ladder;
+    struct br_ladder *ladder = *out = br_store_take(store, 1, sizeof *ladder);
     if (!ladder)
         return br_no_memory(err, "the ladder of meshes");
     ladder->kernel = br_ladder_kernels[br_instruction_set_best()];
     ladder->modes = modes;
-    ladder->root = br_allocate(roots->count, sizeof *ladder->root);
-    if (!ladder->root)
-        return br_no_memory(err, "the ladder of meshes");
     ladder->roots = roots->count;
+    ladder->root = br_store_take(store, roots->count, sizeof *ladder->root);
+    ladder->rung = br_store_take(store, rungs->count, sizeof *ladder->rung);
+    ladder->order = br_store_take(store, rungs->count, sizeof *ladder->order);
+    if (store->failed)
+        return br_no_memory(err, "the ladder of meshes");
     memcpy(ladder->root, roots->n, roots->count * sizeof *ladder->root);
-    const enum br_status status = add_rungs(ladder, rungs, err);
+    const enum br_status status = add_rungs(ladder, rungs, store, err);
     if (!status)
         sort_rungs(ladder);
     return status;
-}
-
-void br_ladder_free(struct br_ladder *ladder)
-{
-    if (!ladder)
-        return;
-    for (size_t r = 0; ladder->rung && r < ladder->count; r++)
-        free(ladder->rung[r].transfer);
-    free(ladder->rung);
-    free(ladder->order);
-    free(ladder->root);
-    free(ladder);
 }
 
 void br_ladder_use(struct br_ladder *ladder, const struct br_ladder_kernel *kernel)

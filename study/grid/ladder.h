@@ -29,11 +29,10 @@ struct br_mesh_list {
 
 /* A ladder for functions with 1 to 4 modes an element, from one or more
  * root meshes down to the rungs, every one of which divides a root (it may be one).
- * Fails with BR_BAD_INPUT (not nested) or BR_NO_MEMORY. */
+ * *ladder: out, owned by the store. Fails with BR_BAD_INPUT (not nested) or BR_NO_MEMORY. */
 enum br_status br_ladder_create(struct br_ladder **ladder, size_t modes,
                                 const struct br_mesh_list *roots, const struct br_mesh_list *rungs,
-                                struct br_error *err);
-void br_ladder_free(struct br_ladder *ladder); /* accepts NULL */
+                                struct br_store *store, struct br_error *err);
 
 /* Takes this kernel, not the best one; its last digits are its own. */
 void br_ladder_use(struct br_ladder *ladder, const struct br_ladder_kernel *kernel);

@@ -65,6 +65,7 @@ struct br_lockstep {
     size_t *level; /* reference steps at which some cell has a time level */
     size_t level_count, batch, batches;
     const struct br_observer *observer;
+    struct br_store store; /* of all arrays, and of the ladders */
     atomic_bool stopped;
     char tally; /* what the tasks that add up depend on */
 };

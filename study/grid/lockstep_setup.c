@@ -16,7 +16,7 @@ static enum br_status list_levels(struct br_lockstep *l, struct br_error *err)
     size_t most = 1;
     for (size_t j = 0; j < s->k_count; j++)
         most += s->steps[j];
-    l->level = br_allocate(most, sizeof *l->level);
+    l->level = br_store_take(&l->store, most, sizeof *l->level);
     if (!l->level)
         return br_no_memory(err, "the time levels");
     l->level_count = 1; /* t = 0 */
@@ -37,7 +37,7 @@ static enum br_status list_levels(struct br_lockstep *l, struct br_error *err)
 static enum br_status list_roots(struct br_lockstep *l, struct br_error *err)
 {
     const struct br_study *s = l->study;
-    l->root = br_allocate(s->n_count, sizeof *l->root);
+    l->root = br_store_take(&l->store, s->n_count, sizeof *l->root);
     if (!l->root)
         return br_no_memory(err, "the meshes");
     if (s->judge->nests) {
@@ -72,32 +72,23 @@ static void choose_channels(struct br_lockstep *l)
     }
 }
 
-static enum br_status create_roots(struct br_lockstep *l, struct br_channel *c,
-                                   const struct br_sample_at *at, struct br_error *err)
+/* Room for a measure of a field on one mesh; NULL: none. */
+static double *new_values(struct br_lockstep *l, const struct br_sample_at *at, size_t n)
 {
-    c->root = br_allocate(l->roots, sizeof *c->root);
-    if (!c->root)
-        return br_no_memory(err, "the reference's values");
-    for (size_t i = 0; i < l->roots; i++) {
-        c->root[i].values = br_allocate_aligned(
-            br_measure_size(br_lockstep_elements(l, at->kind), at->measure, l->root[i]),
-            sizeof(double));
-        if (!c->root[i].values)
-            return br_no_memory(err, "the reference's values");
-    }
-    return BR_OK;
+    const size_t size = br_measure_size(br_lockstep_elements(l, at->kind), at->measure, n);
+    return br_store_take(&l->store, size, sizeof(double));
 }
 
 /* With the kernel that the cells are marched by, where one was asked for: then another processor
  * gives the same bits. */
-static enum br_status create_ladder(const struct br_lockstep *l, const struct br_sample_at *at,
+static enum br_status create_ladder(struct br_lockstep *l, const struct br_sample_at *at,
                                     const struct br_mesh_list *roots,
                                     const struct br_mesh_list *rungs, struct br_ladder **ladder,
                                     struct br_error *err)
 {
     const struct br_kernel *kernel = l->study->method.linear.kernel;
     const size_t modes = br_mode_count(br_lockstep_elements(l, at->kind), at->measure);
-    const enum br_status status = br_ladder_create(ladder, modes, roots, rungs, err);
+    const enum br_status status = br_ladder_create(ladder, modes, roots, rungs, &l->store, err);
     if (!status && kernel)
         br_ladder_use(*ladder, br_ladder_kernels[br_instruction_set_find(kernel->name)]);
     return status;
@@ -108,18 +99,15 @@ static enum br_status create_audit(struct br_lockstep *l, struct br_channel *c,
                                    const struct br_sample_at *at, struct br_error *err)
 {
     const struct br_mesh_list root = {1, l->root};
-    c->audit.values =
-        br_allocate(br_measure_size(br_lockstep_elements(l, at->kind), at->measure, l->root[0]),
-                    sizeof(double));
-    if (!c->audit.values)
-        return br_no_memory(err, "the auditor's values");
+    enum br_status status = BR_OK;
+    c->audit.values = new_values(l, at, l->root[0]);
     if (at->measure == BR_TIP)
         return BR_OK;
-    const enum br_status status = create_ladder(l, at, &root, &root, &c->audit_ladder, err);
-    if (status)
-        return status;
-    c->audit_projection = br_allocate_aligned(br_ladder_size(c->audit_ladder), sizeof(double));
-    return c->audit_projection ? BR_OK : br_no_memory(err, "the auditor's values");
+    status = create_ladder(l, at, &root, &root, &c->audit_ladder, err);
+    if (!status)
+        c->audit_projection =
+            br_store_take(&l->store, br_ladder_size(c->audit_ladder), sizeof(double));
+    return status;
 }
 
 static enum br_status create_channel(struct br_lockstep *l, enum br_field_kind kind,
@@ -128,13 +116,16 @@ static enum br_status create_channel(struct br_lockstep *l, enum br_field_kind k
     struct br_channel *c = br_channel_of(l, kind, measure);
     const struct br_sample_at at = {kind, measure, 0};
     const struct br_mesh_list roots = {l->roots, l->root}, rungs = {l->study->n_count, l->study->n};
-    enum br_status status = create_roots(l, c, &at, err);
-    if (!status && l->study->auditor)
+    enum br_status status = BR_OK;
+    c->root = br_store_take(&l->store, l->roots, sizeof *c->root);
+    for (size_t i = 0; i < l->roots && c->root; i++)
+        c->root[i].values = new_values(l, &at, l->root[i]);
+    if (l->study->auditor)
         status = create_audit(l, c, &at, err);
     if (!status && measure != BR_TIP)
         status = create_ladder(l, &at, &roots, &rungs, &c->ladder, err);
     c->size = c->ladder ? br_ladder_size(c->ladder) : 1;
-    return status;
+    return status || !l->store.failed ? status : br_no_memory(err, "the reference's values");
 }
 
 static enum br_status create_channels(struct br_lockstep *l, struct br_error *err)
@@ -155,19 +146,20 @@ static enum br_status create_buffers(struct br_lockstep *l, struct br_error *err
     l->batch = buffer_bytes / (doubles * sizeof(double));
     l->batch = l->batch < 1 ? 1 : l->batch > most_levels ? most_levels : l->batch;
     l->batches = (l->level_count + l->batch - 1) / l->batch;
-    for (size_t i = 0; i < BR_CHANNELS * BR_LOCKSTEP_BUFFERS; i++) {
-        struct br_channel *c = &l->channel[i / BR_LOCKSTEP_BUFFERS];
-        double **projection = &c->projection[i % BR_LOCKSTEP_BUFFERS];
-        if (c->used && !(*projection = br_allocate_aligned(l->batch * c->size, sizeof(double))))
-            return br_no_memory(err, "the reference's projections");
+    for (size_t b = 0; b < BR_LOCKSTEP_BUFFERS; b++) {
+        for (size_t i = 0; i < BR_CHANNELS; i++) {
+            struct br_channel *c = &l->channel[i];
+            if (c->used)
+                c->projection[b] = br_store_take(&l->store, l->batch * c->size, sizeof(double));
+        }
+        l->scale[b] = br_store_take(&l->store, l->batch, sizeof *l->scale[b]);
+        l->audit[b] = br_store_take(&l->store, l->batch, sizeof *l->audit[b]);
     }
-    for (int b = 0; b < BR_LOCKSTEP_BUFFERS; b++) {
-        l->scale[b] = br_allocate(l->batch, sizeof *l->scale[b]);
-        l->audit[b] = br_allocate(l->batch, sizeof *l->audit[b]);
-        if (!l->scale[b] || !l->audit[b])
-            return br_no_memory(err, "the reference's sizes");
-    }
-    return BR_OK;
+    const size_t cells = br_study_cells(l->study);
+    l->cell_sum = br_store_take(&l->store, cells * l->norms, sizeof *l->cell_sum);
+    l->scale_sum = br_store_take(&l->store, l->norms, sizeof *l->scale_sum);
+    l->audit_sum = br_store_take(&l->store, l->norms, sizeof *l->audit_sum);
+    return l->store.failed ? br_no_memory(err, "the reference's projections") : BR_OK;
 }
 
 /* Steps of the reference in the longest run of as many batches as there are buffers. */
@@ -181,15 +173,6 @@ static size_t longest_lead(const struct br_lockstep *l)
         most = steps > most ? steps : most;
     }
     return most;
-}
-
-static enum br_status create_sums(struct br_lockstep *l, struct br_error *err)
-{
-    const size_t cells = br_study_cells(l->study);
-    l->cell_sum = br_allocate(cells * l->norms, sizeof *l->cell_sum);
-    l->scale_sum = br_allocate(l->norms, sizeof *l->scale_sum);
-    l->audit_sum = br_allocate(l->norms, sizeof *l->audit_sum);
-    return l->cell_sum && l->scale_sum && l->audit_sum ? BR_OK : br_no_memory(err, "the errors");
 }
 
 /* An auditor that cannot promise a solution of this scene is done without. */
@@ -239,32 +222,32 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
 }
 
 /* Starts the march of a cell; what fails is kept in runner->error. */
-static void start(struct br_runner *r, const struct br_scene *scene, struct br_resolution at,
-                  const struct br_method *method)
+static void start(struct br_lockstep *l, size_t cell)
 {
+    struct br_runner *r = &l->cell[cell];
+    const struct br_study *s = l->study;
+    const struct br_resolution at = s->cell[cell].at;
     const double begun = br_seconds();
-    const enum br_status status =
-        br_march_create(&r->march, scene, at.n, at.steps, method, &r->error);
+    r->error.status =
+        br_march_create(&r->march, s->scene, at.n, at.steps, br_study_method(s, cell), &r->error);
     r->seconds += br_seconds() - begun;
-    r->error.status = status;
-    if (status)
+    if (r->error.status)
         return;
-    r->view.values = br_allocate_aligned(BR_MOST_MODES * at.n, sizeof *r->view.values);
+    if (l->observer)
+        br_march_stop_when(r->march, l->observer->stop, l->observer->self);
+    r->view.values = br_store_take(&l->store, BR_MOST_MODES * at.n, sizeof *r->view.values);
     if (!r->view.values)
         br_no_memory(&r->error, "a cell");
 }
 
 static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
 {
-    const struct br_study *s = l->study;
-    const size_t cells = br_study_cells(s);
-    l->cell = br_allocate(cells, sizeof *l->cell);
+    const size_t cells = br_study_cells(l->study);
+    l->cell = br_store_take(&l->store, cells, sizeof *l->cell);
     if (!l->cell)
         return br_no_memory(err, "the cells");
     for (size_t i = 0; i < cells; i++) {
-        start(&l->cell[i], s->scene, s->cell[i].at, br_study_method(s, i));
-        if (l->cell[i].march && l->observer)
-            br_march_stop_when(l->cell[i].march, l->observer->stop, l->observer->self);
+        start(l, i);
         const enum br_status failure = l->cell[i].error.status;
         if (failure == BR_BAD_INPUT || failure == BR_NO_MEMORY)
             return br_fail(err, failure, "%s", l->cell[i].error.message);
@@ -286,7 +269,7 @@ static double work_of(const struct br_lockstep *l, size_t cell)
 static enum br_status create_crews(struct br_lockstep *l, struct br_error *err)
 {
     const size_t cells = br_study_cells(l->study);
-    l->crew = br_allocate(cells + 1, sizeof *l->crew);
+    l->crew = br_store_take(&l->store, cells + 1, sizeof *l->crew);
     if (!l->crew)
         return br_no_memory(err, "the cells");
     double work = 0;
@@ -310,48 +293,21 @@ enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
     atomic_init(&l->first_failed, SIZE_MAX);
     choose_channels(l);
     enum br_status (*const create[])(struct br_lockstep *, struct br_error *) = {
-        list_levels, list_roots,    create_channels, create_buffers,
-        create_sums, create_judges, create_cells,    create_crews};
+        list_levels,   list_roots,   create_channels, create_buffers,
+        create_judges, create_cells, create_crews};
     enum br_status status = BR_OK;
     for (size_t i = 0; i < sizeof create / sizeof *create && !status; i++)
         status = create[i](l, err);
     return status;
 }
 
-static void channel_clear(struct br_channel *c, size_t roots)
-{
-    br_ladder_free(c->ladder);
-    for (size_t i = 0; c->root && i < roots; i++)
-        free(c->root[i].values);
-    free(c->root);
-    br_ladder_free(c->audit_ladder);
-    free(c->audit.values);
-    free(c->audit_projection);
-    for (int b = 0; b < BR_LOCKSTEP_BUFFERS; b++)
-        free(c->projection[b]);
-}
-
 void br_lockstep_clear(struct br_lockstep *l)
 {
-    for (size_t i = 0; i < BR_CHANNELS; i++)
-        channel_clear(&l->channel[i], l->roots);
     if (l->reference.judge)
         l->reference.judge->free(l->reference.self);
     if (l->auditor.judge)
         l->auditor.judge->free(l->auditor.self);
-    for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++) {
+    for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++)
         br_march_free(l->cell[i].march);
-        free(l->cell[i].view.values);
-    }
-    for (int b = 0; b < BR_LOCKSTEP_BUFFERS; b++) {
-        free(l->scale[b]);
-        free(l->audit[b]);
-    }
-    free(l->cell);
-    free(l->crew);
-    free(l->cell_sum);
-    free(l->scale_sum);
-    free(l->audit_sum);
-    free(l->root);
-    free(l->level);
+    br_store_clear(&l->store);
 }

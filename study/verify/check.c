@@ -12,15 +12,15 @@ struct section {
     enum br_verify_kind kind;
     const struct br_norm *norm[BR_MOST_NORMS];
     size_t norms;
-    size_t first, heads; /* in plan.study: heads chains, from `first` on */
+    size_t first, heads; /* heads chains, from `first` on */
 };
 
 /* Everything that is marched. */
 struct plan {
     struct section *section;
     size_t sections;
-    struct br_study *study; /* the heads of all chains, then the rest of them */
-    size_t heads, studies;
+    struct br_study *study; /* the heads of all chains, then what comes next in them, ... */
+    size_t heads, norms;    /* in the longest chain */
 };
 
 static const struct br_verify_study *study_of(const struct section *s)
@@ -50,7 +50,7 @@ static void add_section(struct plan *plan, const struct br_check *check, enum br
             s->norm[s->norms++] = v->expectation[i].norm;
     s->heads = kind == BR_VERIFY_JOINT ? 1 : v->count - 1;
     plan->heads += s->heads;
-    plan->studies += s->heads * s->norms;
+    plan->norms = s->norms > plan->norms ? s->norms : plan->norms;
     plan->sections++;
 }
 
@@ -81,20 +81,11 @@ struct br_study br_check_study(const struct br_check *check, enum br_verify_kind
     return study_at(&s, h);
 }
 
-/* Where the chain of a section's head goes on in norm m > 0. */
-static struct br_study *next_in_chain(const struct plan *plan, const struct section *s, size_t h,
-                                      size_t m)
-{
-    size_t rest = plan->heads;
-    for (const struct section *before = plan->section; before < s; before++)
-        rest += before->heads * (before->norms - 1);
-    return &plan->study[rest + h * (s->norms - 1) + m - 1];
-}
-
+/* The study of a section's head h in norm m. */
 static struct br_study *study_in(const struct plan *plan, const struct section *s, size_t h,
                                  size_t m)
 {
-    return m == 0 ? &plan->study[s->first + h] : next_in_chain(plan, s, h, m);
+    return &plan->study[m * plan->heads + s->first + h];
 }
 
 static void fill_section(const struct plan *plan, const struct section *s)
@@ -117,7 +108,7 @@ static enum br_status make_plan(struct plan *plan, const struct br_check *checks
     for (size_t i = 0; i < count; i++)
         for (int kind = 0; kind < BR_VERIFY_KINDS && checks[i].scene; kind++)
             add_section(plan, &checks[i], (enum br_verify_kind)kind);
-    plan->study = br_allocate(plan->studies, sizeof *plan->study);
+    plan->study = br_allocate(plan->heads * plan->norms, sizeof *plan->study);
     if (!plan->study)
         return br_no_memory(err, "the check");
     for (size_t i = 0; i < plan->sections; i++)
@@ -127,7 +118,7 @@ static enum br_status make_plan(struct plan *plan, const struct br_check *checks
 
 static void clear_plan(struct plan *plan)
 {
-    for (size_t i = 0; plan->study && i < plan->studies; i++)
+    for (size_t i = 0; plan->study && i < plan->heads * plan->norms; i++)
         br_study_clear(&plan->study[i]);
     free(plan->study);
     free(plan->section);
@@ -242,12 +233,6 @@ static enum br_status conclude_section(const struct plan *plan, const struct sec
     return status;
 }
 
-static void refuse_check(struct br_check *check, const struct br_error *failure)
-{
-    br_check_clear(check);
-    check->failure = *failure;
-}
-
 static enum br_status conclude_check(const struct plan *plan, struct br_check *check,
                                      struct br_error *err)
 {
@@ -261,10 +246,11 @@ static enum br_status conclude_check(const struct plan *plan, struct br_check *c
     for (size_t i = 0; i < plan->sections && !failure.status; i++)
         if (plan->section[i].check == check)
             conclude_section(plan, &plan->section[i], check, &failure);
-    if (failure.status == BR_BAD_INPUT)
-        refuse_check(check, &failure);
-    else if (failure.status)
+    if (failure.status && failure.status != BR_BAD_INPUT)
         return br_fail(err, failure.status, "%s", failure.message);
+    if (failure.status)
+        br_check_clear(check);
+    check->failure = failure;
     return BR_OK;
 }
 

@@ -76,9 +76,10 @@ struct br_check {
     double element_steps; /* of these, elements times steps, a field */
 };
 
-/* Checks scenes, all at once (those of other programs are left as they are), on `threads` threads (0: all cores); the verdicts do not depend on
- * their number. A march that fails is a verdict; a scene that cannot be verified has a `failure`,
- * and the others go on. Fails as br_study_run_each does. */
+/* Checks scenes, all at once (those of other programs are left as they are), on `threads` threads
+ * (0: all cores); the verdicts do not depend on their number. A march that fails is a verdict; a
+ * scene that cannot be verified has a `failure`, and the others go on. Fails as br_study_run_each
+ * does. */
 enum br_status br_check_run(struct br_check *checks, size_t count, int threads,
                             const struct br_observer *observer, struct br_error *err);
 void br_check_clear(struct br_check *check);

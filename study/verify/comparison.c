@@ -2,8 +2,11 @@
 #include "study/verify/comparison.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+enum { SUBJECT = 192 }; /* characters of who differs */
 
 const char *const br_severity_names[] = {"same", "note", "warning", "serious"};
 
@@ -43,18 +46,22 @@ static double factor(double before, double now)
     return now > before ? now / before : before / now;
 }
 
-/* What was missing or failed before and passes now has not become worse. */
-static void soften(struct br_difference *d, const struct br_case *c, const struct br_old_case *old)
+/* Counts a difference, and lists it where it is worth a line. */
+__attribute__((format(printf, 7, 8))) static void add(struct br_comparison *c, const char *subject,
+                                                      const char *what, double before, double now,
+                                                      enum br_severity severity, const char *format,
+                                                      ...)
 {
-    if (c->verdict == BR_PASS && old->verdict != BR_PASS && d->severity > BR_NOTE)
-        d->severity = BR_NOTE;
-}
-
-static void add(struct br_comparison *c, const struct br_difference *d)
-{
-    c->tally[d->severity]++;
-    if (d->severity != BR_SAME)
-        c->difference[c->count++] = *d;
+    c->tally[severity]++;
+    if (severity == BR_SAME)
+        return;
+    struct br_difference *d = &c->difference[c->count++];
+    *d = (struct br_difference){.before = before, .now = now, .severity = severity};
+    snprintf(d->subject, sizeof d->subject, "%s: %s", subject, what);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(d->remark, sizeof d->remark, format, args);
+    va_end(args);
 }
 
 /* ---- cases ---- */
@@ -77,53 +84,6 @@ static bool is_case(const struct br_old_case *old, const struct br_check *check,
            strcmp(old->norm, c->measure) == 0 && strcmp(old->part, c->part) == 0;
 }
 
-static struct br_difference about_case(const struct br_check *check, const struct br_case *c,
-                                       const char *what)
-{
-    struct br_difference d = {0};
-    snprintf(d.subject, sizeof d.subject, "%.100s %s %s %s: %s", check->name,
-             br_verify_names[c->kind], c->measure, c->part, what);
-    return d;
-}
-
-static void compare_order(struct br_comparison *out, const struct br_check *check,
-                          const struct br_case *c, const struct br_old_case *old)
-{
-    struct br_difference d = about_case(check, c, "order");
-    d.before = old->order;
-    d.now = c->order.value;
-    if (!isnan(d.before) || !isnan(d.now))
-        d.severity = grade(fabs(d.now - d.before) / c->expected.tolerance, order_steps);
-    snprintf(d.remark, sizeof d.remark, "%+.2g of a tolerance of %.2g", d.now - d.before,
-             c->expected.tolerance);
-    soften(&d, c, old);
-    add(out, &d);
-}
-
-static void compare_constant(struct br_comparison *out, const struct br_check *check,
-                             const struct br_case *c, const struct br_old_case *old)
-{
-    struct br_difference d = about_case(check, c, "constant");
-    d.before = old->constant;
-    d.now = c->constant;
-    d.severity = grade(factor(d.before, d.now), constant_steps);
-    snprintf(d.remark, sizeof d.remark, "%+.2g %%", 100 * (d.now / d.before - 1));
-    soften(&d, c, old);
-    add(out, &d);
-}
-
-static void compare_verdict(struct br_comparison *out, const struct br_check *check,
-                            const struct br_case *c, const struct br_old_case *old)
-{
-    struct br_difference d = about_case(check, c, "verdict");
-    d.before = d.now = NAN;
-    if (old->verdict != c->verdict)
-        d.severity = c->verdict == BR_PASS ? BR_NOTE : BR_SERIOUS;
-    snprintf(d.remark, sizeof d.remark, "%s before, %s now", br_verdict_names[old->verdict],
-             br_verdict_names[c->verdict]);
-    add(out, &d);
-}
-
 /* Whether a limit has gone or moved outward; direction: 1 for an upper one, -1 for a lower one. */
 static bool is_looser(double before, double now, double direction)
 {
@@ -131,38 +91,53 @@ static bool is_looser(double before, double now, double direction)
 }
 
 /* A band that is wider lets pass what failed before. */
-static void compare_expectation(struct br_comparison *out, const struct br_check *check,
-                                const struct br_case *c, const struct br_old_case *old)
+static bool expects_less(const struct br_expectation *e, const struct br_old_case *old)
+{
+    return is_looser(old->expected + old->tolerance, e->order + e->tolerance, 1) ||
+           is_looser(old->expected - old->tolerance, e->order - e->tolerance, -1) ||
+           is_looser(old->ceiling, e->ceiling, 1) || is_looser(old->floor, e->floor, -1);
+}
+
+static void compare_known(struct br_comparison *out, const char *subject, const struct br_case *c,
+                          const struct br_old_case *old)
 {
     const struct br_expectation *e = &c->expected;
-    struct br_difference d = about_case(check, c, "expectation");
-    d.before = old->expected;
-    d.now = e->order;
-    if (is_looser(old->expected + old->tolerance, e->order + e->tolerance, 1) ||
-        is_looser(old->expected - old->tolerance, e->order - e->tolerance, -1) ||
-        is_looser(old->ceiling, e->ceiling, 1) || is_looser(old->floor, e->floor, -1))
-        d.severity = BR_WARNING;
-    snprintf(d.remark, sizeof d.remark, "looser: +- %g and %g to %g before, +- %g and %g to %g now",
-             old->tolerance, old->floor, old->ceiling, e->tolerance, e->floor, e->ceiling);
-    add(out, &d);
+    const double shift = c->order.value - old->order;
+    const enum br_severity verdict = old->verdict == c->verdict ? BR_SAME
+                                     : c->verdict == BR_PASS    ? BR_NOTE
+                                                                : BR_SERIOUS;
+    enum br_severity order = isnan(old->order) && isnan(c->order.value)
+                                 ? BR_SAME
+                                 : grade(fabs(shift) / e->tolerance, order_steps);
+    enum br_severity constant = grade(factor(old->constant, c->constant), constant_steps);
+    if (verdict == BR_NOTE) { /* what was missing or failed has not become worse */
+        order = order > BR_NOTE ? BR_NOTE : order;
+        constant = constant > BR_NOTE ? BR_NOTE : constant;
+    }
+    add(out, subject, "verdict", NAN, NAN, verdict, "%s before, %s now",
+        br_verdict_names[old->verdict], br_verdict_names[c->verdict]);
+    add(out, subject, "expectation", old->expected, e->order,
+        expects_less(e, old) ? BR_WARNING : BR_SAME,
+        "looser: +- %g and %g to %g before, +- %g and %g to %g now", old->tolerance, old->floor,
+        old->ceiling, e->tolerance, e->floor, e->ceiling);
+    add(out, subject, "order", old->order, c->order.value, order, "%+.2g of a tolerance of %.2g",
+        shift, e->tolerance);
+    add(out, subject, "constant", old->constant, c->constant, constant, "%+.2g %%",
+        100 * (c->constant / old->constant - 1));
 }
 
 static void compare_case(struct br_comparison *out, const struct br_check *check,
                          const struct br_case *c, const struct br_old_check *old)
 {
+    char subject[SUBJECT];
+    snprintf(subject, sizeof subject, "%.100s %s %s %s", check->name, br_verify_names[c->kind],
+             c->measure, c->part);
     for (size_t i = 0; i < old->count; i++)
         if (is_case(&old->cases[i], check, c)) {
-            compare_verdict(out, check, c, &old->cases[i]);
-            compare_expectation(out, check, c, &old->cases[i]);
-            compare_order(out, check, c, &old->cases[i]);
-            compare_constant(out, check, c, &old->cases[i]);
+            compare_known(out, subject, c, &old->cases[i]);
             return;
         }
-    struct br_difference d = about_case(check, c, "new");
-    d.before = NAN;
-    d.now = c->order.value;
-    d.severity = BR_NOTE;
-    add(out, &d);
+    add(out, subject, "new", NAN, c->order.value, BR_NOTE, "%s", "");
 }
 
 /* An earlier case that should be there again, and is not. */
@@ -176,11 +151,11 @@ static void report_lost(struct br_comparison *out, const struct br_check *checks
             if (is_case(old, &checks[i], &checks[i].cases[c]))
                 return;
     }
-    struct br_difference d = {.before = old->order, .now = NAN, .severity = BR_SERIOUS};
-    snprintf(d.subject, sizeof d.subject, "%.100s %s %s %s: gone", old->scene, old->study,
-             old->norm, old->part);
+    char subject[SUBJECT];
+    snprintf(subject, sizeof subject, "%.100s %s %s %s", old->scene, old->study, old->norm,
+             old->part);
     if (scene)
-        add(out, &d);
+        add(out, subject, "gone", old->order, NAN, BR_SERIOUS, "%s", "");
 }
 
 /* ---- methods ---- */
@@ -197,18 +172,16 @@ void br_old_method_of(const struct br_method *m, struct br_old_method *old)
 static void compare_method(struct br_comparison *out, const struct br_check *check,
                            enum br_verify_kind kind, const struct br_old_method *old)
 {
-    struct br_difference d = {.before = NAN, .now = NAN, .severity = BR_NOTE};
+    char subject[SUBJECT];
     struct br_old_method now;
     br_old_method_of(&check->verify->study[kind].method, &now);
-    snprintf(d.subject, sizeof d.subject, "%.100s %s: method", check->name, br_verify_names[kind]);
+    snprintf(subject, sizeof subject, "%.100s %s", check->name, br_verify_names[kind]);
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const struct br_method_field *f = &br_method_fields[i];
         const char *a = old->value[i], *b = now.value[i];
-        if (f->unsaid || strcmp(a, b) == 0)
-            continue;
-        snprintf(d.remark, sizeof d.remark, "%s %.40s before, %.40s now", f->name,
-                 *a ? a : "not heeded", *b ? b : "not heeded");
-        add(out, &d);
+        if (!f->unsaid && strcmp(a, b) != 0)
+            add(out, subject, "method", NAN, NAN, BR_NOTE, "%s %.40s before, %.40s now", f->name,
+                *a ? a : "not heeded", *b ? b : "not heeded");
     }
 }
 
@@ -225,20 +198,17 @@ static void compare_methods(struct br_comparison *out, const struct br_check *ch
 static void compare_cost(struct br_comparison *out, const struct br_check *check,
                          const struct br_old_cost *old)
 {
-    struct br_difference d = {.before = old->element_steps, .now = check->element_steps};
-    snprintf(d.subject, sizeof d.subject, "%.100s: element-steps", check->name);
+    const double before = old->seconds / old->element_steps * 1e9;
+    const double now = check->seconds / check->element_steps * 1e9;
+    char subject[SUBJECT];
+    snprintf(subject, sizeof subject, "%.100s", check->name);
     if (!check->scene)
         return; /* another program's work is not known */
-    d.severity = grade(factor(d.before, d.now), work_steps);
-    add(out, &d);
-    d = (struct br_difference){.before = old->seconds / old->element_steps * 1e9,
-                               .now = check->seconds / check->element_steps * 1e9};
-    snprintf(d.subject, sizeof d.subject, "%.100s: ns per element-step", check->name);
-    if (!isfinite(d.before) || !isfinite(d.now))
-        return; /* one of the two did not march */
-    d.severity = grade(factor(d.before, d.now), time_steps);
-    snprintf(d.remark, sizeof d.remark, "on these machines, as busy as they were");
-    add(out, &d);
+    add(out, subject, "element-steps", old->element_steps, check->element_steps,
+        grade(factor(old->element_steps, check->element_steps), work_steps), "%s", "");
+    if (isfinite(before) && isfinite(now)) /* both did march */
+        add(out, subject, "ns per element-step", before, now,
+            grade(factor(before, now), time_steps), "on these machines, as busy as they were");
 }
 
 static int by_severity(const void *a, const void *b)

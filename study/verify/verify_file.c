@@ -75,12 +75,6 @@ static enum br_status read_steps(struct block *b, const yaml_node_t *node)
     return BR_OK;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
-    return (x > y) - (x < y);
-}
-
 static enum br_status check_counts(const struct block *b)
 {
     static const char *const expected[BR_VERIFY_KINDS] = {
@@ -118,8 +112,8 @@ static enum br_status make_cells(struct block *b)
         if (br_steps_of(b->r->scene, b->k[b->k_count == 1 ? 0 : i], &v->steps[i], &inner))
             return pass_on(b->r, b->k_line, "k", &inner);
     }
-    qsort(v->n, count, sizeof *v->n, ascending);
-    qsort(v->steps, count, sizeof *v->steps, ascending);
+    br_sort_counts(v->n, count);
+    br_sort_counts(v->steps, count);
     return BR_OK;
 }
 

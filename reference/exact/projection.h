@@ -1,26 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The L2 projection of a Legendre series on [0, 1] on piecewise polynomials on equal elements that
- * fill a part of it. */
-#ifndef BR_REFERENCE_EXACT_RESTRICTION_H
-#define BR_REFERENCE_EXACT_RESTRICTION_H
+/* L2 projections of Legendre series on piecewise polynomials on equal elements. */
+#ifndef BR_REFERENCE_EXACT_PROJECTION_H
+#define BR_REFERENCE_EXACT_PROJECTION_H
 
 #include "reference/exact/exact.h"
 #include "reference/exact/pieces.h"
 
-/* Legendre series on [0, 1] as series on an interval of it. */
-struct br_subinterval {
-    size_t count;
-    long double *coupling; /* count + 1: b in x p_k = b_{k+1} p_{k+1} + p_k / 2 + b_k p_{k-1} */
-    long double *r;        /* count x count, see br_subinterval_move; 0 for l > k */
-};
-
-/* For p_0 ... p_{count - 1}. After a failure, which the store keeps, the interval is of no use. */
-void br_subinterval_init(struct br_subinterval *interval, size_t count, struct br_store *store);
-
-/* p_k(first + width xi) = sum over l of r[k * count + l] p_l(xi), 0 <= first and
- * first + width <= 1. */
-void br_subinterval_move(struct br_subinterval *interval, long double first, long double width);
-
+/* Of a series on [0, 1], on elements that fill a part of it. */
 struct br_restriction;
 
 struct br_restriction_shape {
@@ -45,9 +31,7 @@ void br_restriction_apply(struct br_restriction *restriction, const double *seri
 /* The L2 projection of a series on the elements of pieces.h on polynomials on equal elements. */
 struct br_piecewise;
 
-/* *out (owned by the store). Series have `extra` more terms. Fails with BR_NO_MEMORY or
- * BR_SINGULAR.
- */
+/* *out (owned by the store). Series have `extra` more terms. Fails as br_restriction_create. */
 enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_pieces *pieces,
                                    size_t extra, const struct br_exact_mesh *mesh,
                                    struct br_store *store, struct br_error *err);
