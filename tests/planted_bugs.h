@@ -879,8 +879,8 @@ static const struct planted_bug planted_bugs[] = {
     /* ---- values that vary ---- */
     {"varied_as_if_on_a_line", "spacing", "study/scene/vary.c", "golden run_vary",
      "v->logarithmic ? pow(10,", "!v->logarithmic ? pow(10,"},
-    {"varied_number_is_put_elsewhere", "lost", "study/scene/vary.c", "golden run_vary",
-     "pair->value = value;", "pair->key = pair->key;"},
+    {"varied_number_is_put_elsewhere", "lost", "study/scene/file.c", "golden run_vary",
+     "if (key != r->varied)", "if (key || r->varied)"},
     {"foreseen_without_its_reference", "lost", "study/foresee/foreseen.c", "golden dry_run",
      "if (!s->judge->create)", "if (s->judge)"},
 

@@ -186,6 +186,24 @@ static bool *part_flag(struct br_scene *scene, const char *section)
     return NULL; /* friction is modelled by its law */
 }
 
+/* The text that is to stand there instead comes from a node of its own. */
+static enum br_status read_key(const struct br_scene_reader *r, const struct br_scene_key *key,
+                               const yaml_node_t *at, const yaml_node_t *value)
+{
+    const size_t row = (size_t)(key - br_scene_keys);
+    yaml_node_t varied = *value;
+    r->given->row[row] = (struct br_scene_number){.line = br_yaml_line(at), .origin = row};
+    if (key->kind == BR_KEY_SECTION)
+        return read_section(r, key->name, value);
+    if (key->kind == BR_KEY_VERIFY)
+        return BR_OK; /* when the scene is whole */
+    if (key != r->varied)
+        return br_scene_read_value(r, key, value);
+    varied.type = YAML_SCALAR_NODE;
+    varied.data.scalar.value = (yaml_char_t *)r->text;
+    return br_scene_read_value(r, key, &varied);
+}
+
 static enum br_status read_entry(const struct br_scene_reader *r, const char *section,
                                  const yaml_node_t *name, const yaml_node_t *value)
 {
@@ -195,15 +213,8 @@ static enum br_status read_entry(const struct br_scene_reader *r, const char *se
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
         if (strcmp(k->section, section) != 0 || strcmp(k->name, br_yaml_text(name)) != 0)
             continue;
-        const size_t row = (size_t)(k - br_scene_keys);
-        if (line_of(r, k))
-            return br_scene_refuse(r, br_yaml_line(name), k->name, "given twice");
-        r->given->row[row] = (struct br_scene_number){.line = br_yaml_line(name), .origin = row};
-        if (k->kind == BR_KEY_SECTION)
-            return read_section(r, k->name, value);
-        if (k->kind == BR_KEY_VERIFY)
-            return BR_OK; /* when the scene is whole */
-        return br_scene_read_value(r, k, value);
+        return line_of(r, k) ? br_scene_refuse(r, br_yaml_line(name), k->name, "given twice")
+                             : read_key(r, k, name, value);
     }
     char known[512];
     list_keys(section, known, sizeof known);
@@ -242,15 +253,15 @@ static enum br_status read_section(const struct br_scene_reader *r, const char *
     bool *modelled = part_flag(r->scene, section);
     if (modelled)
         *modelled = true;
-    for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top;
-         p++) {
-        const enum br_status status =
-            read_entry(r, section, yaml_document_get_node(r->document, p->key),
-                       yaml_document_get_node(r->document, p->value));
-        if (status)
-            return status;
-    }
-    return check_required(r, section, br_yaml_line(node));
+    enum br_status status = BR_OK;
+    for (yaml_node_pair_t *p = node->data.mapping.pairs.start;
+         p < node->data.mapping.pairs.top && !status; p++)
+        status = read_entry(r, section, yaml_document_get_node(r->document, p->key),
+                            yaml_document_get_node(r->document, p->value));
+    const struct br_scene_key *varied = r->varied;
+    if (!status && varied && strcmp(varied->section, section) == 0 && !line_of(r, varied))
+        status = read_key(r, varied, node, node);
+    return status ? status : check_required(r, section, br_yaml_line(node));
 }
 
 /* The line on which the section's solution is given. */
@@ -348,6 +359,10 @@ static enum br_status read_document(const struct br_scene_reader *r, struct br_v
     if (!root)
         return br_scene_refuse(r, 1, "scene", "the file is empty");
     enum br_status status = read_section(r, "", root);
+    if (!status && r->varied && *r->varied->section && !top_value(r, r->varied->section))
+        status =
+            br_fail(r->err, BR_BAD_INPUT, "%s: --vary: %s.%s: the scene has no '%s', expected one",
+                    r->path, r->varied->section, r->varied->name, r->varied->section);
     if (!status)
         status = set_name(r);
     if (!status)
@@ -437,7 +452,7 @@ enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *ta
     if (!yaml_parser_initialize(&parser))
         return br_no_memory(err, "the YAML parser");
     yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
-    struct br_scene_reader r = {path, &document, NULL, err, NULL};
+    struct br_scene_reader r = {.path = path, .document = &document, .err = err};
     if (!yaml_parser_load(&parser, &document))
         status = not_yaml(&r, &parser);
     else {
@@ -456,6 +471,8 @@ enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *ta
 struct target {
     struct br_scene *scene;
     struct br_verify *verify;
+    const struct br_scene_key *varied;
+    const char *text;
 };
 
 static enum br_status take_scene(const struct br_scene_reader *reader, void *self)
@@ -465,34 +482,37 @@ static enum br_status take_scene(const struct br_scene_reader *reader, void *sel
     struct br_scene_reader r = *reader;
     r.scene = to->scene;
     r.given = &given;
+    r.varied = to->varied;
+    r.text = to->text;
     return read_document(&r, to->verify);
 }
 
-enum br_status br_scene_document(const struct br_scene_reader *r)
+static enum br_status parse(const char *path, const char *text, struct target to,
+                            struct br_error *err)
 {
-    return take_scene(r, &(struct target){r->scene, NULL});
-}
-
-static enum br_status parse(const char *path, const char *text, struct br_scene *scene,
-                            struct br_verify *verify, struct br_error *err)
-{
-    struct target to = {scene, verify};
-    *scene = (struct br_scene){0};
-    if (verify)
-        *verify = (struct br_verify){0};
+    *to.scene = (struct br_scene){0};
+    if (to.verify)
+        *to.verify = (struct br_verify){0};
     return br_yaml_read(path, text, take_scene, &to, err);
 }
 
 enum br_status br_scene_read_text(const char *path, const char *text, struct br_scene *scene,
                                   struct br_error *err)
 {
-    return parse(path, text, scene, NULL, err);
+    return parse(path, text, (struct target){.scene = scene}, err);
+}
+
+enum br_status br_scene_read_with(const char *path, const char *text,
+                                  const struct br_scene_key *key, const char *value,
+                                  struct br_scene *scene, struct br_error *err)
+{
+    return parse(path, text, (struct target){scene, NULL, key, value}, err);
 }
 
 enum br_status br_scene_read_verify_text(const char *path, const char *text, struct br_scene *scene,
                                          struct br_verify *verify, struct br_error *err)
 {
-    return parse(path, text, scene, verify, err);
+    return parse(path, text, (struct target){scene, verify, NULL, NULL}, err);
 }
 
 enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
@@ -506,7 +526,7 @@ enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
             *verify = (struct br_verify){0};
         return status;
     }
-    status = parse(path, text, scene, verify, err);
+    status = br_scene_read_verify_text(path, text, scene, verify, err);
     free(text);
     return status;
 }

@@ -14,6 +14,9 @@ struct br_scene_reader {
     struct br_scene *scene; /* NULL: of another kind of file */
     struct br_error *err;
     struct br_scene_given *given; /* beside the scene */
+    const struct br_scene_key
+        *varied; /* whose value is `text`, whatever stands there; NULL: none */
+    const char *text;
 };
 
 /* Takes what it wants from a document, whose root may be NULL: an empty file. */
@@ -23,10 +26,6 @@ typedef enum br_status br_yaml_take(const struct br_scene_reader *r, void *self)
  * it over. Fails as `take` does, with BR_BAD_INPUT and the line, or with BR_NO_MEMORY. */
 enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *take, void *self,
                             struct br_error *err);
-
-/* Reads the scene of a document, whose root is there, into the reader's scene (file.c). Fails as
- * br_scene_read does. */
-enum br_status br_scene_document(const struct br_scene_reader *r);
 
 /* Refuses with "path:line: key: ..."; returns BR_BAD_INPUT. */
 __attribute__((format(printf, 4, 5))) enum br_status br_scene_refuse(
