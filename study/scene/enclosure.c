@@ -202,77 +202,13 @@ bool br_tree_bound(const struct br_tree *tree, iv *work, struct br_box box, iv *
 
 /* ---- guards ---- */
 
-/* A guard as a function: a tree, and a workspace that may be another's. */
-struct guard {
-    struct br_tree tree;
-    iv *work, *own_work;
-};
-
-static void guard_free(void *self)
-{
-    struct guard *g = self;
-    if (!g)
-        return;
-    br_tree_clear(&g->tree);
-    free(g->own_work);
-    free(g);
-}
-
-static void *guard_clone(const void *self)
-{
-    const struct br_tree *from = &((const struct guard *)self)->tree;
-    struct guard *g = br_allocate(1, sizeof *g);
-    if (!g)
-        return NULL;
-    g->tree = (struct br_tree){br_allocate(from->count, sizeof *from->node), from->count};
-    g->work = g->own_work = br_allocate(from->count, BR_TREE_WORK * sizeof *g->work);
-    if (!g->tree.node || !g->work) {
-        guard_free(g);
-        return NULL;
-    }
-    memcpy(g->tree.node, from->node, from->count * sizeof *from->node);
-    return g;
-}
-
-static bool guard_bound(const void *self, struct br_box box, iv *value)
-{
-    const struct guard *g = self;
-    return br_tree_bound(&g->tree, g->work, box, value);
-}
-
-static bool guard_taylor(const void *self, enum br_variable along, struct br_box box, size_t order,
-                         iv *coefficient)
-{
-    const struct guard *g = self;
-    return br_tree_taylor(&g->tree, g->work, along, box, order, coefficient);
-}
-
-/* The middle of what is proved of each point. */
-static void guard_evaluate(void *self, size_t count, const double *x, double t, double *value)
-{
-    for (size_t i = 0; i < count; i++) {
-        iv at;
-        const struct br_box point = {br_point(x[i]), br_point(t)};
-        value[i] = guard_bound(self, point, &at) ? at.low + (at.high - at.low) / 2 : NAN;
-    }
-}
-
-static const struct br_function_ops guard_ops = {
-    .evaluate = guard_evaluate,
-    .clone = guard_clone,
-    .free = guard_free,
-    .bound = guard_bound,
-    .taylor = guard_taylor,
-};
-
 static bool is_truth(enum br_operation o)
 {
     return o == BR_OP_NOT || (o >= BR_OP_LESS && o <= BR_OP_OR);
 }
 
-/* The guard of a node's argument k; BR_NO_NODE where it has none. */
-static unsigned guard_node(struct br_tree_builder *b, const struct br_tree *tree,
-                           const struct br_node *n, unsigned k)
+unsigned br_tree_guard(const struct br_tree *tree, const struct br_node *n, unsigned k,
+                       struct br_tree_builder *b)
 {
     const enum br_operation o = n->operation;
     const unsigned a = n->argument[k];
@@ -287,49 +223,4 @@ static unsigned guard_node(struct br_tree_builder *b, const struct br_tree *tree
     return compares
                ? br_tree_node(b, BR_OP_SUBTRACT, first, br_tree_graft(b, tree, n->argument[1]), 0)
                : first;
-}
-
-/* Appends the guard, if there is one, as a function. */
-static enum br_status add_guard(struct br_proofs *p, const struct br_tree *tree,
-                                const struct br_node *n, unsigned k, struct br_error *err)
-{
-    struct br_tree_builder b = {0};
-    const unsigned root = guard_node(&b, tree, n, k);
-    if (root == BR_NO_NODE && !b.status)
-        return BR_OK;
-    struct guard *g = br_allocate(1, sizeof *g);
-    if (!g)
-        b.status = BR_NO_MEMORY;
-    struct br_tree made;
-    const enum br_status status = br_tree_finish(&b, root, &made, err);
-    if (status) {
-        free(g);
-        return status;
-    }
-    *g = (struct guard){made, p->work, NULL};
-    const struct br_node *last = &made.node[made.count - 1];
-    p->guard[p->guards++] = (struct br_function){
-        .ops = &guard_ops, .self = g, .uses_x = last->uses_x, .uses_t = last->uses_t};
-    return BR_OK;
-}
-
-enum br_status br_proofs_init(struct br_proofs *p, const struct br_tree *tree, struct br_error *err)
-{
-    /* a guard has at most one node more */
-    *p = (struct br_proofs){.work = br_allocate(tree->count + 1, BR_TREE_WORK * sizeof *p->work),
-                            .guard = br_allocate(3 * tree->count, sizeof *p->guard)};
-    enum br_status status = p->work && p->guard ? BR_OK : br_no_memory(err, "an expression");
-    for (size_t i = 0; i < tree->count && !status; i++)
-        for (unsigned k = 0; k < br_operation_arguments(tree->node[i].operation) && !status; k++)
-            status = add_guard(p, tree, &tree->node[i], k, err);
-    return status;
-}
-
-void br_proofs_clear(struct br_proofs *p)
-{
-    for (size_t i = 0; i < p->guards; i++)
-        br_function_free(&p->guard[i]);
-    free(p->guard);
-    free(p->work);
-    *p = (struct br_proofs){0};
 }

@@ -109,6 +109,12 @@ unsigned br_tree_node(struct br_tree_builder *b, enum br_operation operation, un
 
 unsigned br_tree_graft(struct br_tree_builder *b, const struct br_tree *from, unsigned root)
 {
+    return br_tree_substitute(b, from, root, BR_NO_NODE, BR_NO_NODE);
+}
+
+unsigned br_tree_substitute(struct br_tree_builder *b, const struct br_tree *from, unsigned root,
+                            unsigned x, unsigned t)
+{
     unsigned *place = br_allocate(root + 1, sizeof *place);
     if (!place)
         return give_up(b, BR_NO_MEMORY);
@@ -118,7 +124,12 @@ unsigned br_tree_graft(struct br_tree_builder *b, const struct br_tree *from, un
             place[from->node[i].argument[k]] = 1;
     for (unsigned i = 0; i <= root; i++) { /* then: where it went */
         const struct br_node *n = &from->node[i];
-        if (place[i] && n->operation == BR_OP_NUMBER)
+        const unsigned stead = n->operation == BR_OP_X   ? x
+                               : n->operation == BR_OP_T ? t
+                                                         : BR_NO_NODE;
+        if (place[i] && stead != BR_NO_NODE)
+            place[i] = stead;
+        else if (place[i] && n->operation == BR_OP_NUMBER)
             place[i] = br_tree_number(b, n->number);
         else if (place[i])
             place[i] = br_tree_node(b, n->operation, place[n->argument[0]], place[n->argument[1]],
@@ -269,7 +280,9 @@ struct expression {
     const struct br_elementary *set;
     double **array; /* of each node: CHUNK values, in a slot of `room` */
     double *room;
-    struct br_proofs proofs;
+    struct br_function *guard; /* guards: without arrays or guards, in `work`; clone to keep */
+    size_t guards;
+    struct br_interval *work, *own_work; /* for proofs; of a guard that of the whole */
 };
 
 static void expression_free(void *self)
@@ -277,8 +290,11 @@ static void expression_free(void *self)
     struct expression *e = self;
     if (!e)
         return;
-    br_proofs_clear(&e->proofs);
+    for (size_t i = 0; i < e->guards; i++)
+        br_function_free(&e->guard[i]);
     br_tree_clear(&e->tree);
+    free(e->guard);
+    free(e->own_work);
     free(e->array);
     free(e->room);
     free(e);
@@ -338,19 +354,60 @@ static bool make_arrays(struct expression *e)
 }
 
 /* Takes the tree over, even where it fails. */
-static struct expression *create(struct br_tree *tree)
+static struct expression *wrap(struct br_tree *tree)
 {
     struct expression *e = br_allocate(1, sizeof *e);
-    if (!e) {
+    if (e)
+        e->tree = *tree;
+    else
         br_tree_clear(tree);
-        return NULL;
-    }
-    e->tree = *tree;
     *tree = (struct br_tree){0};
-    e->set = br_elementary_all[br_instruction_set_best()];
-    struct br_error unsaid;
-    if (make_arrays(e) && !br_proofs_init(&e->proofs, &e->tree, &unsaid))
+    return e;
+}
+
+static const struct br_function_ops guard_ops;
+
+/* Appends the guard of a node's argument, if there is one. */
+static bool add_guard(struct expression *e, const struct br_node *n, unsigned k)
+{
+    struct br_tree_builder b = {0};
+    struct br_tree tree;
+    const unsigned root = br_tree_guard(&e->tree, n, k, &b);
+    if (root == BR_NO_NODE && !b.status)
+        return true;
+    if (br_tree_finish(&b, root, &tree, NULL))
+        return false;
+    const struct br_node *last = &tree.node[tree.count - 1];
+    struct br_function *f = &e->guard[e->guards];
+    *f = (struct br_function){.ops = &guard_ops, .uses_x = last->uses_x, .uses_t = last->uses_t};
+    struct expression *guard = f->self = wrap(&tree);
+    if (!guard)
+        return false;
+    guard->work = e->work;
+    e->guards++;
+    return true;
+}
+
+static bool add_guards(struct expression *e)
+{
+    const size_t count = e->tree.count;
+    e->work = e->own_work = br_allocate(count + 1, BR_TREE_WORK * sizeof *e->work);
+    e->guard = br_allocate(3 * count, sizeof *e->guard);
+    bool done = e->work && e->guard;
+    for (const struct br_node *n = e->tree.node; n < e->tree.node + count; n++)
+        for (unsigned k = 0; k < br_operation_arguments(n->operation) && done; k++)
+            done = add_guard(e, n, k);
+    return done;
+}
+
+/* Takes the tree over, even where it fails. */
+static struct expression *create(struct br_tree *tree)
+{
+    struct expression *e = wrap(tree);
+    if (e && make_arrays(e) && add_guards(e)) {
+        e->set = br_elementary_all[br_instruction_set_best()];
         return e;
+    }
     expression_free(e);
     return NULL;
 }
@@ -434,20 +491,20 @@ static enum br_status expression_derive(const void *self, const struct br_deriva
 static bool expression_bound(const void *self, struct br_box box, struct br_interval *value)
 {
     const struct expression *e = self;
-    return br_tree_bound(&e->tree, e->proofs.work, box, value);
+    return br_tree_bound(&e->tree, e->work, box, value);
 }
 
 static bool expression_taylor(const void *self, enum br_variable along, struct br_box box,
                               size_t order, struct br_interval *coefficient)
 {
     const struct expression *e = self;
-    return br_tree_taylor(&e->tree, e->proofs.work, along, box, order, coefficient);
+    return br_tree_taylor(&e->tree, e->work, along, box, order, coefficient);
 }
 
 static const struct br_function *expression_guard(const void *self, size_t i)
 {
     const struct expression *e = self;
-    return i < e->proofs.guards ? &e->proofs.guard[i] : NULL;
+    return i < e->guards ? &e->guard[i] : NULL;
 }
 
 static const struct br_function_ops expression_ops = {
@@ -458,6 +515,24 @@ static const struct br_function_ops expression_ops = {
     .taylor = expression_taylor,
     .guard = expression_guard,
     .derive = expression_derive,
+};
+
+/* The middle of what is proved of each point. */
+static void guard_evaluate(void *self, size_t count, const double *x, double t, double *value)
+{
+    for (size_t i = 0; i < count; i++) {
+        struct br_interval at;
+        const struct br_box point = {br_point(x[i]), br_point(t)};
+        value[i] = expression_bound(self, point, &at) ? at.low + (at.high - at.low) / 2 : NAN;
+    }
+}
+
+static const struct br_function_ops guard_ops = {
+    .evaluate = guard_evaluate,
+    .clone = expression_clone,
+    .free = expression_free,
+    .bound = expression_bound,
+    .taylor = expression_taylor,
 };
 
 enum br_status br_tree_function(struct br_tree *tree, struct br_function *f, struct br_error *err)
