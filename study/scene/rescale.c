@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "study/scene/random.h"
+#include "study/scene/schema.h"
+#include "study/scene/units.h"
 
 /* ---- functions ---- */
 
@@ -138,16 +140,19 @@ static const struct br_function_ops scaled_ops = {.evaluate = evaluate,
                                                   .taylor = taylor,
                                                   .guard = guard};
 
-/* The powers of metre, second and kilogram of a unit. */
-struct unit {
-    int metre, second, kilogram;
-};
+/* ---- the scene ---- */
 
-static const struct unit none = {0, 0, 0}, length = {1, 0, 0}, duration = {0, 1, 0},
-                         speed = {1, -1, 0}, rate = {0, -1, 0}, mass = {-1, 0, 1},
-                         force = {1, -2, 1}, load = {0, -2, 1}, spring = {0, -2, 1},
-                         moment = {2, -2, 1}, viscous = {1, -1, 1}, rigidity = {3, -2, 1},
-                         damping = {3, -1, 1};
+/* That of a member of the scene, by the key that gives it. */
+static struct br_dimension dimension_of(const struct br_scene *s, const void *member)
+{
+    const size_t offset = (size_t)((const char *)member - (const char *)s);
+    const struct br_scene_key *k = br_scene_keys;
+    struct br_unit unit;
+    while (k->offset != offset || (k->law == BR_TRESCA && s->friction.law != BR_TRESCA))
+        k++;
+    br_unit_read(k->unit, &unit);
+    return unit.of;
+}
 
 /* What is done to a scene: other units, or noise. */
 struct change {
@@ -164,13 +169,13 @@ static double noisy(struct change *c)
     return 1 + c->noise * br_random_uniform(&c->random, -1, 1);
 }
 
-static double factor_of(struct change *c, struct unit u)
+static double factor_of(struct change *c, struct br_dimension u)
 {
     return pow(c->to.metre, u.metre) * pow(c->to.second, u.second) *
            pow(c->to.kilogram, u.kilogram) * noisy(c);
 }
 
-static void scale(struct change *c, double *value, struct unit u)
+static void scale(struct change *c, double *value, struct br_dimension u)
 {
     const double old = *value;
     *value *= factor_of(c, u);
@@ -180,7 +185,7 @@ static void scale(struct change *c, double *value, struct unit u)
         c->status = br_fail(c->err, BR_BAD_INPUT, "%g is %g in the other units", old, *value);
 }
 
-static void scale_function(struct change *c, struct br_function *f, struct unit u)
+static void scale_function(struct change *c, struct br_function *f, struct br_dimension u)
 {
     if (!f->ops) {
         if (f->constant != 0)
@@ -198,49 +203,30 @@ static void scale_function(struct change *c, struct br_function *f, struct unit 
         .ops = &scaled_ops, .self = s, .uses_x = s->of.uses_x, .uses_t = s->of.uses_t};
 }
 
-/* ---- the scene ---- */
-
 /* Every number and function with its unit. The load's factor goes to its history, and its form in
  * space has none. */
-static void change_numbers(struct change *c, struct br_scene *s)
+static void change_all(struct change *c, struct br_scene *s)
 {
-    const struct {
-        double *value;
-        struct unit unit;
-    } numbers[] = {
-        {&s->density, mass},
-        {&s->axial.stiffness, force},
-        {&s->axial.viscosity, viscous},
-        {&s->bending.stiffness, rigidity},
-        {&s->bending.viscosity, damping},
-        {&s->contact.gap, length},
-        {&s->contact.stiffness, spring},
-        {&s->friction.coefficient, s->friction.law == BR_TRESCA ? force : spring},
-        {&s->friction.regularisation, speed},
+    double *const numbers[] = {
+        &s->density,           &s->axial.stiffness,      &s->axial.viscosity,
+        &s->bending.stiffness, &s->bending.viscosity,    &s->contact.gap,
+        &s->contact.stiffness, &s->friction.coefficient, &s->friction.regularisation,
     };
+    struct br_function *const functions[] = {
+        &s->axial.tip_force,     &s->axial.displacement,         &s->axial.velocity,
+        &s->bending.tip_force,   &s->bending.tip_moment,         &s->bending.displacement,
+        &s->bending.velocity,    &s->bending.displacement_slope, &s->bending.velocity_slope,
+        &s->bending.stick_force,
+    };
+    struct br_load *const loads[] = {&s->axial.load, &s->bending.load};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        scale(c, numbers[i].value, numbers[i].unit);
-}
-
-static void change_functions(struct change *c, struct br_scene *s)
-{
-    const struct {
-        struct br_function *function;
-        struct unit unit;
-    } functions[] = {
-        {&s->axial.tip_force, force},       {&s->axial.displacement, length},
-        {&s->axial.velocity, speed},        {&s->bending.tip_force, force},
-        {&s->bending.tip_moment, moment},   {&s->bending.displacement, length},
-        {&s->bending.velocity, speed},      {&s->bending.displacement_slope, none},
-        {&s->bending.velocity_slope, rate}, {&s->bending.stick_force, force},
-    };
+        scale(c, numbers[i], dimension_of(s, numbers[i]));
     for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
-        scale_function(c, functions[i].function, functions[i].unit);
-    for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
-        scale_function(c, &s->axial.load.term[i].space, none);
-        scale_function(c, &s->axial.load.term[i].time, load);
-        scale_function(c, &s->bending.load.term[i].space, none);
-        scale_function(c, &s->bending.load.term[i].time, load);
+        scale_function(c, functions[i], dimension_of(s, functions[i]));
+    for (size_t i = 0; i < 2 * BR_LOAD_TERMS; i++) {
+        struct br_product *term = &loads[i % 2]->term[i / 2];
+        scale_function(c, &term->space, (struct br_dimension){0, 0, 0});
+        scale_function(c, &term->time, dimension_of(s, loads[i % 2]));
     }
 }
 
@@ -274,12 +260,11 @@ static enum br_status apply(const struct br_scene *scene, struct change *c, stru
     out->axial.given = out->bending.given = (struct br_function){0};
     memset(out->derived, 0, sizeof out->derived);
     copy_functions(out, c);
-    change_numbers(c, out);
-    change_functions(c, out);
+    change_all(c, out);
     const double noise = c->noise;
     c->noise = 0;
-    scale(c, &out->length, length);
-    scale(c, &out->duration, duration);
+    scale(c, &out->length, dimension_of(out, &out->length));
+    scale(c, &out->duration, dimension_of(out, &out->duration));
     c->noise = noise;
     return c->status;
 }
