@@ -10,7 +10,6 @@
 #include <yaml.h>
 
 #include "reference/mms/mms.h"
-#include "study/scene/engineering.h"
 #include "study/scene/expression.h"
 #include "study/scene/quote.h"
 #include "study/scene/schema.h"
@@ -264,24 +263,15 @@ static enum br_status read_section(const struct br_scene_reader *r, const char *
     return status ? status : check_required(r, section, br_yaml_line(node));
 }
 
-/* The line on which the section's solution is given. */
-static size_t solution_line(const struct br_scene_reader *r, enum br_field_kind kind)
-{
-    const struct br_scene_key *k = br_scene_keys;
-    const char *section = kind == BR_AXIAL ? "axial" : "bending";
-    while (strcmp(k->section, section) != 0 || k->kind != BR_KEY_SOLUTION)
-        k++;
-    return line_of(r, k);
-}
-
 /* What a solution determines (reference/mms). */
 static enum br_status apply_solutions(const struct br_scene_reader *r)
 {
     struct br_error inner = {0};
     enum br_field_kind culprit = BR_AXIAL;
     enum br_status status = br_manufactured_apply(r->scene, &culprit, &inner);
+    const size_t row = br_scene_row(culprit == BR_AXIAL ? "axial.solution" : "bending.solution");
     if (status == BR_BAD_INPUT)
-        return br_scene_refuse(r, solution_line(r, culprit), "solution", "%s", inner.message);
+        return br_scene_refuse(r, r->given->row[row].line, "solution", "%s", inner.message);
     struct br_load *const load[] = {&r->scene->axial.load, &r->scene->bending.load};
     const bool derived[] = {r->scene->axial.solution, r->scene->bending.solution};
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {

@@ -40,4 +40,12 @@ const char *br_yaml_text(const yaml_node_t *node);
 enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct br_scene_key *key,
                                    const yaml_node_t *node);
 
+/* ---- numbers as engineers have them ---- */
+
+/* Makes what a file has not given itself: stiffnesses of a material and a cross-section,
+ * viscosities of a damping, the friction bound of a ratio (docs/scenes.md); scene->derived says
+ * what and of what. Fails with BR_BAD_INPUT where something is given twice, once by what makes it,
+ * where a number that makes others has nothing to make, and where a number is missing. */
+enum br_status br_scene_derive(const struct br_scene_reader *r);
+
 #endif
