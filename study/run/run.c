@@ -122,21 +122,6 @@ static size_t list_observers(struct run *r, struct br_history_observer list[MOST
 
 /* ---- the run ---- */
 
-static void fill_model(struct run *r)
-{
-    struct br_run_report *p = r->report;
-    const struct br_model_question question = {
-        .scene = p->scene,
-        .marched = &p->marched,
-        .method = &p->method,
-        .n = p->n,
-        .steps = p->steps,
-        .looks = p->levels,
-        .every_step = p->summed,
-    };
-    p->model_rows = br_model_rows(&question, p->model);
-}
-
 /* The last good state's energies: where the works were not summed, those of the last step, which a
  * march that failed has lost. */
 static enum br_status read_energies(struct run *r, const struct br_march *march,
@@ -223,6 +208,6 @@ enum br_status br_run(const struct br_run_request *q, struct br_run_report *p, s
     enum br_status status = br_model_select(q->scene, q->wanted, &p->marched, err);
     if (status)
         return status;
-    fill_model(&r);
+    br_run_fill_model(p);
     return march(&r, err);
 }

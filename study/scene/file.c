@@ -315,17 +315,6 @@ static enum br_status read_verify(const struct br_scene_reader *r, struct br_ver
     return node ? br_verify_read(r, node, verify) : br_verify_default(r->scene, verify, r->err);
 }
 
-/* A zero byte, which YAML can write as \0 in quotes, would end a text early. */
-static enum br_status check_texts(const struct br_scene_reader *r)
-{
-    for (const yaml_node_t *n = r->document->nodes.start; n < r->document->nodes.top; n++)
-        if (n->type == YAML_SCALAR_NODE && strlen(br_yaml_text(n)) != n->data.scalar.length)
-            return br_scene_refuse(r, br_yaml_line(n), "scene",
-                                   "found '%s' followed by a zero byte, expected text",
-                                   br_yaml_text(n));
-    return BR_OK;
-}
-
 /* Every function that is given is finite, and the initial ones respect the clamp. */
 static enum br_status check_functions(const struct br_scene_reader *r, size_t line)
 {
@@ -370,30 +359,12 @@ static enum br_status read_document(const struct br_scene_reader *r, struct br_v
 }
 
 /* Where libyaml's loader has no memory it fails, and says nothing. */
-static bool lacks_memory(const yaml_parser_t *parser)
-{
-    return parser->error == YAML_MEMORY_ERROR || parser->error == YAML_NO_ERROR;
-}
-
 static enum br_status not_yaml(const struct br_scene_reader *r, const yaml_parser_t *parser)
 {
-    if (lacks_memory(parser))
+    if (parser->error == YAML_MEMORY_ERROR || parser->error == YAML_NO_ERROR)
         return br_no_memory(r->err, "the YAML parser");
     return br_fail(r->err, BR_BAD_INPUT, "%s:%zu: not YAML: %s", r->path,
                    parser->problem_mark.line + 1, parser->problem ? parser->problem : "unreadable");
-}
-
-/* A second document would be read by nobody. */
-static enum br_status check_end(const struct br_scene_reader *r, yaml_parser_t *parser)
-{
-    yaml_document_t more;
-    if (!yaml_parser_load(parser, &more))
-        return not_yaml(r, parser);
-    const yaml_node_t *root = yaml_document_get_root_node(&more);
-    const size_t line = more.start_mark.line + 1;
-    yaml_document_delete(&more);
-    return root ? br_scene_refuse(r, line, "scene", "a second document begins, expected one")
-                : BR_OK;
 }
 
 enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br_error *err)
@@ -401,59 +372,69 @@ enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br
     return br_scene_read_verify(path, scene, NULL, err);
 }
 
-/* Deeper ones take libyaml a time that grows with the square of the depth. */
-static enum br_status check_depth(const char *path, const char *text, struct br_error *err)
+/* What the loader does not see. Deep nests take it a time that grows with the square of the depth;
+ * a second document would be read by nobody; and a zero byte, which YAML can write as \0 in quotes,
+ * would end a text early. */
+static enum br_status check_event(const struct br_scene_reader *r, const yaml_event_t *event,
+                                  int depth, int documents)
 {
     enum { DEEPEST = 32 };
-    yaml_parser_t parser;
-    yaml_event_t event = {.type = YAML_NO_EVENT};
-    int depth = 0;
-    size_t line = 0;
-    if (!yaml_parser_initialize(&parser))
-        return br_no_memory(err, "the YAML parser");
-    yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
-    bool more = true, parsed = true;
-    while (more && depth <= DEEPEST && (parsed = yaml_parser_parse(&parser, &event))) {
-        line = event.start_mark.line + 1;
+    const size_t line = event->start_mark.line + 1;
+    const char *text = (const char *)event->data.scalar.value;
+    if (depth > DEEPEST)
+        return br_scene_refuse(r, line, "scene",
+                               "found lists or mappings nested more than %d deep, expected a scene",
+                               DEEPEST);
+    if (documents > 1)
+        return br_scene_refuse(r, line, "scene", "a second document begins, expected one");
+    if (event->type == YAML_SCALAR_EVENT && strlen(text) != event->data.scalar.length)
+        return br_scene_refuse(r, line, "scene",
+                               "found '%s' followed by a zero byte, expected text", text);
+    return BR_OK;
+}
+
+static enum br_status check_events(const struct br_scene_reader *r, yaml_parser_t *parser)
+{
+    enum br_status status = BR_OK;
+    int depth = 0, documents = 0;
+    for (bool more = true; more && !status;) {
+        yaml_event_t event;
+        if (!yaml_parser_parse(parser, &event))
+            return not_yaml(r, parser);
         depth += event.type == YAML_SEQUENCE_START_EVENT || event.type == YAML_MAPPING_START_EVENT;
         depth -= event.type == YAML_SEQUENCE_END_EVENT || event.type == YAML_MAPPING_END_EVENT;
+        documents += event.type == YAML_DOCUMENT_START_EVENT;
         more = event.type != YAML_STREAM_END_EVENT;
+        status = check_event(r, &event, depth, documents);
         yaml_event_delete(&event);
     }
-    const bool memory = !parsed && lacks_memory(&parser);
-    yaml_parser_delete(&parser);
-    if (memory)
-        return br_no_memory(err, "the YAML parser");
-    return depth <= DEEPEST ? BR_OK
-                            : br_fail(err, BR_BAD_INPUT,
-                                      "%s:%zu: scene: found lists or mappings nested more "
-                                      "than %d deep, expected a scene",
-                                      path, line, DEEPEST);
+    return status;
+}
+
+static enum br_status load(const struct br_scene_reader *r, yaml_parser_t *parser,
+                           br_yaml_take *take, void *self)
+{
+    if (!yaml_parser_load(parser, r->document))
+        return not_yaml(r, parser);
+    const enum br_status status = take(r, self);
+    yaml_document_delete(r->document);
+    return status;
 }
 
 enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *take, void *self,
                             struct br_error *err)
 {
-    yaml_parser_t parser;
     yaml_document_t document;
-    enum br_status status = check_depth(path, text, err);
-    if (status)
-        return status;
-    if (!yaml_parser_initialize(&parser))
-        return br_no_memory(err, "the YAML parser");
-    yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
-    struct br_scene_reader r = {.path = path, .document = &document, .err = err};
-    if (!yaml_parser_load(&parser, &document))
-        status = not_yaml(&r, &parser);
-    else {
-        status = yaml_document_get_root_node(&document) ? check_texts(&r) : BR_OK;
-        if (!status)
-            status = take(&r, self);
-        yaml_document_delete(&document);
+    const struct br_scene_reader r = {.path = path, .document = &document, .err = err};
+    enum br_status status = BR_OK;
+    for (int pass = 0; pass < 2 && !status; pass++) {
+        yaml_parser_t parser;
+        if (!yaml_parser_initialize(&parser))
+            return br_no_memory(err, "the YAML parser");
+        yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
+        status = pass == 0 ? check_events(&r, &parser) : load(&r, &parser, take, self);
+        yaml_parser_delete(&parser);
     }
-    if (!status)
-        status = check_end(&r, &parser);
-    yaml_parser_delete(&parser);
     return status;
 }
 
