@@ -120,19 +120,14 @@ const double *br_history_field(const struct br_history_record *record, size_t lo
  * reversed, and the extremes. An event is seen at the first time level of the new regime, so it
  * happened within the step before it. */
 
-/* X(name, word): what the tip did. */
-#define BR_EVENT_LIST(X)         \
-    X(BR_TIP_CLOSED, "closed")   \
-    X(BR_TIP_OPENED, "opened")   \
-    X(BR_TIP_STUCK, "stuck")     \
-    X(BR_TIP_SLIPPED, "slipped") \
-    X(BR_TIP_REVERSED, "reversed") /* slips the other way than it last did */
-
+/* What the tip did. */
 enum br_tip_event_kind {
-#define X(name, word) name,
-    BR_EVENT_LIST(X)
-#undef X
-        BR_TIP_EVENTS
+    BR_TIP_CLOSED,
+    BR_TIP_OPENED,
+    BR_TIP_STUCK,
+    BR_TIP_SLIPPED,
+    BR_TIP_REVERSED, /* slips the other way than it last did */
+    BR_TIP_EVENTS
 };
 
 /* The friction's regime. */

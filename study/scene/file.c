@@ -490,14 +490,12 @@ enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
                                     struct br_verify *verify, struct br_error *err)
 {
     char *text;
+    *scene = (struct br_scene){0};
+    if (verify)
+        *verify = (struct br_verify){0};
     enum br_status status = br_scene_load(path, &text, err);
-    if (status) {
-        *scene = (struct br_scene){0};
-        if (verify)
-            *verify = (struct br_verify){0};
-        return status;
-    }
-    status = br_scene_read_verify_text(path, text, scene, verify, err);
+    if (!status)
+        status = br_scene_read_verify_text(path, text, scene, verify, err);
     free(text);
     return status;
 }
