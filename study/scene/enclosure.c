@@ -58,17 +58,6 @@ struct form {
 
 _Static_assert(sizeof(struct form) <= BR_TREE_WORK * sizeof(iv), "the workspace of a node");
 
-/* Those of abs, min and max where it is not decided which side they are on. */
-static bool is_kinked(enum br_operation o, const iv *range, iv partial[2])
-{
-    const bool extreme = o == BR_OP_MIN || o == BR_OP_MAX;
-    const iv side = o == BR_OP_ABS ? (iv){-1, 1} : (iv){0, 1};
-    const bool undecided = extreme ? br_has_zero(br_interval_subtract(range[0], range[1]))
-                                   : o == BR_OP_ABS && br_has_zero(range[0]);
-    partial[0] = partial[1] = side;
-    return undecided;
-}
-
 /* The derivative of the operation by its argument `which`, at all of its arguments. */
 static iv partial_of(enum br_operation o, const iv *range, unsigned which)
 {
@@ -97,19 +86,18 @@ static bool is_constant_form(const struct form *f)
 
 static void differentiate(enum br_operation o, const struct form *const argument[3], struct form *f)
 {
-    iv range[3], partial[2];
-    const unsigned arguments = br_operation_arguments(o);
+    iv range[3];
     for (unsigned k = 0; k < 3; k++)
         range[k] = argument[k]->range;
+    if ((o == BR_OP_MIN || o == BR_OP_MAX) && br_has_zero(br_interval_subtract(range[0], range[1])))
+        return mix(argument[0], argument[1], f);
     f->slope[0] = f->slope[1] = br_point(0);
     f->error = 0;
-    const bool kinked = is_kinked(o, range, partial);
-    if (kinked && arguments == 2)
-        mix(argument[0], argument[1], f);
-    for (unsigned k = 0; k < arguments && !(kinked && arguments == 2); k++) {
+    const bool kinked = o == BR_OP_ABS && br_has_zero(range[0]);
+    for (unsigned k = 0; k < br_operation_arguments(o); k++) {
         if (is_constant_form(argument[k]))
             continue;
-        const iv p = kinked ? partial[k] : partial_of(o, range, k);
+        const iv p = kinked ? (iv){-1, 1} : partial_of(o, range, k);
         for (int v = 0; v < 2; v++)
             f->slope[v] =
                 br_interval_add(f->slope[v], br_interval_multiply(p, argument[k]->slope[v]));

@@ -83,12 +83,6 @@ static enum br_status refuse_values(const struct br_varied *v, const char *found
                    is_bare(v->key) ? "" : v->key->unit, v->name);
 }
 
-static enum br_status make_room(struct br_varied *v, size_t count, struct br_error *err)
-{
-    v->value = br_allocate(count, sizeof *v->value);
-    return v->value ? BR_OK : br_no_memory(err, "the values of --vary");
-}
-
 static enum br_status check_count(const struct br_varied *v, double count, double least,
                                   struct br_error *err)
 {
@@ -103,7 +97,7 @@ static enum br_status read_list(struct br_varied *v, const char *text, struct br
     size_t most = 1;
     for (const char *c = text; *c; c++)
         most += *c == ',';
-    if (check_count(v, (double)most, 1, err) || make_room(v, most, err))
+    if (check_count(v, (double)most, 1, err))
         return err->status;
     for (const char *rest = text;; rest++) {
         double *value = &v->value[v->count];
@@ -158,7 +152,7 @@ static enum br_status read_range(struct br_varied *v, const char *text, const ch
         return br_fail(err, BR_BAD_INPUT, "--vary: %s: found %g..%g, expected %s", v->name, low,
                        high,
                        low < high ? "numbers above 0 for log" : "a lower and then a higher number");
-    if (check_count(v, count, 2, err) || make_room(v, (size_t)count, err))
+    if (check_count(v, count, 2, err))
         return err->status;
     for (v->count = 0; (double)v->count < count; v->count++) {
         const double part = (double)v->count / (count - 1);
@@ -177,6 +171,9 @@ enum br_status br_varied_read(const char *text, struct br_varied *v, struct br_e
     *v = (struct br_varied){0};
     if (find_key(text, length, v, err))
         return err->status;
+    v->value = br_allocate(BR_MOST_VARIED, sizeof *v->value);
+    if (!v->value)
+        return br_no_memory(err, "the values of --vary");
     const char *values = text[length] ? text + length + 1 : "";
     const char *dots = strstr(values, "..");
     const enum br_status status =
