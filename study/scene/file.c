@@ -158,10 +158,8 @@ static void list_keys(const char *section, char *text, size_t size)
 {
     text[0] = '\0';
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
-        if (strcmp(k->section, section) == 0) {
-            const size_t used = strlen(text);
-            snprintf(text + used, size - used, "%s%s", used ? ", " : "", k->name);
-        }
+        if (strcmp(k->section, section) == 0)
+            br_append(text, size, "%s%s", *text ? ", " : "", k->name);
 }
 
 /* Reads one mapping. */

@@ -27,7 +27,6 @@ static enum br_status find_key(const char *text, size_t length, struct br_varied
 {
     char known[600] = "";
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
-        const size_t used = strlen(known);
         full_name(k, v->name);
         const bool found = strlen(v->name) == length && strncmp(text, v->name, length) == 0;
         if (found && !is_number(k) && k->kind != BR_KEY_SECTION)
@@ -39,7 +38,7 @@ static enum br_status find_key(const char *text, size_t length, struct br_varied
         if (found && v->key)
             return BR_OK;
         if (is_number(k))
-            snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", v->name);
+            br_append(known, sizeof known, "%s%s", *known ? ", " : "", v->name);
     }
     return br_fail(err, BR_BAD_INPUT, "--vary: found key '%.*s', expected one of: %s",
                    (int)(length < 100 ? length : 100), text, known);
