@@ -268,8 +268,6 @@ static enum br_status apply_solutions(const struct br_scene_reader *r)
     enum br_field_kind culprit = BR_AXIAL;
     enum br_status status = br_manufactured_apply(r->scene, &culprit, &inner);
     const size_t row = br_scene_row(culprit == BR_AXIAL ? "axial.solution" : "bending.solution");
-    if (status == BR_BAD_INPUT)
-        return br_scene_refuse(r, r->given->row[row].line, "solution", "%s", inner.message);
     struct br_load *const load[] = {&r->scene->axial.load, &r->scene->bending.load};
     const bool derived[] = {r->scene->axial.solution, r->scene->bending.solution};
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
@@ -277,7 +275,7 @@ static enum br_status apply_solutions(const struct br_scene_reader *r)
         if (derived[kind])
             status = br_products(&whole, load[kind], &inner);
     }
-    return status ? br_fail(r->err, status, "%s", inner.message) : BR_OK;
+    return br_scene_pass_on(r, r->given->row[row].line, "solution", &inner);
 }
 
 /* The scene's name is its file's, without folder and ending; the names of all files that are
@@ -319,15 +317,14 @@ static enum br_status check_functions(const struct br_scene_reader *r, size_t li
     struct br_error inner = {0};
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
         if (line_of(r, k) && br_scene_scan(r->scene, k, &inner))
-            return br_scene_refuse(r, line_of(r, k), k->name, "%s", inner.message);
+            return br_scene_pass_on(r, line_of(r, k), k->name, &inner);
     size_t culprit = 0;
-    if (!br_scene_check_initial(r->scene, &culprit, &inner))
-        return BR_OK;
+    br_scene_check_initial(r->scene, &culprit, &inner);
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
         if ((k->kind == BR_KEY_INITIAL || k->kind == BR_KEY_HISTORY) && k->offset == culprit &&
             line_of(r, k))
-            return br_scene_refuse(r, line_of(r, k), k->name, "%s", inner.message);
-    return br_scene_refuse(r, line, "scene", "%s", inner.message); /* from a solution */
+            return br_scene_pass_on(r, line_of(r, k), k->name, &inner);
+    return br_scene_pass_on(r, line, "scene", &inner); /* from a solution */
 }
 
 static enum br_status read_document(const struct br_scene_reader *r, struct br_verify *verify)
@@ -346,7 +343,7 @@ static enum br_status read_document(const struct br_scene_reader *r, struct br_v
         status = br_scene_derive(r);
     struct br_error inner = {0};
     if (!status && br_scene_check(r->scene, &inner))
-        status = br_scene_refuse(r, br_yaml_line(root), "scene", "%s", inner.message);
+        status = br_scene_pass_on(r, br_yaml_line(root), "scene", &inner);
     if (!status)
         status = apply_solutions(r);
     if (!status)

@@ -31,6 +31,14 @@ enum br_status br_scene_refuse(const struct br_scene_reader *r, size_t line, con
     return BR_BAD_INPUT;
 }
 
+enum br_status br_scene_pass_on(const struct br_scene_reader *r, size_t line, const char *key,
+                                const struct br_error *inner)
+{
+    if (inner->status == BR_BAD_INPUT)
+        return br_scene_refuse(r, line, key, "%s", inner->message);
+    return inner->status ? br_fail(r->err, inner->status, "%s", inner->message) : BR_OK;
+}
+
 size_t br_yaml_line(const yaml_node_t *node)
 {
     return node->start_mark.line + 1;
@@ -202,10 +210,8 @@ static enum br_status parse_expression(const struct value *v, const char *text,
                                        struct br_function *out)
 {
     struct br_error inner = {0};
-    const enum br_status status = br_expression(text, out, &inner);
-    if (status == BR_BAD_INPUT)
-        return REFUSE(v, "%s", inner.message);
-    return status ? br_fail(v->r->err, status, "%s", inner.message) : BR_OK;
+    br_expression(text, out, &inner);
+    return br_scene_pass_on(v->r, br_yaml_line(v->node), v->key->name, &inner);
 }
 
 /* "expression [unit]" into a function. applied: out, the expression in m, s and kg. It must be one

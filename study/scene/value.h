@@ -31,6 +31,11 @@ enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *ta
 __attribute__((format(printf, 4, 5))) enum br_status br_scene_refuse(
     const struct br_scene_reader *r, size_t line, const char *key, const char *format, ...);
 
+/* The same with what another function has failed with; where that is not BR_BAD_INPUT, it fails
+ * likewise. BR_OK where it has not failed. */
+enum br_status br_scene_pass_on(const struct br_scene_reader *r, size_t line, const char *key,
+                                const struct br_error *inner);
+
 /* Where a node stands, from 1, and the text of a scalar. */
 size_t br_yaml_line(const yaml_node_t *node);
 const char *br_yaml_text(const yaml_node_t *node);
