@@ -50,8 +50,10 @@ static bool is_bare(const struct br_scene_key *key)
     return strcmp(key->unit, "1") == 0;
 }
 
-/* "210 GPa": a number, and perhaps the unit of all. False: it is none, or has another unit. */
-static bool read_value(struct br_varied *v, const char *text, const char *end, double *value)
+/* "210 GPa": a number, and perhaps (*given) the unit of all. False: it is none, or has another one.
+ */
+static bool read_value(struct br_varied *v, const char *text, const char *end, double *value,
+                       bool *given)
 {
     char item[100];
     const size_t length = (size_t)(end - text);
@@ -64,6 +66,7 @@ static bool read_value(struct br_varied *v, const char *text, const char *end, d
     for (char *last = item + length; last > unit && last[-1] == ' ';)
         *--last = '\0';
     unit += strspn(unit, " ");
+    *given = *unit;
     if (!*unit)
         return true;
     if (!*v->unit && strlen(unit) < sizeof v->unit)
@@ -91,9 +94,11 @@ static enum br_status check_count(const struct br_varied *v, double count, doubl
                    count, least, BR_MOST_VARIED);
 }
 
+/* Of a key that takes numbers without unit, too, all values have one or none. */
 static enum br_status read_list(struct br_varied *v, const char *text, struct br_error *err)
 {
     size_t most = 1;
+    bool given = false, first = false;
     for (const char *c = text; *c; c++)
         most += *c == ',';
     if (check_count(v, (double)most, 1, err))
@@ -101,7 +106,9 @@ static enum br_status read_list(struct br_varied *v, const char *text, struct br
     for (const char *rest = text;; rest++) {
         double *value = &v->value[v->count];
         const char *end = strchrnul(rest, ',');
-        if (!read_value(v, rest, end, value))
+        const bool read = read_value(v, rest, end, value, &given);
+        first = v->count ? first : given;
+        if (!read || (v->key->need == BR_OR_RATIO && given != first))
             return refuse_values(v, rest, err);
         for (size_t i = 0; i < v->count; i++)
             if (v->value[i] == *value)
@@ -141,8 +148,9 @@ static enum br_status read_range(struct br_varied *v, const char *text, const ch
 {
     double low = NAN, high = NAN, count = NAN;
     const char *log = strstr(dots, " log "), *word = log ? log : strstr(dots, " lin ");
-    const bool read =
-        word && read_value(v, text, dots, &low) && read_value(v, dots + 2, word, &high);
+    bool given = false;
+    const bool read = word && read_value(v, text, dots, &low, &given) &&
+                      read_value(v, dots + 2, word, &high, &given);
     const char *end = read ? br_read_number(word + strlen(" log "), &count) : NULL;
     v->logarithmic = log;
     if (!end || *end)

@@ -19,9 +19,9 @@ struct br_varied {
 };
 
 /* Reads KEY=LOW..HIGH log|lin COUNT, or KEY=VALUE,VALUE,... A unit behind a value is that of all;
- * without one they have the key's, or none where the key takes numbers without. The scene's reader
- * judges it. Fails with BR_BAD_INPUT, naming the key, what was found and what was expected, or with
- * BR_NO_MEMORY; clear it even then. */
+ * without one they have the key's, or none where the key takes numbers without, whose list has it
+ * behind each or none. The scene's reader judges it. Fails with BR_BAD_INPUT, naming the key, what
+ * was found and what was expected, or with BR_NO_MEMORY; clear it even then. */
 enum br_status br_varied_read(const char *text, struct br_varied *varied, struct br_error *err);
 void br_varied_clear(struct br_varied *varied);
 
