@@ -325,8 +325,8 @@ static const struct br_option rows[] = {
      .commands = BR_FOR_STUDY | BR_FOR_RUN,
      .more = "KEY is a key of the scene whose value is a number, with its section: length, "
              "axial.viscosity. VALUES are LOW..HIGH log COUNT, LOW..HIGH lin COUNT, or a list "
-             "separated by commas, in the key's unit, 1000 at most. Each value is read as if it "
-             "stood in the scene. Out come a table and a picture over the values."},
+             "separated by commas, in the key's unit or in one that stands behind them, 1000 at "
+             "most. Each value is read as if it stood in the scene. Out come a table and a picture over the values."},
 
     /* for all */
     {BR_OPT_OUT, "out", 'o', "DIR", folder, "results", BR_TAKES_DIR,

@@ -323,6 +323,16 @@ static void put_displacement(struct br_document *d, const struct br_run_findings
     br_put_shown(d, "%s", with_error(value, tip_error(f, kind), text));
 }
 
+/* Whether the tip sticks, and what its velocity is besides may be round-off: that of the
+ * displacements in a step. */
+static bool rests(const struct br_run_findings *f)
+{
+    const struct br_run_report *r = f->report;
+    const double most = f->prediction->size[BR_BENDING] * sqrt(5 / r->scene->length);
+    return r->watch.friction && r->watch.steps && r->watch.regime == BR_TIP_STICK &&
+           fabs(r->end.last.velocity[BR_BENDING]) <= r->round_off * most / r->k;
+}
+
 static void put_velocity(struct br_document *d, const struct br_run_findings *f, int kind)
 {
     const double velocity = f->report->end.last.velocity[kind];
@@ -332,6 +342,8 @@ static void put_velocity(struct br_document *d, const struct br_run_findings *f,
                                    .heading = axial ? "velocity, axial" : "velocity, bending",
                                    .unit = "m/s"},
                br_if(is_marched(f->report, kind), br_number(velocity)), NAN);
+    if (kind == BR_BENDING && rests(f))
+        br_put_shown(d, "0");
 }
 
 static void put_tip(struct br_document *d, const struct br_run_findings *f)

@@ -723,7 +723,8 @@ static const struct planted_bug planted_bugs[] = {
      "tests/test_run test_rows_and_looks", "(before + (velocity ? h->unknowns[kind] : 0))",
      "(before + (velocity ? h->unknowns[BR_AXIAL] : 0))"},
     {"spring_with_the_unit_of_a_force", "units", "study/scene/rescale.c",
-     "tests/test_rescale test_powers_of_two", "spring = {0, -2, 1},", "spring = {1, -2, 1},"},
+     "tests/test_rescale test_powers_of_two", "s->friction.law != BR_TRESCA",
+     "!s->friction.law"},
 
     {"milli_is_a_millionth", "units", "study/scene/units.c", "tests/test_units", "{\"m\", -3}",
      "{\"m\", -6}"},
@@ -732,8 +733,7 @@ static const struct planted_bug planted_bugs[] = {
     {"factor_of_the_unit_forgotten", "units", "study/scene/units.c", "tests/test_two_ways",
      "q->wide = strtold(moved, NULL) * factor;", "q->wide = strtold(moved, NULL);"},
     {"unit_of_an_expression_forgotten", "units", "study/scene/value.c", "tests/test_two_ways",
-     "return parse_expression(r, key, node, whole, out);",
-     "return parse_expression(r, key, node, text, out);"},
+     "return parse_expression(v, applied, out);", "return parse_expression(v, text, out);"},
     {"section_bends_across_its_width", "index", "study/scene/value.c", "tests/test_two_ways",
      "area * b * b / 12", "area * a * a / 12"},
     {"damping_ratio_is_half", "coefficient", "study/scene/engineering.c", "tests/test_scene",
@@ -880,8 +880,8 @@ static const struct planted_bug planted_bugs[] = {
     /* ---- values that vary ---- */
     {"varied_as_if_on_a_line", "spacing", "study/scene/vary.c", "golden run_vary",
      "v->logarithmic ? pow(10,", "!v->logarithmic ? pow(10,"},
-    {"varied_number_is_put_elsewhere", "lost", "study/scene/vary.c", "golden run_vary",
-     "pair->value = value;", "pair->key = pair->key;"},
+    {"varied_number_is_put_elsewhere", "lost", "study/scene/file.c", "golden run_vary",
+     "if (key != r->varied)", "if (key || r->varied)"},
     {"foreseen_without_its_reference", "lost", "study/foresee/foreseen.c", "golden dry_run",
      "if (!s->judge->create)", "if (s->judge)"},
 

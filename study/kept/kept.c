@@ -60,15 +60,11 @@ void br_kept_key(const struct br_sha256 *base, const char *work, char key[BR_SHA
 
 const char *br_kept_method(const struct br_method *m, char text[BR_KEPT_METHOD])
 {
-    size_t used = (size_t)snprintf(text, BR_KEPT_METHOD, "rounding %d", m->rounding);
-    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
-        char value[BR_METHOD_VALUE];
-        const struct br_method_field *f = &br_method_fields[i];
-        used += (size_t)snprintf(text + used, used < BR_KEPT_METHOD ? BR_KEPT_METHOD - used : 0,
-                                 " %s %s", f->name, br_method_field_text(f, m, value));
-        if (used >= BR_KEPT_METHOD)
-            used = BR_KEPT_METHOD - 1;
-    }
+    char value[BR_METHOD_VALUE];
+    snprintf(text, BR_KEPT_METHOD, "rounding %d", m->rounding);
+    for (const struct br_method_field *f = br_method_fields;
+         f < br_method_fields + BR_METHOD_FIELDS; f++)
+        br_append(text, BR_KEPT_METHOD, " %s %s", f->name, br_method_field_text(f, m, value));
     return text;
 }
 

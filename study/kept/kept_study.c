@@ -11,13 +11,7 @@
 
 enum { WORK = 2400 };
 
-/* What is kept of a cell: it went well. */
-struct kept_cell {
-    double error[BR_PARTS], worst_time[BR_PARTS], tip[2], seconds;
-    uint64_t unstable;
-};
-
-/* And of its study; the lines of its events follow. */
+/* What is kept of a study besides its cells, which went well; the lines of its events follow. */
 struct kept_study {
     uint64_t audited;
     struct br_judge_report judged_by;
@@ -65,17 +59,12 @@ static void key_of_study(const struct br_study *s, char key[BR_SHA256_TEXT])
 static bool read_cell(struct br_study *s, size_t cell)
 {
     char key[BR_SHA256_TEXT];
-    struct kept_cell k;
-    struct br_cell *c = &s->cell[cell];
+    struct br_cell k, *c = &s->cell[cell];
     key_of_cell(s, cell, key);
     if (!br_kept_read_into(s->kept, key, &k, sizeof k))
         return false;
-    *c = (struct br_cell){.at = br_study_resolution(s, cell), .against = c->against};
-    memcpy(c->error, k.error, sizeof k.error);
-    memcpy(c->worst_time, k.worst_time, sizeof k.worst_time);
-    memcpy(c->tip, k.tip, sizeof k.tip);
-    c->seconds = k.seconds;
-    c->unstable = k.unstable;
+    k.against = c->against;
+    *c = k;
     return true;
 }
 
@@ -103,35 +92,22 @@ static bool read_study(struct br_study *s)
     return whole && s->events;
 }
 
-/* Whether all norms of a cell, or of a study itself, are kept. */
-static bool has_cell(struct br_study *s, size_t cell)
+/* Whether all norms of a cell, or (SIZE_MAX) of a study itself, are kept. */
+static bool is_kept(struct br_study *s, size_t cell)
 {
-    bool has = true;
-    for (; s && has; s = s->next_norm)
-        has = read_cell(s, cell);
-    return has;
-}
-
-static bool has_study(struct br_study *s)
-{
-    bool has = true;
-    for (; s && has; s = s->next_norm)
-        has = read_study(s);
-    return has;
+    bool kept = true;
+    for (; s && kept; s = s->next_norm)
+        kept = cell == SIZE_MAX ? read_study(s) : read_cell(s, cell);
+    return kept;
 }
 
 /* ---- writing ---- */
 
-static void write_cell(struct br_study *s, size_t cell)
+static void write_cell(const struct br_study *s, size_t cell)
 {
     char key[BR_SHA256_TEXT];
-    const struct br_cell *c = &s->cell[cell];
-    struct kept_cell k = {.seconds = c->seconds, .unstable = c->unstable};
-    memcpy(k.error, c->error, sizeof k.error);
-    memcpy(k.worst_time, c->worst_time, sizeof k.worst_time);
-    memcpy(k.tip, c->tip, sizeof k.tip);
     key_of_cell(s, cell, key);
-    br_kept_write(s->kept, key, &k, sizeof k);
+    br_kept_write(s->kept, key, &s->cell[cell], sizeof s->cell[cell]);
 }
 
 /* The auditor as it was asked for: its key must not depend on what became of it. */
@@ -209,11 +185,11 @@ static enum br_status find_missing(struct work *w, struct br_error *err)
         bool missing = false;
         w->auditor[s] = study->auditor;
         for (size_t c = 0; c < br_study_cells(study); c++) {
-            of[c] = study->failure.status || has_cell(study, c) ? SIZE_MAX : 0;
+            of[c] = study->failure.status || is_kept(study, c) ? SIZE_MAX : 0;
             missing |= of[c] == 0;
             atomic_fetch_add(&study->kept->taken, of[c] == 0 || study->failure.status ? 0 : 1);
         }
-        if (!missing && !study->failure.status && !has_study(study))
+        if (!missing && !study->failure.status && !is_kept(study, SIZE_MAX))
             of[0] = 0;
         const size_t slices = study->failure.status ? 0 : cut(study, of);
         w->slices.count = slices > w->slices.count ? slices : w->slices.count;
@@ -287,7 +263,7 @@ static enum br_status put_together(struct work *w, struct br_error *err)
         bool marched = false;
         for (size_t c = 0; c < br_study_cells(first) && !first->failure.status; c++) {
             marched |= of[c] != SIZE_MAX;
-            if (of[c] == SIZE_MAX && !has_cell(first, c))
+            if (of[c] == SIZE_MAX && !is_kept(first, c))
                 status =
                     br_fail(err, BR_IO, "%s: an entry has gone meanwhile", first->kept->folder);
         }

@@ -98,9 +98,9 @@ static size_t find_field(const char *key)
 static enum br_status refuse_key(const char *key, struct br_error *err)
 {
     char keys[400] = "", name[BR_METHOD_VALUE];
-    for (size_t i = 0, used = 0; i < BR_METHOD_FIELDS && used < sizeof keys; i++)
-        used += (size_t)snprintf(keys + used, sizeof keys - used, "%s%s", i ? ", " : "",
-                                 br_method_field_key(&br_method_fields[i], name));
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
+        br_append(keys, sizeof keys, "%s%s", i ? ", " : "",
+                  br_method_field_key(&br_method_fields[i], name));
     return br_fail(err, BR_BAD_INPUT, "method: found '%.200s', expected one of: %s", key, keys);
 }
 

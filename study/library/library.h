@@ -40,6 +40,19 @@ void br_visit_begin(struct br_visit *visit);
 enum beamrate_status br_visit_end(struct br_visit *visit, enum br_status status,
                                   struct beamrate_error *err);
 
+/* The body of a call that makes a handle (out): `fill`, which may use *handle and &visit.err,
+ * makes it of zeros, and what it fails with, the call does. */
+#define BR_MAKE_HANDLE(handle, release, fill)                                              \
+    struct br_visit visit;                                                                 \
+    br_visit_begin(&visit);                                                                \
+    *(handle) = br_allocate(1, sizeof **(handle));                                         \
+    const enum br_status made = *(handle) ? (fill) : br_no_memory(&visit.err, "a handle"); \
+    if (made) {                                                                            \
+        release(*(handle));                                                                \
+        *(handle) = NULL;                                                                  \
+    }                                                                                      \
+    return br_visit_end(&visit, made, err)
+
 /* ---- what callers give ---- */
 
 /* Reads a list of keys and values (beamrate.h); NULL: the default. Fails with BR_BAD_INPUT. */

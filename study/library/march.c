@@ -18,49 +18,37 @@ static_assert((int)BEAMRATE_MOST_WARNINGS >= BR_WARNINGS, "each warning has a pl
 
 /* ---- scenes ---- */
 
-static enum br_status read_scene(struct beamrate_scene **out, const char *path, const char *text,
+static enum br_status read_scene(struct beamrate_scene *s, const char *path, const char *text,
                                  struct br_error *err)
 {
-    struct beamrate_scene *s = br_allocate(1, sizeof *s);
-    if (s)
-        s->path = br_allocate(strlen(path) + 1, 1);
-    enum br_status status = s && s->path ? BR_OK : br_no_memory(err, "the scene");
-    if (!status) {
-        strcpy(s->path, path);
-        status = br_scene_read_verify_text(s->path, text, &s->scene, &s->verify, err);
-    }
-    if (status)
-        beamrate_scene_free(s);
-    else
-        *out = s;
-    return status;
+    s->path = strdup(path);
+    return s->path ? br_scene_read_verify_text(s->path, text, &s->scene, &s->verify, err)
+                   : br_no_memory(err, "the scene");
 }
 
 enum beamrate_status beamrate_scene_parse(struct beamrate_scene **scene, const char *name,
                                           const char *text, struct beamrate_error *err)
 {
-    struct br_visit visit;
-    br_visit_begin(&visit);
-    *scene = NULL;
-    return br_visit_end(&visit, read_scene(scene, name, text, &visit.err), err);
+    BR_MAKE_HANDLE(scene, beamrate_scene_free, read_scene(*scene, name, text, &visit.err));
 }
 
 /* "-" is a file like any other: a library leaves standard input alone. */
+static enum br_status open_scene(struct beamrate_scene *s, const char *name, struct br_error *err)
+{
+    char path[1024], *text = NULL;
+    enum br_status status = br_scene_find(strcmp(name, "-") ? name : "./-", path, sizeof path, err);
+    if (!status)
+        status = br_scene_load(path, &text, err);
+    if (!status)
+        status = read_scene(s, path, text, err);
+    free(text);
+    return status;
+}
+
 enum beamrate_status beamrate_scene_open(struct beamrate_scene **scene, const char *name,
                                          struct beamrate_error *err)
 {
-    struct br_visit visit;
-    br_visit_begin(&visit);
-    char path[1024], *text = NULL;
-    *scene = NULL;
-    enum br_status status =
-        br_scene_find(strcmp(name, "-") ? name : "./-", path, sizeof path, &visit.err);
-    if (!status)
-        status = br_scene_load(path, &text, &visit.err);
-    if (!status)
-        status = read_scene(scene, path, text, &visit.err);
-    free(text);
-    return br_visit_end(&visit, status, err);
+    BR_MAKE_HANDLE(scene, beamrate_scene_free, open_scene(*scene, name, &visit.err));
 }
 
 void beamrate_scene_free(struct beamrate_scene *scene)
@@ -163,17 +151,18 @@ struct beamrate_march {
     struct br_error failure; /* of a step: the state is lost */
 };
 
-static enum br_status create_march(struct beamrate_march *m, const struct beamrate_scene *scene,
-                                   const char *const *list, struct br_error *err)
+static enum br_status create_march(struct beamrate_march *m, const struct br_scene *scene, size_t n,
+                                   size_t steps, const char *const *list, struct br_error *err)
 {
     struct br_method method;
     struct br_planned_march planned;
     struct br_warnings warnings = {0};
-    enum br_status status = plan_march(&scene->scene, m->n, m->steps, list, &method, &planned, err);
+    enum br_status status = plan_march(scene, n, steps, list, &method, &planned, err);
+    m->n = n;
+    m->steps = steps;
     if (!status)
         status = br_look_ahead_cheaply(&planned, &warnings, err); /* for what it refuses */
-    return status ? status
-                  : br_march_create(&m->march, &scene->scene, m->n, m->steps, &method, err);
+    return status ? status : br_march_create(&m->march, scene, n, steps, &method, err);
 }
 
 enum beamrate_status beamrate_march_create(struct beamrate_march **march,
@@ -181,21 +170,8 @@ enum beamrate_status beamrate_march_create(struct beamrate_march **march,
                                            size_t steps, const char *const *method,
                                            struct beamrate_error *err)
 {
-    struct br_visit visit;
-    br_visit_begin(&visit);
-    struct beamrate_march *m = br_allocate(1, sizeof *m);
-    enum br_status status = m ? BR_OK : br_no_memory(&visit.err, "a march");
-    if (!status) {
-        m->n = n;
-        m->steps = steps;
-        status = create_march(m, scene, method, &visit.err);
-    }
-    if (status) {
-        beamrate_march_free(m);
-        m = NULL;
-    }
-    *march = m;
-    return br_visit_end(&visit, status, err);
+    BR_MAKE_HANDLE(march, beamrate_march_free,
+                   create_march(*march, &scene->scene, n, steps, method, &visit.err));
 }
 
 void beamrate_march_free(struct beamrate_march *march)

@@ -111,13 +111,13 @@ static struct beamrate_reference describe_reference(const struct br_study *s)
     return r;
 }
 
-static enum br_status run_study(struct beamrate_study *s, const struct br_scene *scene,
-                                const struct beamrate_study_request *q, struct br_error *err)
+static enum br_status march_and_fit(struct beamrate_study *s, const struct br_scene *scene,
+                                    const struct beamrate_study_request *q, struct br_error *err)
 {
+    struct br_library_watch watch;
     enum br_status status = prepare_study(s, scene, q, err);
     if (status)
         return status;
-    struct br_library_watch watch;
     br_library_watch_begin(&watch, q->observer);
     status = br_study_run(&s->study, 1, q->threads, &watch.ours, err);
     br_library_watch_end(&watch);
@@ -128,26 +128,23 @@ static enum br_status run_study(struct beamrate_study *s, const struct br_scene 
     return status;
 }
 
+static enum br_status run_study(struct beamrate_study *s, const struct beamrate_scene *scene,
+                                const struct beamrate_study_request *q, struct br_error *err)
+{
+    struct br_scene own;
+    enum br_status status = br_library_scene(scene, &own, err);
+    if (!status)
+        status = march_and_fit(s, &own, q, err);
+    br_library_scene_release(&own);
+    return status;
+}
+
 enum beamrate_status beamrate_study_run(struct beamrate_study **study,
                                         const struct beamrate_scene *scene,
                                         const struct beamrate_study_request *request,
                                         struct beamrate_error *err)
 {
-    struct br_visit visit;
-    br_visit_begin(&visit);
-    struct br_scene own;
-    struct beamrate_study *s = br_allocate(1, sizeof *s);
-    enum br_status status = br_library_scene(scene, &own, &visit.err);
-    if (!status)
-        status =
-            s ? run_study(s, &own, request, &visit.err) : br_no_memory(&visit.err, "the study");
-    br_library_scene_release(&own);
-    if (status) {
-        beamrate_study_free(s);
-        s = NULL;
-    }
-    *study = s;
-    return br_visit_end(&visit, status, err);
+    BR_MAKE_HANDLE(study, beamrate_study_free, run_study(*study, scene, request, &visit.err));
 }
 
 void beamrate_study_free(struct beamrate_study *study)
@@ -205,15 +202,22 @@ struct beamrate_check {
     struct br_check check;
 };
 
-static enum br_status check_scene(struct br_check *check, int threads,
-                                  const struct beamrate_observer *observer, struct br_error *err)
+static enum br_status check_scene(struct br_check *check, const struct beamrate_scene *scene,
+                                  int threads, const struct beamrate_observer *observer,
+                                  struct br_error *err)
 {
-    if (check_threads(threads, err))
-        return err->status;
+    struct br_scene own;
     struct br_library_watch watch;
+    enum br_status status = br_library_scene(scene, &own, err);
+    if (!status)
+        status = check_threads(threads, err);
+    *check = (struct br_check){
+        .path = scene->path, .name = own.name, .scene = &own, .verify = &scene->verify};
     br_library_watch_begin(&watch, observer);
-    const enum br_status status = br_check_run(check, 1, threads, &watch.ours, err);
+    if (!status)
+        status = br_check_run(check, 1, threads, &watch.ours, err);
     br_library_watch_end(&watch);
+    br_library_scene_release(&own);
     const struct br_error *failure = &check->failure;
     return status || !failure->status ? status
                                       : br_fail(err, failure->status, "%s", failure->message);
@@ -224,25 +228,8 @@ enum beamrate_status beamrate_check_run(struct beamrate_check **check,
                                         const struct beamrate_observer *observer,
                                         struct beamrate_error *err)
 {
-    struct br_visit visit;
-    br_visit_begin(&visit);
-    struct br_scene own;
-    struct beamrate_check *c = br_allocate(1, sizeof *c);
-    enum br_status status = br_library_scene(scene, &own, &visit.err);
-    if (!status && !c)
-        status = br_no_memory(&visit.err, "the check");
-    if (!status) {
-        c->check = (struct br_check){
-            .path = scene->path, .name = own.name, .scene = &own, .verify = &scene->verify};
-        status = check_scene(&c->check, threads, observer, &visit.err);
-    }
-    br_library_scene_release(&own);
-    if (status) {
-        beamrate_check_free(c);
-        c = NULL;
-    }
-    *check = c;
-    return br_visit_end(&visit, status, err);
+    BR_MAKE_HANDLE(check, beamrate_check_free,
+                   check_scene(&(*check)->check, scene, threads, observer, &visit.err));
 }
 
 void beamrate_check_free(struct beamrate_check *check)
@@ -315,35 +302,28 @@ static enum br_status copy_numbers(const struct beamrate_numbers *from, struct b
         return br_no_memory(err, "the numbers");
     to->quantities = 1;
     to->quantity->is_value = from->values;
-    to->quantity->name = br_allocate(sizeof "value", 1);
+    to->quantity->name = strdup(from->values ? "value" : "error");
     if (!to->quantity->name)
         return br_no_memory(err, "the numbers");
-    strcpy(to->quantity->name, from->values ? "value" : "error");
     enum br_status status = BR_OK;
     for (; to->rows < from->count && !status; to->rows++)
         status = fill_row(&to->row[to->rows], from, to->rows, err);
     return status ? status : br_numbers_check(to, name_of_numbers, err);
 }
 
+static enum br_status find_orders(struct beamrate_orders *o, const struct beamrate_numbers *from,
+                                  struct br_error *err)
+{
+    const enum br_status status = copy_numbers(from, &o->numbers, err);
+    const double formal = from->formal != 0 ? from->formal : 2;
+    return status ? status : br_orders_find(&o->numbers, formal, &o->orders, err);
+}
+
 enum beamrate_status beamrate_orders_find(struct beamrate_orders **orders,
                                           const struct beamrate_numbers *numbers,
                                           struct beamrate_error *err)
 {
-    struct br_visit visit;
-    br_visit_begin(&visit);
-    struct beamrate_orders *o = br_allocate(1, sizeof *o);
-    enum br_status status = o ? BR_OK : br_no_memory(&visit.err, "the orders");
-    if (!status)
-        status = copy_numbers(numbers, &o->numbers, &visit.err);
-    if (!status)
-        status = br_orders_find(&o->numbers, numbers->formal != 0 ? numbers->formal : 2, &o->orders,
-                                &visit.err);
-    if (status) {
-        beamrate_orders_free(o);
-        o = NULL;
-    }
-    *orders = o;
-    return br_visit_end(&visit, status, err);
+    BR_MAKE_HANDLE(orders, beamrate_orders_free, find_orders(*orders, numbers, &visit.err));
 }
 
 void beamrate_orders_free(struct beamrate_orders *orders)
@@ -422,16 +402,6 @@ enum beamrate_status beamrate_orders_check(struct beamrate_check **check,
                                            const struct beamrate_expectation *expectation,
                                            size_t count, struct beamrate_error *err)
 {
-    struct br_visit visit;
-    br_visit_begin(&visit);
-    struct beamrate_check *c = br_allocate(1, sizeof *c);
-    const enum br_status status =
-        c ? check_orders(&c->check, orders, expectation, count, &visit.err)
-          : br_no_memory(&visit.err, "the verdicts");
-    if (status) {
-        beamrate_check_free(c);
-        c = NULL;
-    }
-    *check = c;
-    return br_visit_end(&visit, status, err);
+    BR_MAKE_HANDLE(check, beamrate_check_free,
+                   check_orders(&(*check)->check, orders, expectation, count, &visit.err));
 }

@@ -91,19 +91,24 @@ static bool is_look(struct run *r)
 static enum br_status tell(struct run *r, struct br_error *err)
 {
     const struct br_history_request *q = r->request;
+    const struct br_history_observer *end = q->observer + q->observers;
     const bool row = is_row(r), look = is_look(r);
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < q->observers && !status; i++)
-        if (q->observer[i].step)
-            status = q->observer[i].step(q->observer[i].self, r->march, &r->row, err);
+    for (const struct br_history_observer *o = q->observer; o < end && !status; o++)
+        if (o->step) {
+            status = o->step(o->self, r->march, &r->row, err);
+            br_step_cost_mark(&o->mark, r->row.step);
+        }
     if (row || look)
         complete_row(r);
-    for (size_t i = 0; i < q->observers && !status && row; i++)
-        if (q->observer[i].row)
-            status = q->observer[i].row(q->observer[i].self, &r->row, err);
-    for (size_t i = 0; i < q->observers && !status && look; i++)
-        if (q->observer[i].look)
-            status = q->observer[i].look(q->observer[i].self, r->march, &r->row, err);
+    for (const struct br_history_observer *o = q->observer; o < end && !status; o++) {
+        if (row && o->row)
+            status = o->row(o->self, &r->row, err);
+        if (look && o->look && !status)
+            status = o->look(o->self, r->march, &r->row, err);
+        if ((row && o->row) || (look && o->look))
+            br_step_cost_mark(&o->mark, r->row.step);
+    }
     return status;
 }
 

@@ -17,6 +17,35 @@ struct br_history_row {
     double friction_bound;  /* h(t_n), N */
 };
 
+/* ---- the parts of a step ---- */
+
+/* X(name, text): the parts. */
+#define BR_COST_LIST(X)                          \
+    X(BR_COST_LOAD_AXIAL, "load, axial")         \
+    X(BR_COST_FIELD_AXIAL, "axial field")        \
+    X(BR_COST_CONTACT, "contact law")            \
+    X(BR_COST_LOAD_BENDING, "load, bending")     \
+    X(BR_COST_FIELD_BENDING, "bending field")    \
+    X(BR_COST_FRICTION, "friction law")          \
+    X(BR_COST_RECORD, "records")                 \
+    X(BR_COST_CHECK, "certificate and energies") \
+    X(BR_COST_OUTPUT, "output")
+
+enum br_cost_part {
+#define X(name, text) name,
+    BR_COST_LIST(X)
+#undef X
+        BR_COST_PARTS
+};
+
+/* What an observer does is a part of the step's cost; cost NULL: of none. */
+struct br_cost_mark {
+    struct br_step_cost *cost;
+    enum br_cost_part part;
+};
+
+/* ---- a march that is watched ---- */
+
 /* Who watches a march; every function may be NULL. A status other than BR_OK ends the march and is
  * what br_history_run returns. The march is at the row's time level. */
 struct br_history_observer {
@@ -33,6 +62,7 @@ struct br_history_observer {
     /* The chosen levels: br_march_get has the fields. */
     enum br_status (*look)(void *self, const struct br_march *march,
                            const struct br_history_row *row, struct br_error *err);
+    struct br_cost_mark mark;
 };
 
 /* What is marched, and which observers get which rows. All borrowed. */
@@ -90,19 +120,14 @@ const double *br_history_field(const struct br_history_record *record, size_t lo
  * reversed, and the extremes. An event is seen at the first time level of the new regime, so it
  * happened within the step before it. */
 
-/* X(name, word): what the tip did. */
-#define BR_EVENT_LIST(X)         \
-    X(BR_TIP_CLOSED, "closed")   \
-    X(BR_TIP_OPENED, "opened")   \
-    X(BR_TIP_STUCK, "stuck")     \
-    X(BR_TIP_SLIPPED, "slipped") \
-    X(BR_TIP_REVERSED, "reversed") /* slips the other way than it last did */
-
+/* What the tip did. */
 enum br_tip_event_kind {
-#define X(name, word) name,
-    BR_EVENT_LIST(X)
-#undef X
-        BR_TIP_EVENTS
+    BR_TIP_CLOSED,
+    BR_TIP_OPENED,
+    BR_TIP_STUCK,
+    BR_TIP_SLIPPED,
+    BR_TIP_REVERSED, /* slips the other way than it last did */
+    BR_TIP_EVENTS
 };
 
 /* The friction's regime. */
@@ -161,25 +186,6 @@ struct br_history_observer br_tip_watch_start(struct br_tip_watch *watch,
 /* What the parts of a step cost, as measured: the march's solver is wrapped in one that reads the
  * clock around what it calls, so that the march itself knows nothing of it. */
 
-/* X(name, text): the parts. */
-#define BR_COST_LIST(X)                          \
-    X(BR_COST_LOAD_AXIAL, "load, axial")         \
-    X(BR_COST_FIELD_AXIAL, "axial field")        \
-    X(BR_COST_CONTACT, "contact law")            \
-    X(BR_COST_LOAD_BENDING, "load, bending")     \
-    X(BR_COST_FIELD_BENDING, "bending field")    \
-    X(BR_COST_FRICTION, "friction law")          \
-    X(BR_COST_RECORD, "records")                 \
-    X(BR_COST_CHECK, "certificate and energies") \
-    X(BR_COST_OUTPUT, "output")
-
-enum br_cost_part {
-#define X(name, text) name,
-    BR_COST_LIST(X)
-#undef X
-        BR_COST_PARTS
-};
-
 /* One march's cost; one at a time in a thread. */
 struct br_step_cost {
     double seconds[BR_COST_PARTS]; /* the clock's own cost is taken off by br_step_cost_end */
@@ -201,16 +207,7 @@ void br_step_cost_begin(struct br_step_cost *cost, const struct br_scene *scene,
 /* Ends, and takes off what reading the clock took. */
 void br_step_cost_end(struct br_step_cost *cost);
 
-/* The time since the last reading goes to a part; cost NULL: nothing. For observers. */
-void br_step_cost_lap(struct br_step_cost *cost, enum br_cost_part part);
-
-/* An observer that ends a part: put it behind the observers whose work that is. `step` says which
- * of an observer's calls are meant: that of every step, or those of rows and looks. */
-struct br_cost_mark {
-    struct br_step_cost *cost;
-    enum br_cost_part part;
-};
-struct br_history_observer br_cost_mark_step(struct br_cost_mark *mark);
-struct br_history_observer br_cost_mark_output(struct br_cost_mark *mark);
+/* The time since the last reading goes to the mark's part; at step 0 it was setting up. */
+void br_step_cost_mark(const struct br_cost_mark *mark, size_t step);
 
 #endif

@@ -29,17 +29,11 @@ enum br_status br_model_select(const struct br_scene *scene, unsigned wanted,
 
 /* ---- rows ---- */
 
-struct rows {
-    const struct br_model_question *q;
-    struct br_model_row *row;
-    size_t count;
-};
-
-__attribute__((format(printf, 5, 6))) static void add(struct rows *r, const char *key,
+__attribute__((format(printf, 5, 6))) static void add(struct br_run_report *r, const char *key,
                                                       const char *part, bool modelled,
                                                       const char *format, ...)
 {
-    struct br_model_row *row = &r->row[r->count++];
+    struct br_model_row *row = &r->model[r->model_rows++];
     *row = (struct br_model_row){.key = key, .part = part, .modelled = modelled};
     va_list args;
     va_start(args, format);
@@ -47,14 +41,14 @@ __attribute__((format(printf, 5, 6))) static void add(struct rows *r, const char
     va_end(args);
 }
 
-static void add_axial(struct rows *r)
+static void add_axial(struct br_run_report *r)
 {
-    if (r->q->marched->axial.modelled)
+    if (r->marched.axial.modelled)
         add(r, "axial", "axial field", true, "%zu unknowns, P%d elements",
-            r->q->n * (size_t)r->q->method->axial_degree, r->q->method->axial_degree);
-    else if (!r->q->scene->axial.modelled)
+            r->n * (size_t)r->method.axial_degree, r->method.axial_degree);
+    else if (!r->scene->axial.modelled)
         add(r, "axial", "axial field", false, "the scene has no axial part");
-    else if (r->q->scene->friction.law == BR_TRESCA && r->q->marched->bending.modelled)
+    else if (r->scene->friction.law == BR_TRESCA && r->marched.bending.modelled)
         add(r, "axial", "axial field", false,
             "not asked for: Tresca's bound does not depend on it, nor does bending; --fields "
             "axial,bending marches it");
@@ -62,45 +56,44 @@ static void add_axial(struct rows *r)
         add(r, "axial", "axial field", false, "not asked for by --fields");
 }
 
-static void add_bending(struct rows *r)
+static void add_bending(struct br_run_report *r)
 {
-    if (r->q->marched->bending.modelled)
-        add(r, "bending", "bending field", true, "%zu unknowns, cubic Hermite elements",
-            2 * r->q->n);
-    else if (!r->q->scene->bending.modelled)
+    if (r->marched.bending.modelled)
+        add(r, "bending", "bending field", true, "%zu unknowns, cubic Hermite elements", 2 * r->n);
+    else if (!r->scene->bending.modelled)
         add(r, "bending", "bending field", false, "the scene has no bending part");
     else
         add(r, "bending", "bending field", false, "not asked for by --fields");
 }
 
-static void add_contact(struct rows *r)
+static void add_contact(struct br_run_report *r)
 {
-    if (r->q->marched->contact.modelled)
-        add(r, "contact", "contact", true, "normal compliance (10), %s",
-            r->q->method->contact->title);
-    else if (!r->q->scene->contact.modelled)
+    if (r->marched.contact.modelled)
+        add(r, "contact", "contact", true, "normal compliance (10), %s", r->method.contact->title);
+    else if (!r->scene->contact.modelled)
         add(r, "contact", "contact", false, "the scene has no contact part: no lagged force");
     else
         add(r, "contact", "contact", false, "it acts on the axial field, which is not marched");
 }
 
-static void add_friction(struct rows *r)
+static void add_friction(struct br_run_report *r)
 {
-    const struct br_friction *f = &r->q->marched->friction;
-    const char *title = r->q->method->friction->title;
+    const struct br_friction *f = &r->marched.friction;
+    const char *title = r->method.friction->title;
     if (f->law == BR_TRESCA)
         add(r, "friction", "friction", true, "Tresca, the bound is constant, %g N; %s",
             f->coefficient, title);
     else if (f->law == BR_COULOMB)
         add(r, "friction", "friction", true, "Coulomb, the bound is c_V (u(L) - g)_+; %s", title);
-    else if (r->q->scene->friction.law == BR_FRICTIONLESS)
+    else if (r->scene->friction.law == BR_FRICTIONLESS)
         add(r, "friction", "friction", false,
             "the scene has no friction part: no friction algebra");
     else
         add(r, "friction", "friction", false, "it acts on the bending field, which is not marched");
 }
 
-static void add_terms(struct rows *r, const char *key, const char *part, const struct br_load *load)
+static void add_terms(struct br_run_report *r, const char *key, const char *part,
+                      const struct br_load *load)
 {
     size_t moving = 0, quadrature = 0, products = 0, histories = 0;
     for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
@@ -118,7 +111,7 @@ static void add_terms(struct rows *r, const char *key, const char *part, const s
                                     : "its history is constant: nothing a step";
     if (moving)
         add(r, key, part, true, "f(x, t): quadrature every step, %zu evaluations",
-            5 * moving * r->q->n);
+            5 * moving * r->n);
     else if (products > 1)
         add(r, key, part, true,
             "%zu products F(x) G(t): assembled once; their sum, with %zu histories, a step",
@@ -127,12 +120,12 @@ static void add_terms(struct rows *r, const char *key, const char *part, const s
         add(r, key, part, true, "%s; %s", how, history);
 }
 
-static void add_load(struct rows *r, enum br_field_kind kind)
+static void add_load(struct br_run_report *r, enum br_field_kind kind)
 {
     const bool axial = kind == BR_AXIAL;
     const char *key = axial ? "axial_load" : "bending_load";
     const char *part = axial ? "axial load" : "bending load";
-    const struct br_scene *s = r->q->marched;
+    const struct br_scene *s = &r->marched;
     const struct br_load *load = axial ? &s->axial.load : &s->bending.load;
     if (!(axial ? s->axial.modelled : s->bending.modelled))
         return;
@@ -142,9 +135,9 @@ static void add_load(struct rows *r, enum br_field_kind kind)
         add_terms(r, key, part, load);
 }
 
-static void add_tip_loads(struct rows *r)
+static void add_tip_loads(struct br_run_report *r)
 {
-    const struct br_scene *s = r->q->marched;
+    const struct br_scene *s = &r->marched;
     const struct {
         const char *key, *part;
         bool marched;
@@ -160,16 +153,16 @@ static void add_tip_loads(struct rows *r)
                 loads[i].f->uses_t ? "one evaluation a step" : "constant");
 }
 
-static void add_initial(struct rows *r)
+static void add_initial(struct br_run_report *r)
 {
-    const struct br_scene *s = r->q->marched;
+    const struct br_scene *s = &r->marched;
     const bool axial = s->axial.modelled && !(br_function_is_zero(&s->axial.displacement) &&
                                               br_function_is_zero(&s->axial.velocity));
     const bool bending = s->bending.modelled && !(br_function_is_zero(&s->bending.displacement) &&
                                                   br_function_is_zero(&s->bending.velocity));
     if (axial || bending)
         add(r, "initial_data", "initial data", true, "interpolated once, at the nodes%s: %s",
-            axial && r->q->method->axial_degree == 2 ? " and midpoints" : "",
+            axial && r->method.axial_degree == 2 ? " and midpoints" : "",
             axial && bending ? "both fields"
             : axial          ? "axial"
                              : "bending");
@@ -177,29 +170,26 @@ static void add_initial(struct rows *r)
         add(r, "initial_data", "initial data", false, "zero: not interpolated");
 }
 
-static void add_rebuilding(struct rows *r)
+static void add_rebuilding(struct br_run_report *r)
 {
-    if (r->q->every_step)
+    if (r->summed)
         add(r, "nodal_fields", "nodal fields", true,
             "rebuilt every step, for the certificate or the energies");
     else
         add(r, "nodal_fields", "nodal fields", true,
-            "rebuilt at t = 0, at %zu output time%s and at the end, not in the steps", r->q->looks,
-            r->q->looks == 1 ? "" : "s");
+            "rebuilt at t = 0, at %zu output time%s and at the end, not in the steps", r->levels,
+            r->levels == 1 ? "" : "s");
 }
 
-size_t br_model_rows(const struct br_model_question *question,
-                     struct br_model_row row[BR_MOST_MODEL_ROWS])
+void br_run_fill_model(struct br_run_report *r)
 {
-    struct rows r = {.q = question, .row = row};
-    add_axial(&r);
-    add_bending(&r);
-    add_contact(&r);
-    add_friction(&r);
-    add_load(&r, BR_AXIAL);
-    add_load(&r, BR_BENDING);
-    add_tip_loads(&r);
-    add_initial(&r);
-    add_rebuilding(&r);
-    return r.count;
+    add_axial(r);
+    add_bending(r);
+    add_contact(r);
+    add_friction(r);
+    add_load(r, BR_AXIAL);
+    add_load(r, BR_BENDING);
+    add_tip_loads(r);
+    add_initial(r);
+    add_rebuilding(r);
 }

@@ -13,7 +13,6 @@ struct run {
     struct br_run_report *report;
     struct br_step_checker *checker;
     struct br_energy_meter *meter;
-    struct br_cost_mark record, check, output;
 };
 
 /* ---- observers ---- */
@@ -96,46 +95,32 @@ static enum br_status watch_progress(void *self, const struct br_march *march,
     return BR_OK;
 }
 
-enum { MOST_OBSERVERS = BR_MOST_OUTPUTS + 6 };
+enum { MOST_OBSERVERS = BR_MOST_OUTPUTS + 3 };
 
-/* In the order in which they are called, with marks behind each kind of work. */
+/* In the order in which they are called. */
 static size_t list_observers(struct run *r, struct br_history_observer list[MOST_OBSERVERS])
 {
     const struct br_run_request *q = r->request;
+    struct br_step_cost *cost = q->explain ? &r->report->cost : NULL;
     size_t count = 0;
-    list[count++] = br_tip_watch_start(&r->report->watch, &r->report->marched, q->steps);
+    list[count] = br_tip_watch_start(&r->report->watch, &r->report->marched, q->steps);
+    list[count++].mark = (struct br_cost_mark){cost, BR_COST_RECORD};
     r->report->watch.trapezoidal = q->method.scheme != br_time_schemes[0];
-    if (q->explain)
-        list[count++] = br_cost_mark_step(&r->record);
     list[count++] =
-        (struct br_history_observer){.self = r, .begin = start_checks, .step = watch_checks};
-    if (q->explain && r->report->summed)
-        list[count++] = br_cost_mark_step(&r->check);
-    for (size_t i = 0; i < q->outputs && i < BR_MOST_OUTPUTS; i++)
-        list[count++] = q->output[i];
+        (struct br_history_observer){.self = r,
+                                     .begin = start_checks,
+                                     .step = watch_checks,
+                                     .mark = {r->report->summed ? cost : NULL, BR_COST_CHECK}};
+    for (size_t i = 0; i < q->outputs && i < BR_MOST_OUTPUTS; i++) {
+        list[count] = q->output[i];
+        list[count++].mark = (struct br_cost_mark){cost, BR_COST_OUTPUT};
+    }
     if (q->progress)
         list[count++] = (struct br_history_observer){.self = r, .step = watch_progress};
-    if (q->explain)
-        list[count++] = br_cost_mark_output(&r->output);
     return count;
 }
 
 /* ---- the run ---- */
-
-static void fill_model(struct run *r)
-{
-    struct br_run_report *p = r->report;
-    const struct br_model_question question = {
-        .scene = p->scene,
-        .marched = &p->marched,
-        .method = &p->method,
-        .n = p->n,
-        .steps = p->steps,
-        .looks = p->levels,
-        .every_step = p->summed,
-    };
-    p->model_rows = br_model_rows(&question, p->model);
-}
 
 /* The last good state's energies: where the works were not summed, those of the last step, which a
  * march that failed has lost. */
@@ -220,12 +205,9 @@ enum br_status br_run(const struct br_run_request *q, struct br_run_report *p, s
         .explained = q->explain,
     };
     struct run r = {.request = q, .report = p};
-    r.record = (struct br_cost_mark){&p->cost, BR_COST_RECORD};
-    r.check = (struct br_cost_mark){&p->cost, BR_COST_CHECK};
-    r.output = (struct br_cost_mark){&p->cost, BR_COST_OUTPUT};
     enum br_status status = br_model_select(q->scene, q->wanted, &p->marched, err);
     if (status)
         return status;
-    fill_model(&r);
+    br_run_fill_model(p);
     return march(&r, err);
 }

@@ -31,19 +31,6 @@ struct br_model_row {
 
 enum { BR_MOST_MODEL_ROWS = 16 };
 
-/* What decides on the rows. Borrowed. */
-struct br_model_question {
-    const struct br_scene *scene, *marched;
-    const struct br_method *method;
-    size_t n, steps;
-    size_t looks;    /* output times of the fields */
-    bool every_step; /* the fields are rebuilt every step, for energies or a certificate */
-};
-
-/* Fills the rows (out); returns their number. */
-size_t br_model_rows(const struct br_model_question *question,
-                     struct br_model_row row[BR_MOST_MODEL_ROWS]);
-
 /* ---- a run ---- */
 
 enum { BR_MOST_OUTPUTS = 8 };
@@ -99,6 +86,9 @@ struct br_run_report {
     double round_off;      /* predicted, of the displacements */
     bool contact_unstable; /* br_march_contact_unstable */
 };
+
+/* Fills in what is modelled, and why, from the rest of the report. */
+void br_run_fill_model(struct br_run_report *report);
 
 /* Marches and fills the report (out). A march that fails is a result: report->failure, BR_OK is
  * returned. Fails with BR_BAD_INPUT where the march cannot begin, with BR_NO_MEMORY,

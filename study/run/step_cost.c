@@ -17,14 +17,20 @@ const char *br_cost_part_text(enum br_cost_part part)
     return texts[part];
 }
 
-void br_step_cost_lap(struct br_step_cost *cost, enum br_cost_part part)
+static void lap(struct br_step_cost *cost, enum br_cost_part part)
 {
-    if (!cost)
-        return;
     const double now = br_seconds();
     cost->seconds[part] += now - cost->last;
     cost->laps[part]++;
     cost->last = now;
+}
+
+void br_step_cost_mark(const struct br_cost_mark *mark, size_t step)
+{
+    if (mark->cost && step > 0)
+        lap(mark->cost, mark->part);
+    else if (mark->cost)
+        mark->cost->last = br_seconds();
 }
 
 /* ---- the measuring solver ---- */
@@ -33,9 +39,9 @@ static enum br_status predict(enum br_field_kind kind, void *self, const struct 
                               double *velocity, struct br_error *err)
 {
     const bool axial = kind == BR_AXIAL;
-    br_step_cost_lap(current, axial ? BR_COST_LOAD_AXIAL : BR_COST_LOAD_BENDING);
+    lap(current, axial ? BR_COST_LOAD_AXIAL : BR_COST_LOAD_BENDING);
     const enum br_status status = inner[kind]->predict(self, drive, velocity, err);
-    br_step_cost_lap(current, axial ? BR_COST_FIELD_AXIAL : BR_COST_FIELD_BENDING);
+    lap(current, axial ? BR_COST_FIELD_AXIAL : BR_COST_FIELD_BENDING);
     return status;
 }
 
@@ -54,9 +60,9 @@ static enum br_status predict_bending(void *self, const struct br_drive *drive, 
 static double finish(enum br_field_kind kind, void *self, double force)
 {
     const bool axial = kind == BR_AXIAL;
-    br_step_cost_lap(current, axial ? BR_COST_CONTACT : BR_COST_FRICTION);
+    lap(current, axial ? BR_COST_CONTACT : BR_COST_FRICTION);
     const double velocity = inner[kind]->finish(self, force);
-    br_step_cost_lap(current, axial ? BR_COST_FIELD_AXIAL : BR_COST_FIELD_BENDING);
+    lap(current, axial ? BR_COST_FIELD_AXIAL : BR_COST_FIELD_BENDING);
     return velocity;
 }
 
@@ -89,7 +95,7 @@ static double measure_lap(void)
     for (int trial = 0; trial < 20; trial++) {
         struct br_step_cost c = {.last = br_seconds()};
         for (int i = 0; i < 200; i++)
-            br_step_cost_lap(&c, BR_COST_RECORD);
+            lap(&c, BR_COST_RECORD);
         least = c.seconds[BR_COST_RECORD] < least ? c.seconds[BR_COST_RECORD] : least;
     }
     return least / 200;
@@ -119,33 +125,4 @@ void br_step_cost_end(struct br_step_cost *cost)
         const double own = cost->lap_seconds * (double)cost->laps[part];
         cost->seconds[part] = cost->seconds[part] > own ? cost->seconds[part] - own : 0;
     }
-}
-
-/* ---- observers ---- */
-
-static enum br_status mark_step(void *self, const struct br_march *march,
-                                const struct br_history_row *row, struct br_error *err)
-{
-    (void)march, (void)err;
-    const struct br_cost_mark *mark = self;
-    if (row->step == 0)
-        mark->cost->last = br_seconds(); /* what was before is setting up */
-    else
-        br_step_cost_lap(mark->cost, mark->part);
-    return BR_OK;
-}
-
-static enum br_status mark_row(void *self, const struct br_history_row *row, struct br_error *err)
-{
-    return mark_step(self, NULL, row, err);
-}
-
-struct br_history_observer br_cost_mark_step(struct br_cost_mark *mark)
-{
-    return (struct br_history_observer){.self = mark, .step = mark_step};
-}
-
-struct br_history_observer br_cost_mark_output(struct br_cost_mark *mark)
-{
-    return (struct br_history_observer){.self = mark, .row = mark_row, .look = mark_step};
 }

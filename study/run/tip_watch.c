@@ -5,11 +5,7 @@
 
 const char *br_tip_event_word(enum br_tip_event_kind kind)
 {
-    static const char *const words[] = {
-#define X(name, word) [name] = word,
-        BR_EVENT_LIST(X)
-#undef X
-    };
+    static const char *const words[] = {"closed", "opened", "stuck", "slipped", "reversed"};
     return words[kind];
 }
 

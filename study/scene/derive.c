@@ -18,15 +18,12 @@ static unsigned number(builder *b, double value)
     return br_tree_number(b, value);
 }
 
-static unsigned of(builder *b, enum br_operation operation, unsigned a)
-{
-    return br_tree_node(b, operation, a, 0, 0);
-}
-
 static unsigned negate(builder *b, unsigned a)
 {
     const bool twice = a != BR_NO_NODE && b->tree.node[a].operation == BR_OP_NEGATE;
-    return is(b, a, 0) ? a : twice ? b->tree.node[a].argument[0] : of(b, BR_OP_NEGATE, a);
+    return is(b, a, 0) ? a
+           : twice     ? b->tree.node[a].argument[0]
+                       : br_tree_node(b, BR_OP_NEGATE, a, 0, 0);
 }
 
 static unsigned add(builder *b, unsigned a, unsigned c)
@@ -60,84 +57,51 @@ static unsigned power(builder *b, unsigned a, unsigned c)
     return is(b, c, 0) ? number(b, 1) : is(b, c, 1) ? a : br_tree_node(b, BR_OP_POW, a, c, 0);
 }
 
-static unsigned square(builder *b, unsigned a)
-{
-    return power(b, a, number(b, 2));
-}
-
-/* 1 - a^2 and a^2 - 1, without cancellation */
-static unsigned one_minus_square(builder *b, unsigned a)
-{
-    const unsigned one = number(b, 1);
-    return multiply(b, subtract(b, one, a), add(b, one, a));
-}
-
-static unsigned square_minus_one(builder *b, unsigned a)
-{
-    const unsigned one = number(b, 1);
-    return multiply(b, subtract(b, a, one), add(b, a, one));
-}
-
 /* ---- rules ---- */
 
-/* f'(a) of an inverse function, or of one that is constant between jumps */
-static unsigned outer_of_inverse(builder *b, enum br_operation operation, unsigned a)
-{
-    const unsigned one = number(b, 1);
-    switch (operation) {
-    case BR_OP_ASIN:
-        return divide(b, one, of(b, BR_OP_SQRT, one_minus_square(b, a)));
-    case BR_OP_ACOS:
-        return divide(b, number(b, -1), of(b, BR_OP_SQRT, one_minus_square(b, a)));
-    case BR_OP_ATAN:
-        return divide(b, one, add(b, one, square(b, a)));
-    case BR_OP_ASINH:
-        return divide(b, one, of(b, BR_OP_SQRT, add(b, one, square(b, a))));
-    case BR_OP_ACOSH:
-        return divide(b, one, of(b, BR_OP_SQRT, square_minus_one(b, a)));
-    case BR_OP_ATANH:
-        return divide(b, one, one_minus_square(b, a));
-    default: /* not, sign, step */
-        return number(b, 0);
-    }
-}
+/* f'(x) of a function of one argument, whose value f(x) is t; without cancellation. Those of not,
+ * sign and step, which are constant between jumps, are 0. */
+static const struct {
+    enum br_operation operation;
+    const char *slope;
+} rules[] = {
+    {BR_OP_NEGATE, "-1"},
+    {BR_OP_SIN, "cos(x)"},
+    {BR_OP_COS, "-sin(x)"},
+    {BR_OP_TAN, "1 + t^2"},
+    {BR_OP_ASIN, "1/sqrt((1 - x)*(1 + x))"},
+    {BR_OP_ACOS, "-1/sqrt((1 - x)*(1 + x))"},
+    {BR_OP_ATAN, "1/(1 + x^2)"},
+    {BR_OP_SINH, "cosh(x)"},
+    {BR_OP_COSH, "sinh(x)"},
+    {BR_OP_TANH, "1/cosh(x)^2"},
+    {BR_OP_ASINH, "1/sqrt(1 + x^2)"},
+    {BR_OP_ACOSH, "1/sqrt((x - 1)*(x + 1))"},
+    {BR_OP_ATANH, "1/((1 - x)*(1 + x))"},
+    {BR_OP_EXP, "t"},
+    {BR_OP_EXPM1, "exp(x)"},
+    {BR_OP_LOG, "1/x"},
+    {BR_OP_LOG2, "1/(0.69314718055994530942*x)"},
+    {BR_OP_LOG10, "1/(2.30258509299404568402*x)"},
+    {BR_OP_SQRT, "0.5/t"},
+    {BR_OP_ABS, "2*step(x) - 1"},
+};
 
-/* f'(a) of a function of one argument, f = node i */
+/* f'(a), f = node i */
 static unsigned outer(builder *b, enum br_operation operation, unsigned i, unsigned a)
 {
-    const unsigned one = number(b, 1);
-    switch (operation) {
-    case BR_OP_NEGATE:
-        return number(b, -1);
-    case BR_OP_SIN:
-        return of(b, BR_OP_COS, a);
-    case BR_OP_COS:
-        return negate(b, of(b, BR_OP_SIN, a));
-    case BR_OP_TAN:
-        return add(b, one, square(b, i));
-    case BR_OP_SINH:
-        return of(b, BR_OP_COSH, a);
-    case BR_OP_COSH:
-        return of(b, BR_OP_SINH, a);
-    case BR_OP_TANH:
-        return divide(b, one, square(b, of(b, BR_OP_COSH, a)));
-    case BR_OP_EXP:
-        return i;
-    case BR_OP_EXPM1:
-        return of(b, BR_OP_EXP, a);
-    case BR_OP_LOG:
-        return divide(b, one, a);
-    case BR_OP_LOG2:
-        return divide(b, one, multiply(b, number(b, M_LN2), a));
-    case BR_OP_LOG10:
-        return divide(b, one, multiply(b, number(b, M_LN10), a));
-    case BR_OP_SQRT:
-        return divide(b, number(b, 0.5), i);
-    case BR_OP_ABS:
-        return subtract(b, multiply(b, number(b, 2), of(b, BR_OP_STEP, a)), one);
-    default:
-        return outer_of_inverse(b, operation, a);
-    }
+    struct br_tree rule;
+    for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
+        if (rules[k].operation == operation) {
+            if (br_expression_parse(rules[k].slope, &rule, NULL)) {
+                b->status = BR_NO_MEMORY;
+                return BR_NO_NODE;
+            }
+            const unsigned out = br_tree_substitute(b, &rule, (unsigned)rule.count - 1, a, i);
+            br_tree_clear(&rule);
+            return out;
+        }
+    return number(b, 0);
 }
 
 /* An argument: its node and its derivative. */
@@ -152,7 +116,8 @@ static unsigned of_power(builder *b, unsigned i, struct argument a, struct argum
     const unsigned base = multiply(b, multiply(b, c.value, less), a.slope);
     if (is(b, c.slope, 0))
         return base;
-    return add(b, base, multiply(b, multiply(b, i, of(b, BR_OP_LOG, a.value)), c.slope));
+    return add(b, base,
+               multiply(b, multiply(b, i, br_tree_node(b, BR_OP_LOG, a.value, 0, 0)), c.slope));
 }
 
 /* What a.slope and c.slope contribute where a is less (or greater) and elsewhere. */
@@ -230,31 +195,6 @@ static enum br_status derive_often(const struct br_tree *tree, struct br_partial
     return status;
 }
 
-/* A tree with numbers in the place of x and t (NaN: x and t). */
-static unsigned graft_at(builder *b, const struct br_tree *tree, double x, double t)
-{
-    unsigned *place = br_allocate(tree->count, sizeof *place);
-    if (!place) {
-        b->status = BR_NO_MEMORY;
-        return BR_NO_NODE;
-    }
-    for (size_t i = 0; i < tree->count; i++) {
-        const struct br_node *n = &tree->node[i];
-        if (n->operation == BR_OP_NUMBER)
-            place[i] = number(b, n->number);
-        else if (n->operation == BR_OP_X && !isnan(x))
-            place[i] = number(b, x);
-        else if (n->operation == BR_OP_T && !isnan(t))
-            place[i] = number(b, t);
-        else
-            place[i] = br_tree_node(b, n->operation, place[n->argument[0]], place[n->argument[1]],
-                                    place[n->argument[2]]);
-    }
-    const unsigned root = place[tree->count - 1];
-    free(place);
-    return root;
-}
-
 enum br_status br_tree_derivation(const struct br_tree *tree, const struct br_derivation *what,
                                   struct br_tree *out, struct br_error *err)
 {
@@ -270,7 +210,10 @@ enum br_status br_tree_derivation(const struct br_tree *tree, const struct br_de
         if (status)
             break;
         const unsigned factor = number(&b, what->term[i].factor);
-        sum = add(&b, sum, multiply(&b, factor, graft_at(&b, &one, what->x, what->t)));
+        const unsigned x = isnan(what->x) ? BR_NO_NODE : number(&b, what->x);
+        const unsigned t = isnan(what->t) ? BR_NO_NODE : number(&b, what->t);
+        const unsigned there = br_tree_substitute(&b, &one, (unsigned)one.count - 1, x, t);
+        sum = add(&b, sum, multiply(&b, factor, there));
         br_tree_clear(&one);
     }
     if (!status)

@@ -58,17 +58,6 @@ struct form {
 
 _Static_assert(sizeof(struct form) <= BR_TREE_WORK * sizeof(iv), "the workspace of a node");
 
-/* Those of abs, min and max where it is not decided which side they are on. */
-static bool is_kinked(enum br_operation o, const iv *range, iv partial[2])
-{
-    const bool extreme = o == BR_OP_MIN || o == BR_OP_MAX;
-    const iv side = o == BR_OP_ABS ? (iv){-1, 1} : (iv){0, 1};
-    const bool undecided = extreme ? br_has_zero(br_interval_subtract(range[0], range[1]))
-                                   : o == BR_OP_ABS && br_has_zero(range[0]);
-    partial[0] = partial[1] = side;
-    return undecided;
-}
-
 /* The derivative of the operation by its argument `which`, at all of its arguments. */
 static iv partial_of(enum br_operation o, const iv *range, unsigned which)
 {
@@ -97,19 +86,18 @@ static bool is_constant_form(const struct form *f)
 
 static void differentiate(enum br_operation o, const struct form *const argument[3], struct form *f)
 {
-    iv range[3], partial[2];
-    const unsigned arguments = br_operation_arguments(o);
+    iv range[3];
     for (unsigned k = 0; k < 3; k++)
         range[k] = argument[k]->range;
+    if ((o == BR_OP_MIN || o == BR_OP_MAX) && br_has_zero(br_interval_subtract(range[0], range[1])))
+        return mix(argument[0], argument[1], f);
     f->slope[0] = f->slope[1] = br_point(0);
     f->error = 0;
-    const bool kinked = is_kinked(o, range, partial);
-    if (kinked && arguments == 2)
-        mix(argument[0], argument[1], f);
-    for (unsigned k = 0; k < arguments && !(kinked && arguments == 2); k++) {
+    const bool kinked = o == BR_OP_ABS && br_has_zero(range[0]);
+    for (unsigned k = 0; k < br_operation_arguments(o); k++) {
         if (is_constant_form(argument[k]))
             continue;
-        const iv p = kinked ? partial[k] : partial_of(o, range, k);
+        const iv p = kinked ? (iv){-1, 1} : partial_of(o, range, k);
         for (int v = 0; v < 2; v++)
             f->slope[v] =
                 br_interval_add(f->slope[v], br_interval_multiply(p, argument[k]->slope[v]));
@@ -202,77 +190,13 @@ bool br_tree_bound(const struct br_tree *tree, iv *work, struct br_box box, iv *
 
 /* ---- guards ---- */
 
-/* A guard as a function: a tree, and a workspace that may be another's. */
-struct guard {
-    struct br_tree tree;
-    iv *work, *own_work;
-};
-
-static void guard_free(void *self)
-{
-    struct guard *g = self;
-    if (!g)
-        return;
-    br_tree_clear(&g->tree);
-    free(g->own_work);
-    free(g);
-}
-
-static void *guard_clone(const void *self)
-{
-    const struct br_tree *from = &((const struct guard *)self)->tree;
-    struct guard *g = br_allocate(1, sizeof *g);
-    if (!g)
-        return NULL;
-    g->tree = (struct br_tree){br_allocate(from->count, sizeof *from->node), from->count};
-    g->work = g->own_work = br_allocate(from->count, BR_TREE_WORK * sizeof *g->work);
-    if (!g->tree.node || !g->work) {
-        guard_free(g);
-        return NULL;
-    }
-    memcpy(g->tree.node, from->node, from->count * sizeof *from->node);
-    return g;
-}
-
-static bool guard_bound(const void *self, struct br_box box, iv *value)
-{
-    const struct guard *g = self;
-    return br_tree_bound(&g->tree, g->work, box, value);
-}
-
-static bool guard_taylor(const void *self, enum br_variable along, struct br_box box, size_t order,
-                         iv *coefficient)
-{
-    const struct guard *g = self;
-    return br_tree_taylor(&g->tree, g->work, along, box, order, coefficient);
-}
-
-/* The middle of what is proved of each point. */
-static void guard_evaluate(void *self, size_t count, const double *x, double t, double *value)
-{
-    for (size_t i = 0; i < count; i++) {
-        iv at;
-        const struct br_box point = {br_point(x[i]), br_point(t)};
-        value[i] = guard_bound(self, point, &at) ? at.low + (at.high - at.low) / 2 : NAN;
-    }
-}
-
-static const struct br_function_ops guard_ops = {
-    .evaluate = guard_evaluate,
-    .clone = guard_clone,
-    .free = guard_free,
-    .bound = guard_bound,
-    .taylor = guard_taylor,
-};
-
 static bool is_truth(enum br_operation o)
 {
     return o == BR_OP_NOT || (o >= BR_OP_LESS && o <= BR_OP_OR);
 }
 
-/* The guard of a node's argument k; BR_NO_NODE where it has none. */
-static unsigned guard_node(struct br_tree_builder *b, const struct br_tree *tree,
-                           const struct br_node *n, unsigned k)
+unsigned br_tree_guard(const struct br_tree *tree, const struct br_node *n, unsigned k,
+                       struct br_tree_builder *b)
 {
     const enum br_operation o = n->operation;
     const unsigned a = n->argument[k];
@@ -287,49 +211,4 @@ static unsigned guard_node(struct br_tree_builder *b, const struct br_tree *tree
     return compares
                ? br_tree_node(b, BR_OP_SUBTRACT, first, br_tree_graft(b, tree, n->argument[1]), 0)
                : first;
-}
-
-/* Appends the guard, if there is one, as a function. */
-static enum br_status add_guard(struct br_proofs *p, const struct br_tree *tree,
-                                const struct br_node *n, unsigned k, struct br_error *err)
-{
-    struct br_tree_builder b = {0};
-    const unsigned root = guard_node(&b, tree, n, k);
-    if (root == BR_NO_NODE && !b.status)
-        return BR_OK;
-    struct guard *g = br_allocate(1, sizeof *g);
-    if (!g)
-        b.status = BR_NO_MEMORY;
-    struct br_tree made;
-    const enum br_status status = br_tree_finish(&b, root, &made, err);
-    if (status) {
-        free(g);
-        return status;
-    }
-    *g = (struct guard){made, p->work, NULL};
-    const struct br_node *last = &made.node[made.count - 1];
-    p->guard[p->guards++] = (struct br_function){
-        .ops = &guard_ops, .self = g, .uses_x = last->uses_x, .uses_t = last->uses_t};
-    return BR_OK;
-}
-
-enum br_status br_proofs_init(struct br_proofs *p, const struct br_tree *tree, struct br_error *err)
-{
-    /* a guard has at most one node more */
-    *p = (struct br_proofs){.work = br_allocate(tree->count + 1, BR_TREE_WORK * sizeof *p->work),
-                            .guard = br_allocate(3 * tree->count, sizeof *p->guard)};
-    enum br_status status = p->work && p->guard ? BR_OK : br_no_memory(err, "an expression");
-    for (size_t i = 0; i < tree->count && !status; i++)
-        for (unsigned k = 0; k < br_operation_arguments(tree->node[i].operation) && !status; k++)
-            status = add_guard(p, tree, &tree->node[i], k, err);
-    return status;
-}
-
-void br_proofs_clear(struct br_proofs *p)
-{
-    for (size_t i = 0; i < p->guards; i++)
-        br_function_free(&p->guard[i]);
-    free(p->guard);
-    free(p->work);
-    *p = (struct br_proofs){0};
 }

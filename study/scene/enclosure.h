@@ -53,16 +53,9 @@ bool br_tree_bound(const struct br_tree *tree, struct br_interval *work, struct 
 bool br_tree_taylor(const struct br_tree *tree, struct br_interval *work, enum br_variable along,
                     struct br_box box, size_t order, struct br_interval *coefficient);
 
-/* What a function of a tree needs for its proofs. */
-struct br_proofs {
-    struct br_interval *work;
-    struct br_function *guard; /* guards: they work in `work`; clone them to keep them */
-    size_t guards;
-};
-
-/* Makes them. Fails with BR_NO_MEMORY; clear it even then. */
-enum br_status br_proofs_init(struct br_proofs *proofs, const struct br_tree *tree,
-                              struct br_error *err);
-void br_proofs_clear(struct br_proofs *proofs);
+/* The guard of argument k of a node of the tree (struct br_function_ops), made in another builder:
+ * its place; BR_NO_NODE where there is none. It has at most one node more than the tree. */
+unsigned br_tree_guard(const struct br_tree *tree, const struct br_node *node, unsigned k,
+                       struct br_tree_builder *builder);
 
 #endif

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/scene/engineering.h"
-
+/* Formulas and where they come from: docs/scenes.md. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "study/scene/value.h"
 
 /* ---- formulas: long double throughout, rounded once ---- */
 
@@ -74,27 +75,12 @@ static const struct recipe {
 enum { RECIPES = sizeof recipes / sizeof *recipes };
 _Static_assert((int)RECIPES < (int)BR_MOST_DERIVED, "struct br_scene has no room");
 
-/* ---- rows ---- */
-
-/* The row of "axial.stiffness", or of "density". */
-static size_t row_of(const char *path)
-{
-    const char *dot = strchr(path, '.');
-    const size_t length = dot ? (size_t)(dot - path) : 0;
-    size_t row = 0;
-    while (strlen(br_scene_keys[row].section) != length ||
-           strncmp(br_scene_keys[row].section, path, length) != 0 ||
-           strcmp(br_scene_keys[row].name, dot ? dot + 1 : path) != 0)
-        row++;
-    return row;
-}
+/* ---- making ---- */
 
 static bool section_is_given(const struct br_scene_given *g, const struct br_scene_key *key)
 {
-    return !*key->section || g->row[row_of(key->section)].line;
+    return !*key->section || g->row[br_scene_row(key->section)].line;
 }
-
-/* ---- making ---- */
 
 static enum br_status refuse_two(const struct br_scene_reader *r, size_t row, size_t source)
 {
@@ -125,8 +111,8 @@ static enum br_status make(const struct br_scene_reader *r, const struct recipe 
                                "found %Lg without unit, expected at most %g: was %s forgotten?",
                                first.value, p->most, p->most > 1 ? key->unit : "%");
     const long double value =
-        p->formula((sources){&number[source[0]], &number[source[1]], &number[row_of("density")],
-                             &number[row_of("length")]});
+        p->formula((sources){&number[source[0]], &number[source[1]],
+                             &number[br_scene_row("density")], &number[br_scene_row("length")]});
     if (!isfinite((double)value) || (value != 0 && (double)value == 0))
         return br_scene_refuse(r, first.line, name,
                                "makes no number of %s, expected a stiffness and a density above 0 "
@@ -146,10 +132,11 @@ static enum br_status make(const struct br_scene_reader *r, const struct recipe 
 static enum br_status try(const struct br_scene_reader *r, const struct recipe *p)
 {
     const struct br_scene_number *number = r->given->row;
-    const size_t row = row_of(p->what), source[] = {row_of(p->first), row_of(p->second)};
+    const size_t row = br_scene_row(p->what),
+                 source[] = {br_scene_row(p->first), br_scene_row(p->second)};
     const bool itself = source[0] == row,
                mode = p->formula == axial_time || p->formula == bending_time;
-    if (mode && !number[row_of("density")].line)
+    if (mode && !number[br_scene_row("density")].line)
         return BR_OK; /* check_row refuses it */
     if (!number[source[0]].line || !number[source[1]].line || (itself && !number[row].ratio) ||
         !section_is_given(r->given, &br_scene_keys[row]))
@@ -166,9 +153,9 @@ static enum br_status refuse_missing(const struct br_scene_reader *r, size_t row
     const struct br_scene_key *key = &br_scene_keys[row];
     char made[200] = "";
     for (const struct recipe *p = recipes; p < recipes + RECIPES; p++)
-        if (row_of(p->what) == row)
+        if (br_scene_row(p->what) == row)
             snprintf(made, sizeof made, "%s", p->words);
-    const size_t line = *key->section ? r->given->row[row_of(key->section)].line
+    const size_t line = *key->section ? r->given->row[br_scene_row(key->section)].line
                                       : br_yaml_line(yaml_document_get_root_node(r->document));
     return br_scene_refuse(r, line, key->name, "missing%s%s, expected %s, in %s, or %s to make it",
                            *key->section ? " in " : "", key->section, key->help, key->unit, made);
@@ -195,7 +182,7 @@ enum br_status br_scene_derive(const struct br_scene_reader *r)
     for (size_t row = 0; br_scene_keys[row].name && !status; row++)
         status = check_row(r, row);
     for (const struct recipe *p = recipes; p < recipes + RECIPES && !status; p++) {
-        const size_t row = row_of(p->what);
+        const size_t row = br_scene_row(p->what);
         const struct br_scene_key *key = &br_scene_keys[row];
         const struct br_scene_number *n = &r->given->row[row];
         const bool made = n->line && (n->origin != row || n->ratio);

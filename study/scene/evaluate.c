@@ -109,6 +109,12 @@ unsigned br_tree_node(struct br_tree_builder *b, enum br_operation operation, un
 
 unsigned br_tree_graft(struct br_tree_builder *b, const struct br_tree *from, unsigned root)
 {
+    return br_tree_substitute(b, from, root, BR_NO_NODE, BR_NO_NODE);
+}
+
+unsigned br_tree_substitute(struct br_tree_builder *b, const struct br_tree *from, unsigned root,
+                            unsigned x, unsigned t)
+{
     unsigned *place = br_allocate(root + 1, sizeof *place);
     if (!place)
         return give_up(b, BR_NO_MEMORY);
@@ -118,7 +124,12 @@ unsigned br_tree_graft(struct br_tree_builder *b, const struct br_tree *from, un
             place[from->node[i].argument[k]] = 1;
     for (unsigned i = 0; i <= root; i++) { /* then: where it went */
         const struct br_node *n = &from->node[i];
-        if (place[i] && n->operation == BR_OP_NUMBER)
+        const unsigned stead = n->operation == BR_OP_X   ? x
+                               : n->operation == BR_OP_T ? t
+                                                         : BR_NO_NODE;
+        if (place[i] && stead != BR_NO_NODE)
+            place[i] = stead;
+        else if (place[i] && n->operation == BR_OP_NUMBER)
             place[i] = br_tree_number(b, n->number);
         else if (place[i])
             place[i] = br_tree_node(b, n->operation, place[n->argument[0]], place[n->argument[1]],
@@ -262,14 +273,15 @@ double br_operation_value(enum br_operation operation, double a, double b, doubl
 
 /* A tree as a function: node by node over arrays of places. What does not use x is computed once a
  * call. */
-enum { CHUNK = 256 }; /* places at a time: the arrays stay in the first caches */
+enum { CHUNK = 128 }; /* places at a time: those of usual expressions stay in the first caches */
 
 struct expression {
     struct br_tree tree;
     const struct br_elementary *set;
-    double **array; /* of each node: CHUNK values, in a slot of `room` */
-    double *room;
-    struct br_proofs proofs;
+    double *room;              /* CHUNK values of each node */
+    struct br_function *guard; /* guards: without arrays or guards, in `work`; clone to keep */
+    size_t guards;
+    struct br_interval *work, *own_work; /* for proofs; of a guard that of the whole */
 };
 
 static void expression_free(void *self)
@@ -277,41 +289,18 @@ static void expression_free(void *self)
     struct expression *e = self;
     if (!e)
         return;
-    br_proofs_clear(&e->proofs);
+    for (size_t i = 0; i < e->guards; i++)
+        br_function_free(&e->guard[i]);
     br_tree_clear(&e->tree);
-    free(e->array);
+    free(e->guard);
+    free(e->own_work);
     free(e->room);
     free(e);
 }
 
-/* last[i]: the last node that needs node i; those that do not use x are kept for the whole call. */
-static void find_last_uses(const struct br_tree *tree, size_t *last)
+static double *array(const struct expression *e, size_t i)
 {
-    for (size_t i = 0; i < tree->count; i++) {
-        const struct br_node *n = &tree->node[i];
-        last[i] = n->uses_x ? i : tree->count;
-        for (unsigned k = 0; k < br_operation_arguments(n->operation); k++)
-            if (last[n->argument[k]] < i)
-                last[n->argument[k]] = i;
-    }
-}
-
-/* Gives each node a slot; one whose node is needed no more is given again. slot, spare, last: out
- * and workspace, tree->count each. Returns how many slots there are. */
-static size_t give_slots(const struct br_tree *tree, size_t *slot, size_t *spare, size_t *last)
-{
-    size_t slots = 0, spares = 0;
-    find_last_uses(tree, last);
-    for (size_t i = 0; i < tree->count; i++) {
-        const struct br_node *n = &tree->node[i];
-        slot[i] = n->uses_x && spares ? spare[--spares] : slots++;
-        for (unsigned k = 0; k < br_operation_arguments(n->operation); k++)
-            if (last[n->argument[k]] == i) {
-                spare[spares++] = slot[n->argument[k]];
-                last[n->argument[k]] = tree->count; /* once, where it is both arguments */
-            }
-    }
-    return slots;
+    return e->room + i * CHUNK;
 }
 
 static void fill(double *array, size_t count, double value)
@@ -320,37 +309,71 @@ static void fill(double *array, size_t count, double value)
         array[i] = value;
 }
 
-static bool make_arrays(struct expression *e)
+static bool make_values(struct expression *e)
 {
     const size_t count = e->tree.count;
-    size_t *slot = br_allocate(3 * count, sizeof *slot);
-    e->array = br_allocate(count, sizeof *e->array);
-    const size_t slots = slot ? give_slots(&e->tree, slot, slot + count, slot + 2 * count) : 0;
-    e->room = slots ? br_allocate_aligned(slots * CHUNK, sizeof *e->room) : NULL;
-    const bool done = e->array && e->room;
-    for (size_t i = 0; i < count && done; i++) {
-        e->array[i] = e->room + slot[i] * CHUNK;
+    e->room = br_allocate_aligned(count * CHUNK, sizeof *e->room);
+    for (size_t i = 0; e->room && i < count; i++)
         if (e->tree.node[i].operation == BR_OP_NUMBER)
-            fill(e->array[i], CHUNK, e->tree.node[i].number);
-    }
-    free(slot);
+            fill(array(e, i), CHUNK, e->tree.node[i].number);
+    return e->room;
+}
+
+/* Takes the tree over, even where it fails. */
+static struct expression *wrap(struct br_tree *tree)
+{
+    struct expression *e = br_allocate(1, sizeof *e);
+    if (e)
+        e->tree = *tree;
+    else
+        br_tree_clear(tree);
+    *tree = (struct br_tree){0};
+    return e;
+}
+
+static const struct br_function_ops guard_ops;
+
+/* Appends the guard of a node's argument, if there is one. */
+static bool add_guard(struct expression *e, const struct br_node *n, unsigned k)
+{
+    struct br_tree_builder b = {0};
+    struct br_tree tree;
+    const unsigned root = br_tree_guard(&e->tree, n, k, &b);
+    if (root == BR_NO_NODE && !b.status)
+        return true;
+    if (br_tree_finish(&b, root, &tree, NULL))
+        return false;
+    const struct br_node *last = &tree.node[tree.count - 1];
+    struct br_function *f = &e->guard[e->guards];
+    *f = (struct br_function){.ops = &guard_ops, .uses_x = last->uses_x, .uses_t = last->uses_t};
+    struct expression *guard = f->self = wrap(&tree);
+    if (!guard)
+        return false;
+    guard->work = e->work;
+    e->guards++;
+    return true;
+}
+
+static bool add_guards(struct expression *e)
+{
+    const size_t count = e->tree.count;
+    e->work = e->own_work = br_allocate(count + 1, BR_TREE_WORK * sizeof *e->work);
+    e->guard = br_allocate(3 * count, sizeof *e->guard);
+    bool done = e->work && e->guard;
+    for (const struct br_node *n = e->tree.node; n < e->tree.node + count; n++)
+        for (unsigned k = 0; k < br_operation_arguments(n->operation) && done; k++)
+            done = add_guard(e, n, k);
     return done;
 }
 
 /* Takes the tree over, even where it fails. */
 static struct expression *create(struct br_tree *tree)
 {
-    struct expression *e = br_allocate(1, sizeof *e);
-    if (!e) {
-        br_tree_clear(tree);
-        return NULL;
-    }
-    e->tree = *tree;
-    *tree = (struct br_tree){0};
-    e->set = br_elementary_all[br_instruction_set_best()];
-    struct br_error unsaid;
-    if (make_arrays(e) && !br_proofs_init(&e->proofs, &e->tree, &unsaid))
+    struct expression *e = wrap(tree);
+    if (e && make_values(e) && add_guards(e)) {
+        e->set = br_elementary_all[br_instruction_set_best()];
         return e;
+    }
     expression_free(e);
     return NULL;
 }
@@ -373,9 +396,9 @@ static size_t round_up(size_t count, size_t width)
 static void apply(const struct expression *e, size_t i, size_t count)
 {
     const struct br_node *n = &e->tree.node[i];
-    const double *const argument[] = {e->array[n->argument[0]], e->array[n->argument[1]],
-                                      e->array[n->argument[2]]};
-    br_operation_apply(e->set, n->operation, count, argument, e->array[i]);
+    const double *const argument[] = {array(e, n->argument[0]), array(e, n->argument[1]),
+                                      array(e, n->argument[2])};
+    br_operation_apply(e->set, n->operation, count, argument, array(e, i));
 }
 
 /* What does not use x, in as many values as will be wanted at a time. */
@@ -386,10 +409,10 @@ static void evaluate_once(const struct expression *e, double t, size_t count)
         if (n->uses_x || n->operation == BR_OP_NUMBER)
             continue;
         if (n->operation == BR_OP_T)
-            e->array[i][0] = t;
+            array(e, i)[0] = t;
         else
             apply(e, i, e->set->width);
-        fill(e->array[i], count, e->array[i][0]);
+        fill(array(e, i), count, array(e, i)[0]);
     }
 }
 
@@ -400,8 +423,8 @@ static void evaluate_places(const struct expression *e, size_t count, const doub
     for (size_t i = 0; i < e->tree.count; i++) {
         const struct br_node *n = &e->tree.node[i];
         if (n->operation == BR_OP_X) {
-            memcpy(e->array[i], x, count * sizeof *x);
-            fill(e->array[i] + count, full - count, x[count - 1]);
+            memcpy(array(e, i), x, count * sizeof *x);
+            fill(array(e, i) + count, full - count, x[count - 1]);
         } else if (n->uses_x) {
             apply(e, i, full);
         }
@@ -411,7 +434,7 @@ static void evaluate_places(const struct expression *e, size_t count, const doub
 static void expression_evaluate(void *self, size_t count, const double *x, double t, double *value)
 {
     const struct expression *e = self;
-    const double *root = e->array[e->tree.count - 1];
+    const double *root = array(e, e->tree.count - 1);
     const int rounding = br_round_to_nearest();
     evaluate_once(e, t, count < CHUNK ? round_up(count, e->set->width) : CHUNK);
     for (size_t done = 0; done < count; done += CHUNK) {
@@ -434,20 +457,20 @@ static enum br_status expression_derive(const void *self, const struct br_deriva
 static bool expression_bound(const void *self, struct br_box box, struct br_interval *value)
 {
     const struct expression *e = self;
-    return br_tree_bound(&e->tree, e->proofs.work, box, value);
+    return br_tree_bound(&e->tree, e->work, box, value);
 }
 
 static bool expression_taylor(const void *self, enum br_variable along, struct br_box box,
                               size_t order, struct br_interval *coefficient)
 {
     const struct expression *e = self;
-    return br_tree_taylor(&e->tree, e->proofs.work, along, box, order, coefficient);
+    return br_tree_taylor(&e->tree, e->work, along, box, order, coefficient);
 }
 
 static const struct br_function *expression_guard(const void *self, size_t i)
 {
     const struct expression *e = self;
-    return i < e->proofs.guards ? &e->proofs.guard[i] : NULL;
+    return i < e->guards ? &e->guard[i] : NULL;
 }
 
 static const struct br_function_ops expression_ops = {
@@ -458,6 +481,24 @@ static const struct br_function_ops expression_ops = {
     .taylor = expression_taylor,
     .guard = expression_guard,
     .derive = expression_derive,
+};
+
+/* The middle of what is proved of each point. */
+static void guard_evaluate(void *self, size_t count, const double *x, double t, double *value)
+{
+    for (size_t i = 0; i < count; i++) {
+        struct br_interval at;
+        const struct br_box point = {br_point(x[i]), br_point(t)};
+        value[i] = expression_bound(self, point, &at) ? at.low + (at.high - at.low) / 2 : NAN;
+    }
+}
+
+static const struct br_function_ops guard_ops = {
+    .evaluate = guard_evaluate,
+    .clone = expression_clone,
+    .free = expression_free,
+    .bound = expression_bound,
+    .taylor = expression_taylor,
 };
 
 enum br_status br_tree_function(struct br_tree *tree, struct br_function *f, struct br_error *err)

@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/scene/words.h"
+
 /* Functions that each read what the grammar calls by their name, from `at` on, and return its node.
  * After the first fault `at` is the text's end, so that all of them come back. */
 struct parser {
@@ -179,10 +181,8 @@ static unsigned unknown_name(struct parser *p, size_t length)
     char known[256] = "ln";
     for (int i = BR_OP_SIN; i <= BR_OP_MAX; i++) {
         const char *word = br_operation_word((enum br_operation)i);
-        if (is_letter(*word)) {
-            strcat(known, " ");
-            strcat(known, word);
-        }
+        if (is_letter(*word))
+            br_append(known, sizeof known, " %s", word);
     }
     return refuse(p, "unknown name '%.*s', expected x, t, pi, e or a function: %s",
                   (int)(length < 40 ? length : 40), p->at, known);

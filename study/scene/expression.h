@@ -106,6 +106,10 @@ unsigned br_tree_node(struct br_tree_builder *builder, enum br_operation operati
 /* Node `root` of another tree with all it uses: its place. */
 unsigned br_tree_graft(struct br_tree_builder *builder, const struct br_tree *from, unsigned root);
 
+/* The same with nodes of the builder in the place of x and t; BR_NO_NODE: x and t. */
+unsigned br_tree_substitute(struct br_tree_builder *builder, const struct br_tree *from,
+                            unsigned root, unsigned x, unsigned t);
+
 /* What `root` uses, as a tree. Clears the builder in any case. Fails with BR_NO_MEMORY or
  * BR_BAD_INPUT (too many nodes); *tree is then empty. */
 enum br_status br_tree_finish(struct br_tree_builder *builder, unsigned root, struct br_tree *tree,

@@ -10,7 +10,6 @@
 #include <yaml.h>
 
 #include "reference/mms/mms.h"
-#include "study/scene/engineering.h"
 #include "study/scene/expression.h"
 #include "study/scene/quote.h"
 #include "study/scene/schema.h"
@@ -159,10 +158,8 @@ static void list_keys(const char *section, char *text, size_t size)
 {
     text[0] = '\0';
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
-        if (strcmp(k->section, section) == 0) {
-            const size_t used = strlen(text);
-            snprintf(text + used, size - used, "%s%s", used ? ", " : "", k->name);
-        }
+        if (strcmp(k->section, section) == 0)
+            br_append(text, size, "%s%s", *text ? ", " : "", k->name);
 }
 
 /* Reads one mapping. */
@@ -186,6 +183,24 @@ static bool *part_flag(struct br_scene *scene, const char *section)
     return NULL; /* friction is modelled by its law */
 }
 
+/* The text that is to stand there instead comes from a node of its own. */
+static enum br_status read_key(const struct br_scene_reader *r, const struct br_scene_key *key,
+                               const yaml_node_t *at, const yaml_node_t *value)
+{
+    const size_t row = (size_t)(key - br_scene_keys);
+    yaml_node_t varied = *value;
+    r->given->row[row] = (struct br_scene_number){.line = br_yaml_line(at), .origin = row};
+    if (key->kind == BR_KEY_SECTION)
+        return read_section(r, key->name, value);
+    if (key->kind == BR_KEY_VERIFY)
+        return BR_OK; /* when the scene is whole */
+    if (key != r->varied)
+        return br_scene_read_value(r, key, value);
+    varied.type = YAML_SCALAR_NODE;
+    varied.data.scalar.value = (yaml_char_t *)r->text;
+    return br_scene_read_value(r, key, &varied);
+}
+
 static enum br_status read_entry(const struct br_scene_reader *r, const char *section,
                                  const yaml_node_t *name, const yaml_node_t *value)
 {
@@ -195,15 +210,8 @@ static enum br_status read_entry(const struct br_scene_reader *r, const char *se
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
         if (strcmp(k->section, section) != 0 || strcmp(k->name, br_yaml_text(name)) != 0)
             continue;
-        const size_t row = (size_t)(k - br_scene_keys);
-        if (line_of(r, k))
-            return br_scene_refuse(r, br_yaml_line(name), k->name, "given twice");
-        r->given->row[row] = (struct br_scene_number){.line = br_yaml_line(name), .origin = row};
-        if (k->kind == BR_KEY_SECTION)
-            return read_section(r, k->name, value);
-        if (k->kind == BR_KEY_VERIFY)
-            return BR_OK; /* when the scene is whole */
-        return br_scene_read_value(r, k, value);
+        return line_of(r, k) ? br_scene_refuse(r, br_yaml_line(name), k->name, "given twice")
+                             : read_key(r, k, name, value);
     }
     char known[512];
     list_keys(section, known, sizeof known);
@@ -242,25 +250,15 @@ static enum br_status read_section(const struct br_scene_reader *r, const char *
     bool *modelled = part_flag(r->scene, section);
     if (modelled)
         *modelled = true;
-    for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top;
-         p++) {
-        const enum br_status status =
-            read_entry(r, section, yaml_document_get_node(r->document, p->key),
-                       yaml_document_get_node(r->document, p->value));
-        if (status)
-            return status;
-    }
-    return check_required(r, section, br_yaml_line(node));
-}
-
-/* The line on which the section's solution is given. */
-static size_t solution_line(const struct br_scene_reader *r, enum br_field_kind kind)
-{
-    const struct br_scene_key *k = br_scene_keys;
-    const char *section = kind == BR_AXIAL ? "axial" : "bending";
-    while (strcmp(k->section, section) != 0 || k->kind != BR_KEY_SOLUTION)
-        k++;
-    return line_of(r, k);
+    enum br_status status = BR_OK;
+    for (yaml_node_pair_t *p = node->data.mapping.pairs.start;
+         p < node->data.mapping.pairs.top && !status; p++)
+        status = read_entry(r, section, yaml_document_get_node(r->document, p->key),
+                            yaml_document_get_node(r->document, p->value));
+    const struct br_scene_key *varied = r->varied;
+    if (!status && varied && strcmp(varied->section, section) == 0 && !line_of(r, varied))
+        status = read_key(r, varied, node, node);
+    return status ? status : check_required(r, section, br_yaml_line(node));
 }
 
 /* What a solution determines (reference/mms). */
@@ -269,8 +267,7 @@ static enum br_status apply_solutions(const struct br_scene_reader *r)
     struct br_error inner = {0};
     enum br_field_kind culprit = BR_AXIAL;
     enum br_status status = br_manufactured_apply(r->scene, &culprit, &inner);
-    if (status == BR_BAD_INPUT)
-        return br_scene_refuse(r, solution_line(r, culprit), "solution", "%s", inner.message);
+    const size_t row = br_scene_row(culprit == BR_AXIAL ? "axial.solution" : "bending.solution");
     struct br_load *const load[] = {&r->scene->axial.load, &r->scene->bending.load};
     const bool derived[] = {r->scene->axial.solution, r->scene->bending.solution};
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
@@ -278,7 +275,7 @@ static enum br_status apply_solutions(const struct br_scene_reader *r)
         if (derived[kind])
             status = br_products(&whole, load[kind], &inner);
     }
-    return status ? br_fail(r->err, status, "%s", inner.message) : BR_OK;
+    return br_scene_pass_on(r, r->given->row[row].line, "solution", &inner);
 }
 
 /* The scene's name is its file's, without folder and ending; the names of all files that are
@@ -314,32 +311,20 @@ static enum br_status read_verify(const struct br_scene_reader *r, struct br_ver
     return node ? br_verify_read(r, node, verify) : br_verify_default(r->scene, verify, r->err);
 }
 
-/* A zero byte, which YAML can write as \0 in quotes, would end a text early. */
-static enum br_status check_texts(const struct br_scene_reader *r)
-{
-    for (const yaml_node_t *n = r->document->nodes.start; n < r->document->nodes.top; n++)
-        if (n->type == YAML_SCALAR_NODE && strlen(br_yaml_text(n)) != n->data.scalar.length)
-            return br_scene_refuse(r, br_yaml_line(n), "scene",
-                                   "found '%s' followed by a zero byte, expected text",
-                                   br_yaml_text(n));
-    return BR_OK;
-}
-
 /* Every function that is given is finite, and the initial ones respect the clamp. */
 static enum br_status check_functions(const struct br_scene_reader *r, size_t line)
 {
     struct br_error inner = {0};
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
         if (line_of(r, k) && br_scene_scan(r->scene, k, &inner))
-            return br_scene_refuse(r, line_of(r, k), k->name, "%s", inner.message);
+            return br_scene_pass_on(r, line_of(r, k), k->name, &inner);
     size_t culprit = 0;
-    if (!br_scene_check_initial(r->scene, &culprit, &inner))
-        return BR_OK;
+    br_scene_check_initial(r->scene, &culprit, &inner);
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
         if ((k->kind == BR_KEY_INITIAL || k->kind == BR_KEY_HISTORY) && k->offset == culprit &&
             line_of(r, k))
-            return br_scene_refuse(r, line_of(r, k), k->name, "%s", inner.message);
-    return br_scene_refuse(r, line, "scene", "%s", inner.message); /* from a solution */
+            return br_scene_pass_on(r, line_of(r, k), k->name, &inner);
+    return br_scene_pass_on(r, line, "scene", &inner); /* from a solution */
 }
 
 static enum br_status read_document(const struct br_scene_reader *r, struct br_verify *verify)
@@ -348,13 +333,17 @@ static enum br_status read_document(const struct br_scene_reader *r, struct br_v
     if (!root)
         return br_scene_refuse(r, 1, "scene", "the file is empty");
     enum br_status status = read_section(r, "", root);
+    if (!status && r->varied && *r->varied->section && !top_value(r, r->varied->section))
+        status =
+            br_fail(r->err, BR_BAD_INPUT, "%s: --vary: %s.%s: the scene has no '%s', expected one",
+                    r->path, r->varied->section, r->varied->name, r->varied->section);
     if (!status)
         status = set_name(r);
     if (!status)
         status = br_scene_derive(r);
     struct br_error inner = {0};
     if (!status && br_scene_check(r->scene, &inner))
-        status = br_scene_refuse(r, br_yaml_line(root), "scene", "%s", inner.message);
+        status = br_scene_pass_on(r, br_yaml_line(root), "scene", &inner);
     if (!status)
         status = apply_solutions(r);
     if (!status)
@@ -365,30 +354,12 @@ static enum br_status read_document(const struct br_scene_reader *r, struct br_v
 }
 
 /* Where libyaml's loader has no memory it fails, and says nothing. */
-static bool lacks_memory(const yaml_parser_t *parser)
-{
-    return parser->error == YAML_MEMORY_ERROR || parser->error == YAML_NO_ERROR;
-}
-
 static enum br_status not_yaml(const struct br_scene_reader *r, const yaml_parser_t *parser)
 {
-    if (lacks_memory(parser))
+    if (parser->error == YAML_MEMORY_ERROR || parser->error == YAML_NO_ERROR)
         return br_no_memory(r->err, "the YAML parser");
     return br_fail(r->err, BR_BAD_INPUT, "%s:%zu: not YAML: %s", r->path,
                    parser->problem_mark.line + 1, parser->problem ? parser->problem : "unreadable");
-}
-
-/* A second document would be read by nobody. */
-static enum br_status check_end(const struct br_scene_reader *r, yaml_parser_t *parser)
-{
-    yaml_document_t more;
-    if (!yaml_parser_load(parser, &more))
-        return not_yaml(r, parser);
-    const yaml_node_t *root = yaml_document_get_root_node(&more);
-    const size_t line = more.start_mark.line + 1;
-    yaml_document_delete(&more);
-    return root ? br_scene_refuse(r, line, "scene", "a second document begins, expected one")
-                : BR_OK;
 }
 
 enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br_error *err)
@@ -396,59 +367,69 @@ enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br
     return br_scene_read_verify(path, scene, NULL, err);
 }
 
-/* Deeper ones take libyaml a time that grows with the square of the depth. */
-static enum br_status check_depth(const char *path, const char *text, struct br_error *err)
+/* What the loader does not see. Deep nests take it a time that grows with the square of the depth;
+ * a second document would be read by nobody; and a zero byte, which YAML can write as \0 in quotes,
+ * would end a text early. */
+static enum br_status check_event(const struct br_scene_reader *r, const yaml_event_t *event,
+                                  int depth, int documents)
 {
     enum { DEEPEST = 32 };
-    yaml_parser_t parser;
-    yaml_event_t event = {.type = YAML_NO_EVENT};
-    int depth = 0;
-    size_t line = 0;
-    if (!yaml_parser_initialize(&parser))
-        return br_no_memory(err, "the YAML parser");
-    yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
-    bool more = true, parsed = true;
-    while (more && depth <= DEEPEST && (parsed = yaml_parser_parse(&parser, &event))) {
-        line = event.start_mark.line + 1;
+    const size_t line = event->start_mark.line + 1;
+    const char *text = (const char *)event->data.scalar.value;
+    if (depth > DEEPEST)
+        return br_scene_refuse(r, line, "scene",
+                               "found lists or mappings nested more than %d deep, expected a scene",
+                               DEEPEST);
+    if (documents > 1)
+        return br_scene_refuse(r, line, "scene", "a second document begins, expected one");
+    if (event->type == YAML_SCALAR_EVENT && strlen(text) != event->data.scalar.length)
+        return br_scene_refuse(r, line, "scene",
+                               "found '%s' followed by a zero byte, expected text", text);
+    return BR_OK;
+}
+
+static enum br_status check_events(const struct br_scene_reader *r, yaml_parser_t *parser)
+{
+    enum br_status status = BR_OK;
+    int depth = 0, documents = 0;
+    for (bool more = true; more && !status;) {
+        yaml_event_t event;
+        if (!yaml_parser_parse(parser, &event))
+            return not_yaml(r, parser);
         depth += event.type == YAML_SEQUENCE_START_EVENT || event.type == YAML_MAPPING_START_EVENT;
         depth -= event.type == YAML_SEQUENCE_END_EVENT || event.type == YAML_MAPPING_END_EVENT;
+        documents += event.type == YAML_DOCUMENT_START_EVENT;
         more = event.type != YAML_STREAM_END_EVENT;
+        status = check_event(r, &event, depth, documents);
         yaml_event_delete(&event);
     }
-    const bool memory = !parsed && lacks_memory(&parser);
-    yaml_parser_delete(&parser);
-    if (memory)
-        return br_no_memory(err, "the YAML parser");
-    return depth <= DEEPEST ? BR_OK
-                            : br_fail(err, BR_BAD_INPUT,
-                                      "%s:%zu: scene: found lists or mappings nested more "
-                                      "than %d deep, expected a scene",
-                                      path, line, DEEPEST);
+    return status;
+}
+
+static enum br_status load(const struct br_scene_reader *r, yaml_parser_t *parser,
+                           br_yaml_take *take, void *self)
+{
+    if (!yaml_parser_load(parser, r->document))
+        return not_yaml(r, parser);
+    const enum br_status status = take(r, self);
+    yaml_document_delete(r->document);
+    return status;
 }
 
 enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *take, void *self,
                             struct br_error *err)
 {
-    yaml_parser_t parser;
     yaml_document_t document;
-    enum br_status status = check_depth(path, text, err);
-    if (status)
-        return status;
-    if (!yaml_parser_initialize(&parser))
-        return br_no_memory(err, "the YAML parser");
-    yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
-    struct br_scene_reader r = {path, &document, NULL, err, NULL};
-    if (!yaml_parser_load(&parser, &document))
-        status = not_yaml(&r, &parser);
-    else {
-        status = yaml_document_get_root_node(&document) ? check_texts(&r) : BR_OK;
-        if (!status)
-            status = take(&r, self);
-        yaml_document_delete(&document);
+    const struct br_scene_reader r = {.path = path, .document = &document, .err = err};
+    enum br_status status = BR_OK;
+    for (int pass = 0; pass < 2 && !status; pass++) {
+        yaml_parser_t parser;
+        if (!yaml_parser_initialize(&parser))
+            return br_no_memory(err, "the YAML parser");
+        yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
+        status = pass == 0 ? check_events(&r, &parser) : load(&r, &parser, take, self);
+        yaml_parser_delete(&parser);
     }
-    if (!status)
-        status = check_end(&r, &parser);
-    yaml_parser_delete(&parser);
     return status;
 }
 
@@ -456,6 +437,8 @@ enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *ta
 struct target {
     struct br_scene *scene;
     struct br_verify *verify;
+    const struct br_scene_key *varied;
+    const char *text;
 };
 
 static enum br_status take_scene(const struct br_scene_reader *reader, void *self)
@@ -465,48 +448,49 @@ static enum br_status take_scene(const struct br_scene_reader *reader, void *sel
     struct br_scene_reader r = *reader;
     r.scene = to->scene;
     r.given = &given;
+    r.varied = to->varied;
+    r.text = to->text;
     return read_document(&r, to->verify);
 }
 
-enum br_status br_scene_document(const struct br_scene_reader *r)
+static enum br_status parse(const char *path, const char *text, struct target to,
+                            struct br_error *err)
 {
-    return take_scene(r, &(struct target){r->scene, NULL});
-}
-
-static enum br_status parse(const char *path, const char *text, struct br_scene *scene,
-                            struct br_verify *verify, struct br_error *err)
-{
-    struct target to = {scene, verify};
-    *scene = (struct br_scene){0};
-    if (verify)
-        *verify = (struct br_verify){0};
+    *to.scene = (struct br_scene){0};
+    if (to.verify)
+        *to.verify = (struct br_verify){0};
     return br_yaml_read(path, text, take_scene, &to, err);
 }
 
 enum br_status br_scene_read_text(const char *path, const char *text, struct br_scene *scene,
                                   struct br_error *err)
 {
-    return parse(path, text, scene, NULL, err);
+    return parse(path, text, (struct target){.scene = scene}, err);
+}
+
+enum br_status br_scene_read_with(const char *path, const char *text,
+                                  const struct br_scene_key *key, const char *value,
+                                  struct br_scene *scene, struct br_error *err)
+{
+    return parse(path, text, (struct target){scene, NULL, key, value}, err);
 }
 
 enum br_status br_scene_read_verify_text(const char *path, const char *text, struct br_scene *scene,
                                          struct br_verify *verify, struct br_error *err)
 {
-    return parse(path, text, scene, verify, err);
+    return parse(path, text, (struct target){scene, verify, NULL, NULL}, err);
 }
 
 enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
                                     struct br_verify *verify, struct br_error *err)
 {
     char *text;
+    *scene = (struct br_scene){0};
+    if (verify)
+        *verify = (struct br_verify){0};
     enum br_status status = br_scene_load(path, &text, err);
-    if (status) {
-        *scene = (struct br_scene){0};
-        if (verify)
-            *verify = (struct br_verify){0};
-        return status;
-    }
-    status = parse(path, text, scene, verify, err);
+    if (!status)
+        status = br_scene_read_verify_text(path, text, scene, verify, err);
     free(text);
     return status;
 }

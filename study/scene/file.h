@@ -3,6 +3,7 @@
 #ifndef BR_STUDY_SCENE_FILE_H
 #define BR_STUDY_SCENE_FILE_H
 
+#include "study/scene/schema.h"
 #include "study/verify/verify.h"
 
 /* Reads and checks a scene. Every refusal (BR_BAD_INPUT) names file, line, key,
@@ -13,6 +14,11 @@ enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br
 /* The same from a text, which messages call `name`. */
 enum br_status br_scene_read_text(const char *name, const char *text, struct br_scene *scene,
                                   struct br_error *err);
+
+/* The same as if the key, whose section must be there, had the value `value`. */
+enum br_status br_scene_read_with(const char *name, const char *text,
+                                  const struct br_scene_key *key, const char *value,
+                                  struct br_scene *scene, struct br_error *err);
 
 /* The same from a file with what is expected of the scene: its `verify` part, or else the default.
  * The caller clears both. */

@@ -2,7 +2,6 @@
 #include "study/scene/method_fields.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -453,16 +452,6 @@ enum br_status br_method_check_heeded(const char *const text[BR_METHOD_FIELDS],
 
 /* ---- in words ---- */
 
-__attribute__((format(printf, 2, 3))) static void append(char text[BR_METHOD_TEXT],
-                                                         const char *format, ...)
-{
-    const size_t used = strlen(text);
-    va_list args;
-    va_start(args, format);
-    vsnprintf(text + used, BR_METHOD_TEXT - used, format, args);
-    va_end(args);
-}
-
 static bool is_default(const struct br_method_field *f, const struct br_method *m)
 {
     struct br_method standard = br_method_default();
@@ -506,9 +495,9 @@ const char *br_method_taken(const struct br_meshes *on, const struct br_method *
     text[0] = '\0';
     for (size_t i = 0; i < on->count; i++) {
         if (strcmp(taken_at(on, m, on->n[i], word), before) != 0)
-            append(text, "%s%s at n = %zu", i ? "; " : "", word, on->n[i]);
+            br_append(text, BR_METHOD_TEXT, "%s%s at n = %zu", i ? "; " : "", word, on->n[i]);
         else
-            append(text, ", %zu", on->n[i]);
+            br_append(text, BR_METHOD_TEXT, ", %zu", on->n[i]);
         strcpy(before, word);
     }
     return text;
@@ -537,10 +526,10 @@ const char *br_method_text(const struct br_meshes *on, const struct br_method *m
         if (!br_method_field_heeded(f, &used) || (f->quiet && (!modelled || is_default(f, m))) ||
             (f->heeds && !modelled))
             continue;
-        append(text, "%s%s%s", f->before, modelled ? br_method_field_text(f, m, value) : "none",
-               f->after ? f->after : "");
+        br_append(text, BR_METHOD_TEXT, "%s%s%s", f->before,
+                  modelled ? br_method_field_text(f, m, value) : "none", f->after ? f->after : "");
         if (i == BR_METHOD_SOLVER && strcmp(value, taken) != 0)
-            append(text, ": %s", taken);
+            br_append(text, BR_METHOD_TEXT, ": %s", taken);
     }
     return text;
 }
@@ -556,7 +545,7 @@ const char *br_method_options(const struct br_scene *scene, const struct br_meth
         if ((f->in && !f->in(scene)) || !br_method_field_heeded(f, m) || f->unsaid ||
             (is_default(f, m) && !always))
             continue;
-        append(text, " --%s %s", f->name, br_method_field_text(f, m, value));
+        br_append(text, BR_METHOD_TEXT, " --%s %s", f->name, br_method_field_text(f, m, value));
     }
     return text;
 }

@@ -25,29 +25,13 @@ const struct br_quoting br_for_gnuplot = {
               {'}', "\\175"}},
 };
 
-const struct br_quoting br_for_markup = {
-    .around = "",
-    .stead = {{'_', "\\_"},
-              {'^', "\\^"},
-              {'{', "\\{"},
-              {'}', "\\}"},
-              {'@', "\\@"},
-              {'&', "\\&"},
-              {'~', "\\~"},
-              {'\\', "\\\\"}},
-};
+const struct br_quoting br_for_markup = {.around = "", .escaped = "_^{}@&~\\"};
 
 /* [ is in braces since it could be the option of a \\ before it. */
 const struct br_quoting br_for_latex = {
     .around = "",
-    .stead = {{'_', "\\_"},
-              {'%', "\\%"},
-              {'&', "\\&"},
-              {'#', "\\#"},
-              {'$', "\\$"},
-              {'{', "\\{"},
-              {'}', "\\}"},
-              {'^', "\\^{}"},
+    .escaped = "_%&#${}",
+    .stead = {{'^', "\\^{}"},
               {'\\', "\\textbackslash{}"},
               {'~', "\\textasciitilde{}"},
               {'[', "{[}"},
@@ -56,19 +40,7 @@ const struct br_quoting br_for_latex = {
               {'>', "$>$"}},
 };
 
-const struct br_quoting br_for_markdown = {
-    .around = "",
-    .stead = {{'*', "\\*"},
-              {'_', "\\_"},
-              {'|', "\\|"},
-              {'`', "\\`"},
-              {'<', "\\<"},
-              {'>', "\\>"},
-              {'[', "\\["},
-              {']', "\\]"},
-              {'&', "\\&"},
-              {'\\', "\\\\"}},
-};
+const struct br_quoting br_for_markdown = {.around = "", .escaped = "*_|`<>[]&\\"};
 
 const struct br_quoting br_for_xml = {
     .around = "",
@@ -85,10 +57,7 @@ const struct br_quoting br_for_csv = {
     .stead = {{'"', "\"\""}},
 };
 
-const struct br_quoting br_for_yaml = {
-    .around = "\"",
-    .stead = {{'"', "\\\""}, {'\\', "\\\\"}},
-};
+const struct br_quoting br_for_yaml = {.around = "\"", .escaped = "\"\\"};
 
 const struct br_quoting br_for_tap = {.around = "", .stead = {{'#', " "}}};
 
@@ -159,30 +128,34 @@ static bool is_hidden(unsigned long code)
     return false;
 }
 
-static const char *stead_of(const struct br_quoting *target, char character)
-{
-    for (const struct br_stead *s = target->stead; s->character; s++)
-        if (s->character == character)
-            return s->stead;
-    return NULL;
-}
-
 enum { PIECE = 32 };
+
+/* A character, of so many bytes, as the target has it. */
+static void write_seen(const struct br_quoting *target, const char *text, size_t length,
+                       char piece[PIECE])
+{
+    const bool escaped = *text && target->escaped && strchr(target->escaped, *text);
+    snprintf(piece, PIECE, "%s%.*s", escaped ? "\\" : "", (int)length, text);
+    for (const struct br_stead *s = target->stead; s->character; s++)
+        if (s->character == *text)
+            snprintf(piece, PIECE, "%s", s->stead);
+}
 
 /* What the first character of a text becomes; how many bytes of it are done. */
 static size_t next_piece(const struct br_quoting *target, const char *text, char piece[PIECE])
 {
     unsigned long code;
     const size_t length = decode((const unsigned char *)text, &code);
-    const char *backslash = stead_of(target, '\\');
     if (strchr("\n\r\t", *text))
         snprintf(piece, PIECE, " ");
-    else if (length && !is_hidden(code)) {
-        const char *stead = stead_of(target, *text);
-        snprintf(piece, PIECE, "%.*s", stead ? PIECE : (int)length, stead ? stead : text);
-    } else
-        snprintf(piece, PIECE, length && code > 0xff ? "%su%04lx" : "%sx%02lx",
-                 backslash ? backslash : "\\", length ? code : (unsigned char)*text);
+    else if (length && !is_hidden(code))
+        write_seen(target, text, length, piece);
+    else {
+        write_seen(target, "\\", 1, piece);
+        const size_t used = strlen(piece);
+        snprintf(piece + used, PIECE - used, length && code > 0xff ? "u%04lx" : "x%02lx",
+                 length ? code : (unsigned char)*text);
+    }
     return length ? length : 1;
 }
 

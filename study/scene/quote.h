@@ -19,13 +19,14 @@ struct br_quoting {
     const char *around; /* stands before and after it, ... */
     const char *bare;   /* or this, where it has none of the `rough` characters */
     const char *rough;
-    bool nothing;      /* an empty text needs to be seen, too */
-    const char *start; /* a text that begins with one of these, and is no number, ... */
-    const char *guard; /* gets this before it */
+    bool nothing;        /* an empty text needs to be seen, too */
+    const char *start;   /* a text that begins with one of these, and is no number, ... */
+    const char *guard;   /* gets this before it */
+    const char *escaped; /* characters that get a backslash before them */
     struct br_stead {
         char character;
         const char *stead;
-    } stead[20]; /* what is written for a character; ends with zeros */
+    } stead[20]; /* what is written for other characters; ends with zeros */
 };
 
 extern const struct br_quoting br_for_text;     /* a terminal, a text file */

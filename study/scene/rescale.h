@@ -12,7 +12,8 @@ struct br_units_change {
 
 /* *out (to be cleared, even after a failure) is the scene in the new units; manufactured solutions
  * and the list of derived numbers are forgotten, what was derived stays. Fails with BR_NO_MEMORY,
- * and with BR_BAD_INPUT where a number overflows, or a positive one underflows. */
+ * with BR_BAD_INPUT where a number overflows, or a positive one underflows, and with BR_UNSUPPORTED
+ * where a function is no expression, as forces that a contact's solution needs. */
 enum br_status br_rescale(const struct br_scene *scene, const struct br_units_change *units,
                           struct br_scene *out, struct br_error *err);
 

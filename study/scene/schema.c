@@ -3,6 +3,7 @@
 
 #include <gsl/gsl_deriv.h>
 #include <math.h>
+#include <string.h>
 
 #include "solver/proof.h"
 
@@ -102,6 +103,18 @@ const struct br_scene_key br_scene_keys[] = {
 _Static_assert(sizeof br_scene_keys / sizeof *br_scene_keys <= BR_MOST_SCENE_KEYS,
                "struct br_scene_given has no room");
 
+size_t br_scene_row(const char *path)
+{
+    const char *dot = strchr(path, '.');
+    const size_t length = dot ? (size_t)(dot - path) : 0;
+    size_t row = 0;
+    while (strlen(br_scene_keys[row].section) != length ||
+           strncmp(br_scene_keys[row].section, path, length) != 0 ||
+           strcmp(br_scene_keys[row].name, dot ? dot + 1 : path) != 0)
+        row++;
+    return row;
+}
+
 /* An initial function, for messages and its checks. */
 struct initial {
     const char *name;
@@ -112,11 +125,17 @@ struct initial {
     bool continuous; /* it must be, as its slope: strains are squared */
 };
 
-static double value_at(double x, void *f)
+/* Of a function of x or of t. */
+static double value_of(const struct br_function *f, double at)
 {
     double value;
-    br_function_evaluate(f, 1, &x, 0, &value);
+    br_function_evaluate(f, 1, &at, at, &value);
     return value;
+}
+
+static double value_at(double at, void *f)
+{
+    return value_of(f, at);
 }
 
 enum { SAMPLES = 65 };
@@ -126,7 +145,7 @@ static double largest(const struct br_function *f, double length)
 {
     double most = 0;
     for (int i = 0; i < SAMPLES; i++) {
-        const double v = fabs(value_at(length * i / (SAMPLES - 1), (void *)f));
+        const double v = fabs(value_of(f, length * i / (SAMPLES - 1)));
         if (!isfinite(v))
             return NAN;
         most = fmax(most, v);
@@ -142,7 +161,7 @@ static enum br_status check_slope(const struct initial *d, double scale, struct 
         const double x = d->length * i / (SAMPLES - 1);
         double derivative, uncertainty;
         gsl_deriv_central(&f, x, 1e-4 * d->length, &derivative, &uncertainty);
-        const double given = value_at(x, (void *)d->slope);
+        const double given = value_of(d->slope, x);
         const double allowed = 1e-6 * slope_scale + 10 * uncertainty;
         if (!(fabs(given - derivative) <= allowed))
             return br_fail(err, BR_BAD_INPUT,
@@ -190,7 +209,7 @@ static enum br_status check_initial(const struct initial *d, const struct br_fun
     const double scale = largest(d->value, d->length);
     if (!isfinite(scale))
         return br_fail(err, BR_BAD_INPUT, "initial %s is not finite everywhere in [0, L]", d->name);
-    const double clamp = value_at(0, (void *)d->value);
+    const double clamp = value_of(d->value, 0);
     if (!(fabs(clamp) <= 1e-12 * scale))
         return br_fail(err, BR_BAD_INPUT,
                        "initial %s is %g at x = 0, expected 0 where the beam is clamped", d->name,
@@ -202,7 +221,7 @@ static enum br_status check_initial(const struct initial *d, const struct br_fun
         return br_fail(err, BR_BAD_INPUT, "initial %s needs %s, its derivative", d->name,
                        d->slope_name);
     *fault = d->slope;
-    const double slope = value_at(0, (void *)d->slope);
+    const double slope = value_of(d->slope, 0);
     if (!(fabs(slope) <= 1e-12 * scale / d->length))
         return br_fail(err, BR_BAD_INPUT,
                        "initial %s is %g at x = 0, expected 0 where the beam is clamped",
@@ -247,13 +266,6 @@ enum br_status br_scene_check_initial(const struct br_scene *s, size_t *culprit,
 }
 
 /* ---- functions that are numbers everywhere ---- */
-
-static double value_of(const struct br_function *f, double at)
-{
-    double value;
-    br_function_evaluate(f, 1, &at, at, &value);
-    return value;
-}
 
 /* By how much a value at a place may differ from those beside it, one number farther: by a jump,
  * and, where the function bends or is zero, by round-off of its values nearby. */

@@ -24,7 +24,7 @@ enum br_key_kind {
 enum br_need {
     BR_OPTIONAL,
     BR_REQUIRED,
-    BR_OR_DERIVED, /* it, or what makes it (engineering.h) */
+    BR_OR_DERIVED, /* it, or what makes it (engineering.c) */
     BR_OR_RATIO,   /* it, or a number without unit that makes it */
     BR_MAKES,      /* optional: makes another one, and is in no struct br_scene */
 };
@@ -60,6 +60,9 @@ extern const char *const br_friction_law_names[BR_FRICTION_LAWS];
 
 /* Ends with a row whose name is NULL. */
 extern const struct br_scene_key br_scene_keys[];
+
+/* The row of "axial.stiffness", or of "density", which is there. */
+size_t br_scene_row(const char *path);
 
 /* Refuses (BR_BAD_INPUT) initial data that break the clamp, that are not finite,
  * or whose slope is missing or is not the derivative. *culprit (out): where in struct br_scene the

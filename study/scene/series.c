@@ -24,7 +24,8 @@ static iv scale(double factor, iv a)
     return br_interval_multiply(br_point(factor), a);
 }
 
-/* What the series of one operation are made of. Its own first coefficient is known. */
+/* What the series of one operation are made of. Its own first coefficient is known, which a
+ * recurrence may put another one in the place of; the others are none. */
 struct recurrence {
     size_t order;
     const iv *a, *b;
@@ -196,7 +197,6 @@ static void power_of_both(const struct recurrence *r)
 
 static void power_series(const struct recurrence *r)
 {
-    const iv first = r->out[0];
     const double n = r->b[0].low;
     if (!is_constant(r->order, r->b))
         power_of_both(r);
@@ -206,7 +206,6 @@ static void power_series(const struct recurrence *r)
         whole_power_series(r->order, r->a, n, r->out);
     else
         real_power_series(r, n);
-    r->out[0] = first;
 }
 
 static void copy_series(size_t order, const iv *a, double sign, iv *out)
@@ -218,8 +217,8 @@ static void copy_series(size_t order, const iv *a, double sign, iv *out)
 /* Of what compares: constant where that is decided, else none. */
 static void decided_series(const struct recurrence *r)
 {
-    for (size_t k = 1; k <= r->order; k++)
-        r->out[k] = br_is_point(r->out[0]) ? br_point(0) : br_no_interval;
+    if (br_is_point(r->out[0]))
+        memset(r->out + 1, 0, r->order * sizeof *r->out);
 }
 
 /* The one of both that is less (sign 1) or larger (sign -1), where that is decided. */
@@ -228,38 +227,15 @@ static void extreme_series(const struct recurrence *r, double sign)
     const iv difference = scale(sign, br_interval_subtract(r->a[0], r->b[0]));
     if (difference.high <= 0 || difference.low >= 0)
         copy_series(r->order, difference.high <= 0 ? r->a : r->b, 1, r->out);
-    else
-        for (size_t k = 1; k <= r->order; k++)
-            r->out[k] = br_no_interval;
 }
 
-/* log a, over log unit where that is not 0; the recurrence needs the natural one. */
+/* log a over log unit */
 static void logarithm_series(const struct recurrence *r, double unit)
 {
-    const iv first = r->out[0], base = br_point(unit);
-    r->out[0] = br_interval_apply(BR_OP_LOG, r->a, false);
+    const iv base = br_point(unit);
     integral_series(r, r->a, 1);
-    for (size_t k = 1; k <= r->order && unit != 0; k++)
+    for (size_t k = 1; k <= r->order; k++)
         r->out[k] = br_interval_divide(r->out[k], br_interval_apply(BR_OP_LOG, &base, false));
-    r->out[0] = first;
-}
-
-/* expm1: exp but for its first coefficient */
-static void minus_one_series(const struct recurrence *r)
-{
-    const iv first = r->out[0];
-    r->out[0] = br_interval_apply(BR_OP_EXP, r->a, false);
-    exponential_series(r);
-    r->out[0] = first;
-}
-
-static void absolute_series(const struct recurrence *r)
-{
-    if (r->a[0].low >= 0 || r->a[0].high <= 0)
-        copy_series(r->order, r->a, r->a[0].low >= 0 ? 1 : -1, r->out);
-    else
-        for (size_t k = 1; k <= r->order; k++)
-            r->out[k] = br_no_interval;
 }
 
 static void unary_series(enum br_operation o, const struct recurrence *r)
@@ -293,10 +269,11 @@ static void unary_series(enum br_operation o, const struct recurrence *r)
         return inverse_series(r, 1, -1, false, 1);
     case BR_OP_EXP:
         return exponential_series(r);
-    case BR_OP_EXPM1:
-        return minus_one_series(r);
+    case BR_OP_EXPM1: /* exp but for its first coefficient */
+        r->out[0] = br_interval_apply(BR_OP_EXP, r->a, false);
+        return exponential_series(r);
     case BR_OP_LOG:
-        return logarithm_series(r, 0);
+        return integral_series(r, r->a, 1);
     case BR_OP_LOG2:
         return logarithm_series(r, 2);
     case BR_OP_LOG10:
@@ -304,7 +281,9 @@ static void unary_series(enum br_operation o, const struct recurrence *r)
     case BR_OP_SQRT:
         return root_series(r->order, r->a, r->out);
     case BR_OP_ABS:
-        return absolute_series(r);
+        if (r->a[0].low >= 0 || r->a[0].high <= 0)
+            copy_series(r->order, r->a, r->a[0].low >= 0 ? 1 : -1, r->out);
+        return;
     default:
         return decided_series(r);
     }
@@ -340,13 +319,15 @@ void br_series_apply(enum br_operation o, size_t order, const iv *const argument
 {
     const struct recurrence r = {order, argument[0], argument[1], out};
     const iv first[3] = {argument[0][0], argument[1][0], argument[2][0]};
-    out[0] = br_interval_apply(o, first, argument[0] == argument[1]);
+    const iv value = br_interval_apply(o, first, argument[0] == argument[1]);
+    out[0] = value;
     for (size_t k = 1; k <= order; k++)
         out[k] = br_no_interval;
     if (o == BR_OP_CHOOSE) {
         if (!br_has_zero(first[0]) || br_is_point(first[0])) /* none is neither */
             copy_series(order, argument[br_has_zero(first[0]) ? 2 : 1], 1, out);
-    } else if (!br_is_none(out[0])) {
+    } else if (!br_is_none(value)) {
         (br_operation_arguments(o) == 1 ? unary_series : binary_series)(o, &r);
     }
+    out[0] = value;
 }

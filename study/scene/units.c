@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "study/scene/words.h"
+
 /* ---- what is known ---- */
 
 /* All are exact: SI Brochure (2019), tables 4, 7 and 8, and NIST Special Publication 811 (2008),
@@ -87,10 +89,9 @@ const char *br_dimension_words(struct br_dimension d, char text[BR_DIMENSION_TEX
 
 const char *br_unit_words(char text[BR_UNIT_WORDS])
 {
-    size_t used = 0;
+    text[0] = '\0';
     for (size_t i = 0; i < UNITS; i++)
-        used += (size_t)snprintf(text + used, BR_UNIT_WORDS - used, "%s%s", i ? " " : "",
-                                 units[i].word);
+        br_append(text, BR_UNIT_WORDS, "%s%s", i ? " " : "", units[i].word);
     return text;
 }
 

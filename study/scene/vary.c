@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "study/scene/file.h"
-#include "study/scene/value.h"
 #include "study/scene/words.h"
 
 /* ---- what is varied ---- */
@@ -28,7 +27,6 @@ static enum br_status find_key(const char *text, size_t length, struct br_varied
 {
     char known[600] = "";
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
-        const size_t used = strlen(known);
         full_name(k, v->name);
         const bool found = strlen(v->name) == length && strncmp(text, v->name, length) == 0;
         if (found && !is_number(k) && k->kind != BR_KEY_SECTION)
@@ -40,7 +38,7 @@ static enum br_status find_key(const char *text, size_t length, struct br_varied
         if (found && v->key)
             return BR_OK;
         if (is_number(k))
-            snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", v->name);
+            br_append(known, sizeof known, "%s%s", *known ? ", " : "", v->name);
     }
     return br_fail(err, BR_BAD_INPUT, "--vary: found key '%.*s', expected one of: %s",
                    (int)(length < 100 ? length : 100), text, known);
@@ -52,21 +50,28 @@ static bool is_bare(const struct br_scene_key *key)
     return strcmp(key->unit, "1") == 0;
 }
 
-/* A number and perhaps its unit; returns what follows, or NULL. */
-static const char *read_value(struct br_varied *v, const char *text, double *value)
+/* "210 GPa": a number, and perhaps (*given) the unit of all. False: it is none, or has another one.
+ */
+static bool read_value(struct br_varied *v, const char *text, const char *end, double *value,
+                       bool *given)
 {
-    const char *unit = v->key->unit, *rest = br_read_number(text, value);
-    if (!rest)
-        return NULL;
-    rest += strspn(rest, " ");
-    const bool given = strncmp(rest, unit, strlen(unit)) == 0;
-    const bool bare = is_bare(v->key) || (v->key->need == BR_OR_RATIO && !given);
-    const char *meant = bare ? "" : unit;
-    if (v->unit && *v->unit != *meant) /* what a bare number is depends on its neighbours */
-        return NULL;
-    v->unit = meant;
-    rest += given ? strlen(unit) : 0;
-    return rest + strspn(rest, " ");
+    char item[100];
+    const size_t length = (size_t)(end - text);
+    if (length >= sizeof item)
+        return false;
+    snprintf(item, sizeof item, "%.*s", (int)length, text);
+    const char *unit = br_read_number(item + strspn(item, " "), value);
+    if (!unit)
+        return false;
+    for (char *last = item + length; last > unit && last[-1] == ' ';)
+        *--last = '\0';
+    unit += strspn(unit, " ");
+    *given = *unit;
+    if (!*unit)
+        return true;
+    if (!*v->unit && strlen(unit) < sizeof v->unit)
+        strcpy(v->unit, unit);
+    return strcmp(v->unit, unit) == 0;
 }
 
 static enum br_status refuse_values(const struct br_varied *v, const char *found,
@@ -74,15 +79,10 @@ static enum br_status refuse_values(const struct br_varied *v, const char *found
 {
     return br_fail(err, BR_BAD_INPUT,
                    "--vary: %s: found '%.200s', expected LOW..HIGH log COUNT, LOW..HIGH lin COUNT, "
-                   "or numbers %s%s separated by commas, like '%s=1e2..1e6 log 9'",
-                   v->name, found, is_bare(v->key) ? "without unit" : "in ",
+                   "or numbers separated by commas, %s%s or with one unit behind them, like "
+                   "'%s=1e2..1e6 log 9'",
+                   v->name, found + strspn(found, " "), is_bare(v->key) ? "without unit" : "in ",
                    is_bare(v->key) ? "" : v->key->unit, v->name);
-}
-
-static enum br_status make_room(struct br_varied *v, size_t count, struct br_error *err)
-{
-    v->value = br_allocate(count, sizeof *v->value);
-    return v->value ? BR_OK : br_no_memory(err, "the values of --vary");
 }
 
 static enum br_status check_count(const struct br_varied *v, double count, double least,
@@ -94,18 +94,21 @@ static enum br_status check_count(const struct br_varied *v, double count, doubl
                    count, least, BR_MOST_VARIED);
 }
 
+/* Of a key that takes numbers without unit, too, all values have one or none. */
 static enum br_status read_list(struct br_varied *v, const char *text, struct br_error *err)
 {
     size_t most = 1;
+    bool given = false, first = false;
     for (const char *c = text; *c; c++)
         most += *c == ',';
-    if (check_count(v, (double)most, 1, err) || make_room(v, most, err))
+    if (check_count(v, (double)most, 1, err))
         return err->status;
     for (const char *rest = text;; rest++) {
         double *value = &v->value[v->count];
-        rest += strspn(rest, " ");
-        const char *end = read_value(v, rest, value);
-        if (!end || (*end && *end != ','))
+        const char *end = strchrnul(rest, ',');
+        const bool read = read_value(v, rest, end, value, &given);
+        first = v->count ? first : given;
+        if (!read || (v->key->need == BR_OR_RATIO && given != first))
             return refuse_values(v, rest, err);
         for (size_t i = 0; i < v->count; i++)
             if (v->value[i] == *value)
@@ -144,22 +147,19 @@ static enum br_status read_range(struct br_varied *v, const char *text, const ch
                                  struct br_error *err)
 {
     double low = NAN, high = NAN, count = NAN;
-    char first[100]; /* "1..2" has no number "1." */
-    snprintf(first, sizeof first, "%.*s", (int)(dots - text < 99 ? dots - text : 99), text);
-    const char *rest = read_value(v, first, &low);
-    if (v->unit && !*v->unit) /* 100..300 N/m: the unit is that of both */
-        v->unit = NULL;
-    const char *word = rest && !*rest ? read_value(v, dots + 2, &high) : NULL;
-    const bool lin = word && strncmp(word, "lin ", 4) == 0;
-    v->logarithmic = word && strncmp(word, "log ", 4) == 0;
-    const char *end = lin || v->logarithmic ? br_read_number(word + 4, &count) : NULL;
+    const char *log = strstr(dots, " log "), *word = log ? log : strstr(dots, " lin ");
+    bool given = false;
+    const bool read = word && read_value(v, text, dots, &low, &given) &&
+                      read_value(v, dots + 2, word, &high, &given);
+    const char *end = read ? br_read_number(word + strlen(" log "), &count) : NULL;
+    v->logarithmic = log;
     if (!end || *end)
         return refuse_values(v, text, err);
     if (!(low < high) || (v->logarithmic && !(low > 0)))
         return br_fail(err, BR_BAD_INPUT, "--vary: %s: found %g..%g, expected %s", v->name, low,
                        high,
                        low < high ? "numbers above 0 for log" : "a lower and then a higher number");
-    if (check_count(v, count, 2, err) || make_room(v, (size_t)count, err))
+    if (check_count(v, count, 2, err))
         return err->status;
     for (v->count = 0; (double)v->count < count; v->count++) {
         const double part = (double)v->count / (count - 1);
@@ -178,9 +178,16 @@ enum br_status br_varied_read(const char *text, struct br_varied *v, struct br_e
     *v = (struct br_varied){0};
     if (find_key(text, length, v, err))
         return err->status;
+    v->value = br_allocate(BR_MOST_VARIED, sizeof *v->value);
+    if (!v->value)
+        return br_no_memory(err, "the values of --vary");
     const char *values = text[length] ? text + length + 1 : "";
     const char *dots = strstr(values, "..");
-    return dots ? read_range(v, values, dots, err) : read_list(v, values, err);
+    const enum br_status status =
+        dots ? read_range(v, values, dots, err) : read_list(v, values, err);
+    if (!*v->unit && !is_bare(v->key) && v->key->need != BR_OR_RATIO)
+        strcpy(v->unit, v->key->unit);
+    return status;
 }
 
 void br_varied_clear(struct br_varied *v)
@@ -189,108 +196,12 @@ void br_varied_clear(struct br_varied *v)
     *v = (struct br_varied){0};
 }
 
-/* ---- the scene ---- */
-
-/* One value in a document. */
-struct change {
-    const struct br_varied *varied;
-    size_t value;
-    struct br_scene *scene;
-};
-
-/* The pair of a mapping with that key, or NULL. */
-static yaml_node_pair_t *find_pair(yaml_document_t *document, int mapping, const char *key)
-{
-    yaml_node_t *node = yaml_document_get_node(document, mapping);
-    if (!node || node->type != YAML_MAPPING_NODE)
-        return NULL;
-    for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top;
-         p++) {
-        const yaml_node_t *name = yaml_document_get_node(document, p->key);
-        if (name->type == YAML_SCALAR_NODE && strcmp(br_yaml_text(name), key) == 0)
-            return p;
-    }
-    return NULL;
-}
-
-/* A new scalar, on a line for messages; 0: no memory. */
-static int add_scalar(yaml_document_t *document, const char *text, const yaml_mark_t *mark)
-{
-    const yaml_mark_t at = *mark; /* of a node that may move */
-    const int id = yaml_document_add_scalar(document, NULL, (const yaml_char_t *)text, -1,
-                                            YAML_PLAIN_SCALAR_STYLE);
-    if (id)
-        yaml_document_get_node(document, id)->start_mark = at;
-    return id;
-}
-
-/* A mapping of the same pairs: an alias may stand for the old one elsewhere. */
-static int copy_mapping(yaml_document_t *document, int mapping)
-{
-    const yaml_mark_t at = yaml_document_get_node(document, mapping)->start_mark;
-    const int copy = yaml_document_add_mapping(document, NULL, YAML_BLOCK_MAPPING_STYLE);
-    const yaml_node_t *old = yaml_document_get_node(document, mapping);
-    bool whole = copy;
-    for (const yaml_node_pair_t *p = old->data.mapping.pairs.start;
-         p < old->data.mapping.pairs.top && whole; p++)
-        whole = yaml_document_append_mapping_pair(document, copy, p->key, p->value);
-    if (copy)
-        yaml_document_get_node(document, copy)->start_mark = at;
-    return whole ? copy : 0;
-}
-
-/* Gives a key of a mapping another text, or, where it has none, its first one. */
-static bool set_text(yaml_document_t *document, int mapping, const char *key, const char *text)
-{
-    yaml_node_pair_t *pair = find_pair(document, mapping, key);
-    const yaml_mark_t at =
-        yaml_document_get_node(document, pair ? pair->value : mapping)->start_mark;
-    const int value = add_scalar(document, text, &at);
-    if (pair && value) {
-        pair->value = value;
-        return true;
-    }
-    const int name = value ? add_scalar(document, key, &at) : 0;
-    return name && yaml_document_append_mapping_pair(document, mapping, name, value);
-}
-
-static enum br_status take(const struct br_scene_reader *reader, void *self)
-{
-    enum { ROOT = 1 };
-    const struct change *c = self;
-    const struct br_scene_key *key = c->varied->key;
-    yaml_document_t *document = reader->document;
-    const yaml_node_t *root = yaml_document_get_root_node(document);
-    struct br_scene_reader r = *reader;
-    int mapping = ROOT;
-    char text[100];
-    r.scene = c->scene;
-    if (!root || root->type != YAML_MAPPING_NODE)
-        return br_scene_refuse(&r, 1, "scene", "expected a mapping of keys to values");
-    if (*key->section) {
-        yaml_node_pair_t *section = find_pair(document, ROOT, key->section);
-        if (!section)
-            return br_fail(r.err, BR_BAD_INPUT,
-                           "%s: --vary: %s: the scene has no '%s', expected one", r.path,
-                           c->varied->name, key->section);
-        const int old = section->value;
-        if (yaml_document_get_node(document, old)->type == YAML_MAPPING_NODE &&
-            !(mapping = section->value = copy_mapping(document, old)))
-            return br_no_memory(r.err, "the YAML parser");
-        if (section->value == old)
-            return br_scene_document(&r); /* no mapping: the reader refuses it */
-    }
-    snprintf(text, sizeof text, "%.17g %s", c->varied->value[c->value], c->varied->unit);
-    return set_text(document, mapping, key->name, text) ? br_scene_document(&r)
-                                                        : br_no_memory(r.err, "the YAML parser");
-}
-
 enum br_status br_varied_scene(const struct br_varied *v, size_t i, const char *path,
                                const char *text, struct br_scene *scene, struct br_error *err)
 {
-    struct change c = {v, i, scene};
-    *scene = (struct br_scene){0};
-    return br_yaml_read(path, text, take, &c, err);
+    char value[100];
+    snprintf(value, sizeof value, "%.17g %s", v->value[i], v->unit);
+    return br_scene_read_with(path, text, v->key, value, scene, err);
 }
 
 /* ---- what is found ---- */

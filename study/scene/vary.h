@@ -12,16 +12,16 @@ struct br_varied {
     const struct br_scene_key *key;
     char name[64];    /* "contact.stiffness" */
     bool logarithmic; /* its values are spaced so */
-    const char *unit; /* of the values: the key's; "": of a key that also takes a number without
-                         unit, which then makes it, as Coulomb's coefficient */
+    char unit[32];    /* of the values; "": of a key that takes numbers without unit, as Coulomb's
+                         coefficient, which they then make */
     double *value;    /* count, in that unit, in the order given; owned */
     size_t count;
 };
 
-/* Reads KEY=LOW..HIGH log|lin COUNT, or KEY=VALUE,VALUE,...; values may have the key's unit, and
- * those of a key that also takes numbers without unit all have it, or none has. Fails
- * with BR_BAD_INPUT, naming the key, what was found and what was expected, or with BR_NO_MEMORY;
- * clear it even then. */
+/* Reads KEY=LOW..HIGH log|lin COUNT, or KEY=VALUE,VALUE,... A unit behind a value is that of all;
+ * without one they have the key's, or none where the key takes numbers without, whose list has it
+ * behind each or none. The scene's reader judges it. Fails with BR_BAD_INPUT, naming the key, what
+ * was found and what was expected, or with BR_NO_MEMORY; clear it even then. */
 enum br_status br_varied_read(const char *text, struct br_varied *varied, struct br_error *err);
 void br_varied_clear(struct br_varied *varied);
 

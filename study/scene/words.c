@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -15,12 +16,20 @@ bool br_word_available(const struct br_words *w, size_t row)
 
 char *br_words_join(const struct br_words *w, const char *separator, char *text, size_t size)
 {
-    size_t used = 0;
     text[0] = '\0';
-    for (size_t i = 0; w->name(i) && used < size; i++)
+    for (size_t i = 0; w->name(i); i++)
         if (br_word_available(w, i))
-            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? separator : "",
-                                     w->name(i));
+            br_append(text, size, "%s%s", *text ? separator : "", w->name(i));
+    return text;
+}
+
+char *br_append(char *text, size_t size, const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text + used, size - used, format, args);
+    va_end(args);
     return text;
 }
 

@@ -37,6 +37,10 @@ char *br_words_join(const struct br_words *words, const char *separator, char *t
 enum br_status br_words_read(const struct br_words *words, const char *text, size_t length,
                              size_t *row, struct br_error *err);
 
+/* Adds to a text that is already in there, cut where it is full; returns it. */
+__attribute__((format(printf, 3, 4))) char *br_append(char *text, size_t size, const char *format,
+                                                      ...);
+
 /* ---- what was meant ---- */
 
 /* What somebody may have meant who mistyped a name. */

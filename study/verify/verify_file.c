@@ -37,15 +37,6 @@ static const char *expected_study(struct block *b)
     return text;
 }
 
-/* `inner` as a refusal at a line. */
-static enum br_status pass_on(const struct br_scene_reader *r, size_t line, const char *key,
-                              const struct br_error *inner)
-{
-    if (inner->status == BR_BAD_INPUT)
-        return br_scene_refuse(r, line, key, "%s", inner->message);
-    return br_fail(r->err, inner->status, "%s", inner->message);
-}
-
 /* ---- n and k ---- */
 
 static enum br_status read_meshes(struct block *b, const yaml_node_t *node)
@@ -53,7 +44,7 @@ static enum br_status read_meshes(struct block *b, const yaml_node_t *node)
     struct br_error inner = {0};
     b->n_line = br_yaml_line(node);
     if (br_read_counts("the list", br_yaml_text(node), &b->n, &b->n_count, &inner))
-        return pass_on(b->r, b->n_line, "n", &inner);
+        return br_scene_pass_on(b->r, b->n_line, "n", &inner);
     return BR_OK;
 }
 
@@ -71,7 +62,7 @@ static enum br_status read_steps(struct block *b, const yaml_node_t *node)
             "found '%s', expected time steps and their unit, like '8e-3, 4e-3 s'", text);
     snprintf(numbers, sizeof numbers, "%.*s", (int)(length - 2), text);
     if (br_read_numbers("the list", numbers, &b->k, &b->k_count, &inner))
-        return pass_on(b->r, b->k_line, "k", &inner);
+        return br_scene_pass_on(b->r, b->k_line, "k", &inner);
     return BR_OK;
 }
 
@@ -110,7 +101,7 @@ static enum br_status make_cells(struct block *b)
         struct br_error inner = {0};
         v->n[i] = b->n[b->n_count == 1 ? 0 : i];
         if (br_steps_of(b->r->scene, b->k[b->k_count == 1 ? 0 : i], &v->steps[i], &inner))
-            return pass_on(b->r, b->k_line, "k", &inner);
+            return br_scene_pass_on(b->r, b->k_line, "k", &inner);
     }
     br_sort_counts(v->n, count);
     br_sort_counts(v->steps, count);
@@ -238,12 +229,12 @@ static enum br_status read_method(struct block *b)
     *m = br_method_default();
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
         if (b->text[i] && br_method_field_read(&br_method_fields[i], b->text[i], m, &inner))
-            return pass_on(b->r, b->line[i], br_method_field_key(&br_method_fields[i], key),
-                           &inner);
+            return br_scene_pass_on(b->r, b->line[i],
+                                    br_method_field_key(&br_method_fields[i], key), &inner);
     enum br_status status = br_method_read(b->text, BR_METHOD_IN_SCENE, m, &inner);
     if (!status)
         status = br_method_check_heeded(b->text, BR_METHOD_IN_SCENE, methods, 1, &inner);
-    return status ? pass_on(b->r, b->study->line, br_verify_names[b->kind], &inner) : BR_OK;
+    return br_scene_pass_on(b->r, b->study->line, br_verify_names[b->kind], &inner);
 }
 
 static enum br_status read_block(struct block *b, const yaml_node_t *node)
@@ -299,6 +290,6 @@ enum br_status br_verify_read(const struct br_scene_reader *r, const yaml_node_t
     struct br_error inner = {0};
     size_t line;
     if (br_verify_check(r->scene, verify, &line, &inner))
-        return pass_on(r, line ? line : br_yaml_line(node), "verify", &inner);
+        return br_scene_pass_on(r, line ? line : br_yaml_line(node), "verify", &inner);
     return BR_OK;
 }
