@@ -14,10 +14,12 @@
 #include "study/extremes/stability.h"
 #include "tables/reports.h"
 
-/* Round-off of the linear solvers; a picture for each k. */
-static enum br_status run_floors(const struct br_extremes_job *job, struct br_error *err)
+/* Round-off: a picture for each k of the solvers' floors, or one of what steps gather. */
+static enum br_status run_round_off(const struct br_extremes_job *job, bool gathered,
+                                    struct br_error *err)
 {
     const struct br_floors_plan plan = {
+        .gathered = gathered,
         .n = job->n,
         .k = job->k,
         .n_count = job->n_count,
@@ -25,16 +27,22 @@ static enum br_status run_floors(const struct br_extremes_job *job, struct br_er
         .threads = job->threads,
         .rounding = job->rounding,
     };
-    struct br_floors floors = {0};
-    enum br_status status = br_floors_run(&floors, &plan, job->observer, err);
+    struct br_floors f = {0};
+    enum br_status status = br_floors_run(&f, &plan, job->observer, err);
     if (!status) {
-        br_report_floors(&floors, job->report);
-        br_floors_verdict(&floors, job->verdict);
+        br_report_floors(&f, job->report);
+        br_floors_verdict(&f, job->verdict);
     }
-    for (size_t i = 0; i < floors.k_count && floors.n_count > 1 && !status; i++)
-        br_session_draw(job->session, job->report, br_floors_draw(&floors, i), NULL);
-    br_floors_clear(&floors);
+    const size_t points = gathered ? f.k_count : f.n_count, pictures = gathered ? 1 : f.k_count;
+    for (size_t i = 0; i < pictures && points > 1 && !status; i++)
+        br_session_draw(job->session, job->report, br_floors_draw(&f, i), NULL);
+    br_floors_clear(&f);
     return status;
+}
+
+static enum br_status run_floors(const struct br_extremes_job *job, struct br_error *err)
+{
+    return run_round_off(job, false, err);
 }
 
 static const struct br_extremes_part floors = {
@@ -44,25 +52,9 @@ static const struct br_extremes_part floors = {
     .run = run_floors,
 };
 
-/* Round-off that many steps gather. */
 static enum br_status run_steps(const struct br_extremes_job *job, struct br_error *err)
 {
-    const struct br_drifts_plan plan = {
-        .k = job->k,
-        .k_count = job->k_count,
-        .threads = job->threads,
-        .rounding = job->rounding,
-    };
-    struct br_drifts drifts = {0};
-    enum br_status status = br_drifts_run(&drifts, &plan, job->observer, err);
-    if (!status) {
-        br_report_drifts(&drifts, job->report);
-        br_drifts_verdict(&drifts, job->verdict);
-    }
-    if (!status && drifts.k_count > 1)
-        br_session_draw(job->session, job->report, br_drifts_draw(&drifts), NULL);
-    br_drifts_clear(&drifts);
-    return status;
+    return run_round_off(job, true, err);
 }
 
 static const struct br_extremes_part steps = {

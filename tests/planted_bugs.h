@@ -686,7 +686,7 @@ static const struct planted_bug planted_bugs[] = {
      "(double)t->at.steps * at_mesh(pace->level", "at_mesh(pace->level"},
     {"front_of_last_bits", "tolerance", "study/trade/trade.c", "tests/test_trade",
      "other_error <= (1 + tie) * error;", "other_error < (1 - tie) * error;"},
-    {"floor_in_metres", "units", "study/extremes/deviation.c", "tests/test_floors",
+    {"floor_in_metres", "units", "study/extremes/floors.c", "tests/test_floors",
      "floor->deviation[kind] = (double)(most / largest);",
      "floor->deviation[kind] = (double)most;"},
     {"step_of_another_velocity", "units", "study/extremes/step_matrix.c",
