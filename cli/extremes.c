@@ -3,8 +3,6 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "cli/command.h"
 #include "cli/extremes_part.h"
@@ -12,7 +10,7 @@
 #include "cli/session.h"
 #include "study/ranks/ranks.h"
 
-enum { MOST_PARTS = 16, PATH = 1200 };
+enum { MOST_PARTS = 16 };
 
 struct run {
     struct br_session session;
@@ -137,38 +135,6 @@ static enum br_status read_request(struct run *r, struct br_error *err)
     return check_heeded(r, err);
 }
 
-/* ---- what an interrupted part has left ---- */
-
-/* Where part i keeps it, or NULL. */
-static const char *kept_path(const struct run *r, size_t i, char path[PATH])
-{
-    snprintf(path, PATH, "%s/%s.cases", r->session.output.folder, r->part[i]->name);
-    return r->part[i]->heeds & BR_HEEDS_RESUME ? path : NULL;
-}
-
-/* Hours of work are not thrown away without a word. */
-static enum br_status check_kept(const struct run *r, struct br_error *err)
-{
-    char path[PATH];
-    struct stat there;
-    for (size_t i = 0; i < r->parts && !br_option_given(r->session.options, BR_OPT_RESUME); i++)
-        if (kept_path(r, i, path) && stat(path, &there) == 0)
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s is what an interrupted run has left: --resume goes on with it; "
-                           "remove it to begin anew",
-                           path);
-    return BR_OK;
-}
-
-static enum br_status remove_kept(const struct run *r, struct br_error *err)
-{
-    char path[PATH];
-    for (size_t i = 0; i < r->parts; i++)
-        if (kept_path(r, i, path) && unlink(path) < 0 && errno != ENOENT)
-            return br_fail(err, BR_IO, "%s: %s", path, strerror(errno));
-    return BR_OK;
-}
-
 /* ---- computing and writing ---- */
 
 static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
@@ -176,9 +142,14 @@ static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
     const struct br_extremes_part *part = r->part[i];
     const struct br_provenance provenance = br_provenance_of(NULL, r->session.threads);
     struct br_extremes_job job = r->job;
-    char kept[PATH], what[64];
+    struct br_kept kept = {0};
+    char what[64];
     snprintf(what, sizeof what, "%s (%zu of %zu)", part->name, i + 1, r->parts);
-    job.kept = kept_path(r, i, kept);
+    if (part->heeds & BR_HEEDS_RESUME) {
+        if (br_session_keep(&r->session, part->name, "", &kept, err))
+            return err->status;
+        job.kept = &kept;
+    }
     job.folder = r->session.output.staging;
     job.observer = br_progress_start(what, r->session.quiet);
     job.session = &r->session;
@@ -186,6 +157,7 @@ static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
     job.verdict = &r->verdict[i];
     const enum br_status status = part->run(&job, err);
     br_progress_end();
+    br_session_tell_kept(&r->session, &kept);
     if (status)
         return br_failed_in(err, part->name);
     br_put_provenance(job.report, &provenance);
@@ -215,9 +187,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 {
     struct run r = {.session = br_session_begin(options)};
     const bool failed = read_request(&r, err) || br_session_open(&r.session, err) ||
-                        check_kept(&r, err) || run_parts(&r, err) ||
-                        br_session_finish(&r.session, err) || remove_kept(&r, err) ||
-                        judge(&r, err);
+                        run_parts(&r, err) || br_session_finish(&r.session, err) || judge(&r, err);
     br_session_close(&r.session);
     return failed ? err->status : BR_OK;
 }

@@ -18,11 +18,10 @@ struct br_extremes_job {
     const size_t *n;
     const double *k; /* s */
     size_t n_count, k_count;
-    int rounding;       /* as fesetround takes it: of the marches, not of their judges */
-    const char *kept;   /* path of a file in which a part that takes long keeps what is done, so
-                           that it can be resumed: what it finds there it need not do again, and
-                           the file is removed when all is written. NULL: nothing is kept */
-    const char *folder; /* for other files of the part (reproducer scenes): the staging folder */
+    int rounding;         /* as fesetround takes it: of the marches, not of their judges */
+    struct br_kept *kept; /* where a part that takes long keeps what is done, and finds what need
+                             not be done again; NULL: nothing is kept */
+    const char *folder;   /* for other files of the part (reproducer scenes): the staging folder */
     const struct br_observer *observer; /* NULL: nobody */
     struct br_session *session; /* for br_session_draw: the stems of pictures are the part's name,
                                    or begin with it and a dash */

@@ -3,11 +3,7 @@
  * reports and plots/ draws. */
 #include "cli/extremes_part.h"
 
-#include <stdio.h>
-
-#include "cli/provenance.h"
 #include "plots/pictures.h"
-#include "study/extremes/count.h"
 #include "study/extremes/energy_behaviour.h"
 #include "study/extremes/floors.h"
 #include "study/extremes/map.h"
@@ -137,15 +133,12 @@ enum { CASES = 2000, SEED = 1 };
 /* Thousands of cases at random, and none of them silently wrong. */
 static enum br_status run_map(const struct br_extremes_job *job, struct br_error *err)
 {
-    char program[300];
-    snprintf(program, sizeof program, "beamrate %s %s", br_version(), br_commit());
     const struct br_extreme_request request = {
         .seed = job->seed ? job->seed : SEED,
         .cases = job->cases ? job->cases : CASES,
         .threads = job->threads,
         .judging = {.rounding = job->rounding},
         .kept = job->kept,
-        .program = program,
         .folder = job->folder,
         .observer = job->observer,
     };

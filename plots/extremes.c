@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "plots/pictures.h"
-#include "study/extremes/count.h"
 #include "study/extremes/energy_behaviour.h"
 #include "study/extremes/floors.h"
+#include "study/extremes/map.h"
 #include "study/extremes/stability.h"
 
 /* ---- floors: deviation over n, or over N ---- */
@@ -208,14 +208,14 @@ struct br_figure br_extreme_map_draw(const struct br_extreme_map *map)
         BR_SAY(figure->kind[i], "%s", br_extreme_title((enum br_extreme_class)i));
     for (size_t i = 0; i < BR_EXTREME_PLANES; i++) {
         const struct br_extreme_plane *plane = &br_extreme_planes[i];
-        struct br_panel *p = br_panel_add(figure, plane->x->title, plane->y->title);
-        struct br_cells *c = br_cells_make(figure, plane->x->cells, plane->y->cells);
+        struct br_panel *p = br_panel_add(figure, plane->x.title, plane->y.title);
+        struct br_cells *c = br_cells_make(figure, plane->x.cells, plane->y.cells);
         p->log_x = p->log_y = true;
         BR_SAY(p->title, "%s", plane->title);
         if (!c)
             break;
-        fill_edges(plane->x, c->x);
-        fill_edges(plane->y, c->y);
+        fill_edges(&plane->x, c->x);
+        fill_edges(&plane->y, c->y);
         br_extreme_plane_fill(map, plane, c->value);
     }
     return picture;

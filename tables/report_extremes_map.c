@@ -2,7 +2,7 @@
 #include <inttypes.h>
 #include <math.h>
 
-#include "study/extremes/count.h"
+#include "study/extremes/map.h"
 #include "tables/reports.h"
 
 /* By class; a key is the class's word. */
@@ -22,9 +22,8 @@ static void put_tallies(struct br_document *d, const struct br_extreme_counts *c
     for (size_t i = 0; i < counts->tallies; i++) {
         const struct br_extreme_tally *t = &counts->tally[i];
         br_put_row(d);
-        BR_PUT(d, br_text(t->axis ? t->axis->title : "all"), .key = "tried",
-               .heading = "what was tried");
-        BR_PUT(d, br_text(t->axis ? t->label : NULL), .key = "range");
+        BR_PUT(d, br_text(t->title), .key = "tried", .heading = "what was tried");
+        BR_PUT(d, br_text(*t->label ? t->label : NULL), .key = "range");
         BR_PUT(d, br_count(t->cases), .key = "cases");
         for (int c = 0; c < BR_EXTREME_CLASSES; c++)
             BR_PUT(d, br_count(t->count[c]), .key = br_extreme_word((enum br_extreme_class)c),
