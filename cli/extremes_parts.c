@@ -103,7 +103,7 @@ static enum br_status judge_energy(const struct br_energy_behaviour *b, struct b
             return br_fail(err, BR_VERDICT,
                            "%s by scheme %s: what is missing in the energy balance of a step is "
                            "%.3g of the terms' sum, expected at most %.3g",
-                           br_balance_scenes[b->balance[i].scene], b->balance[i].scheme->name,
+                           b->balance[i].scene->name, b->balance[i].scheme->name,
                            b->balance[i].worst, b->balance[i].limit);
     return BR_OK;
 }

@@ -159,15 +159,15 @@ static void to_edges(size_t count, double *edge)
 static void fill_cells(const struct br_stability *s, const struct br_stability_plane *plane,
                        struct br_figure *figure)
 {
-    struct br_cells *c = br_cells_make(figure, s->columns, s->rows);
+    struct br_cells *c = br_cells_make(figure, BR_STABILITY_COLUMNS, s->rows);
     if (!c)
         return;
-    memcpy(c->x, s->stiffness, s->columns * sizeof *c->x);
+    memcpy(c->x, s->stiffness, BR_STABILITY_COLUMNS * sizeof *c->x);
     for (size_t i = 0; i < s->rows; i++)
         c->y[i] = plane->row[i].k;
-    to_edges(s->columns, c->x);
+    to_edges(BR_STABILITY_COLUMNS, c->x);
     to_edges(s->rows, c->y);
-    memcpy(c->value, plane->radius, s->rows * s->columns * sizeof *c->value);
+    memcpy(c->value, plane->radius, s->rows * BR_STABILITY_COLUMNS * sizeof *c->value);
 }
 
 struct br_figure br_stability_draw(const struct br_stability *s)

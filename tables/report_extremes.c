@@ -158,7 +158,7 @@ static void put_limits(struct br_document *d, const struct br_stability *s)
 
 static void put_growth(struct br_document *d, const struct br_stability *s)
 {
-    const size_t cells = s->rows * s->columns;
+    const size_t cells = s->rows * BR_STABILITY_COLUMNS;
     br_put_table(d, "cells", "Growth a step of the closed lagged contact", BR_FILES_ONLY);
     for (size_t i = 0; i < BR_STABILITY_RODS * cells; i++) {
         const struct br_stability_plane *p = &s->plane[i / cells];
@@ -166,8 +166,9 @@ static void put_growth(struct br_document *d, const struct br_stability *s)
         const double growth = p->growth[at];
         br_put_row(d);
         BR_PUT(d, br_text(p->rod->name), .key = "rod");
-        BR_PUT(d, br_number(p->row[at / s->columns].k), .key = "k", .unit = "s", .format = "%.6g");
-        BR_PUT(d, br_number(s->stiffness[at % s->columns]), .key = "c_H", .unit = "N/m",
+        BR_PUT(d, br_number(p->row[at / BR_STABILITY_COLUMNS].k), .key = "k", .unit = "s",
+               .format = "%.6g");
+        BR_PUT(d, br_number(s->stiffness[at % BR_STABILITY_COLUMNS]), .key = "c_H", .unit = "N/m",
                .format = "%.6g");
         BR_PUT(d, br_number(p->radius[at]), .key = "eigenvalue", .heading = "largest eigenvalue",
                .format = "%.15g");

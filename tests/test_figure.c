@@ -13,7 +13,7 @@
 #include "made_report.h"
 #include "plots/pictures.h"
 #include "plots/render.h"
-#include "study/extremes/count.h"
+#include "study/extremes/map.h"
 #include "study/extremes/energy_behaviour.h"
 #include "study/extremes/floors.h"
 #include "study/run/history.h"
@@ -403,13 +403,13 @@ static void test_map(void **state)
         const struct br_extreme_plane *plane = &br_extreme_planes[i];
         const struct br_cells *c = &f.panel[i].cells;
         double cell[1024];
-        assert_true(c->columns == plane->x->cells && c->rows == plane->y->cells);
+        assert_true(c->columns == plane->x.cells && c->rows == plane->y.cells);
         br_extreme_plane_fill(&map, plane, cell);
         assert_memory_equal(c->value, cell, c->rows * c->columns * sizeof *cell);
-        figure_axes(&f.panel[i], plane->x->title, plane->y->title);
-        CLOSE(log10(c->x[0]), plane->x->low, 1e-12);
-        CLOSE(log10(c->x[c->columns]), plane->x->high, 1e-12);
-        CLOSE(log10(c->y[c->rows]), plane->y->high, 1e-12);
+        figure_axes(&f.panel[i], plane->x.title, plane->y.title);
+        CLOSE(log10(c->x[0]), plane->x.low, 1e-12);
+        CLOSE(log10(c->x[c->columns]), plane->x.high, 1e-12);
+        CLOSE(log10(c->y[c->rows]), plane->y.high, 1e-12);
     }
     figure_check(&f);
     br_figure_clear(&f);

@@ -9,7 +9,6 @@
 #include "plots/pictures.h"
 #include "solver/laws.h"
 #include "study/extremes/stability.h"
-#include "study/extremes/step_matrix.h"
 #include "study/grid/observer.h"
 #include "support.h"
 #include "tables/reports.h"
@@ -72,7 +71,7 @@ static void test_found(void **state)
     struct br_error err = {0};
     MUST(br_stability_verdict(&found, &err));
     assert_int_equal(found.rows, 3);
-    assert_int_equal(found.cells, BR_STABILITY_RODS * 3 * found.columns);
+    assert_int_equal(found.cells, BR_STABILITY_RODS * 3 * BR_STABILITY_COLUMNS);
     assert_true(found.growing > found.cells / 4 && found.growing < found.cells * 3 / 4);
     AT_MOST(found.limit_error, 2e-11);
     AT_MOST(found.growth_error, 1e-12);

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "solver/laws.h"
-#include "study/extremes/step_matrix.h"
 #include "study/grid/each.h"
 
 const double br_stability_tolerance = 1e-9;
@@ -16,7 +15,7 @@ const double br_stability_tolerance = 1e-9;
 /* How far outside of the unit circle an eigenvalue is found to be there. */
 static const double outside = 1e-11;
 
-enum { A_DECADE = 4, DECADES_OF_STIFFNESS = 15, DECADES_OF_STEPS = 5 };
+enum { A_DECADE = 4, DECADES_OF_STEPS = 5 };
 
 const struct br_stability_rod br_stability_rods[BR_STABILITY_RODS] = {
     {"example", "the paper's Examples", 1e-4, 1, 1},
@@ -73,17 +72,18 @@ static enum br_status measure_row(struct br_stability *s, size_t plane, size_t r
     r->limit = br_contact_limit_stiffness(&field);
     r->bouncing = br_contact_limit_bouncing(&field);
     r->measured = NAN;
-    double *radius = p->radius + row * s->columns, *growth = p->growth + row * s->columns;
-    for (size_t j = 0; j < s->columns; j++) {
+    double *radius = p->radius + row * BR_STABILITY_COLUMNS,
+           *growth = p->growth + row * BR_STABILITY_COLUMNS;
+    for (size_t j = 0; j < BR_STABILITY_COLUMNS; j++) {
         const enum br_status status = br_step_radius(&field, s->stiffness[j], &radius[j], err);
         if (status)
             return status;
         growth[j] = br_contact_growth(&field, s->stiffness[j]);
     }
     size_t first = 0;
-    while (first < s->columns && !(radius[first] > 1 + outside))
+    while (first < BR_STABILITY_COLUMNS && !(radius[first] > 1 + outside))
         first++;
-    if (first == 0 || first == s->columns)
+    if (first == 0 || first == BR_STABILITY_COLUMNS)
         return BR_OK; /* no limit within the columns */
     return find_limit(&field, s->stiffness[first - 1], s->stiffness[first], &r->measured, err);
 }
@@ -132,18 +132,13 @@ static enum br_status make_plane(struct br_stability *s, size_t i, const double 
     struct br_stability_plane *p = &s->plane[i];
     p->rod = &br_stability_rods[i];
     p->row = br_allocate(s->rows, sizeof *p->row);
-    p->radius = br_allocate(s->rows * s->columns, sizeof *p->radius);
-    p->growth = br_allocate(s->rows * s->columns, sizeof *p->growth);
+    p->radius = br_allocate(s->rows * BR_STABILITY_COLUMNS, sizeof *p->radius);
+    p->growth = br_allocate(s->rows * BR_STABILITY_COLUMNS, sizeof *p->growth);
     if (!p->row || !p->radius || !p->growth)
         return br_no_memory(err, "a plane of stability");
     for (size_t j = 0; j < s->rows; j++)
         p->row[j].k = k ? k[j] : pow(10, -6 + (double)j / A_DECADE);
-    for (size_t j = 1; j < s->rows; j++) /* ascending */
-        for (size_t m = j; m > 0 && p->row[m].k < p->row[m - 1].k; m--) {
-            const double smaller = p->row[m].k;
-            p->row[m].k = p->row[m - 1].k;
-            p->row[m - 1].k = smaller;
-        }
+    gsl_sort(&p->row->k, sizeof *p->row / sizeof p->row->k, s->rows);
     return BR_OK;
 }
 
@@ -152,11 +147,7 @@ static enum br_status prepare(struct br_stability *s, const struct br_stability_
 {
     s->n = q->n ? q->n : 8;
     s->rows = q->k_count ? q->k_count : DECADES_OF_STEPS * A_DECADE + 1;
-    s->columns = DECADES_OF_STIFFNESS * A_DECADE + 1;
-    s->stiffness = br_allocate(s->columns, sizeof *s->stiffness);
-    if (!s->stiffness)
-        return br_no_memory(err, "the planes of stability");
-    for (size_t j = 0; j < s->columns; j++)
+    for (size_t j = 0; j < BR_STABILITY_COLUMNS; j++)
         s->stiffness[j] = pow(10, (double)j / A_DECADE);
     enum br_status status = BR_OK;
     for (size_t i = 0; i < BR_STABILITY_RODS && !status; i++)
@@ -176,11 +167,13 @@ static void raise(double *most, double value)
 static void sum_up_row(struct br_stability *s, const struct br_stability_plane *p, size_t row)
 {
     const struct br_stability_row *r = &p->row[row];
-    const double *radius = p->radius + row * s->columns, *growth = p->growth + row * s->columns;
-    const bool within = r->limit > s->stiffness[0] && r->limit < s->stiffness[s->columns - 1];
+    const double *radius = p->radius + row * BR_STABILITY_COLUMNS,
+                 *growth = p->growth + row * BR_STABILITY_COLUMNS;
+    const bool within =
+        r->limit > s->stiffness[0] && r->limit < s->stiffness[BR_STABILITY_COLUMNS - 1];
     if (within || isfinite(r->measured))
         raise(&s->limit_error, fabs(r->measured / r->limit - 1));
-    for (size_t j = 0; j < s->columns; j++) {
+    for (size_t j = 0; j < BR_STABILITY_COLUMNS; j++) {
         s->cells++;
         if (growth[j] > 1) {
             s->growing++;
@@ -203,20 +196,12 @@ enum br_status br_stability_run(const struct br_stability_request *request, stru
                                 struct br_error *err)
 {
     *s = (struct br_stability){0};
-    enum br_status status = check_request(request, err);
-    if (!status)
-        status = prepare(s, request, err);
-    if (!status)
-        status = measure_planes(s, request, err);
-    if (!status)
-        status = br_stability_schemes(s, err);
-    if (!status)
-        status = br_stability_tips(s, err);
-    if (!status)
-        status = br_stability_bounces(s, err);
-    if (!status)
+    const bool failed = check_request(request, err) || prepare(s, request, err) ||
+                        measure_planes(s, request, err) || br_stability_schemes(s, err) ||
+                        br_stability_tips(s, err) || br_stability_bounces(s, err);
+    if (!failed)
         sum_up(s);
-    return status;
+    return failed ? err->status : BR_OK;
 }
 
 void br_stability_clear(struct br_stability *s)
@@ -226,7 +211,6 @@ void br_stability_clear(struct br_stability *s)
         free(s->plane[i].radius);
         free(s->plane[i].growth);
     }
-    free(s->stiffness);
     *s = (struct br_stability){0};
 }
 
@@ -234,22 +218,22 @@ void br_stability_clear(struct br_stability *s)
 
 static enum br_status check_planes(const struct br_stability *s, struct br_error *err)
 {
-    const double most = br_stability_tolerance;
-    if (!(s->limit_error <= most))
-        return br_fail(err, BR_VERDICT,
-                       "a measured stability limit is %.3g off the predicted one, relative, "
-                       "expected at most %g",
-                       s->limit_error, most);
-    if (!(s->growth_error <= most))
-        return br_fail(err, BR_VERDICT,
-                       "a measured growth is %.3g off the predicted one, relative, expected at "
-                       "most %g",
-                       s->growth_error, most);
-    if (!(s->excess <= most))
-        return br_fail(err, BR_VERDICT,
-                       "a step within the limit has an eigenvalue that is %.3g outside the unit "
-                       "circle, expected at most %g",
-                       s->excess, most);
+    const struct {
+        double found;
+        const char *text;
+    } rows[] = {
+        {s->limit_error, "a measured stability limit is %.3g off the predicted one, relative"},
+        {s->growth_error, "a measured growth is %.3g off the predicted one, relative"},
+        {s->excess, "a step within the limit has an eigenvalue that is %.3g outside the unit "
+                    "circle"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (!(rows[i].found <= br_stability_tolerance)) {
+            char what[120];
+            snprintf(what, sizeof what, rows[i].text, rows[i].found);
+            return br_fail(err, BR_VERDICT, "%s, expected at most %g", what,
+                           br_stability_tolerance);
+        }
     return BR_OK;
 }
 
